@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The one broadcast a robot sends per tick, and its wire format (spec 1). The fields are kept in
+// their wire types, so what a receiver computes with is exactly what travelled.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "banyan/controller/vec2.hpp"
+
+namespace banyan {
+
+using RobotId = std::uint16_t;
+inline constexpr RobotId nobody = 0xFFFF;
+
+// Paper Sec. III-A. A mission fixes worker and the first root; the others follow from the tree.
+enum class Role : std::uint8_t { spare, connector, worker, root };
+
+// Paper Fig. 1, in the order in which they are entered; (epoch, phase) only ever grows.
+enum class Phase : std::uint8_t { init, start_tree, select_parent, grow_tree, select_root };
+
+// Paper Fig. 5, non-spare robots: the need of the edge to the parent.
+enum class Need : std::uint8_t { no_need, need, await };
+
+// A token that says who is root: the larger (sequence, id) wins.
+struct RootToken {
+  std::uint16_t sequence = 0;
+  RobotId id = nobody;
+  friend constexpr bool operator==(RootToken, RootToken) noexcept = default;
+};
+constexpr bool newer(RootToken a, RootToken b) noexcept {
+  return a.sequence != b.sequence ? a.sequence > b.sequence : a.id > b.id;
+}
+
+inline constexpr std::uint16_t unknown_label = 0xFFFF;
+inline constexpr std::uint16_t invalid_depth = 0;
+inline constexpr std::uint8_t unreachable = 0xFF;
+
+struct Message {
+  RobotId id = nobody;
+  Role role = Role::spare;
+  Phase phase = Phase::init;
+  Need need = Need::no_need;
+  bool flood_done = false;      // START echo: my flood subtree is complete (spec 4)
+  bool committed = false;       // I am in this epoch's tree
+  bool await_upwards = false;   // my AWAIT is about my own edge or one further up, not a sibling's
+  bool parent_silent = false;   // my parent has not been heard for longer than I
+  std::uint16_t epoch = 0;
+  RootToken root;               // gossip: the newest root token I know
+  std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
+  std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
+  std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree
+  RobotId parent = nobody;
+  RobotId old_parent = nobody;
+  RobotId flood_parent = nobody;
+  std::uint16_t flood_robots = 0;   // echo sums
+  std::uint16_t flood_workers = 0;
+  std::uint16_t subtree = 0;          // 1 + sum over children
+  std::uint16_t subtree_workers = 0;
+  std::uint16_t count = 0;            // Alg. 2's c_i, published in the literal reading
+  Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
+  std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
+  std::int16_t pull_y = 0;
+  RobotId grant = nobody;             // the spare I let into the edge to my parent
+  RobotId request = nobody;           // the owner whose edge I want to join
+  RobotId inserted_child = nobody;    // I have just been inserted above this robot
+  RobotId new_root = nobody;          // offer of the token root.sequence + 1
+  std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
+  std::int16_t centroid_y_cm = 0;
+  std::uint8_t spare_depth = unreachable;  // hops from the tree over spares
+  std::uint16_t want_cm = 0;          // largest remaining worker distance below me
+
+  friend bool operator==(const Message&, const Message&) = default;
+};
+
+inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: +-2
+
+// The tree neighbour that vectors of the census are addressed to: the parent or, during a switch
+// while there is none, the old parent.
+constexpr RobotId up_of(const Message& m) noexcept { return m.parent != nobody ? m.parent : m.old_parent; }
+
+inline constexpr std::size_t wire_size = 59;  // bytes, little-endian, no padding
+inline constexpr std::uint8_t wire_version = 1;
+using Wire = std::array<std::uint8_t, wire_size>;
+
+[[nodiscard]] Wire encode(const Message& message) noexcept;
+
+// nothing if the size, the version, an enumerator, a reserved bit or a float is not one that
+// encode() writes; never reads outside `bytes`.
+[[nodiscard]] std::optional<Message> decode(std::span<const std::uint8_t> bytes) noexcept;
+
+}  // namespace banyan

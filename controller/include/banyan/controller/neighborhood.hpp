@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// The neighbour table: who has been heard, what they said, and where they are relative to me
+// (spec 1). Nothing here is known in any frame but the robot's own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "banyan/controller/message.hpp"
+
+namespace banyan {
+
+// One received packet: its content and where its sender is in the receiver's body frame
+// (x forward, y left; m), from range and bearing. `message` lives as long as the call.
+struct Heard {
+  const Message* message;
+  Vec2 position;
+};
+
+// The robot's own motion since its last step, in the body frame it had then: a differential robot
+// leaves `sideways_m` zero, a holonomic one may leave `turn_rad` zero.
+struct Odometry {
+  float forward_m = 0.0F;
+  float sideways_m = 0.0F;
+  float turn_rad = 0.0F;
+};
+
+// A point or vector remembered over ticks, carried along by own odometry every tick.
+struct Carry {
+  Vec2 shift;     // m
+  Vec2 rotation;  // (cos, sin) of the turn
+  explicit Carry(const Odometry& odometry) noexcept;
+  [[nodiscard]] Vec2 point(Vec2 p) const noexcept { return rotate_back(rotation, p - shift); }
+  [[nodiscard]] Vec2 vector(Vec2 v) const noexcept { return rotate_back(rotation, v); }
+};
+
+inline constexpr int neighbor_capacity = 96;
+
+class Neighborhood {
+ public:
+  // Moves what is remembered, ages it, then files what was heard this tick. Entries older than
+  // `liveness_ticks` go, except `keep` (tree neighbours whose silence matters). When more robots
+  // are heard than the table holds, tree neighbours (`keep`, and all who name `self` as parent or
+  // old parent) stay and of the others the nearest.
+  void update(std::span<const Heard> heard, const Carry& carry, int liveness_ticks, RobotId self,
+              std::array<RobotId, 2> keep) noexcept;
+
+  [[nodiscard]] int size() const noexcept { return size_; }
+  // Index of `id` in [0, size), or -1. O(size), a linear scan of 16-bit ids.
+  [[nodiscard]] int find(RobotId id) const noexcept;
+  [[nodiscard]] RobotId id(int k) const noexcept { return ids_[k]; }
+  [[nodiscard]] const Message& message(int k) const noexcept { return messages_[k]; }
+  [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
+  [[nodiscard]] float range(int k) const noexcept { return ranges_[k]; }      // m
+  [[nodiscard]] int age(int k) const noexcept { return ages_[k]; }            // ticks, 0: heard now
+  // Heard within the liveness period; only a kept, silent tree neighbour is not.
+  [[nodiscard]] bool alive(int k) const noexcept { return ages_[k] <= liveness_ticks_; }
+
+ private:
+  void file(const Heard& heard, int& hint, RobotId self, std::array<RobotId, 2> keep) noexcept;
+  void write(int k, const Heard& heard) noexcept;
+  void remove(int k) noexcept;
+
+  std::int16_t size_ = 0;
+  std::int16_t liveness_ticks_ = 0;
+  std::array<RobotId, neighbor_capacity> ids_{};
+  std::array<std::uint16_t, neighbor_capacity> ages_{};
+  std::array<float, neighbor_capacity> ranges_{};
+  std::array<Vec2, neighbor_capacity> positions_{};
+  std::array<Message, neighbor_capacity> messages_{};
+};
+
+}  // namespace banyan

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Everything a designer sets and a step never changes. The defaults here are Table I's outwards
+// column in the corrected reading; each policy supplies its own (policy.hpp).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace banyan {
+
+// How the paper's misprints and gaps are read (spec 2, docs/algorithms.md).
+enum class Reading : std::uint8_t { literal, corrected };
+
+// What the wheels allow. A holonomic robot moves in any direction without turning.
+enum class Drive : std::uint8_t { differential, holonomic };
+
+struct Params {
+  // Motion, Table I
+  float safe_range_m = 1.3893F;        // S
+  float avoidance_range_m = 0.4316F;   // A
+  float ideal_distance_m = 1.90F;      // delta, also the emergency range (spec 2, row 1)
+  float interaction_gain = 10.0F;      // epsilon, with lengths in cm
+  float target_gain = 0.49F;           // tau
+  // Tree growth, Table I
+  float reconfiguration_period_s = 38.8F;  // R
+  float liveness_period_s = 1.2F;          // I
+  // Uncommitted management, Table I
+  float recruitment_distance_m = 1.3209F;  // E
+  float insertion_distance_m = 0.0979F;    // J
+  // Gaps of the paper
+  float avoidance_gain = 0.5F;         // spec 9
+  float parent_margin_m = 0.02F;       // a parent is chosen at d <= delta - margin (corrected)
+  float guard_rate_per_s = 1.0F;       // guard (spec 2, row 4)
+  float barrier_timeout_s = 10.0F;     // START and SELECT PARENT never wait longer (spec 4)
+  float handover_timeout_s = 2.0F;     // unacknowledged offer of the root token (spec 8)
+  float insertion_timeout_s = 25.0F;   // EXTEND EDGE gives up (spec 7)
+  float connector_patience_s = 3.0F;   // childless connector turns spare (spec 3)
+  float centroid_margin_m = 0.05F;     // a better root is closer by more than this (spec 8)
+  float arrival_distance_m = 0.2F;     // a worker's pull fades within this (spec 9)
+  // Platform
+  float communication_range_m = 2.0F;  // C
+  float tick_s = 0.1F;
+  float speed_gain_m_s = 0.2F;         // K: speed per unit of u
+  float wheel_limit_m_s = 0.2F;
+  float wheel_distance_m = 0.1054F;
+  Drive drive = Drive::differential;
+  Reading reading = Reading::corrected;
+
+  [[nodiscard]] bool corrected() const noexcept { return reading == Reading::corrected; }
+  // The longest edge a robot may choose (spec 2, row 4).
+  [[nodiscard]] float parent_range_m() const noexcept {
+    return corrected() ? ideal_distance_m - parent_margin_m : communication_range_m;
+  }
+  [[nodiscard]] int ticks(float seconds) const noexcept { return static_cast<int>(seconds / tick_s + 0.5F); }
+};
+
+// One number of Params as a user meets it: a key in a scenario's [parameters], a row of
+// `banyan algorithms`, an axis of a sweep.
+struct ParameterInfo {
+  std::string_view key;      // "target_gain"
+  std::string_view symbol;   // the paper's, "" if it has none
+  std::string_view unit;     // "m", "s", "" ...
+  std::string_view meaning;  // one sentence
+  std::string_view source;   // "Table I", "spec 9" ...
+  float minimum;
+  float maximum;
+  float Params::*member;
+};
+
+// Every float of Params, in declaration order. Static lifetime.
+[[nodiscard]] std::span<const ParameterInfo> parameter_table() noexcept;
+
+// The first fault in words ("recruitment_distance_m must be below safe_range_m"), or nothing.
+// Checks each range, 0 < E < S < delta < C (spec 2, row 1) and A < E.
+[[nodiscard]] std::string_view fault(const Params& params) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What differs between the tree-forming algorithms. Everything else is the shared machinery; a
+// further algorithm is one new file that derives from Policy and one line in registry.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "banyan/controller/robot.hpp"
+
+namespace banyan {
+
+class Policy {
+ public:
+  Policy(const Policy&) = delete;
+  Policy& operator=(const Policy&) = delete;
+
+  [[nodiscard]] virtual std::string_view name() const noexcept = 0;     // as in mission.algorithm
+  [[nodiscard]] virtual std::string_view summary() const noexcept = 0;  // one sentence
+  // Table I's column, in the given reading.
+  [[nodiscard]] virtual Params defaults(Reading reading) const noexcept = 0;
+
+  // Whether an uncommitted robot may join the tree now, and then the table index of the parent it
+  // takes, -1 if there is no candidate (paper Sec. III-D, III-E). Must only return a robot that
+  // is_candidate() accepts: the label order is what keeps the tree free of cycles.
+  [[nodiscard]] virtual bool may_join(const Robot& robot) const noexcept = 0;
+  [[nodiscard]] virtual int choose_parent(const Robot& robot) const noexcept = 0;
+  // The root's view: everybody who should be in the tree is (barrier of SELECT PARENT).
+  [[nodiscard]] virtual bool tree_complete(const Robot& robot) const noexcept = 0;
+  // GROW TREE: a robot of a branch without worker leaves it (paper Sec. III-D).
+  virtual void prune(Robot& robot) const noexcept = 0;
+
+ protected:
+  constexpr Policy() = default;
+  ~Policy() = default;
+};
+
+// All policies, in the order in which they are listed. Static lifetime.
+[[nodiscard]] std::span<const Policy* const> policies() noexcept;
+// By name; null if there is none.
+[[nodiscard]] const Policy* find_policy(std::string_view name) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What the rooms of the controller share during one step: parameters, state, and a survey of the
+// neighbour table that is made once per tick so that no room has to search it again.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "banyan/controller/params.hpp"
+#include "banyan/controller/state.hpp"
+
+namespace banyan {
+
+class Policy;
+
+// Indices into the neighbour table, ascending.
+struct IndexList {
+  std::array<std::uint8_t, neighbor_capacity> items;  // the first `size` are valid
+  std::uint8_t size = 0;
+  void push(int k) noexcept { items[size++] = static_cast<std::uint8_t>(k); }
+  [[nodiscard]] const std::uint8_t* begin() const noexcept { return items.data(); }
+  [[nodiscard]] const std::uint8_t* end() const noexcept { return items.data() + size; }
+};
+
+struct Robot {
+  const Params& params;
+  const Policy& policy;
+  State& self;
+  const Vec2* target;          // own frame, m; null unless a worker
+  std::span<const Heard> heard;
+
+  // Survey (survey.hpp)
+  int parent = -1;             // index of the parent in the table
+  int old_parent = -1;
+  IndexList children;          // living neighbours that name me as parent
+  IndexList old_children;      // living neighbours that name me as old parent and not as parent
+  bool useful_child = false;   // a living child (by parent or old parent) that is no spare
+
+  [[nodiscard]] const Neighborhood& table() const noexcept { return self.neighbors; }
+  [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
+  [[nodiscard]] int liveness_ticks() const noexcept { return params.ticks(params.liveness_period_s); }
+  [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && table().alive(parent); }
+  [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && table().alive(old_parent); }
+};
+
+}  // namespace banyan

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// All that a robot remembers between two steps. A plain value: copy it, compare it, hash it.
+#pragma once
+
+#include <cstdint>
+
+#include "banyan/controller/neighborhood.hpp"
+
+namespace banyan {
+
+// Paper Fig. 5, spare robots.
+enum class SpareState : std::uint8_t { wait, extend_edge, adjust_position };
+
+// Counters for whoever watches (measure/); the algorithm never reads them.
+struct Tally {
+  std::uint32_t insertions = 0;  // times I was inserted into an edge
+  std::uint32_t handovers = 0;   // times I took over the root token
+  std::uint32_t repairs = 0;     // times I replaced a lost parent or re-attached as an orphan
+};
+
+struct State {
+  RobotId id = nobody;
+  bool is_worker = false;
+  Role role = Role::spare;
+
+  // Epoch, phase, root token: gossip (epoch.hpp)
+  std::uint16_t epoch = 0;
+  Phase phase = Phase::init;
+  std::uint16_t phase_ticks = 0;      // since this robot entered the phase
+  RootToken root;
+  std::uint16_t done_ticks = 0;       // the root's barrier has held for so long
+
+  // Label: distance to the root and the echo (label.hpp)
+  std::uint16_t label_cm = unknown_label;
+  std::uint16_t label_wait_ticks = 0;  // since the first labelled neighbour was heard
+  RobotId flood_parent = nobody;
+  bool flood_done = false;
+  std::uint16_t flood_robots = 0;
+  std::uint16_t flood_workers = 0;
+
+  // Tree (parent_selection.hpp)
+  RobotId parent = nobody;
+  RobotId old_parent = nobody;
+  bool committed = false;
+  bool drafted = false;                  // an orphan named me as parent before I had one
+  std::uint16_t search_ticks = 0;        // without a candidate parent
+  std::uint16_t orphan_ticks = 0;        // depth invalid though I matter
+  std::uint16_t childless_ticks = 0;     // connector without a child that is no spare
+  std::uint16_t depth = invalid_depth;
+  std::uint8_t tree_hops = unreachable;
+
+  // Count and centroid (census.hpp)
+  std::uint16_t subtree = 1;
+  std::uint16_t subtree_workers = 0;
+  std::uint16_t count = 0;               // Alg. 2
+  Vec2 q;                                // m, own frame; at the root Alg. 1's centroid
+  float want_m = 0.0F;                   // largest remaining worker distance below me
+  Vec2 pull;                             // target pull, own frame
+
+  // Root selection (root_selection.hpp)
+  Vec2 centroid;                         // m, own frame
+  bool centroid_known = false;
+  RobotId new_root = nobody;             // offered to
+  std::uint16_t offer_ticks = 0;
+
+  // Spare management (spare_management.hpp)
+  Need need = Need::no_need;
+  bool await_upwards = false;
+  RobotId grant = nobody;
+  std::uint16_t grant_ticks = 0;
+  RobotId inserted_child = nobody;
+  std::uint16_t inserted_ticks = 0;
+  SpareState spare_state = SpareState::wait;
+  RobotId request = nobody;              // owner of the edge I want to extend
+  std::uint16_t request_ticks = 0;
+  std::uint16_t ungranted_ticks = 0;
+  RobotId reference = nobody;            // the robot a spare stays with
+  std::uint8_t spare_depth = unreachable;
+
+  Tally tally;
+  Neighborhood neighbors;
+};
+
+// 64 bits over every field that can influence a later step, padding excluded.
+[[nodiscard]] std::uint64_t hash(const State& state) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// A vector in the plane. Single precision on the robot (`Vec2`), double in the world.
+#pragma once
+
+#include <cmath>
+
+namespace banyan {
+
+template <class T>
+struct BasicVec2 {
+  T x{};
+  T y{};
+
+  constexpr BasicVec2& operator+=(BasicVec2 o) noexcept { x += o.x; y += o.y; return *this; }
+  constexpr BasicVec2& operator-=(BasicVec2 o) noexcept { x -= o.x; y -= o.y; return *this; }
+  constexpr BasicVec2& operator*=(T s) noexcept { x *= s; y *= s; return *this; }
+  friend constexpr BasicVec2 operator+(BasicVec2 a, BasicVec2 b) noexcept { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr BasicVec2 operator-(BasicVec2 a, BasicVec2 b) noexcept { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr BasicVec2 operator-(BasicVec2 a) noexcept { return {-a.x, -a.y}; }
+  friend constexpr BasicVec2 operator*(BasicVec2 a, T s) noexcept { return {a.x * s, a.y * s}; }
+  friend constexpr BasicVec2 operator*(T s, BasicVec2 a) noexcept { return {a.x * s, a.y * s}; }
+  friend constexpr BasicVec2 operator/(BasicVec2 a, T s) noexcept { return {a.x / s, a.y / s}; }
+  friend constexpr bool operator==(BasicVec2, BasicVec2) noexcept = default;
+};
+
+using Vec2 = BasicVec2<float>;
+
+template <class T> constexpr T dot(BasicVec2<T> a, BasicVec2<T> b) noexcept { return a.x * b.x + a.y * b.y; }
+template <class T> constexpr T cross(BasicVec2<T> a, BasicVec2<T> b) noexcept { return a.x * b.y - a.y * b.x; }
+template <class T> constexpr T squared_norm(BasicVec2<T> a) noexcept { return dot(a, a); }
+// sqrt is exact under IEEE 754, so norms agree between machines; hypot does not.
+template <class T> T norm(BasicVec2<T> a) noexcept { return std::sqrt(squared_norm(a)); }
+template <class T> T distance(BasicVec2<T> a, BasicVec2<T> b) noexcept { return norm(b - a); }
+
+// a / |a|; the zero vector stays zero.
+template <class T>
+BasicVec2<T> unit(BasicVec2<T> a) noexcept {
+  const T n = norm(a);
+  return n > T(0) ? a / n : BasicVec2<T>{};
+}
+
+// A rotation is a unit vector (cos, sin): composing two is complex multiplication, no trigonometry.
+template <class T> constexpr BasicVec2<T> rotate(BasicVec2<T> rotation, BasicVec2<T> v) noexcept {
+  return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};
+}
+template <class T> constexpr BasicVec2<T> rotate_back(BasicVec2<T> rotation, BasicVec2<T> v) noexcept {
+  return {rotation.x * v.x + rotation.y * v.y, rotation.x * v.y - rotation.y * v.x};
+}
+
+}  // namespace banyan

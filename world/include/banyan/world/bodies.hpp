@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// How robots move: one interface, three models. `disks` is the fast, reproducible default,
+// `box2d` the independent check with mass and force limits, `linear` the paper's Sec. II-A.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "banyan/controller/controller.hpp"
+#include "banyan/world/scenario.hpp"
+
+namespace banyan::world {
+
+// Where the robots are: structure of arrays, one entry per robot, dead ones included.
+struct Poses {
+  std::vector<Vec2> position;
+  std::vector<Vec2> heading;   // unit vectors
+};
+
+// Robots so near to each other that they could touch within the next tick: i < j, ascending. The
+// radio phase finds them on its way (distance < 2 radius + 4 wheel_limit tick + 1 cm).
+using NearPairs = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
+
+class Bodies {
+ public:
+  virtual ~Bodies() = default;
+  [[nodiscard]] virtual std::unique_ptr<Bodies> clone() const = 0;
+  // Advances all robots by one tick. `command`: one per robot, zero for dead and frozen ones
+  // (noise is the model's own, drawn by (seed, robot, tick)). Writes `poses` and what each robot's
+  // odometry measures: the motion of its wheels, not the push it got from a neighbour.
+  virtual void step(std::span<const Velocity> command, NearPairs near, std::uint64_t tick, Poses& poses,
+                    std::span<Odometry> odometry) = 0;
+  // Adds what the model remembers beside the poses (velocities) to a running hash.
+  [[nodiscard]] virtual std::uint64_t hash(std::uint64_t h) const noexcept = 0;
+};
+
+// One factory per model. All of scenario.robot, .obstacles, .tick_s and .seed count.
+[[nodiscard]] std::unique_ptr<Bodies> make_disks(const Scenario& scenario, std::size_t robots);
+[[nodiscard]] std::unique_ptr<Bodies> make_box2d(const Scenario& scenario, const Poses& poses);
+[[nodiscard]] std::unique_ptr<Bodies> make_linear(const Scenario& scenario, std::size_t robots);
+
+}  // namespace banyan::world

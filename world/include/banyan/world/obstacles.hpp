@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Geometry of discs, boxes and walls: do they block a line of sight, do they touch a robot.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "banyan/world/scenario.hpp"
+
+namespace banyan::world {
+
+// Whether the open segment a-b meets the obstacle. Symmetric in a and b to the last bit.
+[[nodiscard]] bool blocks(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept;
+
+// Distance of p to the obstacle's surface; negative inside a disc or box.
+[[nodiscard]] double clearance(const Obstacle& obstacle, Vec2 p) noexcept;
+
+// The shortest shift that brings a disc of `radius` at p out of the obstacle; zero if it is out.
+[[nodiscard]] Vec2 push_out(const Obstacle& obstacle, Vec2 p, double radius) noexcept;
+
+}  // namespace banyan::world

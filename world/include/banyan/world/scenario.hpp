@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// A world as a user describes it: pure data with defaults, no file format. cli/ reads it from
+// TOML or JSON; tests and studies build it directly. Lengths in m, angles in rad, times in s.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "banyan/controller/vec2.hpp"
+
+namespace banyan::world {
+
+using Vec2 = BasicVec2<double>;
+
+struct Mission {
+  std::string algorithm = "outwards";   // a name in the policy registry
+  std::string reading = "corrected";    // or "literal"
+  double target_tolerance_m = 0.20;
+  double time_limit_s = 0.0;            // 0: 10 r / v_max, r the farthest target from the start's centre
+  bool stop_when_complete = true;
+  std::vector<std::pair<std::string, double>> parameters;  // overrides, keys of parameter_table()
+};
+
+enum class Layout : std::uint8_t { hexagonal, grid, list };
+
+struct Start {
+  Layout layout = Layout::hexagonal;
+  Vec2 center{};
+  double pitch_m = 0.32;
+  double jitter_m = 0.02;               // uniform in a disc of this radius around each lattice point
+  std::vector<Vec2> positions;          // layout list
+  std::vector<double> headings_rad;     // layout list, optional: random if empty
+};
+
+struct Swarm {
+  std::size_t robots = 0;               // 0: from redundancy, ceil(k sum_i |p_i| / 1.540841) (spec 2, row 10)
+  double redundancy = 2.0;              // k
+  Start start;
+  std::optional<std::size_t> root;      // index; none: a random robot that is no worker
+};
+
+enum class BodyModel : std::uint8_t { disks, box2d, linear };
+
+struct RobotModel {
+  BodyModel body = BodyModel::disks;
+  double radius_m = 0.0704;             // Khepera IV
+  double wheel_distance_m = 0.1054;
+  double wheel_limit_m_s = 0.2;
+  double wheel_noise = 0.0;             // sigma of the factor on each wheel's speed, drawn every tick
+  double wheel_bias = 0.0;              // sigma of a factor drawn once per wheel
+  double odometry_noise = 0.0;          // sigma of the factor on each odometry reading
+  double mass_kg = 0.4;                 // box2d
+  double max_force_n = 1.5;             // box2d
+  double max_torque_nm = 1.5;           // box2d
+  double max_acceleration_m_s2 = 1.0;   // linear: |u| <= this, per component bound of U (paper II-A)
+};
+
+struct RadioModel {
+  double range_m = 2.0;                 // C: a link exists at distance < C (strict, symmetric)
+  bool line_of_sight = false;           // blocked by robots and obstacles
+  double loss = 0.0;                    // probability that a packet is lost, per packet and receiver
+  double range_noise_m = 0.0;           // sigma
+  double bearing_noise_rad = 0.0;       // sigma
+  int latency_ticks = 1;                // a message sent in tick t is heard in t + latency
+  int slots = 0;                        // packets a robot can receive in one tick; 0: no limit
+};
+
+struct RingTargets { std::size_t count = 3; double radius_m = 3.0; double phase_rad = 0.0; Vec2 center{}; };
+// |p| = radius sqrt(0.1 + 0.9 u): uniform in an annulus (spec 14), drawn from the run's seed.
+struct RandomTargets { std::size_t count = 4; double radius_m = 9.0; Vec2 center{}; };
+using Targets = std::variant<std::vector<Vec2>, RingTargets, RandomTargets>;
+
+struct Disc { Vec2 center; double radius_m = 0.0; };
+struct Box { Vec2 center; Vec2 size; double angle_rad = 0.0; };
+struct Wall { Vec2 from; Vec2 to; };    // a segment without thickness
+using Obstacle = std::variant<Disc, Box, Wall>;
+
+struct Event {
+  enum class Kind : std::uint8_t { die, freeze, set_loss, move_target, add_target };
+  double time_s = 0.0;
+  Kind kind = Kind::die;
+  std::size_t index = 0;                // robot (die, freeze) or target (move_target)
+  double value = 0.0;                   // loss (set_loss); seconds of freezing (freeze, 0: for good)
+  Vec2 position{};                      // move_target, add_target
+};
+
+struct Scenario {
+  std::string name;
+  std::string description;
+  double tick_s = 0.1;
+  std::uint64_t seed = 1;
+  Mission mission;
+  Swarm swarm;
+  RobotModel robot;
+  RadioModel radio;
+  Targets targets = RingTargets{};
+  std::vector<Obstacle> obstacles;
+  std::vector<Event> events;            // any order; equal times act in file order
+};
+
+// One thing that is wrong or doubtful, in a user's words. `key` is the scenario key it is about,
+// as in the TOML ("radio.loss", "swarm.start.positions"); cli/ adds file and line.
+struct Fault {
+  std::string key;
+  std::string text;
+  bool warning = false;                 // a run is still possible
+};
+
+// Everything that makes `scenario` impossible or doubtful, none if it is fine: ranges, NaN,
+// counts, targets in obstacles, robots that do not fit, targets out of reach of the swarm.
+[[nodiscard]] std::vector<Fault> faults(const Scenario& scenario);
+
+// The target positions that `scenario` and its seed stand for.
+[[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);
+
+// Number of robots: swarm.robots, or the paper's redundancy factor (spec 2, row 10).
+[[nodiscard]] std::size_t robot_count(const Scenario& scenario);
+
+// mission.time_limit_s, or 10 r / v_max (paper Sec. IV-B).
+[[nodiscard]] double time_limit_s(const Scenario& scenario);
+
+}  // namespace banyan::world

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// A simulated world: a value that can be copied, stepped and thrown away; thousands live in one
+// process. One tick is act -> bodies -> radio -> sense -> step (world.cpp); whoever observes does
+// so between ticks, through the read-only view below.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "banyan/controller/controller.hpp"
+#include "banyan/world/scenario.hpp"
+
+namespace banyan::world {
+
+class Executor;  // threads.hpp
+
+struct Target {
+  Vec2 position{};
+  std::size_t worker = 0;   // index of the robot it is assigned to
+};
+
+class World {
+ public:
+  // Throws std::invalid_argument with all faults(scenario) that are no warnings.
+  explicit World(const Scenario& scenario);
+  World(const World&);
+  World(World&&) noexcept;
+  World& operator=(const World&);
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  // One tick. Same state for any executor. No allocation after the first ticks.
+  void step();
+  void step(Executor& executor);
+
+  [[nodiscard]] const Scenario& scenario() const noexcept;
+  [[nodiscard]] const Params& params() const noexcept;
+  [[nodiscard]] const Policy& policy() const noexcept;
+  [[nodiscard]] std::uint64_t tick() const noexcept;      // 0 before the first step
+  [[nodiscard]] double time_s() const noexcept;           // tick x tick_s
+  [[nodiscard]] std::size_t size() const noexcept;        // robots, dead ones included
+  [[nodiscard]] std::span<const Vec2> positions() const noexcept;
+  [[nodiscard]] std::span<const Vec2> headings() const noexcept;   // unit vectors
+  [[nodiscard]] std::span<const State> states() const noexcept;    // what each controller remembers
+  [[nodiscard]] std::span<const Message> messages() const noexcept;  // last broadcast of each robot
+  [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays)
+  [[nodiscard]] std::span<const Target> targets() const noexcept;
+  // Robots that robot i could hear and be heard by at the current positions: in range, line of
+  // sight free, both alive. Ascending. Packet loss is not in it.
+  [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
+  // In range, both alive, but blocked. Ascending.
+  [[nodiscard]] std::span<const std::uint32_t> blocked(std::size_t i) const noexcept;
+
+  [[nodiscard]] std::uint64_t packets_received() const noexcept;   // since the start
+  [[nodiscard]] std::uint64_t packets_sent() const noexcept;
+  // 64 bits over everything that can influence a later tick.
+  [[nodiscard]] std::uint64_t hash() const noexcept;
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace banyan::world
