@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// One instant of a world as it is recorded, exported and drawn. The rest of record/ is built on
+// this plain value; capture() is the only function that looks into a world.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "banyan/controller/state.hpp"
+#include "banyan/world/scenario.hpp"
+
+namespace banyan::world {
+class World;
+}
+
+namespace banyan::record {
+
+using world::Vec2;
+
+struct RobotFrame {
+  Vec2 position;                 // m
+  double heading_rad = 0.0;      // (-pi, pi]
+  Role role = Role::spare;
+  Phase phase = Phase::init;
+  Need need = Need::no_need;
+  SpareState spare_state = SpareState::wait;
+  bool alive = true;
+  bool connected = false;        // alive and in the radio component of the newest living root
+  std::uint16_t epoch = 0;
+  std::int32_t label_cm = -1;    // -1: unknown
+  std::int32_t depth = 0;        // root 1; 0: not connected to the root by tree edges
+  std::int32_t parent = -1;      // robot index, -1: nobody; so are the next three
+  std::int32_t old_parent = -1;
+  std::int32_t grant = -1;
+  std::int32_t request = -1;
+  double want_m = 0.0;           // largest remaining worker distance below
+  std::int32_t target = -1;      // index of the target it is assigned to, -1: none
+  friend bool operator==(const RobotFrame&, const RobotFrame&) = default;
+};
+
+struct TargetFrame {
+  Vec2 position;
+  std::int32_t worker = -1;
+  friend bool operator==(const TargetFrame&, const TargetFrame&) = default;
+};
+
+struct Frame {
+  std::uint64_t tick = 0;
+  double time_s = 0.0;
+  std::vector<RobotFrame> robots;
+  std::vector<TargetFrame> targets;
+  friend bool operator==(const Frame&, const Frame&) = default;
+};
+
+// What stays the same during a run and a picture needs.
+struct Setting {
+  std::string name;
+  std::string algorithm;
+  std::string reading;
+  std::uint64_t seed = 0;
+  double tick_s = 0.1;
+  double radius_m = 0.07;
+  double range_m = 2.0;
+  bool line_of_sight = false;
+  double target_tolerance_m = 0.2;
+  double time_limit_s = 0.0;
+  std::vector<world::Obstacle> obstacles;
+};
+
+// Reuses the memory of `frame`. O(robots + links).
+void capture(const world::World& world, Frame& frame);
+[[nodiscard]] Setting setting_of(const world::World& world);
+
+// Names as they appear in exports ("connector", "grow_tree", "no_need", "extend_edge").
+[[nodiscard]] std::string_view name_of(Role role) noexcept;
+[[nodiscard]] std::string_view name_of(Phase phase) noexcept;
+[[nodiscard]] std::string_view name_of(Need need) noexcept;
+[[nodiscard]] std::string_view name_of(SpareState state) noexcept;
+
+}  // namespace banyan::record

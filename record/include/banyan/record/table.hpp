@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Results as tidy tables: one row per run, one row per tick. One list of columns serves the CSV
+// header, the CSV row and the JSON, so they cannot drift apart.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "banyan/measure/metrics.hpp"
+#include "banyan/record/file.hpp"
+#include "banyan/record/recording.hpp"
+
+namespace banyan::record {
+
+// What was run: the columns that identify a row.
+struct Identification {
+  std::string name;
+  std::string algorithm;
+  std::string reading;
+  std::string body;
+  bool line_of_sight = false;
+  double loss = 0.0;
+  std::uint64_t targets = 0;
+  double target_radius_m = 0.0;    // the farthest target from the centre of the start
+  double redundancy = 0.0;         // k as given, or the one that `robots` comes to
+  double range_m = 0.0;
+  double tick_s = 0.0;
+  std::uint64_t seed = 0;
+  std::string version;
+  std::string git;
+};
+[[nodiscard]] Identification identify(const world::Scenario& scenario, std::string_view version, std::string_view git);
+
+struct RunRow {
+  Identification id;
+  measure::Run run;
+  bool interrupted = false;
+};
+
+// A cell; monostate is "not available": an empty CSV field, null in JSON.
+using Cell = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
+
+template <class Row>
+struct Column {
+  std::string_view name;     // snake_case, with its unit
+  std::string_view meaning;
+  int decimals;              // of a double
+  Cell (*cell)(const Row&);
+};
+[[nodiscard]] std::span<const Column<RunRow>> run_columns() noexcept;
+[[nodiscard]] std::span<const Column<measure::Tick>> series_columns() noexcept;
+
+// Lines without their end; RFC 4180 quoting.
+[[nodiscard]] std::string run_csv_header();
+[[nodiscard]] std::string run_csv_row(const RunRow& row);
+// {"format":"banyan.run","format_version":1,"config":{…},"result":{column: value, …}}, indented.
+[[nodiscard]] std::string run_json(const RunRow& row, std::string_view config_json);
+[[nodiscard]] std::string series_csv_header();
+[[nodiscard]] std::string series_csv_row(const measure::Tick& tick);
+[[nodiscard]] std::string csv_quoted(std::string_view field);
+[[nodiscard]] std::string json_quoted(std::string_view text);
+
+void write_run_csv(const std::string& path, const RunRow& row, Existing existing = Existing::keep);
+void write_run_json(const std::string& path, const RunRow& row, std::string_view config_json,
+                    Existing existing = Existing::keep);
+
+// --series: a row per tick.
+class SeriesWriter {
+ public:
+  explicit SeriesWriter(std::string path, Existing existing = Existing::keep);
+  void row(const measure::Tick& tick);
+  void finish();             // without it the file does not appear
+
+ private:
+  OutputFile file_;
+  std::string line_;
+};
+
+}  // namespace banyan::record
