@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Discs, boxes and walls. Every function works in the obstacle's own frame and uses + - * / and
+// sqrt only, so results are the same on every machine.
+#include "banyan/world/obstacles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "banyan/controller/trig.hpp"
+
+namespace banyan::world {
+namespace {
+
+constexpr bool before(Vec2 a, Vec2 b) noexcept { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+
+// The point of segment a-b nearest to p.
+Vec2 nearest_on_segment(Vec2 a, Vec2 b, Vec2 p) noexcept {
+  const Vec2 d = b - a;
+  const double length2 = squared_norm(d);
+  if (length2 == 0.0) return a;
+  return a + d * std::clamp(dot(p - a, d) / length2, 0.0, 1.0);
+}
+
+struct LocalBox {
+  Vec2 rotation, half;
+  explicit LocalBox(const Box& box) noexcept : rotation{unit_vector(box.angle_rad)}, half{box.size * 0.5} {}
+};
+
+bool blocks_ordered(const Disc& disc, Vec2 a, Vec2 b) noexcept {
+  const Vec2 gap = nearest_on_segment(a, b, disc.center) - disc.center;
+  return squared_norm(gap) < disc.radius_m * disc.radius_m;
+}
+
+// Cuts [from, to] of the segment's parameter down to where low < p + t d < high.
+bool clip(double p, double d, double half, double& from, double& to) noexcept {
+  if (d == 0.0) return -half < p && p < half;
+  const double t1 = (-half - p) / d;
+  const double t2 = (half - p) / d;
+  from = std::max(from, std::min(t1, t2));
+  to = std::min(to, std::max(t1, t2));
+  return from < to;
+}
+
+bool blocks_ordered(const Box& box, Vec2 a, Vec2 b) noexcept {
+  const Vec2 far = nearest_on_segment(a, b, box.center) - box.center;
+  if (squared_norm(far) >= 0.25 * squared_norm(box.size)) return false;  // outside the circumscribed disc
+  const LocalBox local(box);
+  const Vec2 p = rotate_back(local.rotation, a - box.center);
+  const Vec2 d = rotate_back(local.rotation, b - a);
+  double from = 0.0;
+  double to = 1.0;
+  if (a == b) return std::abs(p.x) < local.half.x && std::abs(p.y) < local.half.y;
+  return clip(p.x, d.x, local.half.x, from, to) && clip(p.y, d.y, local.half.y, from, to);
+}
+
+// A wall has no thickness: a line of sight along it, or one that ends on it, is free; one through
+// an end point of the wall is not.
+bool blocks_ordered(const Wall& wall, Vec2 a, Vec2 b) noexcept {
+  const Vec2 w = wall.to - wall.from;
+  const double side_a = cross(w, a - wall.from);
+  const double side_b = cross(w, b - wall.from);
+  if (!((side_a < 0.0 && side_b > 0.0) || (side_a > 0.0 && side_b < 0.0))) return false;
+  const double side_from = cross(b - a, wall.from - a);
+  const double side_to = cross(b - a, wall.to - a);
+  return (side_from <= 0.0 && side_to >= 0.0) || (side_from >= 0.0 && side_to <= 0.0);
+}
+
+double clearance_of(const Disc& disc, Vec2 p) noexcept { return distance(disc.center, p) - disc.radius_m; }
+
+double clearance_of(const Box& box, Vec2 p) noexcept {
+  const LocalBox local(box);
+  const Vec2 q = rotate_back(local.rotation, p - box.center);
+  const Vec2 over{std::abs(q.x) - local.half.x, std::abs(q.y) - local.half.y};
+  if (over.x <= 0.0 && over.y <= 0.0) return std::max(over.x, over.y);
+  return norm(Vec2{std::max(over.x, 0.0), std::max(over.y, 0.0)});
+}
+
+double clearance_of(const Wall& wall, Vec2 p) noexcept {
+  return distance(nearest_on_segment(wall.from, wall.to, p), p);
+}
+
+// Away from `from` until `reach` is between them; along `fallback` if they coincide.
+Vec2 push_from(Vec2 from, Vec2 p, double reach, Vec2 fallback) noexcept {
+  const Vec2 away = p - from;
+  const double d = norm(away);
+  if (d >= reach) return {};
+  return d > 0.0 ? away * ((reach - d) / d) : fallback * reach;
+}
+
+Vec2 push_out_of(const Disc& disc, Vec2 p, double radius) noexcept {
+  return push_from(disc.center, p, disc.radius_m + radius, {1.0, 0.0});
+}
+
+Vec2 push_out_of(const Box& box, Vec2 p, double radius) noexcept {
+  const LocalBox local(box);
+  const Vec2 q = rotate_back(local.rotation, p - box.center);
+  const Vec2 over{std::abs(q.x) - local.half.x, std::abs(q.y) - local.half.y};
+  const Vec2 side{q.x < 0.0 ? -1.0 : 1.0, q.y < 0.0 ? -1.0 : 1.0};
+  Vec2 shift{};
+  if (over.x > 0.0 || over.y > 0.0) {
+    const Vec2 surface{std::clamp(q.x, -local.half.x, local.half.x), std::clamp(q.y, -local.half.y, local.half.y)};
+    shift = push_from(surface, q, radius, {});
+  } else if (over.x > over.y) {
+    shift = {side.x * (radius - over.x), 0.0};
+  } else {
+    shift = {0.0, side.y * (radius - over.y)};
+  }
+  return rotate(local.rotation, shift);
+}
+
+Vec2 push_out_of(const Wall& wall, Vec2 p, double radius) noexcept {
+  const Vec2 along = unit(wall.to - wall.from);
+  const Vec2 normal = along == Vec2{} ? Vec2{1.0, 0.0} : Vec2{-along.y, along.x};
+  return push_from(nearest_on_segment(wall.from, wall.to, p), p, radius, normal);
+}
+
+}  // namespace
+
+bool blocks(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept {
+  if (before(b, a)) std::swap(a, b);
+  return std::visit([&](const auto& o) { return blocks_ordered(o, a, b); }, obstacle);
+}
+
+double clearance(const Obstacle& obstacle, Vec2 p) noexcept {
+  return std::visit([&](const auto& o) { return clearance_of(o, p); }, obstacle);
+}
+
+Vec2 push_out(const Obstacle& obstacle, Vec2 p, double radius) noexcept {
+  return std::visit([&](const auto& o) { return push_out_of(o, p, radius); }, obstacle);
+}
+
+}  // namespace banyan::world
