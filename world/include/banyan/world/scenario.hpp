@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "banyan/controller/params.hpp"
 #include "banyan/controller/vec2.hpp"
 
 namespace banyan::world {
@@ -104,8 +105,10 @@ struct Scenario {
   std::vector<Event> events;            // any order; equal times act in file order
 };
 
-// One thing that is wrong or doubtful, in a user's words. `key` is the scenario key it is about,
-// as in the TOML ("radio.loss", "swarm.start.positions"); cli/ adds file and line.
+// One thing that is wrong or doubtful, in a user's words. `key` is the path of the field it is
+// about, array elements counted from 0: "radio.loss", "swarm.start.positions[3]", "robot.radius_m",
+// "mission.parameters.target_gain", "targets.radius_m", "targets.positions[1]",
+// "obstacles[0].size", "events[2].time_s"; cli/ adds file and line.
 struct Fault {
   std::string key;
   std::string text;
@@ -113,16 +116,27 @@ struct Fault {
 };
 
 // Everything that makes `scenario` impossible or doubtful, none if it is fine: ranges, NaN,
-// counts, targets in obstacles, robots that do not fit, targets out of reach of the swarm.
+// counts, targets in obstacles, robots that do not fit, targets out of reach of the swarm. Safe
+// for any content; the functions below need a scenario without faults (warnings do not matter).
 [[nodiscard]] std::vector<Fault> faults(const Scenario& scenario);
 
-// The target positions that `scenario` and its seed stand for.
+// The target positions that `scenario` and its seed stand for. Random ones keep clear of obstacles.
 [[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);
 
 // Number of robots: swarm.robots, or the paper's redundancy factor (spec 2, row 10).
+// At least one more than targets.
 [[nodiscard]] std::size_t robot_count(const Scenario& scenario);
 
 // mission.time_limit_s, or 10 r / v_max (paper Sec. IV-B).
 [[nodiscard]] double time_limit_s(const Scenario& scenario);
+
+// What every controller is given: Table I for algorithm and reading, mission.parameters over it,
+// and the platform (range, tick, wheels, drive) from `robot`, `radio` and `tick_s`.
+[[nodiscard]] Params controller_params(const Scenario& scenario);
+
+// No network of fewer robots, each nearer than C to its neighbours, comes within tolerance of all
+// targets: from the longest distance between two of them and from 0.8241 times their minimum
+// spanning tree (Chung & Graham 1985). measure/steiner.hpp has the tighter bound.
+[[nodiscard]] std::size_t least_robots(const std::vector<Vec2>& targets, double tolerance_m, double range_m);
 
 }  // namespace banyan::world
