@@ -45,13 +45,12 @@ struct Message {
   Need need = Need::no_need;
   bool flood_done = false;      // START echo: my flood subtree is complete (spec 4)
   bool committed = false;       // I am in this epoch's tree
-  bool await_upwards = false;   // my AWAIT is about my own edge or one further up, not a sibling's
   bool parent_silent = false;   // my parent has not been heard for longer than I
   std::uint16_t epoch = 0;
   RootToken root;               // gossip: the newest root token I know
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
-  std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree
+  std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
   RobotId parent = nobody;
   RobotId old_parent = nobody;
   RobotId flood_parent = nobody;
@@ -69,7 +68,6 @@ struct Message {
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
   std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
   std::int16_t centroid_y_cm = 0;
-  std::uint8_t spare_depth = unreachable;  // hops from the tree over spares
   std::uint16_t want_cm = 0;          // largest remaining worker distance below me
 
   friend bool operator==(const Message&, const Message&) = default;
@@ -81,7 +79,7 @@ inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: 
 // while there is none, the old parent.
 constexpr RobotId up_of(const Message& m) noexcept { return m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 59;  // bytes, little-endian, no padding
+inline constexpr std::size_t wire_size = 58;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 1;
 using Wire = std::array<std::uint8_t, wire_size>;
 

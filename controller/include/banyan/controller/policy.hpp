@@ -20,15 +20,17 @@ class Policy {
   // Table I's column, in the given reading.
   [[nodiscard]] virtual Params defaults(Reading reading) const noexcept = 0;
 
-  // Whether an uncommitted robot may join the tree now, and then the table index of the parent it
-  // takes, -1 if there is no candidate (paper Sec. III-D, III-E). Must only return a robot that
-  // is_candidate() accepts: the label order is what keeps the tree free of cycles.
+  // SELECT PARENT (paper Sec. III-D, III-E). Whether a robot without parent may join the tree now;
+  // whether it accepts neighbour k of its table among the candidates; whether it prefers candidate
+  // a to candidate b. What a candidate is at all, parent_selection.hpp decides for every policy:
+  // its label order keeps the tree free of cycles.
   [[nodiscard]] virtual bool may_join(const Robot& robot) const noexcept = 0;
-  [[nodiscard]] virtual int choose_parent(const Robot& robot) const noexcept = 0;
+  [[nodiscard]] virtual bool accepts(const Robot& robot, int k) const noexcept = 0;
+  [[nodiscard]] virtual bool prefers(const Robot& robot, int a, int b) const noexcept = 0;
   // The root's view: everybody who should be in the tree is (barrier of SELECT PARENT).
   [[nodiscard]] virtual bool tree_complete(const Robot& robot) const noexcept = 0;
-  // GROW TREE: a robot of a branch without worker leaves it (paper Sec. III-D).
-  virtual void prune(Robot& robot) const noexcept = 0;
+  // GROW TREE: whether a spare that has a parent leaves its branch now (paper Sec. III-D).
+  [[nodiscard]] virtual bool leaves_branch(const Robot& robot) const noexcept = 0;
 
  protected:
   constexpr Policy() = default;

@@ -65,7 +65,6 @@ struct State {
 
   // Spare management (spare_management.hpp)
   Need need = Need::no_need;
-  bool await_upwards = false;
   RobotId grant = nobody;
   std::uint16_t grant_ticks = 0;
   RobotId inserted_child = nobody;
@@ -75,7 +74,6 @@ struct State {
   std::uint16_t request_ticks = 0;
   std::uint16_t ungranted_ticks = 0;
   RobotId reference = nobody;            // the robot a spare stays with
-  std::uint8_t spare_depth = unreachable;
 
   Tally tally;
   Neighborhood neighbors;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// One robot fed with bytes as from its radio, for a while: what firmware does each tick, reduced to
+// a number. The firmware runs it on the chip, the tests on the host.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "banyan/controller/controller.hpp"
+#include "banyan/controller/trig.hpp"
+
+namespace banyan::embedded {
+
+// The neighbours of the exercise: enough to fill a part of the table, near enough to be edges.
+inline constexpr std::size_t neighbors = 8;
+
+// Steps `state` `ticks` times. Each tick every neighbour says over the wire what the robot itself
+// said last, under its own id and one hop nearer to the root, from a place on a slowly turning
+// ring. Returns the hash of the state at the end.
+inline std::uint64_t exercise(const Params& params, const Policy& policy, State& state, int ticks) noexcept {
+  std::array<Message, neighbors> messages;
+  std::array<Heard, neighbors> heard;
+  Message said{};
+  for (int tick = 0; tick < ticks; ++tick) {
+    std::size_t received = 0;
+    for (std::size_t k = 0; k < neighbors; ++k) {
+      Message sent = said;
+      sent.id = static_cast<RobotId>(k + 1);
+      sent.phase = static_cast<Phase>((tick / 40) % 5);
+      sent.epoch = static_cast<std::uint16_t>(tick / 200);
+      sent.root = {1, 1};
+      sent.label_cm = static_cast<std::uint16_t>(100 * k);
+      sent.committed = k % 2 == 0;
+      sent.depth = static_cast<std::uint16_t>(k + 1);
+      sent.tree_hops = 0;
+      sent.parent = static_cast<RobotId>(k);
+      const Wire wire = encode(sent);
+      const std::optional<Message> decoded = decode(wire);
+      if (!decoded) continue;
+      messages[received] = *decoded;
+      const Vec2 bearing = unit_vector(0.7F * static_cast<float>(k) + 0.01F * static_cast<float>(tick));
+      heard[received] = {&messages[received], bearing * (0.5F + 0.15F * static_cast<float>(k))};
+      ++received;
+    }
+    const Vec2 target{2.0F, 1.0F};
+    const Odometry odometry{0.01F, params.drive == Drive::holonomic ? 0.005F : 0.0F, 0.02F};
+    said = step(params, policy, state, std::span(heard).first(received), odometry, state.is_worker ? &target : nullptr)
+               .message;
+  }
+  return hash(state);
+}
+
+}  // namespace banyan::embedded

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Robot motion (paper Sec. III-G, spec 9): virtual forces, the guard, and what the wheels make of it.
+#pragma once
+
+#include "banyan/controller/controller.hpp"
+#include "banyan/controller/robot.hpp"
+
+namespace banyan {
+
+[[nodiscard]] Velocity move(const Robot& robot) noexcept;
+
+// u_tree's magnitude, (epsilon/d)((delta/d)^2 - (delta/d)^4) with lengths in cm: positive towards
+// the neighbour. Not bounded as d goes to 0.
+[[nodiscard]] float interaction(float distance_m, const Params& params) noexcept;
+
+// Paper's f: what is left of target + avoidance for a robot whose parent is at `parent` (own frame).
+// literal: all up to S, nothing beyond; corrected: beyond S all but the part away from the parent.
+[[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const Params& params) noexcept;
+
+// Corrected: the nearest velocity (m/s) to `v` that lengthens no edge to `neighbors` (positions, own
+// frame) faster than (delta - d)/2 x guard rate. With both ends doing so no edge outgrows delta.
+struct Guard {
+  std::array<Vec2, neighbor_capacity> away;    // unit vectors from the neighbour to me
+  std::array<float, neighbor_capacity> limit;  // m/s along it
+  int size = 0;
+  void add(Vec2 neighbor, const Params& params) noexcept;
+  [[nodiscard]] Vec2 apply(Vec2 v) const noexcept;
+};
+
+// Wheels or holonomic base: the velocity nearest to `v` (m/s, own frame) that the drive can do now.
+[[nodiscard]] Velocity drive(Vec2 v, const Guard& guard, const Params& params) noexcept;
+
+}  // namespace banyan

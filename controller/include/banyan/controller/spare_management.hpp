@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Spare management (paper Sec. III-F, Fig. 5): stretched edges ask for a spare, spares look for
+// edges, and one at a time is let in. An edge is owned by its child end.
+#pragma once
+
+#include "banyan/controller/robot.hpp"
+
+namespace banyan {
+
+void manage_spares(Robot& robot) noexcept;
+
+// Where a spare in EXTEND EDGE is heading: the midpoint of the edge it was granted, own frame, m.
+// False if it does not know both ends.
+[[nodiscard]] bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept;
+
+}  // namespace banyan

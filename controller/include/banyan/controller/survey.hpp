@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// One pass over the neighbour table that finds the tree neighbours (robot.hpp).
+#pragma once
+
+#include "banyan/controller/robot.hpp"
+
+namespace banyan {
+
+void survey(Robot& robot) noexcept;
+
+// spare, connector, worker or root (spec 3), from the survey. Turning spare leaves the tree, unless
+// spares still hang on this robot.
+void update_role(Robot& robot) noexcept;
+
+}  // namespace banyan

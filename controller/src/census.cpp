@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/census.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/edge_frame.hpp"
+
+namespace banyan {
+namespace {
+
+struct Sums {
+  Vec2 a;                      // Alg. 1's accumulator
+  std::uint32_t robots = 1;
+  std::uint32_t workers = 0;
+  std::uint32_t counts = 0;    // of Alg. 2
+  int children = 0;
+  Vec2 pull;
+  int pulling = 0;
+  float want_m = 0.0F;
+};
+
+void add_child(const Robot& robot, int k, Sums& sums) noexcept {
+  const Message& m = robot.table().message(k);
+  if (up_of(m) != robot.self.id) return;  // its vectors are addressed to somebody else
+  const Vec2 sender = robot.table().position(k);
+  sums.a += from_edge_frame(m.q, sender);
+  sums.robots += m.subtree;
+  sums.workers += m.subtree_workers;
+  sums.counts += m.count;
+  ++sums.children;
+  if (m.role == Role::spare) return;
+  sums.pull += from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, sender);
+  ++sums.pulling;
+  sums.want_m = std::max(sums.want_m, static_cast<float>(m.want_cm) * 0.01F);
+}
+
+// u_target = tau (l - p) / |l - p|, fading on arrival so that the worker does not chatter (spec 9).
+void add_own_target(const Robot& robot, Sums& sums) noexcept {
+  const Params& p = robot.params;
+  const float distance_m = norm(*robot.target);
+  sums.pull = unit(*robot.target) * (p.target_gain * std::min(1.0F, distance_m / p.arrival_distance_m));
+  sums.pulling = 1;
+  sums.want_m = distance_m > p.arrival_distance_m ? distance_m : 0.0F;
+}
+
+std::uint16_t saturate(std::uint32_t v) noexcept { return static_cast<std::uint16_t>(std::min<std::uint32_t>(v, UINT16_MAX)); }
+
+}  // namespace
+
+std::uint32_t algorithm2_count(int child_count, std::uint32_t child_counts, std::uint32_t depth) noexcept {
+  switch (child_count) {
+    case 0: return depth;
+    case 1: return child_counts;
+    default: return child_counts - static_cast<std::uint32_t>(child_count) * depth + depth;
+  }
+}
+
+Vec2 algorithm1_contribution(Vec2 a, std::uint32_t descendants, Vec2 parent) noexcept {
+  return a - parent * static_cast<float>(descendants + 1);
+}
+
+void take_census(Robot& robot) noexcept {
+  State& self = robot.self;
+  Sums sums;
+  if (self.is_worker) sums.workers = 1;
+  for (const int k : robot.children) add_child(robot, k, sums);
+  // SELECT PARENT's barrier counts the new tree alone; in START TREE there is only the old one.
+  if (self.phase != Phase::select_parent || robot.children.size == 0)
+    for (const int k : robot.old_children) add_child(robot, k, sums);
+  if (self.is_worker && robot.target != nullptr) add_own_target(robot, sums);
+
+  self.subtree = saturate(sums.robots);
+  self.subtree_workers = saturate(sums.workers);
+  self.count = saturate(algorithm2_count(sums.children, sums.counts, self.depth));
+  self.want_m = sums.want_m;
+  self.pull = sums.pulling > 0 ? sums.pull / static_cast<float>(sums.pulling) : Vec2{};
+
+  const int up = self.parent != nobody ? robot.parent : robot.old_parent;
+  if (robot.is_root()) self.q = sums.a / static_cast<float>(sums.robots);
+  else self.q = up >= 0 ? algorithm1_contribution(sums.a, sums.robots - 1, robot.table().position(up)) : Vec2{};
+}
+
+}  // namespace banyan

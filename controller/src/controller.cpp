@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/controller.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "banyan/controller/census.hpp"
+#include "banyan/controller/edge_frame.hpp"
+#include "banyan/controller/epoch.hpp"
+#include "banyan/controller/label.hpp"
+#include "banyan/controller/motion.hpp"
+#include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/root_selection.hpp"
+#include "banyan/controller/spare_management.hpp"
+#include "banyan/controller/survey.hpp"
+
+namespace banyan {
+namespace {
+
+// What is remembered as a vector moves with the robot's own frame.
+void carry_memory(State& self, const Carry& carry) noexcept {
+  if (self.centroid_known) self.centroid = carry.point(self.centroid);
+}
+
+template <class Int>
+Int fixed(float v, float unit_value) noexcept {
+  const float scaled = v * unit_value + (v < 0.0F ? -0.5F : 0.5F);
+  constexpr auto low = static_cast<float>(std::numeric_limits<Int>::min());
+  constexpr auto high = static_cast<float>(std::numeric_limits<Int>::max());
+  return static_cast<Int>(std::clamp(scaled, low, high));
+}
+
+Message compose(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  Message m;
+  m.id = self.id;
+  m.role = self.role;
+  m.phase = self.phase;
+  m.need = self.need;
+  m.flood_done = self.flood_done;
+  m.committed = self.committed;
+  m.parent_silent = self.parent != nobody && !robot.parent_alive();
+  m.epoch = self.epoch;
+  m.root = self.root;
+  m.label_cm = self.label_cm;
+  m.depth = self.depth;
+  m.tree_hops = self.tree_hops;
+  m.parent = self.parent;
+  m.old_parent = self.old_parent;
+  m.flood_parent = self.flood_parent;
+  m.flood_robots = self.flood_robots;
+  m.flood_workers = self.flood_workers;
+  m.subtree = self.subtree;
+  m.subtree_workers = self.subtree_workers;
+  m.count = self.count;
+  m.grant = self.grant;
+  m.request = self.request;
+  m.inserted_child = self.inserted_child;
+  m.want_cm = fixed<std::uint16_t>(self.want_m, 100.0F);
+  const int up = self.parent != nobody ? robot.parent : robot.old_parent;
+  if (up >= 0) {
+    const Vec2 addressee = robot.table().position(up);
+    const Vec2 pull = to_edge_frame(self.pull, addressee);
+    m.q = to_edge_frame(self.q, addressee);
+    m.pull_x = fixed<std::int16_t>(pull.x, pull_unit);
+    m.pull_y = fixed<std::int16_t>(pull.y, pull_unit);
+  }
+  const int heir = self.new_root == nobody ? -1 : robot.table().find(self.new_root);
+  if (heir >= 0) {
+    const Vec2 addressee = robot.table().position(heir);
+    const Vec2 centroid = to_edge_frame(self.centroid - addressee, addressee);
+    m.new_root = self.new_root;
+    m.centroid_x_cm = fixed<std::int16_t>(centroid.x, 100.0F);
+    m.centroid_y_cm = fixed<std::int16_t>(centroid.y, 100.0F);
+  }
+  return m;
+}
+
+}  // namespace
+
+State initial_state(RobotId id, bool worker, bool root) noexcept {
+  State state;
+  state.id = id;
+  state.is_worker = worker;
+  state.role = root ? Role::root : worker ? Role::worker : Role::spare;
+  if (root) state.root = {1, id};
+  return state;
+}
+
+Output step(const Params& params, const Policy& policy, State& state, std::span<const Heard> heard,
+            const Odometry& odometry, const Vec2* target) noexcept {
+  Robot robot{.params = params, .policy = policy, .self = state, .target = target, .heard = heard};
+  const Carry carry(odometry);
+  carry_memory(state, carry);
+  state.neighbors.update(heard, carry, robot.liveness_ticks(), state.id, {state.parent, state.old_parent});
+
+  listen(robot);          // the largest epoch, phase and root token heard
+  accept_offer(robot);    // Select Root, the heir's side
+  survey(robot);          // who are my parent and children
+  update_role(robot);
+  advance(robot);         // the root's barriers
+  update_label(robot);    // Start Tree
+  select_parent(robot);   // Select Parent, repair
+  take_census(robot);     // Alg. 1 and 2
+  select_root(robot);     // Select Root, the root's side
+  manage_spares(robot);   // Grow Tree
+  const Velocity velocity = move(robot);
+  return {compose(robot), velocity};
+}
+
+}  // namespace banyan

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/epoch.hpp"
+
+#include "banyan/controller/policy.hpp"
+
+namespace banyan {
+namespace {
+
+void begin_epoch(Robot& robot) noexcept {
+  State& self = robot.self;
+  // A robot that has only an old parent keeps it: it is the one edge that ties it to the tree.
+  if (self.parent != nobody) {
+    self.old_parent = self.parent;
+    robot.old_parent = robot.parent;
+  }
+  self.parent = nobody;
+  robot.parent = -1;
+  self.committed = false;
+  self.label_cm = unknown_label;
+  self.label_wait_ticks = 0;
+  self.flood_parent = nobody;
+  self.flood_done = false;
+  self.flood_robots = self.flood_workers = 0;
+  self.search_ticks = self.orphan_ticks = 0;
+  self.need = Need::no_need;
+  self.grant = self.request = self.inserted_child = nobody;
+  self.spare_state = SpareState::wait;
+  self.centroid_known = false;
+  self.new_root = nobody;
+}
+
+// The barrier of the root's phase: may it open the next one?
+bool barrier_holds(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  switch (self.phase) {
+    case Phase::start_tree: return self.flood_done;
+    case Phase::select_parent: return robot.policy.tree_complete(robot);
+    default: return false;
+  }
+}
+
+}  // namespace
+
+void listen(Robot& robot) noexcept {
+  State& self = robot.self;
+  std::uint16_t epoch = self.epoch;
+  Phase phase = self.phase;
+  for (const Heard& h : robot.heard) {
+    const Message& m = *h.message;
+    if (newer(m.root, self.root)) self.root = m.root;
+    if (m.epoch > epoch || (m.epoch == epoch && m.phase > phase)) {
+      epoch = m.epoch;
+      phase = m.phase;
+    }
+  }
+  if (self.phase_ticks < UINT16_MAX) ++self.phase_ticks;
+  if (epoch != self.epoch || phase != self.phase) enter(robot, epoch, phase);
+}
+
+void enter(Robot& robot, std::uint16_t epoch, Phase phase) noexcept {
+  State& self = robot.self;
+  if (epoch != self.epoch) begin_epoch(robot);
+  self.epoch = epoch;
+  self.phase = phase;
+  self.phase_ticks = 0;
+  self.done_ticks = 0;
+  if (phase >= Phase::grow_tree) {
+    self.old_parent = nobody;
+    robot.old_parent = -1;
+  }
+}
+
+void advance(Robot& robot) noexcept {
+  constexpr int settle_ticks = 3;  // a barrier must hold, and SELECT PARENT last, for so long
+  State& self = robot.self;
+  const Params& p = robot.params;
+  if (!robot.is_root()) return;
+  if (self.phase == Phase::init) return enter(robot, 1, Phase::start_tree);
+  self.done_ticks = barrier_holds(robot) ? static_cast<std::uint16_t>(self.done_ticks + 1) : std::uint16_t{0};
+  const bool timeout = self.phase_ticks >= p.ticks(p.barrier_timeout_s);
+  switch (self.phase) {
+    case Phase::start_tree:
+      if (self.done_ticks >= settle_ticks || timeout) enter(robot, self.epoch, Phase::select_parent);
+      break;
+    case Phase::select_parent:
+      if ((self.done_ticks > 0 && self.phase_ticks >= settle_ticks) || timeout) enter(robot, self.epoch, Phase::grow_tree);
+      break;
+    case Phase::grow_tree:
+      if (self.phase_ticks >= p.ticks(p.reconfiguration_period_s)) enter(robot, self.epoch, Phase::select_root);
+      break;
+    default: break;  // SELECT ROOT ends with the root's next epoch (root_selection.hpp)
+  }
+}
+
+}  // namespace banyan

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/motion.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/spare_management.hpp"
+#include "banyan/controller/trig.hpp"
+
+namespace banyan {
+namespace {
+
+Vec2 clamped(Vec2 u, float limit) noexcept {
+  const float n = norm(u);
+  return n > limit ? u * (limit / n) : u;
+}
+
+// The tree neighbour whose distance counts as d^parent: the parent, else the old one; -1 if none.
+int nearest_up(const Robot& robot) noexcept { return robot.parent >= 0 ? robot.parent : robot.old_parent; }
+
+bool is_tree_neighbor(const Robot& robot, int k) noexcept {
+  if (k == robot.parent || k == robot.old_parent) return true;
+  const Message& m = robot.table().message(k);
+  return m.parent == robot.self.id || m.old_parent == robot.self.id;
+}
+
+template <class Visit>
+void for_each_tree_neighbor(const Robot& robot, Visit visit) noexcept {
+  if (robot.parent >= 0) visit(robot.parent);
+  if (robot.old_parent >= 0 && robot.old_parent != robot.parent) visit(robot.old_parent);
+  for (const int k : robot.children)
+    if (k != robot.parent && k != robot.old_parent) visit(k);
+  for (const int k : robot.old_children)
+    if (k != robot.parent && k != robot.old_parent) visit(k);
+}
+
+// u^tree,new + u^tree,old. Each term is clamped: at 20 cm the law says -4000.
+Vec2 tree_force(const Robot& robot) noexcept {
+  Vec2 u;
+  for_each_tree_neighbor(robot, [&](int k) {
+    const float magnitude = std::clamp(interaction(robot.table().range(k), robot.params), -1.0F, 1.0F);
+    u += unit(robot.table().position(k)) * magnitude;
+  });
+  return u;
+}
+
+// u^avoid: repulsion from robots nearer than A that are no tree neighbours.
+Vec2 avoidance(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  const float a = robot.params.avoidance_range_m;
+  Vec2 u;
+  for (int k = 0; k < table.size(); ++k) {
+    const float d = table.range(k);
+    if (d >= a || d <= 0.0F || !table.alive(k) || is_tree_neighbor(robot, k)) continue;
+    u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
+  }
+  return u;
+}
+
+// A robot of the tree: the paper's u_i.
+Vec2 tree_motion(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const int up = nearest_up(robot);
+  const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
+  const float d = norm(parent);
+  const bool silent = up >= 0 && !robot.table().alive(up);
+  // Emergency: u = p_parent, at full speed. A silent parent may be anywhere: to where it must be.
+  if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
+  if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
+  const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
+  return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p) : u);
+}
+
+// ADJUST POSITION: beyond S straight to the reference; within, orbit (literal) or stand still,
+// because orbiting spares block lines of sight.
+Vec2 adjust_position(const Robot& robot) noexcept {
+  const int k = robot.table().find(robot.self.parent != nobody ? robot.self.parent : robot.self.reference);
+  if (k < 0) return avoidance(robot);
+  const Vec2 reference = robot.table().position(k);
+  if (norm(reference) > robot.params.safe_range_m) return unit(reference);
+  const Vec2 along = unit(Vec2{reference.y, -reference.x});
+  return robot.params.corrected() ? avoidance(robot) : along * robot.params.target_gain + avoidance(robot);
+}
+
+Vec2 spare_motion(const Robot& robot) noexcept {
+  Vec2 midpoint;
+  if (robot.self.spare_state == SpareState::extend_edge && edge_midpoint(robot, robot.self.request, midpoint))
+    return unit(midpoint) + avoidance(robot);
+  return adjust_position(robot);
+}
+
+Guard guard_of(const Robot& robot) noexcept {
+  Guard guard;
+  if (robot.params.corrected())
+    for_each_tree_neighbor(robot, [&](int k) { guard.add(robot.table().position(k), robot.params); });
+  return guard;
+}
+
+}  // namespace
+
+float interaction(float distance_m, const Params& params) noexcept {
+  const float d = distance_m * 100.0F;
+  const float s = params.ideal_distance_m / distance_m;
+  const float s2 = s * s;
+  return d > 0.0F ? params.interaction_gain / d * (s2 - s2 * s2) : -1.0F;
+}
+
+Vec2 safe_part(Vec2 u, Vec2 parent, const Params& params) noexcept {
+  const float d = norm(parent);
+  if (d <= params.safe_range_m) return u;
+  if (!params.corrected()) return {};
+  const Vec2 away = -parent / d;
+  return u - away * std::max(0.0F, dot(u, away));
+}
+
+void Guard::add(Vec2 neighbor, const Params& params) noexcept {
+  const float d = norm(neighbor);
+  if (d <= 0.0F) return;
+  away[size] = -neighbor / d;
+  limit[size++] = 0.5F * (params.ideal_distance_m - d) * params.guard_rate_per_s;
+}
+
+Vec2 Guard::apply(Vec2 v) const noexcept {
+  // Projections onto the half-planes in turn; they settle in a few rounds.
+  for (int round = 0; round < 4; ++round) {
+    bool violated = false;
+    for (int k = 0; k < size; ++k) {
+      const float excess = dot(v, away[k]) - limit[k];
+      if (excess <= 0.0F) continue;
+      v -= away[k] * excess;
+      violated = true;
+    }
+    if (!violated) return v;
+  }
+  // What is left is cut by standing still as far as needed: 0 is allowed while no edge is too long.
+  float scale = 1.0F;
+  for (int k = 0; k < size; ++k) {
+    const float along = dot(v, away[k]);
+    if (along > limit[k] && along > 0.0F) scale = std::min(scale, std::max(0.0F, limit[k]) / along);
+  }
+  return v * scale;
+}
+
+Velocity drive(Vec2 v, const Guard& guard, const Params& params) noexcept {
+  const float speed = norm(v);
+  if (speed < 1e-4F) return {};
+  if (params.drive == Drive::holonomic) return {v.x, v.y, 0.0F};
+  const float turn_limit = 2.0F * params.wheel_limit_m_s / params.wheel_distance_m;
+  const float turn = std::clamp(4.0F * angle_of(v), -turn_limit, turn_limit);
+  float forward = std::max(0.0F, v.x);  // |u| max(0, cos theta)
+  forward = std::min(forward, params.wheel_limit_m_s - 0.5F * (turn < 0 ? -turn : turn) * params.wheel_distance_m);
+  // The guard again, along the true heading (1, 0).
+  for (int k = 0; k < guard.size; ++k)
+    if (guard.away[k].x > 0.0F && forward * guard.away[k].x > guard.limit[k])
+      forward = std::max(0.0F, guard.limit[k]) / guard.away[k].x;
+  return {std::max(0.0F, forward), 0.0F, turn};
+}
+
+Velocity move(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Vec2 u = robot.self.role == Role::spare ? spare_motion(robot) : tree_motion(robot);
+  const Guard guard = guard_of(robot);
+  const Vec2 v = guard.apply(clamped(u, 1.0F) * p.speed_gain_m_s);
+  return drive(clamped(v, p.wheel_limit_m_s), guard, p);
+}
+
+}  // namespace banyan

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/neighborhood.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/trig.hpp"
+
+namespace banyan {
+
+Carry::Carry(const Odometry& odometry) noexcept
+    : shift{odometry.forward_m, odometry.sideways_m}, rotation(unit_vector(odometry.turn_rad)) {}
+
+int Neighborhood::find(RobotId id) const noexcept {
+  for (int k = 0; k < size_; ++k)
+    if (ids_[k] == id) return k;
+  return -1;
+}
+
+void Neighborhood::update(std::span<const Heard> heard, const Carry& carry, int liveness_ticks, RobotId self,
+                          std::array<RobotId, 2> keep) noexcept {
+  liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
+  for (int k = 0; k < size_; ++k)
+    if (ages_[k] < UINT16_MAX) ++ages_[k];
+  int hint = 0;
+  for (const Heard& h : heard) file(h, hint, self, keep);
+  // Only the silent are dead-reckoned: whoever was heard just now has a fresh position.
+  for (int k = 0; k < size_;) {
+    if (ages_[k] > liveness_ticks && ids_[k] != keep[0] && ids_[k] != keep[1]) {
+      remove(k);
+      continue;
+    }
+    if (ages_[k] > 0) {
+      positions_[k] = carry.point(positions_[k]);
+      ranges_[k] = norm(positions_[k]);
+    }
+    ++k;
+  }
+}
+
+void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<RobotId, 2> keep) noexcept {
+  const RobotId id = heard.message->id;
+  if (id == self || id == nobody) return;
+  // Packets tend to arrive in the order of the last tick: try the slot after the last match first.
+  int k = hint < size_ && ids_[hint] == id ? hint : find(id);
+  if (k >= 0) {
+    write(k, heard);
+    hint = k + 1;
+    return;
+  }
+  if (size_ < neighbor_capacity) {
+    ids_[size_] = id;
+    write(size_++, heard);
+    return;
+  }
+  const auto names_me = [&](const Message& m) { return m.parent == self || m.old_parent == self; };
+  const auto kept = [&](const Message& m) { return m.id == keep[0] || m.id == keep[1] || names_me(m); };
+  int farthest = -1;
+  for (int j = 0; j < size_; ++j)
+    if (!kept(messages_[j]) && (farthest < 0 || ranges_[j] > ranges_[farthest])) farthest = j;
+  if (farthest < 0 || (!kept(*heard.message) && norm(heard.position) >= ranges_[farthest])) return;
+  ids_[farthest] = id;
+  write(farthest, heard);
+}
+
+void Neighborhood::write(int k, const Heard& heard) noexcept {
+  messages_[k] = *heard.message;
+  positions_[k] = heard.position;
+  ranges_[k] = norm(heard.position);
+  ages_[k] = 0;
+}
+
+void Neighborhood::remove(int k) noexcept {
+  // Order is kept: it is the order in which packets arrive, which `hint` relies on.
+  const auto close = [&](auto& a) { std::move(a.begin() + k + 1, a.begin() + size_, a.begin() + k); };
+  close(ids_);
+  close(ages_);
+  close(ranges_);
+  close(positions_);
+  close(messages_);
+  --size_;
+}
+
+}  // namespace banyan

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/parent_selection.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/label.hpp"
+#include "banyan/controller/policy.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr int patience_flood_ticks = 4;     // without candidate, then the flood parent will do
+constexpr int patience_relabel_ticks = 7;   // then a childless robot may sort itself in anew
+constexpr int orphan_still_ticks = 5;
+constexpr int orphan_attach_ticks = 20;
+constexpr int drafted_attach_ticks = 4;
+
+// The policy's best candidate, -1 if none. `in_tree`: committed robots that are no spares only.
+int choose_parent(const Robot& robot, bool in_tree) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!is_candidate(robot, k)) continue;
+    const Message& m = table.message(k);
+    if (in_tree ? !m.committed || m.role == Role::spare : !robot.policy.accepts(robot, k)) continue;
+    if (best < 0 || robot.policy.prefers(robot, k, best)) best = k;
+  }
+  return best;
+}
+
+// No candidate for a while: the flood parent, whatever its distance, as long as the order holds.
+int flood_parent(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
+  if (k < 0 || !robot.table().alive(k)) return -1;
+  const Message& m = robot.table().message(k);
+  return m.role != Role::worker && m.epoch == self.epoch && m.label_cm < self.label_cm ? k : -1;
+}
+
+// Still none: nobody hangs on a childless robot, so it may move behind any committed neighbour.
+int nearest_committed(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    const Message& m = table.message(k);
+    if (!table.alive(k) || m.role == Role::worker || m.epoch != robot.self.epoch || !m.committed) continue;
+    if (m.label_cm == unknown_label || table.range(k) > robot.params.parent_range_m()) continue;
+    if (best < 0 || table.range(k) < table.range(best)) best = k;
+  }
+  return best;
+}
+
+void join(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (self.label_cm == unknown_label || !robot.policy.may_join(robot)) return;
+  int k = choose_parent(robot, false);
+  if (k < 0) {
+    if (self.search_ticks < UINT16_MAX) ++self.search_ticks;
+    if (self.search_ticks > patience_flood_ticks) k = flood_parent(robot);
+    const bool childless = robot.children.size == 0 && robot.old_children.size == 0;
+    if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) {
+      k = nearest_committed(robot);
+      if (k >= 0) self.label_cm = label_below(robot.table().message(k).label_cm, robot.table().range(k));
+    }
+  }
+  if (k >= 0) take_parent(robot, k);
+}
+
+// Parent silent for longer than I: another one, or keep it and drive to where it must be.
+void repair(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (self.role == Role::spare) return leave_tree(robot);
+  const int k = choose_parent(robot, true);
+  if (k < 0) return;
+  take_parent(robot, k);
+  ++self.tally.repairs;
+}
+
+// The neighbour over which the rooted tree is nearest: part of it, or a free spare that can be
+// drafted towards it. Never one whose own depth is invalid: it might hang on me.
+int way_to_tree(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
+  for (int k = 0; k < table.size(); ++k) {
+    const Message& m = table.message(k);
+    if (!table.alive(k) || m.role == Role::worker || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
+    if (m.parent == robot.self.id || m.old_parent == robot.self.id || table.range(k) > robot.params.parent_range_m()) continue;
+    if (best < 0 || key(k) < key(best)) best = k;
+  }
+  return best;
+}
+
+void reattach_orphan(Robot& robot) noexcept {
+  State& self = robot.self;
+  const bool matters = self.role != Role::spare && !robot.is_root();
+  const bool settled = self.phase >= Phase::grow_tree;
+  if (!matters || !settled || self.depth != invalid_depth) {
+    self.orphan_ticks = 0;
+    return;
+  }
+  if (self.orphan_ticks < UINT16_MAX) ++self.orphan_ticks;
+  const bool drafted = self.parent == nobody && !self.is_worker;
+  if (self.orphan_ticks <= (drafted ? drafted_attach_ticks : orphan_attach_ticks)) return;
+  const int k = way_to_tree(robot);
+  if (k < 0) return;
+  const Message& m = robot.table().message(k);
+  if (m.label_cm != unknown_label && (self.label_cm == unknown_label || self.label_cm <= m.label_cm))
+    self.label_cm = label_below(m.label_cm, robot.table().range(k));
+  take_parent(robot, k);
+  self.orphan_ticks = orphan_still_ticks;  // time for the new parent to attach in turn
+  ++self.tally.repairs;
+}
+
+// A label is above the parent's; children follow in turn.
+void keep_label_order(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (!robot.parent_alive()) return;
+  const Message& m = robot.table().message(robot.parent);
+  if (m.epoch == self.epoch && m.label_cm != unknown_label && self.label_cm <= m.label_cm)
+    self.label_cm = label_below(m.label_cm, robot.table().range(robot.parent));
+}
+
+// Depth flows down; an orphan's is invalid, and so within a hop per tick are all below it.
+void update_depth(Robot& robot) noexcept {
+  State& self = robot.self;
+  const int up = self.parent != nobody ? robot.parent : robot.old_parent;
+  if (robot.is_root()) {
+    self.depth = 1;
+  } else if (up >= 0 && robot.table().alive(up) && robot.table().message(up).depth != invalid_depth) {
+    self.depth = static_cast<std::uint16_t>(std::min(robot.table().message(up).depth + 1, UINT16_MAX - 1));
+  } else {
+    self.depth = invalid_depth;
+  }
+}
+
+// Hops over free spares to the rooted tree: the gradient that orphans follow.
+void update_tree_hops(Robot& robot) noexcept {
+  State& self = robot.self;
+  self.tree_hops = self.depth != invalid_depth ? std::uint8_t{0} : unreachable;
+  if (self.depth != invalid_depth || self.role != Role::spare || self.parent != nobody) return;
+  const Neighborhood& table = robot.table();
+  int hops = unreachable - 1;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k)) hops = std::min<int>(hops, table.message(k).tree_hops);
+  self.tree_hops = static_cast<std::uint8_t>(hops + 1);
+}
+
+}  // namespace
+
+bool is_candidate(const Robot& robot, int k) noexcept {
+  const Message& m = robot.table().message(k);
+  return robot.table().alive(k) && m.role != Role::worker && m.epoch == robot.self.epoch &&
+         m.label_cm < robot.self.label_cm && robot.table().range(k) <= robot.params.parent_range_m();
+}
+
+bool is_named_parent(const Robot& robot) noexcept {
+  return std::any_of(robot.children.begin(), robot.children.end(),
+                     [&](int k) { return robot.table().message(k).role != Role::spare; });
+}
+
+void take_parent(Robot& robot, int k) noexcept {
+  State& self = robot.self;
+  self.parent = robot.table().id(k);
+  robot.parent = k;
+  self.committed = true;
+  self.search_ticks = 0;
+}
+
+void leave_tree(Robot& robot) noexcept {
+  State& self = robot.self;
+  self.parent = self.old_parent = nobody;
+  robot.parent = robot.old_parent = -1;
+  self.committed = false;
+  self.need = Need::no_need;
+  self.grant = nobody;
+  self.request = nobody;
+  self.spare_state = SpareState::wait;
+}
+
+bool is_orphan(const Robot& robot) noexcept { return robot.self.orphan_ticks > orphan_still_ticks; }
+
+void select_parent(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (robot.is_root()) {
+    self.parent = nobody;
+    robot.parent = -1;
+    self.committed = true;
+  } else if (self.phase >= Phase::select_parent) {
+    if (self.parent == nobody) join(robot);
+    else if (!robot.parent_alive()) repair(robot);
+    else if (self.role == Role::spare && self.phase >= Phase::grow_tree && robot.policy.leaves_branch(robot)) leave_tree(robot);
+    reattach_orphan(robot);
+    keep_label_order(robot);
+  }
+  update_depth(robot);
+  update_tree_hops(robot);
+}
+
+}  // namespace banyan

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/spare_management.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/label.hpp"
+#include "banyan/controller/parent_selection.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr int ungranted_limit_ticks = 6;  // spec 7
+constexpr float infinite_m = 1e9F;
+
+// ---- The owner of an edge: NO NEED -> NEED -> AWAIT ----
+
+// The edge is too long, and some worker below still wants to go on. As printed (literal) the second
+// half is missing, and the first reads "smaller" (docs/algorithms.md, row 2).
+bool is_stretched(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance_m &&
+         (!robot.params.corrected() || self.want_m > 0.0F);
+}
+
+bool child_in_need(const Robot& robot) noexcept {
+  return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) {
+    const Message& m = robot.table().message(k);
+    return m.role != Role::spare && m.need == Need::need;
+  });
+}
+
+void end_grant(State& self) noexcept {
+  self.grant = nobody;
+  self.need = Need::no_need;
+}
+
+// The granted spare arrives, gives up, or falls silent.
+void follow_grant(Robot& robot) noexcept {
+  State& self = robot.self;
+  const int k = robot.table().find(self.grant);
+  ++self.grant_ticks;
+  if (k < 0 || !robot.table().alive(k)) return end_grant(self);
+  const Message& m = robot.table().message(k);
+  if (m.inserted_child == self.id && m.parent != nobody && m.parent != self.id) {
+    take_parent(robot, k);
+    return end_grant(self);
+  }
+  const bool gone = self.grant_ticks > ungranted_limit_ticks && m.request != self.id;
+  const bool timeout = self.grant_ticks > robot.params.ticks(robot.params.insertion_timeout_s) + ungranted_limit_ticks;
+  if (gone || timeout) end_grant(self);
+}
+
+// Of the spares that ask for my edge, the one nearest to its midpoint.
+RobotId best_request(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  const Vec2 midpoint = table.position(robot.parent) * 0.5F;
+  RobotId best = nobody;
+  float best_m = infinite_m;
+  for (int k = 0; k < table.size(); ++k) {
+    const Message& m = table.message(k);
+    if (m.request != robot.self.id || !table.alive(k) || m.role != Role::spare) continue;
+    const float d = distance(table.position(k), midpoint);
+    if (d < best_m) {
+      best_m = d;
+      best = table.id(k);
+    }
+  }
+  return best;
+}
+
+void own_edge(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (self.grant != nobody) follow_grant(robot);
+  if (!robot.parent_alive()) return end_grant(self);
+  const bool parent_awaits = robot.table().message(robot.parent).need == Need::await;
+  switch (self.need) {
+    case Need::no_need:
+      if (is_stretched(robot) || child_in_need(robot)) self.need = Need::need;
+      break;
+    case Need::need:
+      // One insertion at a time along a path; other branches go on.
+      if (parent_awaits) self.need = Need::await;
+      else if (!is_stretched(robot) && !child_in_need(robot)) self.need = Need::no_need;
+      else if (self.phase == Phase::grow_tree) {
+        self.grant = best_request(robot);
+        self.grant_ticks = 0;
+        if (self.grant != nobody) self.need = Need::await;
+      }
+      break;
+    case Need::await:
+      if (self.grant == nobody && !parent_awaits) self.need = Need::no_need;
+      break;
+  }
+}
+
+// ---- The spare: WAIT -> EXTEND EDGE -> connector, or ADJUST POSITION ----
+
+bool in_need(const Message& m, const State& self) noexcept {
+  return m.need == Need::need && m.role != Role::spare && m.grant == nobody && m.parent != nobody && m.parent != self.id && m.epoch == self.epoch;
+}
+
+// The owner in need whose midpoint is nearest; both ends must be heard.
+RobotId nearest_edge_in_need(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  RobotId best = nobody;
+  float best_m = infinite_m;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || !in_need(table.message(k), robot.self)) continue;
+    Vec2 midpoint;
+    if (!edge_midpoint(robot, table.id(k), midpoint)) continue;
+    const float d = norm(midpoint);
+    if (d < best_m) {
+      best_m = d;
+      best = table.id(k);
+    }
+  }
+  return best;
+}
+
+// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest.
+RobotId nearest_reference(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  const auto key = [&](int k) {
+    const Message& m = table.message(k);
+    return std::pair(m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops), table.range(k));
+  };
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k) && (best < 0 || key(k) < key(best))) best = k;
+  return best < 0 ? nobody : table.id(best);
+}
+
+void give_up(State& self) noexcept {
+  self.request = nobody;
+  self.spare_state = SpareState::wait;
+}
+
+void join_edge(Robot& robot, int owner) noexcept {
+  State& self = robot.self;
+  const Neighborhood& table = robot.table();
+  const int parent = table.find(table.message(owner).parent);
+  self.label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + table.message(parent).label_cm) / 2);
+  if (self.label_cm <= table.message(parent).label_cm) self.label_cm = label_below(table.message(parent).label_cm, 0.0F);
+  take_parent(robot, parent);
+  self.inserted_child = self.request;
+  self.inserted_ticks = 0;
+  self.role = Role::connector;
+  self.childless_ticks = 0;
+  give_up(self);
+  ++self.tally.insertions;
+}
+
+// EXTEND EDGE once granted; before that the request waits for an answer.
+void follow_request(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Neighborhood& table = robot.table();
+  const int owner = table.find(self.request);
+  Vec2 midpoint;
+  if (owner < 0 || !table.alive(owner) || !edge_midpoint(robot, self.request, midpoint)) return give_up(self);
+  if (++self.request_ticks > robot.params.ticks(robot.params.insertion_timeout_s)) return give_up(self);
+  const Message& m = table.message(owner);
+  const bool granted = m.grant == self.id;
+  self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
+  if (self.ungranted_ticks > ungranted_limit_ticks || (m.grant != nobody && !granted)) return give_up(self);
+  if (granted) self.spare_state = SpareState::extend_edge;
+  if (granted && norm(midpoint) <= robot.params.insertion_distance_m) join_edge(robot, owner);
+}
+
+void look_for_edge(Robot& robot) noexcept {
+  State& self = robot.self;
+  self.reference = nearest_reference(robot);
+  self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
+  self.request_ticks = self.ungranted_ticks = 0;
+  self.spare_state = self.request != nobody ? SpareState::wait : SpareState::adjust_position;
+}
+
+void watch_inserted_child(Robot& robot) noexcept {
+  State& self = robot.self;
+  const int k = robot.table().find(self.inserted_child);
+  const bool done = k >= 0 && robot.table().message(k).parent == self.id;
+  if (done || ++self.inserted_ticks > robot.params.ticks(robot.params.connector_patience_s)) self.inserted_child = nobody;
+}
+
+}  // namespace
+
+bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept {
+  const Neighborhood& table = robot.table();
+  const int k = table.find(owner);
+  if (k < 0) return false;
+  const int parent = table.find(table.message(k).parent);
+  if (parent < 0 || !table.alive(parent)) return false;
+  midpoint = (table.position(k) + table.position(parent)) * 0.5F;
+  return true;
+}
+
+void manage_spares(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (self.inserted_child != nobody) watch_inserted_child(robot);
+  if (self.role != Role::spare) {
+    self.request = nobody;
+    if (self.parent != nobody) own_edge(robot);
+    else end_grant(self);
+    return;
+  }
+  end_grant(self);
+  if (self.parent != nobody || robot.children.size > 0) give_up(self);  // still part of a branch
+  else if (self.request != nobody) follow_request(robot);
+  else look_for_edge(robot);
+}
+
+}  // namespace banyan

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/state.hpp"
+
+#include "banyan/controller/digest.hpp"
+
+namespace banyan {
+namespace {
+
+void add(Digest& d, const Neighborhood& table) noexcept {
+  d.add(table.size());
+  for (int k = 0; k < table.size(); ++k) {
+    d.add(table.id(k));
+    d.add(table.age(k));
+    d.add(table.position(k));
+    for (const std::uint8_t byte : encode(table.message(k))) d.add(byte);
+  }
+}
+
+}  // namespace
+
+std::uint64_t hash(const State& s) noexcept {
+  Digest d;
+  for (const int v : {static_cast<int>(s.id), static_cast<int>(s.is_worker), static_cast<int>(s.role), static_cast<int>(s.epoch),
+                      static_cast<int>(s.phase), static_cast<int>(s.phase_ticks), static_cast<int>(s.root.sequence),
+                      static_cast<int>(s.root.id), static_cast<int>(s.done_ticks), static_cast<int>(s.label_cm),
+                      static_cast<int>(s.label_wait_ticks), static_cast<int>(s.flood_parent), static_cast<int>(s.flood_done),
+                      static_cast<int>(s.flood_robots), static_cast<int>(s.flood_workers), static_cast<int>(s.parent),
+                      static_cast<int>(s.old_parent), static_cast<int>(s.committed), static_cast<int>(s.drafted),
+                      static_cast<int>(s.search_ticks), static_cast<int>(s.orphan_ticks), static_cast<int>(s.childless_ticks),
+                      static_cast<int>(s.depth), static_cast<int>(s.tree_hops), static_cast<int>(s.subtree),
+                      static_cast<int>(s.subtree_workers), static_cast<int>(s.count), static_cast<int>(s.centroid_known),
+                      static_cast<int>(s.new_root), static_cast<int>(s.offer_ticks), static_cast<int>(s.need),
+                      static_cast<int>(s.grant), static_cast<int>(s.grant_ticks),
+                      static_cast<int>(s.inserted_child), static_cast<int>(s.inserted_ticks), static_cast<int>(s.spare_state),
+                      static_cast<int>(s.request), static_cast<int>(s.request_ticks), static_cast<int>(s.ungranted_ticks),
+                      static_cast<int>(s.reference)})
+    d.add(v);
+  d.add(s.q);
+  d.add(s.want_m);
+  d.add(s.pull);
+  d.add(s.centroid);
+  d.add(s.tally.insertions);
+  d.add(s.tally.handovers);
+  d.add(s.tally.repairs);
+  add(d, s.neighbors);
+  return d.value();
+}
+
+}  // namespace banyan

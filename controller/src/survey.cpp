@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/survey.hpp"
+
+#include "banyan/controller/parent_selection.hpp"
+
+namespace banyan {
+
+void survey(Robot& robot) noexcept {
+  const State& self = robot.self;
+  const Neighborhood& table = robot.table();
+  robot.parent = robot.old_parent = -1;
+  robot.children.size = robot.old_children.size = 0;
+  robot.useful_child = false;
+  for (int k = 0; k < table.size(); ++k) {
+    const RobotId id = table.id(k);
+    if (id == self.parent) robot.parent = k;
+    if (id == self.old_parent) robot.old_parent = k;
+    if (!table.alive(k)) continue;
+    const Message& m = table.message(k);
+    const bool names_me = m.parent == self.id;
+    if (!names_me && m.old_parent != self.id) continue;
+    // Whoever has not entered this epoch yet names the parent of the last one.
+    (names_me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
+    if (m.role != Role::spare) robot.useful_child = true;
+  }
+}
+
+void update_role(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (robot.is_root()) {
+    self.role = Role::root;
+  } else if (self.is_worker) {
+    self.role = Role::worker;
+  } else if (robot.useful_child || self.inserted_child != nobody) {
+    self.role = Role::connector;
+    self.childless_ticks = 0;
+  } else if (self.role != Role::spare) {
+    // Patience: a child may only have been silent, or be about to name me (spec 3).
+    if (++self.childless_ticks > robot.params.ticks(robot.params.connector_patience_s)) {
+      self.role = Role::spare;
+      self.childless_ticks = 0;
+      if (robot.children.size == 0) leave_tree(robot);
+    }
+  }
+}
+
+}  // namespace banyan
