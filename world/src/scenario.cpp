@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numeric>
 
 #include "banyan/controller/message.hpp"
@@ -72,6 +73,18 @@ class Report {
   std::vector<Fault> list_;
 };
 
+// A number that becomes the controller parameter `name`, in the single precision it will have;
+// false if there is no such parameter.
+bool check_as_parameter(Report& report, const std::string& key, double x, std::string_view name) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.key != name) continue;
+    const bool fits = std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max());  // false for NaN
+    report.number_in(key, fits ? static_cast<double>(static_cast<float>(x)) : x, {info.minimum, info.maximum});
+    return true;
+  }
+  return false;
+}
+
 // ---------------------------------------------------------------- round one: every number
 
 void check_name(Report& report, const char* key, std::string_view word, std::span<const std::string_view> known) {
@@ -96,14 +109,10 @@ void check_parameter(Report& report, const std::string& name, double value) {
     report.fail(key, "is set by " + std::string(place));
     return;
   }
+  if (check_as_parameter(report, key, value, name)) return;
   std::vector<std::string_view> known;
-  for (const ParameterInfo& info : parameter_table()) {
-    if (info.key == name) {
-      report.number_in(key, value, {info.minimum, info.maximum});
-      return;
-    }
+  for (const ParameterInfo& info : parameter_table())
     if (platform_key(info.key).empty()) known.push_back(info.key);
-  }
   const std::string_view near = nearest_name(name, known);
   report.fail(key, "there is no such parameter" +
                        (near.empty() ? std::string() : "; did you mean " + std::string(near) + "?"));
@@ -153,8 +162,8 @@ void check_swarm(Report& report, const Swarm& swarm) {
 
 void check_robot(Report& report, const RobotModel& robot) {
   report.number_in("robot.radius_m", robot.radius_m, positive(100.0));
-  report.number_in("robot.wheel_distance_m", robot.wheel_distance_m, positive(100.0));
-  report.number_in("robot.wheel_limit_m_s", robot.wheel_limit_m_s, positive(100.0));
+  check_as_parameter(report, "robot.wheel_distance_m", robot.wheel_distance_m, "wheel_distance_m");
+  check_as_parameter(report, "robot.wheel_limit_m_s", robot.wheel_limit_m_s, "wheel_limit_m_s");
   report.number_in("robot.wheel_noise", robot.wheel_noise, up_to(1.0));
   report.number_in("robot.wheel_bias", robot.wheel_bias, up_to(1.0));
   report.number_in("robot.odometry_noise", robot.odometry_noise, up_to(1.0));
@@ -165,7 +174,7 @@ void check_robot(Report& report, const RobotModel& robot) {
 }
 
 void check_radio(Report& report, const RadioModel& radio) {
-  report.number_in("radio.range_m", radio.range_m, positive(1000.0));
+  check_as_parameter(report, "radio.range_m", radio.range_m, "communication_range_m");
   report.number_in("radio.loss", radio.loss, up_to(1.0));
   report.number_in("radio.range_noise_m", radio.range_noise_m, up_to(1000.0));
   report.number_in("radio.bearing_noise_rad", radio.bearing_noise_rad, up_to(pi<double>));
@@ -223,7 +232,7 @@ void check_event(Report& report, const std::string& key, const Event& event) {
 }
 
 void check_numbers(Report& report, const Scenario& scenario) {
-  report.number_in("tick_s", scenario.tick_s, positive(1.0));
+  check_as_parameter(report, "tick_s", scenario.tick_s, "tick_s");
   check_mission(report, scenario.mission);
   check_swarm(report, scenario.swarm);
   check_robot(report, scenario.robot);

@@ -59,7 +59,7 @@ struct RobotModel {
   double mass_kg = 0.4;                 // box2d
   double max_force_n = 1.5;             // box2d
   double max_torque_nm = 1.5;           // box2d
-  double max_acceleration_m_s2 = 1.0;   // linear: |u| <= this, per component bound of U (paper II-A)
+  double max_acceleration_m_s2 = 1.0;   // linear: |u| <= this (paper II-A)
 };
 
 struct RadioModel {

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Rigid discs with mass, inertia, friction and bounded motors, by Debian's Box2D 2.4.1: the check
+// that `disks` tells no fairy tale. Numbers as ARGoS has them for a Khepera IV: 0.4 kg, 1.5 N,
+// 1.5 Nm, friction 0.7, no restitution, and the inertia of a disc of twice the body's radius.
+//
+// A Box2D world remembers the order in which contacts began and their impulses, and cannot be
+// copied. So it is built anew every tick from poses and velocities, which are then all there is to
+// remember: a clone goes on bit by bit as its original. That costs a twentieth of the ten
+// sub-steps it is built for. What is given up: the impulses of lasting contacts are found again in
+// the first sub-step of each tick instead of being carried over.
+//
+// Lengths are scaled by 8 inside: Box2D keeps a slop of 5 mm and a skin of 10 mm, which would
+// show on a robot of 70 mm. A power of two, so that poses go to and fro without rounding.
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "banyan/controller/trig.hpp"
+#include "banyan/world/bodies.hpp"
+#include "banyan/world/random.hpp"
+#include "noise.hpp"
+
+namespace banyan::world {
+namespace {
+
+constexpr double scale = 8.0;
+constexpr float friction = 0.7F;
+constexpr double longest_substep_s = 0.01;
+constexpr int velocity_iterations = 10;
+constexpr int position_iterations = 4;
+
+b2Vec2 to_box2d(Vec2 v) noexcept { return {static_cast<float>(v.x * scale), static_cast<float>(v.y * scale)}; }
+Vec2 from_box2d(b2Vec2 v) noexcept { return {static_cast<double>(v.x) / scale, static_cast<double>(v.y) / scale}; }
+
+struct AddObstacle {
+  b2Body& ground;
+  void fix(const b2Shape& shape) const {
+    b2FixtureDef def;
+    def.shape = &shape;
+    def.friction = friction;
+    ground.CreateFixture(&def);
+  }
+  void operator()(const Disc& disc) const {
+    b2CircleShape shape;
+    shape.m_p = to_box2d(disc.center);
+    shape.m_radius = static_cast<float>(disc.radius_m * scale);
+    fix(shape);
+  }
+  void operator()(const Box& box) const {
+    const Vec2 turn = unit_vector(box.angle_rad);  // b2Rot would ask the C library for a sine
+    const Vec2 half = box.size * 0.5;
+    b2Vec2 corners[4];
+    const Vec2 signs[4] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (int k = 0; k < 4; ++k)
+      corners[k] = to_box2d(box.center + rotate(turn, Vec2{signs[k].x * half.x, signs[k].y * half.y}));
+    b2PolygonShape shape;
+    shape.Set(corners, 4);
+    fix(shape);
+  }
+  void operator()(const Wall& wall) const {
+    b2EdgeShape shape;
+    shape.SetTwoSided(to_box2d(wall.from), to_box2d(wall.to));
+    fix(shape);
+  }
+};
+
+// Beside the poses: velocities, in Box2D's units. The heading is a unit vector carried by turn
+// steps; Box2D's own angle stays zero at the start of a tick and is never read, because a disc
+// looks the same from all sides.
+struct Momentum {
+  b2Vec2 linear{0.0F, 0.0F};
+  float angular = 0.0F;
+};
+
+class Box2d final : public Bodies {
+ public:
+  Box2d(const Scenario& scenario, std::size_t robots)
+      : noise_{scenario}, obstacles_{scenario.obstacles}, robot_{scenario.robot}, momentum_(robots), body_(robots),
+        path_(robots) {
+    substeps_ = std::max(1, static_cast<int>(std::ceil(scenario.tick_s / longest_substep_s - 1e-9)));
+    h_ = scenario.tick_s / substeps_;
+    mass_.mass = static_cast<float>(robot_.mass_kg);
+    mass_.center = {0.0F, 0.0F};
+    mass_.I = static_cast<float>(2.0 * robot_.mass_kg * robot_.radius_m * robot_.radius_m * scale * scale);
+    force_step_ = static_cast<float>(robot_.max_force_n * scale * h_);
+    torque_step_ = static_cast<float>(robot_.max_torque_nm * scale * scale * h_);
+  }
+
+  [[nodiscard]] std::unique_ptr<Bodies> clone() const override { return std::make_unique<Box2d>(*this); }
+
+  void step(std::span<const Velocity> command, NearPairs, std::uint64_t tick, Poses& poses,
+            std::span<Odometry> odometry) override {
+    b2World world({0.0F, 0.0F});
+    build(world, poses);
+    const std::span<Path> path(path_);
+    for (std::size_t i = 0; i < path.size(); ++i) path[i] = {noise_.wheels(i, tick, command[i]), 0.0, 0.0};
+    for (int s = 0; s < substeps_; ++s) {
+      for (std::size_t i = 0; i < path.size(); ++i) drive(*body_[i], path[i].wheels, poses.heading[i]);
+      world.Step(static_cast<float>(h_), velocity_iterations, position_iterations);
+      for (std::size_t i = 0; i < path.size(); ++i) roll(*body_[i], path[i], poses.heading[i]);
+    }
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      poses.position[i] = from_box2d(body_[i]->GetPosition());
+      momentum_[i] = {body_[i]->GetLinearVelocity(), body_[i]->GetAngularVelocity()};
+      odometry[i] = noise_.measured(i, tick, path[i].forward_m, 0.0, path[i].turn_rad);
+    }
+  }
+
+  [[nodiscard]] std::uint64_t hash(std::uint64_t h) const noexcept override {
+    const auto add = [&h](float x) { h = mix(h ^ std::bit_cast<std::uint32_t>(x)); };
+    for (const Momentum& m : momentum_) {
+      add(m.linear.x);
+      add(m.linear.y);
+      add(m.angular);
+    }
+    return h;
+  }
+
+ private:
+  // What a robot's wheels are told and have rolled within this tick.
+  struct Path {
+    Motion wheels;
+    double forward_m = 0.0;
+    double turn_rad = 0.0;
+  };
+
+  void build(b2World& world, const Poses& poses) {
+    world.SetAllowSleeping(false);
+    world.SetContinuousPhysics(false);  // 2 mm a sub-step cannot jump over anything
+    b2BodyDef ground;
+    for (const Obstacle& obstacle : obstacles_) std::visit(AddObstacle{*world.CreateBody(&ground)}, obstacle);
+    b2CircleShape disc;
+    disc.m_radius = static_cast<float>(robot_.radius_m * scale);
+    b2FixtureDef fixture;
+    fixture.shape = &disc;
+    fixture.density = 1.0F;
+    fixture.friction = friction;
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+      b2BodyDef def;
+      def.type = b2_dynamicBody;
+      def.position = to_box2d(poses.position[i]);
+      def.linearVelocity = momentum_[i].linear;
+      def.angularVelocity = momentum_[i].angular;
+      body_[i] = world.CreateBody(&def);
+      body_[i]->CreateFixture(&fixture);
+      body_[i]->SetMassData(&mass_);
+    }
+  }
+
+  // Wheels push the body towards the wanted velocity, sideways slip included, as hard as they can.
+  void drive(b2Body& body, const Motion& wheels, Vec2 heading) const {
+    const b2Vec2 wanted = to_box2d(heading * wheels.forward_m_s);
+    b2Vec2 impulse = mass_.mass * (wanted - body.GetLinearVelocity());
+    const float size = std::sqrt(impulse.x * impulse.x + impulse.y * impulse.y);
+    if (size > force_step_) impulse *= force_step_ / size;
+    body.ApplyLinearImpulseToCenter(impulse, true);
+    const float twist = mass_.I * (static_cast<float>(wheels.turn_rad_s) - body.GetAngularVelocity());
+    body.ApplyAngularImpulse(std::clamp(twist, -torque_step_, torque_step_), true);
+  }
+
+  // Encoders see how far the wheels have rolled: what the body did along its heading and its turn.
+  // A shove from the side is lost on them.
+  void roll(const b2Body& body, Path& path, Vec2& heading) const {
+    const double turn = static_cast<double>(body.GetAngularVelocity()) * h_;
+    path.forward_m += dot(from_box2d(body.GetLinearVelocity()), heading) * h_;
+    path.turn_rad += turn;
+    if (turn != 0.0) heading = unit(rotate(heading, unit_vector(turn)));
+  }
+
+  Noise noise_;
+  std::vector<Obstacle> obstacles_;
+  RobotModel robot_;
+  int substeps_ = 1;
+  double h_ = 0.01;
+  b2MassData mass_{};
+  float force_step_ = 0.0F;   // largest impulse of the motors in a sub-step
+  float torque_step_ = 0.0F;
+  std::vector<Momentum> momentum_;
+  std::vector<b2Body*> body_;  // of the tick under way
+  std::vector<Path> path_;
+};
+
+}  // namespace
+
+std::unique_ptr<Bodies> make_box2d(const Scenario& scenario, const Poses& poses) {
+  return std::make_unique<Box2d>(scenario, poses.position.size());
+}
+
+}  // namespace banyan::world
