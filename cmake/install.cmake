@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+# What `cmake --install` and the Debian packages contain: one export set per room, so that robot
+# code can ask for the controller alone and needs nothing else installed.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/banyan)
+set(rooms "")
+foreach(room IN ITEMS version controller world measure record)
+  if(NOT TARGET banyan_${room})
+    continue()
+  endif()
+  list(APPEND rooms ${room})
+  target_compile_features(banyan_${room} PUBLIC cxx_std_20)
+  set_target_properties(banyan_${room} PROPERTIES EXPORT_NAME ${room})
+  install(TARGETS banyan_${room} EXPORT banyan-${room} ARCHIVE COMPONENT development)
+  install(EXPORT banyan-${room} FILE banyan-${room}.cmake NAMESPACE banyan:: DESTINATION ${cmake_dir}
+          COMPONENT development)
+  if(NOT room STREQUAL version)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/ TYPE INCLUDE COMPONENT development
+            FILES_MATCHING PATTERN "*.hpp")
+  endif()
+endforeach()
+if(TARGET banyan_version)
+  install(FILES ${PROJECT_BINARY_DIR}/version/include/banyan/version.hpp
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/banyan COMPONENT development)
+endif()
+
+set(generated ${PROJECT_BINARY_DIR}/install)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/banyan-config.cmake.in ${generated}/banyan-config.cmake
+                              INSTALL_DESTINATION ${cmake_dir} NO_SET_AND_CHECK_MACRO)
+# Before 1.0 every minor version may change what users call.
+write_basic_package_version_file(${generated}/banyan-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${generated}/banyan-config.cmake ${generated}/banyan-config-version.cmake
+        DESTINATION ${cmake_dir} COMPONENT development)
+
+# The prefix is found from where the file lies, so `cmake --install --prefix` may differ from the
+# prefix of the configuration. Link order: users before what they use.
+set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH pc_prefix /${pc_dir} /)
+string(REGEX REPLACE "/$" "" pc_prefix "${pc_prefix}")
+if(IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR} OR IS_ABSOLUTE ${CMAKE_INSTALL_INCLUDEDIR})
+  message(FATAL_ERROR "CMAKE_INSTALL_LIBDIR and CMAKE_INSTALL_INCLUDEDIR must be relative to the prefix")
+endif()
+set(pc_libs "")
+foreach(room IN LISTS rooms)
+  string(PREPEND pc_libs "-lbanyan_${room} ")
+endforeach()
+set(pc_requires "")
+set(pc_system_libs "")
+if(TARGET banyan_world)
+  set(pc_requires "box2d, libzstd")
+  set(pc_system_libs "-pthread")
+endif()
+configure_file(${PROJECT_SOURCE_DIR}/cmake/banyan.pc.in ${generated}/banyan.pc @ONLY)
+install(FILES ${generated}/banyan.pc DESTINATION ${pc_dir} COMPONENT development)
+
+if(TARGET banyan_cli)
+  install(TARGETS banyan_cli RUNTIME COMPONENT program)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
+          FILES_MATCHING PATTERN "*.toml")
+  if(EXISTS ${PROJECT_SOURCE_DIR}/cli/completion/banyan.bash)
+    install(FILES ${PROJECT_SOURCE_DIR}/cli/completion/banyan.bash RENAME banyan
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+  endif()
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+endif()
+
+# cpack -G DEB: `banyan` (the program) and `libbanyan-dev` (what a developer links).
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME banyan)
+set(CPACK_PACKAGE_VENDOR "The Banyan authors")
+set(CPACK_PACKAGE_CONTACT "The Banyan authors <maintainers@users.noreply.github.com>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME banyan)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}
+ A swarm of robots deploys to several distant targets and keeps its radio
+ network connected by growing a tree. This is the simulator and its tools.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbanyan-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbox2d-dev, libzstd-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION} (development files)
+ The robot's program (controller), the simulated world, its measures and the
+ writer of recordings, as static libraries with headers.")
+find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+find_program(FILE_PROGRAM file)
+mark_as_advanced(DPKG_SHLIBDEPS FILE_PROGRAM)
+if(DPKG_SHLIBDEPS AND FILE_PROGRAM)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+else()
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libc6, libstdc++6, libbox2d2, libzstd1")
+endif()
+include(CPack)

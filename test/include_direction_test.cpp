@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The arrows of the house: adapters, viewer -> cli -> study -> {record, measure} -> world ->
+// controller. Reads the include lines of every source file and names each that points up.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string, std::less<>>;
+
+// Room -> the rooms it may include besides itself.
+const std::map<std::string, Names, std::less<>> may_include = {
+    {"controller", {}},
+    {"world", {"controller"}},
+    {"measure", {"controller", "world"}},
+    {"record", {"controller", "world", "measure"}},
+    {"study", {"controller", "world", "measure", "record"}},
+    {"cli", {"controller", "world", "measure", "record", "study"}},
+    {"adapters", {"controller", "world", "measure", "record", "study", "cli"}},
+    {"viewer", {"controller", "world", "measure", "record", "study", "cli"}},
+};
+
+// Libraries that have one home: <prefix of the header> -> the rooms that know them.
+const std::map<std::string, Names, std::less<>> homes = {
+    {"Eigen/", {"measure", "study"}},
+    {"Spectra/", {"measure"}},
+    {"box2d/", {"world"}},
+    {"zstd", {"record"}},
+    {"toml++/", {"cli"}},
+    {"CLI/", {"cli"}},
+    {"pagmo/", {"study"}},
+    {"mpi.h", {"study"}},
+};
+
+// The whole of the standard library that runs on a robot: no heap, no streams, no clock, no threads.
+const Names on_the_robot = {"algorithm", "array",   "bit",    "cmath",       "compare",  "concepts",    "cstddef",
+                            "cstdint",   "cstring", "limits", "numeric",     "optional", "span",        "string_view",
+                            "tuple",     "utility", "version", "type_traits", "iterator", "initializer_list"};
+
+struct Include {
+  std::string name;
+  bool quoted = false;
+};
+
+std::vector<Include> includes(const fs::path& file) {
+  static const std::regex line_form(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+  std::ifstream in(file);
+  std::vector<Include> found;
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, line_form)) found.push_back({match[2], match[1] == "\""});
+  }
+  return found;
+}
+
+std::vector<fs::path> sources(const fs::path& folder) {
+  static const std::array<std::string_view, 4> endings = {".hpp", ".h", ".cpp", ".cc"};
+  std::vector<fs::path> found;
+  if (!fs::exists(folder)) return found;
+  for (fs::recursive_directory_iterator entry(folder), end; entry != end; ++entry) {
+    const std::string name = entry->path().filename().string();
+    if (entry->is_directory() && (name == "node_modules" || name == "build")) entry.disable_recursion_pending();
+    else if (std::ranges::find(endings, entry->path().extension().string()) != endings.end()) found.push_back(entry->path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+// A private header: beside the file, or in its room's src/ or test/.
+std::optional<std::string> quoted_fault(const fs::path& room_folder, const fs::path& file, const std::string& name) {
+  for (const fs::path& folder : {file.parent_path(), room_folder / "src", room_folder / "test"}) {
+    if (!fs::exists(folder / name)) continue;
+    const std::string inside = fs::weakly_canonical(folder / name).lexically_relative(fs::weakly_canonical(room_folder)).string();
+    return inside.starts_with("..") ? std::optional("reaches out of its room") : std::nullopt;
+  }
+  return "is not in its room";
+}
+
+// What is wrong with an include line of `file` in `room`, in words; nothing if it is right.
+std::optional<std::string> fault(const fs::path& room_folder, const fs::path& file, const Include& include, bool product) {
+  const std::string room = room_folder.filename().string();
+  const std::string& name = include.name;
+  if (name.starts_with("banyan/")) {
+    const std::size_t slash = name.find('/', 7);
+    if (slash == std::string::npos) return room == "controller" ? std::optional("is not the controller's") : std::nullopt;
+    const std::string other = name.substr(7, slash - 7);
+    if (!may_include.contains(other)) return "names no room";
+    if (other != room && !may_include.at(room).contains(other)) return "points up";
+    return std::nullopt;
+  }
+  if (include.quoted) return quoted_fault(room_folder, file, name);
+  for (const auto& [prefix, rooms] : homes) {
+    if (name.starts_with(prefix) && !rooms.contains(room)) return "belongs into another room";
+  }
+  if (room == "controller" && product && !on_the_robot.contains(name)) return "has no place on a robot";
+  return std::nullopt;
+}
+
+std::vector<std::string> faults(const fs::path& house) {
+  std::vector<std::string> found;
+  for (const auto& [room, allowed] : may_include) {
+    for (const fs::path& file : sources(house / room)) {
+      const std::string where = fs::relative(file, house).string();
+      const bool product = where.starts_with(room + "/include/") || where.starts_with(room + "/src/");
+      for (const Include& include : includes(file)) {
+        if (const auto what = fault(house / room, file, include, product)) found.push_back(where + ": " + include.name + " " + *what);
+      }
+    }
+  }
+  return found;
+}
+
+std::string lines(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& line : list) text += line + '\n';
+  return text;
+}
+
+TEST(IncludeDirection, ArrowsOfTheHousePointDown) {
+  const fs::path house = BANYAN_SOURCE_DIR;
+  ASSERT_GT(sources(house / "controller").size(), 10U);
+  ASSERT_GT(sources(house / "world").size(), 5U);
+  EXPECT_EQ(lines(faults(house)), "");
+}
+
+// The test itself is worth nothing if it overlooks an arrow that points up.
+class WrongHouse : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    house_ = fs::path(::testing::TempDir()) / ("banyan-house-" + std::to_string(::getpid()));
+    fs::remove_all(house_);
+  }
+  void TearDown() override { fs::remove_all(house_); }
+  std::string faults_of(const fs::path& file, const std::string& line) {
+    fs::create_directories((house_ / file).parent_path());
+    std::ofstream(house_ / file) << "// a file\n" << line << "\nint x;\n";
+    return lines(faults(house_));
+  }
+  fs::path house_;
+};
+
+TEST_F(WrongHouse, ControllerIncludesTheWorld) {
+  EXPECT_EQ(faults_of("controller/src/x.cpp", "  #  include  \"banyan/world/world.hpp\""),
+            "controller/src/x.cpp: banyan/world/world.hpp points up\n");
+}
+TEST_F(WrongHouse, ControllerTestIncludesTheWorld) {
+  EXPECT_NE(faults_of("controller/test/x_test.cpp", "#include <banyan/world/world.hpp>"), "");
+}
+TEST_F(WrongHouse, ControllerUsesTheHeap) { EXPECT_NE(faults_of("controller/src/x.cpp", "#include <vector>"), ""); }
+TEST_F(WrongHouse, ControllerKnowsTheVersion) {
+  EXPECT_NE(faults_of("controller/src/x.cpp", "#include \"banyan/version.hpp\""), "");
+}
+TEST_F(WrongHouse, WorldIncludesMeasure) {
+  EXPECT_NE(faults_of("world/include/banyan/world/x.hpp", "#include \"banyan/measure/metrics.hpp\""), "");
+}
+TEST_F(WrongHouse, MeasureIncludesRecord) {
+  EXPECT_NE(faults_of("measure/src/x.cpp", "#include \"banyan/record/mcap.hpp\""), "");
+}
+TEST_F(WrongHouse, WorldReachesOut) {
+  EXPECT_EQ(faults_of("cli/src/y.hpp", ""), "");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"../../cli/src/y.hpp\""),
+            "world/src/x.cpp: ../../cli/src/y.hpp reaches out of its room\n");
+  EXPECT_NE(faults_of("world/src/x.cpp", "#include \"no-such-file.hpp\""), "");
+  EXPECT_EQ(faults_of("world/src/z.hpp", "") + faults_of("world/src/x.cpp", "#include \"../src/z.hpp\""), "");
+}
+TEST_F(WrongHouse, WorldReadsToml) { EXPECT_NE(faults_of("world/src/x.cpp", "#include <toml++/toml.h>"), ""); }
+TEST_F(WrongHouse, RoomThatDoesNotExist) { EXPECT_NE(faults_of("cli/src/x.cpp", "#include \"banyan/attic/x.hpp\""), ""); }
+TEST_F(WrongHouse, WhatIsRightIsNotNamed) {
+  EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/world/world.hpp\"\n#include <CLI/CLI.hpp>\n#include <vector>"), "");
+}
+
+}  // namespace
