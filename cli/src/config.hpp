@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// From a scenario file and options to a Configuration, and back. Strict: whatever is unknown, of
+// the wrong type or out of range is a problem with its place, and all problems come at once.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "document.hpp"
+#include "keys.hpp"
+
+namespace banyan::cli {
+
+// An option that changes a key: "radio.loss=0.3", named "--set radio.loss=0.3" in messages.
+struct Override {
+  std::string assignment;
+  std::string origin;
+};
+
+struct Loaded {
+  Configuration configuration;      // complete only if ok()
+  std::vector<Problem> problems;    // in the order of the file, then of the options
+  [[nodiscard]] std::size_t errors() const noexcept;
+  [[nodiscard]] bool ok() const noexcept { return errors() == 0; }
+};
+
+// Reads `path` (TOML, JSON, or the run.json of an earlier run; "-" is standard input), applies the
+// overrides, then checks keys, types and ranges and what world::faults() finds. Never throws for
+// bad input. Without a key `name` the scenario is named after its file.
+[[nodiscard]] Loaded load_configuration(const std::string& path, const std::vector<Override>& overrides = {});
+// The same for text that is already in memory.
+[[nodiscard]] Loaded parse_configuration(const std::string& path, std::string_view text,
+                                         const std::vector<Override>& overrides = {});
+
+// The complete effective configuration. Read back, it gives the same scenario, bit for bit.
+[[nodiscard]] std::string config_json(const Configuration& configuration, int indent = -1);
+[[nodiscard]] std::string config_toml(const Configuration& configuration);
+
+}  // namespace banyan::cli

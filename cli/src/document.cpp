@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+#include "document.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <toml++/toml.h>
+
+#include "banyan/world/names.hpp"
+
+namespace banyan::cli {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{64} << 20;
+constexpr std::size_t deepest_nesting = 16;   // the scenario's tree needs five
+
+std::shared_ptr<const std::string> shared(std::string text) {
+  return std::make_shared<const std::string>(std::move(text));
+}
+
+[[noreturn]] void fail(Place place, std::string text) { throw DocumentError({std::move(place), "", std::move(text)}); }
+
+// ---------------------------------------------------------------------------------------- TOML --
+
+Node from_toml(const toml::node& node, const std::shared_ptr<const std::string>& origin, bool from_file) {
+  Node result;
+  result.place = {origin, from_file ? static_cast<int>(node.source().begin.line) : 0};
+  if (const auto* table = node.as_table()) {
+    Node::Table members;
+    for (const auto& [key, child] : *table) {
+      members.emplace_back(std::string(key.str()), from_toml(child, origin, from_file));
+      // toml++ gives an inline or dotted table no line of its own; its key has one.
+      if (from_file) members.back().second.place.line = static_cast<int>(key.source().begin.line);
+    }
+    // toml++ sorts its tables; a reader expects complaints in the order of the file.
+    std::stable_sort(members.begin(), members.end(),
+                     [](const auto& a, const auto& b) { return a.second.place.line < b.second.place.line; });
+    result.value = std::move(members);
+  } else if (const auto* array = node.as_array()) {
+    Node::Array items;
+    for (const auto& child : *array) items.push_back(from_toml(child, origin, from_file));
+    result.value = std::move(items);
+  } else if (const auto* text = node.as_string()) {
+    result.value = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    result.value = integer->get();
+  } else if (const auto* real = node.as_floating_point()) {
+    result.value = real->get();
+  } else if (const auto* truth = node.as_boolean()) {
+    result.value = truth->get();
+  }
+  return result;
+}
+
+std::string lower_first(std::string text) {
+  if (!text.empty() && text.size() > 1 && text[1] >= 'a' && text[1] <= 'z') {
+    text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  }
+  return text;
+}
+
+// toml++ 3.3 bounds nested brackets but not dotted keys: "a.a.a..." a million times over would
+// exhaust the stack when its tables are destroyed.
+bool has_endless_key(std::string_view text) {
+  int dots = 0;
+  for (const char c : text) {
+    if (c == '.') {
+      if (++dots > 1000) return true;
+    } else if (c == ',' || c == '=' || c == '[' || c == ']' || c == '{' || c == '}' || c == '#' || c == '\n') {
+      dots = 0;
+    }
+  }
+  return false;
+}
+
+Node parse_toml(const std::shared_ptr<const std::string>& origin, std::string_view text) {
+  if (has_endless_key(text)) fail({origin, 0}, "has a key of more than a thousand parts: this is no scenario");
+  try {
+    return from_toml(toml::parse(text), origin, true);
+  } catch (const toml::parse_error& e) {
+    fail({origin, static_cast<int>(e.source().begin.line)},
+         "this is not TOML: " + lower_first(std::string(e.description())));
+  }
+}
+
+// ---------------------------------------------------------------------------------------- JSON --
+
+// Feeds the text to nlohmann's parser and remembers the line of the last character that was no
+// white space: its events come without positions.
+class LineCounter {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  struct Lines { int current = 1; int last_ink = 1; };
+
+  LineCounter(const char* at, Lines* lines) : at_(at), lines_(lines) {}
+  reference operator*() const { return *at_; }
+  LineCounter& operator++() {
+    if (*at_ == '\n') ++lines_->current;
+    else if (*at_ != ' ' && *at_ != '\t' && *at_ != '\r') lines_->last_ink = lines_->current;
+    ++at_;
+    return *this;
+  }
+  LineCounter operator++(int) { auto before = *this; ++*this; return before; }
+  friend bool operator==(const LineCounter& a, const LineCounter& b) { return a.at_ == b.at_; }
+  friend bool operator!=(const LineCounter& a, const LineCounter& b) { return a.at_ != b.at_; }
+
+ private:
+  const char* at_;
+  Lines* lines_;
+};
+
+class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  JsonBuilder(std::shared_ptr<const std::string> origin, const LineCounter::Lines& lines)
+      : origin_(std::move(origin)), lines_(lines) {}
+
+  bool null() override { return add(Node::Other{}); }
+  bool boolean(bool v) override { return add(v); }
+  bool number_integer(number_integer_t v) override { return add(std::int64_t{v}); }
+  bool number_unsigned(number_unsigned_t v) override {
+    if (v > static_cast<number_unsigned_t>(std::numeric_limits<std::int64_t>::max())) {
+      return add(static_cast<double>(v));
+    }
+    return add(static_cast<std::int64_t>(v));
+  }
+  bool number_float(number_float_t v, const string_t&) override { return add(v); }
+  bool string(string_t& v) override { return add(std::move(v)); }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(Node::Table{}); }
+  bool start_array(std::size_t) override { return open(Node::Array{}); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& v) override {
+    if (open_.back().find(v)) fail({origin_, lines_.last_ink}, "\"" + v + "\" is given twice");
+    keys_.back() = {v, lines_.last_ink};
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
+    // "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while ..."
+    std::string text = e.what();
+    if (const auto at = text.find("] "); at != std::string::npos) text.erase(0, at + 2);
+    if (const auto at = text.find(": "); text.starts_with("parse error at") && at != std::string::npos) {
+      text.erase(0, at + 2);
+    }
+    fail({origin_, lines_.current}, "this is not JSON: " + text);
+  }
+
+  Node root;
+
+ private:
+  Place here() const { return {origin_, keys_.empty() || keys_.back().second == 0 ? lines_.last_ink : keys_.back().second}; }
+  void attach(Node node) {
+    if (open_.empty()) { root = std::move(node); return; }
+    if (auto* table = open_.back().table()) table->emplace_back(keys_.back().first, std::move(node));
+    else open_.back().array()->push_back(std::move(node));
+  }
+  template <class T>
+  bool add(T v) {
+    attach({std::move(v), here()});
+    return true;
+  }
+  template <class T>
+  bool open(T v) {
+    if (open_.size() >= deepest_nesting) fail({origin_, lines_.last_ink}, "nested too deeply for a scenario");
+    open_.push_back({std::move(v), here()});
+    keys_.emplace_back("", 0);
+    return true;
+  }
+  bool close() {
+    Node done = std::move(open_.back());
+    open_.pop_back();
+    keys_.pop_back();
+    attach(std::move(done));
+    return true;
+  }
+
+  std::shared_ptr<const std::string> origin_;
+  const LineCounter::Lines& lines_;
+  std::vector<Node> open_;
+  std::vector<std::pair<std::string, int>> keys_;   // per open object: the key being read and its line
+};
+
+Node parse_json(const std::shared_ptr<const std::string>& origin, std::string_view text) {
+  LineCounter::Lines lines;
+  JsonBuilder builder(origin, lines);
+  nlohmann::json::sax_parse(LineCounter(text.data(), &lines), LineCounter(text.data() + text.size(), &lines), &builder);
+  return std::move(builder.root);
+}
+
+// ---------------------------------------------------------------------------------------- --set --
+
+// A step of "events[0].time_s": a name, or an index into a list.
+struct Step {
+  std::string name;
+  std::optional<std::size_t> index;
+};
+
+std::optional<std::vector<Step>> split_path(std::string_view path) {
+  std::vector<Step> steps;
+  while (true) {
+    const auto end = path.find_first_of(".[");
+    if (end == 0 || path.empty()) return std::nullopt;
+    steps.push_back({std::string(path.substr(0, end)), {}});
+    if (end == std::string_view::npos) return steps;
+    path.remove_prefix(end);
+    while (path.starts_with('[')) {
+      std::size_t index = 0;
+      const auto [stop, error] = std::from_chars(path.data() + 1, path.data() + path.size(), index);
+      if (error != std::errc{} || stop == path.data() + path.size() || *stop != ']') return std::nullopt;
+      steps.push_back({"", index});
+      path.remove_prefix(static_cast<std::size_t>(stop - path.data()) + 1);
+    }
+    if (path.empty()) return steps;
+    if (path.front() != '.') return std::nullopt;
+    path.remove_prefix(1);
+  }
+}
+
+bool valid_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i++]);
+    int more = lead < 0x80 ? 0 : lead >= 0xC2 && lead < 0xE0 ? 1 : lead >= 0xE0 && lead < 0xF0 ? 2 : lead >= 0xF0 && lead < 0xF5 ? 3 : -1;
+    if (more < 0) return false;
+    for (; more > 0; --more, ++i) {
+      if (i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
+    }
+  }
+  return true;
+}
+
+// The value of an override: TOML if it is some, else bare text, so that quotes may be left out.
+Node override_value(std::string_view text, const std::shared_ptr<const std::string>& origin) {
+  if (text.find_first_of("\r\n") == std::string_view::npos && !has_endless_key(text)) {
+    try {
+      const auto parsed = toml::parse("v = " + std::string(text));
+      if (parsed.size() == 1) return from_toml(*parsed.get("v"), origin, false);
+    } catch (const toml::parse_error&) {   // not TOML: bare text
+    }
+  }
+  return {std::string(text), {origin, 0}};
+}
+
+}  // namespace
+
+std::string Place::text() const {
+  if (!origin) return "banyan";
+  return line > 0 ? *origin + ":" + std::to_string(line) : *origin;
+}
+
+std::string to_string(const Problem& problem) {
+  std::string text = problem.place.text() + (problem.warning ? ": warning: " : ": error: ");
+  if (!problem.key.empty()) text += problem.key + ": ";
+  return text + problem.text;
+}
+
+const Node* Node::find(std::string_view name) const noexcept {
+  if (const auto* members = table()) {
+    for (const auto& [key, child] : *members) {
+      if (key == name) return &child;
+    }
+  }
+  return nullptr;
+}
+
+Node* Node::find(std::string_view name) noexcept { return const_cast<Node*>(std::as_const(*this).find(name)); }
+
+std::string Node::describe() const {
+  struct Describe {
+    std::string operator()(Other) const { return "null, a date or a time"; }
+    std::string operator()(bool v) const { return v ? "true" : "false"; }
+    std::string operator()(std::int64_t v) const { return "the number " + std::to_string(v); }
+    std::string operator()(double v) const { return "the number " + number_text(v); }
+    std::string operator()(const std::string& v) const {
+      if (v.size() > 40) return "the text \"" + v.substr(0, 37) + "...\"";
+      return "the text \"" + v + "\"";
+    }
+    std::string operator()(const Array& v) const {
+      return "a list of " + std::to_string(v.size()) + (v.size() == 1 ? " value" : " values");
+    }
+    std::string operator()(const Table&) const { return "a table"; }
+  };
+  return std::visit(Describe{}, value);
+}
+
+std::string read_text_file(const std::string& path) {
+  const Place place{shared(path == "-" ? "standard input" : path), 0};
+  const int fd = path == "-" ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) {
+    if (errno == ENOENT) fail(place, "there is no such file");
+    fail(place, std::string("cannot be opened: ") + std::strerror(errno));
+  }
+  struct Closer { int fd; ~Closer() { ::close(fd); } } closer{fd};
+  struct stat status {};
+  if (::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode)) {
+    fail(place, "is a directory; give the scenario file in it");
+  }
+  std::string text;
+  std::array<char, 65536> buffer;
+  while (true) {
+    const auto got = ::read(fd, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(place, std::string("cannot be read: ") + std::strerror(errno));
+    if (got == 0) break;
+    text.append(buffer.data(), static_cast<std::size_t>(got));
+    if (text.size() > largest_file) fail(place, "is larger than 64 MiB: this is no scenario");
+  }
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);   // byte order mark
+  if (text.find('\0') != std::string::npos) fail(place, "is a binary file; a scenario is text (TOML or JSON)");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(place, "is empty; a scenario needs at least [targets]");
+  return text;
+}
+
+Node parse_document(const std::string& path, std::string_view text) {
+  const auto origin = shared(path == "-" ? "standard input" : path);
+  const auto ink = text.find_first_not_of(" \t\r\n");
+  const bool json = path.ends_with(".json") || (ink != std::string_view::npos && text[ink] == '{');
+  Node root = json ? parse_json(origin, text) : parse_toml(origin, text);
+  if (!root.table()) fail(root.place, "a scenario is a table of keys, not " + root.describe());
+  return root;
+}
+
+std::vector<Problem> apply_override(Node& root, std::string_view assignment, const std::string& origin) {
+  const auto place = Place{shared(origin), 0};
+  const auto equals = assignment.find('=');
+  if (equals == std::string_view::npos) {
+    return {{place, "", "expects key=value, such as radio.loss=0.3"}};
+  }
+  if (!valid_utf8(assignment)) return {{place, "", "is not valid UTF-8 text"}};
+  auto trim = [](std::string_view s) {
+    while (s.starts_with(' ')) s.remove_prefix(1);
+    while (s.ends_with(' ')) s.remove_suffix(1);
+    return s;
+  };
+  const auto key = trim(assignment.substr(0, equals));
+  const auto steps = split_path(key);
+  if (!steps || steps->size() > deepest_nesting) {
+    return {{place, "", "\"" + std::string(key) + "\" is no key; keys look like radio.loss or events[0].time_s"}};
+  }
+  Node* at = &root;
+  for (const auto& step : *steps) {
+    if (step.index) {
+      auto* items = at->array();
+      if (!items) return {{place, std::string(key), "has an index, but there is no list to reach into"}};
+      if (*step.index >= items->size()) {
+        return {{place, std::string(key), "the list has " + std::to_string(items->size()) +
+                                              " entries, counted from 0; this one does not exist"}};
+      }
+      at = &(*items)[*step.index];
+      continue;
+    }
+    // A section that is missing, or a value in the way: the reader judges the result.
+    if (!at->table()) *at = {Node::Table{}, place};
+    Node* next = at->find(step.name);
+    if (!next) {
+      at->table()->emplace_back(step.name, Node{Node::Table{}, place});
+      next = &at->table()->back().second;
+    }
+    at = next;
+  }
+  *at = override_value(trim(assignment.substr(equals + 1)), place.origin);
+  return {};
+}
+
+std::string number_text(double value) {
+  if (std::abs(value) >= 1e5 && std::abs(value) < 1e16 && value == std::trunc(value)) return std::to_string(static_cast<std::int64_t>(value));
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
+  word = word.substr(0, 100);   // a very long word is like nothing anyway
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
+  for (const auto candidate : candidates) {
+    // A unit left out ("range" for "range_m") or a word cut short is a near miss, however long.
+    const bool shortened = word.size() >= 3 && candidate.starts_with(word);
+    const auto distance = shortened ? 1 : world::edit_distance(word, candidate);
+    if (distance < best_distance) { best = candidate; best_distance = distance; }
+  }
+  return best;
+}
+
+}  // namespace banyan::cli
