@@ -45,6 +45,12 @@ void add_own_target(const Robot& robot, Sums& sums) noexcept {
 
 std::uint16_t saturate(std::uint32_t v) noexcept { return static_cast<std::uint16_t>(std::min<std::uint32_t>(v, UINT16_MAX)); }
 
+// Turned into the edge frame, a component grows by up to sqrt 2.
+Vec2 sendable(Vec2 q) noexcept {
+  constexpr float limit_m = 0.5F * q_limit_m;
+  return {std::clamp(q.x, -limit_m, limit_m), std::clamp(q.y, -limit_m, limit_m)};
+}
+
 }  // namespace
 
 std::uint32_t algorithm2_count(int child_count, std::uint32_t child_counts, std::uint32_t depth) noexcept {
@@ -77,7 +83,8 @@ void take_census(Robot& robot) noexcept {
 
   const int up = self.parent != nobody ? robot.parent : robot.old_parent;
   if (robot.is_root()) self.q = sums.a / static_cast<float>(sums.robots);
-  else self.q = up >= 0 ? algorithm1_contribution(sums.a, sums.robots - 1, robot.table().position(up)) : Vec2{};
+  else if (up < 0) self.q = {};
+  else self.q = sendable(algorithm1_contribution(sums.a, sums.robots - 1, robot.table().position(up)));
 }
 
 }  // namespace banyan

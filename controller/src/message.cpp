@@ -96,6 +96,8 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.want_cm);
 }
 
+bool bounded(float q) noexcept { return std::fabs(q) <= q_limit_m; }  // false for NaN too
+
 }  // namespace
 
 Wire encode(const Message& message) noexcept {
@@ -125,7 +127,7 @@ std::optional<Message> decode(std::span<const std::uint8_t> bytes) noexcept {
   m.parent_silent = (flags & flag_parent_silent) != 0;
   Reader read(bytes.data() + 3);
   visit_fields(read, m);
-  if (m.id == nobody || !std::isfinite(m.q.x) || !std::isfinite(m.q.y)) return std::nullopt;
+  if (m.id == nobody || !bounded(m.q.x) || !bounded(m.q.y)) return std::nullopt;
   return m;
 }
 

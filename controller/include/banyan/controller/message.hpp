@@ -74,6 +74,9 @@ struct Message {
 };
 
 inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: +-2
+// Largest |component| of q. A sender keeps within it and decode() rejects what exceeds it, or one
+// robot's nonsense would overflow the sums of all above it.
+inline constexpr float q_limit_m = 1.0e9F;
 
 // The tree neighbour that vectors of the census are addressed to: the parent or, during a switch
 // while there is none, the old parent.
