@@ -89,7 +89,7 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
 
 Output step(const Params& params, const Policy& policy, State& state, std::span<const Heard> heard,
             const Odometry& odometry, const Vec2* target) noexcept {
-  Robot robot{.params = params, .policy = policy, .self = state, .target = target, .heard = heard};
+  Robot robot(params, policy, state, heard, target);
   const Carry carry(odometry);
   carry_memory(state, carry);
   state.neighbors.update(heard, carry, robot.liveness_ticks(), state.id, {state.parent, state.old_parent});

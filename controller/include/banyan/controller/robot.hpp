@@ -24,6 +24,9 @@ struct IndexList {
 };
 
 struct Robot {
+  Robot(const Params& params_, const Policy& policy_, State& self_, std::span<const Heard> heard_, const Vec2* target_) noexcept
+      : params(params_), policy(policy_), self(self_), target(target_), heard(heard_) {}
+
   const Params& params;
   const Policy& policy;
   State& self;

@@ -19,6 +19,7 @@ struct Tick {
   std::uint32_t edges = 0;                 // tree edges: parent and old parent of every robot that is no spare
   std::uint32_t broken_by_distance = 0;    // of these, d >= C
   std::uint32_t broken_by_occlusion = 0;   // of these, d < C but no line of sight
+  std::uint32_t broken_by_death = 0;       // of these, the other end is dead
   std::uint32_t components = 0;            // communication graph of the living robots
   std::uint32_t components_by_distance = 0;  // the same without occlusion
   bool fiedler_low = false;                // lambda_2 < 1e-3, with occlusion as simulated

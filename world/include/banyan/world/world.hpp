@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "banyan/controller/controller.hpp"
@@ -15,6 +16,8 @@
 namespace banyan::world {
 
 class Executor;  // threads.hpp
+
+using Pairs = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
 
 struct Target {
   Vec2 position{};
@@ -50,8 +53,8 @@ class World {
   // Robots that robot i could hear and be heard by at the current positions: in range, line of
   // sight free, both alive. Ascending. Packet loss is not in it.
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
-  // In range, both alive, but blocked. Ascending.
-  [[nodiscard]] std::span<const std::uint32_t> blocked(std::size_t i) const noexcept;
+  // Pairs (i < j) in range, both alive, but without line of sight; ascending by i.
+  [[nodiscard]] Pairs blocked() const noexcept;
 
   [[nodiscard]] std::uint64_t packets_received() const noexcept;   // since the start
   [[nodiscard]] std::uint64_t packets_sent() const noexcept;

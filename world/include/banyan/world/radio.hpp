@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Who can hear whom: links by range and exact line of sight, all pairs, every tick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "banyan/world/bodies.hpp"
+#include "banyan/world/scenario.hpp"
+#include "banyan/world/threads.hpp"
+
+namespace banyan::world {
+
+// A link i-j exists while both live, |p_i - p_j| < C, and - with line of sight - the open segment
+// between the centres meets no obstacle and no body but their own: |p_k - segment| >= radius for
+// every other robot k beside the segment, dead ones included. Exactly symmetric: each pair is decided once.
+class Radio {
+ public:
+  Radio(const Scenario& scenario, std::size_t robots);
+
+  // Finds links, blocked pairs and near pairs at the given poses. O(N + pairs in range) time.
+  void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor);
+
+  [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept {
+    return {links_.data() + offsets_[i], links_.data() + offsets_[i + 1]};
+  }
+  [[nodiscard]] std::span<const std::pair<std::uint32_t, std::uint32_t>> blocked() const noexcept { return blocked_; }
+  [[nodiscard]] NearPairs near() const noexcept { return near_; }
+  [[nodiscard]] std::span<const std::uint32_t> offsets() const noexcept { return offsets_; }
+  [[nodiscard]] std::size_t memory_bytes() const noexcept;
+
+  // Whether a disc of `radius` at `k` blocks the segment from the origin to `d`: nearer than radius
+  // to its interior. The one predicate that decides, here and in the brute-force test.
+  [[nodiscard]] static bool disc_blocks(Vec2 k, Vec2 d, double d2, double radius) noexcept {
+    const double along = dot(k, d);
+    if (along <= 0.0 || along >= d2) return false;
+    const double across = cross(k, d);
+    return across * across < radius * radius * d2;
+  }
+
+ private:
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;
+  struct Neighbor {   // somebody in range of the robot being scanned
+    Vec2 d;           // from it, world frame
+    double d2;
+    std::uint32_t index;
+  };
+  // Bodies that may block a direction, by sector of the circle: a linked list per sector.
+  static constexpr int sectors = 64;
+  struct Shadow { std::uint32_t neighbor; std::int32_t next; };
+  struct Scratch {    // one per thread
+    std::vector<Neighbor> neighbors;
+    std::vector<float> bearing;          // pseudo-angle of each neighbour, [0, 4)
+    std::array<std::int32_t, sectors> head;
+    std::vector<Shadow> shadows;
+    std::vector<const Obstacle*> obstacles;   // near the robot
+    std::vector<Pair> links, blocked, near;
+  };
+
+  void build_grid(std::span<const Vec2> positions);
+  void scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const;
+  void gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const;
+  void cast_shadows(Scratch& s) const;
+  [[nodiscard]] bool shadowed(const Scratch& s, std::size_t target) const noexcept;
+  void merge(std::size_t robots);
+
+  double range_m_;
+  double radius_m_;
+  double near_m_;
+  bool line_of_sight_;
+  std::vector<Obstacle> obstacles_;
+
+  // Grid of cells at least C wide, robots sorted by cell (counting sort), ascending within a cell.
+  Vec2 origin_{};
+  double cell_m_ = 1.0;
+  std::size_t columns_ = 1, rows_ = 1;
+  bool use_grid_ = false;
+  std::vector<std::uint32_t> cell_of_, cell_start_, sorted_;
+  std::vector<Vec2> sorted_position_;
+
+  std::vector<Scratch> scratch_;
+  std::vector<std::uint32_t> offsets_, fill_, links_;  // compressed rows
+  std::vector<Pair> blocked_, near_;
+};
+
+}  // namespace banyan::world

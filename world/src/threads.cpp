@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/world/threads.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace banyan::world {
+
+struct Executor::Team {
+  std::mutex mutex;
+  std::condition_variable start;
+  std::condition_variable done;
+  std::uint64_t generation = 0;
+  int running = 0;
+  bool stop = false;
+  std::size_t n = 0;
+  Call call = nullptr;
+  void* context = nullptr;
+  std::vector<std::jthread> members;
+
+  void work(int worker, int threads) {
+    std::uint64_t seen = 0;
+    for (;;) {
+      std::unique_lock lock(mutex);
+      start.wait(lock, [&] { return stop || generation != seen; });
+      if (stop) return;
+      seen = generation;
+      lock.unlock();
+      chunk(worker, threads);
+      lock.lock();
+      if (--running == 0) done.notify_one();
+    }
+  }
+
+  void chunk(int worker, int threads) const {
+    const std::size_t w = static_cast<std::size_t>(worker);
+    const std::size_t t = static_cast<std::size_t>(threads);
+    call(context, n * w / t, n * (w + 1) / t, worker);
+  }
+};
+
+Executor::Executor(int threads) : threads_(std::max(1, threads)) {
+  if (threads_ == 1) return;
+  team_ = std::make_unique<Team>();
+  for (int worker = 1; worker < threads_; ++worker)
+    team_->members.emplace_back([this, worker] { team_->work(worker, threads_); });
+}
+
+Executor::~Executor() {
+  if (!team_) return;
+  {
+    const std::lock_guard lock(team_->mutex);
+    team_->stop = true;
+  }
+  team_->start.notify_all();
+  team_->members.clear();  // joins before the rest of the team goes
+}
+
+void Executor::run(std::size_t n, Call call, void* context) {
+  {
+    const std::lock_guard lock(team_->mutex);
+    team_->n = n;
+    team_->call = call;
+    team_->context = context;
+    team_->running = threads_ - 1;
+    ++team_->generation;
+  }
+  team_->start.notify_all();
+  team_->chunk(0, threads_);
+  std::unique_lock lock(team_->mutex);
+  team_->done.wait(lock, [&] { return team_->running == 0; });
+}
+
+}  // namespace banyan::world

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/world/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "banyan/controller/digest.hpp"
+#include "banyan/world/bodies.hpp"
+#include "banyan/world/placement.hpp"
+#include "banyan/world/radio.hpp"
+#include "banyan/world/random.hpp"
+#include "banyan/world/threads.hpp"
+
+namespace banyan::world {
+namespace {
+
+constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
+
+// What the scenario says of the platform overrides the policy's defaults; what the mission sets
+// overrides both.
+Params make_params(const Scenario& scenario, const Policy& policy) {
+  Params p = policy.defaults(scenario.mission.reading == "literal" ? Reading::literal : Reading::corrected);
+  p.communication_range_m = static_cast<float>(scenario.radio.range_m);
+  p.tick_s = static_cast<float>(scenario.tick_s);
+  p.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
+  p.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
+  p.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
+  p.arrival_distance_m = static_cast<float>(scenario.mission.target_tolerance_m);
+  for (const auto& [key, value] : scenario.mission.parameters)
+    for (const ParameterInfo& info : parameter_table())
+      if (info.key == key) p.*info.member = static_cast<float>(value);
+  return p;
+}
+
+std::unique_ptr<Bodies> make_bodies(const Scenario& scenario, const Poses& poses) {
+  switch (scenario.robot.body) {
+    case BodyModel::box2d: return make_box2d(scenario, poses);
+    case BodyModel::linear: return make_linear(scenario, poses.position.size());
+    default: return make_disks(scenario, poses.position.size());
+  }
+}
+
+void require_possible(const Scenario& scenario) {
+  std::string text;
+  for (const Fault& fault : faults(scenario))
+    if (!fault.warning) text += (text.empty() ? "" : "; ") + fault.key + ": " + fault.text;
+  if (!text.empty()) throw std::invalid_argument(text);
+}
+
+// One packet on its way to one receiver.
+struct Packet {
+  std::uint32_t sender;
+  banyan::Vec2 position;   // of the sender in the receiver's body frame, as measured
+};
+
+// Packets of one tick with latency above one: held back until they are heard.
+struct Flight {
+  std::vector<std::uint32_t> offsets, count;
+  std::vector<Packet> packets;
+  std::vector<Message> messages;
+};
+
+}  // namespace
+
+struct World::Impl {
+  explicit Impl(const Scenario& s);
+  Impl(const Impl& o);
+
+  // The phases of a tick, in order.
+  void happen();
+  void act();
+  void broadcast(Executor& executor);
+  void think(Executor& executor);
+
+  std::size_t receive(std::size_t i, std::span<Packet> packets) const noexcept;
+  std::size_t keep_slots(std::size_t i, std::span<Packet> packets, std::size_t count) const noexcept;
+  [[nodiscard]] banyan::Vec2 measure(std::size_t i, std::uint32_t sender) const noexcept;
+  void apply(const Event& event);
+  void assign_target(Vec2 position);
+
+  Scenario scenario;
+  const Policy* policy;
+  Params params;
+  double loss;
+  std::uint64_t tick = 0;
+
+  Poses poses;
+  std::unique_ptr<Bodies> bodies;
+  Radio radio;
+  std::vector<Target> targets;
+  std::vector<std::uint8_t> alive;
+  std::vector<std::uint64_t> frozen_until;     // tick; 0: not frozen
+  std::vector<std::int32_t> target_of;         // per robot, -1: none
+  std::vector<State> states;
+  std::vector<Message> messages, next_messages;
+  std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
+  std::vector<Odometry> odometry;
+  std::vector<Event> events;                   // by time
+  std::size_t next_event = 0;
+  std::vector<Flight> flights;                 // ring of latency_ticks - 1
+  Flight arriving;                             // taken out of the ring: heard this tick
+  struct Inbox { std::vector<Packet> packets; std::vector<Heard> heard; };
+  std::vector<Inbox> inboxes;                  // one per thread
+  std::vector<std::uint64_t> received_by;      // packets, per thread
+  std::uint64_t received = 0, sent = 0;
+};
+
+World::Impl::Impl(const Scenario& s)
+    : scenario((require_possible(s), s)),
+      policy(find_policy(s.mission.algorithm)),
+      params(make_params(s, *policy)),
+      loss(s.radio.loss),
+      poses(place(s)),
+      bodies(make_bodies(s, poses)),
+      radio(s, poses.position.size()) {
+  const std::size_t n = poses.position.size();
+  const std::vector<Vec2> positions = target_positions(s);
+  const Assignment assignment = assign(s, poses, positions);
+  alive.assign(n, 1);
+  frozen_until.assign(n, 0);
+  target_of.assign(n, -1);
+  for (std::size_t t = 0; t < positions.size(); ++t) {
+    targets.push_back({positions[t], assignment.worker[t]});
+    target_of[assignment.worker[t]] = static_cast<std::int32_t>(t);
+  }
+  states.reserve(n);
+  for (std::size_t i = 0; i < n; ++i)
+    states.push_back(initial_state(static_cast<RobotId>(i), target_of[i] >= 0, i == assignment.root));
+  messages.resize(n);
+  for (std::size_t i = 0; i < n; ++i) messages[i].id = static_cast<RobotId>(i);
+  next_messages = messages;
+  commands.resize(n);
+  moving.resize(n);
+  odometry.resize(n);
+  events = s.events;
+  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.time_s < b.time_s; });
+  flights.resize(static_cast<std::size_t>(std::max(1, s.radio.latency_ticks) - 1));
+  Executor alone(1);
+  radio.update(poses.position, alive, alone);
+}
+
+World::Impl::Impl(const Impl& o)
+    : scenario(o.scenario), policy(o.policy), params(o.params), loss(o.loss), tick(o.tick), poses(o.poses),
+      bodies(o.bodies->clone()), radio(o.radio), targets(o.targets), alive(o.alive), frozen_until(o.frozen_until),
+      target_of(o.target_of), states(o.states), messages(o.messages), next_messages(o.next_messages), commands(o.commands),
+      moving(o.moving), odometry(o.odometry), events(o.events), next_event(o.next_event), flights(o.flights), arriving(o.arriving),
+      received(o.received), sent(o.sent) {}
+
+// ---- One tick ----
+
+void World::step(Executor& executor) {
+  impl_->happen();             // events of the scenario
+  impl_->act();                // commands of the last tick become motion
+  impl_->broadcast(executor);  // messages of the last tick travel: links, losses, delays
+  impl_->think(executor);      // what is sensed and heard goes through each robot's controller
+  ++impl_->tick;
+}
+
+void World::Impl::happen() {
+  const double now = static_cast<double>(tick) * scenario.tick_s + 1e-9;
+  while (next_event < events.size() && events[next_event].time_s <= now) apply(events[next_event++]);
+}
+
+void World::Impl::apply(const Event& event) {
+  switch (event.kind) {
+    case Event::Kind::die: alive[event.index] = 0; break;
+    case Event::Kind::freeze:
+      frozen_until[event.index] = event.value > 0.0 ? tick + static_cast<std::uint64_t>(event.value / scenario.tick_s + 0.5) : forever;
+      break;
+    case Event::Kind::set_loss: loss = event.value; break;
+    case Event::Kind::move_target: targets[event.index].position = event.position; break;
+    case Event::Kind::add_target: assign_target(event.position); break;
+  }
+}
+
+// A new target goes to the nearest living robot that is neither worker nor root.
+void World::Impl::assign_target(Vec2 position) {
+  std::size_t best = states.size();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (alive[i] == 0 || states[i].is_worker || states[i].role == Role::root) continue;
+    if (best == states.size() || squared_norm(poses.position[i] - position) < squared_norm(poses.position[best] - position)) best = i;
+  }
+  if (best == states.size()) return;  // nobody is left to send
+  states[best].is_worker = true;
+  target_of[best] = static_cast<std::int32_t>(targets.size());
+  targets.push_back({position, best});
+}
+
+void World::Impl::act() {
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    moving[i] = alive[i] != 0 && frozen_until[i] <= tick ? commands[i] : Velocity{};
+  bodies->step(moving, radio.near(), tick, poses, odometry);
+}
+
+void World::Impl::broadcast(Executor& executor) {
+  radio.update(poses.position, alive, executor);
+  const auto living = static_cast<std::uint64_t>(std::count(alive.begin(), alive.end(), 1));
+  if (tick > 0) sent += living;
+}
+
+void World::Impl::think(Executor& executor) {
+  const std::size_t n = states.size();
+  inboxes.resize(std::max<std::size_t>(inboxes.size(), static_cast<std::size_t>(executor.threads())));
+  received_by.assign(inboxes.size(), 0);
+  Flight* flight = flights.empty() ? nullptr : &flights[tick % flights.size()];
+  if (flight != nullptr) {
+    // This slot's packets were sent latency - 1 ticks ago: they are heard now, and the slot is free
+    // for those sent now.
+    std::swap(arriving, *flight);
+    flight->offsets.assign(radio.offsets().begin(), radio.offsets().end());
+    flight->count.assign(n, 0);
+    flight->packets.resize(flight->offsets.back());
+    flight->messages = messages;
+  }
+  const bool silence = tick == 0;  // nobody has said anything yet
+
+  executor.parallel_for(n, [&](std::size_t begin, std::size_t end, int worker) {
+    Inbox& inbox = inboxes[static_cast<std::size_t>(worker)];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (alive[i] == 0) continue;
+      inbox.packets.resize(radio.links(i).size());
+      std::span<const Packet> packets(inbox.packets.data(), silence ? 0 : receive(i, inbox.packets));
+      const std::vector<Message>* content = &messages;
+      if (flight != nullptr) {
+        std::copy(packets.begin(), packets.end(), flight->packets.begin() + flight->offsets[i]);
+        flight->count[i] = static_cast<std::uint32_t>(packets.size());
+        content = &arriving.messages;
+        packets = arriving.count.empty() ? std::span<const Packet>{}
+                                         : std::span<const Packet>(arriving.packets.data() + arriving.offsets[i], arriving.count[i]);
+      }
+      inbox.heard.clear();
+      for (const Packet& packet : packets) inbox.heard.push_back({&(*content)[packet.sender], packet.position});
+      received_by[static_cast<std::size_t>(worker)] += packets.size();
+
+      banyan::Vec2 target{};
+      if (target_of[i] >= 0) {
+        const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
+        target = {static_cast<float>(d.x), static_cast<float>(d.y)};
+      }
+      const Output output = banyan::step(params, *policy, states[i], inbox.heard, odometry[i], target_of[i] >= 0 ? &target : nullptr);
+      next_messages[i] = output.message;
+      commands[i] = output.velocity;
+    }
+  });
+  std::swap(messages, next_messages);
+  for (const std::uint64_t r : received_by) received += r;
+}
+
+// ---- The way of a packet ----
+
+// Draws at transmission which packets reach robot i, and what its sensor makes of their origin.
+std::size_t World::Impl::receive(std::size_t i, std::span<Packet> packets) const noexcept {
+  std::size_t count = 0;
+  for (const std::uint32_t sender : radio.links(i)) {
+    if (loss > 0.0 && to_uniform(bits(scenario.seed, Purpose::loss, i, sender, tick)) < loss) continue;
+    packets[count++] = {sender, measure(i, sender)};
+  }
+  const auto slots = static_cast<std::size_t>(scenario.radio.slots);
+  return slots > 0 && count > slots ? keep_slots(i, packets, count) : count;
+}
+
+// More packets than slots: every one has the same chance to be kept; the order stays.
+std::size_t World::Impl::keep_slots(std::size_t i, std::span<Packet> packets, std::size_t count) const noexcept {
+  std::size_t wanted = static_cast<std::size_t>(scenario.radio.slots);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count && wanted > 0; ++k) {
+    const double u = to_uniform(bits(scenario.seed, Purpose::slots, i, k, tick));
+    if (u * static_cast<double>(count - k) >= static_cast<double>(wanted)) continue;  // Knuth's algorithm S
+    packets[kept++] = packets[k];
+    --wanted;
+  }
+  return kept;
+}
+
+// Range and bearing of the sender in the receiver's body frame, with the sensor's noise.
+banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noexcept {
+  Vec2 d = rotate_back(poses.heading[i], poses.position[sender] - poses.position[i]);
+  const RadioModel& model = scenario.radio;
+  if (model.range_noise_m > 0.0) {
+    const double range = norm(d);
+    const double noisy = std::max(0.01, range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, tick)));
+    d *= range > 0.0 ? noisy / range : 0.0;
+  }
+  if (model.bearing_noise_rad > 0.0)
+    d = rotate(unit_vector(model.bearing_noise_rad * to_normal(bits(scenario.seed, Purpose::bearing_noise, i, sender, tick))), d);
+  return {static_cast<float>(d.x), static_cast<float>(d.y)};
+}
+
+// ---- The view from outside ----
+
+World::World(const Scenario& scenario) : impl_(std::make_unique<Impl>(scenario)) {}
+World::World(const World& o) : impl_(std::make_unique<Impl>(*o.impl_)) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(const World& o) {
+  if (this != &o) impl_ = std::make_unique<Impl>(*o.impl_);
+  return *this;
+}
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+void World::step() {
+  Executor alone(1);
+  step(alone);
+}
+
+const Scenario& World::scenario() const noexcept { return impl_->scenario; }
+const Params& World::params() const noexcept { return impl_->params; }
+const Policy& World::policy() const noexcept { return *impl_->policy; }
+std::uint64_t World::tick() const noexcept { return impl_->tick; }
+double World::time_s() const noexcept { return static_cast<double>(impl_->tick) * impl_->scenario.tick_s; }
+std::size_t World::size() const noexcept { return impl_->states.size(); }
+std::span<const Vec2> World::positions() const noexcept { return impl_->poses.position; }
+std::span<const Vec2> World::headings() const noexcept { return impl_->poses.heading; }
+std::span<const State> World::states() const noexcept { return impl_->states; }
+std::span<const Message> World::messages() const noexcept { return impl_->messages; }
+std::span<const std::uint8_t> World::alive() const noexcept { return impl_->alive; }
+std::span<const Target> World::targets() const noexcept { return impl_->targets; }
+std::span<const std::uint32_t> World::links(std::size_t i) const noexcept { return impl_->radio.links(i); }
+Pairs World::blocked() const noexcept { return impl_->radio.blocked(); }
+std::uint64_t World::packets_received() const noexcept { return impl_->received; }
+std::uint64_t World::packets_sent() const noexcept { return impl_->sent; }
+
+std::uint64_t World::hash() const noexcept {
+  const Impl& w = *impl_;
+  Digest d;
+  d.add(w.tick);
+  d.add(w.loss);
+  d.add(w.next_event);
+  for (std::size_t i = 0; i < w.states.size(); ++i) {
+    d.add(w.poses.position[i]);
+    d.add(w.poses.heading[i]);
+    d.add(w.alive[i]);
+    d.add(w.frozen_until[i]);
+    d.add(banyan::hash(w.states[i]));
+    d.add(w.commands[i].forward_m_s);
+    d.add(w.commands[i].sideways_m_s);
+    d.add(w.commands[i].turn_rad_s);
+    for (const std::uint8_t byte : encode(w.messages[i])) d.add(byte);
+  }
+  for (const Target& target : w.targets) {
+    d.add(target.position);
+    d.add(target.worker);
+  }
+  for (const Flight& flight : w.flights)
+    for (std::size_t i = 0; i < flight.count.size(); ++i)
+      for (std::uint32_t k = 0; k < flight.count[i]; ++k) {
+        d.add(flight.packets[flight.offsets[i] + k].sender);
+        d.add(flight.packets[flight.offsets[i] + k].position);
+      }
+  return w.bodies->hash(d.value());
+}
+
+std::size_t World::memory_bytes() const noexcept {
+  const Impl& w = *impl_;
+  const std::size_t per_robot = sizeof(State) + 2 * sizeof(Message) + 2 * sizeof(Velocity) + sizeof(Odometry) + 2 * sizeof(Vec2) +
+                                sizeof(std::uint8_t) + sizeof(std::uint64_t) + sizeof(std::int32_t);
+  std::size_t total = sizeof(Impl) + w.states.size() * per_robot + w.radio.memory_bytes();
+  for (const Flight& flight : w.flights)
+    total += flight.packets.capacity() * sizeof(Packet) + flight.messages.capacity() * sizeof(Message) +
+             (flight.offsets.capacity() + flight.count.capacity()) * sizeof(std::uint32_t);
+  for (const auto& inbox : w.inboxes)
+    total += inbox.packets.capacity() * sizeof(Packet) + inbox.heard.capacity() * sizeof(Heard);
+  return total;
+}
+
+}  // namespace banyan::world
