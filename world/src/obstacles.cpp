@@ -23,7 +23,7 @@ Vec2 nearest_on_segment(Vec2 a, Vec2 b, Vec2 p) noexcept {
 
 struct LocalBox {
   Vec2 rotation, half;
-  explicit LocalBox(const Box& box) noexcept : rotation{unit_vector(box.angle_rad)}, half{box.size * 0.5} {}
+  explicit LocalBox(const Box& box) noexcept : rotation{unit(unit_vector(box.angle_rad))}, half{box.size * 0.5} {}
 };
 
 bool blocks_ordered(const Disc& disc, Vec2 a, Vec2 b) noexcept {
