@@ -2,8 +2,9 @@
 // One frame as an SVG picture: robots by role, both trees, radio links, targets, trails.
 #pragma once
 
-#include <span>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "banyan/record/frame.hpp"
@@ -29,7 +30,7 @@ using Trails = std::vector<std::vector<Vec2>>;
 // The last frame at or before `time_s`.
 [[nodiscard]] std::string draw_svg(Recording& recording, double time_s, const DrawOptions& options = {});
 
-// Pairs i < j that are in range, both alive, and have or lack a line of sight. O(n + pairs).
+// Pairs i < j that are in range, both alive, and have or lack a line of sight.
 struct Links {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open, blocked;
 };

@@ -80,7 +80,7 @@ class Recording {
   ~Recording();
 
   [[nodiscard]] const std::string& path() const noexcept;
-  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept;
+  [[nodiscard]] const std::vector<std::string>& warnings() const;
   [[nodiscard]] const Provenance& provenance() const noexcept;
   [[nodiscard]] const Setting& setting() const noexcept;
   // The run's result by column name (table.hpp), plus "interrupted"; empty if it was cut short.

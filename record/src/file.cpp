@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// Whole files or none (file.hpp).
+#include "banyan/record/file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+namespace banyan::record {
+
+namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 16;
+
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
+
+std::string directory_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// A rename replaces a symbolic link itself; whoever made the link wants its target written.
+std::string resolved(const std::string& path) {
+  char* real = ::realpath(path.c_str(), nullptr);
+  if (real == nullptr) return path;
+  std::string result(real);
+  std::free(real);
+  return result;
+}
+
+bool same_file(int descriptor, const std::string& path) {
+  struct stat opened{}, named{};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
+}
+
+// Opens the part and locks it. A part that was renamed by its writer while we waited for the lock
+// is a finished file now and must not be touched: hence the comparison of file and name.
+int open_locked(const std::string& part, const std::string& path) {
+  for (;;) {
+    const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0) throw FileError(path, "cannot create", errno);
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(descriptor);
+      throw FileError(path, "is being written by another process (" + part + ")");
+    }
+    if (!same_file(descriptor, part)) {
+      ::close(descriptor);
+      continue;
+    }
+    if (::ftruncate(descriptor, 0) == 0) return descriptor;
+    const int error = errno;
+    ::close(descriptor);
+    throw FileError(path, "cannot create", error);
+  }
+}
+
+void sync_directory(const std::string& path) {
+  // Best effort: some file systems cannot sync a directory, and the file itself is safe already.
+  const int descriptor = ::open(directory_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  (void)::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+FileError::FileError(std::string path, std::string_view action, int error_number)
+    : std::runtime_error(path + ": " + std::string(action) + ": " + reason(error_number)),
+      path_(std::move(path)),
+      error_number_(error_number) {}
+
+FileError::FileError(std::string path, std::string_view text)
+    : std::runtime_error(path + ": " + std::string(text)), path_(std::move(path)) {}
+
+void write_all(int descriptor, std::string_view bytes, const std::string& name) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      throw FileError(name, "cannot write", errno);
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+OutputFile::OutputFile(std::string path, Existing existing) : path_(std::move(path)), existing_(existing) {
+  if (path_.empty()) throw FileError("(no name)", "cannot create", ENOENT);
+  struct stat status{};
+  const bool exists = ::stat(path_.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) throw FileError(path_, "cannot create", EISDIR);
+  replaceable_ = !exists || S_ISREG(status.st_mode);
+  if (!replaceable_) {
+    part_path_ = path_;
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) throw FileError(path_, "cannot open", errno);
+    return;
+  }
+  if (exists && existing_ == Existing::keep) throw FileError(path_, "will not be replaced", EEXIST);
+  part_path_ = (exists ? resolved(path_) : path_) + ".part";
+  descriptor_ = open_locked(part_path_, path_);
+  buffer_.reserve(buffer_bytes);
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ < 0) return;
+  if (replaceable_ && !keep_part_) ::unlink(part_path_.c_str());
+  ::close(descriptor_);
+}
+
+void OutputFile::write(std::string_view bytes) {
+  position_ += bytes.size();
+  if (buffer_.size() + bytes.size() <= buffer_bytes) {
+    buffer_.append(bytes);
+    return;
+  }
+  flush();
+  if (bytes.size() >= buffer_bytes) {
+    write_all(descriptor_, bytes, path_);
+  } else {
+    buffer_.append(bytes);
+  }
+}
+
+void OutputFile::flush() {
+  // Emptied first: after a failure a destructor must not write the same bytes again.
+  std::string pending;
+  pending.swap(buffer_);
+  write_all(descriptor_, pending, path_);
+  pending.clear();
+  buffer_.swap(pending);
+}
+
+void OutputFile::commit() {
+  flush();
+  if (replaceable_) {
+    if (::fsync(descriptor_) != 0) throw FileError(path_, "cannot write", errno);
+    rename_part();
+    sync_directory(part_path_);
+  }
+  close_part();
+}
+
+void OutputFile::rename_part() {
+  const std::string target = part_path_.substr(0, part_path_.size() - std::string_view(".part").size());
+  if (existing_ == Existing::keep) {
+    // link(), unlike rename(), refuses atomically to replace a file that has appeared meanwhile.
+    if (::link(part_path_.c_str(), target.c_str()) == 0) {
+      ::unlink(part_path_.c_str());
+      return;
+    }
+    if (errno == EEXIST || ::access(target.c_str(), F_OK) == 0) {
+      keep_part_ = true;  // neither result is thrown away
+      throw FileError(path_, "will not be replaced (the new one is " + part_path_ + ")", EEXIST);
+    }
+  }
+  if (::rename(part_path_.c_str(), target.c_str()) != 0) {
+    const int error = errno;
+    keep_part_ = true;
+    throw FileError(path_, "cannot rename from " + part_path_, error);
+  }
+}
+
+void OutputFile::close_part() {
+  const int descriptor = std::exchange(descriptor_, -1);
+  // After EINTR the descriptor is closed all the same on Linux.
+  if (::close(descriptor) != 0 && errno != EINTR) throw FileError(path_, "cannot close", errno);
+}
+
+void write_file(const std::string& path, std::string_view text, Existing existing) {
+  OutputFile file(path, existing);
+  file.write(text);
+  file.commit();
+}
+
+InputFile::InputFile(std::string path) : path_(std::move(path)) {
+  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a FIFO must not block us
+  if (descriptor_ < 0) throw FileError(path_, "cannot open", errno);
+  struct stat status{};
+  int error = ::fstat(descriptor_, &status) != 0 ? errno : 0;
+  if (error == 0 && S_ISDIR(status.st_mode)) error = EISDIR;
+  if (error == 0 && !S_ISREG(status.st_mode)) error = ESPIPE;
+  if (error != 0) {
+    ::close(descriptor_);
+    throw FileError(path_, "cannot open", error);
+  }
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+InputFile::~InputFile() { ::close(descriptor_); }
+
+bool InputFile::read(std::uint64_t offset, std::uint64_t size, std::string& into) const {
+  if (offset > size_ || size > size_ - offset) return false;
+  into.resize(size);
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t got = ::pread(descriptor_, into.data() + done, size - done, static_cast<off_t>(offset + done));
+    if (got < 0) {
+      if (errno == EINTR) continue;
+      throw FileError(path_, "cannot read", errno);
+    }
+    if (got == 0) return false;  // has become shorter since it was opened
+    done += static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+}  // namespace banyan::record

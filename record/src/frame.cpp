@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// The one place where record/ looks into a world (frame.hpp).
+#include "banyan/record/frame.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "banyan/controller/trig.hpp"
+#include "banyan/world/world.hpp"
+
+namespace banyan::record {
+
+namespace {
+
+std::int32_t index_of(RobotId id) noexcept { return id == nobody ? -1 : static_cast<std::int32_t>(id); }
+
+void capture_robot(const State& state, RobotFrame& robot) noexcept {
+  robot.role = state.role;
+  robot.phase = state.phase;
+  robot.need = state.need;
+  robot.spare_state = state.spare_state;
+  robot.connected = false;
+  robot.epoch = state.epoch;
+  robot.label_cm = state.label_cm == unknown_label ? -1 : static_cast<std::int32_t>(state.label_cm);
+  robot.depth = state.depth;
+  robot.parent = index_of(state.parent);
+  robot.old_parent = index_of(state.old_parent);
+  robot.grant = index_of(state.grant);
+  robot.request = index_of(state.request);
+  robot.want_m = static_cast<double>(state.want_m);
+  robot.target = -1;
+}
+
+// During a hand-over there may be two; the newer token is the one that lasts.
+std::optional<std::uint32_t> newest_root(const world::World& world) noexcept {
+  std::optional<std::uint32_t> root;
+  for (std::uint32_t i = 0; i < world.size(); ++i) {
+    const State& state = world.states()[i];
+    if (world.alive()[i] == 0 || state.role != Role::root) continue;
+    if (!root || newer(state.root, world.states()[*root].root)) root = i;
+  }
+  return root;
+}
+
+void mark_connected(const world::World& world, std::vector<RobotFrame>& robots) {
+  const auto root = newest_root(world);
+  if (!root) return;
+  static thread_local std::vector<std::uint32_t> queue;  // kept: this runs at every tick
+  queue.assign(1, *root);
+  robots[*root].connected = true;
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    for (const std::uint32_t j : world.links(queue[head])) {
+      if (robots[j].connected) continue;
+      robots[j].connected = true;
+      queue.push_back(j);
+    }
+  }
+}
+
+}  // namespace
+
+void capture(const world::World& world, Frame& frame) {
+  frame.tick = world.tick();
+  frame.time_s = world.time_s();
+  frame.robots.resize(world.size());
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    RobotFrame& robot = frame.robots[i];
+    robot.position = world.positions()[i];
+    robot.heading_rad = angle_of(world.headings()[i]);
+    robot.alive = world.alive()[i] != 0;
+    capture_robot(world.states()[i], robot);
+  }
+  mark_connected(world, frame.robots);
+  frame.targets.clear();
+  for (const world::Target& target : world.targets()) {
+    const auto worker = target.worker < world.size() ? static_cast<std::int32_t>(target.worker) : -1;
+    if (worker >= 0) frame.robots[target.worker].target = static_cast<std::int32_t>(frame.targets.size());
+    frame.targets.push_back({target.position, worker});
+  }
+}
+
+Setting setting_of(const world::World& world) {
+  const world::Scenario& scenario = world.scenario();
+  Setting setting;
+  setting.name = scenario.name;
+  setting.algorithm = scenario.mission.algorithm;
+  setting.reading = scenario.mission.reading;
+  setting.seed = scenario.seed;
+  setting.tick_s = scenario.tick_s;
+  setting.radius_m = scenario.robot.radius_m;
+  setting.range_m = scenario.radio.range_m;
+  setting.line_of_sight = scenario.radio.line_of_sight;
+  setting.target_tolerance_m = scenario.mission.target_tolerance_m;
+  setting.time_limit_s = world::time_limit_s(scenario);
+  setting.obstacles = scenario.obstacles;
+  return setting;
+}
+
+std::string_view name_of(Role role) noexcept {
+  switch (role) {
+    case Role::spare: return "spare";
+    case Role::connector: return "connector";
+    case Role::worker: return "worker";
+    case Role::root: return "root";
+  }
+  return "?";
+}
+
+std::string_view name_of(Phase phase) noexcept {
+  switch (phase) {
+    case Phase::init: return "init";
+    case Phase::start_tree: return "start_tree";
+    case Phase::select_parent: return "select_parent";
+    case Phase::grow_tree: return "grow_tree";
+    case Phase::select_root: return "select_root";
+  }
+  return "?";
+}
+
+std::string_view name_of(Need need) noexcept {
+  switch (need) {
+    case Need::no_need: return "no_need";
+    case Need::need: return "need";
+    case Need::await: return "await";
+  }
+  return "?";
+}
+
+std::string_view name_of(SpareState state) noexcept {
+  switch (state) {
+    case SpareState::wait: return "wait";
+    case SpareState::extend_edge: return "extend_edge";
+    case SpareState::adjust_position: return "adjust_position";
+  }
+  return "?";
+}
+
+}  // namespace banyan::record

@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: MIT
+// The JSON messages of a recording (frame_json.hpp).
+#include "frame_json.hpp"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <type_traits>
+
+#include "cell.hpp"
+
+namespace banyan::record {
+
+using nlohmann::json;
+
+namespace {
+
+// One array of a frame: a number per robot. Whole numbers are exact in a double.
+struct Field {
+  std::string_view key;
+  std::string_view meaning;
+  int decimals;
+  double minimum, maximum;
+  double (*get)(const RobotFrame&);
+  void (*set)(RobotFrame&, double);
+};
+
+constexpr double far = 1e12;                 // m: beyond, a position is damage
+constexpr double most_robots = 4294967294.0;
+
+template <auto member>
+double get(const RobotFrame& robot) {
+  return static_cast<double>(robot.*member);
+}
+template <auto member>
+void set(RobotFrame& robot, double value) {
+  robot.*member = static_cast<std::remove_reference_t<decltype(robot.*member)>>(value);
+}
+template <auto member>
+constexpr Field whole(std::string_view key, double minimum, double maximum, std::string_view meaning) {
+  return {key, meaning, 0, minimum, maximum, get<member>, set<member>};
+}
+template <auto member>
+constexpr Field real(std::string_view key, int decimals, double minimum, double maximum, std::string_view meaning) {
+  return {key, meaning, decimals, minimum, maximum, get<member>, set<member>};
+}
+
+using R = RobotFrame;
+constexpr std::array<Field, 18> fields{{
+    {"x_m", "position", 4, -far, far, [](const R& r) { return r.position.x; }, [](R& r, double v) { r.position.x = v; }},
+    {"y_m", "position", 4, -far, far, [](const R& r) { return r.position.y; }, [](R& r, double v) { r.position.y = v; }},
+    real<&R::heading_rad>("heading_rad", 4, -7, 7, "heading, (-pi, pi]"),
+    whole<&R::role>("role", 0, 3, "0 spare, 1 connector, 2 worker, 3 root"),
+    whole<&R::phase>("phase", 0, 4, "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root"),
+    whole<&R::need>("need", 0, 2, "of the edge to the parent: 0 no_need, 1 need, 2 await"),
+    whole<&R::spare_state>("spare_state", 0, 2, "of a spare: 0 wait, 1 extend_edge, 2 adjust_position"),
+    whole<&R::alive>("alive", 0, 1, "0: dead"),
+    whole<&R::connected>("connected", 0, 1, "1: alive and in the root's radio component"),
+    whole<&R::epoch>("epoch", 0, 65535, "counts the trees"),
+    whole<&R::label_cm>("label_cm", -1, 65535, "distance to the root along hops when the epoch began, -1: unknown"),
+    whole<&R::depth>("depth", 0, 65535, "in the tree, root 1; 0: no path of tree edges to the root"),
+    whole<&R::parent>("parent", -1, 65535, "robot index, -1: nobody"),
+    whole<&R::old_parent>("old_parent", -1, 65535, "in the old tree while trees are switched, -1: nobody"),
+    whole<&R::grant>("grant", -1, 65535, "the spare let into the edge to the parent, -1: nobody"),
+    whole<&R::request>("request", -1, 65535, "the owner of the edge a spare wants to join, -1: nobody"),
+    real<&R::want_m>("want_m", 2, 0, far, "largest remaining worker distance below"),
+    whole<&R::target>("target", -1, 65535, "index of the target the robot is assigned to, -1: none"),
+}};
+
+void key(Text& out, std::string_view name) {
+  out.put('"');
+  out.put(name);
+  out.put("\":");
+}
+
+void write_stamp(Text& out, std::uint64_t tick, double time_s) {
+  out.put("{\"tick\":");
+  out.natural(tick);
+  out.put(",\"time_s\":");
+  out.fixed(time_s, 4);
+}
+
+template <class Items, class Put>
+void array(Text& out, std::string_view name, const Items& items, const Put& put_item) {
+  out.put(',');
+  key(out, name);
+  out.put('[');
+  for (const auto& item : items) {
+    put_item(item);
+    out.put(',');
+  }
+  if (!items.empty()) out.drop_last();
+  out.put(']');
+}
+
+void write_whole(Text& out, double value) { out.integer(static_cast<std::int64_t>(value)); }
+
+[[noreturn]] void fail(std::string_view name, std::string_view what) {
+  throw std::runtime_error("'" + std::string(name) + "' " + std::string(what));
+}
+
+const json& member(const json& object, std::string_view name) {
+  const auto found = object.find(std::string(name));
+  if (found == object.end()) fail(name, "is missing");
+  return *found;
+}
+
+double number(const json& value, std::string_view name, double minimum, double maximum) {
+  if (!value.is_number()) fail(name, "is not a number");
+  const double v = value.get<double>();
+  if (!(v >= minimum && v <= maximum)) fail(name, "is out of range");
+  return v;
+}
+
+double number_of(const json& object, std::string_view name, double minimum, double maximum) {
+  return number(member(object, name), name, minimum, maximum);
+}
+
+std::string text_of(const json& object, std::string_view name) {
+  const json& value = member(object, name);
+  if (!value.is_string()) fail(name, "is not a text");
+  return value.get<std::string>();
+}
+
+bool flag_of(const json& object, std::string_view name) {
+  const json& value = member(object, name);
+  if (!value.is_boolean()) fail(name, "is not true or false");
+  return value.get<bool>();
+}
+
+constexpr double most_ticks = 9007199254740992.0;  // 2^53: exact in JSON readers that use doubles
+
+std::uint64_t count_of(const json& object, std::string_view name, double maximum = most_ticks) {
+  const json& value = member(object, name);
+  (void)number(value, name, 0.0, maximum);
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+  return static_cast<std::uint64_t>(number(value, name, 0.0, most_ticks));
+}
+
+json parse_object(std::string_view text) {
+  json object = json::parse(text, nullptr, false);
+  if (object.is_discarded() || !object.is_object()) throw std::runtime_error("is not a JSON object");
+  return object;
+}
+
+const json& array_of(const json& object, std::string_view name, std::size_t size) {
+  const json& values = member(object, name);
+  if (!values.is_array()) fail(name, "is not an array");
+  if (values.size() != size) fail(name, "has another length than 'x_m'");
+  return values;
+}
+
+void write_point(Text& out, std::string_view name, Vec2 p) {
+  key(out, name);
+  out.put('[');
+  out.shortest(p.x);
+  out.put(',');
+  out.shortest(p.y);
+  out.put(']');
+}
+
+struct ObstacleWriter {
+  Text& out;
+  void operator()(const world::Disc& disc) const {
+    out.put("{\"disc\":true,");
+    write_point(out, "center_m", disc.center);
+    out.put(",\"radius_m\":");
+    out.shortest(disc.radius_m);
+    out.put('}');
+  }
+  void operator()(const world::Box& box) const {
+    out.put("{\"box\":true,");
+    write_point(out, "center_m", box.center);
+    out.put(',');
+    write_point(out, "size_m", box.size);
+    out.put(",\"angle_rad\":");
+    out.shortest(box.angle_rad);
+    out.put('}');
+  }
+  void operator()(const world::Wall& wall) const {
+    out.put("{\"wall\":true,");
+    write_point(out, "from_m", wall.from);
+    out.put(',');
+    write_point(out, "to_m", wall.to);
+    out.put('}');
+  }
+};
+
+Vec2 point_of(const json& object, std::string_view name) {
+  const json& p = member(object, name);
+  if (!p.is_array() || p.size() != 2) fail(name, "is not a point");
+  return {number(p[0], name, -far, far), number(p[1], name, -far, far)};
+}
+
+world::Obstacle read_obstacle(const json& o) {
+  if (!o.is_object()) fail("obstacles", "holds something that is no object");
+  if (o.contains("disc")) return world::Disc{point_of(o, "center_m"), number_of(o, "radius_m", 0.0, far)};
+  if (o.contains("box")) {
+    return world::Box{point_of(o, "center_m"), point_of(o, "size_m"), number_of(o, "angle_rad", -far, far)};
+  }
+  if (o.contains("wall")) return world::Wall{point_of(o, "from_m"), point_of(o, "to_m")};
+  fail("obstacles", "holds something unknown");
+}
+
+void schema_head(Text& out, std::string_view title, std::string_view description) {
+  out.put("{\"title\":");
+  out.json_string(title);
+  out.put(",\"description\":");
+  out.json_string(description);
+  out.put(",\"type\":\"object\",\"properties\":{\"tick\":{\"type\":\"integer\"},\"time_s\":{\"type\":\"number\"}");
+}
+
+void schema_property(Text& out, std::string_view name, std::string_view type, std::string_view meaning) {
+  out.put(',');
+  out.json_string(name);
+  out.put(":{\"type\":");
+  out.json_string(type);
+  out.put(",\"description\":");
+  out.json_string(meaning);
+  out.put('}');
+}
+
+void schema_array(Text& out, std::string_view name, std::string_view type, std::string_view meaning) {
+  out.put(',');
+  out.json_string(name);
+  out.put(":{\"type\":\"array\",\"items\":{\"type\":");
+  out.json_string(type);
+  out.put("},\"description\":");
+  out.json_string(meaning);
+  out.put('}');
+}
+
+}  // namespace
+
+std::uint64_t nanoseconds(double time_s) noexcept {
+  return time_s > 0.0 ? static_cast<std::uint64_t>(std::min(time_s, 9e9) * 1e9 + 0.5) : 0;
+}
+
+void write_time(Text& out, double time_s) {
+  const std::uint64_t ns = nanoseconds(time_s);
+  out.put("{\"sec\":");
+  out.natural(ns / 1000000000U);
+  out.put(",\"nsec\":");
+  out.natural(ns % 1000000000U);
+  out.put('}');
+}
+
+void write_frame(Text& out, const Frame& frame) {
+  write_stamp(out, frame.tick, frame.time_s);
+  for (const Field& field : fields) {
+    array(out, field.key, frame.robots, [&](const RobotFrame& robot) {
+      const double value = field.get(robot);
+      field.decimals == 0 ? write_whole(out, value) : out.fixed(value, field.decimals);
+    });
+  }
+  out.put('}');
+}
+
+void read_frame(std::string_view text, Frame& frame) {
+  const json object = parse_object(text);
+  frame.tick = count_of(object, "tick");
+  frame.time_s = number_of(object, "time_s", 0.0, 9e9);
+  const json& first = member(object, "x_m");
+  if (!first.is_array()) fail("x_m", "is not an array");
+  frame.robots.assign(first.size(), {});
+  for (const Field& field : fields) {
+    const json& values = array_of(object, field.key, frame.robots.size());
+    for (std::size_t i = 0; i < frame.robots.size(); ++i) {
+      field.set(frame.robots[i], number(values[i], field.key, field.minimum, field.maximum));
+    }
+  }
+}
+
+void write_targets(Text& out, const Frame& frame) {
+  write_stamp(out, frame.tick, frame.time_s);
+  array(out, "x_m", frame.targets, [&](const TargetFrame& t) { out.fixed(t.position.x, 4); });
+  array(out, "y_m", frame.targets, [&](const TargetFrame& t) { out.fixed(t.position.y, 4); });
+  array(out, "worker", frame.targets, [&](const TargetFrame& t) { out.integer(t.worker); });
+  out.put('}');
+}
+
+std::vector<TargetFrame> read_targets(std::string_view text) {
+  const json object = parse_object(text);
+  const json& x = member(object, "x_m");
+  if (!x.is_array()) fail("x_m", "is not an array");
+  const json& y = array_of(object, "y_m", x.size());
+  const json& worker = array_of(object, "worker", x.size());
+  std::vector<TargetFrame> targets;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    targets.push_back({{number(x[k], "x_m", -far, far), number(y[k], "y_m", -far, far)},
+                       static_cast<std::int32_t>(number(worker[k], "worker", -1.0, 65535.0))});
+  }
+  return targets;
+}
+
+void write_metrics(Text& out, const measure::Tick& tick) {
+  out.put('{');
+  for (const auto& column : series_columns()) {
+    key(out, column.name);
+    write_cell_json(out, column.cell(tick), column.decimals);
+    out.put(',');
+  }
+  out.drop_last();
+  out.put('}');
+}
+
+measure::Tick read_metrics(std::string_view text) {
+  const json o = parse_object(text);
+  const auto count = [&](std::string_view name) { return static_cast<std::uint32_t>(count_of(o, name, 4294967295.0)); };
+  measure::Tick t;
+  t.tick = count_of(o, "tick");
+  t.time_s = number_of(o, "time_s", 0.0, 9e9);
+  t.alive = count("alive");
+  t.roots = count("roots");
+  t.workers = count("workers");
+  t.connectors = count("connectors");
+  t.spares = count("spares");
+  t.committed = count("committed");
+  t.edges = count("edges");
+  t.broken_by_distance = count("broken_by_distance");
+  t.broken_by_occlusion = count("broken_by_occlusion");
+  t.components = count("components");
+  t.components_by_distance = count("components_by_distance");
+  t.fiedler_low = flag_of(o, "fiedler_low");
+  t.fiedler_low_by_distance = flag_of(o, "fiedler_low_by_distance");
+  t.fiedler = member(o, "fiedler").is_null() ? -1.0 : number_of(o, "fiedler", 0.0, far);
+  t.worst_target_distance_m = number_of(o, "worst_target_distance_m", 0.0, far);
+  t.targets_reached = count("targets_reached");
+  return t;
+}
+
+void write_event(Text& out, const RecordedEvent& event) {
+  write_stamp(out, event.tick, event.time_s);
+  out.put(",\"kind\":");
+  out.json_string(event.kind);
+  out.put(",\"robot\":");
+  out.integer(event.robot);
+  out.put(",\"target\":");
+  out.integer(event.target);
+  out.put(",\"text\":");
+  out.json_string(event.text);
+  out.put('}');
+}
+
+RecordedEvent read_event(std::string_view text) {
+  const json o = parse_object(text);
+  RecordedEvent event;
+  event.tick = count_of(o, "tick");
+  event.time_s = number_of(o, "time_s", 0.0, 9e9);
+  event.kind = text_of(o, "kind");
+  event.robot = static_cast<std::int64_t>(number_of(o, "robot", -1.0, most_robots));
+  event.target = static_cast<std::int64_t>(number_of(o, "target", -1.0, most_robots));
+  event.text = text_of(o, "text");
+  return event;
+}
+
+void write_log(Text& out, const RecordedEvent& event) {
+  constexpr int info = 2, warning = 3;
+  const bool bad = event.kind == "death" || event.kind == "split" || event.kind == "edges_broken";
+  out.put("{\"timestamp\":");
+  write_time(out, event.time_s);
+  out.put(",\"level\":");
+  out.integer(bad ? warning : info);
+  out.put(",\"message\":");
+  out.json_string(event.text);
+  out.put(",\"name\":");
+  out.json_string(event.kind);
+  out.put(",\"file\":\"\",\"line\":0}");
+}
+
+void write_setting(Text& out, const Setting& s) {
+  const auto text = [&](std::string_view name, std::string_view value) {
+    key(out, name);
+    out.json_string(value);
+    out.put(',');
+  };
+  const auto real = [&](std::string_view name, double value) {
+    key(out, name);
+    out.shortest(value);
+    out.put(',');
+  };
+  out.put('{');
+  text("name", s.name);
+  text("algorithm", s.algorithm);
+  text("reading", s.reading);
+  key(out, "seed");
+  out.natural(s.seed);
+  out.put(',');
+  real("tick_s", s.tick_s);
+  real("radius_m", s.radius_m);
+  real("range_m", s.range_m);
+  key(out, "line_of_sight");
+  out.put(s.line_of_sight ? "true," : "false,");
+  real("target_tolerance_m", s.target_tolerance_m);
+  real("time_limit_s", s.time_limit_s);
+  key(out, "obstacles");
+  out.put('[');
+  for (const world::Obstacle& obstacle : s.obstacles) {
+    std::visit(ObstacleWriter{out}, obstacle);
+    out.put(',');
+  }
+  if (!s.obstacles.empty()) out.drop_last();
+  out.put("]}");
+}
+
+Setting read_setting(std::string_view text) {
+  const json o = parse_object(text);
+  Setting s;
+  s.name = text_of(o, "name");
+  s.algorithm = text_of(o, "algorithm");
+  s.reading = text_of(o, "reading");
+  s.seed = count_of(o, "seed", 18446744073709551615.0);
+  s.tick_s = number_of(o, "tick_s", 1e-9, far);
+  s.radius_m = number_of(o, "radius_m", 0.0, far);
+  s.range_m = number_of(o, "range_m", 0.0, far);
+  s.line_of_sight = flag_of(o, "line_of_sight");
+  s.target_tolerance_m = number_of(o, "target_tolerance_m", 0.0, far);
+  s.time_limit_s = number_of(o, "time_limit_s", 0.0, far);
+  const json& obstacles = member(o, "obstacles");
+  if (!obstacles.is_array()) fail("obstacles", "is not an array");
+  for (const json& obstacle : obstacles) s.obstacles.push_back(read_obstacle(obstacle));
+  return s;
+}
+
+std::string frame_schema() {
+  Text out;
+  schema_head(out, "banyan.Frame", "All robots at one tick: arrays with one number per robot, in the order of their indices");
+  for (const Field& field : fields) {
+    schema_array(out, field.key, field.decimals == 0 ? "integer" : "number", field.meaning);
+  }
+  out.put("},\"required\":[\"tick\",\"time_s\"");
+  for (const Field& field : fields) {
+    out.put(',');
+    out.json_string(field.key);
+  }
+  out.put("]}");
+  return std::string(out.view());
+}
+
+std::string targets_schema() {
+  Text out;
+  schema_head(out, "banyan.Targets", "All targets; written at the start and whenever one changes");
+  schema_array(out, "x_m", "number", "position");
+  schema_array(out, "y_m", "number", "position");
+  schema_array(out, "worker", "integer", "index of the robot assigned to the target, -1: nobody");
+  out.put("},\"required\":[\"tick\",\"time_s\",\"x_m\",\"y_m\",\"worker\"]}");
+  return std::string(out.view());
+}
+
+std::string metrics_schema() {
+  Text out;
+  out.put("{\"title\":\"banyan.Metrics\",\"description\":\"Connectivity and progress at one tick, ground truth\","
+          "\"type\":\"object\",\"properties\":{");
+  for (const auto& column : series_columns()) {
+    const Cell cell = column.cell({});
+    out.json_string(column.name);
+    out.put(":{\"type\":");
+    if (std::holds_alternative<bool>(cell)) out.put("\"boolean\"");
+    else if (std::holds_alternative<std::uint64_t>(cell)) out.put("\"integer\"");
+    else if (std::holds_alternative<double>(cell)) out.put("\"number\"");
+    else out.put("[\"number\",\"null\"]");
+    out.put(",\"description\":");
+    out.json_string(column.meaning);
+    out.put("},");
+  }
+  out.drop_last();
+  out.put("},\"required\":[");
+  for (const auto& column : series_columns()) {
+    out.json_string(column.name);
+    out.put(',');
+  }
+  out.drop_last();
+  out.put("]}");
+  return std::string(out.view());
+}
+
+std::string event_schema() {
+  Text out;
+  schema_head(out, "banyan.Event", "Something that happened between two ticks");
+  schema_property(out, "kind", "string", "death, root, epoch, phase, arrival, complete, split, joined, ...");
+  schema_property(out, "robot", "integer", "the robot it is about, -1: none");
+  schema_property(out, "target", "integer", "the target it is about, -1: none");
+  schema_property(out, "text", "string", "in words");
+  out.put("},\"required\":[\"tick\",\"time_s\",\"kind\",\"robot\",\"target\",\"text\"]}");
+  return std::string(out.view());
+}
+
+}  // namespace banyan::record

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The JSON messages of a recording: written fast by hand, read back with a library that has seen
+// every kind of broken input. One table of fields serves writing, reading and the schema.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "banyan/measure/metrics.hpp"
+#include "banyan/record/frame.hpp"
+#include "banyan/record/recording.hpp"
+#include "text.hpp"
+
+namespace banyan::record {
+
+void write_frame(Text& out, const Frame& frame);            // without the targets
+void write_targets(Text& out, const Frame& frame);
+void write_metrics(Text& out, const measure::Tick& tick);
+void write_event(Text& out, const RecordedEvent& event);
+void write_log(Text& out, const RecordedEvent& event);      // foxglove.Log
+void write_setting(Text& out, const Setting& setting);
+
+// Throw std::runtime_error with what is wrong. A frame's targets are left alone.
+void read_frame(std::string_view json, Frame& frame);
+[[nodiscard]] std::vector<TargetFrame> read_targets(std::string_view json);
+[[nodiscard]] measure::Tick read_metrics(std::string_view json);
+[[nodiscard]] RecordedEvent read_event(std::string_view json);
+[[nodiscard]] Setting read_setting(std::string_view json);
+
+// JSON Schemas of the above.
+[[nodiscard]] std::string frame_schema();
+[[nodiscard]] std::string targets_schema();
+[[nodiscard]] std::string metrics_schema();
+[[nodiscard]] std::string event_schema();
+
+// "sec" and "nsec" of a moment, as Foxglove writes times.
+void write_time(Text& out, double time_s);
+[[nodiscard]] std::uint64_t nanoseconds(double time_s) noexcept;
+
+}  // namespace banyan::record

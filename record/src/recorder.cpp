@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Writing a recording (recording.hpp).
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "banyan/record/mcap.hpp"
+#include "banyan/record/recording.hpp"
+#include "cell.hpp"
+#include "events.hpp"
+#include "frame_json.hpp"
+#include "scene.hpp"
+#include "schemas.hpp"
+
+namespace banyan::record {
+
+namespace {
+
+constexpr double chunk_span_s = 10.0;      // what a crash may cost at most
+constexpr double scene_full_rate = 1000;   // robots; above, scenes come in proportion less often
+
+mcap::WriterOptions writer_options(const Provenance& provenance, const RecorderOptions& options) {
+  return {"", "banyan " + provenance.version, options.compression_level, options.chunk_bytes};
+}
+
+}  // namespace
+
+struct Recorder::Impl {
+  Impl(std::string path, Provenance from, const RecorderOptions& wanted)
+      : options(wanted), provenance(std::move(from)), file(std::move(path), wanted.existing),
+        mcap(file, writer_options(provenance, wanted)) {}
+
+  RecorderOptions options;
+  Provenance provenance;
+  OutputFile file;
+  mcap::Writer mcap;
+  std::uint16_t frames = 0, targets = 0, metrics = 0, events = 0, scene = 0, log = 0;  // channels
+  Text text;
+  EventWatcher watcher;
+  Setting setting;
+  Frame now;
+  bool started = false, frame_written = false, finished = false;
+  double last_chunk_s = 0.0, next_scene_s = 0.0;
+  std::vector<TargetFrame> last_targets;
+
+  void add_channels();
+  void begin(const Setting& from);
+  void put(std::uint16_t channel) {
+    mcap.message(channel, nanoseconds(now.time_s), text.view());
+    text.clear();
+  }
+  void record(const measure::Tick& tick);
+  void put_frame();
+  void put_event(const RecordedEvent& event);
+  void put_scene();
+  void put_result(const measure::Run& run, bool interrupted);
+};
+
+void Recorder::Impl::add_channels() {
+  const auto add = [&](std::string topic, std::string schema, std::string_view schema_data) {
+    const auto id = mcap.add_schema(std::move(schema), "jsonschema", std::string(schema_data));
+    return mcap.add_channel(id, std::move(topic), "json");
+  };
+  frames = add("/banyan/frame", "banyan.Frame", frame_schema());
+  targets = add("/banyan/targets", "banyan.Targets", targets_schema());
+  metrics = add("/banyan/metrics", "banyan.Metrics", metrics_schema());
+  events = add("/banyan/events", "banyan.Event", event_schema());
+  log = add("/log", "foxglove.Log", log_schema);
+  if (options.scene_period_s > 0.0) scene = add("/scene", "foxglove.SceneUpdate", scene_update_schema);
+}
+
+void Recorder::Impl::begin(const Setting& from) {
+  setting = from;
+  text.clear();
+  write_setting(text, setting);
+  mcap.metadata({"banyan.setting", {{"json", std::string(text.view())}}});
+  text.clear();
+  started = true;
+}
+
+void Recorder::Impl::put_frame() {
+  write_frame(text, now);
+  put(frames);
+  frame_written = true;
+}
+
+void Recorder::Impl::put_event(const RecordedEvent& event) {
+  write_event(text, event);
+  put(events);
+  write_log(text, event);
+  put(log);
+}
+
+void Recorder::Impl::put_scene() {
+  write_scene(text, setting, now);
+  put(scene);
+  const double stretch = std::max(1.0, static_cast<double>(now.robots.size()) / scene_full_rate);
+  next_scene_s = now.time_s + options.scene_period_s * stretch - 0.5 * setting.tick_s;
+}
+
+void Recorder::Impl::record(const measure::Tick& tick) {
+  if (now.time_s >= last_chunk_s + chunk_span_s) {
+    mcap.end_chunk();
+    last_chunk_s = now.time_s;
+  }
+  const bool first = frame_written == false && last_targets.empty();
+  if (first || now.targets != last_targets) {
+    write_targets(text, now);
+    put(targets);
+    last_targets = now.targets;
+  }
+  frame_written = false;
+  if (options.every_ticks <= 1 || now.tick % options.every_ticks == 0) put_frame();
+  write_metrics(text, tick);
+  put(metrics);
+  for (const RecordedEvent& event : watcher.watch(setting, now, tick)) put_event(event);
+  if (options.scene_period_s > 0.0 && now.time_s >= next_scene_s) put_scene();
+}
+
+void Recorder::Impl::put_result(const measure::Run& run, bool interrupted) {
+  mcap::Metadata result{"banyan.result", {}};
+  const RunRow row{{}, run, interrupted};
+  for (const auto& column : result_columns()) {
+    text.clear();
+    write_cell_csv(text, column.cell(row), column.decimals);
+    result.entries.emplace(column.name, text.view());
+  }
+  text.clear();
+  mcap.metadata(result);
+}
+
+Recorder::Recorder(std::string path, Provenance provenance, RecorderOptions options)
+    : impl_(std::make_unique<Impl>(std::move(path), std::move(provenance), options)) {
+  Impl& r = *impl_;
+  r.file.keep_part();
+  r.mcap.metadata({"banyan.provenance",
+                   {{"format_version", "1"},
+                    {"version", r.provenance.version},
+                    {"git", r.provenance.git},
+                    {"seed", std::to_string(r.provenance.seed)},
+                    {"config", r.provenance.config_json}}});
+  r.add_channels();
+}
+
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder& Recorder::operator=(Recorder&&) noexcept = default;
+
+Recorder::~Recorder() {
+  if (!impl_ || impl_->finished) return;
+  try {
+    impl_->mcap.end_chunk();   // what there is can be read back by scanning
+    impl_->file.flush();
+  } catch (const std::exception&) {
+    // Whoever threw away an unfinished recorder has been told by another exception.
+  }
+}
+
+void Recorder::frame(const world::World& world, const measure::Tick& tick) {
+  Impl& r = *impl_;
+  if (!r.started) r.begin(setting_of(world));
+  capture(world, r.now);
+  r.record(tick);
+}
+
+void Recorder::frame(const Setting& setting, const Frame& frame, const measure::Tick& tick) {
+  Impl& r = *impl_;
+  if (!r.started) r.begin(setting);
+  r.now = frame;
+  r.record(tick);
+}
+
+void Recorder::event(std::string_view kind, std::string_view text) {
+  impl_->put_event({impl_->now.tick, impl_->now.time_s, std::string(kind), -1, -1, std::string(text)});
+}
+
+void Recorder::finish(const measure::Run& run, bool interrupted) {
+  Impl& r = *impl_;
+  if (r.started && !r.frame_written) r.put_frame();
+  if (interrupted) event("interrupted", "stopped before completion or the time limit");
+  r.put_result(run, interrupted);
+  r.mcap.finish();
+  r.file.commit();
+  r.finished = true;
+}
+
+std::uint64_t Recorder::bytes() const noexcept { return impl_->file.position(); }
+const std::string& Recorder::path() const noexcept { return impl_->file.path(); }
+
+}  // namespace banyan::record

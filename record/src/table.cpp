@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+// Results as tidy tables (table.hpp).
+#include "banyan/record/table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "banyan/world/placement.hpp"
+#include "cell.hpp"
+
+namespace banyan::record {
+
+namespace {
+
+using Row = RunRow;
+using measure::Tick;
+
+// Distances that do not exist are negative in measure/; in a table they are empty.
+Cell if_known(double value) { return value < 0.0 ? Cell{} : Cell{value}; }
+Cell natural(std::uint64_t value) { return value; }
+
+std::string hexadecimal(std::uint64_t value) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string text(16, '0');
+  for (std::size_t k = 0; k < 16; ++k) text[15 - k] = digits[(value >> (4 * k)) & 15];
+  return text;
+}
+
+constexpr std::size_t identifying = 14;
+constexpr std::array<Column<Row>, 46> run_table{{
+    {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
+    {"algorithm", "mission.algorithm", 0, [](const Row& r) -> Cell { return r.id.algorithm; }},
+    {"reading", "mission.reading: literal or corrected", 0, [](const Row& r) -> Cell { return r.id.reading; }},
+    {"body", "robot.body: disks, box2d or linear", 0, [](const Row& r) -> Cell { return r.id.body; }},
+    {"line_of_sight", "radio blocked by bodies and obstacles", 0,
+     [](const Row& r) -> Cell { return r.id.line_of_sight; }},
+    {"loss", "probability that a packet is lost", 4, [](const Row& r) -> Cell { return r.id.loss; }},
+    {"targets", "number of targets at the start", 0, [](const Row& r) { return natural(r.id.targets); }},
+    {"target_radius_m", "the farthest target from the centre of the start", 4,
+     [](const Row& r) -> Cell { return r.id.target_radius_m; }},
+    {"redundancy", "the paper's k: robots in units of sum |p| / 1.540841 m", 4,
+     [](const Row& r) -> Cell { return r.id.redundancy; }},
+    {"range_m", "communication range C", 4, [](const Row& r) -> Cell { return r.id.range_m; }},
+    {"tick_s", "length of a tick", 4, [](const Row& r) -> Cell { return r.id.tick_s; }},
+    {"seed", "of all random draws", 0, [](const Row& r) { return natural(r.id.seed); }},
+    {"version", "of Banyan", 0, [](const Row& r) -> Cell { return r.id.version; }},
+    {"git", "commit Banyan was built from", 0, [](const Row& r) -> Cell { return r.id.git; }},
+
+    {"robots", "robots at the start", 0, [](const Row& r) { return natural(r.run.robots); }},
+    {"ticks", "simulated ticks", 0, [](const Row& r) { return natural(r.run.ticks); }},
+    {"time_s", "simulated time", 4, [](const Row& r) -> Cell { return r.run.time_s; }},
+    {"complete", "every worker within tolerance of its target at once", 0,
+     [](const Row& r) -> Cell { return r.run.complete; }},
+    {"interrupted", "stopped from outside before completion or limit", 0,
+     [](const Row& r) -> Cell { return r.interrupted; }},
+    {"completion_time_s", "when it was complete; empty if never", 4,
+     [](const Row& r) { return r.run.complete ? if_known(r.run.completion_time_s) : Cell{}; }},
+    {"time_limit_s", "the run's limit", 4, [](const Row& r) -> Cell { return r.run.time_limit_s; }},
+    {"normalized_time", "completion time / limit, 1 if never complete", 6,
+     [](const Row& r) -> Cell { return r.run.normalized_time; }},
+    {"time_bound_s", "no completion can be earlier", 4, [](const Row& r) -> Cell { return r.run.time_bound_s; }},
+    {"robots_bound", "no fewer committed robots can connect the targets", 0,
+     [](const Row& r) { return natural(r.run.robots_bound); }},
+    {"steiner_length_m", "length of a shortest network of root and targets, certified from below", 4,
+     [](const Row& r) -> Cell { return r.run.steiner_length_m; }},
+    {"committed", "robots in the tree at the end", 0, [](const Row& r) { return natural(r.run.committed); }},
+    {"mean_committed", "mean over ticks", 4, [](const Row& r) -> Cell { return r.run.mean_committed; }},
+    {"broken_ticks", "ticks with a broken tree edge", 0, [](const Row& r) { return natural(r.run.broken_ticks); }},
+    {"broken_ticks_by_distance", "with an edge of C or longer", 0,
+     [](const Row& r) { return natural(r.run.broken_ticks_by_distance); }},
+    {"broken_ticks_by_occlusion", "with an edge in range but without line of sight", 0,
+     [](const Row& r) { return natural(r.run.broken_ticks_by_occlusion); }},
+    {"disconnected_time_ratio", "broken_ticks / ticks", 6,
+     [](const Row& r) -> Cell { return r.run.disconnected_time_ratio; }},
+    {"disconnected_time_ratio_by_distance", "the same by distance", 6,
+     [](const Row& r) -> Cell { return r.run.disconnected_time_ratio_by_distance; }},
+    {"disconnected_time_ratio_by_occlusion", "the same by occlusion", 6,
+     [](const Row& r) -> Cell { return r.run.disconnected_time_ratio_by_occlusion; }},
+    {"split_ticks", "ticks with several radio components", 0, [](const Row& r) { return natural(r.run.split_ticks); }},
+    {"split_ticks_by_distance", "the same without occlusion", 0,
+     [](const Row& r) { return natural(r.run.split_ticks_by_distance); }},
+    {"fiedler_time_ratio", "share of ticks with lambda_2 < 1e-3", 6,
+     [](const Row& r) -> Cell { return r.run.fiedler_time_ratio; }},
+    {"fiedler_time_ratio_by_distance", "the same without occlusion", 6,
+     [](const Row& r) -> Cell { return r.run.fiedler_time_ratio_by_distance; }},
+    {"insertions", "spares inserted into edges", 0, [](const Row& r) { return natural(r.run.insertions); }},
+    {"handovers", "times the root role was handed over", 0, [](const Row& r) { return natural(r.run.handovers); }},
+    {"repairs", "lost parents replaced and orphans re-attached", 0,
+     [](const Row& r) { return natural(r.run.repairs); }},
+    {"epochs", "the highest epoch reached", 0, [](const Row& r) { return natural(r.run.epochs); }},
+    {"start_phase_ticks", "mean length of START", 4, [](const Row& r) -> Cell { return r.run.start_phase_ticks; }},
+    {"select_phase_ticks", "mean length of SELECT PARENT", 4,
+     [](const Row& r) -> Cell { return r.run.select_phase_ticks; }},
+    {"bytes_per_robot_s", "broadcast", 4, [](const Row& r) -> Cell { return r.run.bytes_per_robot_s; }},
+    {"hash", "state hash of the world at the end, hexadecimal", 0,
+     [](const Row& r) -> Cell { return hexadecimal(r.run.hash); }},
+    {"format_version", "of this table", 0, [](const Row&) { return natural(1); }},
+}};
+
+static_assert(run_table[identifying].name == "robots");
+
+constexpr std::array<Column<Tick>, 18> series_table{{
+    {"tick", "number of the tick", 0, [](const Tick& t) { return natural(t.tick); }},
+    {"time_s", "tick times tick_s", 4, [](const Tick& t) -> Cell { return t.time_s; }},
+    {"alive", "living robots", 0, [](const Tick& t) { return natural(t.alive); }},
+    {"roots", "living roots", 0, [](const Tick& t) { return natural(t.roots); }},
+    {"workers", "living workers", 0, [](const Tick& t) { return natural(t.workers); }},
+    {"connectors", "living connectors", 0, [](const Tick& t) { return natural(t.connectors); }},
+    {"spares", "living spares", 0, [](const Tick& t) { return natural(t.spares); }},
+    {"committed", "alive and no spare", 0, [](const Tick& t) { return natural(t.committed); }},
+    {"edges", "tree edges: parent and old parent of every robot that is no spare", 0,
+     [](const Tick& t) { return natural(t.edges); }},
+    {"broken_by_distance", "of these, of C or longer", 0, [](const Tick& t) { return natural(t.broken_by_distance); }},
+    {"broken_by_occlusion", "of these, in range but without line of sight", 0,
+     [](const Tick& t) { return natural(t.broken_by_occlusion); }},
+    {"components", "of the radio graph of the living robots", 0, [](const Tick& t) { return natural(t.components); }},
+    {"components_by_distance", "the same without occlusion", 0,
+     [](const Tick& t) { return natural(t.components_by_distance); }},
+    {"fiedler_low", "lambda_2 < 1e-3", 0, [](const Tick& t) -> Cell { return t.fiedler_low; }},
+    {"fiedler_low_by_distance", "the same without occlusion", 0,
+     [](const Tick& t) -> Cell { return t.fiedler_low_by_distance; }},
+    {"fiedler", "lambda_2; empty if not computed at this tick", 9, [](const Tick& t) { return if_known(t.fiedler); }},
+    {"worst_target_distance_m", "largest distance of a target to its worker", 4,
+     [](const Tick& t) -> Cell { return t.worst_target_distance_m; }},
+    {"targets_reached", "targets with their worker within tolerance", 0,
+     [](const Tick& t) { return natural(t.targets_reached); }},
+}};
+
+void write_csv_field(Text& out, std::string_view field) {
+  if (field.find_first_of(",\"\r\n") == std::string_view::npos) return out.put(field);
+  out.put('"');
+  for (const char c : field) {
+    if (c == '"') out.put('"');
+    out.put(c);
+  }
+  out.put('"');
+}
+
+template <class Columns>
+std::string header_of(const Columns& columns) {
+  std::string line;
+  for (const auto& column : columns) {
+    if (!line.empty()) line += ',';
+    line += column.name;
+  }
+  return line;
+}
+
+template <class Columns, class RowType>
+void write_row(Text& out, const Columns& columns, const RowType& row) {
+  for (const auto& column : columns) {
+    write_cell_csv(out, column.cell(row), column.decimals);
+    out.put(',');
+  }
+  out.drop_last();
+}
+
+std::string_view name_of(world::BodyModel body) noexcept {
+  switch (body) {
+    case world::BodyModel::disks: return "disks";
+    case world::BodyModel::box2d: return "box2d";
+    case world::BodyModel::linear: return "linear";
+  }
+  return "?";
+}
+
+}  // namespace
+
+void write_cell_csv(Text& out, const Cell& cell, int decimals) {
+  if (const auto* flag = std::get_if<bool>(&cell)) return out.put(*flag ? "true" : "false");
+  if (const auto* whole = std::get_if<std::uint64_t>(&cell)) return out.natural(*whole);
+  if (const auto* real = std::get_if<double>(&cell)) return out.fixed(*real, decimals, "");
+  if (const auto* text = std::get_if<std::string>(&cell)) return write_csv_field(out, *text);
+}
+
+void write_cell_json(Text& out, const Cell& cell, int decimals) {
+  if (const auto* flag = std::get_if<bool>(&cell)) return out.put(*flag ? "true" : "false");
+  if (const auto* whole = std::get_if<std::uint64_t>(&cell)) return out.natural(*whole);
+  if (const auto* real = std::get_if<double>(&cell)) return out.fixed(*real, decimals);
+  if (const auto* text = std::get_if<std::string>(&cell)) return out.json_string(*text);
+  out.put("null");
+}
+
+Identification identify(const world::Scenario& scenario, std::string_view version, std::string_view git) {
+  Identification id;
+  id.name = scenario.name;
+  id.algorithm = scenario.mission.algorithm;
+  id.reading = scenario.mission.reading;
+  id.body = name_of(scenario.robot.body);
+  id.line_of_sight = scenario.radio.line_of_sight;
+  id.loss = scenario.radio.loss;
+  const std::vector<Vec2> targets = world::target_positions(scenario);
+  id.targets = targets.size();
+  double sum_m = 0.0;
+  for (const Vec2& target : targets) {
+    const double far_m = distance(scenario.swarm.start.center, target);
+    sum_m += far_m;
+    id.target_radius_m = std::max(id.target_radius_m, far_m);
+  }
+  constexpr double paper_spacing_m = 1.540841;  // delta of inwards (spec 2, row 10)
+  const double given = static_cast<double>(scenario.swarm.robots) * paper_spacing_m;
+  id.redundancy = scenario.swarm.robots == 0 ? scenario.swarm.redundancy : sum_m > 0.0 ? given / sum_m : 0.0;
+  id.range_m = scenario.radio.range_m;
+  id.tick_s = scenario.tick_s;
+  id.seed = scenario.seed;
+  id.version = version;
+  id.git = git;
+  return id;
+}
+
+std::span<const Column<RunRow>> run_columns() noexcept { return run_table; }
+std::span<const Column<RunRow>> result_columns() noexcept { return std::span(run_table).subspan(identifying); }
+std::span<const Column<measure::Tick>> series_columns() noexcept { return series_table; }
+
+std::string run_csv_header() { return header_of(run_columns()); }
+std::string series_csv_header() { return header_of(series_columns()); }
+
+std::string run_csv_row(const RunRow& row) {
+  Text line;
+  write_row(line, run_columns(), row);
+  return std::string(line.view());
+}
+
+std::string series_csv_row(const measure::Tick& tick) {
+  Text line;
+  write_row(line, series_columns(), tick);
+  return std::string(line.view());
+}
+
+std::string run_json(const RunRow& row, std::string_view config_json) {
+  Text out;
+  out.put("{\n  \"format\": \"banyan.run\",\n  \"format_version\": 1,\n  \"result\": {");
+  for (const auto& column : run_columns()) {
+    out.put("\n    \"");
+    out.put(column.name);
+    out.put("\": ");
+    write_cell_json(out, column.cell(row), column.decimals);
+    out.put(',');
+  }
+  out.drop_last();
+  out.put("\n  },\n  \"config\": ");
+  // What is no JSON must not make the whole file unreadable.
+  if (nlohmann::json::accept(config_json)) {
+    out.put(config_json.substr(0, config_json.find_last_not_of(" \n\r\t") + 1));
+  } else {
+    out.json_string(config_json);
+  }
+  out.put("\n}\n");
+  return std::string(out.view());
+}
+
+std::string csv_quoted(std::string_view field) {
+  Text out;
+  write_csv_field(out, field);
+  return std::string(out.view());
+}
+
+std::string json_quoted(std::string_view text) {
+  Text out;
+  out.json_string(text);
+  return std::string(out.view());
+}
+
+void write_run_csv(const std::string& path, const RunRow& row, Existing existing) {
+  write_file(path, run_csv_header() + "\n" + run_csv_row(row) + "\n", existing);
+}
+
+void write_run_json(const std::string& path, const RunRow& row, std::string_view config_json, Existing existing) {
+  write_file(path, run_json(row, config_json), existing);
+}
+
+SeriesWriter::SeriesWriter(std::string path, Existing existing) : file_(std::move(path), existing) {
+  file_.write(series_csv_header() + "\n");
+}
+
+void SeriesWriter::row(const measure::Tick& tick) {
+  line_ = series_csv_row(tick);
+  line_ += '\n';
+  file_.write(line_);
+}
+
+void SeriesWriter::finish() { file_.commit(); }
+
+}  // namespace banyan::record
