@@ -47,7 +47,8 @@ int main() {
 
 void reset() {
   // Full access to the floating-point unit (ARMv7-M, CPACR), before the first float.
-  *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88) |= 0xFU << 20;
+  auto& cpacr = *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88);
+  cpacr = cpacr | 0xFU << 20;
   asm volatile("dsb\n isb");
   const std::uint32_t* from = &data_load;
   for (std::uint32_t* to = &data_begin; to != &data_end;) *to++ = *from++;
