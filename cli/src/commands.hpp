@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The commands of the program, one function and one struct of options each; main.cpp fills the
+// structs. Each returns an exit code and throws CommandError or record::FileError for what went
+// wrong.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "config.hpp"
+
+namespace banyan::cli {
+
+struct RunOptions {
+  std::string scenario;
+  std::vector<Override> overrides;   // --set, --seed, --series, ... in the order given
+  std::string out;                   // "": out/<name>-<algorithm>-<seed>
+  bool json = false;
+  bool quiet = false;
+  bool force = false;
+  int threads = 0;                   // 0: by the number of robots
+};
+int run_command(const RunOptions& options);
+
+struct ExportOptions {
+  std::string recording;
+  std::string output = "-";          // "-": standard output
+  double from_s = 0.0;
+  double to_s = std::numeric_limits<double>::infinity();
+  std::size_t every = 1;
+  bool csv = true;                   // the only format there is
+  bool force = false;
+};
+int export_command(const ExportOptions& options);
+
+struct DrawOptions {
+  std::string recording;
+  std::string output = "-";
+  double at_s = std::numeric_limits<double>::infinity();   // the end
+  double trail_s = 10.0;
+  double width_px = 1000.0;
+  bool links = true;
+  bool blocked = false;
+  bool ids = false;
+  bool legend = true;
+  bool force = false;
+};
+int draw_command(const DrawOptions& options);
+
+struct ValidateOptions {
+  std::vector<std::string> files;
+  std::vector<Override> overrides;
+  bool json = false;
+  bool quiet = false;
+  std::string show;                  // "toml" or "json": print the complete effective configuration
+};
+int validate_command(const ValidateOptions& options);
+
+struct AlgorithmsOptions {
+  std::string name;                  // "": all
+  bool json = false;
+};
+int algorithms_command(const AlgorithmsOptions& options);
+
+struct KeysOptions {
+  std::string prefix;
+  bool json = false;
+  bool markdown = false;
+};
+int keys_command(const KeysOptions& options);
+
+// For shell completion: what may follow `word` after --set, one candidate per line.
+int complete_keys_command(const std::string& word);
+
+struct BenchOptions {
+  bool json = false;
+  int windows = 7;                   // measured windows per layout
+  double window_s = 0.7;             // wall time of one
+  std::vector<std::string> only;     // names of layouts; empty: all
+};
+int bench_command(const BenchOptions& options);
+
+}  // namespace banyan::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Where a run's files go, and that nothing that is already there gets lost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "banyan/record/file.hpp"
+#include "config.hpp"
+
+namespace banyan::cli {
+
+class RunOutputs {
+ public:
+  // Makes sure that the run may write before it starts. With `out` empty the directory is
+  // out/<name>-<algorithm>-<seed>, with ".2", ".3" ... appended while one is taken and not `force`.
+  // A given directory that holds results is an error unless `force`.
+  RunOutputs(const Configuration& configuration, const std::string& out, bool force);
+
+  [[nodiscard]] const std::string& directory() const noexcept { return directory_; }
+  [[nodiscard]] record::Existing existing() const noexcept { return existing_; }
+  [[nodiscard]] std::string recording() const { return directory_ + "/run.mcap"; }
+  [[nodiscard]] std::string table() const { return directory_ + "/run.csv"; }
+  [[nodiscard]] std::string json() const { return directory_ + "/run.json"; }
+  [[nodiscard]] std::string series() const { return directory_ + "/series.csv"; }
+
+  // With force: removes files of the earlier run that this one did not write, so that what lies
+  // together belongs together.
+  void remove_leftovers(const Output& written) const;
+  // Removes the directory if it was made for this run and is still empty.
+  void abandon() const noexcept;
+
+ private:
+  std::string directory_;
+  record::Existing existing_;
+  bool created_ = false;
+};
+
+}  // namespace banyan::cli

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// `banyan export` and `banyan draw`: what can be got out of a recording.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "banyan/record/draw.hpp"
+#include "banyan/record/export.hpp"
+#include "banyan/record/recording.hpp"
+#include "commands.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+record::Recording open_recording(const std::string& path) {
+  record::Recording recording(path);
+  for (const auto& warning : recording.warnings()) complain(path + ": warning: " + warning);
+  if (recording.frames() == 0) throw CommandError(exit_lost, path + ": the recording holds no frames");
+  return recording;
+}
+
+void refuse_to_overwrite(const std::string& output, bool force) {
+  std::error_code ignored;
+  if (output == "-" || force || !std::filesystem::is_regular_file(output, ignored)) return;
+  throw CommandError(exit_usage, output + " exists; add --force to replace it");
+}
+
+record::Existing existing(bool force) { return force ? record::Existing::replace : record::Existing::keep; }
+
+}  // namespace
+
+int export_command(const ExportOptions& options) {
+  refuse_to_overwrite(options.output, options.force);
+  if (options.from_s > options.to_s) throw CommandError(exit_usage, "--from is later than --to: nothing to export");
+  auto recording = open_recording(options.recording);
+  const record::ExportOptions chosen{options.from_s, options.to_s, options.every};
+  if (options.output == "-") {
+    record::export_csv(recording, [](std::string_view piece) { record::write_all(STDOUT_FILENO, piece, "standard output"); }, chosen);
+    return exit_done;
+  }
+  const auto rows = record::export_csv(recording, options.output, existing(options.force), chosen);
+  complain("wrote " + grouped(static_cast<double>(rows)) + " rows to " + options.output);
+  return exit_done;
+}
+
+int draw_command(const DrawOptions& options) {
+  refuse_to_overwrite(options.output, options.force);
+  auto recording = open_recording(options.recording);
+  const double at_s = std::min(options.at_s, recording.end_s());
+  if (std::isfinite(options.at_s) && options.at_s > recording.end_s() + 1e-9) {
+    complain(format("the recording ends at %s s; drawing that moment", number_text(recording.end_s()).c_str()));
+  }
+  record::DrawOptions chosen;
+  chosen.width_px = options.width_px;
+  chosen.trail_s = options.trail_s;
+  chosen.links = options.links;
+  chosen.blocked_links = options.blocked;
+  chosen.ids = options.ids;
+  chosen.legend = options.legend;
+  const std::string svg = record::draw_svg(recording, at_s, chosen);
+  if (options.output == "-") record::write_all(STDOUT_FILENO, svg, "standard output");
+  else record::write_file(options.output, svg, existing(options.force));
+  return exit_done;
+}
+
+}  // namespace banyan::cli

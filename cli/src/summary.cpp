@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+std::string line(const char* label, const std::string& text) { return format("  %-10s ", label) + text + "\n"; }
+
+std::string plural(std::uint64_t n, const char* noun) {
+  return grouped(static_cast<double>(n)) + " " + noun + (n == 1 ? "" : "s");
+}
+
+std::string verdict(const record::RunRow& row, const SummaryExtras& extras) {
+  const auto& run = row.run;
+  if (run.complete) return format("COMPLETE after %.1f s", run.completion_time_s);
+  const std::string reached = format("%zu of %zu targets reached", extras.targets_reached, extras.targets);
+  if (row.interrupted) return format("STOPPED at %.1f s: ", run.time_s) + reached;
+  return format("NOT COMPLETE within %.1f s: ", run.time_limit_s) + reached;
+}
+
+std::string time_text(const measure::Run& run) {
+  std::string text = format("%.1f s of the limit of %.1f s", run.time_s, run.time_limit_s);
+  if (run.complete) text += format(" (normalised %.3f)", run.normalized_time);
+  return text + format("; no swarm could do it in less than %.1f s", run.time_bound_s);
+}
+
+std::string tree_text(const measure::Run& run) {
+  if (run.broken_ticks == 0) return "no edge broken in any of " + plural(run.ticks, "tick");
+  return format("some edge broken in %s of %s (%.2f %%): by distance %s, by occlusion %s",
+                grouped(static_cast<double>(run.broken_ticks)).c_str(), plural(run.ticks, "tick").c_str(),
+                100.0 * run.disconnected_time_ratio, grouped(static_cast<double>(run.broken_ticks_by_distance)).c_str(),
+                grouped(static_cast<double>(run.broken_ticks_by_occlusion)).c_str());
+}
+
+std::string network_text(const measure::Run& run, bool line_of_sight) {
+  if (run.split_ticks == 0 && run.split_ticks_by_distance == 0) return "in one piece at every tick";
+  std::string text = "split in " + plural(run.split_ticks, "tick");
+  if (line_of_sight) text += format(" (%s if nothing blocked the radio)", grouped(static_cast<double>(run.split_ticks_by_distance)).c_str());
+  return text;
+}
+
+std::string robots_text(const measure::Run& run) {
+  std::string text = format("%u of %u committed; at least %u are needed", run.committed, run.robots, run.robots_bound);
+  if (run.robots_bound > 0) text += format(" (%.2f times the bound)", static_cast<double>(run.committed) / run.robots_bound);
+  return text;
+}
+
+}  // namespace
+
+std::string summary_text(const record::RunRow& row, const Configuration& configuration, const RunOutputs& outputs,
+                         const SummaryExtras& extras) {
+  const auto& run = row.run;
+  const auto& scenario = configuration.scenario;
+  std::string text = scenario.name + ": " + verdict(row, extras) + "\n\n";
+  text += line("algorithm", format("%s (%s), %u robots, %zu targets, seed %" PRIu64, row.id.algorithm.c_str(),
+                                   row.id.reading.c_str(), run.robots, extras.targets, row.id.seed));
+  text += line("time", time_text(run));
+  text += line("tree", tree_text(run));
+  text += line("network", network_text(run, scenario.radio.line_of_sight));
+  text += line("robots", robots_text(run));
+  text += line("work", plural(run.insertions, "insertion") + ", " + plural(run.handovers, "hand-over") + " of the root, " +
+                           plural(run.repairs, "repair") + ", " + plural(run.epochs, "tree") + " grown");
+  text += line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
+  const double steps = static_cast<double>(run.ticks) * run.robots / std::max(extras.wall_s, 1e-9);
+  text += line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s, grouped(steps).c_str(),
+                               extras.threads, extras.threads == 1 ? "thread" : "threads"));
+  text += line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)", run.hash));
+  text += "\nResults in " + outputs.directory() + "/\n";
+  if (configuration.output.record) {
+    text += "  run.mcap    the recording; opens in Foxglove and Lichtblick, or draw a moment of it:\n";
+    text += format("              banyan draw %s --at %.0f -o frame.svg\n", outputs.recording().c_str(), std::floor(run.time_s / 2));
+  }
+  text += "  run.csv     the result as one row; run.json: with the whole configuration\n";
+  if (configuration.output.series) text += "  series.csv  the metrics of every tick\n";
+  return text;
+}
+
+}  // namespace banyan::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What `banyan run` says at the end: at most 25 lines for a person.
+#pragma once
+
+#include <string>
+
+#include "banyan/record/table.hpp"
+#include "outputs.hpp"
+
+namespace banyan::cli {
+
+struct SummaryExtras {
+  double wall_s = 0.0;
+  int threads = 1;
+  std::size_t targets = 0;
+  std::size_t targets_reached = 0;
+};
+
+[[nodiscard]] std::string summary_text(const record::RunRow& row, const Configuration& configuration,
+                                       const RunOutputs& outputs, const SummaryExtras& extras);
+
+}  // namespace banyan::cli

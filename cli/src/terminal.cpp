@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "terminal.hpp"
+
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+
+namespace banyan::cli {
+namespace {
+
+volatile sig_atomic_t caught_signal = 0;
+
+constexpr double silent_s = 2.0;             // shorter runs need no progress
+constexpr double terminal_period_s = 0.2;
+constexpr double log_period_s = 10.0;
+
+void write_error(std::string_view text) {
+  // Nobody left to tell when even this fails.
+  [[maybe_unused]] const auto written = std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+void catch_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int number) { caught_signal = number; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);   // not SA_RESTART: a blocked write shall notice
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+int stop_signal() noexcept { return caught_signal; }
+
+void print(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0) {
+    throw CommandError(exit_lost, std::string("standard output: ") + std::strerror(errno));
+  }
+}
+
+void complain(std::string_view text) { write_error("banyan: " + std::string(text) + "\n"); }
+
+void print_problems(const std::vector<Problem>& problems) {
+  constexpr std::size_t most = 100;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(problems.size(), most); ++i) text += to_string(problems[i]) + "\n";
+  if (problems.size() > most) text += "... and " + std::to_string(problems.size() - most) + " more\n";
+  const auto errors = std::count_if(problems.begin(), problems.end(), [](const auto& p) { return !p.warning; });
+  if (errors > 1) text += std::to_string(errors) + " errors\n";
+  write_error(text);
+}
+
+Progress::Progress(bool wanted)
+    : wanted_(wanted),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      next_(start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(silent_s))) {}
+
+bool Progress::due() { return wanted_ && Clock::now() >= next_; }
+
+void Progress::show(double share, std::string_view text, bool at_most) {
+  const double elapsed = elapsed_s();
+  std::string line(text);
+  if (share > 0.0) {
+    const double left = elapsed / share * (1.0 - share);
+    line += (at_most ? ", at most " : ", about ") + duration_text(left) + " left";
+  }
+  if (terminal_) {
+    const auto width = terminal_width() - 1;
+    if (line.size() > width) line.resize(width);
+    write_error("\r\033[K" + line);
+  } else {
+    write_error(line + "\n");
+  }
+  shown_ = true;
+  next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                             std::chrono::duration<double>(terminal_ ? terminal_period_s : log_period_s));
+}
+
+void Progress::clear() {
+  if (shown_ && terminal_) write_error("\r\033[K");
+  shown_ = false;
+}
+
+double Progress::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(std::clamp(std::ceil(seconds), 0.0, 1e12));
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) return format("%lld min %02lld s", whole / 60, whole % 60);
+  return format("%lld h %02lld min", whole / 3600, whole / 60 % 60);
+}
+
+std::string grouped(double number) {
+  std::string text = format("%.0f", number);
+  const std::size_t first = text.starts_with('-') ? 1 : 0;
+  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > static_cast<std::ptrdiff_t>(first); at -= 3) {
+    text.insert(static_cast<std::size_t>(at), ",");
+  }
+  return text;
+}
+
+std::string format(const char* text, ...) {
+  va_list arguments, again;
+  va_start(arguments, text);
+  va_copy(again, arguments);
+  const int size = std::vsnprintf(nullptr, 0, text, arguments);
+  va_end(arguments);
+  std::string result(static_cast<std::size_t>(std::max(size, 0)), '\0');
+  std::vsnprintf(result.data(), result.size() + 1, text, again);
+  va_end(again);
+  return result;
+}
+
+}  // namespace banyan::cli
