@@ -52,4 +52,18 @@ inline std::uint64_t exercise(const Params& params, const Policy& policy, State&
   return hash(state);
 }
 
+// Every algorithm with every drive, as connector and as worker; names and results go to `report`.
+inline void exercise_all(State& state, void (*report)(const char* name, std::uint64_t digest) noexcept) noexcept {
+  for (const Drive drive : {Drive::differential, Drive::holonomic}) {
+    for (const bool worker : {false, true}) {
+      for (const Policy* policy : policies()) {
+        Params params = policy->defaults(Reading::corrected);
+        params.drive = drive;
+        state = initial_state(0, worker, false);
+        report(policy->name().data(), exercise(params, *policy, state, 1000));
+      }
+    }
+  }
+}
+
 }  // namespace banyan::embedded

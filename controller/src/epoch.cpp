@@ -29,6 +29,14 @@ void begin_epoch(Robot& robot) noexcept {
   self.new_root = nobody;
 }
 
+// GROW TREE: the old parent goes. Whoever found no new one keeps it as a constraint on its motion
+// until it has: dropped, the branch would drift out of range before it can re-attach.
+void forget_old_tree(Robot& robot) noexcept {
+  if (robot.self.parent == nobody && robot.self.role != Role::spare && !robot.is_root()) return;
+  robot.self.old_parent = nobody;
+  robot.old_parent = -1;
+}
+
 // The barrier of the root's phase: may it open the next one?
 bool barrier_holds(const Robot& robot) noexcept {
   const State& self = robot.self;
@@ -64,10 +72,7 @@ void enter(Robot& robot, std::uint16_t epoch, Phase phase) noexcept {
   self.phase = phase;
   self.phase_ticks = 0;
   self.done_ticks = 0;
-  if (phase >= Phase::grow_tree) {
-    self.old_parent = nobody;
-    robot.old_parent = -1;
-  }
+  if (phase >= Phase::grow_tree) forget_old_tree(robot);
 }
 
 void advance(Robot& robot) noexcept {

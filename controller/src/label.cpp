@@ -32,7 +32,10 @@ void take_label(Robot& robot) noexcept {
   self.flood_parent = table.id(best);
 }
 
-// Echo (Chang 1982): done when all around have a label and all below are done.
+// Echo (Chang 1982): done when all around have a label and all below are done. Who fell silent just
+// before the epoch opened may have left: waiting for it would hold up everybody for I.
+constexpr int echo_silence_ticks = 4;
+
 void echo(Robot& robot) noexcept {
   State& self = robot.self;
   const Neighborhood& table = robot.table();
@@ -40,7 +43,7 @@ void echo(Robot& robot) noexcept {
   int robots = 1;
   int workers = self.is_worker ? 1 : 0;
   for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k)) continue;
+    if (table.age(k) > echo_silence_ticks) continue;
     const Message& m = table.message(k);
     if (m.epoch != self.epoch || m.label_cm == unknown_label) {
       done = false;
@@ -51,8 +54,8 @@ void echo(Robot& robot) noexcept {
     }
   }
   self.flood_done = done;
-  self.flood_robots = static_cast<std::uint16_t>(std::min(robots, UINT16_MAX - 0));
-  self.flood_workers = static_cast<std::uint16_t>(std::min(workers, UINT16_MAX - 0));
+  self.flood_robots = static_cast<std::uint16_t>(std::min<int>(robots, UINT16_MAX));
+  self.flood_workers = static_cast<std::uint16_t>(std::min<int>(workers, UINT16_MAX));
 }
 
 }  // namespace

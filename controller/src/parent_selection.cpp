@@ -11,6 +11,7 @@ namespace {
 
 constexpr int patience_flood_ticks = 4;     // without candidate, then the flood parent will do
 constexpr int patience_relabel_ticks = 7;   // then a childless robot may sort itself in anew
+constexpr float last_resort_range = 0.95F;  // of C: beyond, the next step might break the edge
 constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
@@ -28,13 +29,15 @@ int choose_parent(const Robot& robot, bool in_tree) noexcept {
   return best;
 }
 
-// No candidate for a while: the flood parent, whatever its distance, as long as the order holds.
+// No candidate for a while: the flood parent, even beyond the range in which a parent is chosen, as
+// long as the order holds.
 int flood_parent(const Robot& robot) noexcept {
   const State& self = robot.self;
   const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
   if (k < 0 || !robot.table().alive(k)) return -1;
   const Message& m = robot.table().message(k);
-  return m.role != Role::worker && m.epoch == self.epoch && m.label_cm < self.label_cm ? k : -1;
+  const bool near = robot.table().range(k) <= last_resort_range * robot.params.communication_range_m;
+  return near && m.role != Role::worker && m.epoch == self.epoch && m.label_cm < self.label_cm ? k : -1;
 }
 
 // Still none: nobody hangs on a childless robot, so it may move behind any committed neighbour.
@@ -78,14 +81,14 @@ void repair(Robot& robot) noexcept {
 
 // The neighbour over which the rooted tree is nearest: part of it, or a free spare that can be
 // drafted towards it. Never one whose own depth is invalid: it might hang on me.
-int way_to_tree(const Robot& robot) noexcept {
+int way_to_tree(const Robot& robot, float range_m) noexcept {
   const Neighborhood& table = robot.table();
   int best = -1;
   const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
     if (!table.alive(k) || m.role == Role::worker || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
-    if (m.parent == robot.self.id || m.old_parent == robot.self.id || table.range(k) > robot.params.parent_range_m()) continue;
+    if (m.parent == robot.self.id || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
     if (best < 0 || key(k) < key(best)) best = k;
   }
   return best;
@@ -102,7 +105,8 @@ void reattach_orphan(Robot& robot) noexcept {
   if (self.orphan_ticks < UINT16_MAX) ++self.orphan_ticks;
   const bool drafted = self.parent == nobody && !self.is_worker;
   if (self.orphan_ticks <= (drafted ? drafted_attach_ticks : orphan_attach_ticks)) return;
-  const int k = way_to_tree(robot);
+  int k = way_to_tree(robot, robot.params.parent_range_m());
+  if (k < 0) k = way_to_tree(robot, last_resort_range * robot.params.communication_range_m);
   if (k < 0) return;
   const Message& m = robot.table().message(k);
   if (m.label_cm != unknown_label && (self.label_cm == unknown_label || self.label_cm <= m.label_cm))
@@ -124,7 +128,8 @@ void keep_label_order(Robot& robot) noexcept {
 // Depth flows down; an orphan's is invalid, and so within a hop per tick are all below it.
 void update_depth(Robot& robot) noexcept {
   State& self = robot.self;
-  const int up = self.parent != nobody ? robot.parent : robot.old_parent;
+  // In GROW TREE an old parent is but a constraint: it may by now hang on me.
+  const int up = self.parent != nobody ? robot.parent : self.phase < Phase::grow_tree ? robot.old_parent : -1;
   if (robot.is_root()) {
     self.depth = 1;
   } else if (up >= 0 && robot.table().alive(up) && robot.table().message(up).depth != invalid_depth) {
@@ -150,8 +155,10 @@ void update_tree_hops(Robot& robot) noexcept {
 
 bool is_candidate(const Robot& robot, int k) noexcept {
   const Message& m = robot.table().message(k);
+  // An edge that exists may be as long as the guard lets it grow.
+  const float range_m = k == robot.old_parent ? robot.params.ideal_distance_m : robot.params.parent_range_m();
   return robot.table().alive(k) && m.role != Role::worker && m.epoch == robot.self.epoch &&
-         m.label_cm < robot.self.label_cm && robot.table().range(k) <= robot.params.parent_range_m();
+         m.label_cm < robot.self.label_cm && robot.table().range(k) <= range_m;
 }
 
 bool is_named_parent(const Robot& robot) noexcept {
@@ -165,6 +172,10 @@ void take_parent(Robot& robot, int k) noexcept {
   robot.parent = k;
   self.committed = true;
   self.search_ticks = 0;
+  if (self.phase >= Phase::grow_tree) {
+    self.old_parent = nobody;
+    robot.old_parent = -1;
+  }
 }
 
 void leave_tree(Robot& robot) noexcept {
