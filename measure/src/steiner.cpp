@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+// Euclidean Steiner trees by Smith's (1992) branch and bound: full topologies grow by one terminal
+// at a time, and the shortest tree of a partial topology bounds all that grow from it, because
+// taking a terminal out of a tree never makes it longer. The shortest tree of a topology is a
+// convex problem, sum of |edge|; it is solved by Newton's method on sqrt(|edge|^2 + e^2) for
+// falling e. Every bound is the value of a feasible point of the dual problem (a flow of unit
+// vectors), so nothing is cut off by rounding or by stopping early.
+#include "banyan/measure/steiner.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace banyan::measure {
+namespace {
+
+using world::Vec2;
+
+constexpr std::size_t exact_limit = 9;
+constexpr double steiner_ratio = 0.8241;  // Chung & Graham 1985
+constexpr double tolerance = 2e-7;        // relative; what is not better by this is not looked at
+
+double spanning_tree_length(const std::vector<Vec2>& points) {
+  std::vector<double> gap(points.size(), std::numeric_limits<double>::infinity());
+  std::vector<char> done(points.size(), 0);
+  double length = 0.0;
+  std::size_t last = 0;
+  for (std::size_t step = 1; step < points.size(); ++step) {
+    done[last] = 1;
+    std::size_t next = points.size();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (done[i]) continue;
+      gap[i] = std::min(gap[i], distance(points[last], points[i]));
+      if (next == points.size() || gap[i] < gap[next]) next = i;
+    }
+    length += gap[next];
+    last = next;
+  }
+  return length;
+}
+
+// At most `most` points far from each other: the farthest from the centre, then always the one
+// farthest from those before. Partial trees are long early that way, and bounds strong.
+std::vector<Vec2> far_apart(std::vector<Vec2> points, std::size_t most) {
+  Vec2 center{};
+  for (const Vec2 p : points) center += p / static_cast<double>(points.size());
+  std::vector<double> gap(points.size());
+  for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = distance(center, points[i]);
+  for (std::size_t k = 0; k < std::min(most, points.size()); ++k) {
+    const auto far = static_cast<std::size_t>(std::max_element(gap.begin() + k, gap.end()) - gap.begin());
+    std::swap(points[k], points[far]);
+    std::swap(gap[k], gap[far]);
+    for (std::size_t i = k + 1; i < gap.size(); ++i) {
+      const double d = distance(points[k], points[i]);
+      gap[i] = k == 0 ? d : std::min(gap[i], d);
+    }
+  }
+  points.resize(std::min(most, points.size()));
+  return points;
+}
+
+// A full topology over the first `terminals` points: node k < exact_limit is terminal k, node
+// exact_limit + s is Steiner point s, which has three edges.
+struct Tree {
+  struct Edge { int a, b; };
+  int terminals = 0;
+  int edge_count = 0;
+  std::array<Edge, 2 * exact_limit - 3> edges{};
+  std::array<Vec2, 2 * exact_limit> at{};  // by node
+
+  [[nodiscard]] int steiner_points() const noexcept { return terminals - 2; }
+};
+constexpr int first_steiner = static_cast<int>(exact_limit);
+constexpr bool is_steiner(int node) noexcept { return node >= first_steiner; }
+
+// The topology with the next terminal tied to edge `k` by a new Steiner point.
+Tree grown(const Tree& tree, int k) noexcept {
+  Tree next = tree;
+  const int terminal = next.terminals++;
+  const int middle = first_steiner + tree.steiner_points();
+  const Tree::Edge split = tree.edges[k];
+  next.edges[k] = {split.a, middle};
+  next.edges[next.edge_count++] = {split.b, middle};
+  next.edges[next.edge_count++] = {terminal, middle};
+  next.at[middle] = (tree.at[split.a] + tree.at[split.b] + tree.at[terminal]) / 3.0;
+  return next;
+}
+
+double length(const Tree& tree) noexcept {
+  double sum = 0.0;
+  for (int k = 0; k < tree.edge_count; ++k) sum += distance(tree.at[tree.edges[k].a], tree.at[tree.edges[k].b]);
+  return sum;
+}
+
+// d / sqrt(|d|^2 + e^2): the unit vector along d, but smooth and short where d is short.
+Vec2 softened_unit(Vec2 d, double e) noexcept { return d / std::sqrt(squared_norm(d) + e * e); }
+
+// A lower bound on the length of every tree of this topology. For vectors y with |y| <= 1 on the
+// edges (child to parent, seen from terminal 0) that add up at each Steiner point,
+// sum |edge| >= sum y . edge = sum over terminals of y . (terminal 0 - terminal), whatever the
+// Steiner points. The y of terminal edges come from the tree at hand, the others add up.
+class DualBound {
+ public:
+  DualBound(const Tree& tree, double e) noexcept : tree_{tree}, e_{e} {
+    for (int k = 0; k < tree.edge_count; ++k) {
+      add_neighbor(tree.edges[k].a, tree.edges[k].b);
+      add_neighbor(tree.edges[k].b, tree.edges[k].a);
+    }
+  }
+  [[nodiscard]] double value() noexcept {
+    flow(neighbors_[0][0], 0);
+    return sum_ / largest_;
+  }
+
+ private:
+  void add_neighbor(int a, int b) noexcept { neighbors_[a][degree_[a]++] = b; }
+  Vec2 flow(int node, int parent) noexcept {
+    Vec2 y{};
+    if (is_steiner(node)) {
+      for (const int next : neighbors_[node])
+        if (next != parent) y += flow(next, node);
+    } else {
+      y = softened_unit(tree_.at[parent] - tree_.at[node], e_);
+      sum_ += dot(y, tree_.at[0] - tree_.at[node]);
+    }
+    largest_ = std::max(largest_, norm(y));
+    return y;
+  }
+
+  const Tree& tree_;
+  double e_;
+  std::array<std::array<int, 3>, 2 * exact_limit> neighbors_{};
+  std::array<int, 2 * exact_limit> degree_{};
+  double sum_ = 0.0;
+  double largest_ = 1.0;
+};
+
+// Newton's method on the softened length, one instance per search (keeps its matrices).
+class Relaxation {
+ public:
+  // Up to `most` steps, fewer once the forces on the Steiner points balance within `balance`.
+  void run(Tree& tree, double e, double balance, int most) {
+    for (int step = 0; step < most; ++step) {
+      assemble(tree, e);
+      if (gradient_.lpNorm<Eigen::Infinity>() < balance) return;
+      step_ = hessian_.ldlt().solve(gradient_);
+      if (!step_.allFinite() || !search(tree, e)) return;
+    }
+  }
+
+ private:
+  static constexpr int most_unknowns = 2 * (static_cast<int>(exact_limit) - 2);
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_unknowns, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_unknowns, most_unknowns>;
+
+  static double softened_length(const Tree& tree, double e) noexcept {
+    double sum = 0.0;
+    for (int k = 0; k < tree.edge_count; ++k)
+      sum += std::sqrt(squared_norm(tree.at[tree.edges[k].b] - tree.at[tree.edges[k].a]) + e * e);
+    return sum;
+  }
+
+  void assemble(const Tree& tree, double e) {
+    gradient_.setZero(2 * tree.steiner_points());
+    hessian_.setZero(2 * tree.steiner_points(), 2 * tree.steiner_points());
+    for (int k = 0; k < tree.edge_count; ++k) {
+      const auto [a, b] = tree.edges[k];
+      const Vec2 d = tree.at[a] - tree.at[b];
+      const double r = std::sqrt(squared_norm(d) + e * e);
+      const Vec2 u = d / r;
+      Eigen::Matrix2d curvature;  // (1 - u u') / r
+      curvature << (1.0 - u.x * u.x) / r, -u.x * u.y / r, -u.x * u.y / r, (1.0 - u.y * u.y) / r;
+      if (is_steiner(a)) add(a, u, curvature);
+      if (is_steiner(b)) add(b, -u, curvature);
+      if (!is_steiner(a) || !is_steiner(b)) continue;
+      hessian_.block<2, 2>(row(a), row(b)) -= curvature;
+      hessian_.block<2, 2>(row(b), row(a)) -= curvature;
+    }
+  }
+  static Eigen::Index row(int node) noexcept { return 2 * (node - first_steiner); }
+  void add(int node, Vec2 u, const Eigen::Matrix2d& curvature) {
+    gradient_(row(node)) += u.x;
+    gradient_(row(node) + 1) += u.y;
+    hessian_.block<2, 2>(row(node), row(node)) += curvature;
+  }
+
+  // Halves the step until it gains enough; false if no step does.
+  bool search(Tree& tree, double e) {
+    const Tree start = tree;
+    const double before = softened_length(start, e);
+    const double slope = gradient_.dot(step_);
+    for (double share = 1.0; share > 1e-6; share *= 0.5) {
+      for (int s = 0; s < tree.steiner_points(); ++s) {
+        const int node = first_steiner + s;
+        tree.at[node] = start.at[node] - share * Vec2{step_(2 * s), step_(2 * s + 1)};
+      }
+      if (softened_length(tree, e) <= before - 1e-4 * share * slope) return true;
+    }
+    tree = start;
+    return false;
+  }
+
+  Vector gradient_, step_;
+  Matrix hessian_;
+};
+
+class Search {
+ public:
+  // 3 to exact_limit distinct terminals.
+  explicit Search(std::vector<Vec2> terminals)
+      : terminals_{std::move(terminals)}, best_{spanning_tree_length(terminals_)}, certain_{best_} {
+    for (const Vec2 a : terminals_)
+      for (const Vec2 b : terminals_) scale_ = std::max(scale_, distance(a, b));
+  }
+
+  SteinerLength run() {
+    Tree tree;
+    std::copy(terminals_.begin(), terminals_.end(), tree.at.begin());
+    tree.terminals = 2;
+    tree.edge_count = 1;
+    tree.edges[0] = {0, 1};
+    grow(tree);
+    const double lower = std::min(certain_, best_ * (1.0 - tolerance));
+    return {lower, best_, lower >= best_ * (1.0 - 1e-6)};
+  }
+
+ private:
+  [[nodiscard]] bool hopeless(double bound) const noexcept { return bound >= best_ * (1.0 - tolerance); }
+
+  void grow(const Tree& tree) {
+    if (tree.terminals == static_cast<int>(terminals_.size())) return;
+    struct Branch { double bound; Tree tree; };
+    std::vector<Branch> branches;
+    branches.reserve(static_cast<std::size_t>(tree.edge_count));
+    for (int k = 0; k < tree.edge_count; ++k) {
+      Branch branch{0.0, grown(tree, k)};
+      branch.bound = relax(branch.tree);
+      if (!hopeless(branch.bound)) branches.push_back(branch);
+    }
+    std::sort(branches.begin(), branches.end(), [](const Branch& a, const Branch& b) { return a.bound < b.bound; });
+    for (const Branch& branch : branches)
+      if (!hopeless(branch.bound)) grow(branch.tree);
+  }
+
+  // A lower bound for the topology, only as good as it takes to decide: above the best tree, or
+  // (unfinished topologies) certainly not. A finished one that is better becomes the best tree.
+  double relax(Tree& tree) {
+    const bool finished = tree.terminals == static_cast<int>(terminals_.size());
+    double bound = 0.0;
+    for (double e = 0.1; e > 0.5e-8; e *= 0.1) {
+      relaxation_.run(tree, e * scale_, 0.1 * e, 20);
+      bound = std::max(bound, DualBound(tree, e * scale_).value());
+      if (hopeless(bound)) return bound;
+      const double reached = length(tree);
+      if (!finished && e < 0.05 && !hopeless(reached)) return bound;
+      if (finished) best_ = std::min(best_, reached);
+    }
+    if (finished) certain_ = std::min(certain_, bound);
+    return bound;
+  }
+
+  std::vector<Vec2> terminals_;
+  Relaxation relaxation_;
+  double scale_ = 0.0;
+  double best_;     // length of the shortest tree found
+  double certain_;  // smallest bound of a topology that was looked at to the end
+};
+
+}  // namespace
+
+SteinerLength steiner_length(const std::vector<Vec2>& terminals) {
+  std::vector<Vec2> distinct = terminals;
+  const auto order = [](Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  std::sort(distinct.begin(), distinct.end(), order);
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  const double spanning = spanning_tree_length(distinct);
+  if (distinct.size() <= 2) return {spanning, spanning, true};
+  const SteinerLength found = Search(far_apart(distinct, exact_limit)).run();
+  if (distinct.size() <= exact_limit) return found;
+  return {std::max(steiner_ratio * spanning, found.lower_m), spanning, false};
+}
+
+std::uint32_t robots_bound(const std::vector<Vec2>& targets, double tolerance_m, double range_m) {
+  const double length = steiner_length(targets).lower_m - static_cast<double>(targets.size()) * tolerance_m;
+  return static_cast<std::uint32_t>(std::max(0.0, std::ceil(length / range_m - 1e-9))) + 1;
+}
+
+}  // namespace banyan::measure

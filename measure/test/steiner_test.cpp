@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Steiner lengths against closed forms and against properties that any shortest network has.
+#include "banyan/measure/steiner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "banyan/world/random.hpp"
+
+namespace banyan::measure {
+namespace {
+
+using world::Vec2;
+
+std::vector<Vec2> ring(int count, double radius = 1.0, double phase = 0.0) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < count; ++i) {
+    const double a = phase + 2 * M_PI * i / count;
+    points.push_back({radius * std::cos(a), radius * std::sin(a)});
+  }
+  return points;
+}
+
+std::vector<Vec2> random_points(std::uint64_t seed, int count) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < count; ++i)
+    points.push_back({world::to_uniform(world::bits(seed, world::Purpose::targets, i, 0)),
+                      world::to_uniform(world::bits(seed, world::Purpose::targets, i, 1))});
+  return points;
+}
+
+// Kruskal, to be independent of the library's Prim.
+double spanning_tree(const std::vector<Vec2>& p) {
+  struct Edge { double length; std::size_t a, b; };
+  std::vector<Edge> edges;
+  std::vector<std::size_t> part(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    part[i] = i;
+    for (std::size_t j = 0; j < i; ++j) edges.push_back({distance(p[i], p[j]), i, j});
+  }
+  std::sort(edges.begin(), edges.end(), [](auto& a, auto& b) { return a.length < b.length; });
+  double sum = 0.0;
+  for (const Edge& e : edges) {
+    const std::size_t from = part[e.a];
+    const std::size_t to = part[e.b];
+    if (from == to) continue;
+    sum += e.length;
+    for (std::size_t& x : part)
+      if (x == from) x = to;
+  }
+  return sum;
+}
+
+void expect_exact(const std::vector<Vec2>& points, double length) {
+  const SteinerLength s = steiner_length(points);
+  EXPECT_TRUE(s.exact);
+  EXPECT_NEAR(s.upper_m, length, 1e-6 * length + 1e-12);
+  EXPECT_LE(s.lower_m, length * (1 + 1e-12)) << "a lower bound must not exceed the truth";
+  EXPECT_GE(s.lower_m, length * (1 - 1e-6));
+}
+
+TEST(Steiner, FewOrCoincidentTerminals) {
+  expect_exact({}, 0.0);
+  expect_exact({{1, 2}}, 0.0);
+  expect_exact({{1, 2}, {1, 2}, {1, 2}}, 0.0);
+  expect_exact({{0, 0}, {3, 4}}, 5.0);
+  expect_exact({{0, 0}, {3, 4}, {0, 0}, {3, 4}}, 5.0);
+}
+
+TEST(Steiner, Triangles) {
+  expect_exact(ring(3), 3.0);  // Fermat point in the centre
+  // Angles below 120 degrees: sqrt((a^2 + b^2 + c^2) / 2 + 2 sqrt(3) area).
+  expect_exact({{0, 0}, {4, 0}, {1, 3}}, std::sqrt((16 + 10 + 18) / 2.0 + 2 * std::sqrt(3.0) * 6));
+  expect_exact({{0, 0}, {5, 0.2}, {-5, 0.2}}, 2 * std::sqrt(25.04));  // an angle above: two sides
+  expect_exact({{0, 0}, {1, 0}, {-0.5, std::sqrt(0.75)}}, 2.0);       // exactly 120 degrees
+}
+
+TEST(Steiner, SquareRectangleAndLadder) {
+  expect_exact({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1 + std::sqrt(3.0));
+  expect_exact({{0, 0}, {3, 0}, {3, 1}, {0, 1}}, 3 + std::sqrt(3.0));  // long side + sqrt(3) short side
+  // Ladders of n rungs (Chung & Graham 1978): with k = 1 + sqrt(3)/2, n k - 1 for even n and
+  // sqrt((n k - 1)^2 + 1/4) for odd n.
+  const double k = 1 + std::sqrt(3.0) / 2;
+  expect_exact({{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0, 2}, {1, 2}}, std::sqrt((3 * k - 1) * (3 * k - 1) + 0.25));
+  expect_exact({{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}}, 4 * k - 1);
+}
+
+TEST(Steiner, RegularPolygons) {
+  // From six on all sides but one are optimal (Du, Hwang & Weng 1987).
+  for (int n = 6; n <= 9; ++n) expect_exact(ring(n, 2.0, 0.1 * n), (n - 1) * 4.0 * std::sin(M_PI / n));
+}
+
+TEST(Steiner, StarRatiosOfThePeerSurvey) {
+  const double ratio[] = {0.966, 0.915, 0.833, 0.744, 0.670};
+  for (int n = 4; n <= 8; ++n) EXPECT_NEAR(steiner_length(ring(n, 9.0)).upper_m / (9.0 * n), ratio[n - 4], 6e-4) << n;
+}
+
+TEST(Steiner, CollinearTerminalsNeedNoSteinerPoint) {
+  expect_exact({{0, 0}, {1, 0}, {2, 0}, {5, 0}, {7, 0}}, 7.0);
+  expect_exact({{0, 0}, {1, 1}, {2, 2}, {-3, -3}, {0.5, 0.5}, {4, 4}, {3, 3}}, 7 * std::sqrt(2.0));
+}
+
+TEST(Steiner, ACenterTerminalOfAStar) {
+  std::vector<Vec2> points = ring(3);
+  points.push_back({0, 0});
+  expect_exact(points, 3.0);  // the Fermat point is a terminal
+}
+
+TEST(Steiner, BetweenTheSteinerRatioAndTheSpanningTree) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const int count = 3 + static_cast<int>(seed % 6);
+    const std::vector<Vec2> points = random_points(seed, count);
+    const double mst = spanning_tree(points);
+    const SteinerLength s = steiner_length(points);
+    EXPECT_TRUE(s.exact) << seed;
+    EXPECT_LE(s.upper_m, mst * (1 + 1e-12)) << seed;
+    EXPECT_GE(s.lower_m, mst * std::sqrt(0.75)) << "a disproof of Gilbert and Pollak's conjecture, seed " << seed;
+    EXPECT_LE(s.lower_m, s.upper_m);
+  }
+}
+
+// Two trees that share a terminal are a tree of all terminals, so the shortest one is no longer.
+TEST(Steiner, NeverExceedsTheSumOfTwoPartsThatShareATerminal) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const std::vector<Vec2> points = random_points(1000 + seed, 7);
+    const double whole = steiner_length(points).lower_m;
+    for (unsigned mask = 1; mask < 64; ++mask) {
+      std::vector<Vec2> left{points[6]};
+      std::vector<Vec2> right{points[6]};
+      for (unsigned i = 0; i < 6; ++i) (mask >> i & 1 ? left : right).push_back(points[i]);
+      EXPECT_LE(whole, (steiner_length(left).upper_m + steiner_length(right).upper_m) * (1 + 1e-9));
+    }
+  }
+}
+
+TEST(Steiner, DoesNotDependOnOrderPlaceAngleOrUnit) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::vector<Vec2> points = random_points(2000 + seed, 7);
+    const double length = steiner_length(points).upper_m;
+    std::reverse(points.begin(), points.end());
+    std::rotate(points.begin(), points.begin() + 3, points.end());
+    for (Vec2& p : points) p = rotate(Vec2{0.6, 0.8}, p) * 1000.0 + Vec2{-300, 70};
+    EXPECT_NEAR(steiner_length(points).upper_m, 1000 * length, 1e-6 * 1000 * length) << seed;
+  }
+}
+
+// An independent algorithm: Dreyfus & Wagner's dynamic programming finds the shortest network whose
+// Steiner points lie on a grid.
+TEST(Steiner, NoNetworkOnAGridIsShorter) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const std::vector<Vec2> terminals = random_points(3000 + seed, 5);
+    std::vector<Vec2> nodes = terminals;
+    constexpr int side = 31;
+    for (int i = 0; i < side * side; ++i) nodes.push_back({(i % side) / (side - 1.0), (i / side) / (side - 1.0)});
+    const std::size_t n = nodes.size();
+    std::vector<std::vector<double>> cost(32, std::vector<double>(n, 1e9));
+    for (unsigned t = 0; t < 5; ++t)
+      for (std::size_t v = 0; v < n; ++v) cost[1U << t][v] = distance(nodes[t], nodes[v]);
+    for (unsigned set = 1; set < 32; ++set) {
+      if ((set & (set - 1)) == 0) continue;
+      std::vector<double> joined(n, 1e9);
+      for (std::size_t v = 0; v < n; ++v)
+        for (unsigned sub = (set - 1) & set; sub > 0; sub = (sub - 1) & set)
+          joined[v] = std::min(joined[v], cost[sub][v] + cost[set ^ sub][v]);
+      for (std::size_t v = 0; v < n; ++v)  // all pairs are joined by straight lines
+        for (std::size_t w = 0; w < n; ++w)
+          cost[set][v] = std::min(cost[set][v], joined[w] + distance(nodes[v], nodes[w]));
+    }
+    const double on_grid = cost[31][0];
+    const SteinerLength s = steiner_length(terminals);
+    EXPECT_LE(s.lower_m, on_grid + 1e-9);
+    EXPECT_NEAR(s.upper_m, on_grid, 0.01 * on_grid) << "the grid is fine enough for one per cent";
+  }
+}
+
+TEST(Steiner, ManyTerminalsAreBounded) {
+  const std::vector<Vec2> points = random_points(5, 200);
+  const SteinerLength s = steiner_length(points);
+  EXPECT_FALSE(s.exact);
+  EXPECT_NEAR(s.upper_m, spanning_tree(points), 1e-9);
+  EXPECT_NEAR(s.lower_m, 0.8241 * s.upper_m, 1e-9);
+  const SteinerLength twelve = steiner_length(ring(12));
+  const double truth = 22 * std::sin(M_PI / 12);  // all sides but one
+  EXPECT_FALSE(twelve.exact);
+  EXPECT_NEAR(twelve.upper_m, truth, 1e-9);
+  EXPECT_LE(twelve.lower_m, truth);
+  EXPECT_GT(twelve.lower_m, 0.88 * truth) << "nine of them tell more than the ratio";
+}
+
+TEST(Steiner, IsQuickEnoughForTheStartOfEveryRun) {
+  const auto took = [](const std::vector<Vec2>& points) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_TRUE(steiner_length(points).exact);
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  };
+  const double ring8 = took(ring(8, 9.0));
+  double worst = 0.0;
+  double sum = 0.0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const double ms = took(random_points(4000 + seed, 9));
+    worst = std::max(worst, ms);
+    sum += ms;
+  }
+  RecordProperty("ring8_ms", std::to_string(ring8));
+  RecordProperty("random9_mean_ms", std::to_string(sum / 20));
+  std::printf("ring of 8: %.1f ms; 9 random: mean %.1f, worst %.1f ms\n", ring8, sum / 20, worst);
+  EXPECT_LT(ring8, 1000);  // 3 ms and 20 x 2 ms in release mode; room for sanitizers
+  EXPECT_LT(sum, 10000);
+}
+
+TEST(RobotsBound, FollowsTheFormula) {
+  EXPECT_EQ(robots_bound({{0, 0}}, 0.2, 2.0), 1U);
+  EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.2, 2.0), 10U);  // ceil(17.6 / 2) + 1
+  EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.0, 2.0), 10U);  // 18 / 2 exactly: 9 + 1
+  EXPECT_EQ(robots_bound(ring(3, 9.0), 0.2, 2.0), 15U);       // ceil(26.4 / 2) + 1
+  EXPECT_EQ(robots_bound(ring(4, 9.0), 0.2, 2.0), 18U);       // (34.77 - 0.8) / 2 = 16.99
+  EXPECT_EQ(robots_bound(ring(3, 0.1), 0.2, 2.0), 1U);
+}
+
+}  // namespace
+}  // namespace banyan::measure
