@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// `banyan bench`: how many robot-steps per second this machine does, with everything on that a run
+// has by default: the full controller, line of sight, all metrics at every tick; one thread.
+//
+// A fair figure needs a layout that stays as it is while robots move. Spares that orbit their
+// reference robot (the literal reading) keep nearly every robot moving; targets just beside the
+// swarm keep the workers at work without pulling it apart. Each window steps from the same
+// settled state and goes back to it after `lap_ticks`, and the number of neighbours at the start
+// and end of a window is part of the result, so that a layout that drifted would show.
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "banyan/measure/observer.hpp"
+#include "banyan/world/world.hpp"
+#include "commands.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct BenchLayout {
+  const char* name;
+  std::size_t robots;
+  bool dense;
+  std::uint64_t settle_ticks;   // before the first window: beyond START and SELECT PARENT
+};
+constexpr BenchLayout bench_layouts[] = {
+    {"dense-94-los", 94, true, 400}, {"spread-94-los", 94, false, 400}, {"spread-1000-los", 1000, false, 150},
+    {"spread-10000-los", 10000, false, 60}};
+constexpr std::uint64_t lap_ticks = 1000;
+constexpr double spread_pitch_m = 1.3;
+constexpr double dense_pitch_m = 0.225;
+
+world::Scenario scenario_of(const BenchLayout& layout) {
+  world::Scenario s;
+  s.name = layout.name;
+  s.mission.reading = "literal";
+  s.mission.time_limit_s = 1e6;
+  s.mission.stop_when_complete = false;
+  s.swarm.robots = layout.robots;
+  s.radio.line_of_sight = true;
+  if (layout.dense) {
+    // Without the tree's springs, which would push everybody apart to S, and with avoidance only
+    // from the lattice's own pitch on.
+    s.mission.algorithm = "inwards";
+    s.mission.parameters = {{"avoidance_range_m", dense_pitch_m}, {"interaction_gain", 0.0}};
+    s.swarm.start.pitch_m = dense_pitch_m;
+    s.targets = world::RingTargets{.count = 4, .radius_m = 1.0};
+  } else {
+    s.mission.algorithm = "outwards";
+    s.swarm.start.layout = world::Layout::grid;
+    s.swarm.start.pitch_m = spread_pitch_m;
+    const double swarm_radius_m = spread_pitch_m * std::sqrt(static_cast<double>(layout.robots) / pi<double>);
+    s.targets = world::RingTargets{.count = 4, .radius_m = swarm_radius_m + 0.9};
+  }
+  return s;
+}
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+// Bytes of the process in memory.
+double resident_bytes() {
+  long pages = 0, resident = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) resident = 0;
+    std::fclose(file);
+  }
+  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+struct Neighbors {
+  double in_range = 0.0;   // mean per robot
+  double visible = 0.0;    // of these, with line of sight
+};
+Neighbors neighbors_of(const world::World& world) {
+  std::size_t visible = 0;
+  for (std::size_t i = 0; i < world.size(); ++i) visible += world.links(i).size();
+  const auto n = static_cast<double>(world.size());
+  return {(static_cast<double>(visible) + 2.0 * static_cast<double>(world.blocked().size())) / n, static_cast<double>(visible) / n};
+}
+
+struct Sample {
+  std::vector<double> rates;              // robot-steps per second, one per window
+  Neighbors start, end;                   // first and last tick of the windows
+  double moving_share = 0.0;              // robots that moved in the last tick, mean over windows
+  double startup_s = 0.0;                 // from the scenario to a world that can step, observer included
+  double bytes_per_robot = 0.0;           // as the world counts
+  double resident_bytes_per_robot = 0.0;  // as the operating system counts
+};
+
+// Share of the robots that move by more than 0.1 mm in the tick it takes to find out.
+double moving_share(world::World& world) {
+  const std::vector<world::Vec2> before(world.positions().begin(), world.positions().end());
+  world.step();
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) moved += distance(before[i], world.positions()[i]) > 1e-4;
+  return static_cast<double>(moved) / static_cast<double>(before.size());
+}
+
+// One window: steps for `seconds` of measured time; copies back to `settled` do not count.
+double window_rate(const world::World& settled, double seconds, Sample& sample, int windows) {
+  double spent_s = 0.0;
+  double steps = 0.0;
+  world::World world = settled;
+  while (spent_s < seconds) {
+    world = settled;
+    measure::Observer observer(world);
+    const auto start = Clock::now();
+    double lap_s = 0.0;
+    for (std::uint64_t t = 0; t < lap_ticks && spent_s + lap_s < seconds; ++t) {
+      world.step();
+      observer.observe(world);
+      steps += static_cast<double>(world.size());
+      lap_s = seconds_since(start);
+    }
+    spent_s += lap_s;
+  }
+  const auto end = neighbors_of(world);
+  sample.end.in_range += end.in_range / windows;
+  sample.end.visible += end.visible / windows;
+  sample.moving_share += moving_share(world) / windows;
+  return steps / spent_s;
+}
+
+Sample measure_layout(const BenchLayout& layout, const BenchOptions& options, Progress& progress) {
+  Sample sample;
+  const auto scenario = scenario_of(layout);
+  const double before = resident_bytes();
+  const auto start = Clock::now();
+  world::World settled(scenario);
+  measure::Observer observer(settled);
+  sample.startup_s = seconds_since(start);
+  for (std::uint64_t t = 0; t < layout.settle_ticks; ++t) {
+    settled.step();
+    observer.observe(settled);
+    if (progress.due()) progress.show(0.0, std::string(layout.name) + ": settling", false);
+  }
+  const auto n = static_cast<double>(layout.robots);
+  sample.bytes_per_robot = static_cast<double>(settled.memory_bytes()) / n;
+  sample.resident_bytes_per_robot = std::max(0.0, resident_bytes() - before) / n;
+  sample.start = neighbors_of(settled);
+  for (int w = 0; w < options.windows; ++w) {
+    sample.rates.push_back(window_rate(settled, options.window_s, sample, options.windows));
+    if (progress.due()) progress.show(0.0, format("%s: window %d of %d", layout.name, w + 1, options.windows), false);
+  }
+  return sample;
+}
+
+nlohmann::ordered_json json_of(const BenchLayout& layout, const Sample& sample) {
+  const auto [low, high] = std::minmax_element(sample.rates.begin(), sample.rates.end());
+  auto round_to = [](double v, double unit) { return std::round(v / unit) * unit; };
+  auto hundredth = [](double v) { return std::round(v * 100.0) / 100.0; };
+  return {{"robot_steps_per_s", round_to(median(sample.rates), 1.0)},
+          {"lowest", round_to(*low, 1.0)},
+          {"highest", round_to(*high, 1.0)},
+          {"windows", sample.rates.size()},
+          {"robots", layout.robots},
+          {"neighbors_in_range_start", hundredth(sample.start.in_range)},
+          {"neighbors_in_range_end", hundredth(sample.end.in_range)},
+          {"neighbors_visible_start", hundredth(sample.start.visible)},
+          {"neighbors_visible_end", hundredth(sample.end.visible)},
+          {"moving_share", hundredth(sample.moving_share)},
+          {"startup_s", std::round(sample.startup_s * 1e4) / 1e4},
+          {"memory_bytes_per_robot", round_to(sample.bytes_per_robot, 1.0)},
+          {"resident_bytes_per_robot", round_to(sample.resident_bytes_per_robot, 1.0)}};
+}
+
+std::string row_text(const BenchLayout& layout, const Sample& sample) {
+  const auto [low, high] = std::minmax_element(sample.rates.begin(), sample.rates.end());
+  return format("%-17s %12s  %11s .. %-11s %5.1f -> %-5.1f %5.1f -> %-5.1f %5.0f %%  %8.4f  %9s\n", layout.name,
+                grouped(median(sample.rates)).c_str(), grouped(*low).c_str(), grouped(*high).c_str(), sample.start.in_range,
+                sample.end.in_range, sample.start.visible, sample.end.visible, 100.0 * sample.moving_share, sample.startup_s,
+                grouped(sample.bytes_per_robot).c_str());
+}
+
+std::vector<BenchLayout> chosen_layouts(const std::vector<std::string>& only) {
+  std::vector<BenchLayout> chosen;
+  std::vector<std::string_view> names;
+  for (const auto& layout : bench_layouts) {
+    names.emplace_back(layout.name);
+    if (only.empty() || std::find(only.begin(), only.end(), layout.name) != only.end()) chosen.push_back(layout);
+  }
+  for (const auto& name : only) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const auto near = nearest(name, names);
+    throw CommandError(exit_usage, "there is no layout \"" + name + "\"" +
+                                       (near.empty() ? "" : "; did you mean " + std::string(near) + "?"));
+  }
+  return chosen;
+}
+
+}  // namespace
+
+int bench_command(const BenchOptions& options) {
+  const auto layouts = chosen_layouts(options.only);
+  auto report = nlohmann::ordered_json::object();
+  if (!options.json) {
+    print("Robot-steps per second: one thread, line of sight, full controller, metrics at every tick.\n\n" +
+          format("%-17s %12s  %-26s %-14s %-14s %-8s %-9s %s\n", "layout", "median", "   lowest .. highest", "in range", "visible",
+                 "moving", "start, s", "bytes/robot"));
+  }
+  for (const auto& layout : layouts) {
+    Progress progress(true);
+    const auto sample = measure_layout(layout, options, progress);
+    progress.clear();
+    if (options.json) report[layout.name] = json_of(layout, sample);
+    else print(row_text(layout, sample));
+  }
+  if (options.json) print(report.dump(2) + "\n");
+  else print(format("\nin range, visible: neighbours per robot at the first and last tick of a window. %d windows of %g s each.\n",
+                    options.windows, options.window_s));
+  return exit_done;
+}
+
+}  // namespace banyan::cli
