@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "banyan/controller/trig.hpp"
 #include "banyan/measure/observer.hpp"
 #include "banyan/world/world.hpp"
 #include "commands.hpp"
