@@ -20,7 +20,7 @@
 #include "banyan/controller/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/random.hpp"
-#include "noise.hpp"
+#include "banyan/world/wheels.hpp"
 
 namespace banyan::world {
 namespace {
@@ -77,7 +77,7 @@ struct Momentum {
 class Box2d final : public Bodies {
  public:
   Box2d(const Scenario& scenario, std::size_t robots)
-      : noise_{scenario}, obstacles_{scenario.obstacles}, robot_{scenario.robot}, momentum_(robots), body_(robots),
+      : robot_{scenario.robot}, obstacles_{scenario.obstacles}, seed_{scenario.seed}, momentum_(robots), body_(robots),
         path_(robots) {
     substeps_ = std::max(1, static_cast<int>(std::ceil(scenario.tick_s / longest_substep_s - 1e-9)));
     h_ = scenario.tick_s / substeps_;
@@ -95,7 +95,7 @@ class Box2d final : public Bodies {
     b2World world({0.0F, 0.0F});
     build(world, poses);
     const std::span<Path> path(path_);
-    for (std::size_t i = 0; i < path.size(); ++i) path[i] = {noise_.wheels(i, tick, command[i]), 0.0, 0.0};
+    for (std::size_t i = 0; i < path.size(); ++i) path[i] = {wheel_twist(robot_, command[i], seed_, i, tick)};
     for (int s = 0; s < substeps_; ++s) {
       for (std::size_t i = 0; i < path.size(); ++i) drive(*body_[i], path[i].wheels, poses.heading[i]);
       world.Step(static_cast<float>(h_), velocity_iterations, position_iterations);
@@ -104,7 +104,7 @@ class Box2d final : public Bodies {
     for (std::size_t i = 0; i < path.size(); ++i) {
       poses.position[i] = from_box2d(body_[i]->GetPosition());
       momentum_[i] = {body_[i]->GetLinearVelocity(), body_[i]->GetAngularVelocity()};
-      odometry[i] = noise_.measured(i, tick, path[i].forward_m, 0.0, path[i].turn_rad);
+      odometry[i] = measured_odometry(robot_, path[i].shift_m, path[i].turn_rad, seed_, i, tick);
     }
   }
 
@@ -119,10 +119,12 @@ class Box2d final : public Bodies {
   }
 
  private:
-  // What a robot's wheels are told and have rolled within this tick.
+  // What a robot's wheels are told, and where they have rolled to within this tick, in the body
+  // frame of its start.
   struct Path {
-    Motion wheels;
-    double forward_m = 0.0;
+    Twist wheels;
+    Vec2 shift_m{};
+    Vec2 rotation{1.0, 0.0};
     double turn_rad = 0.0;
   };
 
@@ -150,7 +152,7 @@ class Box2d final : public Bodies {
   }
 
   // Wheels push the body towards the wanted velocity, sideways slip included, as hard as they can.
-  void drive(b2Body& body, const Motion& wheels, Vec2 heading) const {
+  void drive(b2Body& body, const Twist& wheels, Vec2 heading) const {
     const b2Vec2 wanted = to_box2d(heading * wheels.forward_m_s);
     b2Vec2 impulse = mass_.mass * (wanted - body.GetLinearVelocity());
     const float size = std::sqrt(impulse.x * impulse.x + impulse.y * impulse.y);
@@ -163,15 +165,18 @@ class Box2d final : public Bodies {
   // Encoders see how far the wheels have rolled: what the body did along its heading and its turn.
   // A shove from the side is lost on them.
   void roll(const b2Body& body, Path& path, Vec2& heading) const {
+    path.shift_m += path.rotation * (dot(from_box2d(body.GetLinearVelocity()), heading) * h_);
     const double turn = static_cast<double>(body.GetAngularVelocity()) * h_;
-    path.forward_m += dot(from_box2d(body.GetLinearVelocity()), heading) * h_;
+    if (turn == 0.0) return;
     path.turn_rad += turn;
-    if (turn != 0.0) heading = unit(rotate(heading, unit_vector(turn)));
+    const Vec2 step = unit_vector(turn);
+    path.rotation = rotate(path.rotation, step);
+    heading = unit(rotate(heading, step));
   }
 
-  Noise noise_;
-  std::vector<Obstacle> obstacles_;
   RobotModel robot_;
+  std::vector<Obstacle> obstacles_;
+  std::uint64_t seed_;
   int substeps_ = 1;
   double h_ = 0.01;
   b2MassData mass_{};

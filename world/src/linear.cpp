@@ -19,7 +19,7 @@
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"
-#include "noise.hpp"
+#include "banyan/world/wheels.hpp"
 
 namespace banyan::world {
 namespace {
@@ -34,6 +34,20 @@ Column operator*(const Matrix& m, const Column& x) noexcept {
   return y;
 }
 
+// The commanded velocity with the noise of the drive: the two factors of wheels.hpp act on the
+// components, because a holonomic robot has no left and right wheel.
+Vec2 noisy(const RobotModel& robot, const Velocity& command, std::uint64_t seed, std::size_t i,
+           std::uint64_t tick) noexcept {
+  double v[2] = {static_cast<double>(command.forward_m_s), static_cast<double>(command.sideways_m_s)};
+  for (std::uint64_t axis = 0; axis < 2; ++axis) {
+    if (robot.wheel_noise > 0.0)
+      v[axis] *= 1.0 + robot.wheel_noise * to_normal(bits(seed, Purpose::wheel_noise, i, axis, tick));
+    if (robot.wheel_bias > 0.0)
+      v[axis] *= 1.0 + robot.wheel_bias * to_normal(bits(seed, Purpose::wheel_bias, i, axis));
+  }
+  return {v[0], v[1]};
+}
+
 Vec2 shortened(Vec2 v, double limit) noexcept {
   const double n = norm(v);
   return n > limit ? v * (limit / n) : v;
@@ -42,8 +56,7 @@ Vec2 shortened(Vec2 v, double limit) noexcept {
 class Linear final : public Bodies {
  public:
   Linear(const Scenario& scenario, std::size_t robots)
-      : noise_{scenario}, obstacles_{scenario.obstacles}, h_{scenario.tick_s}, radius_{scenario.robot.radius_m},
-        speed_limit_{scenario.robot.wheel_limit_m_s}, acceleration_limit_{scenario.robot.max_acceleration_m_s2},
+      : robot_{scenario.robot}, obstacles_{scenario.obstacles}, seed_{scenario.seed}, h_{scenario.tick_s},
         a_{{{1, 0, h_, 0}, {0, 1, 0, h_}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
         b_{{{0, 0, h_ * h_ / 2, 0}, {0, 0, 0, h_ * h_ / 2}, {0, 0, h_, 0}, {0, 0, 0, h_}}}, velocity_(robots) {}
 
@@ -52,14 +65,13 @@ class Linear final : public Bodies {
   void step(std::span<const Velocity> command, NearPairs, std::uint64_t tick, Poses& poses,
             std::span<Odometry> odometry) override {
     for (std::size_t i = 0; i < velocity_.size(); ++i) {
-      const Motion wanted = noise_.holonomic(i, tick, command[i]);
       const Vec2 start = poses.position[i];
       const Vec2 heading = poses.heading[i];
-      move(poses.position[i], velocity_[i], rotate(heading, Vec2{wanted.forward_m_s, wanted.sideways_m_s}));
-      const double turn = wanted.turn_rad_s * h_;
+      move(poses.position[i], velocity_[i], rotate(heading, noisy(robot_, command[i], seed_, i, tick)));
+      const double turn = static_cast<double>(command[i].turn_rad_s) * h_;
       if (turn != 0.0) poses.heading[i] = unit(rotate(heading, unit_vector(turn)));
       const Vec2 moved = rotate_back(heading, poses.position[i] - start);
-      odometry[i] = noise_.measured(i, tick, moved.x, moved.y, turn);
+      odometry[i] = measured_odometry(robot_, moved, turn, seed_, i, tick);
     }
   }
 
@@ -73,13 +85,13 @@ class Linear final : public Bodies {
   // x(t+1) = A x(t) + B u(t), then the obstacles. v stays within its bound because both v and the
   // commanded velocity do and the new one lies between them.
   void move(Vec2& p, Vec2& v, Vec2 commanded) const noexcept {
-    const Vec2 a = shortened((shortened(commanded, speed_limit_) - v) / h_, acceleration_limit_);
+    const Vec2 a = shortened((shortened(commanded, robot_.wheel_limit_m_s) - v) / h_, robot_.max_acceleration_m_s2);
     const Column drift = a_ * Column{p.x, p.y, v.x, v.y};
     const Column control = b_ * Column{0.0, 0.0, a.x, a.y};
     p = {drift[0] + control[0], drift[1] + control[1]};
     v = {drift[2] + control[2], drift[3] + control[3]};
     for (const Obstacle& obstacle : obstacles_) {
-      const Vec2 push = push_out(obstacle, p, radius_);
+      const Vec2 push = push_out(obstacle, p, robot_.radius_m);
       if (push == Vec2{}) continue;
       p += push;
       const Vec2 outward = unit(push);
@@ -87,9 +99,10 @@ class Linear final : public Bodies {
     }
   }
 
-  Noise noise_;
+  RobotModel robot_;
   std::vector<Obstacle> obstacles_;
-  double h_, radius_, speed_limit_, acceleration_limit_;
+  std::uint64_t seed_;
+  double h_;
   Matrix a_, b_;
   std::vector<Vec2> velocity_;
 };

@@ -76,7 +76,8 @@ TEST(Box2d, OdometryFollowsTheBodyOnAFreeDrive) {
   for (int t = 0; t < 200; ++t) {
     bench.wander();
     const double turn = static_cast<double>(bench.odometry[0].turn_rad);
-    p += static_cast<double>(bench.odometry[0].forward_m) * rotate(heading, unit_vector(turn / 2));
+    p += rotate(heading, Vec2{static_cast<double>(bench.odometry[0].forward_m),
+                              static_cast<double>(bench.odometry[0].sideways_m)});
     heading = rotate(heading, unit_vector(turn));
   }
   EXPECT_LT(distance(p, bench.poses.position[0]), 0.02) << "after 2 m";
