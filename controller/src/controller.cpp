@@ -56,6 +56,7 @@ Message compose(const Robot& robot) noexcept {
   m.grant = self.grant;
   m.request = self.request;
   m.inserted_child = self.inserted_child;
+  m.call_hops = self.call_hops;
   m.want_cm = fixed<std::uint16_t>(self.want_m, 100.0F);
   const int up = self.parent != nobody ? robot.parent : robot.old_parent;
   if (up >= 0) {

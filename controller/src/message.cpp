@@ -93,6 +93,7 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.new_root);
   visit(m.centroid_x_cm);
   visit(m.centroid_y_cm);
+  visit(m.call_hops);
   visit(m.want_cm);
 }
 

@@ -67,7 +67,7 @@ Vec2 tree_motion(const Robot& robot) noexcept {
   // Emergency: u = p_parent, at full speed. A silent parent may be anywhere: to where it must be.
   if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
   if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
-  const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
+  const Vec2 u = clamped((robot.is_root() ? Vec2{} : robot.self.pull) + avoidance(robot), 1.0F);
   return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p) : u);
 }
 
@@ -78,6 +78,7 @@ Vec2 adjust_position(const Robot& robot) noexcept {
   if (k < 0) return avoidance(robot);
   const Vec2 reference = robot.table().position(k);
   if (norm(reference) > robot.params.safe_range_m) return unit(reference);
+  if (robot.self.called && norm(reference) > robot.params.avoidance_range_m) return unit(reference) + avoidance(robot);
   const Vec2 along = unit(Vec2{reference.y, -reference.x});
   return robot.params.corrected() ? avoidance(robot) : along * robot.params.target_gain + avoidance(robot);
 }

@@ -10,6 +10,8 @@ namespace banyan {
 namespace {
 
 constexpr int ungranted_limit_ticks = 6;  // spec 7
+constexpr float call_after_s = 2.0F;      // a need unanswered for so long calls spares from afar
+constexpr std::uint8_t call_reach_hops = 40;
 constexpr float infinite_m = 1e9F;
 
 // ---- The owner of an edge: NO NEED -> NEED -> AWAIT ----
@@ -130,6 +132,25 @@ RobotId nearest_reference(const Robot& robot) noexcept {
   return best < 0 ? nobody : table.id(best);
 }
 
+// The neighbour by which an unanswered need is nearest.
+RobotId nearest_caller(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k) && table.message(k).call_hops == robot.call_hops && (best < 0 || table.range(k) < table.range(best))) best = k;
+  return best < 0 ? nobody : table.id(best);
+}
+
+// Corrected reading: a spare that stands still may be far from where it is needed. Needs that nobody
+// answers spread hop by hop, and spares without an edge in sight follow the gradient.
+void spread_call(Robot& robot) noexcept {
+  State& self = robot.self;
+  const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
+  self.unserved_ticks = unserved && self.unserved_ticks < UINT16_MAX ? static_cast<std::uint16_t>(self.unserved_ticks + 1) : std::uint16_t{0};
+  if (robot.params.corrected() && self.unserved_ticks > robot.params.ticks(call_after_s)) self.call_hops = 0;
+  else self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
+}
+
 void give_up(State& self) noexcept {
   self.request = nobody;
   self.spare_state = SpareState::wait;
@@ -170,6 +191,8 @@ void look_for_edge(Robot& robot) noexcept {
   State& self = robot.self;
   self.reference = nearest_reference(robot);
   self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
+  self.called = self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
+  if (self.called) self.reference = nearest_caller(robot);
   self.request_ticks = self.ungranted_ticks = 0;
   self.spare_state = self.request != nobody ? SpareState::wait : SpareState::adjust_position;
 }
@@ -195,6 +218,7 @@ bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept {
 
 void manage_spares(Robot& robot) noexcept {
   State& self = robot.self;
+  spread_call(robot);
   if (self.inserted_child != nobody) watch_inserted_child(robot);
   if (self.role != Role::spare) {
     self.request = nobody;

@@ -33,7 +33,8 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.grant), static_cast<int>(s.grant_ticks),
                       static_cast<int>(s.inserted_child), static_cast<int>(s.inserted_ticks), static_cast<int>(s.spare_state),
                       static_cast<int>(s.request), static_cast<int>(s.request_ticks), static_cast<int>(s.ungranted_ticks),
-                      static_cast<int>(s.reference)})
+                      static_cast<int>(s.reference), static_cast<int>(s.called), static_cast<int>(s.unserved_ticks),
+                      static_cast<int>(s.call_hops)})
     d.add(v);
   d.add(s.q);
   d.add(s.want_m);

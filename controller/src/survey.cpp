@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/survey.hpp"
 
+#include <algorithm>
+
 #include "banyan/controller/parent_selection.hpp"
 
 namespace banyan {
@@ -11,12 +13,14 @@ void survey(Robot& robot) noexcept {
   robot.parent = robot.old_parent = -1;
   robot.children.size = robot.old_children.size = 0;
   robot.useful_child = false;
+  robot.call_hops = nobody_calls;
   for (int k = 0; k < table.size(); ++k) {
     const RobotId id = table.id(k);
     if (id == self.parent) robot.parent = k;
     if (id == self.old_parent) robot.old_parent = k;
     if (!table.alive(k)) continue;
     const Message& m = table.message(k);
+    robot.call_hops = std::min(robot.call_hops, m.call_hops);
     const bool names_me = m.parent == self.id;
     if (!names_me && m.old_parent != self.id) continue;
     // Whoever has not entered this epoch yet names the parent of the last one.

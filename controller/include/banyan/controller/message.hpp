@@ -37,6 +37,7 @@ constexpr bool newer(RootToken a, RootToken b) noexcept {
 inline constexpr std::uint16_t unknown_label = 0xFFFF;
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
+inline constexpr std::uint8_t nobody_calls = 0xFF;
 
 struct Message {
   RobotId id = nobody;
@@ -68,6 +69,7 @@ struct Message {
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
   std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
   std::int16_t centroid_y_cm = 0;
+  std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need nobody has answered
   std::uint16_t want_cm = 0;          // largest remaining worker distance below me
 
   friend bool operator==(const Message&, const Message&) = default;
@@ -82,7 +84,7 @@ inline constexpr float q_limit_m = 1.0e9F;
 // while there is none, the old parent.
 constexpr RobotId up_of(const Message& m) noexcept { return m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 58;  // bytes, little-endian, no padding
+inline constexpr std::size_t wire_size = 59;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 1;
 using Wire = std::array<std::uint8_t, wire_size>;
 

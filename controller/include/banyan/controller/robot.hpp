@@ -38,6 +38,7 @@ struct Robot {
   int old_parent = -1;
   IndexList children;          // living neighbours that name me as parent
   IndexList old_children;      // living neighbours that name me as old parent and not as parent
+  std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours
   bool useful_child = false;   // a living child (by parent or old parent) that is no spare
 
   [[nodiscard]] const Neighborhood& table() const noexcept { return self.neighbors; }

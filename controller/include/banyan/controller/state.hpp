@@ -65,6 +65,8 @@ struct State {
 
   // Spare management (spare_management.hpp)
   Need need = Need::no_need;
+  std::uint16_t unserved_ticks = 0;      // in NEED without a grant
+  std::uint8_t call_hops = nobody_calls;
   RobotId grant = nobody;
   std::uint16_t grant_ticks = 0;
   RobotId inserted_child = nobody;
@@ -73,7 +75,8 @@ struct State {
   RobotId request = nobody;              // owner of the edge I want to extend
   std::uint16_t request_ticks = 0;
   std::uint16_t ungranted_ticks = 0;
-  RobotId reference = nobody;            // the robot a spare stays with
+  RobotId reference = nobody;            // the robot a spare stays with, or follows to a need
+  bool called = false;                   // by an edge out of sight
 
   Tally tally;
   Neighborhood neighbors;
