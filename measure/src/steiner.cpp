@@ -52,7 +52,8 @@ std::vector<Vec2> far_apart(std::vector<Vec2> points, std::size_t most) {
   std::vector<double> gap(points.size());
   for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = distance(center, points[i]);
   for (std::size_t k = 0; k < std::min(most, points.size()); ++k) {
-    const auto far = static_cast<std::size_t>(std::max_element(gap.begin() + k, gap.end()) - gap.begin());
+    const auto far = static_cast<std::size_t>(
+        std::max_element(gap.begin() + static_cast<std::ptrdiff_t>(k), gap.end()) - gap.begin());
     std::swap(points[k], points[far]);
     std::swap(gap[k], gap[far]);
     for (std::size_t i = k + 1; i < gap.size(); ++i) {
@@ -166,8 +167,9 @@ class Relaxation {
   }
 
   void assemble(const Tree& tree, double e) {
-    gradient_.setZero(2 * tree.steiner_points());
-    hessian_.setZero(2 * tree.steiner_points(), 2 * tree.steiner_points());
+    const Eigen::Index unknowns = Eigen::Index{2} * tree.steiner_points();
+    gradient_.setZero(unknowns);
+    hessian_.setZero(unknowns, unknowns);
     for (int k = 0; k < tree.edge_count; ++k) {
       const auto [a, b] = tree.edges[k];
       const Vec2 d = tree.at[a] - tree.at[b];
@@ -182,7 +184,7 @@ class Relaxation {
       hessian_.block<2, 2>(row(b), row(a)) -= curvature;
     }
   }
-  static Eigen::Index row(int node) noexcept { return 2 * (node - first_steiner); }
+  static Eigen::Index row(int node) noexcept { return Eigen::Index{2} * (node - first_steiner); }
   void add(int node, Vec2 u, const Eigen::Matrix2d& curvature) {
     gradient_(row(node)) += u.x;
     gradient_(row(node) + 1) += u.y;
@@ -194,11 +196,10 @@ class Relaxation {
     const Tree start = tree;
     const double before = softened_length(start, e);
     const double slope = gradient_.dot(step_);
-    for (double share = 1.0; share > 1e-6; share *= 0.5) {
-      for (int s = 0; s < tree.steiner_points(); ++s) {
-        const int node = first_steiner + s;
-        tree.at[node] = start.at[node] - share * Vec2{step_(2 * s), step_(2 * s + 1)};
-      }
+    double share = 1.0;
+    for (int halvings = 0; halvings < 20; ++halvings, share *= 0.5) {
+      for (int node = first_steiner; node < first_steiner + tree.steiner_points(); ++node)
+        tree.at[node] = start.at[node] - share * Vec2{step_(row(node)), step_(row(node) + 1)};
       if (softened_length(tree, e) <= before - 1e-4 * share * slope) return true;
     }
     tree = start;
@@ -252,12 +253,13 @@ class Search {
   double relax(Tree& tree) {
     const bool finished = tree.terminals == static_cast<int>(terminals_.size());
     double bound = 0.0;
-    for (double e = 0.1; e > 0.5e-8; e *= 0.1) {
+    double e = 0.1;
+    for (int digits = 1; digits <= 8; ++digits, e *= 0.1) {
       relaxation_.run(tree, e * scale_, 0.1 * e, 20);
       bound = std::max(bound, DualBound(tree, e * scale_).value());
       if (hopeless(bound)) return bound;
       const double reached = length(tree);
-      if (!finished && e < 0.05 && !hopeless(reached)) return bound;
+      if (!finished && digits > 1 && !hopeless(reached)) return bound;
       if (finished) best_ = std::min(best_, reached);
     }
     if (finished) certain_ = std::min(certain_, bound);

@@ -27,7 +27,7 @@ constexpr double delta_inwards = 1.540841;  // m; spec 2, row 10
 
 std::string number(double x) {
   char text[32];
-  std::snprintf(text, sizeof text, "%g", x);
+  static_cast<void>(std::snprintf(text, sizeof text, "%g", x));  // %g always fits
   return text;
 }
 std::string at(Vec2 p) { return "(" + number(p.x) + ", " + number(p.y) + ")"; }
