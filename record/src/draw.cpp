@@ -76,11 +76,6 @@ Extent extent_of(const Setting& setting, const Frame& frame, const Trails& trail
   return extent;
 }
 
-struct Attribute {
-  std::string_view name;
-  std::string_view value;
-};
-
 class Picture {
  public:
   Picture(const Setting& setting, const Frame& frame, const Trails& trails, const DrawOptions& options)
@@ -104,7 +99,9 @@ class Picture {
     return {left_ + (p.x - extent_.low.x) * scale_, title_px + margin_px + (extent_.high.y - p.y) * scale_};
   }
   [[nodiscard]] double map_bottom() const { return title_px + 2.0 * margin_px + map_height_; }
-  [[nodiscard]] bool valid(std::int32_t i) const { return i >= 0 && static_cast<std::size_t>(i) < frame_.robots.size(); }
+  [[nodiscard]] bool valid(std::int32_t i) const {
+    return i >= 0 && static_cast<std::size_t>(i) < frame_.robots.size();
+  }
   [[nodiscard]] bool linked(std::size_t i, std::int32_t j) const {
     const auto a = static_cast<std::uint32_t>(i);
     const auto b = static_cast<std::uint32_t>(j);
@@ -242,7 +239,8 @@ void Picture::radio() {
     };
   };
   // Where everybody hears everybody, links would cover all else: the more there are, the finer.
-  const double per_robot = static_cast<double>(links_.open.size()) / std::max<double>(1.0, static_cast<double>(frame_.robots.size()));
+  const double robots = std::max(1.0, static_cast<double>(frame_.robots.size()));
+  const double per_robot = static_cast<double>(links_.open.size()) / robots;
   const double width = per_robot > 20.0 ? 0.25 : per_robot > 8.0 ? 0.5 : 0.8;
   if (options_.links && !links_.open.empty()) path(palette::link, width, pairs(links_.open));
   if (options_.blocked_links && !links_.blocked.empty()) {
@@ -305,7 +303,9 @@ void Picture::trees() {
     broken_edges_ = broken_edges_ || !is_linked;
     return !is_linked;
   };
-  for (const RobotFrame& r : frame_.robots) old_edges_ = old_edges_ || (r.alive && r.role != Role::spare && valid(r.old_parent));
+  old_edges_ = std::any_of(frame_.robots.begin(), frame_.robots.end(), [this](const RobotFrame& r) {
+    return r.alive && r.role != Role::spare && valid(r.old_parent);
+  });
   path(palette::tree, width, [&] { edges(&RobotFrame::parent, open); }, " stroke-linecap=\"round\"");
   path(palette::old_tree, 0.8 * width, [&] { edges(&RobotFrame::old_parent, open); }, " stroke-dasharray=\"6 4\"");
   path(palette::root, width, [&] {
@@ -330,7 +330,7 @@ void Picture::robot_symbol(Vec2 at, Role role, bool alive, double radius_px) {
     }
     out_.put("/>");
   };
-  if (alive && role == Role::root) circle(1.75 * radius_px, "none", color.hex, std::max(1.2, 0.25 * radius_px));
+  if (alive && role == Role::root) circle(1.6 * radius_px, "none", color.hex, std::max(1.2, 0.25 * radius_px));
   circle(radius_px, color.hex, "#1a1a1a", std::min(1.0, 0.18 * radius_px));
   if (alive && role == Role::worker) circle(0.38 * radius_px, "#ffffff", "", 0.0);
   if (!alive) {
@@ -375,7 +375,9 @@ void Picture::ids() {
     const double away = std::max(setting_.target_tolerance_m * scale_, robot_px_ + 3.0) * 0.75 + 3.0;
     // Towards the inside of the picture, so that a label never leaves it.
     const bool right = at.x < width_ - 4.0 * margin_px;
-    text(at + Vec2{right ? away : -away, -away}, 15.0, "T" + std::to_string(k),
+    std::string label("T");
+    label += std::to_string(k);
+    text(at + Vec2{right ? away : -away, -away}, 15.0, label,
          std::string(" fill=\"#8f3f6d\" font-weight=\"bold\"") + std::string(halo) +
              (right ? "" : " text-anchor=\"end\""));
   }
@@ -387,7 +389,7 @@ void Picture::ids() {
 }
 
 void Picture::legend_symbol(const std::function<void(Vec2)>& symbol, std::string words) {
-  const double width = 40.0 + 7.2 * static_cast<double>(words.size());
+  const double width = 46.0 + 7.3 * static_cast<double>(words.size());
   if (legend_at_.x > margin_px && legend_at_.x + width > width_ - margin_px) {
     legend_at_ = {margin_px, legend_at_.y + legend_row_px};
   }
@@ -439,7 +441,8 @@ void Picture::legend_entries() {
   }
   const bool trails = std::any_of(trails_.begin(), trails_.end(), [](const auto& t) { return t.size() > 1; });
   if (trails) {
-    legend_symbol(stroke(palette::trail, 2.5, " stroke-opacity=\"0.6\""), "trail, " + in_decimals(options_.trail_s, 0) + " s");
+    legend_symbol(stroke(palette::connector, 2.5, " stroke-opacity=\"0.45\""),
+                  "trail, " + in_decimals(options_.trail_s, 0) + " s");
   }
 }
 
@@ -488,7 +491,8 @@ std::string Picture::svg() {
   number(width_);
   out_.put(' ');
   number(height);
-  out_.put("\" font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
+  out_.put("\" font-family=\"Helvetica, Arial, sans-serif\">\n");
+  out_.put("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
   out_.put(body.view());
   out_.put("</svg>\n");
   return std::string(out_.view());

@@ -425,7 +425,8 @@ Setting read_setting(std::string_view text) {
 
 std::string frame_schema() {
   Text out;
-  schema_head(out, "banyan.Frame", "All robots at one tick: arrays with one number per robot, in the order of their indices");
+  schema_head(out, "banyan.Frame",
+              "All robots at one tick: arrays with one number per robot, in the order of their indices");
   for (const Field& field : fields) {
     schema_array(out, field.key, field.decimals == 0 ? "integer" : "number", field.meaning);
   }

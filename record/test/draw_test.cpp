@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Pictures: well-formed, complete, and with the links that geometry says.
+#include "banyan/record/draw.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "banyan/record/palette.hpp"
+#include "sample.hpp"
+
+namespace banyan::record {
+namespace {
+
+// Tags opened and closed in order, quotes paired, no stray '<' or '&': enough of XML for what we write.
+bool well_formed(std::string_view svg) {
+  std::vector<std::string_view> open;
+  std::size_t at = 0;
+  while ((at = svg.find('<', at)) != std::string_view::npos) {
+    const std::size_t end = svg.find('>', at);
+    if (end == std::string_view::npos) return false;
+    const std::string_view tag = svg.substr(at + 1, end - at - 1);
+    if (tag.find('<') != std::string_view::npos) return false;
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return false;
+    const std::string_view name = tag.substr(0, tag.find_first_of(" \n/", 1));
+    if (tag.front() == '/') {
+      if (open.empty() || open.back() != tag.substr(1)) return false;
+      open.pop_back();
+    } else if (tag.back() != '/') {
+      open.push_back(name);
+    }
+    at = end;
+  }
+  for (std::size_t k = 0; (k = svg.find('&', k)) != std::string_view::npos; ++k) {
+    if (svg.find(';', k) > k + 6) return false;
+  }
+  return open.empty() && svg.find("nan") == std::string_view::npos && svg.find("null") == std::string_view::npos;
+}
+
+std::size_t count(std::string_view text, std::string_view what) {
+  std::size_t n = 0;
+  for (std::size_t k = 0; (k = text.find(what, k)) != std::string_view::npos; ++k) ++n;
+  return n;
+}
+
+TEST(Draw, ShowsEveryRobotTargetAndTheProvenance) {
+  Setting setting = test::sample_setting();
+  for (const std::size_t n : {9U, 94U, 1000U}) {
+    DrawOptions options;
+    options.legend = false;
+    const Frame frame = test::sample_frame(n, 0.3 * std::sqrt(static_cast<double>(n)), 300);
+    const std::string svg = draw_svg(setting, frame, {}, options);
+    EXPECT_TRUE(well_formed(svg)) << n;
+    for (const Role role : {Role::root, Role::worker, Role::connector, Role::spare}) {
+      const auto robots = static_cast<std::size_t>(std::count_if(
+          frame.robots.begin(), frame.robots.end(), [&](const RobotFrame& r) { return r.alive && r.role == role; }));
+      EXPECT_EQ(count(svg, "fill=\"" + std::string(color_of(role).hex) + "\""), robots) << name_of(role);
+    }
+    EXPECT_EQ(count(svg, ">T0<") + count(svg, ">T1<"), frame.targets.size());
+    EXPECT_NE(svg.find("t = 30.0 s"), std::string::npos);
+    EXPECT_NE(svg.find("outwards"), std::string::npos);
+    EXPECT_NE(svg.find("seed 18446744073709551615"), std::string::npos);
+    EXPECT_NE(svg.find("sample &quot;ring&quot; &lt;&amp;&gt;"), std::string::npos);
+  }
+}
+
+TEST(Draw, EmptyExtremeAndBrokenFramesGiveAPicture) {
+  const Setting setting = test::sample_setting();
+  EXPECT_TRUE(well_formed(draw_svg(setting, {})));
+  EXPECT_TRUE(well_formed(draw_svg({}, {})));
+  Frame frame = test::sample_frame(5, 1.0, 3);
+  frame.robots[1].position = {1e11, -1e11};
+  frame.robots[2].parent = 77;
+  frame.robots[3].old_parent = 5;
+  frame.targets[0].worker = 99;
+  EXPECT_TRUE(well_formed(draw_svg(setting, frame)));
+}
+
+TEST(Draw, LinksAgreeWithBruteForce) {
+  Setting setting = test::sample_setting();
+  for (std::uint64_t round = 0; round < 20; ++round) {
+    const Frame frame = test::sample_frame(60, 1.5 + 0.2 * static_cast<double>(round), 10 * round);
+    setting.line_of_sight = round % 2 == 0;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> open, blocked;
+    for (std::uint32_t i = 0; i < 60; ++i) {
+      for (std::uint32_t j = i + 1; j < 60; ++j) {
+        const Vec2 a = frame.robots[i].position;
+        const Vec2 d = frame.robots[j].position - a;
+        if (!frame.robots[i].alive || !frame.robots[j].alive || norm(d) >= setting.range_m) continue;
+        bool hidden = false;
+        for (std::uint32_t k = 0; k < 60; ++k) {
+          const Vec2 c = frame.robots[k].position - a;
+          const double along = std::clamp(dot(c, d) / squared_norm(d), 0.0, 1.0);
+          hidden = hidden || (k != i && k != j && norm(c - along * d) < setting.radius_m);
+        }
+        // The obstacles of the sample: a disc, a box and a wall, sampled along the segment.
+        for (int s = 0; s <= 2000; ++s) {
+          const Vec2 p = a + (s / 2000.0) * d;
+          hidden = hidden || distance(p, Vec2{4.0, 0.1}) < 0.25;
+          const Vec2 q = rotate_back(unit_vector(0.5), p - Vec2{-2.5, 1.0});
+          hidden = hidden || (std::fabs(q.x) < 0.3 && std::fabs(q.y) < 0.1);
+        }
+        const Vec2 w{2.0, -0.5}, from = Vec2{-1.0, -2.0} - a;
+        const double t = cross(from, w) / cross(d, w), u = cross(from, d) / cross(d, w);
+        hidden = hidden || (t > 0.0 && t < 1.0 && u > 0.0 && u < 1.0);
+        (setting.line_of_sight && hidden ? blocked : open).emplace_back(i, j);
+      }
+    }
+    const Links links = radio_links(setting, frame);
+    EXPECT_EQ(links.open, open) << round;
+    EXPECT_EQ(links.blocked, blocked) << round;
+  }
+}
+
+TEST(Draw, FromARecordingWithTrails) {
+  const test::TemporaryDirectory directory;
+  test::record_sample(directory.file("a.mcap"), 20, 100);
+  Recording recording(directory.file("a.mcap"));
+  DrawOptions options;
+  options.trail_s = 3.0;
+  const std::string svg = draw_svg(recording, 5.0, options);
+  EXPECT_TRUE(well_formed(svg));
+  EXPECT_NE(svg.find("t = 5.0 s"), std::string::npos);
+  EXPECT_NE(svg.find("trail, 3 s"), std::string::npos);
+  options.trail_s = 0.0;
+  EXPECT_EQ(draw_svg(recording, 5.0, options).find("trail"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace banyan::record

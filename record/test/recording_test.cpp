@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+// What is recorded comes back; what is broken is said so.
+#include "banyan/record/recording.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "banyan/record/draw.hpp"
+#include "banyan/record/export.hpp"
+#include "banyan/record/mcap.hpp"
+#include "sample.hpp"
+
+namespace banyan::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream all;
+  all << file.rdbuf();
+  return all.str();
+}
+
+// Zero is "no CRC": damage is then found by whoever reads the messages, or not at all.
+std::string without_checksums(std::string bytes) {
+  constexpr char chunk = 6, footer = 2;
+  for (std::size_t at = 8; at + 9 < bytes.size();) {
+    std::uint64_t length = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+      length |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[at + 1 + k])) << (8 * k);
+    }
+    if (bytes[at] == chunk) bytes.replace(at + 9 + 24, 4, 4, '\0');
+    if (bytes[at] == footer) bytes.replace(at + 9 + 16, 4, 4, '\0');
+    at += 9 + length;
+  }
+  return bytes;
+}
+
+// Positions and angles are kept with four decimals.
+void expect_recorded(const Frame& got, const Frame& given) {
+  EXPECT_EQ(got.tick, given.tick);
+  EXPECT_NEAR(got.time_s, given.time_s, 1e-9);
+  ASSERT_EQ(got.robots.size(), given.robots.size());
+  for (std::size_t i = 0; i < given.robots.size(); ++i) {
+    RobotFrame rounded = got.robots[i];
+    EXPECT_NEAR(rounded.position.x, given.robots[i].position.x, 0.51e-4);
+    EXPECT_NEAR(rounded.position.y, given.robots[i].position.y, 0.51e-4);
+    EXPECT_NEAR(rounded.heading_rad, given.robots[i].heading_rad, 0.51e-4);
+    rounded.position = given.robots[i].position;
+    rounded.heading_rad = given.robots[i].heading_rad;
+    EXPECT_TRUE(rounded == given.robots[i]) << "robot " << i;
+  }
+  EXPECT_TRUE(got.targets == given.targets);
+}
+
+TEST(Recording, EveryFieldOfEveryFrameComesBack) {
+  const test::TemporaryDirectory directory;
+  RecorderOptions options;
+  options.chunk_bytes = 10000;
+  test::record_sample(directory.file("a.mcap"), 30, 120, options);
+  EXPECT_FALSE(fs::exists(directory.file("a.mcap.part")));
+  Recording recording(directory.file("a.mcap"));
+  EXPECT_TRUE(recording.warnings().empty()) << recording.warnings()[0];
+  EXPECT_EQ(recording.frames(), 120U);
+  EXPECT_DOUBLE_EQ(recording.start_s(), 0.0);
+  EXPECT_NEAR(recording.end_s(), 11.9, 1e-9);
+  std::uint64_t tick = 0;
+  recording.for_each([&](const Frame& frame) {
+    expect_recorded(frame, test::sample_frame(30, 3.0, tick++));
+    return true;
+  });
+  EXPECT_EQ(tick, 120U);
+}
+
+TEST(Recording, ProvenanceSettingAndResultComeBack) {
+  const test::TemporaryDirectory directory;
+  test::record_sample(directory.file("a.mcap"), 9, 20);
+  const Recording recording(directory.file("a.mcap"));
+  const Provenance given = test::sample_provenance();
+  EXPECT_EQ(recording.provenance().config_json, given.config_json);
+  EXPECT_EQ(recording.provenance().version, given.version);
+  EXPECT_EQ(recording.provenance().git, given.git);
+  EXPECT_EQ(recording.provenance().seed, given.seed);
+  const Setting setting = test::sample_setting();
+  EXPECT_EQ(recording.setting().name, setting.name);
+  EXPECT_EQ(recording.setting().seed, setting.seed);
+  EXPECT_EQ(recording.setting().radius_m, setting.radius_m);
+  EXPECT_EQ(recording.setting().line_of_sight, setting.line_of_sight);
+  ASSERT_EQ(recording.setting().obstacles.size(), 3U);
+  EXPECT_EQ(std::get<world::Disc>(recording.setting().obstacles[0]).radius_m, 0.25);
+  EXPECT_EQ(std::get<world::Box>(recording.setting().obstacles[1]).angle_rad, 0.5);
+  EXPECT_EQ(std::get<world::Wall>(recording.setting().obstacles[2]).to, (Vec2{1.0, -2.5}));
+  EXPECT_EQ(recording.result().at("hash"), "0123456789abcdef");
+  EXPECT_EQ(recording.result().at("complete"), "true");
+  EXPECT_EQ(recording.result().at("interrupted"), "false");
+}
+
+TEST(Recording, FrameAtIsTheLastOneBefore) {
+  const test::TemporaryDirectory directory;
+  test::record_sample(directory.file("a.mcap"), 9, 50);
+  Recording recording(directory.file("a.mcap"));
+  EXPECT_EQ(recording.frame_at(-1.0).tick, 0U);
+  EXPECT_EQ(recording.frame_at(0.0).tick, 0U);
+  EXPECT_EQ(recording.frame_at(0.3).tick, 3U);   // 0.3 is not 3 x 0.1 in binary
+  EXPECT_EQ(recording.frame_at(0.35).tick, 3U);
+  EXPECT_EQ(recording.frame_at(4.9).tick, 49U);
+  EXPECT_EQ(recording.frame_at(1e9).tick, 49U);
+  EXPECT_EQ(recording.frame_at(std::numeric_limits<double>::infinity()).tick, 49U);
+  EXPECT_EQ(recording.frame_at(std::numeric_limits<double>::quiet_NaN()).tick, 0U);
+}
+
+TEST(Recording, RangesStepsAndStopping) {
+  const test::TemporaryDirectory directory;
+  test::record_sample(directory.file("a.mcap"), 9, 50);
+  Recording recording(directory.file("a.mcap"));
+  std::vector<std::uint64_t> ticks;
+  const auto note = [&](const Frame& frame) {
+    ticks.push_back(frame.tick);
+    return ticks.size() < 4;
+  };
+  recording.for_each(note, 1.0, 2.0, 5);
+  EXPECT_EQ(ticks, (std::vector<std::uint64_t>{10, 15, 20}));
+  ticks.clear();
+  recording.for_each(note, 0.5);
+  EXPECT_EQ(ticks, (std::vector<std::uint64_t>{5, 6, 7, 8}));
+}
+
+TEST(Recording, EveryNthTickAndAlwaysTheLast) {
+  const test::TemporaryDirectory directory;
+  RecorderOptions options;
+  options.every_ticks = 20;
+  test::record_sample(directory.file("a.mcap"), 9, 50, options);
+  Recording recording(directory.file("a.mcap"));
+  std::vector<std::uint64_t> ticks;
+  recording.for_each([&](const Frame& frame) {
+    ticks.push_back(frame.tick);
+    return true;
+  });
+  EXPECT_EQ(ticks, (std::vector<std::uint64_t>{0, 20, 40, 49}));
+  EXPECT_EQ(recording.metrics().size(), 50U);
+}
+
+TEST(Recording, MetricsComeBack) {
+  const test::TemporaryDirectory directory;
+  test::record_sample(directory.file("a.mcap"), 9, 50);
+  Recording recording(directory.file("a.mcap"));
+  const auto metrics = recording.metrics();
+  ASSERT_EQ(metrics.size(), 50U);
+  for (std::uint64_t t = 0; t < 50; ++t) {
+    const measure::Tick given = test::sample_tick(test::sample_frame(9, 3.0, t));
+    const measure::Tick& got = metrics[t];
+    EXPECT_EQ(got.tick, t);
+    EXPECT_NEAR(got.time_s, given.time_s, 1e-9);
+    EXPECT_EQ(got.broken_by_distance, given.broken_by_distance);
+    EXPECT_EQ(got.components, given.components);
+    EXPECT_EQ(got.fiedler_low, given.fiedler_low);
+    EXPECT_EQ(got.fiedler, given.fiedler);
+    EXPECT_EQ(got.worst_target_distance_m, given.worst_target_distance_m);
+    EXPECT_EQ(got.targets_reached, given.targets_reached);
+  }
+}
+
+TEST(Recording, EventsTellWhatChanged) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  const Setting setting = test::sample_setting();
+  Frame frame;
+  frame.robots.resize(4);
+  frame.robots[0].role = Role::root;
+  frame.robots[3].role = Role::worker;
+  frame.targets = {{{1.0, 0.0}, 3}};
+  measure::Tick whole;
+  whole.components = 1;
+  {
+    Recorder recorder(path, {});
+    const auto next = [&](measure::Tick tick) {
+      recorder.frame(setting, frame, tick);
+      frame.time_s = 0.1 * static_cast<double>(++frame.tick);
+    };
+    next(whole);
+    frame.robots[1].alive = false;
+    next(whole);
+    frame.robots[0].role = Role::connector;
+    frame.robots[2].role = Role::root;
+    measure::Tick split = whole;
+    split.components = 2;
+    next(split);
+    frame.robots[2].epoch = 1;
+    frame.robots[2].phase = Phase::start_tree;
+    frame.robots[3].position = {0.9, 0.1};
+    next(whole);
+    frame.targets[0].position = {2.0, 0.0};
+    frame.targets.push_back({{0.0, 2.0}, 0});
+    next(whole);
+    recorder.event("remark", "\"quoted\"");
+    recorder.finish(test::sample_run(5), true);
+  }
+  Recording recording(path);
+  std::vector<std::string> kinds;
+  for (const RecordedEvent& event : recording.events()) kinds.push_back(std::to_string(event.tick) + " " + event.kind);
+  EXPECT_EQ(kinds, (std::vector<std::string>{"1 death", "2 root", "2 split", "3 epoch", "3 phase", "3 joined",
+                                             "3 arrival", "3 complete", "4 target_moved", "4 target_added",
+                                             "4 remark", "4 interrupted"}));
+  EXPECT_EQ(recording.events()[1].robot, 2);
+  EXPECT_EQ(recording.events()[10].text, "\"quoted\"");
+  EXPECT_EQ(recording.result().at("interrupted"), "true");
+  EXPECT_EQ(recording.frame_at(0.3).targets.size(), 1U);
+  EXPECT_EQ(recording.frame_at(0.4).targets.size(), 2U);
+  EXPECT_EQ(recording.frame_at(0.4).targets[0].position, (Vec2{2.0, 0.0}));
+}
+
+TEST(Recording, AnUnfinishedRecorderLeavesAReadablePart) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  {
+    Recorder recorder(path, test::sample_provenance());
+    for (std::uint64_t t = 0; t < 25; ++t) {
+      const Frame frame = test::sample_frame(9, 3.0, t);
+      recorder.frame(test::sample_setting(), frame, test::sample_tick(frame));
+    }
+  }
+  EXPECT_FALSE(fs::exists(path));
+  Recording recording(path + ".part");
+  EXPECT_EQ(recording.frames(), 25U);
+  EXPECT_EQ(recording.provenance().seed, 42U);
+  EXPECT_EQ(recording.setting().algorithm, "outwards");
+  EXPECT_TRUE(recording.result().empty());
+  ASSERT_FALSE(recording.warnings().empty());
+  EXPECT_NE(recording.warnings()[0].find("cut short"), std::string::npos);
+}
+
+TEST(Recording, ARunWithoutAnyTickIsAValidFile) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  {
+    Recorder recorder(path, test::sample_provenance());
+    recorder.finish(test::sample_run(0), true);
+  }
+  Recording recording(path);
+  EXPECT_EQ(recording.frames(), 0U);
+  EXPECT_THROW((void)recording.frame_at(0.0), FileError);
+  EXPECT_EQ(export_csv(recording, [](std::string_view) {}), 0U);
+}
+
+TEST(Recording, AnExistingRecordingStays) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  test::record_sample(path, 9, 5);
+  const std::string before = contents(path);
+  EXPECT_THROW(test::record_sample(path, 9, 6), FileError);
+  EXPECT_EQ(contents(path), before);
+  RecorderOptions options;
+  options.existing = Existing::replace;
+  test::record_sample(path, 9, 6, options);
+  EXPECT_EQ(Recording(path).frames(), 6U);
+}
+
+TEST(Recording, SameRunSameBytes) {
+  const test::TemporaryDirectory directory;
+  test::record_sample(directory.file("a.mcap"), 20, 60);
+  test::record_sample(directory.file("b.mcap"), 20, 60);
+  EXPECT_EQ(contents(directory.file("a.mcap")), contents(directory.file("b.mcap")));
+}
+
+TEST(Recording, AForeignMcapFileIsRefusedInWords) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  {
+    OutputFile file(path);
+    mcap::Writer writer(file, {});
+    writer.message(writer.add_channel(0, "/chatter", "json"), 0, "{}");
+    writer.finish();
+    file.commit();
+  }
+  try {
+    Recording recording(path);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("not a recording of Banyan"), std::string::npos);
+  }
+}
+
+TEST(Recording, MalformedFramesAreSkippedWithAWarning) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  test::record_sample(directory.file("good.mcap"), 3, 1);
+  std::string good;
+  {
+    mcap::Reader reader(directory.file("good.mcap"));
+    reader.messages(reader.find_channel("/banyan/frame")->id, [&](const mcap::Message& m) {
+      good = m.data;
+      return true;
+    });
+  }
+  const auto without = [&](const char* key, nlohmann::json value) {
+    auto object = nlohmann::json::parse(good);
+    value.is_null() ? (void)object.erase(key) : (void)(object[key] = std::move(value));
+    return object.dump();
+  };
+  const std::vector<std::string> bad = {
+      "", "{", "[]", "null", "\xFF", std::string(100000, '['), good.substr(0, good.size() / 2),
+      without("x_m", nullptr), without("x_m", 3), without("y_m", {1, 2}), without("role", {0, 1, 4}),
+      without("role", {0, 1, -1}), without("parent", {0, 1, 1e300}), without("phase", {0, "1", 2}),
+      without("time_s", -1), without("tick", 1.5e300), without("heading_rad", {nullptr, 0, 0})};
+  {
+    OutputFile file(path);
+    mcap::Writer writer(file, {});
+    const auto channel = writer.add_channel(0, "/banyan/frame", "json");
+    for (std::size_t k = 0; k < bad.size(); ++k) writer.message(channel, k, bad[k]);
+    writer.message(channel, bad.size(), good);
+    writer.finish();
+    file.commit();
+  }
+  Recording recording(path);
+  std::size_t frames = 0;
+  recording.for_each([&](const Frame&) {
+    ++frames;
+    return true;
+  });
+  EXPECT_EQ(frames, 1U);
+  EXPECT_GE(recording.warnings().size(), bad.size());
+  EXPECT_THROW((void)recording.frame_at(0.0), FileError);
+}
+
+// A recording with bytes changed anywhere: an error or a shorter run, and whatever comes out can
+// be exported and drawn.
+TEST(Recording, SurvivesMutations) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  RecorderOptions options;
+  options.chunk_bytes = 6000;
+  options.compression_level = 0;
+  test::record_sample(path, 5, 30, options);
+  const std::string whole = contents(path);
+  std::uint64_t seed = 9;
+  const auto draw = [&](std::size_t below) { return static_cast<std::size_t>(world::mix(++seed) % below); };
+  std::size_t opened = 0;
+  for (int round = 0; round < 400; ++round) {
+    // CRCs stop most damage before the JSON is seen: in half of the rounds there are none.
+    std::string bytes = round % 2 == 0 ? whole : without_checksums(whole);
+    for (std::size_t k = 0; k < 1 + draw(5); ++k) bytes[draw(bytes.size())] = static_cast<char>(draw(256));
+    if (draw(4) == 0) bytes.resize(draw(bytes.size()) + 1);
+    fs::remove(path);
+    { std::ofstream(path, std::ios::binary) << bytes; }
+    try {
+      Recording recording(path);
+      ++opened;
+      (void)recording.metrics();
+      (void)recording.events();
+      (void)export_csv(recording, [](std::string_view) {});
+      EXPECT_FALSE(draw_svg(recording, 1.5).empty());
+    } catch (const FileError&) {
+    }
+  }
+  EXPECT_GT(opened, 100U);
+}
+
+}  // namespace
+}  // namespace banyan::record

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Writes the sample recordings that record/test/mcap/ reads with the official MCAP library:
+//   sample_files DIRECTORY
+// gives sample.mcap (all channels), sample.csv (its export), plain.mcap (uncompressed, every 5th
+// tick), cut.mcap.part (a recorder that never finished) and empty.mcap (no tick).
+#include <cstdio>
+#include <exception>
+
+#include "banyan/record/export.hpp"
+#include "sample.hpp"
+
+namespace {
+
+using namespace banyan::record;
+
+void write_samples(const std::string& directory) {
+  const auto file = [&](const char* name) { return directory + "/" + name; };
+  RecorderOptions options;
+  options.existing = Existing::replace;
+  options.chunk_bytes = 40000;
+  test::record_sample(file("sample.mcap"), 30, 300, options);
+  Recording recording(file("sample.mcap"));
+  export_csv(recording, file("sample.csv"), Existing::replace);
+
+  Recorder(file("empty.mcap"), test::sample_provenance(), options).finish(test::sample_run(0), true);
+
+  RecorderOptions plain = options;
+  plain.compression_level = 0;
+  plain.every_ticks = 5;
+  test::record_sample(file("plain.mcap"), 9, 101, plain);
+
+  Recorder unfinished(file("cut.mcap"), test::sample_provenance(), options);
+  for (std::uint64_t t = 0; t < 50; ++t) {
+    const Frame frame = test::sample_frame(9, 3.0, t);
+    unfinished.frame(test::sample_setting(), frame, test::sample_tick(frame));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: sample_files DIRECTORY\n");
+    return 2;
+  }
+  try {
+    write_samples(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Results as CSV and JSON, read back by a parser of their own here and by the JSON library.
+#include "banyan/record/table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "sample.hpp"
+
+namespace banyan::record {
+namespace {
+
+// RFC 4180, all rows.
+std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> rows(1, {""});
+  bool quoted = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (quoted && c == '"' && k + 1 < text.size() && text[k + 1] == '"') {
+      rows.back().back() += '"';
+      ++k;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (!quoted && c == ',') {
+      rows.back().emplace_back();
+    } else if (!quoted && c == '\n') {
+      if (k + 1 < text.size()) rows.push_back({""});
+    } else {
+      rows.back().back() += c;
+    }
+  }
+  return rows;
+}
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream all;
+  all << file.rdbuf();
+  return all.str();
+}
+
+RunRow sample_row() {
+  RunRow row;
+  row.id.name = "a \"b\", c\nd";
+  row.id.algorithm = "outwards";
+  row.id.loss = 0.3;
+  row.id.seed = 18446744073709551615ULL;
+  row.run = test::sample_run(300);
+  row.run.disconnected_time_ratio = 1.0 / 3.0;
+  return row;
+}
+
+TEST(Table, CsvAndJsonAgree) {
+  const test::TemporaryDirectory directory;
+  const RunRow row = sample_row();
+  write_run_csv(directory.file("run.csv"), row);
+  write_run_json(directory.file("run.json"), row, test::sample_provenance().config_json);
+  const auto csv = parse_csv(contents(directory.file("run.csv")));
+  const auto json = nlohmann::json::parse(contents(directory.file("run.json")));
+  ASSERT_EQ(csv.size(), 2U);
+  ASSERT_EQ(csv[0].size(), csv[1].size());
+  ASSERT_EQ(csv[0].size(), json["result"].size());
+  for (std::size_t k = 0; k < csv[0].size(); ++k) {
+    ASSERT_TRUE(json["result"].contains(csv[0][k]));
+    const auto& value = json["result"][csv[0][k]];
+    if (value.is_null()) EXPECT_EQ(csv[1][k], "");
+    else if (value.is_string()) EXPECT_EQ(csv[1][k], value.get<std::string>());
+    else if (value.is_number_float()) EXPECT_EQ(std::stod(csv[1][k]), value.get<double>()) << csv[0][k];
+    else EXPECT_EQ(csv[1][k], value.dump()) << csv[0][k];
+  }
+  EXPECT_EQ(json["config"]["mission"]["algorithm"], "outwards");
+  EXPECT_EQ(json["result"]["name"], row.id.name);
+  EXPECT_EQ(json["result"]["seed"], row.id.seed);
+  EXPECT_EQ(json["result"]["hash"], "0123456789abcdef");
+  EXPECT_NEAR(json["result"]["disconnected_time_ratio"].get<double>(), 1.0 / 3.0, 1e-6);
+}
+
+TEST(Table, ColumnNamesAreUniqueAndSnakeCase) {
+  std::set<std::string_view> seen;
+  for (const auto& column : run_columns()) {
+    EXPECT_TRUE(seen.insert(column.name).second) << column.name;
+    EXPECT_EQ(column.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string_view::npos);
+    EXPECT_FALSE(column.meaning.empty());
+  }
+  for (const std::string_view needed : {"name", "algorithm", "reading", "body", "line_of_sight", "loss", "targets",
+                                        "redundancy", "robots", "range_m", "seed", "version", "git", "hash"}) {
+    EXPECT_TRUE(seen.contains(needed)) << needed;
+  }
+}
+
+TEST(Table, WhatIsNotThereIsEmptyOrNull) {
+  RunRow row = sample_row();
+  row.run.complete = false;
+  const auto csv = parse_csv(run_csv_header() + "\n" + run_csv_row(row) + "\n");
+  const auto json = nlohmann::json::parse(run_json(row, "{}"));
+  const auto at = std::find(csv[0].begin(), csv[0].end(), "completion_time_s") - csv[0].begin();
+  EXPECT_EQ(csv[1][static_cast<std::size_t>(at)], "");
+  EXPECT_TRUE(json["result"]["completion_time_s"].is_null());
+}
+
+TEST(Table, AConfigurationThatIsNoJsonIsKeptAsText) {
+  EXPECT_EQ(nlohmann::json::parse(run_json(sample_row(), "not {json"))["config"], "not {json");
+  EXPECT_EQ(nlohmann::json::parse(run_json(sample_row(), ""))["config"], "");
+  EXPECT_EQ(nlohmann::json::parse(run_json(sample_row(), "{\"a\":1}\n\n"))["config"]["a"], 1);
+}
+
+TEST(Table, QuotingFollowsRfc4180) {
+  EXPECT_EQ(csv_quoted("plain text"), "plain text");
+  EXPECT_EQ(csv_quoted("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_quoted("say \"x\""), "\"say \"\"x\"\"\"");
+  EXPECT_EQ(csv_quoted("two\nlines"), "\"two\nlines\"");
+  for (std::uint64_t k = 0; k < 500; ++k) {
+    std::string field;
+    for (std::uint64_t b = 0; b < k % 9; ++b) field += "a,\"\n\r;x "[world::bits(k, {}, b) % 8];
+    const auto parsed = parse_csv(csv_quoted(field) + "," + csv_quoted(field) + "\n");
+    ASSERT_EQ(parsed.size(), 1U);
+    EXPECT_EQ(parsed[0], (std::vector<std::string>{field, field}));
+  }
+}
+
+TEST(Table, IdentifyTellsWhatWasRun) {
+  world::Scenario scenario;
+  scenario.name = "x";
+  scenario.targets = world::RingTargets{3, 3.0, 0.0, {1.0, 0.0}};
+  scenario.swarm.start.center = {1.0, 0.0};
+  scenario.swarm.redundancy = 2.5;
+  scenario.robot.body = world::BodyModel::linear;
+  Identification id = identify(scenario, "0.1.0", "abc");
+  EXPECT_EQ(id.targets, 3U);
+  EXPECT_NEAR(id.target_radius_m, 3.0, 1e-9);
+  EXPECT_EQ(id.redundancy, 2.5);
+  EXPECT_EQ(id.body, "linear");
+  scenario.swarm.robots = 9;
+  EXPECT_NEAR(identify(scenario, "", "").redundancy, 9.0 * 1.540841 / 9.0, 1e-6);
+}
+
+TEST(SeriesWriter, ARowPerTick) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("series.csv");
+  {
+    SeriesWriter writer(path);
+    for (std::uint64_t t = 0; t < 300; ++t) writer.row(test::sample_tick(test::sample_frame(3, 1.0, t)));
+    EXPECT_FALSE(std::filesystem::exists(path));
+    writer.finish();
+  }
+  const auto csv = parse_csv(contents(path));
+  ASSERT_EQ(csv.size(), 301U);
+  ASSERT_EQ(csv[0].size(), series_columns().size());
+  EXPECT_EQ(csv[0][0], "tick");
+  const auto fiedler = static_cast<std::size_t>(std::find(csv[0].begin(), csv[0].end(), "fiedler") - csv[0].begin());
+  for (std::uint64_t t = 0; t < 300; ++t) {
+    EXPECT_EQ(csv[t + 1][0], std::to_string(t));
+    EXPECT_EQ(csv[t + 1][fiedler], t % 20 == 0 ? "0.125000000" : "");
+  }
+}
+
+}  // namespace
+}  // namespace banyan::record
