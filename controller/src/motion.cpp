@@ -77,7 +77,7 @@ Vec2 adjust_position(const Robot& robot) noexcept {
   const int k = robot.table().find(robot.self.parent != nobody ? robot.self.parent : robot.self.reference);
   if (k < 0) return avoidance(robot);
   const Vec2 reference = robot.table().position(k);
-  if (norm(reference) > robot.params.safe_range_m) return unit(reference);
+  if (norm(reference) > (robot.params.corrected() ? 0.5F * robot.params.recruitment_distance_m : robot.params.safe_range_m)) return unit(reference) + (robot.params.corrected() ? avoidance(robot) : Vec2{});
   if (robot.self.called && norm(reference) > robot.params.avoidance_range_m) return unit(reference) + avoidance(robot);
   const Vec2 along = unit(Vec2{reference.y, -reference.x});
   return robot.params.corrected() ? avoidance(robot) : along * robot.params.target_gain + avoidance(robot);

@@ -96,7 +96,7 @@ int way_to_tree(const Robot& robot, float range_m) noexcept {
 
 void reattach_orphan(Robot& robot) noexcept {
   State& self = robot.self;
-  const bool matters = self.role != Role::spare && !robot.is_root();
+  const bool matters = !robot.is_root() && (self.is_worker || robot.useful_child);
   const bool settled = self.phase >= Phase::grow_tree;
   if (!matters || !settled || self.depth != invalid_depth) {
     self.orphan_ticks = 0;
@@ -105,8 +105,9 @@ void reattach_orphan(Robot& robot) noexcept {
   if (self.orphan_ticks < UINT16_MAX) ++self.orphan_ticks;
   const bool drafted = self.parent == nobody && !self.is_worker;
   if (self.orphan_ticks <= (drafted ? drafted_attach_ticks : orphan_attach_ticks)) return;
-  int k = way_to_tree(robot, robot.params.parent_range_m());
-  if (k < 0) k = way_to_tree(robot, last_resort_range * robot.params.communication_range_m);
+  const float last_resort_m = last_resort_range * robot.params.communication_range_m;
+  int k = way_to_tree(robot, std::min(robot.params.parent_range_m(), last_resort_m));
+  if (k < 0) k = way_to_tree(robot, last_resort_m);
   if (k < 0) return;
   const Message& m = robot.table().message(k);
   if (m.label_cm != unknown_label && (self.label_cm == unknown_label || self.label_cm <= m.label_cm))

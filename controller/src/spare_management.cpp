@@ -74,13 +74,14 @@ void own_edge(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.grant != nobody) follow_grant(robot);
   if (!robot.parent_alive()) return end_grant(self);
-  const bool parent_awaits = robot.table().message(robot.parent).need == Need::await;
+  const Message& parent = robot.table().message(robot.parent);
+  const bool parent_awaits = parent.need == Need::await && parent.grant != nobody;
   switch (self.need) {
     case Need::no_need:
       if (is_stretched(robot) || child_in_need(robot)) self.need = Need::need;
       break;
     case Need::need:
-      // One insertion at a time along a path; other branches go on.
+      // Two insertions next to each other would leave the lower one without its parent.
       if (parent_awaits) self.need = Need::await;
       else if (!is_stretched(robot) && !child_in_need(robot)) self.need = Need::no_need;
       else if (self.phase == Phase::grow_tree) {
