@@ -26,6 +26,7 @@ std::vector<Vec2> ring(int count, double radius = 1.0, double phase = 0.0) {
 
 std::vector<Vec2> random_points(std::uint64_t seed, int count) {
   std::vector<Vec2> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     points.push_back({world::to_uniform(world::bits(seed, world::Purpose::targets, i, 0)),
                       world::to_uniform(world::bits(seed, world::Purpose::targets, i, 1))});
@@ -154,7 +155,8 @@ TEST(Steiner, NoNetworkOnAGridIsShorter) {
     const std::vector<Vec2> terminals = random_points(3000 + seed, 5);
     std::vector<Vec2> nodes = terminals;
     constexpr int side = 31;
-    for (int i = 0; i < side * side; ++i) nodes.push_back({(i % side) / (side - 1.0), (i / side) / (side - 1.0)});
+    for (int i = 0; i < side * side; ++i)
+      nodes.push_back({(i % side) / (side - 1.0), static_cast<double>(i / side) / (side - 1.0)});
     const std::size_t n = nodes.size();
     std::vector<std::vector<double>> cost(32, std::vector<double>(n, 1e9));
     for (unsigned t = 0; t < 5; ++t)
