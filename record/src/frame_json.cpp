@@ -48,8 +48,10 @@ constexpr Field real(std::string_view key, int decimals, double minimum, double 
 
 using R = RobotFrame;
 constexpr std::array<Field, 18> fields{{
-    {"x_m", "position", 4, -far, far, [](const R& r) { return r.position.x; }, [](R& r, double v) { r.position.x = v; }},
-    {"y_m", "position", 4, -far, far, [](const R& r) { return r.position.y; }, [](R& r, double v) { r.position.y = v; }},
+    {"x_m", "position", 4, -far, far, [](const R& r) { return r.position.x; },
+     [](R& r, double v) { r.position.x = v; }},
+    {"y_m", "position", 4, -far, far, [](const R& r) { return r.position.y; },
+     [](R& r, double v) { r.position.y = v; }},
     real<&R::heading_rad>("heading_rad", 4, -7, 7, "heading, (-pi, pi]"),
     whole<&R::role>("role", 0, 3, "0 spare, 1 connector, 2 worker, 3 root"),
     whole<&R::phase>("phase", 0, 4, "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root"),
@@ -94,7 +96,7 @@ void array(Text& out, std::string_view name, const Items& items, const Put& put_
   out.put(']');
 }
 
-void write_whole(Text& out, double value) { out.integer(static_cast<std::int64_t>(value)); }
+void write_whole(Text& out, double value) { out.small_integer(static_cast<std::int64_t>(value)); }
 
 [[noreturn]] void fail(std::string_view name, std::string_view what) {
   throw std::runtime_error("'" + std::string(name) + "' " + std::string(what));

@@ -21,6 +21,20 @@ class Text {
   }
   void put(std::string_view text);
   void integer(std::int64_t value);
+  // The same for numbers that mostly have one digit or are -1.
+  void small_integer(std::int64_t value) {
+    char* at = space(2);
+    if (value >= 0 && value < 10) {
+      at[0] = static_cast<char>('0' + value);
+      size_ += 1;
+    } else if (value == -1) {
+      at[0] = '-';
+      at[1] = '1';
+      size_ += 2;
+    } else {
+      integer(value);
+    }
+  }
   void natural(std::uint64_t value);
   // `decimals` in [0, 9]; half away from zero, no "-0". `otherwise` for what is not finite.
   void fixed(double value, int decimals, std::string_view otherwise = "null");
@@ -36,6 +50,8 @@ class Text {
   void advance_to(const char* end) noexcept { size_ = static_cast<std::size_t>(end - buffer_.data()); }
 
  private:
+  template <int decimals>
+  void fixed_of(double value);
   void grow(std::size_t n);
 
   std::string buffer_;

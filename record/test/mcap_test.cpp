@@ -245,7 +245,7 @@ TEST(McapReader, SurvivesMutations) {
           default:
             for (std::size_t b = at; b < std::min(at + 8, bytes.size()); ++b) bytes[b] = draw(2) == 0 ? '\xFF' : '\0';
         }
-        if (bytes.empty()) bytes = "x";
+        if (bytes.empty()) bytes.push_back('x');
       }
       spill(path, bytes);
       try {

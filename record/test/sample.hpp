@@ -46,7 +46,9 @@ inline Frame sample_frame(std::size_t robots, double spread_m, std::uint64_t tic
     RobotFrame robot;
     robot.position = (r + drift * r / spread_m) * unit_vector(turn);
     robot.heading_rad = angle_of(unit_vector(turn + 6.0 * uniform(i, 2)));
-    robot.role = i == 0 ? Role::root : i + 3 > robots ? Role::worker : uniform(i, 3) < 0.5 ? Role::connector : Role::spare;
+    robot.role = uniform(i, 3) < 0.5 ? Role::connector : Role::spare;
+    if (i + 3 > robots) robot.role = Role::worker;
+    if (i == 0) robot.role = Role::root;
     robot.phase = static_cast<Phase>(tick / 50 % 5);
     robot.need = static_cast<Need>(i % 3);
     robot.spare_state = static_cast<SpareState>(i % 3);
@@ -68,7 +70,8 @@ inline Frame sample_frame(std::size_t robots, double spread_m, std::uint64_t tic
         frame.robots[i].parent = static_cast<std::int32_t>(j);
       }
     }
-    frame.robots[i].depth = frame.robots[i].parent >= 0 ? frame.robots[static_cast<std::size_t>(frame.robots[i].parent)].depth + 1 : 0;
+    const std::int32_t parent = frame.robots[i].parent;
+    if (parent >= 0) frame.robots[i].depth = frame.robots[static_cast<std::size_t>(parent)].depth + 1;
     if (i % 6 == 4) frame.robots[i].old_parent = static_cast<std::int32_t>(i / 2);
   }
   for (std::size_t k = 0; k < 2 && robots >= 3; ++k) {
@@ -114,7 +117,9 @@ inline measure::Run sample_run(std::uint64_t ticks) {
   return run;
 }
 
-inline Provenance sample_provenance() { return {R"({"mission":{"algorithm":"outwards"},"n":[1,2]})", "0.1.0", "abc1234", 42}; }
+inline Provenance sample_provenance() {
+  return {R"({"mission":{"algorithm":"outwards"},"n":[1,2]})", "0.1.0", "abc1234", 42};
+}
 
 // Ticks 0 .. ticks-1.
 inline void record_sample(const std::string& path, std::size_t robots, std::uint64_t ticks,

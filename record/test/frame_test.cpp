@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// What is captured from a real world, and that it costs less than the world itself.
+#include "banyan/record/frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "banyan/measure/observer.hpp"
+#include "banyan/record/draw.hpp"
+#include "banyan/record/export.hpp"
+#include "banyan/world/world.hpp"
+#include "sample.hpp"
+
+namespace banyan::record {
+namespace {
+
+world::Scenario scenario(std::size_t robots, bool line_of_sight) {
+  world::Scenario s;
+  s.name = "frame test";
+  s.swarm.robots = robots;
+  s.targets = world::RingTargets{3, 3.0, 0.0, {}};
+  s.radio.line_of_sight = line_of_sight;
+  s.obstacles = {world::Disc{{1.5, 0.8}, 0.2}};
+  s.events = {{5.0, world::Event::Kind::die, 3, 0.0, {}}, {6.0, world::Event::Kind::move_target, 1, 0.0, {-2.0, 2.0}}};
+  return s;
+}
+
+TEST(Capture, ShowsTheWorldAsItIs) {
+  world::World world(scenario(30, true));
+  Frame frame;
+  for (int t = 0; t < 120; ++t) {
+    capture(world, frame);
+    ASSERT_EQ(frame.robots.size(), world.size());
+    EXPECT_EQ(frame.tick, world.tick());
+    EXPECT_EQ(frame.time_s, world.time_s());
+    std::size_t connected = 0;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const RobotFrame& robot = frame.robots[i];
+      const State& state = world.states()[i];
+      EXPECT_EQ(robot.position, world.positions()[i]);
+      EXPECT_LT(distance(unit_vector(robot.heading_rad), world.headings()[i]), 1e-9);
+      EXPECT_EQ(robot.role, state.role);
+      EXPECT_EQ(robot.phase, state.phase);
+      EXPECT_EQ(robot.parent, state.parent == nobody ? -1 : static_cast<int>(state.parent));
+      EXPECT_EQ(robot.label_cm, state.label_cm == unknown_label ? -1 : static_cast<int>(state.label_cm));
+      EXPECT_EQ(robot.alive, world.alive()[i] != 0);
+      EXPECT_TRUE(robot.alive || !robot.connected);
+      connected += robot.connected ? 1 : 0;
+      // Neighbours are in one component: both connected or neither.
+      for (const std::uint32_t j : world.links(i)) EXPECT_EQ(robot.connected, frame.robots[j].connected);
+    }
+    EXPECT_GE(connected, 1U);
+    ASSERT_EQ(frame.targets.size(), world.targets().size());
+    for (std::size_t k = 0; k < frame.targets.size(); ++k) {
+      EXPECT_EQ(frame.targets[k].position, world.targets()[k].position);
+      EXPECT_EQ(frame.robots[world.targets()[k].worker].target, static_cast<std::int32_t>(k));
+    }
+    world.step();
+  }
+  EXPECT_FALSE(frame.robots[3].alive);
+}
+
+// The picture's links against the radio's own.
+TEST(Capture, LinksOfAPictureAreTheRadios) {
+  for (const bool line_of_sight : {false, true}) {
+    world::World world(scenario(60, line_of_sight));
+    const Setting setting = setting_of(world);
+    Frame frame;
+    for (int t = 0; t < 100; ++t) {
+      world.step();
+      if (t % 10 != 9) continue;
+      capture(world, frame);
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> open, blocked;
+      for (std::uint32_t i = 0; i < world.size(); ++i) {
+        for (const std::uint32_t j : world.links(i)) {
+          if (i < j) open.emplace_back(i, j);
+        }
+      }
+      for (const auto& pair : world.blocked()) blocked.emplace_back(pair.first, pair.second);
+      std::sort(blocked.begin(), blocked.end());
+      const Links links = radio_links(setting, frame);
+      EXPECT_EQ(links.open, open);
+      EXPECT_EQ(links.blocked, blocked);
+    }
+  }
+}
+
+TEST(Capture, ARealRunCanBeRecordedExportedAndDrawn) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("run.mcap");
+  world::World world(scenario(30, true));
+  measure::Observer observer(world);
+  {
+    Recorder recorder(path, test::sample_provenance());
+    recorder.frame(world, observer.last());
+    for (int t = 0; t < 200; ++t) {
+      world.step();
+      recorder.frame(world, observer.observe(world));
+    }
+    recorder.finish(observer.result(world));
+  }
+  Recording recording(path);
+  EXPECT_TRUE(recording.warnings().empty());
+  EXPECT_EQ(recording.frames(), 201U);
+  EXPECT_EQ(recording.setting().name, "frame test");
+  Frame frame;
+  capture(world, frame);
+  const Frame last = recording.frame_at(20.0);
+  for (std::size_t i = 0; i < frame.robots.size(); ++i) {
+    EXPECT_LT(distance(last.robots[i].position, frame.robots[i].position), 1e-4);
+    EXPECT_EQ(last.robots[i].parent, frame.robots[i].parent);
+  }
+  const auto events = recording.events();
+  const auto happened = [&](std::string_view kind, double from_s, double to_s) {
+    return std::any_of(events.begin(), events.end(), [&](const RecordedEvent& e) {
+      return e.kind == kind && e.time_s >= from_s && e.time_s <= to_s;
+    });
+  };
+  EXPECT_TRUE(happened("death", 4.9, 5.2));
+  EXPECT_TRUE(happened("target_moved", 5.9, 6.2));
+  EXPECT_EQ(export_csv(recording, [](std::string_view) {}), 201U * 30U);
+  EXPECT_NE(draw_svg(recording, 10.0).find("frame test"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace banyan::record
