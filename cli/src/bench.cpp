@@ -7,6 +7,7 @@
 // swarm keep the workers at work without pulling it apart. Each window steps from the same
 // settled state and goes back to it after `lap_ticks`, and the number of neighbours at the start
 // and end of a window is part of the result, so that a layout that drifted would show.
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ constexpr BenchLayout bench_layouts[] = {
     {"spread-10000-los", 10000, false, 60}};
 constexpr std::uint64_t lap_ticks = 1000;
 constexpr double spread_pitch_m = 1.3;
-constexpr double dense_pitch_m = 0.225;
+constexpr double dense_pitch_m = 0.21;
 
 world::Scenario scenario_of(const BenchLayout& layout) {
   world::Scenario s;
@@ -65,6 +66,12 @@ world::Scenario scenario_of(const BenchLayout& layout) {
 }
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double cpu_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -94,7 +101,8 @@ Neighbors neighbors_of(const world::World& world) {
 }
 
 struct Sample {
-  std::vector<double> rates;              // robot-steps per second, one per window
+  std::vector<double> rates;              // robot-steps per second of wall time, one per window
+  std::vector<double> cpu_rates;          // the same per second of processor time: when others are at work too
   Neighbors start, end;                   // first and last tick of the windows
   double moving_share = 0.0;              // robots that moved in the last tick, mean over windows
   double startup_s = 0.0;                 // from the scenario to a world that can step, observer included
@@ -112,14 +120,16 @@ double moving_share(world::World& world) {
 }
 
 // One window: steps for `seconds` of measured time; copies back to `settled` do not count.
-double window_rate(const world::World& settled, double seconds, Sample& sample, int windows) {
+void measure_window(const world::World& settled, double seconds, Sample& sample, int windows) {
   double spent_s = 0.0;
+  double cpu_s = 0.0;
   double steps = 0.0;
   world::World world = settled;
   while (spent_s < seconds) {
     world = settled;
     measure::Observer observer(world);
     const auto start = Clock::now();
+    const double cpu_start_s = cpu_seconds();
     double lap_s = 0.0;
     for (std::uint64_t t = 0; t < lap_ticks && spent_s + lap_s < seconds; ++t) {
       world.step();
@@ -128,12 +138,14 @@ double window_rate(const world::World& settled, double seconds, Sample& sample, 
       lap_s = seconds_since(start);
     }
     spent_s += lap_s;
+    cpu_s += cpu_seconds() - cpu_start_s;
   }
   const auto end = neighbors_of(world);
   sample.end.in_range += end.in_range / windows;
   sample.end.visible += end.visible / windows;
   sample.moving_share += moving_share(world) / windows;
-  return steps / spent_s;
+  sample.rates.push_back(steps / spent_s);
+  sample.cpu_rates.push_back(steps / cpu_s);
 }
 
 Sample measure_layout(const BenchLayout& layout, const BenchOptions& options, Progress& progress) {
@@ -154,7 +166,7 @@ Sample measure_layout(const BenchLayout& layout, const BenchOptions& options, Pr
   sample.resident_bytes_per_robot = std::max(0.0, resident_bytes() - before) / n;
   sample.start = neighbors_of(settled);
   for (int w = 0; w < options.windows; ++w) {
-    sample.rates.push_back(window_rate(settled, options.window_s, sample, options.windows));
+    measure_window(settled, options.window_s, sample, options.windows);
     if (progress.due()) progress.show(0.0, format("%s: window %d of %d", layout.name, w + 1, options.windows), false);
   }
   return sample;
@@ -167,6 +179,7 @@ nlohmann::ordered_json json_of(const BenchLayout& layout, const Sample& sample) 
   return {{"robot_steps_per_s", round_to(median(sample.rates), 1.0)},
           {"lowest", round_to(*low, 1.0)},
           {"highest", round_to(*high, 1.0)},
+          {"robot_steps_per_cpu_s", round_to(median(sample.cpu_rates), 1.0)},
           {"windows", sample.rates.size()},
           {"robots", layout.robots},
           {"neighbors_in_range_start", hundredth(sample.start.in_range)},
@@ -181,8 +194,8 @@ nlohmann::ordered_json json_of(const BenchLayout& layout, const Sample& sample) 
 
 std::string row_text(const BenchLayout& layout, const Sample& sample) {
   const auto [low, high] = std::minmax_element(sample.rates.begin(), sample.rates.end());
-  return format("%-17s %12s  %11s .. %-11s %5.1f -> %-5.1f %5.1f -> %-5.1f %5.0f %%  %8.4f  %9s\n", layout.name,
-                grouped(median(sample.rates)).c_str(), grouped(*low).c_str(), grouped(*high).c_str(), sample.start.in_range,
+  return format("%-17s %12s  %10s .. %-10s %11s  %5.1f -> %-5.1f %5.1f -> %-5.1f %5.0f %%  %8.4f  %9s\n", layout.name,
+                grouped(median(sample.rates)).c_str(), grouped(*low).c_str(), grouped(*high).c_str(), grouped(median(sample.cpu_rates)).c_str(), sample.start.in_range,
                 sample.end.in_range, sample.start.visible, sample.end.visible, 100.0 * sample.moving_share, sample.startup_s,
                 grouped(sample.bytes_per_robot).c_str());
 }
@@ -210,7 +223,7 @@ int bench_command(const BenchOptions& options) {
   auto report = nlohmann::ordered_json::object();
   if (!options.json) {
     print("Robot-steps per second: one thread, line of sight, full controller, metrics at every tick.\n\n" +
-          format("%-17s %12s  %-26s %-14s %-14s %-8s %-9s %s\n", "layout", "median", "   lowest .. highest", "in range", "visible",
+          format("%-17s %12s  %-24s %11s  %-14s %-14s %-8s %-9s %s\n", "layout", "median", "   lowest .. highest", "per CPU s", "in range", "visible",
                  "moving", "start, s", "bytes/robot"));
   }
   for (const auto& layout : layouts) {
@@ -221,7 +234,8 @@ int bench_command(const BenchOptions& options) {
     else print(row_text(layout, sample));
   }
   if (options.json) print(report.dump(2) + "\n");
-  else print(format("\nin range, visible: neighbours per robot at the first and last tick of a window. %d windows of %g s each.\n",
+  else print(format("\nin range, visible: neighbours per robot at the first and last tick of a window. %d windows of %g s.\n"
+                    "per CPU s: the median per second of processor time, for machines that are busy otherwise.\n",
                     options.windows, options.window_s));
   return exit_done;
 }

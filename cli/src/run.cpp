@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <thread>
 
@@ -128,6 +129,9 @@ int run_command(const RunOptions& options) {
     config = keeper.config();
   } catch (...) {
     outputs.abandon();
+    if (std::filesystem::exists(outputs.recording() + ".part")) {
+      complain("the run is lost; what was recorded until then is in " + outputs.recording() + ".part");
+    }
     throw;
   }
   if (options.force) outputs.remove_leftovers(configuration.output);

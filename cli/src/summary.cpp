@@ -25,7 +25,7 @@ std::string verdict(const record::RunRow& row, const SummaryExtras& extras) {
 }
 
 std::string time_text(const measure::Run& run) {
-  std::string text = format("%.1f s of the limit of %.1f s", run.time_s, run.time_limit_s);
+  std::string text = format("%.1f s of the limit of %.1f s", run.complete ? run.completion_time_s : run.time_s, run.time_limit_s);
   if (run.complete) text += format(" (normalised %.3f)", run.normalized_time);
   return text + format("; no swarm could do it in less than %.1f s", run.time_bound_s);
 }

@@ -1,0 +1,477 @@
+// SPDX-License-Identifier: MIT
+// The program as a user meets it: started for real, in a directory of its own, judged by its exit
+// code, what it says and the files it leaves.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "config.hpp"
+
+namespace banyan::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+struct Outcome {
+  int code = -1;          // exit code, or 1000 + the signal that killed it
+  std::string out, err;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "banyan-program-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    home_ = pattern;
+    write("small.toml", "[swarm]\nrobots = 8\n[targets]\ncount = 2\nradius_m = 1.5\n");
+    // Never complete: its target is out of reach. Ends by its limit of three hours only.
+    write("endless.toml", "[mission]\ntime_limit_s = 10000.0\n[swarm]\nrobots = 60\n[targets]\nradius_m = 200.0\n");
+  }
+  void TearDown() override { fs::remove_all(home_); }
+
+  void write(const std::string& name, const std::string& text) { std::ofstream(home_ / name, std::ios::binary) << text; }
+  [[nodiscard]] std::string read(const std::string& name) const { return contents(home_ / name); }
+  [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(home_ / name); }
+  [[nodiscard]] json read_json(const std::string& name) const { return json::parse(read(name)); }
+
+  // Starts the program in home_. `largest_file`: what it may write into one file, like a full disk.
+  pid_t start(const std::vector<std::string>& arguments, rlim_t largest_file = RLIM_INFINITY, const char* out = nullptr,
+              const std::string& program = BANYAN_PROGRAM) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    if (::chdir(home_.c_str()) != 0) ::_exit(99);
+    const int to_out = ::open(out ? out : "stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int to_err = ::open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int from = ::open("/dev/null", O_RDONLY);
+    ::dup2(to_out, 1);
+    ::dup2(to_err, 2);
+    ::dup2(from, 0);
+    if (largest_file != RLIM_INFINITY) {
+      const rlimit limit{largest_file, largest_file};
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    std::vector<char*> argv{const_cast<char*>("banyan")};
+    for (const auto& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    ::execv(program.c_str(), argv.data());
+    ::_exit(98);
+  }
+  Outcome finish(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read("stdout.txt"), read("stderr.txt")};
+  }
+  Outcome run(const std::vector<std::string>& arguments) { return finish(start(arguments)); }
+
+  // A run that must not start: exit code 2, a reason, and no trace of results.
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) {
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, reason)) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(exists("out"));
+  }
+
+  fs::path home_;
+};
+
+// ------------------------------------------------------------------------------------- a good run
+
+TEST_F(Program, ARunLeavesItsThreeFilesAndAShortSummary) {
+  const auto outcome = run({"run", "small.toml"});
+
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 25);
+  EXPECT_TRUE(has(outcome.out, "small: COMPLETE after ")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "Results in out/small-outwards-1/")) << outcome.out;
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(home_ / "out/small-outwards-1")) files.push_back(entry.path().filename());
+  std::sort(files.begin(), files.end());
+  EXPECT_EQ(files, (std::vector<std::string>{"run.csv", "run.json", "run.mcap"}));
+}
+
+TEST_F(Program, TheTableAndTheJsonHoldTheSame) {
+  ASSERT_EQ(run({"run", "small.toml", "--out", "o"}).code, 0);
+
+  const auto result = read_json("o/run.json")["result"];
+  std::istringstream table(read("o/run.csv"));
+  std::string header, row, name, cell;
+  ASSERT_TRUE(std::getline(table, header) && std::getline(table, row));
+  std::istringstream names(header), cells(row);
+  std::size_t columns = 0;
+  while (std::getline(names, name, ',')) {
+    std::getline(cells, cell, ',');
+    ++columns;
+    ASSERT_TRUE(result.contains(name)) << name;
+    const auto& value = result[name];
+    if (value.is_string()) EXPECT_EQ(value.get<std::string>(), cell) << name;
+    else if (value.is_boolean()) EXPECT_EQ(value.get<bool>() ? "true" : "false", cell) << name;
+    else if (value.is_null()) EXPECT_EQ(cell, "") << name;
+    else EXPECT_EQ(value.get<double>(), std::stod(cell)) << name;
+  }
+  EXPECT_EQ(columns, result.size());
+  EXPECT_FALSE(std::getline(table, row));
+}
+
+TEST_F(Program, JsonOnStandardOutputIsTheFileAndNothingElse) {
+  const auto outcome = run({"run", "small.toml", "--json", "--out", "o"});
+
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, read("o/run.json"));
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Program, QuietSaysNothing) {
+  const auto outcome = run({"run", "small.toml", "--quiet"});
+
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  EXPECT_TRUE(exists("out/small-outwards-1/run.json"));
+}
+
+TEST_F(Program, OptionsReachTheRunAndItsRecords) {
+  ASSERT_EQ(run({"run", "small.toml", "--set", "mission.algorithm=inwards", "--set", "radio.loss=0.25", "--seed", "9", "--series",
+                 "--no-record"}).code, 0);
+
+  const auto file = read_json("out/small-inwards-9/run.json");
+  EXPECT_EQ(file["config"]["mission"]["algorithm"], "inwards");
+  EXPECT_EQ(file["config"]["radio"]["loss"], 0.25);
+  EXPECT_EQ(file["config"]["seed"], 9);
+  EXPECT_EQ(file["result"]["seed"], 9);
+  EXPECT_FALSE(exists("out/small-inwards-9/run.mcap"));
+  const auto series = read("out/small-inwards-9/series.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(series.begin(), series.end(), '\n')), file["result"]["ticks"].get<std::size_t>() + 1);
+}
+
+TEST_F(Program, TheJsonOfARunRunsItAgainToTheSameState) {
+  ASSERT_EQ(run({"run", "small.toml", "--out", "a", "--set", "robot.wheel_noise=0.1", "--set", "targets.phase_deg=33.3"}).code, 0);
+  ASSERT_EQ(run({"run", "a/run.json", "--out", "b", "--threads", "2"}).code, 0);
+
+  EXPECT_EQ(read_json("a/run.json")["result"]["hash"], read_json("b/run.json")["result"]["hash"]);
+  EXPECT_EQ(read_json("a/run.json")["config"], read_json("b/run.json")["config"]);
+}
+
+TEST_F(Program, AMissionThatDoesNotCompleteIsAResult) {
+  const auto outcome = run({"run", "endless.toml", "--set", "mission.time_limit_s=2", "--out", "o"});
+
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(has(outcome.out, "NOT COMPLETE within 2.0 s: 0 of 3 targets reached")) << outcome.out;
+  EXPECT_EQ(read_json("o/run.json")["result"]["complete"], false);
+  // ... and why it could not: as a warning with the bound, before the run.
+  EXPECT_TRUE(has(outcome.err, "endless.toml:5: warning: targets: out of reach: no connected network of fewer than")) << outcome.err;
+}
+
+// ------------------------------------------------------------------------------ nothing is overwritten
+
+TEST_F(Program, EveryRunGetsADirectoryOfItsOwn) {
+  ASSERT_EQ(run({"run", "small.toml", "-q"}).code, 0);
+  const auto first = read("out/small-outwards-1/run.mcap");
+  ASSERT_EQ(run({"run", "small.toml", "-q"}).code, 0);
+
+  EXPECT_TRUE(exists("out/small-outwards-1.2/run.json"));
+  EXPECT_EQ(read("out/small-outwards-1/run.mcap"), first);
+}
+
+TEST_F(Program, AGivenDirectoryWithResultsIsRefusedUnlessForced) {
+  ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o", "--series"}).code, 0);
+  const auto before = read("o/run.json");
+
+  const auto refused = run({"run", "small.toml", "--out", "o", "--seed", "2"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(has(refused.err, "o already holds results (run.mcap, run.csv, run.json, series.csv); add --force")) << refused.err;
+  EXPECT_EQ(read("o/run.json"), before);
+
+  EXPECT_EQ(run({"run", "small.toml", "-q", "--out", "o", "--seed", "2", "--force"}).code, 0);
+  EXPECT_EQ(read_json("o/run.json")["result"]["seed"], 2);
+  EXPECT_FALSE(exists("o/series.csv"));   // of the earlier run: would not belong to this one
+}
+
+// ------------------------------------------------------------------------------------- bad input
+
+TEST_F(Program, RefusesFilesThatAreNoScenario) {
+  write("empty.toml", "");
+  write("binary.toml", std::string("\x7f" "ELF\0\0\1\2", 8));
+  write("garbage.toml", "\x93\xfe\xfa\x01garbage");
+  write("syntax.toml", "[targets]\ncount = = 2\n");
+  write("syntax.json", "{\"targets\": {\"count\" 2}}");
+  fs::create_directory(home_ / "folder");
+
+  expect_refused({"run", "missing.toml"}, "missing.toml: error: there is no such file");
+  expect_refused({"run", "folder"}, "folder: error: is a directory");
+  expect_refused({"run", "empty.toml"}, "empty.toml: error: is empty");
+  expect_refused({"run", "binary.toml"}, "binary.toml: error: is a binary file");
+  expect_refused({"run", "garbage.toml"}, "garbage.toml:1: error: this is not TOML");
+  expect_refused({"run", "syntax.toml"}, "syntax.toml:2: error: this is not TOML");
+  expect_refused({"run", "syntax.json"}, "syntax.json:1: error: this is not JSON");
+  expect_refused({"run", BANYAN_PROGRAM}, "is a binary file");
+}
+
+TEST_F(Program, RefusesBadValuesByOption) {
+  const auto bad = [&](const std::string& assignment, const std::string& reason) {
+    expect_refused({"run", "small.toml", "--set", assignment}, "--set " + assignment + ": error: " + reason);
+  };
+  bad("radio.los=true", "radio.los: there is no such key; did you mean radio.loss?");
+  bad("radio.loss=high", "radio.loss: must be a number (0 to 1), not the text \"high\"");
+  bad("radio.range_m=nan", "radio.range_m: is nan; allowed: above 0");
+  bad("radio.range_m=inf", "radio.range_m: is inf; allowed: above 0");
+  bad("targets.radius_m=-1", "targets.radius_m: is -1; allowed: 0 to");
+  bad("swarm.robots=0", "swarm.robots: is 0; allowed: 2 to 65535");
+  bad("swarm.robots=2", "swarm.robots: 2 robots cannot serve 2 targets");
+  bad("swarm.start.pitch_m=0.1", "swarm.start.pitch_m: robots do not fit");
+  bad("mission.algorithm=sideways", "mission.algorithm: must be \"outwards\"");
+  expect_refused({"run", "small.toml", "--seed", "x"}, "--seed x: error: seed: must be a whole number");
+  expect_refused({"run", "small.toml", "--seed", "-1"}, "seed: is -1");
+}
+
+TEST_F(Program, RefusesWorldsThatCannotBe) {
+  const std::string obstacle = "[[obstacles]]\nkind = \"disc\"\ncenter_m = [1.5, 0.0]\nradius_m = 0.4\n";
+  write("inside.toml", read("small.toml") + obstacle);
+  write("crowd.toml", "[swarm]\nrobots = 100\n[targets]\nradius_m = 5.0\n" + std::string("[[obstacles]]\nkind = \"wall\"\nfrom_m = [-1, -1]\nto_m = [1, -1]\n") +
+                          "[[obstacles]]\nkind = \"wall\"\nfrom_m = [1, -1]\nto_m = [1, 1]\n[[obstacles]]\nkind = \"wall\"\nfrom_m = [1, 1]\nto_m = [-1, 1]\n" +
+                          "[[obstacles]]\nkind = \"wall\"\nfrom_m = [-1, 1]\nto_m = [-1, -1]\n");
+  expect_refused({"run", "inside.toml"}, "inside.toml:3: error: targets: target 0 at (1.5, 0) lies inside an obstacle");
+  expect_refused({"run", "crowd.toml"}, "of 100 robots fit between the obstacles");
+}
+
+TEST_F(Program, TellsAllFaultsAtOnce) {
+  write("bad.toml", "tick = 0.1\n[radio]\nloss = 2\nrange_m = \"far\"\n[targets]\ncount = 0\n");
+  const auto outcome = run({"validate", "bad.toml", "small.toml", "missing.toml"});
+
+  EXPECT_EQ(outcome.code, 2);
+  for (const char* line : {"bad.toml:1: error: tick: there is no such key; did you mean tick_s?", "bad.toml:3: error: radio.loss: is 2",
+                           "bad.toml:4: error: radio.range_m: must be a number", "bad.toml:6: error: targets.count: is 0",
+                           "missing.toml: error: there is no such file", "5 errors"}) {
+    EXPECT_TRUE(has(outcome.err, line)) << line << "\n" << outcome.err;
+  }
+  EXPECT_TRUE(has(outcome.out, "small.toml: ok: outwards (corrected), 8 robots, 2 targets"));
+}
+
+TEST_F(Program, ValidateSpeaksJsonAndShowsWhatAScenarioStandsFor) {
+  write("bad.toml", "[targets]\ncuont = 2\n");
+  const auto report = json::parse(run({"validate", "--json", "bad.toml", "small.toml"}).out);
+  EXPECT_EQ(report[0]["ok"], false);
+  EXPECT_EQ(report[0]["problems"][0]["line"], 2);
+  EXPECT_EQ(report[0]["problems"][0]["key"], "targets.cuont");
+  EXPECT_EQ(report[1]["config"]["swarm"]["robots"], 8);
+
+  const auto shown = run({"validate", "small.toml", "--show", "toml", "--set", "radio.loss=0.5"});
+  const auto again = parse_configuration("shown.toml", shown.out);
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(again.configuration.scenario.radio.loss, 0.5);
+}
+
+TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
+  EXPECT_TRUE(has(run({"rn", "small.toml"}).err, "\"rn\" is unknown; did you mean run?"));
+  EXPECT_TRUE(has(run({"run", "small.toml", "--qiet"}).err, "\"--qiet\" is unknown; did you mean --quiet?"));
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {}, {"rn"}, {"run"}, {"run", "small.toml", "--threads", "0"}, {"run", "small.toml", "--set"}, {"draw", "x.mcap", "--at", "nan"},
+           {"draw", "x.mcap", "--at", "-1"}, {"bench", "dens"}, {"algorithms", "outward"}, {"keys", "zzz"}}) {
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << (arguments.empty() ? "" : arguments[0]) << "\n" << outcome.err;
+    EXPECT_NE(outcome.err, "");
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+// --------------------------------------------------------------------------- disk full, interruption
+
+TEST_F(Program, AFullDiskIsSaidAndLeavesNoDamagedFile) {
+  const auto outcome = finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o"}, 300'000));
+
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "o/run.mcap: cannot write: File too large")) << outcome.err;   // what EFBIG is called
+  EXPECT_TRUE(has(outcome.err, "what was recorded until then is in o/run.mcap.part")) << outcome.err;
+  const auto rescued = run({"export", "o/run.mcap.part", "--csv"});
+  EXPECT_EQ(rescued.code, 0) << rescued.err;
+  EXPECT_GT(std::count(rescued.out.begin(), rescued.out.end(), '\n'), 60);
+  for (const char* name : {"o/run.mcap", "o/run.csv", "o/run.json"}) EXPECT_FALSE(exists(name)) << name;
+}
+
+TEST_F(Program, AFullDiskDoesNotCostTheEarlierResults) {
+  ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
+  const auto recording = read("o/run.mcap"), table = read("o/run.csv");
+
+  const auto outcome = finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o", "--force"}, 300'000));
+
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(read("o/run.mcap"), recording);
+  EXPECT_EQ(read("o/run.csv"), table);
+}
+
+TEST_F(Program, AFullStandardOutputIsAnError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"run", "small.toml", "--json", "--out", "p"}, {"algorithms"}, {"keys"}, {"--help"}, {"export", "o/run.mcap", "--csv"},
+           {"draw", "o/run.mcap"}, {"validate", "small.toml"}}) {
+    const auto outcome = finish(start(arguments, RLIM_INFINITY, "/dev/full"));
+    EXPECT_EQ(outcome.code, 1) << arguments[0];
+    EXPECT_TRUE(has(outcome.err, "standard output: ")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "No space left on device")) << outcome.err;
+  }
+  EXPECT_TRUE(exists("p/run.json"));   // the results themselves are safe
+}
+
+TEST_F(Program, ADirectoryThatCannotBeMadeIsSaidBeforeTheRun) {
+  write("file", "x");
+  const auto below = run({"run", "small.toml", "--out", "file/o"});
+  EXPECT_EQ(below.code, 1);
+  EXPECT_TRUE(has(below.err, "file/o: cannot be created: Not a directory")) << below.err;
+  const auto same = run({"run", "small.toml", "--out", "file"});
+  EXPECT_EQ(same.code, 2);
+  EXPECT_EQ(read("file"), "x");
+}
+
+class Interrupted : public Program, public ::testing::WithParamInterface<int> {};
+
+TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
+  const pid_t child = start({"run", "endless.toml", "--series", "--out", "o"});
+  for (int i = 0; i < 1000 && !exists("o/run.mcap.part"); ++i) std::this_thread::sleep_for(10ms);
+  std::this_thread::sleep_for(300ms);
+  ASSERT_EQ(::kill(child, GetParam()), 0);
+  const auto outcome = finish(child);
+
+  EXPECT_EQ(outcome.code, 128 + GetParam()) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, GetParam() == SIGINT ? "stopped by Ctrl-C at " : "stopped by SIGTERM at ")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "is in o")) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "endless: STOPPED at ")) << outcome.out;
+  const auto result = read_json("o/run.json")["result"];
+  EXPECT_EQ(result["interrupted"], true);
+  EXPECT_EQ(result["complete"], false);
+  const auto ticks = result["ticks"].get<std::size_t>();
+  EXPECT_GT(ticks, 0U);
+  const auto series = read("o/series.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(series.begin(), series.end(), '\n')), ticks + 1);
+  const auto exported = run({"export", "o/run.mcap", "--csv", "-o", "robots.csv"});
+  EXPECT_EQ(exported.code, 0) << exported.err;
+  const auto rows = read("robots.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), (ticks + 1) * 60 + 1);   // header, tick 0
+  for (const auto& entry : fs::directory_iterator(home_ / "o")) EXPECT_NE(entry.path().extension(), ".part");
+}
+
+INSTANTIATE_TEST_SUITE_P(BySignal, Interrupted, ::testing::Values(SIGINT, SIGTERM),
+                         [](const auto& test) { return test.param == SIGINT ? "CtrlC" : "Sigterm"; });
+
+// --------------------------------------------------------------------------------- recordings, lists
+
+TEST_F(Program, ExportAndDrawReadWhatRunWrote) {
+  ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
+
+  const auto table = run({"export", "o/run.mcap", "--csv", "--from", "1", "--to", "2", "--every", "5"});
+  EXPECT_EQ(table.code, 0);
+  EXPECT_TRUE(table.out.starts_with("tick,time_s,robot,x_m,y_m,heading_rad,role,phase,parent,old_parent,alive,connected,target\n10,1.0"));
+  EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 1 + 3 * 8);
+
+  EXPECT_EQ(run({"draw", "o/run.mcap", "--at", "3", "-o", "frame.svg"}).code, 0);
+  EXPECT_TRUE(has(read("frame.svg"), "<svg"));
+  const auto refused = run({"draw", "o/run.mcap", "-o", "frame.svg"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(has(refused.err, "frame.svg exists; add --force")) << refused.err;
+  EXPECT_TRUE(has(run({"draw", "o/run.mcap", "--at", "9999"}).err, "the recording ends at "));
+}
+
+TEST_F(Program, WhatIsNoRecordingIsRefused) {
+  write("short.mcap", "\x89MCAP");
+  for (const char* path : {"small.toml", "missing.mcap", "short.mcap", "/"}) {
+    for (const char* command : {"export", "draw"}) {
+      const auto outcome = run({command, path});
+      EXPECT_EQ(outcome.code, 1) << command << " " << path;
+      EXPECT_TRUE(has(outcome.err, path)) << outcome.err;
+      EXPECT_EQ(outcome.out, "");
+    }
+  }
+}
+
+TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
+  const auto text = run({"algorithms"}).out;
+  for (const char* part : {"outwards", "inwards", "target_gain", "tau", "Table I", "set by radio.range_m"}) EXPECT_TRUE(has(text, part)) << part;
+
+  const auto list = json::parse(run({"algorithms", "--json"}).out);
+  ASSERT_GE(list.size(), 2U);
+  for (const auto& entry : list) {
+    const double tau = entry["name"] == "outwards" ? 0.49 : 0.2539;   // Table I
+    for (const auto& row : entry["parameters"]) {
+      if (row["key"] == "target_gain") { EXPECT_EQ(row["default"]["literal"], tau); }
+    }
+  }
+}
+
+TEST_F(Program, EveryCommandHelpsWithExamples) {
+  const auto help = run({"--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const char* command : {"run", "validate", "export", "draw", "algorithms", "keys", "bench"}) {
+    EXPECT_TRUE(has(help.out, std::string("  ") + command)) << command;
+    const auto own = run({command, "--help"});
+    EXPECT_EQ(own.code, 0);
+    EXPECT_TRUE(has(own.out, "Examples:")) << command;
+    std::istringstream lines(own.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120U) << line;
+  }
+  EXPECT_FALSE(has(help.out, "complete-keys"));
+  EXPECT_TRUE(run({"--version"}).out.starts_with("banyan 0.")) << run({"--version"}).out;
+}
+
+TEST_F(Program, BenchReportsTheFiguresOfItsLayouts) {
+  const auto outcome = run({"bench", "--json", "--windows", "1", "--window", "0.01", "dense-94-los", "spread-94-los"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto report = json::parse(outcome.out);
+  EXPECT_EQ(report.size(), 2U);
+  for (const auto& entry : report) EXPECT_GT(entry["robot_steps_per_s"].get<double>(), 0.0);
+  // The layouts are what their names claim.
+  EXPECT_NEAR(report["dense-94-los"]["neighbors_in_range_start"].get<double>(), 85.0, 8.0);
+  EXPECT_NEAR(report["spread-94-los"]["neighbors_in_range_start"].get<double>(), 7.0, 1.5);
+  EXPECT_GT(report["dense-94-los"]["moving_share"].get<double>(), 0.6);
+}
+
+// --------------------------------------------------------------------------------------- completion
+
+class Completion : public Program {
+ protected:
+  std::vector<std::string> complete(const std::string& line) {
+    const std::string script = "source " BANYAN_COMPLETION "; COMP_LINE=$1; COMP_POINT=${#1}; _banyan; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    const auto outcome = finish(start({"-c", script, "bash", BANYAN_PROGRAM + line}, RLIM_INFINITY, nullptr, "/bin/bash"));
+    std::vector<std::string> words;
+    std::istringstream in(outcome.out);
+    for (std::string word; std::getline(in, word);) if (!word.empty()) words.push_back(word);
+    std::sort(words.begin(), words.end());
+    return words;
+  }
+};
+
+using Words = std::vector<std::string>;
+
+TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
+  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "bench", "draw", "export", "keys", "run", "validate"}));
+  EXPECT_EQ(complete(" ru"), Words{"run"});
+  EXPECT_EQ(complete(" run --th"), Words{"--threads"});
+  EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});
+  EXPECT_EQ(complete(" run small.toml --set mission.algorithm="), (Words{"inwards", "outwards"}));
+  EXPECT_EQ(complete(" run --set mission.parameters.target_"), Words{"mission.parameters.target_gain="});
+  EXPECT_EQ(complete(" run sm"), Words{"small.toml"});
+  EXPECT_EQ(complete(" algorithms in"), Words{"inwards"});
+  fs::create_directory(home_ / "out");
+  EXPECT_EQ(complete(" draw o"), Words{"out/"});
+}
+
+}  // namespace
+}  // namespace banyan::cli
