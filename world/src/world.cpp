@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "banyan/controller/digest.hpp"
 #include "banyan/world/bodies.hpp"
@@ -66,7 +67,7 @@ struct Flight {
 }  // namespace
 
 struct World::Impl {
-  explicit Impl(const Scenario& s);
+  Impl(const Scenario& s, const Policy* own);   // own: null for the one that s names
   Impl(const Impl& o);
 
   // The phases of a tick, in order.
@@ -80,6 +81,7 @@ struct World::Impl {
   [[nodiscard]] banyan::Vec2 measure(std::size_t i, std::uint32_t sender) const noexcept;
   void apply(const Event& event);
   void assign_target(Vec2 position);
+  void adopt(const Policy& own);
 
   Scenario scenario;
   const Policy* policy;
@@ -108,14 +110,15 @@ struct World::Impl {
   std::uint64_t received = 0, sent = 0;
 };
 
-World::Impl::Impl(const Scenario& s)
+World::Impl::Impl(const Scenario& s, const Policy* own)
     : scenario((require_possible(s), s)),
-      policy(find_policy(s.mission.algorithm)),
+      policy(own != nullptr ? own : find_policy(s.mission.algorithm)),
       params(make_params(s, *policy)),
       loss(s.radio.loss),
       poses(place(s)),
       bodies(make_bodies(s, poses)),
       radio(s, poses.position.size()) {
+  if (own != nullptr) adopt(*own);
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
   const Assignment assignment = assign(s, poses, positions);
@@ -140,6 +143,13 @@ World::Impl::Impl(const Scenario& s)
   flights.resize(static_cast<std::size_t>(std::max(1, s.radio.latency_ticks) - 1));
   Executor alone(1);
   radio.update(poses.position, alive, alone);
+}
+
+// faults() has judged the parameters of the algorithm that the scenario names, not these.
+void World::Impl::adopt(const Policy& own) {
+  if (const std::string_view text = fault(params); !text.empty())
+    throw std::invalid_argument(std::string(own.name()) + ": " + std::string(text));
+  scenario.mission.algorithm = own.name();
 }
 
 World::Impl::Impl(const Impl& o)
@@ -291,7 +301,8 @@ banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noe
 
 // ---- The view from outside ----
 
-World::World(const Scenario& scenario) : impl_(std::make_unique<Impl>(scenario)) {}
+World::World(const Scenario& scenario) : impl_(std::make_unique<Impl>(scenario, nullptr)) {}
+World::World(const Scenario& scenario, const Policy& policy) : impl_(std::make_unique<Impl>(scenario, &policy)) {}
 World::World(const World& o) : impl_(std::make_unique<Impl>(*o.impl_)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(const World& o) {

@@ -28,6 +28,9 @@ class World {
  public:
   // Throws std::invalid_argument with all faults(scenario) that are no warnings.
   explicit World(const Scenario& scenario);
+  // The same with a policy of your own instead of the registered one that the scenario names;
+  // scenario().mission.algorithm is then its name. `policy` must outlive this world and its copies.
+  World(const Scenario& scenario, const Policy& policy);
   World(const World&);
   World(World&&) noexcept;
   World& operator=(const World&);
