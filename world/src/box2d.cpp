@@ -5,9 +5,9 @@
 //
 // A Box2D world remembers the order in which contacts began and their impulses, and cannot be
 // copied. So it is built anew every tick from poses and velocities, which are then all there is to
-// remember: a clone goes on bit by bit as its original. That costs 5 % of a
-// tick with 94 robots and 12 % with 1,000. What is given up: the impulses of lasting contacts are found again in
-// the first sub-step of each tick instead of being carried over.
+// remember: a clone goes on bit by bit as its original. That costs 5 % of a tick with 94 robots and
+// 12 % with 1,000. What is given up: the impulses of lasting contacts are found again in the first
+// sub-step of each tick instead of being carried over.
 //
 // Lengths are scaled by 8 inside: Box2D keeps a slop of 5 mm and a skin of 10 mm, which would
 // show on a robot of 70 mm. A power of two, so that poses go to and fro without rounding.

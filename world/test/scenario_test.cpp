@@ -208,10 +208,11 @@ TEST(Scenario, RedundancyGivesThePapersNinetyFour) {
   scenario.swarm.start.center = {2, 3};
   scenario.targets = RingTargets{4, 9.0, 0.7, {2, 3}};
   EXPECT_EQ(robot_count(scenario), 94U) << "distances count from the start";
-  // An exact multiple stays exact although sines are rounded.
-  scenario.targets = RingTargets{4, 1.540841 * 3, 0.3, {2, 3}};
-  EXPECT_EQ(robot_count(scenario), 48U);
-  scenario.targets = RingTargets{4, 0.1, 0.3, {2, 3}};
+  // An exact multiple stays exact although the sum of the distances is rounded up.
+  scenario.swarm.start.center = {0, 0};
+  scenario.targets = std::vector<Vec2>(6, Vec2{1.540841 * 4, 0});
+  EXPECT_EQ(robot_count(scenario), 96U);
+  scenario.targets = RingTargets{4, 0.1, 0.3, {}};
   EXPECT_EQ(robot_count(scenario), 5U) << "never less than a worker each and a root";
   scenario.swarm.robots = 33;
   EXPECT_EQ(robot_count(scenario), 33U);
@@ -248,7 +249,7 @@ TEST(Scenario, RandomTargetsFillAnAnnulusEvenly) {
 TEST(Scenario, RandomTargetsKeepClearOfObstacles) {
   Scenario scenario;
   scenario.targets = RandomTargets{500, 9.0, {}};
-  scenario.obstacles = {Box{{4, 0}, {4, 12}, 0.2}, Disc{{-5, 0}, 2}};
+  scenario.obstacles = {Box{{6, 0}, {12, 30}, 0.0}, Disc{{-5, 0}, 2}};  // the box takes all of x > 0
   for (const Vec2 p : target_positions(scenario))
     for (const Obstacle& o : scenario.obstacles) EXPECT_GE(clearance(o, p), scenario.robot.radius_m);
 }
