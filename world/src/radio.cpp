@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "banyan/world/obstacles.hpp"
 
@@ -10,18 +11,6 @@ namespace banyan::world {
 namespace {
 
 constexpr std::size_t all_pairs_limit = 128;   // up to here scanning everybody beats the grid
-constexpr std::size_t few_neighbors = 12;      // up to here testing every body beats the sectors
-
-// A monotone stand-in for the angle of v, in [0, 4), without trigonometry. Its slope against the
-// angle is between 1/2 and 1, so an angular half-width bounds its own.
-float pseudo_angle(Vec2 v) noexcept {
-  const auto x = static_cast<float>(v.x);
-  const auto y = static_cast<float>(v.y);
-  const float sum = std::fabs(x) + std::fabs(y);
-  if (sum == 0.0F) return 0.0F;
-  const float p = x / sum;   // 1 .. -1
-  return y >= 0.0F ? 1.0F - p : 3.0F + p;
-}
 
 }  // namespace
 
@@ -33,7 +22,8 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       obstacles_(scenario.obstacles),
       use_grid_(robots > all_pairs_limit),
       offsets_(robots + 1, 0),
-      fill_(robots, 0) {}
+      fill_(robots, 0),
+      blocked_offsets_(robots + 1, 0) {}
 
 void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor) {
   if (scratch_.size() < static_cast<std::size_t>(executor.threads())) scratch_.resize(static_cast<std::size_t>(executor.threads()));
@@ -41,6 +31,7 @@ void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t
   for (Scratch& s : scratch_) {
     s.links.clear();
     s.blocked.clear();
+    s.blocker.clear();
     s.near.clear();
   }
   executor.parallel_for(positions.size(), [&](std::size_t begin, std::size_t end, int worker) {
@@ -87,103 +78,142 @@ void Radio::build_grid(std::span<const Vec2> positions) {
   // The loop has moved every start one cell up: cell c now begins at cell_start_[c + 1].
 }
 
-// Everybody within range of robot i; with line of sight off only those after it.
+// Everybody within range of robot i, ascending; with line of sight off only those after it.
 void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const {
   const double reach = std::max(range_m_, near_m_);
   const double reach2 = reach * reach;
   const Vec2 here = positions[i];
-  s.neighbors.clear();
-  const auto consider = [&](std::uint32_t j, Vec2 there) {
+  std::size_t size = 0;
+  // Written unconditionally and kept by advancing: no branch for the processor to guess.
+  const auto consider = [&](std::size_t j, Vec2 there) {
     const Vec2 d = there - here;
     const double d2 = squared_norm(d);
-    if (d2 < reach2 && j != i) s.neighbors.push_back({d, d2, j});
+    s.dx[size] = d.x;
+    s.dy[size] = d.y;
+    s.d2[size] = d2;
+    s.x[size] = static_cast<float>(d.x);
+    s.y[size] = static_cast<float>(d.y);
+    s.index[size] = static_cast<std::uint32_t>(j);
+    size += static_cast<std::size_t>(d2 < reach2) & static_cast<std::size_t>(j != i);
+  };
+  const auto reserve = [&](std::size_t more) {
+    if (s.dx.size() >= size + more) return;
+    for (auto* v : {&s.dx, &s.dy, &s.d2}) v->resize(2 * (size + more));
+    for (auto* v : {&s.x, &s.y}) v->resize(2 * (size + more));
+    s.index.resize(2 * (size + more));
   };
   if (!use_grid_) {
-    for (std::size_t j = line_of_sight_ ? 0 : i + 1; j < positions.size(); ++j) consider(static_cast<std::uint32_t>(j), positions[j]);
+    reserve(positions.size() + 1);
+    for (std::size_t j = line_of_sight_ ? 0 : i + 1; j < positions.size(); ++j) consider(j, positions[j]);
+    s.size = size;
     return;
   }
   const std::size_t row = cell_of_[i] / columns_;
   const std::size_t column = cell_of_[i] % columns_;
   const std::size_t first = column > 0 ? column - 1 : 0;
   const std::size_t last = std::min(column + 1, columns_ - 1);
-  const std::size_t total = positions.size();
   for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, rows_ - 1); ++r) {
+    const std::size_t begin = cell_start_[r * columns_ + first + 1];
     const std::size_t end_cell = r * columns_ + last + 2;
-    const std::size_t end = end_cell < cell_start_.size() ? cell_start_[end_cell] : total;
-    for (std::size_t at = cell_start_[r * columns_ + first + 1]; at < end; ++at)
-      if (line_of_sight_ || sorted_[at] > i) consider(sorted_[at], sorted_position_[at]);
+    const std::size_t end = end_cell < cell_start_.size() ? cell_start_[end_cell] : positions.size();
+    reserve(end - begin + 1);
+    for (std::size_t at = begin; at < end; ++at) consider(sorted_[at], sorted_position_[at]);
   }
-  std::sort(s.neighbors.begin(), s.neighbors.end(), [](const Neighbor& a, const Neighbor& b) { return a.index < b.index; });
+  s.size = size;
+  sort_by_index(s);
 }
 
-// Files every body under the sectors of the circle that its disc may cover, generously: sectors
-// only narrow down who is tested, the exact test decides.
-void Radio::cast_shadows(Scratch& s) const {
-  s.head.fill(-1);
-  s.shadows.clear();
-  s.bearing.resize(s.neighbors.size());
-  constexpr float per_unit = sectors / 4.0F;
-  const auto radius = static_cast<float>(radius_m_);
-  for (std::size_t k = 0; k < s.neighbors.size(); ++k) {
-    const float bearing = pseudo_angle(s.neighbors[k].d);
-    s.bearing[k] = bearing;
-    // asin(x) <= 1.05 x for x <= 1/2; discs that overlap the robot may cover any direction.
-    const float ratio = radius / std::sqrt(static_cast<float>(s.neighbors[k].d2));
-    const float half = ratio <= 0.5F ? 1.05F * ratio + 1e-4F : 2.0F;
-    const int from = static_cast<int>(std::floor((bearing - half) * per_unit));
-    const int to = std::min(static_cast<int>(std::floor((bearing + half) * per_unit)), from + sectors - 1);
-    for (int sector = from; sector <= to; ++sector) {
-      std::int32_t& head = s.head[static_cast<std::size_t>(sector & (sectors - 1))];
-      s.shadows.push_back({static_cast<std::uint32_t>(k), head});
-      head = static_cast<std::int32_t>(s.shadows.size()) - 1;
+// The grid hands out neighbours cell by cell, each ascending: few and nearly in order.
+void Radio::sort_by_index(Scratch& s) {
+  for (std::size_t k = 1; k < s.size; ++k) {
+    const auto moved = std::tuple(s.index[k], s.dx[k], s.dy[k], s.d2[k], s.x[k], s.y[k]);
+    std::size_t at = k;
+    for (; at > 0 && s.index[at - 1] > std::get<0>(moved); --at) {
+      s.index[at] = s.index[at - 1];
+      s.dx[at] = s.dx[at - 1];
+      s.dy[at] = s.dy[at - 1];
+      s.d2[at] = s.d2[at - 1];
+      s.x[at] = s.x[at - 1];
+      s.y[at] = s.y[at - 1];
     }
+    std::tie(s.index[at], s.dx[at], s.dy[at], s.d2[at], s.x[at], s.y[at]) = moved;
   }
 }
 
-bool Radio::shadowed(const Scratch& s, std::size_t target) const noexcept {
-  const Neighbor& t = s.neighbors[target];
-  if (s.neighbors.size() <= few_neighbors) {
-    for (std::size_t k = 0; k < s.neighbors.size(); ++k)
-      if (k != target && disc_blocks(s.neighbors[k].d, t.d, t.d2, radius_m_)) return true;
-    return false;
+// A body between the robot and its neighbour `target`, or nobody_blocks. Single precision, four at a
+// time, leaves out who is clearly beside the line; the exact test decides on the rest.
+std::uint32_t Radio::find_blocker(const Scratch& s, std::size_t target) const noexcept {
+  const Vec2 d{s.dx[target], s.dy[target]};
+  const double d2 = s.d2[target];
+  const auto length = static_cast<float>(std::sqrt(d2));
+  const float ux = s.x[target] / length;
+  const float uy = s.y[target] / length;
+  const float beside = static_cast<float>(radius_m_) + 1e-4F * (length + 1.0F);   // far above the rounding
+  constexpr std::size_t chunk = 16;
+  for (std::size_t begin = 0; begin < s.size; begin += chunk) {
+    const std::size_t end = std::min(begin + chunk, s.size);
+    int any = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const float across = std::fabs(s.x[k] * uy - s.y[k] * ux);
+      const float along = s.x[k] * ux + s.y[k] * uy;
+      any |= static_cast<int>(across < beside) & static_cast<int>(along > -1e-3F) & static_cast<int>(along < length + 1e-3F);
+    }
+    if (any == 0) continue;
+    for (std::size_t k = begin; k < end; ++k)
+      if (k != target && disc_blocks({s.dx[k], s.dy[k]}, d, d2, radius_m_)) return s.index[k];
   }
-  const auto sector = static_cast<std::size_t>(s.bearing[target] * (sectors / 4.0F)) & (sectors - 1);
-  for (std::int32_t at = s.head[sector]; at >= 0; at = s.shadows[static_cast<std::size_t>(at)].next) {
-    const std::uint32_t k = s.shadows[static_cast<std::size_t>(at)].neighbor;
-    if (k != target && disc_blocks(s.neighbors[k].d, t.d, t.d2, radius_m_)) return true;
-  }
-  return false;
+  return nobody_blocks;
+}
+
+// Who blocked a pair in the last tick mostly still does.
+bool Radio::still_blocks(std::uint32_t blocker, std::size_t i, Vec2 d, double d2, std::span<const Vec2> positions) const noexcept {
+  return blocker != nobody_blocks && disc_blocks(positions[blocker] - positions[i], d, d2, radius_m_);
 }
 
 // Decides every pair (i, j > i), so that each is decided once and from the same end.
 void Radio::scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const {
   gather(i, positions, s);
-  if (line_of_sight_ && s.neighbors.size() > few_neighbors) cast_shadows(s);
   s.obstacles.clear();
   if (line_of_sight_)
     for (const Obstacle& obstacle : obstacles_)
       if (clearance(obstacle, positions[i]) < range_m_) s.obstacles.push_back(&obstacle);
 
   const auto self = static_cast<std::uint32_t>(i);
-  for (std::size_t k = 0; k < s.neighbors.size(); ++k) {
-    const Neighbor& n = s.neighbors[k];
-    if (n.index <= self) continue;
-    if (n.d2 < near_m_ * near_m_) s.near.emplace_back(self, n.index);
-    if (n.d2 >= range_m_ * range_m_ || alive[i] == 0 || alive[n.index] == 0) continue;
-    const auto in_the_way = [&](const Obstacle* o) { return blocks(*o, positions[i], positions[n.index]); };
-    const bool blocked = line_of_sight_ && (shadowed(s, k) || std::any_of(s.obstacles.begin(), s.obstacles.end(), in_the_way));
-    (blocked ? s.blocked : s.links).emplace_back(self, n.index);
+  std::size_t last = blocked_offsets_[i];   // walks along the last tick's blocked pairs of i
+  for (std::size_t k = 0; k < s.size; ++k) {
+    const std::uint32_t other = s.index[k];
+    if (other <= self) continue;
+    if (s.d2[k] < near_m_ * near_m_) s.near.emplace_back(self, other);
+    if (s.d2[k] >= range_m_ * range_m_ || alive[i] == 0 || alive[other] == 0) continue;
+    if (!line_of_sight_) {
+      s.links.emplace_back(self, other);
+      continue;
+    }
+    while (last < blocked_offsets_[i + 1] && blocked_[last].second < other) ++last;
+    const bool was_blocked = last < blocked_offsets_[i + 1] && blocked_[last].second == other;
+    std::uint32_t blocker = was_blocked ? blocker_[last] : nobody_blocks;
+    if (!still_blocks(blocker, i, {s.dx[k], s.dy[k]}, s.d2[k], positions)) blocker = find_blocker(s, k);
+    const auto in_the_way = [&](const Obstacle* o) { return blocks(*o, positions[i], positions[other]); };
+    if (blocker == nobody_blocks && std::none_of(s.obstacles.begin(), s.obstacles.end(), in_the_way)) {
+      s.links.emplace_back(self, other);
+    } else {
+      s.blocked.emplace_back(self, other);
+      s.blocker.push_back(blocker);
+    }
   }
 }
 
 // Pairs of all threads, in order, into compressed rows that are ascending at both ends.
 void Radio::merge(std::size_t robots) {
   blocked_.clear();
+  blocker_.clear();
   near_.clear();
   std::fill(offsets_.begin(), offsets_.end(), 0U);
+  std::fill(blocked_offsets_.begin(), blocked_offsets_.end(), 0U);
   std::size_t pairs = 0;
   for (const Scratch& s : scratch_) {
     blocked_.insert(blocked_.end(), s.blocked.begin(), s.blocked.end());
+    blocker_.insert(blocker_.end(), s.blocker.begin(), s.blocker.end());
     near_.insert(near_.end(), s.near.begin(), s.near.end());
     for (const auto& [i, j] : s.links) {
       ++offsets_[i + 1];
@@ -191,8 +221,10 @@ void Radio::merge(std::size_t robots) {
     }
     pairs += s.links.size();
   }
+  for (const auto& [i, j] : blocked_) ++blocked_offsets_[i + 1];
   for (std::size_t i = 0; i < robots; ++i) {
     offsets_[i + 1] += offsets_[i];
+    blocked_offsets_[i + 1] += blocked_offsets_[i];
     fill_[i] = offsets_[i];
   }
   links_.resize(2 * pairs);
@@ -206,8 +238,8 @@ void Radio::merge(std::size_t robots) {
 std::size_t Radio::memory_bytes() const noexcept {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t total = bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(sorted_position_) + bytes(offsets_) +
-                      bytes(fill_) + bytes(links_) + bytes(blocked_) + bytes(near_);
-  for (const Scratch& s : scratch_) total += bytes(s.neighbors) + bytes(s.shadows) + bytes(s.links) + bytes(s.blocked) + bytes(s.near);
+                      bytes(fill_) + bytes(links_) + bytes(blocked_) + bytes(near_) + bytes(blocker_) + bytes(blocked_offsets_);
+  for (const Scratch& s : scratch_) total += bytes(s.dx) + bytes(s.dy) + bytes(s.d2) + bytes(s.index) + bytes(s.x) + bytes(s.y) + bytes(s.blocker) + bytes(s.links) + bytes(s.blocked) + bytes(s.near);
   return total;
 }
 

@@ -43,28 +43,23 @@ class Radio {
 
  private:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
-  struct Neighbor {   // somebody in range of the robot being scanned
-    Vec2 d;           // from it, world frame
-    double d2;
-    std::uint32_t index;
-  };
-  // Bodies that may block a direction, by sector of the circle: a linked list per sector.
-  static constexpr int sectors = 64;
-  struct Shadow { std::uint32_t neighbor; std::int32_t next; };
-  struct Scratch {    // one per thread
-    std::vector<Neighbor> neighbors;
-    std::vector<float> bearing;          // pseudo-angle of each neighbour, [0, 4)
-    std::array<std::int32_t, sectors> head;
-    std::vector<Shadow> shadows;
+  struct Scratch {    // one per thread; the first `size` of each array are valid
+    std::size_t size = 0;
+    std::vector<double> dx, dy, d2;      // everybody in range: from the robot being scanned, world frame
+    std::vector<float> x, y;             // dx, dy in single precision
+    std::vector<std::uint32_t> index;
     std::vector<const Obstacle*> obstacles;   // near the robot
     std::vector<Pair> links, blocked, near;
+    std::vector<std::uint32_t> blocker;       // of each blocked pair
   };
+  static constexpr std::uint32_t nobody_blocks = 0xFFFFFFFF;
 
   void build_grid(std::span<const Vec2> positions);
   void scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const;
   void gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const;
-  void cast_shadows(Scratch& s) const;
-  [[nodiscard]] bool shadowed(const Scratch& s, std::size_t target) const noexcept;
+  static void sort_by_index(Scratch& s);
+  [[nodiscard]] std::uint32_t find_blocker(const Scratch& s, std::size_t target) const noexcept;
+  [[nodiscard]] bool still_blocks(std::uint32_t blocker, std::size_t i, Vec2 d, double d2, std::span<const Vec2> positions) const noexcept;
   void merge(std::size_t robots);
 
   double range_m_;
@@ -84,6 +79,8 @@ class Radio {
   std::vector<Scratch> scratch_;
   std::vector<std::uint32_t> offsets_, fill_, links_;  // compressed rows
   std::vector<Pair> blocked_, near_;
+  std::vector<std::uint32_t> blocker_;           // of each blocked pair: a body, or nobody_blocks for an obstacle
+  std::vector<std::uint32_t> blocked_offsets_;   // blocked_ by first robot
 };
 
 }  // namespace banyan::world
