@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 
 #include "banyan/controller/trig.hpp"
@@ -23,6 +24,7 @@ constexpr double margin_px = 24.0;
 constexpr double title_px = 62.0;
 constexpr double legend_row_px = 22.0;
 constexpr double smallest_robot_px = 3.4;   // radius; smaller ones could not be told apart in print
+constexpr double smallest_spare_px = 2.2;   // of hundreds, which must not hide the tree
 constexpr double smallest_view_m = 2.0;
 constexpr double tallest = 1.25;            // height / width of the map at most
 constexpr double trail_step_s = 0.5;
@@ -98,6 +100,9 @@ class Picture {
   [[nodiscard]] Vec2 screen(Vec2 p) const {
     return {left_ + (p.x - extent_.low.x) * scale_, title_px + margin_px + (extent_.high.y - p.y) * scale_};
   }
+  [[nodiscard]] double symbol_px(Role role) const {
+    return role == Role::spare ? std::max(setting_.radius_m * scale_, smallest_spare_px) : robot_px_;
+  }
   [[nodiscard]] double map_bottom() const { return title_px + 2.0 * margin_px + map_height_; }
   [[nodiscard]] bool valid(std::int32_t i) const {
     return i >= 0 && static_cast<std::size_t>(i) < frame_.robots.size();
@@ -162,7 +167,8 @@ class Picture {
   template <class Which>
   void edges(std::int32_t RobotFrame::*to, const Which& which);
   void trees();
-  void robots();
+  void headings();
+  void robots(std::initializer_list<Role> roles);
   void robot_symbol(Vec2 at, Role role, bool alive, double radius_px);
   void ids();
   void legend();
@@ -344,22 +350,23 @@ void Picture::robot_symbol(Vec2 at, Role role, bool alive, double radius_px) {
   }
 }
 
-void Picture::robots() {
-  // Headings below the bodies, so that only what sticks out is seen.
+void Picture::headings() {
   path(palette::tree, std::clamp(0.3 * robot_px_, 0.8, 2.0), [&] {
     for (const RobotFrame& robot : frame_.robots) {
       if (!robot.alive) continue;
       const Vec2 at = screen(robot.position);
       const Vec2 ahead = unit_vector(robot.heading_rad);
       move_to(at, 'M');
-      move_to(at + 1.7 * robot_px_ * Vec2{ahead.x, -ahead.y}, 'L');
+      move_to(at + 1.7 * symbol_px(robot.role) * Vec2{ahead.x, -ahead.y}, 'L');
     }
   }, " stroke-linecap=\"round\"");
-  // The few that matter on top of the many.
-  for (const Role role : {Role::spare, Role::connector, Role::worker, Role::root}) {
+}
+
+void Picture::robots(std::initializer_list<Role> roles) {
+  for (const Role role : roles) {
     for (const RobotFrame& robot : frame_.robots) {
       if (robot.role != role) continue;
-      robot_symbol(screen(robot.position), robot.role, robot.alive, robot_px_);
+      robot_symbol(screen(robot.position), robot.role, robot.alive, symbol_px(role));
       out_.put('\n');
     }
   }
@@ -474,8 +481,12 @@ std::string Picture::svg() {
   radio();
   trails();
   targets();
+  // Headings below the bodies, so that only what sticks out is seen; spares below the tree, and
+  // the few that matter on top of the many.
+  headings();
+  robots({Role::spare});
   trees();
-  robots();
+  robots({Role::connector, Role::worker, Role::root});
   ids();
   legend_at_ = {margin_px, map_bottom() + 4.0};
   double height = map_bottom();
