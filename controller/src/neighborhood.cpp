@@ -10,6 +10,19 @@ namespace banyan {
 Carry::Carry(const Odometry& odometry) noexcept
     : shift{odometry.forward_m, odometry.sideways_m}, rotation(unit_vector(odometry.turn_rad)) {}
 
+void Neighborhood::prefetch(std::size_t entries) const noexcept {
+  constexpr std::size_t line = 64;
+  const auto fetch = [](const void* from, std::size_t bytes) {
+    for (std::size_t at = 0; at < bytes; at += line) __builtin_prefetch(static_cast<const char*>(from) + at, 1);
+  };
+  entries = std::min<std::size_t>(entries, neighbor_capacity);
+  fetch(ids_.data(), entries * sizeof ids_[0]);
+  fetch(ages_.data(), entries * sizeof ages_[0]);
+  fetch(ranges_.data(), entries * sizeof ranges_[0]);
+  fetch(positions_.data(), entries * sizeof positions_[0]);
+  fetch(messages_.data(), entries * sizeof messages_[0]);
+}
+
 int Neighborhood::find(RobotId id) const noexcept {
   for (int k = 0; k < size_; ++k)
     if (ids_[k] == id) return k;

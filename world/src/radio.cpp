@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "banyan/world/obstacles.hpp"
 
 namespace banyan::world {
 namespace {
 
-constexpr std::size_t all_pairs_limit = 128;   // up to here scanning everybody beats the grid
+constexpr std::size_t few_cells = 15;   // so few, and scanning everybody beats the grid
+constexpr float far_away = 1e30F;
 
 }  // namespace
 
@@ -20,14 +20,13 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       near_m_(2.0 * scenario.robot.radius_m + 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s + 0.01),
       line_of_sight_(scenario.radio.line_of_sight),
       obstacles_(scenario.obstacles),
-      use_grid_(robots > all_pairs_limit),
       offsets_(robots + 1, 0),
       fill_(robots, 0),
       blocked_offsets_(robots + 1, 0) {}
 
 void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor) {
   if (scratch_.size() < static_cast<std::size_t>(executor.threads())) scratch_.resize(static_cast<std::size_t>(executor.threads()));
-  if (use_grid_) build_grid(positions);
+  build_grid(positions);
   for (Scratch& s : scratch_) {
     s.links.clear();
     s.blocked.clear();
@@ -56,6 +55,8 @@ void Radio::build_grid(std::span<const Vec2> positions) {
   while (((high.x - low.x) / cell_m_ + 1.0) * ((high.y - low.y) / cell_m_ + 1.0) > limit) cell_m_ *= 2.0;
   columns_ = static_cast<std::size_t>((high.x - low.x) / cell_m_) + 1;
   rows_ = static_cast<std::size_t>((high.y - low.y) / cell_m_) + 1;
+  use_grid_ = columns_ * rows_ > few_cells;
+  if (!use_grid_) return;
 
   cell_of_.resize(positions.size());
   sorted_.resize(positions.size());
@@ -70,7 +71,7 @@ void Radio::build_grid(std::span<const Vec2> positions) {
     ++cell_start_[cell_of_[i] + 1];
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  for (std::size_t i = positions.size(); i-- > 0;) {  // backwards: ascending within each cell
+  for (std::size_t i = positions.size(); i-- > 0;) {
     const std::uint32_t at = --cell_start_[cell_of_[i] + 1];
     sorted_[at] = static_cast<std::uint32_t>(i);
     sorted_position_[at] = positions[i];
@@ -78,66 +79,53 @@ void Radio::build_grid(std::span<const Vec2> positions) {
   // The loop has moved every start one cell up: cell c now begins at cell_start_[c + 1].
 }
 
-// Everybody within range of robot i, ascending; with line of sight off only those after it.
+// Everybody within range of robot i, ascending.
 void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const {
   const double reach = std::max(range_m_, near_m_);
   const double reach2 = reach * reach;
   const Vec2 here = positions[i];
   std::size_t size = 0;
+  const auto reserve = [&](std::size_t more) {
+    if (s.index.size() >= size + more + chunk) return;
+    const std::size_t capacity = 2 * (size + more) + chunk;
+    s.index.resize(capacity);
+    for (auto* v : {&s.dx, &s.dy, &s.d2}) v->resize(capacity);
+    for (auto* v : {&s.x, &s.y}) v->resize(capacity);
+  };
   // Written unconditionally and kept by advancing: no branch for the processor to guess.
   const auto consider = [&](std::size_t j, Vec2 there) {
-    const Vec2 d = there - here;
-    const double d2 = squared_norm(d);
-    s.dx[size] = d.x;
-    s.dy[size] = d.y;
-    s.d2[size] = d2;
-    s.x[size] = static_cast<float>(d.x);
-    s.y[size] = static_cast<float>(d.y);
     s.index[size] = static_cast<std::uint32_t>(j);
-    size += static_cast<std::size_t>(d2 < reach2) & static_cast<std::size_t>(j != i);
+    size += static_cast<std::size_t>(squared_norm(there - here) < reach2) & static_cast<std::size_t>(j != i);
   };
-  const auto reserve = [&](std::size_t more) {
-    if (s.dx.size() >= size + more) return;
-    for (auto* v : {&s.dx, &s.dy, &s.d2}) v->resize(2 * (size + more));
-    for (auto* v : {&s.x, &s.y}) v->resize(2 * (size + more));
-    s.index.resize(2 * (size + more));
-  };
-  if (!use_grid_) {
-    reserve(positions.size() + 1);
-    for (std::size_t j = line_of_sight_ ? 0 : i + 1; j < positions.size(); ++j) consider(j, positions[j]);
-    s.size = size;
-    return;
-  }
-  const std::size_t row = cell_of_[i] / columns_;
-  const std::size_t column = cell_of_[i] % columns_;
-  const std::size_t first = column > 0 ? column - 1 : 0;
-  const std::size_t last = std::min(column + 1, columns_ - 1);
-  for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, rows_ - 1); ++r) {
-    const std::size_t begin = cell_start_[r * columns_ + first + 1];
-    const std::size_t end_cell = r * columns_ + last + 2;
-    const std::size_t end = end_cell < cell_start_.size() ? cell_start_[end_cell] : positions.size();
-    reserve(end - begin + 1);
-    for (std::size_t at = begin; at < end; ++at) consider(sorted_[at], sorted_position_[at]);
+  if (use_grid_) {
+    const std::size_t row = cell_of_[i] / columns_;
+    const std::size_t column = cell_of_[i] % columns_;
+    const std::size_t first = column > 0 ? column - 1 : 0;
+    const std::size_t last = std::min(column + 1, columns_ - 1);
+    for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, rows_ - 1); ++r) {
+      const std::size_t begin = cell_start_[r * columns_ + first + 1];
+      const std::size_t end_cell = r * columns_ + last + 2;
+      const std::size_t end = end_cell < cell_start_.size() ? cell_start_[end_cell] : positions.size();
+      reserve(end - begin);
+      for (std::size_t at = begin; at < end; ++at) consider(sorted_[at], sorted_position_[at]);
+    }
+  } else {
+    reserve(positions.size());
+    for (std::size_t j = 0; j < positions.size(); ++j) consider(j, positions[j]);
   }
   s.size = size;
-  sort_by_index(s);
-}
-
-// The grid hands out neighbours cell by cell, each ascending: few and nearly in order.
-void Radio::sort_by_index(Scratch& s) {
-  for (std::size_t k = 1; k < s.size; ++k) {
-    const auto moved = std::tuple(s.index[k], s.dx[k], s.dy[k], s.d2[k], s.x[k], s.y[k]);
-    std::size_t at = k;
-    for (; at > 0 && s.index[at - 1] > std::get<0>(moved); --at) {
-      s.index[at] = s.index[at - 1];
-      s.dx[at] = s.dx[at - 1];
-      s.dy[at] = s.dy[at - 1];
-      s.d2[at] = s.d2[at - 1];
-      s.x[at] = s.x[at - 1];
-      s.y[at] = s.y[at - 1];
-    }
-    std::tie(s.index[at], s.dx[at], s.dy[at], s.d2[at], s.x[at], s.y[at]) = moved;
+  // The grid hands out neighbours cell by cell.
+  if (use_grid_) std::sort(s.index.begin(), s.index.begin() + static_cast<std::ptrdiff_t>(size));
+  for (std::size_t k = 0; k < size; ++k) {
+    const Vec2 d = positions[s.index[k]] - here;
+    s.dx[k] = d.x;
+    s.dy[k] = d.y;
+    s.d2[k] = squared_norm(d);
+    s.x[k] = static_cast<float>(d.x);
+    s.y[k] = static_cast<float>(d.y);
   }
+  std::fill_n(s.x.begin() + static_cast<std::ptrdiff_t>(size), chunk, far_away);
+  std::fill_n(s.y.begin() + static_cast<std::ptrdiff_t>(size), chunk, far_away);
 }
 
 // A body between the robot and its neighbour `target`, or nobody_blocks. Single precision, four at a
@@ -149,25 +137,21 @@ std::uint32_t Radio::find_blocker(const Scratch& s, std::size_t target) const no
   const float ux = s.x[target] / length;
   const float uy = s.y[target] / length;
   const float beside = static_cast<float>(radius_m_) + 1e-4F * (length + 1.0F);   // far above the rounding
-  constexpr std::size_t chunk = 16;
   for (std::size_t begin = 0; begin < s.size; begin += chunk) {
-    const std::size_t end = std::min(begin + chunk, s.size);
+    const float* x = s.x.data() + begin;
+    const float* y = s.y.data() + begin;
     int any = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-      const float across = std::fabs(s.x[k] * uy - s.y[k] * ux);
-      const float along = s.x[k] * ux + s.y[k] * uy;
+    for (std::size_t k = 0; k < chunk; ++k) {
+      const float across = std::fabs(x[k] * uy - y[k] * ux);
+      const float along = x[k] * ux + y[k] * uy;
       any |= static_cast<int>(across < beside) & static_cast<int>(along > -1e-3F) & static_cast<int>(along < length + 1e-3F);
     }
     if (any == 0) continue;
+    const std::size_t end = std::min(begin + chunk, s.size);
     for (std::size_t k = begin; k < end; ++k)
       if (k != target && disc_blocks({s.dx[k], s.dy[k]}, d, d2, radius_m_)) return s.index[k];
   }
   return nobody_blocks;
-}
-
-// Who blocked a pair in the last tick mostly still does.
-bool Radio::still_blocks(std::uint32_t blocker, std::size_t i, Vec2 d, double d2, std::span<const Vec2> positions) const noexcept {
-  return blocker != nobody_blocks && disc_blocks(positions[blocker] - positions[i], d, d2, radius_m_);
 }
 
 // Decides every pair (i, j > i), so that each is decided once and from the same end.
@@ -179,26 +163,28 @@ void Radio::scan(std::size_t i, std::span<const Vec2> positions, std::span<const
       if (clearance(obstacle, positions[i]) < range_m_) s.obstacles.push_back(&obstacle);
 
   const auto self = static_cast<std::uint32_t>(i);
-  std::size_t last = blocked_offsets_[i];   // walks along the last tick's blocked pairs of i
-  for (std::size_t k = 0; k < s.size; ++k) {
+  std::size_t last = blocked_offsets_[i];   // walks along the pairs of i that were blocked in the last tick
+  const std::size_t last_end = blocked_offsets_[i + 1];
+  std::size_t k = static_cast<std::size_t>(std::upper_bound(s.index.begin(), s.index.begin() + static_cast<std::ptrdiff_t>(s.size), self) - s.index.begin());
+  for (; k < s.size; ++k) {
     const std::uint32_t other = s.index[k];
-    if (other <= self) continue;
-    if (s.d2[k] < near_m_ * near_m_) s.near.emplace_back(self, other);
+    const Pair pair{self, other};
+    if (s.d2[k] < near_m_ * near_m_) s.near.push_back(pair);
     if (s.d2[k] >= range_m_ * range_m_ || alive[i] == 0 || alive[other] == 0) continue;
     if (!line_of_sight_) {
-      s.links.emplace_back(self, other);
+      s.links.push_back(pair);
       continue;
     }
-    while (last < blocked_offsets_[i + 1] && blocked_[last].second < other) ++last;
-    const bool was_blocked = last < blocked_offsets_[i + 1] && blocked_[last].second == other;
-    std::uint32_t blocker = was_blocked ? blocker_[last] : nobody_blocks;
-    if (!still_blocks(blocker, i, {s.dx[k], s.dy[k]}, s.d2[k], positions)) blocker = find_blocker(s, k);
+    // Who blocked a pair a tick ago mostly still does.
+    while (last < last_end && blocked_[last].second < other) ++last;
+    std::uint32_t by = last < last_end && blocked_[last].second == other ? blocker_[last] : nobody_blocks;
+    if (by == nobody_blocks || !disc_blocks(positions[by] - positions[i], {s.dx[k], s.dy[k]}, s.d2[k], radius_m_)) by = find_blocker(s, k);
     const auto in_the_way = [&](const Obstacle* o) { return blocks(*o, positions[i], positions[other]); };
-    if (blocker == nobody_blocks && std::none_of(s.obstacles.begin(), s.obstacles.end(), in_the_way)) {
-      s.links.emplace_back(self, other);
+    if (by == nobody_blocks && std::none_of(s.obstacles.begin(), s.obstacles.end(), in_the_way)) {
+      s.links.push_back(pair);
     } else {
-      s.blocked.emplace_back(self, other);
-      s.blocker.push_back(blocker);
+      s.blocked.push_back(pair);
+      s.blocker.push_back(by);
     }
   }
 }

@@ -46,6 +46,9 @@ class Neighborhood {
   void update(std::span<const Heard> heard, const Carry& carry, int liveness_ticks, RobotId self,
               std::array<RobotId, 2> keep) noexcept;
 
+  // A hint to the processor that about `entries` entries are needed soon; for simulations of many.
+  void prefetch(std::size_t entries) const noexcept;
+
   [[nodiscard]] int size() const noexcept { return size_; }
   // Index of `id` in [0, size), or -1. O(size), a linear scan of 16-bit ids.
   [[nodiscard]] int find(RobotId id) const noexcept;

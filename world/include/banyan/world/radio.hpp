@@ -43,21 +43,21 @@ class Radio {
 
  private:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
+  static constexpr std::uint32_t nobody_blocks = 0xFFFFFFFF;
+  static constexpr std::size_t chunk = 16;   // of neighbours that are looked at together
   struct Scratch {    // one per thread; the first `size` of each array are valid
     std::size_t size = 0;
-    std::vector<double> dx, dy, d2;      // everybody in range: from the robot being scanned, world frame
-    std::vector<float> x, y;             // dx, dy in single precision
-    std::vector<std::uint32_t> index;
+    std::vector<std::uint32_t> index;    // everybody in range of the robot being scanned, ascending
+    std::vector<double> dx, dy, d2;      // from it, world frame
+    std::vector<float> x, y;             // dx, dy in single precision, padded to whole chunks
     std::vector<const Obstacle*> obstacles;   // near the robot
     std::vector<Pair> links, blocked, near;
     std::vector<std::uint32_t> blocker;       // of each blocked pair
   };
-  static constexpr std::uint32_t nobody_blocks = 0xFFFFFFFF;
 
   void build_grid(std::span<const Vec2> positions);
   void scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const;
   void gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const;
-  static void sort_by_index(Scratch& s);
   [[nodiscard]] std::uint32_t find_blocker(const Scratch& s, std::size_t target) const noexcept;
   [[nodiscard]] bool still_blocks(std::uint32_t blocker, std::size_t i, Vec2 d, double d2, std::span<const Vec2> positions) const noexcept;
   void merge(std::size_t robots);
@@ -68,7 +68,7 @@ class Radio {
   bool line_of_sight_;
   std::vector<Obstacle> obstacles_;
 
-  // Grid of cells at least C wide, robots sorted by cell (counting sort), ascending within a cell.
+  // Grid of cells at least C wide, robots sorted by cell (counting sort). Not used while the swarm covers a few cells only.
   Vec2 origin_{};
   double cell_m_ = 1.0;
   std::size_t columns_ = 1, rows_ = 1;
