@@ -76,6 +76,7 @@ char* write_natural(char* at, std::uint64_t value) noexcept {
 void Text::grow(std::size_t n) { buffer_.resize(std::max({size_ + n, 2 * buffer_.size(), std::size_t{256}})); }
 
 void Text::put(std::string_view text) {
+  if (text.empty()) return;  // its data may be null, which memcpy() must not be given
   std::memcpy(space(text.size()), text.data(), text.size());
   size_ += text.size();
 }
