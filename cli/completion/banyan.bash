@@ -37,7 +37,7 @@ _banyan() {
       mapfile -t candidates < <("$program" complete-keys -- "$current" 2>/dev/null)
     elif [[ -z $command ]]; then
       mapfile -t candidates < <(compgen -W "$("$program" --help 2>/dev/null |
-        sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p') --help --version" -- "$current")
+        sed -n '/^Commands:/,/^$/s/^  \([a-z]\+\) .*/\1/p') --help --version" -- "$current")
     elif [[ $current == -* ]]; then
       mapfile -t candidates < <(compgen -W "$("$program" "$command" --help 2>/dev/null |
         grep -o -- '--[a-z][a-z-]*' | sort -u)" -- "$current")

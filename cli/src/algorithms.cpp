@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // `banyan algorithms`: what can be chosen as mission.algorithm, and every number of it.
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "banyan/controller/params.hpp"
@@ -16,7 +18,10 @@ constexpr Reading readings[] = {Reading::corrected, Reading::literal};
 std::string_view name_of(Reading reading) { return reading == Reading::literal ? "literal" : "corrected"; }
 
 // As a person would write it: 1.3893, not 1.38929999.
-std::string value_text(float value) { return format("%g", static_cast<double>(value)); }
+std::string value_text(float value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 double plain(float value) { return std::stod(value_text(value)); }
 
 std::vector<const Policy*> chosen(const std::string& name) {
@@ -35,10 +40,15 @@ nlohmann::ordered_json json_of(const Policy& policy) {
   nlohmann::ordered_json entry = {{"name", policy.name()}, {"summary", policy.summary()}};
   auto& list = entry["parameters"] = nlohmann::ordered_json::array();
   for (const auto& info : parameter_table()) {
-    nlohmann::ordered_json row = {{"key", info.key}, {"symbol", info.symbol}, {"unit", info.unit},
-                                  {"meaning", info.meaning}, {"source", info.source},
-                                  {"minimum", plain(info.minimum)}, {"maximum", plain(info.maximum)}};
-    for (const auto reading : readings) row["default"][std::string(name_of(reading))] = plain(policy.defaults(reading).*info.member);
+    nlohmann::ordered_json row = {{"key", info.key},
+                                  {"symbol", info.symbol},
+                                  {"unit", info.unit},
+                                  {"meaning", info.meaning},
+                                  {"source", info.source},
+                                  {"minimum", plain(info.minimum)},
+                                  {"maximum", plain(info.maximum)}};
+    for (const auto reading : readings)
+      row["default"][std::string(name_of(reading))] = plain(policy.defaults(reading).*info.member);
     const auto owner = platform_key(info.key);
     row["set_by"] = owner.empty() ? "mission.parameters." + std::string(info.key) : std::string(owner);
     list.push_back(std::move(row));
@@ -55,7 +65,8 @@ std::string table_text(const std::vector<const Policy*>& list) {
   }
   std::string text = head + "  source\n" + under + "\n";
   for (const auto& info : parameter_table()) {
-    text += format("%-26s %-8s %-4s", std::string(info.key).c_str(), std::string(info.symbol).c_str(), std::string(info.unit).c_str());
+    text += format("%-26s %-8s %-4s", std::string(info.key).c_str(), std::string(info.symbol).c_str(),
+                   std::string(info.unit).c_str());
     for (const Policy* policy : list) {
       text += format("  %-9s %-8s", value_text(policy->defaults(Reading::corrected).*info.member).c_str(),
                      value_text(policy->defaults(Reading::literal).*info.member).c_str());
@@ -78,9 +89,11 @@ int algorithms_command(const AlgorithmsOptions& options) {
     return exit_done;
   }
   std::string text = "Choose one with mission.algorithm = \"...\" in a scenario, or --set mission.algorithm=...\n\n";
-  for (const Policy* policy : list) text += format("  %-10s ", std::string(policy->name()).c_str()) + std::string(policy->summary()) + "\n";
-  text += "\nTwo readings of the paper, by mission.reading: corrected (default) closes its gaps, literal is as printed.\n"
-          "Change a parameter by mission.parameters.<parameter>. Defaults:\n\n";
+  for (const Policy* policy : list)
+    text += format("  %-10s ", std::string(policy->name()).c_str()) + std::string(policy->summary()) + "\n";
+  text +=
+      "\nTwo readings of the paper, by mission.reading: corrected (default) closes its gaps, literal is as printed.\n"
+      "Change a parameter by mission.parameters.<parameter>. Defaults:\n\n";
   print(text + table_text(list));
   return exit_done;
 }

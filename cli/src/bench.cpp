@@ -31,11 +31,12 @@ struct BenchLayout {
   const char* name;
   std::size_t robots;
   bool dense;
-  std::uint64_t settle_ticks;   // before the first window: beyond START and SELECT PARENT
+  std::uint64_t settle_ticks;  // before the first window: beyond START and SELECT PARENT
 };
-constexpr BenchLayout bench_layouts[] = {
-    {"dense-94-los", 94, true, 400}, {"spread-94-los", 94, false, 400}, {"spread-1000-los", 1000, false, 150},
-    {"spread-10000-los", 10000, false, 60}};
+constexpr BenchLayout bench_layouts[] = {{"dense-94-los", 94, true, 400},
+                                         {"spread-94-los", 94, false, 400},
+                                         {"spread-1000-los", 1000, false, 150},
+                                         {"spread-10000-los", 10000, false, 60}};
 constexpr std::uint64_t lap_ticks = 1000;
 constexpr double spread_pitch_m = 1.3;
 constexpr double dense_pitch_m = 0.21;
@@ -90,14 +91,15 @@ double resident_bytes() {
 }
 
 struct Neighbors {
-  double in_range = 0.0;   // mean per robot
-  double visible = 0.0;    // of these, with line of sight
+  double in_range = 0.0;  // mean per robot
+  double visible = 0.0;   // of these, with line of sight
 };
 Neighbors neighbors_of(const world::World& world) {
   std::size_t visible = 0;
   for (std::size_t i = 0; i < world.size(); ++i) visible += world.links(i).size();
   const auto n = static_cast<double>(world.size());
-  return {(static_cast<double>(visible) + 2.0 * static_cast<double>(world.blocked().size())) / n, static_cast<double>(visible) / n};
+  return {(static_cast<double>(visible) + 2.0 * static_cast<double>(world.blocked().size())) / n,
+          static_cast<double>(visible) / n};
 }
 
 struct Sample {
@@ -195,8 +197,9 @@ nlohmann::ordered_json json_of(const BenchLayout& layout, const Sample& sample) 
 std::string row_text(const BenchLayout& layout, const Sample& sample) {
   const auto [low, high] = std::minmax_element(sample.rates.begin(), sample.rates.end());
   return format("%-17s %12s  %10s .. %-10s %11s  %5.1f -> %-5.1f %5.1f -> %-5.1f %5.0f %%  %8.4f  %9s\n", layout.name,
-                grouped(median(sample.rates)).c_str(), grouped(*low).c_str(), grouped(*high).c_str(), grouped(median(sample.cpu_rates)).c_str(), sample.start.in_range,
-                sample.end.in_range, sample.start.visible, sample.end.visible, 100.0 * sample.moving_share, sample.startup_s,
+                grouped(median(sample.rates)).c_str(), grouped(*low).c_str(), grouped(*high).c_str(),
+                grouped(median(sample.cpu_rates)).c_str(), sample.start.in_range, sample.end.in_range,
+                sample.start.visible, sample.end.visible, 100.0 * sample.moving_share, sample.startup_s,
                 grouped(sample.bytes_per_robot).c_str());
 }
 
@@ -223,20 +226,25 @@ int bench_command(const BenchOptions& options) {
   auto report = nlohmann::ordered_json::object();
   if (!options.json) {
     print("Robot-steps per second: one thread, line of sight, full controller, metrics at every tick.\n\n" +
-          format("%-17s %12s  %-24s %11s  %-14s %-14s %-8s %-9s %s\n", "layout", "median", "   lowest .. highest", "per CPU s", "in range", "visible",
-                 "moving", "start, s", "bytes/robot"));
+          format("%-17s %12s  %-24s %11s  %-14s %-14s %-8s %-9s %s\n", "layout", "median", "   lowest .. highest",
+                 "per CPU s", "in range", "visible", "moving", "start, s", "bytes/robot"));
   }
   for (const auto& layout : layouts) {
     Progress progress(true);
     const auto sample = measure_layout(layout, options, progress);
     progress.clear();
-    if (options.json) report[layout.name] = json_of(layout, sample);
-    else print(row_text(layout, sample));
+    if (options.json)
+      report[layout.name] = json_of(layout, sample);
+    else
+      print(row_text(layout, sample));
   }
-  if (options.json) print(report.dump(2) + "\n");
-  else print(format("\nin range, visible: neighbours per robot at the first and last tick of a window. %d windows of %g s.\n"
-                    "per CPU s: the median per second of processor time, for machines that are busy otherwise.\n",
-                    options.windows, options.window_s));
+  if (options.json)
+    print(report.dump(2) + "\n");
+  else
+    print(
+        format("\nin range, visible: neighbours per robot at the first and last tick of a window. %d windows of %g s.\n"
+               "per CPU s: the median per second of processor time, for machines that are busy otherwise.\n",
+               options.windows, options.window_s));
   return exit_done;
 }
 

@@ -15,22 +15,22 @@ namespace banyan::cli {
 
 struct RunOptions {
   std::string scenario;
-  std::vector<Override> overrides;   // --set, --seed, --series, ... in the order given
-  std::string out;                   // "": out/<name>-<algorithm>-<seed>
+  std::vector<Override> overrides;  // --set, --seed, --series, ... in the order given
+  std::string out;                  // "": out/<name>-<algorithm>-<seed>
   bool json = false;
   bool quiet = false;
   bool force = false;
-  int threads = 0;                   // 0: by the number of robots
+  int threads = 0;  // 0: by the number of robots
 };
 int run_command(const RunOptions& options);
 
 struct ExportOptions {
   std::string recording;
-  std::string output = "-";          // "-": standard output
+  std::string output = "-";  // "-": standard output
   double from_s = 0.0;
   double to_s = std::numeric_limits<double>::infinity();
   std::size_t every = 1;
-  bool csv = true;                   // the only format there is
+  bool csv = true;  // the only format there is
   bool force = false;
 };
 int export_command(const ExportOptions& options);
@@ -38,7 +38,7 @@ int export_command(const ExportOptions& options);
 struct DrawOptions {
   std::string recording;
   std::string output = "-";
-  double at_s = std::numeric_limits<double>::infinity();   // the end
+  double at_s = std::numeric_limits<double>::infinity();  // the end
   double trail_s = 10.0;
   double width_px = 1000.0;
   bool links = true;
@@ -54,12 +54,12 @@ struct ValidateOptions {
   std::vector<Override> overrides;
   bool json = false;
   bool quiet = false;
-  std::string show;                  // "toml" or "json": print the complete effective configuration
+  std::string show;  // "toml" or "json": print the complete effective configuration
 };
 int validate_command(const ValidateOptions& options);
 
 struct AlgorithmsOptions {
-  std::string name;                  // "": all
+  std::string name;  // "": all
   bool json = false;
 };
 int algorithms_command(const AlgorithmsOptions& options);
@@ -76,9 +76,9 @@ int complete_keys_command(const std::string& word);
 
 struct BenchOptions {
   bool json = false;
-  int windows = 7;                   // measured windows per layout
-  double window_s = 0.7;             // wall time of one
-  std::vector<std::string> only;     // names of layouts; empty: all
+  int windows = 7;                // measured windows per layout
+  double window_s = 0.7;          // wall time of one
+  std::vector<std::string> only;  // names of layouts; empty: all
 };
 int bench_command(const BenchOptions& options);
 

@@ -104,7 +104,10 @@ class Reader {
     const std::string index = bracket == std::string::npos ? "" : key.substr(bracket);
     std::string name = key.substr(0, bracket);
     for (const std::string_view unit : {"_m", "_s", "_deg", "_rad"}) {
-      if (name.ends_with(unit) && !name.ends_with("_m_s")) { name.resize(name.size() - unit.size()); break; }
+      if (name.ends_with(unit) && !name.ends_with("_m_s")) {
+        name.resize(name.size() - unit.size());
+        break;
+      }
     }
     return name + index;
   }
@@ -133,15 +136,16 @@ class Reader {
       const bool is_selector = key.name == find_section(section)->selector;
       if (!is_selector && (!choice.known || !(key.when.empty() || applies(key.when, choice.name)))) continue;
       report(node.place, join(path, key.name),
-             "is missing" + (key.when.empty() ? std::string() : "; " + choice.key + " = " + in_quotes(choice.name) + " needs it"));
+             "is missing" +
+                 (key.when.empty() ? std::string() : "; " + choice.key + " = " + in_quotes(choice.name) + " needs it"));
     }
   }
 
   // The value of a section's selector ("layout"), which decides what other keys mean.
   struct Choice {
     std::string key, name;
-    bool known = true;         // false: the selector itself is wrong or missing
-    bool overridden = false;   // by an option
+    bool known = true;        // false: the selector itself is wrong or missing
+    bool overridden = false;  // by an option
   };
   template <class Owner>
   Choice read_selector(const Node& node, const std::string& path, std::string_view section,
@@ -172,12 +176,13 @@ class Reader {
     const std::string full = join(path, name);
     for (const auto& key : keys) {
       if (key.section != section || key.name != name) continue;
-      if (!choice.key.empty() && name == choice.key) return;   // read already
+      if (!choice.key.empty() && name == choice.key) return;  // read already
       if (choice.known && !key.when.empty() && !applies(key.when, choice.name)) {
         // `--set targets.layout=ring` over a file with a list means: without the list.
         if (choice.overridden && child.place.from_file()) return;
-        report(child.place, full, "has no meaning with " + choice.key + " = " + in_quotes(choice.name) + ", only with " +
-                                      alternatives(key.when));
+        report(child.place, full,
+               "has no meaning with " + choice.key + " = " + in_quotes(choice.name) + ", only with " +
+                   alternatives(key.when));
         return;
       }
       remember(full, child.place);
@@ -191,8 +196,12 @@ class Reader {
     std::vector<std::string_view> here, elsewhere;
     std::vector<std::string> elsewhere_paths;
     auto collect = [&](std::string_view of, std::string_view key) {
-      if (of == section) here.push_back(key);
-      else { elsewhere.push_back(key); elsewhere_paths.push_back(join(std::string(of), key)); }
+      if (of == section)
+        here.push_back(key);
+      else {
+        elsewhere.push_back(key);
+        elsewhere_paths.push_back(join(std::string(of), key));
+      }
     };
     for (const auto& key : scenario_keys()) collect(key.section, key.name);
     for (const auto& key : obstacle_keys()) collect(key.section, key.name);
@@ -209,10 +218,13 @@ class Reader {
     // The same name in another section beats a similar one in this section.
     std::string meant;
     const auto exact = std::find(elsewhere.begin(), elsewhere.end(), name);
-    if (exact != elsewhere.end()) meant = elsewhere_paths[static_cast<std::size_t>(exact - elsewhere.begin())];
-    else if (const auto near = nearest(name, here); !near.empty()) meant = join(path, near);
+    if (exact != elsewhere.end())
+      meant = elsewhere_paths[static_cast<std::size_t>(exact - elsewhere.begin())];
+    else if (const auto near = nearest(name, here); !near.empty())
+      meant = join(path, near);
     else if (const auto far = nearest(name, elsewhere); !far.empty()) {
-      meant = elsewhere_paths[static_cast<std::size_t>(std::find(elsewhere.begin(), elsewhere.end(), far) - elsewhere.begin())];
+      meant = elsewhere_paths[static_cast<std::size_t>(std::find(elsewhere.begin(), elsewhere.end(), far) -
+                                                       elsewhere.begin())];
     }
     std::string text = "there is no such key";
     if (!meant.empty()) text += "; did you mean " + meant + "?";
@@ -229,16 +241,22 @@ class Reader {
     for (const auto& [name, child] : *node.table()) {
       const std::string inner = join(path, name);
       if (!find_section(inner)) continue;
-      if (inner == "obstacles") read_list(child, inner, obstacle_keys(), form.obstacles);
-      else if (inner == "events") read_list(child, inner, event_keys(), form.events);
-      else if (!child.table()) report(child.place, inner, "is a section, [" + inner + "], not " + child.describe());
-      else if (inner == "mission.parameters") read_parameters(child);
-      else read_section(child, inner, form);
+      if (inner == "obstacles")
+        read_list(child, inner, obstacle_keys(), form.obstacles);
+      else if (inner == "events")
+        read_list(child, inner, event_keys(), form.events);
+      else if (!child.table())
+        report(child.place, inner, "is a section, [" + inner + "], not " + child.describe());
+      else if (inner == "mission.parameters")
+        read_parameters(child);
+      else
+        read_section(child, inner, form);
     }
   }
 
   template <class Owner>
-  void read_list(const Node& node, const std::string& path, std::span<const Key<Owner>> keys, std::vector<Owner>& list) {
+  void read_list(const Node& node, const std::string& path, std::span<const Key<Owner>> keys,
+                 std::vector<Owner>& list) {
     remember(path, node.place);
     if (!node.array()) {
       report(node.place, path, "is a list of tables, [[" + path + "]] once for each, not " + node.describe());
@@ -248,8 +266,10 @@ class Reader {
       const Node& item = (*node.array())[i];
       const std::string name = path + "[" + std::to_string(i) + "]";
       list.emplace_back();
-      if (item.table()) read_keys<Owner>(item, name, path, keys, list.back());
-      else report(item.place, name, "must be a table, not " + item.describe());
+      if (item.table())
+        read_keys<Owner>(item, name, path, keys, list.back());
+      else
+        report(item.place, name, "must be a table, not " + item.describe());
     }
   }
 
@@ -260,20 +280,22 @@ class Reader {
       const auto full = join("mission.parameters", name);
       remember(full, child.place);
       const auto table = parameter_table();
-      const auto info = std::find_if(table.begin(), table.end(), [&](const auto& p) { return p.key == name; });
+      const auto info = std::find_if(table.begin(), table.end(), [&key = name](const auto& p) { return p.key == key; });
       if (info == table.end()) {
         report_unknown(child.place, "mission.parameters", name, "mission.parameters");
       } else if (const auto owner = platform_key(name); !owner.empty()) {
         report(child.place, full, "follows from the key " + std::string(owner) + ": set that instead");
       } else {
         double value = 0.0;
-        if (read_number(child, full, {widened(info->minimum), widened(info->maximum)}, info->unit, value)) parameters.emplace_back(name, value);
+        if (read_number(child, full, {widened(info->minimum), widened(info->maximum)}, info->unit, value))
+          parameters.emplace_back(name, value);
       }
     }
     // In the controller's order, so that equal configurations have equal texts.
     auto rank = [](const auto& p) {
       const auto table = parameter_table();
-      return std::find_if(table.begin(), table.end(), [&](const auto& info) { return info.key == p.first; }) - table.begin();
+      return std::find_if(table.begin(), table.end(), [&](const auto& info) { return info.key == p.first; }) -
+             table.begin();
     };
     std::sort(parameters.begin(), parameters.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
   }
@@ -286,7 +308,8 @@ class Reader {
     const Node* redundancy = section ? section->find("redundancy") : nullptr;
     const bool listed = swarm.start.layout == world::Layout::list;
     if (redundancy && listed && !faulty("swarm.start.layout")) {
-      report(redundancy->place, "swarm.redundancy", "has no meaning with start.layout = \"list\": the list says how many");
+      report(redundancy->place, "swarm.redundancy",
+             "has no meaning with start.layout = \"list\": the list says how many");
       return;
     }
     if (!robots || !redundancy) return;
@@ -307,16 +330,19 @@ class Reader {
     std::visit([&](const auto& access) { read_as(node, path, key, access, owner); }, key.access);
   }
 
-  bool read_number(const Node& node, const std::string& path, const Range& range, std::string_view unit, double& value) {
+  bool read_number(const Node& node, const std::string& path, const Range& range, std::string_view unit,
+                   double& value) {
     double number = 0.0;
-    if (const auto* real = std::get_if<double>(&node.value)) number = *real;
-    else if (const auto* whole = std::get_if<std::int64_t>(&node.value)) number = static_cast<double>(*whole);
+    if (const auto* real = std::get_if<double>(&node.value))
+      number = *real;
+    else if (const auto* whole = std::get_if<std::int64_t>(&node.value))
+      number = static_cast<double>(*whole);
     else {
       report(node.place, path, "must be a number (" + range_text(range, unit) + "), not " + node.describe());
       return false;
     }
     const bool inside = (range.above ? number > range.minimum : number >= range.minimum) && number <= range.maximum;
-    if (!std::isfinite(number) || !inside) {   // nan compares false
+    if (!std::isfinite(number) || !inside) {  // nan compares false
       report(node.place, path, "is " + number_text(number) + "; allowed: " + range_text(range, unit));
       return false;
     }
@@ -324,12 +350,17 @@ class Reader {
     return true;
   }
 
-  bool read_whole(const Node& node, const std::string& path, const Range& range, std::string_view unit, std::int64_t& value) {
+  bool read_whole(const Node& node, const std::string& path, const Range& range, std::string_view unit,
+                  std::int64_t& value) {
     const auto* whole = std::get_if<std::int64_t>(&node.value);
     if (!whole) {
-      const bool too_large = std::holds_alternative<double>(node.value) && std::abs(std::get<double>(node.value)) >= 0x1p63;
-      if (too_large) report(node.place, path, "is " + number_text(std::get<double>(node.value)) + "; allowed: " + range_text(range, unit));
-      else report(node.place, path, "must be a whole number (" + range_text(range, unit) + "), not " + node.describe());
+      const bool too_large =
+          std::holds_alternative<double>(node.value) && std::abs(std::get<double>(node.value)) >= 0x1p63;
+      if (too_large)
+        report(node.place, path,
+               "is " + number_text(std::get<double>(node.value)) + "; allowed: " + range_text(range, unit));
+      else
+        report(node.place, path, "must be a whole number (" + range_text(range, unit) + "), not " + node.describe());
       return false;
     }
     const auto number = static_cast<double>(*whole);
@@ -355,19 +386,23 @@ class Reader {
 
   template <class Owner>
   void read_as(const Node& node, const std::string& path, const Key<Owner>&, bool& (*access)(Owner&), Owner& owner) {
-    if (const auto* truth = std::get_if<bool>(&node.value)) access(owner) = *truth;
-    else report(node.place, path, "must be true or false, not " + node.describe());
+    if (const auto* truth = std::get_if<bool>(&node.value))
+      access(owner) = *truth;
+    else
+      report(node.place, path, "must be true or false, not " + node.describe());
   }
   template <class Owner>
-  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, double& (*access)(Owner&), Owner& owner) {
+  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, double& (*access)(Owner&),
+               Owner& owner) {
     double value = 0.0;
     if (read_number(node, path, key.range, key.unit, value)) {
       access(owner) = is_angle(key.unit) ? value * radians_per_degree : value;
     }
   }
   template <class Owner, class Whole>
-    requires std::is_integral_v<Whole>
-  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, Whole& (*access)(Owner&), Owner& owner) {
+  requires std::is_integral_v<Whole>
+  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, Whole& (*access)(Owner&),
+               Owner& owner) {
     std::int64_t value = 0;
     if (read_whole(node, path, key.range, key.unit, value)) access(owner) = static_cast<Whole>(value);
   }
@@ -378,26 +413,30 @@ class Reader {
     if (read_whole(node, path, key.range, key.unit, value)) access(owner) = static_cast<std::size_t>(value);
   }
   template <class Owner>
-  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, std::string& (*access)(Owner&), Owner& owner) {
+  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, std::string& (*access)(Owner&),
+               Owner& owner) {
     // A bare number or truth value after `--set name=` is meant as text.
     const auto* text = node.string();
     if (!text) {
       report(node.place, path, "must be text in quotes, not " + node.describe());
     } else if (key.name == "name" && !good_name(*text)) {
-      report(node.place, path, "is " + in_quotes(*text) + "; allowed: 1 to 100 letters, digits, '-', '_' and '.', no '.' at the start");
+      report(node.place, path,
+             "is " + in_quotes(*text) + "; allowed: 1 to 100 letters, digits, '-', '_' and '.', no '.' at the start");
     } else {
       access(owner) = *text;
     }
   }
   template <class Owner>
-  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, Vec2& (*access)(Owner&), Owner& owner) {
+  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, Vec2& (*access)(Owner&),
+               Owner& owner) {
     read_point(node, path, key.range, key.unit, access(owner));
   }
   template <class Owner>
   void read_as(const Node& node, const std::string& path, const Key<Owner>& key, std::vector<Vec2>& (*access)(Owner&),
                Owner& owner) {
     if (!node.array()) {
-      report(node.place, path, "must be a list of points [[x, y], ...] in " + std::string(key.unit) + ", not " + node.describe());
+      report(node.place, path,
+             "must be a list of points [[x, y], ...] in " + std::string(key.unit) + ", not " + node.describe());
       return;
     }
     auto& list = access(owner);
@@ -425,7 +464,8 @@ class Reader {
     }
   }
   template <class Owner>
-  void read_as(const Node& node, const std::string& path, const Key<Owner>&, const ChoiceAccess<Owner>& access, Owner& owner) {
+  void read_as(const Node& node, const std::string& path, const Key<Owner>&, const ChoiceAccess<Owner>& access,
+               Owner& owner) {
     const auto names = access.names();
     const auto* text = node.string();
     const auto found = text ? std::find(names.begin(), names.end(), *text) : names.end();
@@ -445,7 +485,8 @@ class Reader {
  public:
   static bool good_name(std::string_view name) {
     auto good = [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+             c == '.';
     };
     return !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
   }
@@ -453,8 +494,8 @@ class Reader {
  private:
   std::vector<Problem>& problems_;
   Form form_;
-  std::map<std::string, std::pair<std::string, Place>> places_;   // bare key -> key as written, place
-  std::set<std::string> faulty_;                                  // bare keys
+  std::map<std::string, std::pair<std::string, Place>> places_;  // bare key -> key as written, place
+  std::set<std::string> faulty_;                                 // bare keys
 };
 
 std::string name_from(const std::string& path) {
@@ -470,9 +511,13 @@ std::string name_from(const std::string& path) {
 // world/ names fields as the struct does; a user knows them by the keys of the file.
 std::string in_file_terms(std::string text) {
   constexpr std::pair<std::string_view, std::string_view> renamed[] = {
-      {"swarm.start.positions", "swarm.start.positions_m"}, {"targets.positions", "targets.positions_m"},
-      {"headings_rad", "headings_deg"}, {"phase_rad", "phase_deg"}, {"angle_rad", "angle_deg"},
-      {"bearing_noise_rad", "bearing_noise_deg"}, {"swarm.start.center", "swarm.start.center_m"},
+      {"swarm.start.positions", "swarm.start.positions_m"},
+      {"targets.positions", "targets.positions_m"},
+      {"headings_rad", "headings_deg"},
+      {"phase_rad", "phase_deg"},
+      {"angle_rad", "angle_deg"},
+      {"bearing_noise_rad", "bearing_noise_deg"},
+      {"swarm.start.center", "swarm.start.center_m"},
       {"targets.center", "targets.center_m"}};
   for (const auto& [from, to] : renamed) {
     for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
@@ -490,10 +535,13 @@ std::vector<world::Fault> semantic_faults(world::Scenario scenario, const Reader
     if (reader.faulty("obstacles[" + std::to_string(i) + "]")) scenario.obstacles[i] = world::Disc{{-9e3, -9e3}, 1e-3};
   }
   for (std::size_t i = 0; i < scenario.events.size(); ++i) {
-    if (reader.faulty("events[" + std::to_string(i) + "]")) scenario.events[i] = world::Event{0.0, world::Event::Kind::set_loss, 0, 0.0, {}};
+    if (reader.faulty("events[" + std::to_string(i) + "]"))
+      scenario.events[i] = world::Event{0.0, world::Event::Kind::set_loss, 0, 0.0, {}};
   }
   auto list = world::faults(scenario);
-  const auto about_parameters = [](const world::Fault& f) { return !f.warning && f.key.starts_with("mission.parameters"); };
+  const auto about_parameters = [](const world::Fault& f) {
+    return !f.warning && f.key.starts_with("mission.parameters");
+  };
   if (std::any_of(list.begin(), list.end(), about_parameters)) {
     scenario.mission.parameters.clear();
     for (auto& more : world::faults(scenario)) {
@@ -540,8 +588,7 @@ double exact_degrees(double rad) {
 
 Json point_json(Vec2 p) { return Json::array({p.x, p.y}); }
 
-template <class Owner>
-struct ToJson {
+template <class Owner> struct ToJson {
   const Key<Owner>& key;
   Owner& owner;
   // Null: there is nothing to write.
@@ -605,9 +652,12 @@ Json to_json(const Configuration& configuration) {
       for (const auto& [key, value] : configuration.scenario.mission.parameters) table[key] = value;
     } else {
       Json table = section_json<Form>(section.path, section.selector, scenario_keys(), form);
-      if (section.path.empty()) root = std::move(table);
-      else if (section.path == "swarm.start") root["swarm"]["start"] = std::move(table);
-      else root[std::string(section.path)] = std::move(table);
+      if (section.path.empty())
+        root = std::move(table);
+      else if (section.path == "swarm.start")
+        root["swarm"]["start"] = std::move(table);
+      else
+        root[std::string(section.path)] = std::move(table);
     }
   }
   // How many robots: said once.
@@ -621,7 +671,8 @@ std::string toml_value(const Json& value) {
   if (value.is_string()) {
     // A JSON string is a TOML string but for DEL.
     std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-    for (auto at = text.find('\x7f'); at != std::string::npos; at = text.find('\x7f', at)) text.replace(at, 1, "\\u007F");
+    for (auto at = text.find('\x7f'); at != std::string::npos; at = text.find('\x7f', at))
+      text.replace(at, 1, "\\u007F");
     return text;
   }
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -676,9 +727,7 @@ Loaded parse_configuration(const std::string& path, std::string_view text, const
     std::stable_sort(loaded.problems.begin(), loaded.problems.end(), [](const Problem& a, const Problem& b) {
       return a.place.from_file() != b.place.from_file() ? a.place.from_file() : a.place.line < b.place.line;
     });
-  } catch (const DocumentError& e) {
-    loaded.problems.push_back(e.problem);
-  }
+  } catch (const DocumentError& e) { loaded.problems.push_back(e.problem); }
   return loaded;
 }
 

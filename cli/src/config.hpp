@@ -18,8 +18,8 @@ struct Override {
 };
 
 struct Loaded {
-  Configuration configuration;      // complete only if ok()
-  std::vector<Problem> problems;    // in the order of the file, then of the options
+  Configuration configuration;    // complete only if ok()
+  std::vector<Problem> problems;  // in the order of the file, then of the options
   [[nodiscard]] std::size_t errors() const noexcept;
   [[nodiscard]] bool ok() const noexcept { return errors() == 0; }
 };

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -16,7 +17,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <toml++/toml.h>
 
 #include "banyan/world/names.hpp"
 
@@ -24,7 +24,7 @@ namespace banyan::cli {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{64} << 20;
-constexpr std::size_t deepest_nesting = 16;   // the scenario's tree needs five
+constexpr std::size_t deepest_nesting = 16;  // the scenario's tree needs five
 
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -40,13 +40,13 @@ Node from_toml(const toml::node& node, const std::shared_ptr<const std::string>&
   if (const auto* table = node.as_table()) {
     Node::Table members;
     for (const auto& [key, child] : *table) {
-      members.emplace_back(std::string(key.str()), from_toml(child, origin, from_file));
+      members.push_back({std::string(key.str()), from_toml(child, origin, from_file)});
       // toml++ gives an inline or dotted table no line of its own; its key has one.
-      if (from_file) members.back().second.place.line = static_cast<int>(key.source().begin.line);
+      if (from_file) members.back().value.place.line = static_cast<int>(key.source().begin.line);
     }
     // toml++ sorts its tables; a reader expects complaints in the order of the file.
     std::stable_sort(members.begin(), members.end(),
-                     [](const auto& a, const auto& b) { return a.second.place.line < b.second.place.line; });
+                     [](const auto& a, const auto& b) { return a.value.place.line < b.value.place.line; });
     result.value = std::move(members);
   } else if (const auto* array = node.as_array()) {
     Node::Array items;
@@ -106,19 +106,27 @@ class LineCounter {
   using difference_type = std::ptrdiff_t;
   using pointer = const char*;
   using reference = const char&;
-  struct Lines { int current = 1; int last_ink = 1; };
+  struct Lines {
+    int current = 1;
+    int last_ink = 1;
+  };
 
   LineCounter(const char* at, Lines* lines) : at_(at), lines_(lines) {}
   reference operator*() const { return *at_; }
   LineCounter& operator++() {
-    if (*at_ == '\n') ++lines_->current;
-    else if (*at_ != ' ' && *at_ != '\t' && *at_ != '\r') lines_->last_ink = lines_->current;
+    if (*at_ == '\n')
+      ++lines_->current;
+    else if (*at_ != ' ' && *at_ != '\t' && *at_ != '\r')
+      lines_->last_ink = lines_->current;
     ++at_;
     return *this;
   }
-  LineCounter operator++(int) { auto before = *this; ++*this; return before; }
-  friend bool operator==(const LineCounter& a, const LineCounter& b) { return a.at_ == b.at_; }
-  friend bool operator!=(const LineCounter& a, const LineCounter& b) { return a.at_ != b.at_; }
+  LineCounter operator++(int) {
+    auto before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const LineCounter& other) const { return at_ == other.at_; }
 
  private:
   const char* at_;
@@ -164,19 +172,24 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   Node root;
 
  private:
-  Place here() const { return {origin_, keys_.empty() || keys_.back().second == 0 ? lines_.last_ink : keys_.back().second}; }
-  void attach(Node node) {
-    if (open_.empty()) { root = std::move(node); return; }
-    if (auto* table = open_.back().table()) table->emplace_back(keys_.back().first, std::move(node));
-    else open_.back().array()->push_back(std::move(node));
+  Place here() const {
+    return {origin_, keys_.empty() || keys_.back().second == 0 ? lines_.last_ink : keys_.back().second};
   }
-  template <class T>
-  bool add(T v) {
+  void attach(Node node) {
+    if (open_.empty()) {
+      root = std::move(node);
+      return;
+    }
+    if (auto* table = open_.back().table())
+      table->push_back({keys_.back().first, std::move(node)});
+    else
+      open_.back().array()->push_back(std::move(node));
+  }
+  template <class T> bool add(T v) {
     attach({std::move(v), here()});
     return true;
   }
-  template <class T>
-  bool open(T v) {
+  template <class T> bool open(T v) {
     if (open_.size() >= deepest_nesting) fail({origin_, lines_.last_ink}, "nested too deeply for a scenario");
     open_.push_back({std::move(v), here()});
     keys_.emplace_back("", 0);
@@ -193,7 +206,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   std::shared_ptr<const std::string> origin_;
   const LineCounter::Lines& lines_;
   std::vector<Node> open_;
-  std::vector<std::pair<std::string, int>> keys_;   // per open object: the key being read and its line
+  std::vector<std::pair<std::string, int>> keys_;  // per open object: the key being read and its line
 };
 
 Node parse_json(const std::shared_ptr<const std::string>& origin, std::string_view text) {
@@ -235,7 +248,11 @@ std::optional<std::vector<Step>> split_path(std::string_view path) {
 bool valid_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i++]);
-    int more = lead < 0x80 ? 0 : lead >= 0xC2 && lead < 0xE0 ? 1 : lead >= 0xE0 && lead < 0xF0 ? 2 : lead >= 0xF0 && lead < 0xF5 ? 3 : -1;
+    int more = lead < 0x80                   ? 0
+               : lead >= 0xC2 && lead < 0xE0 ? 1
+               : lead >= 0xE0 && lead < 0xF0 ? 2
+               : lead >= 0xF0 && lead < 0xF5 ? 3
+                                             : -1;
     if (more < 0) return false;
     for (; more > 0; --more, ++i) {
       if (i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
@@ -250,7 +267,7 @@ Node override_value(std::string_view text, const std::shared_ptr<const std::stri
     try {
       const auto parsed = toml::parse("v = " + std::string(text));
       if (parsed.size() == 1) return from_toml(*parsed.get("v"), origin, false);
-    } catch (const toml::parse_error&) {   // not TOML: bare text
+    } catch (const toml::parse_error&) {  // not TOML: bare text
     }
   }
   return {std::string(text), {origin, 0}};
@@ -305,7 +322,10 @@ std::string read_text_file(const std::string& path) {
     if (errno == ENOENT) fail(place, "there is no such file");
     fail(place, std::string("cannot be opened: ") + std::strerror(errno));
   }
-  struct Closer { int fd; ~Closer() { ::close(fd); } } closer{fd};
+  struct Closer {
+    int fd;
+    ~Closer() { ::close(fd); }
+  } closer{fd};
   struct stat status {};
   if (::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode)) {
     fail(place, "is a directory; give the scenario file in it");
@@ -320,9 +340,10 @@ std::string read_text_file(const std::string& path) {
     text.append(buffer.data(), static_cast<std::size_t>(got));
     if (text.size() > largest_file) fail(place, "is larger than 64 MiB: this is no scenario");
   }
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);   // byte order mark
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
   if (text.find('\0') != std::string::npos) fail(place, "is a binary file; a scenario is text (TOML or JSON)");
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(place, "is empty; a scenario needs at least [targets]");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    fail(place, "is empty; a scenario needs at least [targets]");
   return text;
 }
 
@@ -338,9 +359,7 @@ Node parse_document(const std::string& path, std::string_view text) {
 std::vector<Problem> apply_override(Node& root, std::string_view assignment, const std::string& origin) {
   const auto place = Place{shared(origin), 0};
   const auto equals = assignment.find('=');
-  if (equals == std::string_view::npos) {
-    return {{place, "", "expects key=value, such as radio.loss=0.3"}};
-  }
+  if (equals == std::string_view::npos) { return {{place, "", "expects key=value, such as radio.loss=0.3"}}; }
   if (!valid_utf8(assignment)) return {{place, "", "is not valid UTF-8 text"}};
   auto trim = [](std::string_view s) {
     while (s.starts_with(' ')) s.remove_prefix(1);
@@ -358,8 +377,9 @@ std::vector<Problem> apply_override(Node& root, std::string_view assignment, con
       auto* items = at->array();
       if (!items) return {{place, std::string(key), "has an index, but there is no list to reach into"}};
       if (*step.index >= items->size()) {
-        return {{place, std::string(key), "the list has " + std::to_string(items->size()) +
-                                              " entries, counted from 0; this one does not exist"}};
+        return {
+            {place, std::string(key),
+             "the list has " + std::to_string(items->size()) + " entries, counted from 0; this one does not exist"}};
       }
       at = &(*items)[*step.index];
       continue;
@@ -368,8 +388,8 @@ std::vector<Problem> apply_override(Node& root, std::string_view assignment, con
     if (!at->table()) *at = {Node::Table{}, place};
     Node* next = at->find(step.name);
     if (!next) {
-      at->table()->emplace_back(step.name, Node{Node::Table{}, place});
-      next = &at->table()->back().second;
+      at->table()->push_back({step.name, Node{Node::Table{}, place}});
+      next = &at->table()->back().value;
     }
     at = next;
   }
@@ -378,21 +398,25 @@ std::vector<Problem> apply_override(Node& root, std::string_view assignment, con
 }
 
 std::string number_text(double value) {
-  if (std::abs(value) >= 1e5 && std::abs(value) < 1e16 && value == std::trunc(value)) return std::to_string(static_cast<std::int64_t>(value));
+  if (std::abs(value) >= 1e5 && std::abs(value) < 1e16 && value == std::trunc(value))
+    return std::to_string(static_cast<std::int64_t>(value));
   std::array<char, 32> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
 }
 
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
-  word = word.substr(0, 100);   // a very long word is like nothing anyway
+  word = word.substr(0, 100);  // a very long word is like nothing anyway
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
   for (const auto candidate : candidates) {
     // A unit left out ("range" for "range_m") or a word cut short is a near miss, however long.
     const bool shortened = word.size() >= 3 && candidate.starts_with(word);
     const auto distance = shortened ? 1 : world::edit_distance(word, candidate);
-    if (distance < best_distance) { best = candidate; best_distance = distance; }
+    if (distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
   }
   return best;
 }

@@ -19,7 +19,7 @@ namespace banyan::cli {
 struct Place {
   std::shared_ptr<const std::string> origin;
   int line = 0;
-  [[nodiscard]] std::string text() const;   // "worlds/a.toml:12", "--set radio.loss=2"
+  [[nodiscard]] std::string text() const;  // "worlds/a.toml:12", "--set radio.loss=2"
   [[nodiscard]] bool from_file() const noexcept { return line > 0; }
 };
 
@@ -34,9 +34,10 @@ struct Problem {
 [[nodiscard]] std::string to_string(const Problem& problem);
 
 struct Node {
-  struct Other {};                                            // a TOML date or time: no key takes one
+  struct Other {};  // a TOML date or time: no key takes one
+  struct Member;    // a key and its value
   using Array = std::vector<Node>;
-  using Table = std::vector<std::pair<std::string, Node>>;    // in file order
+  using Table = std::vector<Member>;  // in file order
   std::variant<Other, bool, std::int64_t, double, std::string, Array, Table> value;
   Place place;
 
@@ -50,6 +51,10 @@ struct Node {
   [[nodiscard]] Node* find(std::string_view name) noexcept;
   // "the text \"fast\"", "the number 3", "a table": for messages.
   [[nodiscard]] std::string describe() const;
+};
+struct Node::Member {
+  std::string name;
+  Node value;
 };
 
 // The file cannot be read at all, or its syntax is broken.

@@ -42,6 +42,7 @@ constexpr Range share{0.0, 1.0};
 constexpr Range seeds{0.0, 9007199254740992.0};
 constexpr Range any_angle{-360.0, 360.0};
 
+// clang-format off: a row per key is easier to read
 constexpr Section section_list[] = {
     {"", "The world as a whole."},
     {"mission", "What the swarm is to do, and by which algorithm."},
@@ -71,15 +72,20 @@ constexpr Key<Form> scenario_list[] = {
 
     {"mission", "algorithm", "", {}, "how the tree grows",
      ChoiceAccess<Form>{algorithm_names,
-                        [](const Form& f) { return index_of(algorithm_names(), f.configuration.scenario.mission.algorithm); },
-                        [](Form& f, std::size_t i) { f.configuration.scenario.mission.algorithm = algorithm_names()[i]; }}},
+                        [](const Form& f) {
+                          return index_of(algorithm_names(), f.configuration.scenario.mission.algorithm);
+                        },
+                        [](Form& f, std::size_t i) {
+                          f.configuration.scenario.mission.algorithm = algorithm_names()[i];
+                        }}},
     {"mission", "reading", "", {}, "the paper as printed (literal), or with its gaps closed (corrected)",
      ChoiceAccess<Form>{[]() -> Names { return reading_names; },
                         [](const Form& f) { return index_of(reading_names, f.configuration.scenario.mission.reading); },
                         [](Form& f, std::size_t i) { f.configuration.scenario.mission.reading = reading_names[i]; }}},
     {"mission", "target_tolerance_m", "m", {0.0, far_away, true}, "a target is reached when its worker is this near",
      [](Form& f) -> double& { return f.configuration.scenario.mission.target_tolerance_m; }},
-    {"mission", "time_limit_s", "s", {0.0, 1e7}, "the run ends then; 0: ten times a straight drive to the farthest target",
+    {"mission", "time_limit_s", "s", {0.0, 1e7},
+     "the run ends then; 0: ten times a straight drive to the farthest target",
      [](Form& f) -> double& { return f.configuration.scenario.mission.time_limit_s; }},
     {"mission", "stop_when_complete", "", {}, "end the run as soon as all targets are reached at once",
      [](Form& f) -> bool& { return f.configuration.scenario.mission.stop_when_complete; }},
@@ -115,7 +121,9 @@ constexpr Key<Form> scenario_list[] = {
                               "paper's point masses, holonomic",
      ChoiceAccess<Form>{[]() -> Names { return body_names; },
                         [](const Form& f) { return static_cast<std::size_t>(f.configuration.scenario.robot.body); },
-                        [](Form& f, std::size_t i) { f.configuration.scenario.robot.body = static_cast<world::BodyModel>(i); }}},
+                        [](Form& f, std::size_t i) {
+                          f.configuration.scenario.robot.body = static_cast<world::BodyModel>(i);
+                        }}},
     {"robot", "radius_m", "m", {0.0, 100.0, true}, "radius of the body",
      [](Form& f) -> double& { return f.configuration.scenario.robot.radius_m; }},
     {"robot", "wheel_distance_m", "m", {0.0, 2.0, true}, "distance between the wheels",
@@ -179,9 +187,10 @@ constexpr Key<ObstacleForm> obstacle_list[] = {
     {"obstacles", "kind", "", {}, "shape of the obstacle",
      ChoiceAccess<ObstacleForm>{[]() -> Names { return obstacle_names; }, [](const ObstacleForm& o) { return o.kind; },
                                 [](ObstacleForm& o, std::size_t i) { o.kind = i; }}, "", true},
-    {"obstacles", "center_m", "m", anywhere, "centre", [](ObstacleForm& o) -> Vec2& { return o.center; }, "disc box", true},
-    {"obstacles", "radius_m", "m", {0.0, far_away, true}, "radius", [](ObstacleForm& o) -> double& { return o.radius_m; },
-     "disc", true},
+    {"obstacles", "center_m", "m", anywhere, "centre",
+     [](ObstacleForm& o) -> Vec2& { return o.center; }, "disc box", true},
+    {"obstacles", "radius_m", "m", {0.0, far_away, true}, "radius",
+     [](ObstacleForm& o) -> double& { return o.radius_m; }, "disc", true},
     {"obstacles", "size_m", "m", {0.0, far_away, true}, "length and width",
      [](ObstacleForm& o) -> Vec2& { return o.size; }, "box", true},
     {"obstacles", "angle_deg", "deg", any_angle, "direction of the length, counter-clockwise from the x axis",
@@ -199,15 +208,20 @@ constexpr Key<EventForm> event_list[] = {
      [](EventForm& e) -> std::size_t& { return e.robot; }, "die freeze", true},
     {"events", "duration_s", "s", {0.0, 1e7}, "how long it stands still; 0: for good",
      [](EventForm& e) -> double& { return e.duration_s; }, "freeze"},
-    {"events", "loss", "", share, "the new radio.loss", [](EventForm& e) -> double& { return e.loss; }, "set_loss", true},
+    {"events", "loss", "", share, "the new radio.loss",
+     [](EventForm& e) -> double& { return e.loss; }, "set_loss", true},
     {"events", "target", "", {0.0, 1e5}, "index of the target, counted from 0",
      [](EventForm& e) -> std::size_t& { return e.target; }, "move_target", true},
     {"events", "position_m", "m", anywhere, "where the target is from then on",
      [](EventForm& e) -> Vec2& { return e.position; }, "move_target add_target", true},
 };
 
+// clang-format on
+
 struct ToObstacleForm {
-  ObstacleForm operator()(const world::Disc& d) const { return {.kind = 0, .center = d.center, .radius_m = d.radius_m}; }
+  ObstacleForm operator()(const world::Disc& d) const {
+    return {.kind = 0, .center = d.center, .radius_m = d.radius_m};
+  }
   ObstacleForm operator()(const world::Box& b) const {
     return {.kind = 1, .center = b.center, .size = b.size, .angle_rad = b.angle_rad};
   }
@@ -310,7 +324,8 @@ std::string range_text(const Range& range, std::string_view unit) {
   const bool low = range.minimum > -std::numeric_limits<double>::infinity();
   const bool high = range.maximum < std::numeric_limits<double>::infinity();
   std::string text;
-  if (low && range.above) text = "above " + number_text(range.minimum) + (high ? ", at most " + number_text(range.maximum) : "");
+  const std::string at_most = high ? ", at most " + number_text(range.maximum) : "";
+  if (low && range.above) text = "above " + number_text(range.minimum) + at_most;
   else if (low && high) text = number_text(range.minimum) + " to " + number_text(range.maximum);
   else if (low) text = "at least " + number_text(range.minimum);
   else if (high) text = "at most " + number_text(range.maximum);

@@ -20,9 +20,9 @@ namespace banyan::cli {
 
 // [output]: what a run keeps. Not part of the world: it never changes what happens.
 struct Output {
-  bool record = true;             // run.mcap
-  std::uint32_t record_every = 1; // ticks
-  bool series = false;            // series.csv
+  bool record = true;              // run.mcap
+  std::uint32_t record_every = 1;  // ticks
+  bool series = false;             // series.csv
 };
 
 // What a file and the command line together stand for.
@@ -34,13 +34,13 @@ struct Configuration {
 // A scenario in the terms of its file, where a variant is a selector key ("layout", "kind") and
 // keys that have a meaning for some of its values only. Angles are in rad as in the scenario.
 struct ObstacleForm {
-  std::size_t kind = 0;           // disc, box, wall
+  std::size_t kind = 0;  // disc, box, wall
   world::Vec2 center{}, size{}, from{}, to{};
   double radius_m = 0.0;
   double angle_rad = 0.0;
 };
 struct EventForm {
-  std::size_t kind = 0;           // as Event::Kind
+  std::size_t kind = 0;  // as Event::Kind
   double time_s = 0.0;
   std::size_t robot = 0;
   std::size_t target = 0;
@@ -49,8 +49,8 @@ struct EventForm {
   world::Vec2 position{};
 };
 struct Form {
-  Configuration configuration;    // targets, obstacles and events are below instead
-  std::size_t targets_layout = 1; // list, ring, random
+  Configuration configuration;     // targets, obstacles and events are below instead
+  std::size_t targets_layout = 1;  // list, ring, random
   std::vector<world::Vec2> target_positions;
   std::size_t target_count = 3;
   double target_radius_m = 3.0;
@@ -63,8 +63,7 @@ struct Form {
 [[nodiscard]] Configuration to_configuration(const Form& form);
 
 // A key whose value is one of a few names.
-template <class Owner>
-struct ChoiceAccess {
+template <class Owner> struct ChoiceAccess {
   std::span<const std::string_view> (*names)();
   std::size_t (*get)(const Owner&);
   void (*set)(Owner&, std::size_t);
@@ -80,20 +79,19 @@ using Access = std::variant<bool& (*)(Owner&), double& (*)(Owner&), int& (*)(Own
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  bool above = false;             // the minimum itself is not allowed
+  bool above = false;  // the minimum itself is not allowed
 };
 
-template <class Owner>
-struct Key {
-  std::string_view section;       // "radio"; "" at the top
-  std::string_view name;          // "loss"
-  std::string_view unit;          // "m", "deg": angles are in degrees in files
-  Range range;                    // in the file's unit
-  std::string_view meaning;       // a phrase
+template <class Owner> struct Key {
+  std::string_view section;  // "radio"; "" at the top
+  std::string_view name;     // "loss"
+  std::string_view unit;     // "m", "deg": angles are in degrees in files
+  Range range;               // in the file's unit
+  std::string_view meaning;  // a phrase
   Access<Owner> access;
-  std::string_view when = "";     // values of the section's selector with which it has a meaning; "": all
-  bool required = false;          // where it has a meaning
-  std::string_view fallback = ""; // what holds without the key, where that is not the member's default
+  std::string_view when = "";      // values of the section's selector with which it has a meaning; "": all
+  bool required = false;           // where it has a meaning
+  std::string_view fallback = "";  // what holds without the key, where that is not the member's default
 };
 
 [[nodiscard]] std::span<const Key<Form>> scenario_keys() noexcept;
@@ -101,9 +99,9 @@ struct Key {
 [[nodiscard]] std::span<const Key<EventForm>> event_keys() noexcept;
 
 struct Section {
-  std::string_view path;          // "swarm.start"
+  std::string_view path;  // "swarm.start"
   std::string_view meaning;
-  std::string_view selector = ""; // the key its other keys' `when` is about
+  std::string_view selector = "";  // the key its other keys' `when` is about
 };
 [[nodiscard]] std::span<const Section> sections() noexcept;  // in the order of a file, arrays of tables included
 

@@ -10,8 +10,7 @@
 namespace banyan::cli {
 namespace {
 
-template <class Owner>
-struct TypeName {
+template <class Owner> struct TypeName {
   std::string operator()(bool& (*)(Owner&)) const { return "true or false"; }
   std::string operator()(double& (*)(Owner&)) const { return "number"; }
   std::string operator()(int& (*)(Owner&)) const { return "whole number"; }
@@ -25,8 +24,7 @@ struct TypeName {
   std::string operator()(const ChoiceAccess<Owner>&) const { return "name"; }
 };
 
-template <class Owner>
-KeyRow row_of(const Key<Owner>& key) {
+template <class Owner> KeyRow row_of(const Key<Owner>& key) {
   KeyRow row;
   row.path = (key.section.empty() ? "" : std::string(key.section) + ".") + std::string(key.name);
   row.type = std::visit(TypeName<Owner>{}, key.access);
@@ -56,8 +54,9 @@ std::string default_of(const nlohmann::ordered_json& defaults, std::string_view 
   }
   const auto found = at->find(std::string(name));
   if (found == at->end()) return "";
-  return found->is_string() ? found->get<std::string>()
-         : found->is_number() ? number_text(found->get<double>()) : found->dump();
+  return found->is_string()   ? found->get<std::string>()
+         : found->is_number() ? number_text(found->get<double>())
+                              : found->dump();
 }
 
 std::vector<KeyRow> parameter_rows() {
@@ -89,8 +88,12 @@ std::string escaped(std::string text) {
 nlohmann::ordered_json json_of(const std::vector<KeyRow>& rows) {
   auto list = nlohmann::ordered_json::array();
   for (const auto& row : rows) {
-    list.push_back({{"key", row.path}, {"type", row.type}, {"allowed", row.allowed}, {"default", row.fallback},
-                    {"only_with", row.when}, {"meaning", row.meaning}});
+    list.push_back({{"key", row.path},
+                    {"type", row.type},
+                    {"allowed", row.allowed},
+                    {"default", row.fallback},
+                    {"only_with", row.when},
+                    {"meaning", row.meaning}});
   }
   return list;
 }
@@ -112,8 +115,10 @@ std::vector<KeyRow> key_rows() {
       rows.push_back(row_of(key));
       if (rows.back().fallback.empty()) rows.back().fallback = default_of(defaults, key.section, key.name);
     }
-    if (section.path == "obstacles") for (const auto& key : obstacle_keys()) rows.push_back(row_of(key));
-    if (section.path == "events") for (const auto& key : event_keys()) rows.push_back(row_of(key));
+    if (section.path == "obstacles")
+      for (const auto& key : obstacle_keys()) rows.push_back(row_of(key));
+    if (section.path == "events")
+      for (const auto& key : event_keys()) rows.push_back(row_of(key));
   }
   return rows;
 }
@@ -121,22 +126,29 @@ std::vector<KeyRow> key_rows() {
 std::string key_reference_markdown() {
   std::string text =
       "# The keys of a scenario\n\n"
-      "Written by `banyan keys --markdown`; a test keeps it so. A scenario is TOML, or JSON with the same tree. Every key "
-      "but those of `[targets]` may be left out. Angles are in degrees, counter-clockwise from the x axis; indices count "
-      "from 0. On the command line `--set section.key=value` changes any of them, and `--set events[0].time_s=3` reaches "
+      "Written by `banyan keys --markdown`; a test keeps it so. A scenario is TOML, or JSON with the same tree. Every "
+      "key "
+      "but those of `[targets]` may be left out. Angles are in degrees, counter-clockwise from the x axis; indices "
+      "count "
+      "from 0. On the command line `--set section.key=value` changes any of them, and `--set events[0].time_s=3` "
+      "reaches "
       "into lists.\n";
   const auto rows = key_rows();
   for (const auto& section : sections()) {
     const bool repeated = section.path == "obstacles" || section.path == "events";
     const std::string path(section.path);
-    text += "\n## " + (path.empty() ? "At the top" : repeated ? "[[" + path + "]]" : "[" + path + "]") + "\n\n" +
-            std::string(section.meaning) + "\n\n| key | value | allowed | default | meaning |\n|---|---|---|---|---|\n";
+    text += "\n## " +
+            (path.empty() ? "At the top"
+             : repeated   ? "[[" + path + "]]"
+                          : "[" + path + "]") +
+            "\n\n" + std::string(section.meaning) +
+            "\n\n| key | value | allowed | default | meaning |\n|---|---|---|---|---|\n";
     for (const auto& row : rows) {
       if (section_of(row.path) != path) continue;
       std::string meaning = row.meaning;
       if (!row.when.empty()) meaning += " (only with " + std::string(section.selector) + " " + row.when + ")";
-      text += "| `" + row.path.substr(path.empty() ? 0 : path.size() + 1) + "` | " + row.type + " | " + escaped(row.allowed) +
-              " | " + escaped(row.fallback) + " | " + escaped(meaning) + " |\n";
+      text += "| `" + row.path.substr(path.empty() ? 0 : path.size() + 1) + "` | " + row.type + " | " +
+              escaped(row.allowed) + " | " + escaped(row.fallback) + " | " + escaped(meaning) + " |\n";
     }
   }
   return text;
@@ -166,8 +178,10 @@ int keys_command(const KeysOptions& options) {
   std::string text;
   for (const auto& row : rows) {
     text += row.path + " = " + row.type + (row.allowed.empty() ? "" : " (" + row.allowed + ")") +
-            (row.fallback.empty() ? "" : row.fallback == "required" ? ", required" : ", default " + row.fallback) + "\n    " +
-            row.meaning + (row.when.empty() ? "" : "; only with " + row.when) + "\n";
+            (row.fallback.empty()         ? ""
+             : row.fallback == "required" ? ", required"
+                                          : ", default " + row.fallback) +
+            "\n    " + row.meaning + (row.when.empty() ? "" : "; only with " + row.when) + "\n";
   }
   print(text);
   return exit_done;
@@ -177,7 +191,7 @@ int complete_keys_command(const std::string& word) {
   std::string text;
   const auto equals = word.find('=');
   for (const auto& row : key_rows()) {
-    if (row.path.starts_with("obstacles.") || row.path.starts_with("events.")) continue;   // need an index
+    if (row.path.starts_with("obstacles.") || row.path.starts_with("events.")) continue;  // need an index
     if (equals == std::string::npos) {
       if (row.path.starts_with(word)) text += row.path + "=\n";
     } else if (row.path == word.substr(0, equals)) {

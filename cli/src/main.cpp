@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The banyan program: its command line. What each command does is in the file named after it.
-#include <CLI/CLI.hpp>
 #include <signal.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,9 @@ using namespace banyan::cli;
 
 constexpr const char* purpose =
     "Banyan: a swarm of robots deploys to several distant targets and keeps its radio\n"
-    "network in one piece by growing a tree.";
+    "network in one piece by growing a tree.\n";
+
+constexpr const char* command_group = "Commands";
 
 constexpr const char* main_footer =
     "Examples:\n"
@@ -64,7 +66,8 @@ constexpr const char* draw_footer =
 
 constexpr const char* algorithms_footer = "Examples:\n  banyan algorithms\n  banyan algorithms inwards --json";
 
-constexpr const char* keys_footer = "Examples:\n  banyan keys\n  banyan keys radio.\n  banyan keys --markdown > docs/scenario-keys.md";
+constexpr const char* keys_footer =
+    "Examples:\n  banyan keys\n  banyan keys radio.\n  banyan keys --markdown > docs/scenario-keys.md";
 
 constexpr const char* bench_footer =
     "Layouts: dense-94-los (94 moving robots, about 85 in range of each), spread-94-los,\n"
@@ -76,50 +79,79 @@ constexpr const char* bench_footer =
 
 // Collects --set and the options that are short for one, in the order given.
 void add_overrides(CLI::App& command, std::vector<Override>& overrides) {
-  command.add_option_function<std::vector<std::string>>(
-      "-s,--set", [&overrides](const std::vector<std::string>& list) {
-        for (const auto& assignment : list) overrides.push_back({assignment, "--set " + assignment});
-      }, "change a key of the scenario, such as radio.loss=0.3; may be repeated")
-      ->type_name("KEY=VALUE")->type_size(1)->allow_extra_args(false)->expected(1, 10000)->take_all();
-  command.add_option_function<std::string>(
-      "--seed", [&overrides](const std::string& seed) { overrides.push_back({"seed=" + seed, "--seed " + seed}); },
-      "change the scenario's seed")->type_name("N");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "-s,--set",
+          [&overrides](const std::vector<std::string>& list) {
+            for (const auto& assignment : list) overrides.push_back({assignment, "--set " + assignment});
+          },
+          "change a key of the scenario, such as radio.loss=0.3; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->expected(1, 10000)
+      ->take_all();
+  command
+      .add_option_function<std::string>(
+          "--seed",
+          [&overrides](const std::string& seed) {
+            overrides.push_back({"seed=" + seed, "--seed " + seed});
+          },
+          "change the scenario's seed")
+      ->type_name("N");
 }
 
 void add_run(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = app.add_subcommand("run", "run a scenario and write its results");
+  auto* command = app.add_subcommand("run", "run a scenario and write its results")->group(command_group);
   command->footer(run_footer);
-  command->add_option("scenario", options->scenario, "a scenario (.toml or .json), an earlier run.json, or - for standard input")
-      ->required()->type_name("FILE");
+  command
+      ->add_option("scenario", options->scenario,
+                   "a scenario (.toml or .json), an earlier run.json, or - for standard input")
+      ->required()
+      ->type_name("FILE");
   add_overrides(*command, options->overrides);
-  command->add_option("-o,--out", options->out, "directory for the results, default out/<name>-<algorithm>-<seed>")->type_name("DIR");
+  command->add_option("-o,--out", options->out, "directory for the results, default out/<name>-<algorithm>-<seed>")
+      ->type_name("DIR");
   command->add_flag("-f,--force", options->force, "replace results that are already there");
   command->add_flag("--json", options->json, "print the result as JSON on standard output, and nothing else there");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
   auto shorthand = [command, options](const std::string& name, const std::string& assignment, const std::string& text) {
-    command->add_flag_function(name, [options, name, assignment](std::int64_t) { options->overrides.push_back({assignment, name}); }, text);
+    command->add_flag_function(
+        name,
+        [options, name, assignment](std::int64_t) {
+          options->overrides.push_back({assignment, name});
+        },
+        text);
   };
   shorthand("--series", "output.series=true", "also write series.csv, the metrics of every tick");
   shorthand("--no-record", "output.record=false", "do not write the recording run.mcap");
-  command->add_option_function<std::string>(
-      "--record-every", [options](const std::string& n) {
-        options->overrides.push_back({"output.record_every=" + n, "--record-every " + n});
-      }, "record the robots at every Nth tick only")->type_name("N");
-  command->add_option("-t,--threads", options->threads,
-                      "threads within the run, default 1, or all cores from 500 robots on; never changes the result")
-      ->type_name("N")->check(CLI::Range(1, 256));
+  command
+      ->add_option_function<std::string>(
+          "--record-every",
+          [options](const std::string& n) {
+            options->overrides.push_back({"output.record_every=" + n, "--record-every " + n});
+          },
+          "record the robots at every Nth tick only")
+      ->type_name("N");
+  command
+      ->add_option("-t,--threads", options->threads,
+                   "threads within the run, default 1, or all cores from 500 robots on; never changes the result")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256).description(""));
   command->callback([options, &action] { action = [options] { return run_command(*options); }; });
 }
 
 void add_validate(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<ValidateOptions>();
-  auto* command = app.add_subcommand("validate", "tell everything that is wrong with scenarios, without running them");
+  auto* command = app.add_subcommand("validate", "tell everything that is wrong with scenarios, without running them")
+                      ->group(command_group);
   command->footer(validate_footer);
-  command->add_option("files", options->files, "scenarios")->required()->type_name("FILE...");
+  command->add_option("files", options->files, "scenarios")->required()->type_name("FILE");
   add_overrides(*command, options->overrides);
   command->add_option("--show", options->show, "print the complete configuration, defaults included")
-      ->type_name("toml|json")->check(CLI::IsMember({"toml", "json"}));
+      ->type_name("toml|json")
+      ->check(CLI::IsMember({"toml", "json"}).description(""));
   command->add_flag("--json", options->json, "print the report as JSON");
   command->add_flag("-q,--quiet", options->quiet, "say nothing about scenarios that are fine");
   command->callback([options, &action] { action = [options] { return validate_command(*options); }; });
@@ -131,31 +163,39 @@ const CLI::Validator moment(
       double value = 0.0;
       const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0.0;
       return number ? std::string() : "must be a number of at least 0, not \"" + text + "\"";
-    }, "");
+    },
+    "");
 
 void add_export(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<ExportOptions>();
-  auto* command = app.add_subcommand("export", "turn a recording into a table: a row per tick and robot");
+  auto* command =
+      app.add_subcommand("export", "turn a recording into a table: a row per tick and robot")->group(command_group);
   command->footer(export_footer);
   command->add_option("recording", options->recording, "a run.mcap")->required()->type_name("FILE");
   command->add_flag("--csv", options->csv, "as comma-separated values (the only format, and the default)");
   command->add_option("-o,--output", options->output, "file to write, default standard output")->type_name("FILE");
   command->add_option("--from", options->from_s, "first moment, s")->type_name("S")->check(moment);
   command->add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment);
-  command->add_option("--every", options->every, "every Nth recorded tick only")->type_name("N")->check(CLI::Range(1, 1000000));
+  command->add_option("--every", options->every, "every Nth recorded tick only")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000).description(""));
   command->add_flag("-f,--force", options->force, "replace the file if it exists");
   command->callback([options, &action] { action = [options] { return export_command(*options); }; });
 }
 
 void add_draw(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<DrawOptions>();
-  auto* command = app.add_subcommand("draw", "draw a moment of a recording as SVG");
+  auto* command = app.add_subcommand("draw", "draw a moment of a recording as SVG")->group(command_group);
   command->footer(draw_footer);
   command->add_option("recording", options->recording, "a run.mcap")->required()->type_name("FILE");
   command->add_option("--at", options->at_s, "the moment, s; default the end")->type_name("S")->check(moment);
   command->add_option("-o,--output", options->output, "file to write, default standard output")->type_name("FILE");
-  command->add_option("--trail", options->trail_s, "how far back trails go, s; default 10")->type_name("S")->check(moment);
-  command->add_option("--width", options->width_px, "width in pixels, default 1000")->type_name("PX")->check(CLI::Range(100.0, 20000.0));
+  command->add_option("--trail", options->trail_s, "how far back trails go, s; default 10")
+      ->type_name("S")
+      ->check(moment);
+  command->add_option("--width", options->width_px, "width in pixels, default 1000")
+      ->type_name("PX")
+      ->check(CLI::Range(100.0, 20000.0).description(""));
   command->add_flag("!--no-links", options->links, "leave out radio links");
   command->add_flag("--blocked", options->blocked, "show pairs in range without a line of sight");
   command->add_flag("--ids", options->ids, "number the robots");
@@ -166,7 +206,7 @@ void add_draw(CLI::App& app, std::function<int()>& action) {
 
 void add_algorithms(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<AlgorithmsOptions>();
-  auto* command = app.add_subcommand("algorithms", "list the algorithms and their parameters");
+  auto* command = app.add_subcommand("algorithms", "list the algorithms and their parameters")->group(command_group);
   command->footer(algorithms_footer);
   command->add_option("name", options->name, "only this one")->type_name("NAME");
   command->add_flag("--json", options->json, "as JSON");
@@ -175,7 +215,8 @@ void add_algorithms(CLI::App& app, std::function<int()>& action) {
 
 void add_keys(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<KeysOptions>();
-  auto* command = app.add_subcommand("keys", "list every key of a scenario: type, range, default, meaning");
+  auto* command =
+      app.add_subcommand("keys", "list every key of a scenario: type, range, default, meaning")->group(command_group);
   command->footer(keys_footer);
   command->add_option("prefix", options->prefix, "only keys that begin so")->type_name("PREFIX");
   command->add_flag("--json", options->json, "as JSON");
@@ -183,20 +224,24 @@ void add_keys(CLI::App& app, std::function<int()>& action) {
   command->callback([options, &action] { action = [options] { return keys_command(*options); }; });
 
   auto word = std::make_shared<std::string>();
-  auto* completion = app.add_subcommand("complete-keys", "")->group("");   // for the shell
+  auto* completion = app.add_subcommand("complete-keys", "")->group("");  // for the shell
   completion->add_option("word", *word);
   completion->callback([word, &action] { action = [word] { return complete_keys_command(*word); }; });
 }
 
 void add_bench(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<BenchOptions>();
-  auto* command = app.add_subcommand("bench", "measure the speed of the simulation on this machine");
+  auto* command =
+      app.add_subcommand("bench", "measure the speed of the simulation on this machine")->group(command_group);
   command->footer(bench_footer);
-  command->add_option("layouts", options->only, "only these layouts")->type_name("LAYOUT...");
+  command->add_option("layouts", options->only, "only these layouts")->type_name("LAYOUT");
   command->add_flag("--json", options->json, "print the figures as JSON");
-  command->add_option("--windows", options->windows, "measured windows per layout, default 7")->type_name("N")->check(CLI::Range(1, 1000));
+  command->add_option("--windows", options->windows, "measured windows per layout, default 7")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000).description(""));
   command->add_option("--window", options->window_s, "length of a window, s of wall time, default 0.7")
-      ->type_name("S")->check(CLI::Range(0.01, 600.0));
+      ->type_name("S")
+      ->check(CLI::Range(0.01, 600.0).description(""));
   command->callback([options, &action] { action = [options] { return bench_command(*options); }; });
 }
 
@@ -211,12 +256,14 @@ std::string suggestion(const CLI::App& app, const std::vector<std::string>& argu
         for (const auto& name : option->get_lnames()) names.push_back("--" + name);
       }
     } else if (command == &app) {
-      for (const auto* sub : app.get_subcommands([](const CLI::App* s) { return !s->get_group().empty(); })) names.push_back(sub->get_name());
+      for (const auto* sub : app.get_subcommands([](const CLI::App* s) { return !s->get_group().empty(); }))
+        names.push_back(sub->get_name());
     }
     const std::vector<std::string_view> views(names.begin(), names.end());
     const auto word = argument.substr(0, argument.find('='));
     if (std::find(names.begin(), names.end(), word) != names.end()) continue;
-    if (const auto near = nearest(word, views); !near.empty()) return "\"" + word + "\" is unknown; did you mean " + std::string(near) + "?";
+    if (const auto near = nearest(word, views); !near.empty())
+      return "\"" + word + "\" is unknown; did you mean " + std::string(near) + "?";
   }
   return "";
 }
@@ -225,7 +272,8 @@ int report_bad_usage(const CLI::App& app, const CLI::ParseError& error, const st
   const CLI::App* command = &app;
   for (const auto* chosen : app.get_subcommands()) command = chosen;
   const auto hint = dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error)
-                        ? suggestion(app, arguments) : "";
+                        ? suggestion(app, arguments)
+                        : "";
   complain(hint.empty() ? error.what() : hint);
   const std::string name = command == &app ? "banyan" : "banyan " + command->get_name();
   complain("see " + name + " --help");
@@ -237,7 +285,10 @@ int run_program(int argc, char** argv) {
   std::function<int()> action;
   app.footer(main_footer);
   app.get_formatter()->column_width(28);
-  app.set_version_flag("--version", "banyan " + std::string(banyan::version) + " (git " + std::string(banyan::git_id()) + ")",
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.set_help_flag("-h,--help", "print this help and leave");
+  app.set_version_flag("--version",
+                       "banyan " + std::string(banyan::version) + " (git " + std::string(banyan::git_id()) + ")",
                        "print the version and leave");
   app.require_subcommand(1);
   add_run(app, action);
@@ -250,7 +301,7 @@ int run_program(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& wanted) {   // --help, --version
+  } catch (const CLI::Success& wanted) {  // --help, --version
     std::ostringstream text;
     app.exit(wanted, text, text);
     print(text.str());
@@ -268,7 +319,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ::signal(SIGXFSZ, SIG_IGN);   // a file size limit is then an error of write(), like a full disk
+  ::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of write(), like a full disk
   try {
     return run_program(argc, argv);
   } catch (const CommandError& e) {

@@ -42,7 +42,8 @@ RunOutputs::RunOutputs(const Configuration& configuration, const std::string& ou
   if (out.empty() && !force) {
     // Making the directory is what claims it: two runs at once get two directories.
     const std::string first = directory_;
-    for (int n = 2; !(created_ = make_directory(directory_)) && n <= 10000; ++n) directory_ = first + "." + std::to_string(n);
+    for (int n = 2; !(created_ = make_directory(directory_)) && n <= 10000; ++n)
+      directory_ = first + "." + std::to_string(n);
     if (!created_) throw CommandError(exit_lost, first + ": 10000 runs of this kind exist; use --out DIR");
     return;
   }
@@ -68,7 +69,7 @@ void RunOutputs::remove_leftovers(const Output& written) const {
 
 void RunOutputs::abandon() const noexcept {
   std::error_code ignored;
-  if (created_) fs::remove(directory_, ignored);   // fails, as it should, when something is in it
+  if (created_) fs::remove(directory_, ignored);  // fails, as it should, when something is in it
 }
 
 }  // namespace banyan::cli

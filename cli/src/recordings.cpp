@@ -38,7 +38,8 @@ int export_command(const ExportOptions& options) {
   auto recording = open_recording(options.recording);
   const record::ExportOptions chosen{options.from_s, options.to_s, options.every};
   if (options.output == "-") {
-    record::export_csv(recording, [](std::string_view piece) { record::write_all(STDOUT_FILENO, piece, "standard output"); }, chosen);
+    record::export_csv(
+        recording, [](std::string_view piece) { record::write_all(STDOUT_FILENO, piece, "standard output"); }, chosen);
     return exit_done;
   }
   const auto rows = record::export_csv(recording, options.output, existing(options.force), chosen);
@@ -61,8 +62,10 @@ int draw_command(const DrawOptions& options) {
   chosen.ids = options.ids;
   chosen.legend = options.legend;
   const std::string svg = record::draw_svg(recording, at_s, chosen);
-  if (options.output == "-") record::write_all(STDOUT_FILENO, svg, "standard output");
-  else record::write_file(options.output, svg, existing(options.force));
+  if (options.output == "-")
+    record::write_all(STDOUT_FILENO, svg, "standard output");
+  else
+    record::write_file(options.output, svg, existing(options.force));
   return exit_done;
 }
 

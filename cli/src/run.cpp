@@ -33,21 +33,22 @@ int thread_count(int wanted, std::size_t robots) {
 // What a run writes while it goes on; every part optional.
 class Keeper {
  public:
-  Keeper(const RunOutputs& outputs, const Configuration& configuration) : outputs_(outputs), json_(config_json(configuration)) {
+  Keeper(const RunOutputs& outputs, const Configuration& configuration)
+      : outputs_(outputs), json_(config_json(configuration)) {
     const auto& scenario = configuration.scenario;
     if (configuration.output.record) {
       record::RecorderOptions options;
       options.every_ticks = configuration.output.record_every;
       options.existing = outputs.existing();
-      recorder_.emplace(outputs.recording(), record::Provenance{json_, std::string(version), std::string(git_id()), scenario.seed},
-                        options);
+      recorder_.emplace(outputs.recording(),
+                        record::Provenance{json_, std::string(version), std::string(git_id()), scenario.seed}, options);
     }
     if (configuration.output.series) series_.emplace(outputs.series(), outputs.existing());
   }
 
   void start(const world::World& world) {
     if (!recorder_) return;
-    measure::Observer before(world);   // the run's own observer counts ticks, and this is none
+    measure::Observer before(world);  // the run's own observer counts ticks, and this is none
     recorder_->frame(world, before.observe(world));
   }
   void tick(const world::World& world, const measure::Tick& tick) {
@@ -106,7 +107,7 @@ int run_command(const RunOptions& options) {
   const auto loaded = load_or_leave(options);
   if (!loaded.ok()) return exit_usage;
   const Configuration& configuration = loaded.configuration;
-  ::signal(SIGPIPE, SIG_IGN);   // a reader of the summary that goes away must not cost the results
+  ::signal(SIGPIPE, SIG_IGN);  // a reader of the summary that goes away must not cost the results
 
   const RunOutputs outputs(configuration, options.out, options.force);
   record::RunRow row;
@@ -136,11 +137,13 @@ int run_command(const RunOptions& options) {
   }
   if (options.force) outputs.remove_leftovers(configuration.output);
 
-  if (options.json) print(record::run_json(row, config));
-  else if (!options.quiet) print(summary_text(row, configuration, outputs, extras));
+  if (options.json)
+    print(record::run_json(row, config));
+  else if (!options.quiet)
+    print(summary_text(row, configuration, outputs, extras));
   if (!row.interrupted) return exit_done;
-  complain(format("stopped by %s at %.1f s; what was done until then is in %s", stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM",
-                  row.run.time_s, outputs.directory().c_str()));
+  complain(format("stopped by %s at %.1f s; what was done until then is in %s",
+                  stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM", row.run.time_s, outputs.directory().c_str()));
   return exit_signal + stop_signal();
 }
 

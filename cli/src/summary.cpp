@@ -25,7 +25,8 @@ std::string verdict(const record::RunRow& row, const SummaryExtras& extras) {
 }
 
 std::string time_text(const measure::Run& run) {
-  std::string text = format("%.1f s of the limit of %.1f s", run.complete ? run.completion_time_s : run.time_s, run.time_limit_s);
+  std::string text =
+      format("%.1f s of the limit of %.1f s", run.complete ? run.completion_time_s : run.time_s, run.time_limit_s);
   if (run.complete) text += format(" (normalised %.3f)", run.normalized_time);
   return text + format("; no swarm could do it in less than %.1f s", run.time_bound_s);
 }
@@ -41,13 +42,16 @@ std::string tree_text(const measure::Run& run) {
 std::string network_text(const measure::Run& run, bool line_of_sight) {
   if (run.split_ticks == 0 && run.split_ticks_by_distance == 0) return "in one piece at every tick";
   std::string text = "split in " + plural(run.split_ticks, "tick");
-  if (line_of_sight) text += format(" (%s if nothing blocked the radio)", grouped(static_cast<double>(run.split_ticks_by_distance)).c_str());
+  if (line_of_sight)
+    text +=
+        format(" (%s if nothing blocked the radio)", grouped(static_cast<double>(run.split_ticks_by_distance)).c_str());
   return text;
 }
 
 std::string robots_text(const measure::Run& run) {
   std::string text = format("%u of %u committed; at least %u are needed", run.committed, run.robots, run.robots_bound);
-  if (run.robots_bound > 0) text += format(" (%.2f times the bound)", static_cast<double>(run.committed) / run.robots_bound);
+  if (run.robots_bound > 0)
+    text += format(" (%.2f times the bound)", static_cast<double>(run.committed) / run.robots_bound);
   return text;
 }
 
@@ -64,17 +68,19 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   text += line("tree", tree_text(run));
   text += line("network", network_text(run, scenario.radio.line_of_sight));
   text += line("robots", robots_text(run));
-  text += line("work", plural(run.insertions, "insertion") + ", " + plural(run.handovers, "hand-over") + " of the root, " +
-                           plural(run.repairs, "repair") + ", " + plural(run.epochs, "tree") + " grown");
+  text +=
+      line("work", plural(run.insertions, "insertion") + ", " + plural(run.handovers, "hand-over") + " of the root, " +
+                       plural(run.repairs, "repair") + ", " + plural(run.epochs, "tree") + " grown");
   text += line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
   const double steps = static_cast<double>(run.ticks) * run.robots / std::max(extras.wall_s, 1e-9);
-  text += line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s, grouped(steps).c_str(),
-                               extras.threads, extras.threads == 1 ? "thread" : "threads"));
+  text += line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s,
+                               grouped(steps).c_str(), extras.threads, extras.threads == 1 ? "thread" : "threads"));
   text += line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)", run.hash));
   text += "\nResults in " + outputs.directory() + "/\n";
   if (configuration.output.record) {
     text += "  run.mcap    the recording; opens in Foxglove and Lichtblick, or draw a moment of it:\n";
-    text += format("              banyan draw %s --at %.0f -o frame.svg\n", outputs.recording().c_str(), std::floor(run.time_s / 2));
+    text += format("              banyan draw %s --at %.0f -o frame.svg\n", outputs.recording().c_str(),
+                   std::floor(run.time_s / 2));
   }
   text += "  run.csv     the result as one row; run.json: with the whole configuration\n";
   if (configuration.output.series) text += "  series.csv  the metrics of every tick\n";

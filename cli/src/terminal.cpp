@@ -17,7 +17,7 @@ namespace {
 
 volatile sig_atomic_t caught_signal = 0;
 
-constexpr double silent_s = 2.0;             // shorter runs need no progress
+constexpr double silent_s = 2.0;  // shorter runs need no progress
 constexpr double terminal_period_s = 0.2;
 constexpr double log_period_s = 10.0;
 
@@ -37,7 +37,7 @@ std::size_t terminal_width() {
 void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = [](int number) { caught_signal = number; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);   // not SA_RESTART: a blocked write shall notice
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // not SA_RESTART: a blocked write shall notice
   ::sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);

@@ -8,7 +8,9 @@
 namespace banyan::cli {
 namespace {
 
-std::string count_of(std::size_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
+std::string count_of(std::size_t n, const std::string& noun) {
+  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
 
 std::string summary(const std::string& file, const Configuration& configuration) {
   const auto& scenario = configuration.scenario;
@@ -22,8 +24,11 @@ nlohmann::ordered_json json_of(const std::string& file, const Loaded& loaded) {
   nlohmann::ordered_json entry = {{"file", file}, {"ok", loaded.ok()}};
   auto& list = entry["problems"] = nlohmann::ordered_json::array();
   for (const auto& p : loaded.problems) {
-    list.push_back({{"severity", p.warning ? "warning" : "error"}, {"place", p.place.text()},
-                    {"line", p.place.line}, {"key", p.key}, {"text", p.text}});
+    list.push_back({{"severity", p.warning ? "warning" : "error"},
+                    {"place", p.place.text()},
+                    {"line", p.place.line},
+                    {"key", p.key},
+                    {"text", p.text}});
   }
   if (loaded.ok()) {
     entry["robots"] = world::robot_count(loaded.configuration.scenario);
@@ -45,12 +50,17 @@ int validate_command(const ValidateOptions& options) {
     problems.insert(problems.end(), loaded.problems.begin(), loaded.problems.end());
     if (options.json) report.push_back(json_of(file, loaded));
     if (!loaded.ok()) continue;
-    if (options.show == "toml") text += config_toml(loaded.configuration);
-    else if (options.show == "json") text += config_json(loaded.configuration, 2) + "\n";
-    else if (!options.quiet) text += summary(file, loaded.configuration);
+    if (options.show == "toml")
+      text += config_toml(loaded.configuration);
+    else if (options.show == "json")
+      text += config_json(loaded.configuration, 2) + "\n";
+    else if (!options.quiet)
+      text += summary(file, loaded.configuration);
   }
-  if (options.json) text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  else print_problems(problems);
+  if (options.json)
+    text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  else
+    print_problems(problems);
   print(text);
   return all_ok ? exit_done : exit_usage;
 }

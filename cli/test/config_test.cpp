@@ -36,7 +36,7 @@ Loaded parse(const std::string& text, const std::vector<std::string>& sets = {})
   return ::testing::AssertionFailure() << "\"" << part << "\" is not in:\n" << text;
 }
 
-const std::string small = "[targets]\ncount = 2\nradius_m = 2.0\n";   // line 1 to 3
+const std::string small = "[targets]\ncount = 2\nradius_m = 2.0\n";  // line 1 to 3
 
 TEST(Config, ReadsEveryKindOfValue) {
   const auto loaded = parse(R"(
@@ -115,7 +115,7 @@ TEST(Config, DefaultsAreTheScenariosOwn) {
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
   const world::Scenario standard;
   const auto& s = loaded.configuration.scenario;
-  EXPECT_EQ(s.name, "w");   // from w.toml
+  EXPECT_EQ(s.name, "w");  // from w.toml
   EXPECT_EQ(s.tick_s, standard.tick_s);
   EXPECT_EQ(s.mission.algorithm, standard.mission.algorithm);
   EXPECT_EQ(s.swarm.redundancy, standard.swarm.redundancy);
@@ -156,8 +156,12 @@ kind = "die"
   EXPECT_TRUE(says(loaded, "w.toml:3: error: tick_s: is nan; allowed: above 0, at most 1 s"));
   EXPECT_TRUE(says(loaded, "w.toml:5: error: mission.algorithm: must be \"outwards\""));
   EXPECT_TRUE(says(loaded, "did you mean \"outwards\"?"));
-  EXPECT_TRUE(says(loaded, "w.toml:6: error: mission.target_tolerance_m: must be a number (above 0, at most 10000 m), not the text \"near\""));
-  EXPECT_TRUE(says(loaded, "w.toml:8: error: mission.parameters.target_gian: there is no such key; did you mean mission.parameters.target_gain?"));
+  EXPECT_TRUE(says(loaded,
+                   "w.toml:6: error: mission.target_tolerance_m: must be a number (above 0, at most 10000 m), not the "
+                   "text \"near\""));
+  EXPECT_TRUE(says(loaded,
+                   "w.toml:8: error: mission.parameters.target_gian: there is no such key; did you mean "
+                   "mission.parameters.target_gain?"));
   EXPECT_TRUE(says(loaded, "w.toml:9: error: mission.parameters.tick_s: follows from the key tick_s"));
   EXPECT_TRUE(says(loaded, "w.toml:11: error: swarm.robots: is 0; allowed: 2 to 65535"));
   EXPECT_TRUE(says(loaded, "w.toml:13: error: radio.range_m: is -inf; allowed: above 0"));
@@ -207,7 +211,8 @@ TEST(Config, TargetsOutOfReachAreAWarningWithTheBound) {
 }
 
 TEST(Config, TheSameKeyElsewhereIsNamed) {
-  EXPECT_TRUE(says(parse(small + "[robot]\nrange_m = 3\n"), "robot.range_m: there is no such key; did you mean radio.range_m?"));
+  EXPECT_TRUE(says(parse(small + "[robot]\nrange_m = 3\n"),
+                   "robot.range_m: there is no such key; did you mean radio.range_m?"));
   EXPECT_TRUE(says(parse(small + "[raido]\nloss = 0.3\n"), "raido: there is no such key; did you mean radio?"));
 }
 
@@ -216,7 +221,8 @@ TEST(Config, SectionsAndListsMustBeSuch) {
   EXPECT_TRUE(says(parse(small + "[obstacles]\nkind = \"disc\"\n"), "obstacles: is a list of tables, [[obstacles]]"));
   EXPECT_TRUE(says(parse(small, {"events=[1]"}), "events[0]: must be a table, not the number 1"));
   EXPECT_TRUE(says(parse("seed = 1\n"), "targets: the section [targets] is missing"));
-  EXPECT_TRUE(says(parse("[targets]\nlayout = \"list\"\n"), "targets.positions_m: is missing; layout = \"list\" needs it"));
+  EXPECT_TRUE(
+      says(parse("[targets]\nlayout = \"list\"\n"), "targets.positions_m: is missing; layout = \"list\" needs it"));
 }
 
 TEST(Config, NamesAreSafeAsDirectories) {
@@ -229,7 +235,8 @@ TEST(Config, NamesAreSafeAsDirectories) {
 TEST(Config, OptionsBeatTheFile) {
   const auto text = small + "[swarm]\nrobots = 12\n[radio]\nloss = 0.1\n";
 
-  const auto loaded = parse(text, {"radio.loss=0.3", "mission.algorithm=inwards", "mission.parameters.target_gain=0.4"});
+  const auto loaded =
+      parse(text, {"radio.loss=0.3", "mission.algorithm=inwards", "mission.parameters.target_gain=0.4"});
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
   EXPECT_EQ(loaded.configuration.scenario.radio.loss, 0.3);
   EXPECT_EQ(loaded.configuration.scenario.mission.algorithm, "inwards");
@@ -237,9 +244,11 @@ TEST(Config, OptionsBeatTheFile) {
 
   EXPECT_EQ(world::robot_count(parse(text, {"swarm.redundancy=4"}).configuration.scenario),
             world::robot_count(parse(small + "[swarm]\nredundancy = 4\n").configuration.scenario));
-  EXPECT_EQ(world::robot_count(parse(small + "[swarm]\nredundancy = 4\n", {"swarm.robots=20"}).configuration.scenario), 20U);
-  EXPECT_TRUE(says(parse(text + "redundancy = 1\n"), "redundancy"));   // under [radio]: unknown there
-  EXPECT_TRUE(says(parse("[swarm]\nrobots = 12\nredundancy = 2\n" + small), "w.toml:3: error: swarm.redundancy: give robots or redundancy, not both"));
+  EXPECT_EQ(world::robot_count(parse(small + "[swarm]\nredundancy = 4\n", {"swarm.robots=20"}).configuration.scenario),
+            20U);
+  EXPECT_TRUE(says(parse(text + "redundancy = 1\n"), "redundancy"));  // under [radio]: unknown there
+  EXPECT_TRUE(says(parse("[swarm]\nrobots = 12\nredundancy = 2\n" + small),
+                   "w.toml:3: error: swarm.redundancy: give robots or redundancy, not both"));
 }
 
 TEST(Config, AnotherLayoutByOptionLeavesTheOldKeysBehind) {
@@ -279,8 +288,7 @@ json* member(json& root, const std::string& path) {
 }
 
 // A value within the range of the key that is not its default. Types come from the table's row.
-template <class Owner>
-rc::Gen<json> value_of(const Key<Owner>& key) {
+template <class Owner> rc::Gen<json> value_of(const Key<Owner>& key) {
   const auto low = std::isfinite(key.range.minimum) ? key.range.minimum : -100.0;
   const auto high = std::isfinite(key.range.maximum) ? key.range.maximum : 100.0;
   const auto real = rc::gen::map(rc::gen::inRange<std::int64_t>(1, 1'000'000'000), [low, high](std::int64_t k) {
@@ -291,7 +299,9 @@ rc::Gen<json> value_of(const Key<Owner>& key) {
   struct Pick {
     rc::Gen<json> real, whole, point;
     const Key<Owner>& key;
-    rc::Gen<json> operator()(bool& (*)(Owner&)) const { return rc::gen::map(rc::gen::arbitrary<bool>(), [](bool b) { return json(b); }); }
+    rc::Gen<json> operator()(bool& (*)(Owner&)) const {
+      return rc::gen::map(rc::gen::arbitrary<bool>(), [](bool b) { return json(b); });
+    }
     rc::Gen<json> operator()(double& (*)(Owner&)) const { return real; }
     rc::Gen<json> operator()(int& (*)(Owner&)) const { return whole; }
     rc::Gen<json> operator()(std::uint32_t& (*)(Owner&)) const { return whole; }
@@ -300,7 +310,8 @@ rc::Gen<json> value_of(const Key<Owner>& key) {
     rc::Gen<json> operator()(std::string& (*)(Owner&)) const {
       const auto text = rc::gen::nonEmpty(rc::gen::string<std::string>());
       if (key.name != "name") {
-        return rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange(' ', '\x7f')), [](std::string s) { return json(s + "\t\"\\"); });
+        return rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange(' ', '\x7f')),
+                            [](std::string s) { return json(s + "\t\"\\"); });
       }
       return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange('a', 'z'))),
                           [](std::string s) { return json(s.substr(0, 100)); });
@@ -310,10 +321,12 @@ rc::Gen<json> value_of(const Key<Owner>& key) {
     rc::Gen<json> operator()(std::vector<double>& (*)(Owner&)) const { return list(real); }
     rc::Gen<json> operator()(const ChoiceAccess<Owner>& choice) const {
       const auto names = choice.names();
-      return rc::gen::map(rc::gen::inRange<std::size_t>(0, names.size()), [names](std::size_t i) { return json(names[i]); });
+      return rc::gen::map(rc::gen::inRange<std::size_t>(0, names.size()),
+                          [names](std::size_t i) { return json(names[i]); });
     }
     static rc::Gen<json> list(const rc::Gen<json>& item) {
-      return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::vector<json>>(item)), [](const std::vector<json>& v) { return json(v); });
+      return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::vector<json>>(item)),
+                          [](const std::vector<json>& v) { return json(v); });
     }
   };
   const auto as_json = [](const auto& gen) { return rc::gen::map(gen, [](auto v) { return json(v); }); };
@@ -321,12 +334,12 @@ rc::Gen<json> value_of(const Key<Owner>& key) {
 }
 
 // The keys of a section that have a meaning together, with random values.
-template <class Owner>
-json random_section(const Section& section, std::span<const Key<Owner>> keys) {
+template <class Owner> json random_section(const Section& section, std::span<const Key<Owner>> keys) {
   json table = json::object();
   std::string choice;
   for (const auto& key : keys) {
-    if (key.section == section.path && key.name == section.selector) choice = (table[std::string(key.name)] = *value_of(key)).template get<std::string>();
+    if (key.section == section.path && key.name == section.selector)
+      choice = (table[std::string(key.name)] = *value_of(key)).template get<std::string>();
   }
   for (const auto& key : keys) {
     if (key.section != section.path || key.name == section.selector) continue;
@@ -343,12 +356,14 @@ json random_tree() {
       const auto n = *rc::gen::inRange(0, 4);
       root[path] = json::array();
       for (int i = 0; i < n; ++i) {
-        root[path].push_back(path == "obstacles" ? random_section(section, obstacle_keys()) : random_section(section, event_keys()));
+        root[path].push_back(path == "obstacles" ? random_section(section, obstacle_keys())
+                                                 : random_section(section, event_keys()));
       }
     } else if (path == "mission.parameters") {
       for (const auto& info : parameter_table()) {
         if (!platform_key(info.key).empty() || *rc::gen::arbitrary<bool>()) continue;
-        root["mission"]["parameters"][std::string(info.key)] = 0.5 * (static_cast<double>(info.minimum) + static_cast<double>(info.maximum));
+        root["mission"]["parameters"][std::string(info.key)] =
+            0.5 * (static_cast<double>(info.minimum) + static_cast<double>(info.maximum));
       }
     } else {
       const auto table = random_section(section, scenario_keys());
@@ -365,8 +380,10 @@ json random_tree() {
 std::string complaints_about_keys(const Loaded& loaded) {
   std::string text;
   for (const auto& p : loaded.problems) {
-    for (const char* part : {"there is no such key", "has no meaning", "; allowed: ", "is missing", "not the ", "not a "}) {
-      if (p.text.find(part) != std::string::npos && p.text.find("must be a number") == std::string::npos) text += to_string(p) + "\n";
+    for (const char* part :
+         {"there is no such key", "has no meaning", "; allowed: ", "is missing", "not the ", "not a "}) {
+      if (p.text.find(part) != std::string::npos && p.text.find("must be a number") == std::string::npos)
+        text += to_string(p) + "\n";
     }
   }
   return text;
@@ -408,12 +425,14 @@ RC_GTEST_PROP(ConfigProperty, TheDumpReadsBackAsTheSameScenarioToTheBit, ()) {
     RC_ASSERT(config_json(back->configuration) == config_json(loaded.configuration));
     const auto& a = loaded.configuration.scenario;
     const auto& b = back->configuration.scenario;
-    RC_ASSERT(a.swarm.start.headings_rad == b.swarm.start.headings_rad);   // angles: the same radians
+    RC_ASSERT(a.swarm.start.headings_rad == b.swarm.start.headings_rad);  // angles: the same radians
     RC_ASSERT(a.radio.bearing_noise_rad == b.radio.bearing_noise_rad);
     RC_ASSERT(a.robot.wheel_limit_m_s == b.robot.wheel_limit_m_s);
-    if (const auto* ring = std::get_if<world::RingTargets>(&a.targets)) RC_ASSERT(ring->phase_rad == std::get<world::RingTargets>(b.targets).phase_rad);
+    if (const auto* ring = std::get_if<world::RingTargets>(&a.targets))
+      RC_ASSERT(ring->phase_rad == std::get<world::RingTargets>(b.targets).phase_rad);
     for (std::size_t i = 0; i < a.obstacles.size(); ++i) {
-      if (const auto* box = std::get_if<world::Box>(&a.obstacles[i])) RC_ASSERT(box->angle_rad == std::get<world::Box>(b.obstacles[i]).angle_rad);
+      if (const auto* box = std::get_if<world::Box>(&a.obstacles[i]))
+        RC_ASSERT(box->angle_rad == std::get<world::Box>(b.obstacles[i]).angle_rad);
     }
   }
 }
@@ -457,11 +476,12 @@ TEST(Scenarios, AllAreValidWithoutAWarning) {
 
 TEST(Scenarios, AreTheWorldsTheyAreNamedAfter) {
   const auto robots = [](const std::string& name) {
-    return world::robot_count(load_configuration(std::string(BANYAN_SCENARIOS) + "/" + name + ".toml").configuration.scenario);
+    return world::robot_count(
+        load_configuration(std::string(BANYAN_SCENARIOS) + "/" + name + ".toml").configuration.scenario);
   };
   EXPECT_EQ(robots("khepera-two-targets"), 9U);
   EXPECT_EQ(robots("khepera-three-targets"), 9U);
-  EXPECT_EQ(robots("paper-large"), 94U);   // the paper's largest swarm
+  EXPECT_EQ(robots("paper-large"), 94U);  // the paper's largest swarm
   EXPECT_EQ(robots("swarm-1000"), 1000U);
   EXPECT_EQ(robots("swarm-10000"), 10000U);
 }

@@ -15,9 +15,7 @@ namespace {
 std::string failure_of(const std::string& path, const std::string& text) {
   try {
     (void)parse_document(path, text);
-  } catch (const DocumentError& e) {
-    return e.what();
-  }
+  } catch (const DocumentError& e) { return e.what(); }
   return "parsed";
 }
 
@@ -41,7 +39,7 @@ TEST(Document, KeepsTheLineOfEveryJsonValue) {
   EXPECT_EQ(root.find("s")->find("y")->place.line, 4);
   EXPECT_EQ((*root.find("s")->find("y")->array())[0].place.line, 4);
   EXPECT_EQ((*root.find("s")->find("y")->array())[1].place.line, 5);
-  EXPECT_EQ(root.find("s")->find("z")->place.line, 5);   // where the key is
+  EXPECT_EQ(root.find("s")->find("z")->place.line, 5);  // where the key is
 }
 
 TEST(Document, TomlAndJsonOfTheSameTreeAreEqual) {
@@ -84,9 +82,7 @@ TEST(Document, ReadsPipesAndRefusesWhatIsNoText) {
   const auto reason = [](const std::string& file) {
     try {
       (void)read_text_file(file);
-    } catch (const DocumentError& e) {
-      return std::string(e.what());
-    }
+    } catch (const DocumentError& e) { return std::string(e.what()); }
     return std::string("read");
   };
   EXPECT_NE(reason(path("missing")).find("there is no such file"), std::string::npos);
@@ -119,13 +115,13 @@ TEST(Override, OneAssignmentSetsOneKey) {
 
   EXPECT_TRUE(apply_override(root, "name=1\nseed = 2", "--set").empty());
 
-  EXPECT_EQ(*root.find("name")->string(), "1\nseed = 2");   // bare text, for the reader to refuse
+  EXPECT_EQ(*root.find("name")->string(), "1\nseed = 2");  // bare text, for the reader to refuse
   EXPECT_EQ(std::get<std::int64_t>(root.find("seed")->value), 1);
 }
 
 TEST(Override, SaysWhatIsWrongWithIt) {
-  for (const char* bad : {"", "radio", "=1", ".a=1", "a.=1", "a..b=1", "a[=1", "a[x]=1", "a[0]b=1", "events[7].x=1", "seed[0]=1",
-                          "name=\xff"}) {
+  for (const char* bad : {"", "radio", "=1", ".a=1", "a.=1", "a..b=1", "a[=1", "a[x]=1", "a[0]b=1", "events[7].x=1",
+                          "seed[0]=1", "name=\xff"}) {
     Node root = parse_document("a.toml", "seed = 1\nevents = [{}]\n");
     EXPECT_EQ(apply_override(root, bad, "--set x").size(), 1U) << bad;
   }

@@ -24,7 +24,7 @@ constexpr const char* table_path = BANYAN_GOLDEN;
 constexpr const char* header = "scenario,overrides,ticks,hash";
 
 struct Row {
-  std::string scenario, overrides;   // overrides separated by spaces
+  std::string scenario, overrides;  // overrides separated by spaces
   std::uint64_t ticks = 0;
   std::string hash;
 };

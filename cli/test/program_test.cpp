@@ -26,7 +26,7 @@ using nlohmann::json;
 using namespace std::chrono_literals;
 
 struct Outcome {
-  int code = -1;          // exit code, or 1000 + the signal that killed it
+  int code = -1;  // exit code, or 1000 + the signal that killed it
   std::string out, err;
 };
 
@@ -49,7 +49,9 @@ class Program : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(home_); }
 
-  void write(const std::string& name, const std::string& text) { std::ofstream(home_ / name, std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(home_ / name, std::ios::binary) << text;
+  }
   [[nodiscard]] std::string read(const std::string& name) const { return contents(home_ / name); }
   [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(home_ / name); }
   [[nodiscard]] json read_json(const std::string& name) const { return json::parse(read(name)); }
@@ -105,7 +107,8 @@ TEST_F(Program, ARunLeavesItsThreeFilesAndAShortSummary) {
   EXPECT_TRUE(has(outcome.out, "small: COMPLETE after ")) << outcome.out;
   EXPECT_TRUE(has(outcome.out, "Results in out/small-outwards-1/")) << outcome.out;
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(home_ / "out/small-outwards-1")) files.push_back(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(home_ / "out/small-outwards-1"))
+    files.push_back(entry.path().filename());
   std::sort(files.begin(), files.end());
   EXPECT_EQ(files, (std::vector<std::string>{"run.csv", "run.json", "run.mcap"}));
 }
@@ -124,10 +127,14 @@ TEST_F(Program, TheTableAndTheJsonHoldTheSame) {
     ++columns;
     ASSERT_TRUE(result.contains(name)) << name;
     const auto& value = result[name];
-    if (value.is_string()) EXPECT_EQ(value.get<std::string>(), cell) << name;
-    else if (value.is_boolean()) EXPECT_EQ(value.get<bool>() ? "true" : "false", cell) << name;
-    else if (value.is_null()) EXPECT_EQ(cell, "") << name;
-    else EXPECT_EQ(value.get<double>(), std::stod(cell)) << name;
+    if (value.is_string())
+      EXPECT_EQ(value.get<std::string>(), cell) << name;
+    else if (value.is_boolean())
+      EXPECT_EQ(value.get<bool>() ? "true" : "false", cell) << name;
+    else if (value.is_null())
+      EXPECT_EQ(cell, "") << name;
+    else
+      EXPECT_EQ(value.get<double>(), std::stod(cell)) << name;
   }
   EXPECT_EQ(columns, result.size());
   EXPECT_FALSE(std::getline(table, row));
@@ -150,8 +157,10 @@ TEST_F(Program, QuietSaysNothing) {
 }
 
 TEST_F(Program, OptionsReachTheRunAndItsRecords) {
-  ASSERT_EQ(run({"run", "small.toml", "--set", "mission.algorithm=inwards", "--set", "radio.loss=0.25", "--seed", "9", "--series",
-                 "--no-record"}).code, 0);
+  ASSERT_EQ(run({"run", "small.toml", "--set", "mission.algorithm=inwards", "--set", "radio.loss=0.25", "--seed", "9",
+                 "--series", "--no-record"})
+                .code,
+            0);
 
   const auto file = read_json("out/small-inwards-9/run.json");
   EXPECT_EQ(file["config"]["mission"]["algorithm"], "inwards");
@@ -160,11 +169,15 @@ TEST_F(Program, OptionsReachTheRunAndItsRecords) {
   EXPECT_EQ(file["result"]["seed"], 9);
   EXPECT_FALSE(exists("out/small-inwards-9/run.mcap"));
   const auto series = read("out/small-inwards-9/series.csv");
-  EXPECT_EQ(static_cast<std::size_t>(std::count(series.begin(), series.end(), '\n')), file["result"]["ticks"].get<std::size_t>() + 1);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(series.begin(), series.end(), '\n')),
+            file["result"]["ticks"].get<std::size_t>() + 1);
 }
 
 TEST_F(Program, TheJsonOfARunRunsItAgainToTheSameState) {
-  ASSERT_EQ(run({"run", "small.toml", "--out", "a", "--set", "robot.wheel_noise=0.1", "--set", "targets.phase_deg=33.3"}).code, 0);
+  ASSERT_EQ(
+      run({"run", "small.toml", "--out", "a", "--set", "robot.wheel_noise=0.1", "--set", "targets.phase_deg=33.3"})
+          .code,
+      0);
   ASSERT_EQ(run({"run", "a/run.json", "--out", "b", "--threads", "2"}).code, 0);
 
   EXPECT_EQ(read_json("a/run.json")["result"]["hash"], read_json("b/run.json")["result"]["hash"]);
@@ -178,7 +191,8 @@ TEST_F(Program, AMissionThatDoesNotCompleteIsAResult) {
   EXPECT_TRUE(has(outcome.out, "NOT COMPLETE within 2.0 s: 0 of 3 targets reached")) << outcome.out;
   EXPECT_EQ(read_json("o/run.json")["result"]["complete"], false);
   // ... and why it could not: as a warning with the bound, before the run.
-  EXPECT_TRUE(has(outcome.err, "endless.toml:5: warning: targets: out of reach: no connected network of fewer than")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "endless.toml:5: warning: targets: out of reach: no connected network of fewer than"))
+      << outcome.err;
 }
 
 // ------------------------------------------------------------------------------ nothing is overwritten
@@ -198,19 +212,22 @@ TEST_F(Program, AGivenDirectoryWithResultsIsRefusedUnlessForced) {
 
   const auto refused = run({"run", "small.toml", "--out", "o", "--seed", "2"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(has(refused.err, "o already holds results (run.mcap, run.csv, run.json, series.csv); add --force")) << refused.err;
+  EXPECT_TRUE(has(refused.err, "o already holds results (run.mcap, run.csv, run.json, series.csv); add --force"))
+      << refused.err;
   EXPECT_EQ(read("o/run.json"), before);
 
   EXPECT_EQ(run({"run", "small.toml", "-q", "--out", "o", "--seed", "2", "--force"}).code, 0);
   EXPECT_EQ(read_json("o/run.json")["result"]["seed"], 2);
-  EXPECT_FALSE(exists("o/series.csv"));   // of the earlier run: would not belong to this one
+  EXPECT_FALSE(exists("o/series.csv"));  // of the earlier run: would not belong to this one
 }
 
 // ------------------------------------------------------------------------------------- bad input
 
 TEST_F(Program, RefusesFilesThatAreNoScenario) {
   write("empty.toml", "");
-  write("binary.toml", std::string("\x7f" "ELF\0\0\1\2", 8));
+  write("binary.toml", std::string("\x7f"
+                                   "ELF\0\0\1\2",
+                                   8));
   write("garbage.toml", "\x93\xfe\xfa\x01garbage");
   write("syntax.toml", "[targets]\ncount = = 2\n");
   write("syntax.json", "{\"targets\": {\"count\" 2}}");
@@ -246,8 +263,10 @@ TEST_F(Program, RefusesBadValuesByOption) {
 TEST_F(Program, RefusesWorldsThatCannotBe) {
   const std::string obstacle = "[[obstacles]]\nkind = \"disc\"\ncenter_m = [1.5, 0.0]\nradius_m = 0.4\n";
   write("inside.toml", read("small.toml") + obstacle);
-  write("crowd.toml", "[swarm]\nrobots = 100\n[targets]\nradius_m = 5.0\n" + std::string("[[obstacles]]\nkind = \"wall\"\nfrom_m = [-1, -1]\nto_m = [1, -1]\n") +
-                          "[[obstacles]]\nkind = \"wall\"\nfrom_m = [1, -1]\nto_m = [1, 1]\n[[obstacles]]\nkind = \"wall\"\nfrom_m = [1, 1]\nto_m = [-1, 1]\n" +
+  write("crowd.toml", "[swarm]\nrobots = 100\n[targets]\nradius_m = 5.0\n" +
+                          std::string("[[obstacles]]\nkind = \"wall\"\nfrom_m = [-1, -1]\nto_m = [1, -1]\n") +
+                          "[[obstacles]]\nkind = \"wall\"\nfrom_m = [1, -1]\nto_m = [1, 1]\n[[obstacles]]\nkind = "
+                          "\"wall\"\nfrom_m = [1, 1]\nto_m = [-1, 1]\n" +
                           "[[obstacles]]\nkind = \"wall\"\nfrom_m = [-1, 1]\nto_m = [-1, -1]\n");
   expect_refused({"run", "inside.toml"}, "inside.toml:3: error: targets: target 0 at (1.5, 0) lies inside an obstacle");
   expect_refused({"run", "crowd.toml"}, "of 100 robots fit between the obstacles");
@@ -258,9 +277,10 @@ TEST_F(Program, TellsAllFaultsAtOnce) {
   const auto outcome = run({"validate", "bad.toml", "small.toml", "missing.toml"});
 
   EXPECT_EQ(outcome.code, 2);
-  for (const char* line : {"bad.toml:1: error: tick: there is no such key; did you mean tick_s?", "bad.toml:3: error: radio.loss: is 2",
-                           "bad.toml:4: error: radio.range_m: must be a number", "bad.toml:6: error: targets.count: is 0",
-                           "missing.toml: error: there is no such file", "5 errors"}) {
+  for (const char* line :
+       {"bad.toml:1: error: tick: there is no such key; did you mean tick_s?", "bad.toml:3: error: radio.loss: is 2",
+        "bad.toml:4: error: radio.range_m: must be a number", "bad.toml:6: error: targets.count: is 0",
+        "missing.toml: error: there is no such file", "5 errors"}) {
     EXPECT_TRUE(has(outcome.err, line)) << line << "\n" << outcome.err;
   }
   EXPECT_TRUE(has(outcome.out, "small.toml: ok: outwards (corrected), 8 robots, 2 targets"));
@@ -283,9 +303,17 @@ TEST_F(Program, ValidateSpeaksJsonAndShowsWhatAScenarioStandsFor) {
 TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
   EXPECT_TRUE(has(run({"rn", "small.toml"}).err, "\"rn\" is unknown; did you mean run?"));
   EXPECT_TRUE(has(run({"run", "small.toml", "--qiet"}).err, "\"--qiet\" is unknown; did you mean --quiet?"));
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {}, {"rn"}, {"run"}, {"run", "small.toml", "--threads", "0"}, {"run", "small.toml", "--set"}, {"draw", "x.mcap", "--at", "nan"},
-           {"draw", "x.mcap", "--at", "-1"}, {"bench", "dens"}, {"algorithms", "outward"}, {"keys", "zzz"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"rn"},
+                                             {"run"},
+                                             {"run", "small.toml", "--threads", "0"},
+                                             {"run", "small.toml", "--set"},
+                                             {"draw", "x.mcap", "--at", "nan"},
+                                             {"draw", "x.mcap", "--at", "-1"},
+                                             {"bench", "dens"},
+                                             {"algorithms", "outward"},
+                                             {"keys", "zzz"}}) {
     const auto outcome = run(arguments);
     EXPECT_EQ(outcome.code, 2) << (arguments.empty() ? "" : arguments[0]) << "\n" << outcome.err;
     EXPECT_NE(outcome.err, "");
@@ -296,10 +324,11 @@ TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
 // --------------------------------------------------------------------------- disk full, interruption
 
 TEST_F(Program, AFullDiskIsSaidAndLeavesNoDamagedFile) {
-  const auto outcome = finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o"}, 300'000));
+  const auto outcome =
+      finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o"}, 300'000));
 
   EXPECT_EQ(outcome.code, 1) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "o/run.mcap: cannot write: File too large")) << outcome.err;   // what EFBIG is called
+  EXPECT_TRUE(has(outcome.err, "o/run.mcap: cannot write: File too large")) << outcome.err;  // what EFBIG is called
   EXPECT_TRUE(has(outcome.err, "what was recorded until then is in o/run.mcap.part")) << outcome.err;
   const auto rescued = run({"export", "o/run.mcap.part", "--csv"});
   EXPECT_EQ(rescued.code, 0) << rescued.err;
@@ -311,7 +340,8 @@ TEST_F(Program, AFullDiskDoesNotCostTheEarlierResults) {
   ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
   const auto recording = read("o/run.mcap"), table = read("o/run.csv");
 
-  const auto outcome = finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o", "--force"}, 300'000));
+  const auto outcome =
+      finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o", "--force"}, 300'000));
 
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(read("o/run.mcap"), recording);
@@ -321,15 +351,20 @@ TEST_F(Program, AFullDiskDoesNotCostTheEarlierResults) {
 TEST_F(Program, AFullStandardOutputIsAnError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"run", "small.toml", "--json", "--out", "p"}, {"algorithms"}, {"keys"}, {"--help"}, {"export", "o/run.mcap", "--csv"},
-           {"draw", "o/run.mcap"}, {"validate", "small.toml"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"run", "small.toml", "--json", "--out", "p"},
+                                             {"algorithms"},
+                                             {"keys"},
+                                             {"--help"},
+                                             {"export", "o/run.mcap", "--csv"},
+                                             {"draw", "o/run.mcap"},
+                                             {"validate", "small.toml"}}) {
     const auto outcome = finish(start(arguments, RLIM_INFINITY, "/dev/full"));
     EXPECT_EQ(outcome.code, 1) << arguments[0];
     EXPECT_TRUE(has(outcome.err, "standard output: ")) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "No space left on device")) << outcome.err;
   }
-  EXPECT_TRUE(exists("p/run.json"));   // the results themselves are safe
+  EXPECT_TRUE(exists("p/run.json"));  // the results themselves are safe
 }
 
 TEST_F(Program, ADirectoryThatCannotBeMadeIsSaidBeforeTheRun) {
@@ -352,7 +387,8 @@ TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
   const auto outcome = finish(child);
 
   EXPECT_EQ(outcome.code, 128 + GetParam()) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, GetParam() == SIGINT ? "stopped by Ctrl-C at " : "stopped by SIGTERM at ")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, GetParam() == SIGINT ? "stopped by Ctrl-C at " : "stopped by SIGTERM at "))
+      << outcome.err;
   EXPECT_TRUE(has(outcome.err, "is in o")) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "endless: STOPPED at ")) << outcome.out;
   const auto result = read_json("o/run.json")["result"];
@@ -365,7 +401,8 @@ TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
   const auto exported = run({"export", "o/run.mcap", "--csv", "-o", "robots.csv"});
   EXPECT_EQ(exported.code, 0) << exported.err;
   const auto rows = read("robots.csv");
-  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), (ticks + 1) * 60 + 1);   // header, tick 0
+  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')),
+            (ticks + 1) * 60 + 1);  // header, tick 0
   for (const auto& entry : fs::directory_iterator(home_ / "o")) EXPECT_NE(entry.path().extension(), ".part");
 }
 
@@ -379,7 +416,8 @@ TEST_F(Program, ExportAndDrawReadWhatRunWrote) {
 
   const auto table = run({"export", "o/run.mcap", "--csv", "--from", "1", "--to", "2", "--every", "5"});
   EXPECT_EQ(table.code, 0);
-  EXPECT_TRUE(table.out.starts_with("tick,time_s,robot,x_m,y_m,heading_rad,role,phase,parent,old_parent,alive,connected,target\n10,1.0"));
+  EXPECT_TRUE(table.out.starts_with(
+      "tick,time_s,robot,x_m,y_m,heading_rad,role,phase,parent,old_parent,alive,connected,target\n10,1.0"));
   EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 1 + 3 * 8);
 
   EXPECT_EQ(run({"draw", "o/run.mcap", "--at", "3", "-o", "frame.svg"}).code, 0);
@@ -404,12 +442,13 @@ TEST_F(Program, WhatIsNoRecordingIsRefused) {
 
 TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
   const auto text = run({"algorithms"}).out;
-  for (const char* part : {"outwards", "inwards", "target_gain", "tau", "Table I", "set by radio.range_m"}) EXPECT_TRUE(has(text, part)) << part;
+  for (const char* part : {"outwards", "inwards", "target_gain", "tau", "Table I", "set by radio.range_m"})
+    EXPECT_TRUE(has(text, part)) << part;
 
   const auto list = json::parse(run({"algorithms", "--json"}).out);
   ASSERT_GE(list.size(), 2U);
   for (const auto& entry : list) {
-    const double tau = entry["name"] == "outwards" ? 0.49 : 0.2539;   // Table I
+    const double tau = entry["name"] == "outwards" ? 0.49 : 0.2539;  // Table I
     for (const auto& row : entry["parameters"]) {
       if (row["key"] == "target_gain") { EXPECT_EQ(row["default"]["literal"], tau); }
     }
@@ -448,11 +487,14 @@ TEST_F(Program, BenchReportsTheFiguresOfItsLayouts) {
 class Completion : public Program {
  protected:
   std::vector<std::string> complete(const std::string& line) {
-    const std::string script = "source " BANYAN_COMPLETION "; COMP_LINE=$1; COMP_POINT=${#1}; _banyan; printf '%s\\n' \"${COMPREPLY[@]}\"";
-    const auto outcome = finish(start({"-c", script, "bash", BANYAN_PROGRAM + line}, RLIM_INFINITY, nullptr, "/bin/bash"));
+    const std::string script =
+        "source " BANYAN_COMPLETION "; COMP_LINE=$1; COMP_POINT=${#1}; _banyan; printf '%s\\n' \"${COMPREPLY[@]}\"";
+    const auto outcome =
+        finish(start({"-c", script, "bash", BANYAN_PROGRAM + line}, RLIM_INFINITY, nullptr, "/bin/bash"));
     std::vector<std::string> words;
     std::istringstream in(outcome.out);
-    for (std::string word; std::getline(in, word);) if (!word.empty()) words.push_back(word);
+    for (std::string word; std::getline(in, word);)
+      if (!word.empty()) words.push_back(word);
     std::sort(words.begin(), words.end());
     return words;
   }
@@ -461,7 +503,8 @@ class Completion : public Program {
 using Words = std::vector<std::string>;
 
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
-  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "bench", "draw", "export", "keys", "run", "validate"}));
+  EXPECT_EQ(complete(" "),
+            (Words{"--help", "--version", "algorithms", "bench", "draw", "export", "keys", "run", "validate"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});
