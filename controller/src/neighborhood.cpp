@@ -16,16 +16,14 @@ void Neighborhood::prefetch(std::size_t entries) const noexcept {
     for (std::size_t at = 0; at < bytes; at += line) __builtin_prefetch(static_cast<const char*>(from) + at, 1);
   };
   entries = std::min<std::size_t>(entries, neighbor_capacity);
-  fetch(ids_.data(), entries * sizeof ids_[0]);
-  fetch(ages_.data(), entries * sizeof ages_[0]);
-  fetch(ranges_.data(), entries * sizeof ranges_[0]);
-  fetch(positions_.data(), entries * sizeof positions_[0]);
+  fetch(&size_, sizeof size_);
+  fetch(entries_.data(), entries * sizeof entries_[0]);
   fetch(messages_.data(), entries * sizeof messages_[0]);
 }
 
 int Neighborhood::find(RobotId id) const noexcept {
   for (int k = 0; k < size_; ++k)
-    if (ids_[k] == id) return k;
+    if (entries_[k].id == id) return k;
   return -1;
 }
 
@@ -33,18 +31,19 @@ void Neighborhood::update(std::span<const Heard> heard, const Carry& carry, int 
                           std::array<RobotId, 2> keep) noexcept {
   liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
   for (int k = 0; k < size_; ++k)
-    if (ages_[k] < UINT16_MAX) ++ages_[k];
+    if (entries_[k].age < UINT16_MAX) ++entries_[k].age;
   int hint = 0;
   for (const Heard& h : heard) file(h, hint, self, keep);
   // Only the silent are dead-reckoned: whoever was heard just now has a fresh position.
   for (int k = 0; k < size_;) {
-    if (ages_[k] > liveness_ticks && ids_[k] != keep[0] && ids_[k] != keep[1]) {
+    Entry& entry = entries_[k];
+    if (entry.age > liveness_ticks && entry.id != keep[0] && entry.id != keep[1]) {
       remove(k);
       continue;
     }
-    if (ages_[k] > 0) {
-      positions_[k] = carry.point(positions_[k]);
-      ranges_[k] = norm(positions_[k]);
+    if (entry.age > 0) {
+      entry.position = carry.point(entry.position);
+      entry.range_m = norm(entry.position);
     }
     ++k;
   }
@@ -54,14 +53,13 @@ void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<
   const RobotId id = heard.message->id;
   if (id == self || id == nobody) return;
   // Packets tend to arrive in the order of the last tick: try the slot after the last match first.
-  int k = hint < size_ && ids_[hint] == id ? hint : find(id);
+  int k = hint < size_ && entries_[hint].id == id ? hint : find(id);
   if (k >= 0) {
     write(k, heard);
     hint = k + 1;
     return;
   }
   if (size_ < neighbor_capacity) {
-    ids_[size_] = id;
     write(size_++, heard);
     return;
   }
@@ -69,26 +67,20 @@ void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<
   const auto kept = [&](const Message& m) { return m.id == keep[0] || m.id == keep[1] || names_me(m); };
   int farthest = -1;
   for (int j = 0; j < size_; ++j)
-    if (!kept(messages_[j]) && (farthest < 0 || ranges_[j] > ranges_[farthest])) farthest = j;
-  if (farthest < 0 || (!kept(*heard.message) && norm(heard.position) >= ranges_[farthest])) return;
-  ids_[farthest] = id;
+    if (!kept(messages_[j]) && (farthest < 0 || range(j) > range(farthest))) farthest = j;
+  if (farthest < 0 || (!kept(*heard.message) && norm(heard.position) >= range(farthest))) return;
   write(farthest, heard);
 }
 
 void Neighborhood::write(int k, const Heard& heard) noexcept {
   messages_[k] = *heard.message;
-  positions_[k] = heard.position;
-  ranges_[k] = norm(heard.position);
-  ages_[k] = 0;
+  entries_[k] = {heard.position, norm(heard.position), heard.message->id, 0};
 }
 
 void Neighborhood::remove(int k) noexcept {
   // Order is kept: it is the order in which packets arrive, which `hint` relies on.
   const auto close = [&](auto& a) { std::move(a.begin() + k + 1, a.begin() + size_, a.begin() + k); };
-  close(ids_);
-  close(ages_);
-  close(ranges_);
-  close(positions_);
+  close(entries_);
   close(messages_);
   --size_;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -52,6 +53,19 @@ void require_possible(const Scenario& scenario) {
   if (!text.empty()) throw std::invalid_argument(text);
 }
 
+// Puts every element of cache-line size into one cache line.
+template <class T>
+struct CacheAligned {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+  CacheAligned() = default;
+  template <class U>
+  explicit CacheAligned(const CacheAligned<U>&) noexcept {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* p, std::size_t n) noexcept { ::operator delete(p, n * sizeof(T), line); }
+  friend bool operator==(const CacheAligned&, const CacheAligned&) noexcept { return true; }
+};
+
 // One packet on its way to one receiver.
 struct Packet {
   std::uint32_t sender;
@@ -62,7 +76,7 @@ struct Packet {
 struct Flight {
   std::vector<std::uint32_t> offsets, count;
   std::vector<Packet> packets;
-  std::vector<Message> messages;
+  std::vector<Message, CacheAligned<Message>> messages;
 };
 
 }  // namespace
@@ -99,7 +113,7 @@ struct World::Impl {
   std::vector<std::uint64_t> frozen_until;     // tick; 0: not frozen
   std::vector<std::int32_t> target_of;         // per robot, -1: none
   std::vector<State> states;
-  std::vector<Message> messages, next_messages;
+  std::vector<Message, CacheAligned<Message>> messages, next_messages;
   std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
   std::vector<Odometry> odometry;
   std::vector<Event> events;                   // by time
@@ -236,16 +250,16 @@ void World::Impl::think(Executor& executor) {
       if (alive[i] == 0) continue;
       inbox.packets.resize(radio.links(i).size());
       std::span<const Packet> packets(inbox.packets.data(), silence ? 0 : receive(i, inbox.packets));
-      const std::vector<Message>* content = &messages;
+      const Message* content = messages.data();
       if (flight != nullptr) {
         std::copy(packets.begin(), packets.end(), flight->packets.begin() + flight->offsets[i]);
         flight->count[i] = static_cast<std::uint32_t>(packets.size());
-        content = &arriving.messages;
+        content = arriving.messages.data();
         packets = arriving.count.empty() ? std::span<const Packet>{}
                                          : std::span<const Packet>(arriving.packets.data() + arriving.offsets[i], arriving.count[i]);
       }
       inbox.heard.clear();
-      for (const Packet& packet : packets) inbox.heard.push_back({&(*content)[packet.sender], packet.position});
+      for (const Packet& packet : packets) inbox.heard.push_back({content + packet.sender, packet.position});
       received_by[static_cast<std::size_t>(worker)] += packets.size();
 
       banyan::Vec2 target{};

@@ -52,26 +52,30 @@ class Neighborhood {
   [[nodiscard]] int size() const noexcept { return size_; }
   // Index of `id` in [0, size), or -1. O(size), a linear scan of 16-bit ids.
   [[nodiscard]] int find(RobotId id) const noexcept;
-  [[nodiscard]] RobotId id(int k) const noexcept { return ids_[k]; }
+  [[nodiscard]] RobotId id(int k) const noexcept { return entries_[k].id; }
   [[nodiscard]] const Message& message(int k) const noexcept { return messages_[k]; }
-  [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
-  [[nodiscard]] float range(int k) const noexcept { return ranges_[k]; }      // m
-  [[nodiscard]] int age(int k) const noexcept { return ages_[k]; }            // ticks, 0: heard now
+  [[nodiscard]] Vec2 position(int k) const noexcept { return entries_[k].position; }  // m, body frame
+  [[nodiscard]] float range(int k) const noexcept { return entries_[k].range_m; }      // m
+  [[nodiscard]] int age(int k) const noexcept { return entries_[k].age; }            // ticks, 0: heard now
   // Heard within the liveness period; only a kept, silent tree neighbour is not.
-  [[nodiscard]] bool alive(int k) const noexcept { return ages_[k] <= liveness_ticks_; }
+  [[nodiscard]] bool alive(int k) const noexcept { return entries_[k].age <= liveness_ticks_; }
 
  private:
   void file(const Heard& heard, int& hint, RobotId self, std::array<RobotId, 2> keep) noexcept;
   void write(int k, const Heard& heard) noexcept;
   void remove(int k) noexcept;
 
+  struct Entry {
+    Vec2 position;
+    float range_m;
+    RobotId id;
+    std::uint16_t age;
+  };
   std::int16_t size_ = 0;
   std::int16_t liveness_ticks_ = 0;
-  std::array<RobotId, neighbor_capacity> ids_{};
-  std::array<std::uint16_t, neighbor_capacity> ages_{};
-  std::array<float, neighbor_capacity> ranges_{};
-  std::array<Vec2, neighbor_capacity> positions_{};
-  std::array<Message, neighbor_capacity> messages_{};
+  std::array<Entry, neighbor_capacity> entries_{};
+  // A message is one cache line long; aligned, it also is in one.
+  alignas(64) std::array<Message, neighbor_capacity> messages_{};
 };
 
 }  // namespace banyan
