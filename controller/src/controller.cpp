@@ -43,6 +43,7 @@ Message compose(const Robot& robot) noexcept {
   m.epoch = self.epoch;
   m.root = self.root;
   m.label_cm = self.label_cm;
+  m.pulse = self.pulse;
   m.depth = self.depth;
   m.tree_hops = self.tree_hops;
   m.parent = self.parent;

@@ -73,6 +73,7 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.root.sequence);
   visit(m.root.id);
   visit(m.label_cm);
+  visit(m.pulse);
   visit(m.depth);
   visit(m.tree_hops);
   visit(m.parent);

@@ -15,6 +15,7 @@ constexpr float last_resort_range = 0.95F;  // of C: beyond, the next step might
 constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
+constexpr std::uint16_t largest_label = unknown_label - 1;  // where label_below() saturates
 
 // The policy's best candidate, -1 if none. `in_tree`: committed robots that are no spares only.
 int choose_parent(const Robot& robot, bool in_tree) noexcept {
@@ -37,7 +38,7 @@ int flood_parent(const Robot& robot) noexcept {
   if (k < 0 || !robot.table().alive(k)) return -1;
   const Message& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= last_resort_range * robot.params.communication_range_m;
-  return near && m.role != Role::worker && m.epoch == self.epoch && m.label_cm < self.label_cm ? k : -1;
+  return near && m.role != Role::worker && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
 }
 
 // Still none: nobody hangs on a childless robot, so it may move behind any committed neighbour.
@@ -47,7 +48,7 @@ int nearest_committed(const Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
     if (!table.alive(k) || m.role == Role::worker || m.epoch != robot.self.epoch || !m.committed) continue;
-    if (m.label_cm == unknown_label || table.range(k) > robot.params.parent_range_m()) continue;
+    if (m.label_cm == unknown_label || !is_ahead(robot, k) || table.range(k) > robot.params.parent_range_m()) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
   return best;
@@ -63,7 +64,6 @@ void join(Robot& robot) noexcept {
     const bool childless = robot.children.size == 0 && robot.old_children.size == 0;
     if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) {
       k = nearest_committed(robot);
-      if (k >= 0) self.label_cm = label_below(robot.table().message(k).label_cm, robot.table().range(k));
     }
   }
   if (k >= 0) take_parent(robot, k);
@@ -88,7 +88,7 @@ int way_to_tree(const Robot& robot, float range_m) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
     if (!table.alive(k) || m.role == Role::worker || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
-    if (m.parent == robot.self.id || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
+    if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
     if (best < 0 || key(k) < key(best)) best = k;
   }
   return best;
@@ -109,21 +109,33 @@ void reattach_orphan(Robot& robot) noexcept {
   int k = way_to_tree(robot, std::min(robot.params.parent_range_m(), last_resort_m));
   if (k < 0) k = way_to_tree(robot, last_resort_m);
   if (k < 0) return;
-  const Message& m = robot.table().message(k);
-  if (m.label_cm != unknown_label && (self.label_cm == unknown_label || self.label_cm <= m.label_cm))
-    self.label_cm = label_below(m.label_cm, robot.table().range(k));
   take_parent(robot, k);
   self.orphan_ticks = orphan_still_ticks;  // time for the new parent to attach in turn
   ++self.tally.repairs;
 }
 
-// A label is above the parent's; children follow in turn.
-void keep_label_order(Robot& robot) noexcept {
+// The pair (pulse, label) flows down the tree: as fresh as k's, and behind it.
+void follow(Robot& robot, int k) noexcept {
   State& self = robot.self;
-  if (!robot.parent_alive()) return;
-  const Message& m = robot.table().message(robot.parent);
-  if (m.epoch == self.epoch && m.label_cm != unknown_label && self.label_cm <= m.label_cm)
-    self.label_cm = label_below(m.label_cm, robot.table().range(robot.parent));
+  const Message& m = robot.table().message(k);
+  if (m.epoch != self.epoch || m.label_cm >= largest_label || m.pulse <= self.pulse) return;
+  self.pulse = m.pulse;
+  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm) self.label_cm = label_below(m.label_cm, robot.table().range(k));
+}
+
+// A spare that has just joined my edge has its parent's pulse of a tick ago: I wait for it.
+bool awaits_inserted(const Robot& robot) noexcept {
+  const int k = robot.self.grant == nobody ? -1 : robot.table().find(robot.self.grant);
+  return k >= 0 && robot.table().alive(k) && robot.table().message(k).inserted_child == robot.self.id;
+}
+
+void update_pulse(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (robot.is_root()) {
+    if (self.pulse < UINT16_MAX) ++self.pulse;
+  } else if (robot.parent_alive() && !awaits_inserted(robot)) {
+    follow(robot, robot.parent);
+  }
 }
 
 // Depth flows down; an orphan's is invalid, and so within a hop per tick are all below it.
@@ -146,10 +158,16 @@ void update_tree_hops(Robot& robot) noexcept {
   self.tree_hops = self.depth != invalid_depth ? std::uint8_t{0} : unreachable;
   if (self.depth != invalid_depth || self.role != Role::spare || self.parent != nobody) return;
   const Neighborhood& table = robot.table();
+  int nearest = -1;
   int hops = unreachable - 1;
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k)) hops = std::min<int>(hops, table.message(k).tree_hops);
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || table.message(k).tree_hops >= hops) continue;
+    hops = table.message(k).tree_hops;
+    nearest = k;
+  }
   self.tree_hops = static_cast<std::uint8_t>(hops + 1);
+  // Whoever drafts this spare must find it ahead; one that is about to join an edge stays behind.
+  if (nearest >= 0 && self.request == nobody) follow(robot, nearest);
 }
 
 }  // namespace
@@ -159,7 +177,14 @@ bool is_candidate(const Robot& robot, int k) noexcept {
   // An edge that exists may be as long as the guard lets it grow.
   const float range_m = k == robot.old_parent ? robot.params.ideal_distance_m : robot.params.parent_range_m();
   return robot.table().alive(k) && m.role != Role::worker && m.epoch == robot.self.epoch &&
-         m.label_cm < robot.self.label_cm && robot.table().range(k) <= range_m;
+         m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
+}
+
+bool is_ahead(const Robot& robot, int k) noexcept {
+  const Message& m = robot.table().message(k);
+  const State& self = robot.self;
+  if (m.epoch != self.epoch || m.label_cm >= largest_label) return false;  // nothing fits behind the largest label
+  return m.pulse != self.pulse ? m.pulse > self.pulse : m.label_cm < self.label_cm;
 }
 
 bool is_named_parent(const Robot& robot) noexcept {
@@ -173,6 +198,7 @@ void take_parent(Robot& robot, int k) noexcept {
   robot.parent = k;
   self.committed = true;
   self.search_ticks = 0;
+  follow(robot, k);
   if (self.phase >= Phase::grow_tree) {
     self.old_parent = nobody;
     robot.old_parent = -1;
@@ -203,8 +229,8 @@ void select_parent(Robot& robot) noexcept {
     else if (!robot.parent_alive()) repair(robot);
     else if (self.role == Role::spare && self.phase >= Phase::grow_tree && robot.policy.leaves_branch(robot)) leave_tree(robot);
     reattach_orphan(robot);
-    keep_label_order(robot);
   }
+  update_pulse(robot);
   update_depth(robot);
   update_tree_hops(robot);
 }

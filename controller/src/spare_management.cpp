@@ -43,11 +43,11 @@ void follow_grant(Robot& robot) noexcept {
   ++self.grant_ticks;
   if (k < 0 || !robot.table().alive(k)) return end_grant(self);
   const Message& m = robot.table().message(k);
-  if (m.inserted_child == self.id && m.parent != nobody && m.parent != self.id) {
+  if (m.inserted_child == self.id && m.parent != nobody && m.parent != self.id && is_ahead(robot, k)) {
     take_parent(robot, k);
     return end_grant(self);
   }
-  const bool gone = self.grant_ticks > ungranted_limit_ticks && m.request != self.id;
+  const bool gone = self.grant_ticks > ungranted_limit_ticks && m.request != self.id && m.inserted_child != self.id;
   const bool timeout = self.grant_ticks > robot.params.ticks(robot.params.insertion_timeout_s) + ungranted_limit_ticks;
   if (gone || timeout) end_grant(self);
 }
@@ -161,8 +161,12 @@ void join_edge(Robot& robot, int owner) noexcept {
   State& self = robot.self;
   const Neighborhood& table = robot.table();
   const int parent = table.find(table.message(owner).parent);
-  self.label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + table.message(parent).label_cm) / 2);
-  if (self.label_cm <= table.message(parent).label_cm) self.label_cm = label_below(table.message(parent).label_cm, 0.0F);
+  if (!is_ahead(robot, parent)) return;  // its pulse will overtake mine
+  const Message& above = table.message(parent);
+  auto label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + above.label_cm) / 2);
+  if (label_cm <= above.label_cm) label_cm = label_below(above.label_cm, 0.0F);
+  self.label_cm = above.pulse > self.pulse ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
+  self.pulse = above.pulse;
   take_parent(robot, parent);
   self.inserted_child = self.request;
   self.inserted_ticks = 0;

@@ -50,6 +50,7 @@ struct Message {
   std::uint16_t epoch = 0;
   RootToken root;               // gossip: the newest root token I know
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
+  std::uint16_t pulse = 0;        // the root's count as it came down the tree: (pulse, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
   RobotId parent = nobody;
@@ -84,7 +85,7 @@ inline constexpr float q_limit_m = 1.0e9F;
 // while there is none, the old parent.
 constexpr RobotId up_of(const Message& m) noexcept { return m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 59;  // bytes, little-endian, no padding
+inline constexpr std::size_t wire_size = 61;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 1;
 using Wire = std::array<std::uint8_t, wire_size>;
 

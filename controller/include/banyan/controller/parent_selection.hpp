@@ -7,9 +7,15 @@
 
 namespace banyan {
 
-// Candidate parent: alive, no worker, same epoch, near enough, label strictly smaller than mine.
-// The strict order of labels is what makes cycles impossible.
+// Candidate parent: alive, no worker, same epoch, near enough, label strictly smaller than mine,
+// and ahead of me.
 [[nodiscard]] bool is_candidate(const Robot& robot, int k) noexcept;
+
+// Neighbour k's (pulse, label) is ahead of mine: fresher, or as fresh and nearer to the root. No robot
+// ever falls back behind a pair it has sent, and nobody takes a parent that is not ahead; so the pairs
+// strictly rise along every chain of parents, however old the messages are, and no chain can close
+// (the feasibility condition of EIGRP and Babel, RFC 8966 sec. 2.4).
+[[nodiscard]] bool is_ahead(const Robot& robot, int k) noexcept;
 
 // A living child of this epoch that is no spare names me as its parent.
 [[nodiscard]] bool is_named_parent(const Robot& robot) noexcept;

@@ -46,6 +46,7 @@ struct State {
   std::uint16_t search_ticks = 0;        // without a candidate parent
   std::uint16_t orphan_ticks = 0;        // depth invalid though I matter
   std::uint16_t childless_ticks = 0;     // connector without a child that is no spare
+  std::uint16_t pulse = 0;
   std::uint16_t depth = invalid_depth;
   std::uint8_t tree_hops = unreachable;
 
