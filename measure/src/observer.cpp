@@ -20,23 +20,30 @@ class LivingGraph {
   void build(const world::World& world, bool with_blocked) {
     const std::size_t n = world.size();
     const auto alive = world.alive();
-    number_.resize(n);
-    std::uint32_t next = 0;
-    for (std::size_t i = 0; i < n; ++i) number_[i] = alive[i] != 0 ? next++ : 0;
+    const bool all_alive = std::find(alive.begin(), alive.end(), std::uint8_t{0}) == alive.end();
+    if (!all_alive) number(alive);
     if (with_blocked) collect_blocked(world);
     graph.offsets.assign(1, 0);
     graph.neighbors.clear();
     for (std::size_t i = 0; i < n; ++i) {
       if (alive[i] == 0) continue;
-      for (const std::uint32_t j : world.links(i)) graph.neighbors.push_back(number_[j]);
-      if (with_blocked)
-        for (const std::uint32_t j : blocked_[i]) graph.neighbors.push_back(number_[j]);
+      const auto links = world.links(i);
+      graph.neighbors.insert(graph.neighbors.end(), links.begin(), links.end());
+      if (with_blocked) graph.neighbors.insert(graph.neighbors.end(), blocked_[i].begin(), blocked_[i].end());
       graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
     }
+    if (!all_alive)
+      for (std::uint32_t& j : graph.neighbors) j = number_[j];
   }
   Graph graph;
 
  private:
+  void number(std::span<const std::uint8_t> alive) {
+    number_.resize(alive.size());
+    std::uint32_t next = 0;
+    for (std::size_t i = 0; i < alive.size(); ++i) number_[i] = alive[i] != 0 ? next++ : 0;
+  }
+
   void collect_blocked(const world::World& world) {
     blocked_.resize(world.size());
     for (auto& row : blocked_) row.clear();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "banyan/world/obstacles.hpp"
 
@@ -130,14 +131,16 @@ void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) c
 
 // A body between the robot and its neighbour `target`, or nobody_blocks. Single precision, four at a
 // time, leaves out who is clearly beside the line; the exact test decides on the rest.
-std::uint32_t Radio::find_blocker(const Scratch& s, std::size_t target) const noexcept {
+std::uint32_t Radio::find_blocker(Scratch& s, std::size_t target) const noexcept {
   const Vec2 d{s.dx[target], s.dy[target]};
   const double d2 = s.d2[target];
   const auto length = static_cast<float>(std::sqrt(d2));
   const float ux = s.x[target] / length;
   const float uy = s.y[target] / length;
   const float beside = static_cast<float>(radius_m_) + 1e-4F * (length + 1.0F);   // far above the rounding
-  for (std::size_t begin = 0; begin < s.size; begin += chunk) {
+  const float aside = std::exchange(s.x[target], far_away);                        // the target itself is not in the way
+  std::uint32_t by = nobody_blocks;
+  for (std::size_t begin = 0; begin < s.size && by == nobody_blocks; begin += chunk) {
     const float* x = s.x.data() + begin;
     const float* y = s.y.data() + begin;
     int any = 0;
@@ -148,10 +151,11 @@ std::uint32_t Radio::find_blocker(const Scratch& s, std::size_t target) const no
     }
     if (any == 0) continue;
     const std::size_t end = std::min(begin + chunk, s.size);
-    for (std::size_t k = begin; k < end; ++k)
-      if (k != target && disc_blocks({s.dx[k], s.dy[k]}, d, d2, radius_m_)) return s.index[k];
+    for (std::size_t k = begin; k < end && by == nobody_blocks; ++k)
+      if (k != target && disc_blocks({s.dx[k], s.dy[k]}, d, d2, radius_m_)) by = s.index[k];
   }
-  return nobody_blocks;
+  s.x[target] = aside;
+  return by;
 }
 
 // Decides every pair (i, j > i), so that each is decided once and from the same end.
