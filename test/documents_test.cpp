@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// What the documents show is true: every TOML block is a scenario without faults, every command
+// runs, every link and every path in backquotes leads somewhere.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "banyan/controller/message.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source = BANYAN_SOURCE_DIR;
+
+struct Line {
+  fs::path file;
+  std::size_t number = 0;
+  std::string text;
+  std::string block;   // "sh", "toml", ... inside a fenced block; "plain" if it names no language
+  [[nodiscard]] std::string where() const { return file.filename().string() + ":" + std::to_string(number); }
+};
+
+std::vector<Line> lines_of_documents() {
+  std::vector<fs::path> files{source / "README.md", source / "CONTRIBUTING.md"};
+  for (const auto& entry : fs::directory_iterator(source / "docs"))
+    if (entry.path().extension() == ".md") files.push_back(entry.path());
+  std::vector<Line> lines;
+  for (const fs::path& file : files) {
+    std::ifstream in(file);
+    EXPECT_TRUE(in) << file;
+    std::string block;
+    Line line{file, 0, "", ""};
+    while (std::getline(in, line.text)) {
+      ++line.number;
+      const bool fence = line.text.starts_with("```");
+      if (fence) block = !block.empty() ? "" : line.text.size() > 3 ? line.text.substr(3) : "plain";
+      line.block = fence ? "fence" : block;
+      lines.push_back(line);
+    }
+    EXPECT_TRUE(block.empty()) << file << " ends within a block";
+  }
+  return lines;
+}
+
+// A directory like a clone of the repository after ./banyan has built: gone at the end.
+class Clone {
+ public:
+  Clone() {
+    std::string form = (fs::temp_directory_path() / "banyan-documents-XXXXXX").string();
+    if (::mkdtemp(form.data()) == nullptr) throw std::runtime_error("no temporary directory");
+    path = form;
+    fs::create_symlink(source / "scenarios", path / "scenarios");
+    fs::create_symlink(BANYAN_PROGRAM, path / "banyan");
+  }
+  ~Clone() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  Clone(const Clone&) = delete;
+  Clone& operator=(const Clone&) = delete;
+
+  struct Result { int status; std::string output; };
+  [[nodiscard]] Result run(const std::string& command) const {
+    Result result{-1, ""};
+    std::FILE* pipe = ::popen(("cd '" + path.string() + "' && " + command + " 2>&1 </dev/null").c_str(), "r");
+    if (pipe == nullptr) return result;
+    std::array<char, 4096> part;
+    while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) result.output.append(part.data(), n);
+    const int status = ::pclose(pipe);
+    if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
+    return result;
+  }
+  fs::path path;
+};
+
+TEST(Documents, TomlBlocksAreScenariosWithoutFault) {
+  const Clone clone;
+  std::size_t blocks = 0;
+  std::string toml;
+  for (const Line& line : lines_of_documents()) {
+    if (line.block == "toml") {
+      toml += line.text + "\n";
+    } else if (!toml.empty()) {
+      ++blocks;
+      std::ofstream(clone.path / "block.toml") << toml;
+      toml.clear();
+      const auto result = clone.run("./banyan validate block.toml");
+      EXPECT_EQ(result.status, 0) << "the block before " << line.where() << "\n" << result.output;
+      EXPECT_EQ(result.output.find("warning"), std::string::npos) << "before " << line.where() << "\n" << result.output;
+    }
+  }
+  EXPECT_GE(blocks, 5U);
+}
+
+TEST(Documents, CommandsRun) {
+  const Clone clone;
+  std::size_t commands = 0;
+  for (const Line& line : lines_of_documents()) {
+    if (line.block != "sh" || !line.text.starts_with("./")) continue;
+    if (!line.text.starts_with("./banyan ")) {   // a script of the house
+      EXPECT_TRUE(fs::exists(source / line.text.substr(2, line.text.find(' ') - 2))) << line.where();
+      continue;
+    }
+    ++commands;
+    // The shortest of its measurements instead of the better part of a minute.
+    const bool bench = line.text.starts_with("./banyan bench");
+    const auto result = clone.run(line.text + (bench ? " spread-94-los --windows 1 --window 0.01" : ""));
+    EXPECT_EQ(result.status, 0) << line.where() << ": " << line.text << "\n" << result.output;
+  }
+  EXPECT_GE(commands, 8U);
+}
+
+TEST(Documents, LinksAndPathsLeadSomewhere) {
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  const std::regex path(
+      R"(`((?:bench|cli|cmake|controller|docs|examples|measure|record|scenarios|test|world)/[\w./-]+\.\w+)`)");
+  std::size_t found = 0;
+  for (const Line& line : lines_of_documents()) {
+    if (!line.block.empty()) continue;
+    const auto each = [&](const std::regex& form, const fs::path& base) {
+      for (std::sregex_iterator it(line.text.begin(), line.text.end(), form), end; it != end; ++it) {
+        ++found;
+        EXPECT_TRUE(fs::exists(base / (*it)[1].str())) << line.where() << ": " << (*it)[1].str();
+      }
+    };
+    each(link, line.file.parent_path());
+    each(path, source);
+  }
+  EXPECT_GE(found, 50U);
+}
+
+TEST(Documents, AMessageIsAsLongAsTheySay) {
+  const std::regex bytes(R"((\d+) bytes (?:ten|per tick|can hold|and is not))");
+  std::size_t found = 0;
+  for (const Line& line : lines_of_documents()) {
+    std::smatch match;
+    if (!std::regex_search(line.text, match, bytes)) continue;
+    ++found;
+    EXPECT_EQ(std::stoul(match[1]), banyan::wire_size) << line.where();
+  }
+  EXPECT_EQ(found, 4U);
+}
+
+}  // namespace
