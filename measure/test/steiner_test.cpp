@@ -156,7 +156,7 @@ TEST(Steiner, NoNetworkOnAGridIsShorter) {
     std::vector<Vec2> nodes = terminals;
     constexpr int side = 31;
     for (int i = 0; i < side * side; ++i)
-      nodes.push_back({(i % side) / (side - 1.0), static_cast<double>(i / side) / (side - 1.0)});
+      nodes.push_back({(i % side) / (side - 1.0), std::floor(i / static_cast<double>(side)) / (side - 1.0)});
     const std::size_t n = nodes.size();
     std::vector<std::vector<double>> cost(32, std::vector<double>(n, 1e9));
     for (unsigned t = 0; t < 5; ++t)

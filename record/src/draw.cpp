@@ -173,7 +173,7 @@ class Picture {
   void ids();
   void legend();
   void legend_entries();
-  void legend_symbol(const std::function<void(Vec2)>& symbol, std::string words);
+  void legend_symbol(const std::function<void(Vec2)>& symbol, const std::string& words);
   void scale_bar();
 
   const Setting& setting_;
@@ -270,8 +270,8 @@ void Picture::trails() {
 }
 
 void Picture::targets() {
-  for (std::size_t k = 0; k < frame_.targets.size(); ++k) {
-    const Vec2 at = screen(frame_.targets[k].position);
+  for (const TargetFrame& target : frame_.targets) {
+    const Vec2 at = screen(target.position);
     const double radius = std::max(setting_.target_tolerance_m * scale_, robot_px_ + 3.0);
     out_.put("<circle");
     attribute("cx", at.x);
@@ -395,7 +395,7 @@ void Picture::ids() {
   }
 }
 
-void Picture::legend_symbol(const std::function<void(Vec2)>& symbol, std::string words) {
+void Picture::legend_symbol(const std::function<void(Vec2)>& symbol, const std::string& words) {
   const double width = 46.0 + 7.3 * static_cast<double>(words.size());
   if (legend_at_.x > margin_px && legend_at_.x + width > width_ - margin_px) {
     legend_at_ = {margin_px, legend_at_.y + legend_row_px};

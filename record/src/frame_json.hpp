@@ -21,11 +21,11 @@ void write_log(Text& out, const RecordedEvent& event);      // foxglove.Log
 void write_setting(Text& out, const Setting& setting);
 
 // Throw std::runtime_error with what is wrong. A frame's targets are left alone.
-void read_frame(std::string_view json, Frame& frame);
-[[nodiscard]] std::vector<TargetFrame> read_targets(std::string_view json);
-[[nodiscard]] measure::Tick read_metrics(std::string_view json);
-[[nodiscard]] RecordedEvent read_event(std::string_view json);
-[[nodiscard]] Setting read_setting(std::string_view json);
+void read_frame(std::string_view text, Frame& frame);
+[[nodiscard]] std::vector<TargetFrame> read_targets(std::string_view text);
+[[nodiscard]] measure::Tick read_metrics(std::string_view text);
+[[nodiscard]] RecordedEvent read_event(std::string_view text);
+[[nodiscard]] Setting read_setting(std::string_view text);
 
 // JSON Schemas of the above.
 [[nodiscard]] std::string frame_schema();

@@ -152,7 +152,7 @@ struct Reader::Impl {
   void warn(std::uint64_t offset, const std::string& text) {
     if (warned.insert(offset).second) warnings.push_back(text + at_byte(offset));
   }
-  void check_magic();
+  void check_magic() const;
   std::string load_summary();              // what is wrong with it, "" if it is sound
   std::string take_summary(std::string_view records);
   std::string take_metadata(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& places);
@@ -170,7 +170,7 @@ struct Reader::Impl {
   }
 };
 
-void Reader::Impl::check_magic() {
+void Reader::Impl::check_magic() const {
   std::string start;
   if (file.size() == 0) throw FileError(file.path(), "is empty");
   if (!file.read(0, magic.size(), start) || start != magic) throw FileError(file.path(), "is not an MCAP file");

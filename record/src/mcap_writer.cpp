@@ -114,7 +114,7 @@ struct Writer::Impl {
   std::vector<std::vector<std::pair<Nanoseconds, std::uint64_t>>> index;  // per channel, of the open chunk
   std::string compressed, scratch;
 
-  Impl(OutputFile& output, const WriterOptions& wanted) : file(output), options(wanted), zstd(ZSTD_createCCtx()) {
+  Impl(OutputFile& output, WriterOptions wanted) : file(output), options(std::move(wanted)), zstd(ZSTD_createCCtx()) {
     if (zstd == nullptr) throw std::bad_alloc();
   }
   Impl(const Impl&) = delete;

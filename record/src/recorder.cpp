@@ -103,7 +103,7 @@ void Recorder::Impl::record(const measure::Tick& tick) {
     mcap.end_chunk();
     last_chunk_s = now.time_s;
   }
-  const bool first = frame_written == false && last_targets.empty();
+  const bool first = !frame_written && last_targets.empty();
   if (first || now.targets != last_targets) {
     write_targets(text, now);
     put(targets);

@@ -28,7 +28,7 @@ void spill(const std::string& path, std::string_view bytes) {
 }
 
 // Two channels; "a" at every millisecond, "b" at every tenth.
-void write_sample(const std::string& path, int messages, WriterOptions options, bool finish = true) {
+void write_sample(const std::string& path, int messages, const WriterOptions& options, bool finish = true) {
   OutputFile file(path, Existing::replace);
   Writer writer(file, options);
   const auto schema = writer.add_schema("T", "jsonschema", "{}");
