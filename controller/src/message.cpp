@@ -76,6 +76,7 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.pulse);
   visit(m.depth);
   visit(m.tree_hops);
+  visit(m.call_hops);
   visit(m.parent);
   visit(m.old_parent);
   visit(m.flood_parent);
@@ -84,6 +85,7 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.subtree);
   visit(m.subtree_workers);
   visit(m.count);
+  visit(m.want_cm);
   visit(m.q.x);
   visit(m.q.y);
   visit(m.pull_x);
@@ -94,8 +96,6 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.new_root);
   visit(m.centroid_x_cm);
   visit(m.centroid_y_cm);
-  visit(m.call_hops);
-  visit(m.want_cm);
 }
 
 bool bounded(float q) noexcept { return std::fabs(q) <= q_limit_m; }  // false for NaN too

@@ -212,6 +212,7 @@ void Observer::Impl::add_up() {
   run.broken_ticks += broken ? 1 : 0;
   run.broken_ticks_by_distance += tick.broken_by_distance > 0 ? 1 : 0;
   run.broken_ticks_by_occlusion += tick.broken_by_occlusion > 0 ? 1 : 0;
+  run.broken_ticks_by_death += tick.broken_by_death > 0 ? 1 : 0;
   run.split_ticks += tick.components > 1 ? 1 : 0;
   run.split_ticks_by_distance += tick.components_by_distance > 1 ? 1 : 0;
   low_ticks += tick.fiedler_low ? 1 : 0;

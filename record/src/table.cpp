@@ -72,6 +72,8 @@ constexpr std::array<Column<Row>, 46> run_table{{
      [](const Row& r) { return natural(r.run.broken_ticks_by_distance); }},
     {"broken_ticks_by_occlusion", "with an edge in range but without line of sight", 0,
      [](const Row& r) { return natural(r.run.broken_ticks_by_occlusion); }},
+    {"broken_ticks_by_death", "with an edge to a dead robot", 0,
+     [](const Row& r) { return natural(r.run.broken_ticks_by_death); }},
     {"disconnected_time_ratio", "broken_ticks / ticks", 6,
      [](const Row& r) -> Cell { return r.run.disconnected_time_ratio; }},
     {"disconnected_time_ratio_by_distance", "the same by distance", 6,

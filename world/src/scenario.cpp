@@ -494,20 +494,21 @@ double time_limit_s(const Scenario& scenario) {
   return 10.0 * farthest / scenario.robot.wheel_limit_m_s;
 }
 
-Params controller_params(const Scenario& scenario) {
-  const Reading reading = scenario.mission.reading == "literal" ? Reading::literal : Reading::corrected;
-  Params params = find_policy(scenario.mission.algorithm)->defaults(reading);
-  params.reading = reading;
-  for (const auto& [name, value] : scenario.mission.parameters)
-    for (const ParameterInfo& info : parameter_table())
-      if (info.key == name) params.*info.member = static_cast<float>(value);
+Params controller_params(const Scenario& scenario, const Policy& policy) {
+  Params params = policy.defaults(scenario.mission.reading == "literal" ? Reading::literal : Reading::corrected);
   params.communication_range_m = static_cast<float>(scenario.radio.range_m);
   params.tick_s = static_cast<float>(scenario.tick_s);
   params.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
   params.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
   params.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
+  params.arrival_distance_m = static_cast<float>(scenario.mission.target_tolerance_m);
+  for (const auto& [name, value] : scenario.mission.parameters)
+    for (const ParameterInfo& info : parameter_table())
+      if (info.key == name) params.*info.member = static_cast<float>(value);
   return params;
 }
+
+Params controller_params(const Scenario& scenario) { return controller_params(scenario, *find_policy(scenario.mission.algorithm)); }
 
 std::size_t least_robots(const std::vector<Vec2>& targets, double tolerance_m, double range_m) {
   double longest = 0.0;

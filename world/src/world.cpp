@@ -22,22 +22,6 @@ namespace {
 
 constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
 
-// What the scenario says of the platform overrides the policy's defaults; what the mission sets
-// overrides both.
-Params make_params(const Scenario& scenario, const Policy& policy) {
-  Params p = policy.defaults(scenario.mission.reading == "literal" ? Reading::literal : Reading::corrected);
-  p.communication_range_m = static_cast<float>(scenario.radio.range_m);
-  p.tick_s = static_cast<float>(scenario.tick_s);
-  p.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
-  p.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
-  p.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
-  p.arrival_distance_m = static_cast<float>(scenario.mission.target_tolerance_m);
-  for (const auto& [key, value] : scenario.mission.parameters)
-    for (const ParameterInfo& info : parameter_table())
-      if (info.key == key) p.*info.member = static_cast<float>(value);
-  return p;
-}
-
 std::unique_ptr<Bodies> make_bodies(const Scenario& scenario, const Poses& poses) {
   switch (scenario.robot.body) {
     case BodyModel::box2d: return make_box2d(scenario, poses);
@@ -129,7 +113,7 @@ struct World::Impl {
 World::Impl::Impl(const Scenario& s, const Policy* own)
     : scenario((require_possible(s), s)),
       policy(own != nullptr ? own : find_policy(s.mission.algorithm)),
-      params(make_params(s, *policy)),
+      params(controller_params(s, *policy)),
       loss(s.radio.loss),
       poses(place(s)),
       bodies(make_bodies(s, poses)),

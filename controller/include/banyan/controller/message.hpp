@@ -39,6 +39,7 @@ inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
 
+// Ordered so that it fills 64 bytes, one cache line, without a gap.
 struct Message {
   RobotId id = nobody;
   Role role = Role::spare;
@@ -53,6 +54,7 @@ struct Message {
   std::uint16_t pulse = 0;        // the root's count as it came down the tree: (pulse, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
+  std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need nobody has answered
   RobotId parent = nobody;
   RobotId old_parent = nobody;
   RobotId flood_parent = nobody;
@@ -61,6 +63,7 @@ struct Message {
   std::uint16_t subtree = 0;          // 1 + sum over children
   std::uint16_t subtree_workers = 0;
   std::uint16_t count = 0;            // Alg. 2's c_i, published in the literal reading
+  std::uint16_t want_cm = 0;          // largest remaining worker distance below me
   Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
   std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
@@ -70,11 +73,10 @@ struct Message {
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
   std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
   std::int16_t centroid_y_cm = 0;
-  std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need nobody has answered
-  std::uint16_t want_cm = 0;          // largest remaining worker distance below me
 
   friend bool operator==(const Message&, const Message&) = default;
 };
+static_assert(sizeof(Message) == 64);
 
 inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: +-2
 // Largest |component| of q. A sender keeps within it and decode() rejects what exceeds it, or one

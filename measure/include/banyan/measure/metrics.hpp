@@ -46,6 +46,7 @@ struct Run {
   std::uint64_t broken_ticks = 0;          // at least one broken tree edge
   std::uint64_t broken_ticks_by_distance = 0;
   std::uint64_t broken_ticks_by_occlusion = 0;
+  std::uint64_t broken_ticks_by_death = 0;
   double disconnected_time_ratio = 0.0;    // broken_ticks / ticks
   double disconnected_time_ratio_by_distance = 0.0;
   double disconnected_time_ratio_by_occlusion = 0.0;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "banyan/controller/params.hpp"
+#include "banyan/controller/policy.hpp"
 #include "banyan/controller/vec2.hpp"
 
 namespace banyan::world {
@@ -133,6 +134,8 @@ struct Fault {
 // What every controller is given: Table I for algorithm and reading, mission.parameters over it,
 // and the platform (range, tick, wheels, drive) from `robot`, `radio` and `tick_s`.
 [[nodiscard]] Params controller_params(const Scenario& scenario);
+// The same with the defaults of a policy that the registry need not know.
+[[nodiscard]] Params controller_params(const Scenario& scenario, const Policy& policy);
 
 // No network of fewer robots, each nearer than C to its neighbours, comes within tolerance of all
 // targets: from the longest distance between two of them and from 0.8241 times their minimum

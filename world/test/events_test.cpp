@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Events do what they say, at the tick they say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "worlds.hpp"
+
+namespace banyan::world {
+namespace {
+
+Event event(double time_s, Event::Kind kind, std::size_t index = 0, double value = 0.0, Vec2 position = {}) {
+  return {time_s, kind, index, value, position};
+}
+
+TEST(Events, TheDeadFallSilentAndStayWhereTheyAre) {
+  Scenario s = ring("outwards", 16, 2, 4.0, 1);
+  s.events = {event(3.0, Event::Kind::die, 5)};
+  World world(s);
+  for (int t = 0; t < 30; ++t) world.step();
+  EXPECT_EQ(world.alive()[5], 1);
+  const Vec2 here = world.positions()[5];
+  const Message last_words = world.messages()[5];
+  for (int t = 0; t < 40; ++t) {
+    world.step();
+    EXPECT_EQ(world.alive()[5], 0);
+    EXPECT_TRUE(world.links(5).empty());
+    EXPECT_EQ(world.messages()[5], last_words) << "at tick " << world.tick();
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const auto links = world.links(i);
+      EXPECT_FALSE(std::binary_search(links.begin(), links.end(), 5U));
+      const int k = world.states()[i].neighbors.find(5);
+      if (i != 5 && k >= 0) EXPECT_GT(world.states()[i].neighbors.age(k), t);
+    }
+  }
+  EXPECT_LT(distance(world.positions()[5], here), 0.05) << "others may push it, no more";
+  EXPECT_EQ(std::count(world.alive().begin(), world.alive().end(), 0), 1);
+}
+
+TEST(Events, AFrozenRobotTalksButDoesNotMove) {
+  Scenario s = ring("outwards", 16, 2, 4.0, 1);
+  s.swarm.start.pitch_m = 0.8;  // nobody is pushed
+  World probe(s);
+  const std::size_t worker = probe.targets()[0].worker;
+  s.events = {event(2.0, Event::Kind::freeze, worker, 3.0)};
+  World world(s);
+  for (int t = 0; t < 20; ++t) world.step();
+  const Vec2 here = world.positions()[worker];
+  for (int t = 0; t < 30; ++t) {
+    world.step();
+    ASSERT_EQ(world.positions()[worker], here) << t;
+    ASSERT_EQ(world.alive()[worker], 1);
+    ASSERT_FALSE(world.links(worker).empty());
+  }
+  for (int t = 0; t < 20; ++t) world.step();
+  EXPECT_GT(distance(world.positions()[worker], here), 0.01) << "it thaws after 3 s";
+}
+
+TEST(Events, WithoutDurationARobotStaysFrozen) {
+  Scenario s = ring("outwards", 16, 2, 4.0, 1);
+  s.swarm.start.pitch_m = 0.8;
+  const std::size_t worker = World(s).targets()[0].worker;
+  s.events = {event(2.0, Event::Kind::freeze, worker)};
+  World world(s);
+  for (int t = 0; t < 20; ++t) world.step();
+  const Vec2 here = world.positions()[worker];
+  for (int t = 0; t < 200; ++t) world.step();
+  EXPECT_EQ(world.positions()[worker], here);
+}
+
+TEST(Events, LossChangesAtItsTime) {
+  Scenario s = ring("outwards", 20, 2, 4.0, 1);
+  s.events = {event(1.0, Event::Kind::set_loss, 0, 1.0), event(2.0, Event::Kind::set_loss, 0, 0.0)};
+  World world(s);
+  for (int t = 0; t < 10; ++t) world.step();
+  const std::uint64_t before = world.packets_received();
+  EXPECT_GT(before, 0U);
+  for (int t = 0; t < 10; ++t) world.step();
+  EXPECT_EQ(world.packets_received(), before);
+  world.step();
+  std::size_t links = 0;
+  for (std::size_t i = 0; i < world.size(); ++i) links += world.links(i).size();
+  EXPECT_EQ(world.packets_received(), before + links);
+}
+
+TEST(Events, ATargetMovesAndItsWorkerFollows) {
+  Scenario s = ring("inwards", 14, 2, 2.0, 1);
+  s.events = {event(2.0, Event::Kind::move_target, 1, 0.0, {0.5, -2.5})};
+  World world(s);
+  for (int t = 0; t < 20; ++t) world.step();
+  EXPECT_NEAR(norm(world.targets()[1].position), 2.0, 1e-9);
+  world.step();
+  EXPECT_EQ(world.targets()[1].position, (Vec2{0.5, -2.5}));
+  for (int t = 0; t < 900; ++t) world.step();
+  EXPECT_LT(distance(world.positions()[world.targets()[1].worker], world.targets()[1].position), 0.3);
+}
+
+TEST(Events, ANewTargetGoesToTheNearestRobotThatIsNeitherWorkerNorRoot) {
+  Scenario s = ring("outwards", 20, 2, 2.0, 1);
+  const Vec2 where{0.3, 2.4};
+  s.events = {event(1.0, Event::Kind::add_target, 0, 0.0, where)};
+  World world(s);
+  for (int t = 0; t < 10; ++t) world.step();
+  ASSERT_EQ(world.targets().size(), 2U);
+  std::size_t expected = world.size();
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    if (world.states()[i].is_worker || world.states()[i].role == Role::root) continue;
+    if (expected == world.size() || distance(world.positions()[i], where) < distance(world.positions()[expected], where)) expected = i;
+  }
+  world.step();
+  ASSERT_EQ(world.targets().size(), 3U);
+  EXPECT_EQ(world.targets()[2].position, where);
+  EXPECT_EQ(world.targets()[2].worker, expected);
+  EXPECT_TRUE(world.states()[expected].is_worker);
+  EXPECT_EQ(world.states()[expected].role, Role::worker);
+}
+
+TEST(Events, WithNobodyLeftANewTargetIsNotAssigned) {
+  Scenario s = ring("outwards", 3, 2, 1.5, 1);
+  s.events = {event(0.5, Event::Kind::add_target, 0, 0.0, {0.0, 1.0})};
+  World world(s);
+  for (int t = 0; t < 10; ++t) world.step();
+  EXPECT_EQ(world.targets().size(), 2U);
+}
+
+TEST(Events, EqualTimesActInFileOrderAndOrderInTheFileDoesNotMatterOtherwise) {
+  Scenario s = ring("outwards", 16, 2, 4.0, 1);
+  s.events = {event(2.0, Event::Kind::move_target, 0, 0.0, {1, 1}), event(1.0, Event::Kind::die, 3),
+              event(2.0, Event::Kind::move_target, 0, 0.0, {2, 2})};
+  World world(s);
+  for (int t = 0; t < 11; ++t) world.step();
+  EXPECT_EQ(world.alive()[3], 0);
+  for (int t = 0; t < 10; ++t) world.step();
+  EXPECT_EQ(world.targets()[0].position, (Vec2{2, 2}));
+}
+
+TEST(Events, AnEventAtTimeZeroActsBeforeTheFirstTick) {
+  Scenario s = ring("outwards", 16, 2, 4.0, 1);
+  s.events = {event(0.0, Event::Kind::die, 2)};
+  World world(s);
+  world.step();
+  EXPECT_EQ(world.alive()[2], 0);
+  world.step();
+  EXPECT_EQ(world.packets_sent(), 15U);
+}
+
+}  // namespace
+}  // namespace banyan::world

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// What must hold at every tick of every run, watched over random worlds: no cycle of parents, one
+// root, gossip that only grows, edges that the guard keeps. BANYAN_LONG=1 watches many more.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "worlds.hpp"
+
+namespace banyan::world {
+namespace {
+
+struct Conditions {
+  std::string algorithm;
+  std::string reading;
+  double loss;
+  bool line_of_sight;
+};
+
+std::string title(const testing::TestParamInfo<Conditions>& info) {
+  const Conditions& c = info.param;
+  return c.algorithm + "_" + c.reading + (c.loss > 0.0 ? "_lossy" : "") + (c.line_of_sight ? "_occluded" : "");
+}
+
+std::vector<Conditions> all_conditions() {
+  std::vector<Conditions> all;
+  for (const char* algorithm : {"outwards", "inwards"})
+    for (const char* reading : {"corrected", "literal"})
+      for (const double loss : {0.0, 0.3})
+        for (const bool line_of_sight : {false, true}) all.push_back({algorithm, reading, loss, line_of_sight});
+  return all;
+}
+
+Scenario random_scenario(const Conditions& c, std::uint64_t seed) {
+  const auto draw = [&](std::uint64_t k) { return to_uniform(bits(seed, Purpose::targets, 1000, k)); };
+  const std::size_t targets = 2 + static_cast<std::size_t>(3 * draw(0));
+  const double radius_m = 2.0 + 5.0 * draw(1);
+  const auto robots = static_cast<std::size_t>((1.2 + 2.5 * draw(2)) * static_cast<double>(targets) * radius_m / 1.54) + targets + 1;
+  Scenario s = ring(c.algorithm, robots, targets, radius_m, seed);
+  s.mission.reading = c.reading;
+  s.radio.loss = c.loss;
+  s.radio.line_of_sight = c.line_of_sight;
+  // Every other world rebuilds its tree all the time.
+  if (seed % 2 == 0) s.mission.parameters = {{"reconfiguration_period_s", 1.0 + 9.0 * draw(3)}};
+  return s;
+}
+
+std::string chain(const World& world, std::size_t i) {
+  std::string text;
+  for (int hop = 0; hop < 8 && i < world.size(); ++hop) {
+    const State& s = world.states()[i];
+    text += std::to_string(i) + " [epoch " + std::to_string(s.epoch) + " pulse " + std::to_string(s.pulse) + " label " +
+            std::to_string(s.label_cm) + "] -> ";
+    i = s.parent;
+  }
+  return text;
+}
+
+class Protocol : public testing::TestWithParam<Conditions> {
+ protected:
+  // Calls check(world) after every tick of many random worlds.
+  template <class Check>
+  static void watch(Check check, std::uint64_t few = 8, int ticks = 700) {
+    const std::uint64_t seeds = long_search() ? 40 * few : few;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      World world(random_scenario(GetParam(), seed));
+      for (int t = 0; t < ticks && !HasFatalFailure(); ++t) {
+        world.step();
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", tick " + std::to_string(world.tick()));
+        check(world);
+      }
+      if (HasFatalFailure()) return;
+    }
+  }
+};
+
+// The pairs (epoch, pulse, label) strictly rise along parents, so no chain of parents can close.
+TEST_P(Protocol, ParentsNeverFormACycleAndAreAheadOfTheirChildren) {
+  watch([](const World& world) {
+    const auto states = world.states();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (states[i].parent == nobody) continue;
+      ASSERT_LT(states[i].parent, states.size());
+      const State& child = states[i];
+      const State& parent = states[child.parent];
+      ASSERT_FALSE(parent.is_worker) << chain(world, i);
+      ASSERT_GE(parent.epoch, child.epoch) << chain(world, i);
+      if (parent.epoch == child.epoch)
+        ASSERT_TRUE(parent.pulse > child.pulse || (parent.pulse == child.pulse && parent.label_cm < child.label_cm)) << chain(world, i);
+      std::size_t top = i;
+      std::size_t hops = 0;
+      while (states[top].parent != nobody && hops <= states.size()) top = states[top].parent, ++hops;
+      ASSERT_LE(hops, states.size()) << "cycle: " << chain(world, i);
+    }
+  });
+}
+
+TEST_P(Protocol, GossipOnlyGrows) {
+  std::vector<State> before;
+  watch([&](const World& world) {
+    const auto states = world.states();
+    if (world.tick() == 1) before.assign(states.begin(), states.end());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const State& now = states[i];
+      ASSERT_GE(now.epoch, before[i].epoch) << i;
+      if (now.epoch == before[i].epoch) {
+        ASSERT_GE(now.phase, before[i].phase) << i;
+        ASSERT_GE(now.pulse, before[i].pulse) << i;
+        // Within an epoch nobody falls back behind what it has sent.
+        if (now.pulse == before[i].pulse) ASSERT_LE(now.label_cm, before[i].label_cm) << i;
+      }
+      ASSERT_FALSE(newer(before[i].root, now.root)) << i;
+    }
+    before.assign(states.begin(), states.end());
+  }, 4);
+}
+
+// During a hand-over the old root still believes in itself until it hears its heir; losses and
+// occlusion make that longer, and a refused token makes a third.
+TEST_P(Protocol, ThereIsOneRootExceptDuringAHandOver) {
+  const bool calm = GetParam().loss == 0.0 && !GetParam().line_of_sight;
+  int several = 0;
+  watch([&](const World& world) {
+    if (world.tick() == 1) several = 0;
+    const auto states = world.states();
+    const auto roots = std::count_if(states.begin(), states.end(), [](const State& s) { return s.role == Role::root; });
+    ASSERT_GE(roots, 1);
+    ASSERT_LE(roots, calm ? 2 : 5);
+    several = roots > 1 ? several + 1 : 0;
+    ASSERT_LE(several, calm ? 5 : 25) << "ticks with several roots in a row";
+    // Nobody believes in a root that does not exist, and the newest token's owner is root.
+    for (const State& s : states) ASSERT_LT(s.root.id == nobody ? RobotId{0} : s.root.id, states.size());
+  });
+}
+
+TEST_P(Protocol, MessagesNameRobotsThatExist) {
+  watch([](const World& world) {
+    const auto n = static_cast<RobotId>(world.size());
+    for (std::size_t i = 0; i < n; ++i) {
+      const Message& m = world.messages()[i];
+      ASSERT_EQ(m.id, i);
+      for (const RobotId id : {m.parent, m.old_parent, m.flood_parent, m.grant, m.request, m.inserted_child, m.new_root, m.root.id})
+        ASSERT_TRUE(id == nobody || (id < n && (id != i || m.root.id == i))) << i;
+      ASSERT_NE(m.parent, m.id);
+      ASSERT_NE(m.old_parent, m.id);
+      ASSERT_EQ(m.role == Role::root, m.root.id == i) << i;
+      const std::optional<Message> wire = decode(encode(m));
+      ASSERT_TRUE(wire && *wire == m) << i;
+    }
+  }, 2);
+}
+
+// With both ends limiting their motion, no edge of the corrected reading outgrows delta; an edge
+// that had to be taken beyond it (a flood parent, an orphan's) gets no longer than it was, but for
+// the tick in which the parent does not know of it yet.
+TEST_P(Protocol, TheGuardBoundsEveryEdgeOfTheTree) {
+  const Conditions& c = GetParam();
+  if (c.reading != "corrected" || c.loss > 0.0 || c.line_of_sight) GTEST_SKIP() << "nothing is promised here";
+  constexpr double unaware_m = 0.02;  // v_max x tick
+  constexpr double slack_m = 0.002;   // bodies push each other; single precision
+  std::vector<RobotId> parents;
+  std::vector<double> taken_at_m;
+  watch([&](const World& world) {
+    if (world.tick() == 1) {
+      parents.assign(world.size(), nobody);
+      taken_at_m.assign(world.size(), 0.0);
+    }
+    const double delta_m = static_cast<double>(world.params().ideal_distance_m);
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const State& s = world.states()[i];
+      const bool taken = s.parent != parents[i];
+      parents[i] = s.parent;
+      if (s.parent == nobody || s.role == Role::spare) continue;
+      const double d = distance(world.positions()[i], world.positions()[s.parent]);
+      if (taken) taken_at_m[i] = d;
+      ASSERT_LE(d, std::max(delta_m, taken_at_m[i] + unaware_m) + slack_m) << i << " -> " << s.parent;
+    }
+  }, 12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Runs, Protocol, testing::ValuesIn(all_conditions()), title);
+
+}  // namespace
+}  // namespace banyan::world

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Links and lines of sight against plain geometry over all pairs and all bodies.
+#include "banyan/world/radio.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "banyan/controller/trig.hpp"
+#include "banyan/world/random.hpp"
+
+namespace banyan::world {
+namespace {
+
+using Real = long double;
+struct Point { Real x, y; };
+Point point(Vec2 v) { return {v.x, v.y}; }
+Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+Real dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+Real cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+Real length(Point a) { return std::sqrt(dot(a, a)); }
+
+// How clearly something is so: positive if it is, negative if not, near zero on the knife's edge.
+using Margin = Real;
+
+// A disc beside the segment a-b, nearer to it than radius.
+Margin body_between(Point k, Point a, Point b, Real radius) {
+  const Point d = b - a;
+  const Real along = dot(k - a, d) / length(d);
+  return std::min({along, length(d) - along, radius - std::fabs(cross(k - a, d)) / length(d)});
+}
+
+Real distance_to_segment(Point k, Point a, Point b) {
+  const Point d = b - a;
+  const Real t = std::clamp(dot(k - a, d) / dot(d, d), Real(0), Real(1));
+  return length(Point{k.x - a.x - t * d.x, k.y - a.y - t * d.y});
+}
+
+Margin segments_cross(Point a, Point b, Point c, Point d) {
+  const Real ab = length(b - a);
+  const Real cd = length(d - c);
+  if (cd == 0) return -1;
+  const Real c_side = cross(b - a, c - a) / ab;
+  const Real d_side = cross(b - a, d - a) / ab;
+  const Real a_side = cross(d - c, a - c) / cd;
+  const Real b_side = cross(d - c, b - c) / cd;
+  const bool yes = (c_side > 0) != (d_side > 0) && (a_side > 0) != (b_side > 0);
+  const Real near = std::min({std::fabs(c_side), std::fabs(d_side), std::fabs(a_side), std::fabs(b_side)});
+  return yes ? near : -near;
+}
+
+Margin box_between(const Box& box, Point a, Point b) {
+  const Real c = std::cos(static_cast<Real>(box.angle_rad));
+  const Real s = std::sin(static_cast<Real>(box.angle_rad));
+  const auto corner = [&](Real sx, Real sy) {
+    const Real x = sx * static_cast<Real>(box.size.x) / 2;
+    const Real y = sy * static_cast<Real>(box.size.y) / 2;
+    return Point{static_cast<Real>(box.center.x) + c * x - s * y, static_cast<Real>(box.center.y) + s * x + c * y};
+  };
+  const Point corners[4] = {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+  Margin best = -1e9L;
+  Real inside_a = 1e9L;
+  Real inside_b = 1e9L;
+  for (int k = 0; k < 4; ++k) {
+    const Point p = corners[k];
+    const Point q = corners[(k + 1) % 4];
+    best = std::max(best, segments_cross(a, b, p, q));
+    inside_a = std::min(inside_a, cross(q - p, a - p) / length(q - p));
+    inside_b = std::min(inside_b, cross(q - p, b - p) / length(q - p));
+  }
+  return std::max({best, inside_a, inside_b});
+}
+
+Margin obstacle_between(const Obstacle& obstacle, Point a, Point b) {
+  if (const auto* disc = std::get_if<Disc>(&obstacle)) return static_cast<Real>(disc->radius_m) - distance_to_segment(point(disc->center), a, b);
+  if (const auto* wall = std::get_if<Wall>(&obstacle)) return segments_cross(a, b, point(wall->from), point(wall->to));
+  return box_between(std::get<Box>(obstacle), a, b);
+}
+
+struct Crowd {
+  Scenario scenario;
+  std::vector<Vec2> positions;
+  std::vector<std::uint8_t> alive;
+};
+
+// 1 to 300 robots in a square, from sparse to overlapping, some dead, with and without obstacles.
+Crowd crowd(std::uint64_t seed) {
+  const auto draw = [&](std::uint64_t a, std::uint64_t b = 0) { return to_uniform(bits(seed, Purpose::placement, a, b)); };
+  Crowd c;
+  const std::size_t robots = 1 + static_cast<std::size_t>(300 * draw(0) * draw(1));
+  const double side_m = std::sqrt(static_cast<double>(robots)) * (0.12 + 1.5 * draw(2) * draw(3));
+  c.scenario.radio.range_m = 0.4 + 1.8 * draw(4);
+  c.scenario.radio.line_of_sight = draw(5) < 0.8;
+  c.scenario.robot.radius_m = 0.02 + 0.08 * draw(6);
+  for (std::size_t i = 0; i < robots; ++i) {
+    c.positions.push_back({side_m * (draw(10, i) - 0.5), side_m * (draw(11, i) - 0.5)});
+    c.alive.push_back(draw(12, i) < 0.9 ? 1 : 0);
+  }
+  if (draw(7) < 0.5) {
+    for (std::uint64_t k = 0; k < 6; ++k) {
+      const Vec2 at{side_m * (draw(20, k) - 0.5), side_m * (draw(21, k) - 0.5)};
+      const Vec2 to{side_m * (draw(22, k) - 0.5), side_m * (draw(23, k) - 0.5)};
+      if (k % 3 == 0) c.scenario.obstacles.push_back(Disc{at, 0.05 + 0.3 * draw(24, k)});
+      if (k % 3 == 1) c.scenario.obstacles.push_back(Box{at, {0.1 + draw(24, k), 0.1 + draw(25, k)}, 6.0 * draw(26, k)});
+      if (k % 3 == 2) c.scenario.obstacles.push_back(Wall{at, to});
+    }
+  }
+  return c;
+}
+
+void compare(const Crowd& c, const Radio& radio, std::uint64_t seed) {
+  constexpr Real edge = 1e-9L;
+  const std::size_t n = c.positions.size();
+  std::set<std::pair<std::uint32_t, std::uint32_t>> blocked(radio.blocked().begin(), radio.blocked().end());
+  ASSERT_EQ(blocked.size(), radio.blocked().size()) << "a blocked pair is listed twice";
+  std::size_t links = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const auto row = radio.links(i);
+    links += row.size();
+    ASSERT_TRUE(std::is_sorted(row.begin(), row.end()));
+    ASSERT_EQ(std::adjacent_find(row.begin(), row.end()), row.end());
+    for (std::uint32_t j = i + 1; j < n; ++j) {
+      const bool heard = std::binary_search(row.begin(), row.end(), j);
+      const auto other = radio.links(j);
+      ASSERT_EQ(heard, std::binary_search(other.begin(), other.end(), i)) << "not symmetric";
+      const Point a = point(c.positions[i]);
+      const Point b = point(c.positions[j]);
+      Margin in_range = static_cast<Real>(c.scenario.radio.range_m) - length(b - a);
+      if (c.alive[i] == 0 || c.alive[j] == 0) in_range = -1;
+      Margin hidden = -1;
+      if (c.scenario.radio.line_of_sight && in_range > 0) {
+        for (std::uint32_t k = 0; k < n; ++k)
+          if (k != i && k != j) hidden = std::max(hidden, body_between(point(c.positions[k]), a, b, static_cast<Real>(c.scenario.robot.radius_m)));
+        for (const Obstacle& obstacle : c.scenario.obstacles) hidden = std::max(hidden, obstacle_between(obstacle, a, b));
+      }
+      if (std::fabs(in_range) < edge || std::fabs(hidden) < edge) continue;
+      ASSERT_EQ(heard, in_range > 0 && hidden < 0) << "seed " << seed << ": " << i << " - " << j << " of " << n;
+      ASSERT_EQ(blocked.count({i, j}) > 0, in_range > 0 && hidden > 0) << "seed " << seed << ": " << i << " - " << j << " of " << n;
+    }
+  }
+  ASSERT_EQ(links, radio.offsets().back());
+}
+
+TEST(Radio, AgreesWithPlainGeometryOverAllPairs) {
+  Executor executor(1);
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    const Crowd c = crowd(seed);
+    Radio radio(c.scenario, c.positions.size());
+    radio.update(c.positions, c.alive, executor);
+    ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed));
+  }
+}
+
+// What a radio remembers from one tick to the next must never show.
+TEST(Radio, AgreesWithPlainGeometryWhileRobotsMoveAndDie) {
+  Executor executor(2);
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Crowd c = crowd(seed);
+    Radio radio(c.scenario, c.positions.size());
+    for (std::uint64_t tick = 0; tick < 12; ++tick) {
+      radio.update(c.positions, c.alive, executor);
+      ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed));
+      for (std::size_t i = 0; i < c.positions.size(); ++i) {
+        const double far = tick % 4 == 3 ? 2.0 : 0.05;  // now and then everybody jumps
+        c.positions[i] += Vec2{far * (to_uniform(bits(seed, Purpose::loss, i, 0, tick)) - 0.5), far * (to_uniform(bits(seed, Purpose::loss, i, 1, tick)) - 0.5)};
+        if (to_uniform(bits(seed, Purpose::loss, i, 2, tick)) < 0.02) c.alive[i] = 0;
+      }
+    }
+  }
+}
+
+TEST(Radio, NearPairsAreAllPairsThatCouldTouch) {
+  Executor executor(1);
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Crowd c = crowd(seed);
+    Radio radio(c.scenario, c.positions.size());
+    radio.update(c.positions, c.alive, executor);
+    const double near_m = 2 * c.scenario.robot.radius_m + 4 * c.scenario.robot.wheel_limit_m_s * c.scenario.tick_s + 0.01;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
+    for (std::uint32_t i = 0; i < c.positions.size(); ++i)
+      for (std::uint32_t j = i + 1; j < c.positions.size(); ++j)
+        if (distance(c.positions[i], c.positions[j]) < near_m) expected.emplace_back(i, j);
+    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), radio.near().begin(), radio.near().end())) << seed;
+  }
+}
+
+class Straight : public testing::Test {
+ protected:
+  bool linked(std::vector<Vec2> positions, std::vector<std::uint8_t> alive = {}) {
+    alive.resize(positions.size(), 1);
+    Radio radio(scenario, positions.size());
+    Executor executor(1);
+    radio.update(positions, alive, executor);
+    const auto row = radio.links(0);
+    return std::binary_search(row.begin(), row.end(), 1U);
+  }
+  Scenario scenario;
+};
+
+TEST_F(Straight, TheRangeIsStrict) {
+  scenario.radio.range_m = 2.0;
+  EXPECT_FALSE(linked({{0, 0}, {2.0, 0}}));
+  EXPECT_TRUE(linked({{0, 0}, {std::nextafter(2.0, 0.0), 0}}));
+}
+
+TEST_F(Straight, ABodyBetweenBlocksEvenWhenDead) {
+  scenario.radio.line_of_sight = true;
+  EXPECT_FALSE(linked({{0, 0}, {1, 0}, {0.5, 0.07}}));
+  EXPECT_FALSE(linked({{0, 0}, {1, 0}, {0.5, 0.07}}, {1, 1, 0}));
+  EXPECT_TRUE(linked({{0, 0}, {1, 0}, {0.5, 0.0705}}));
+  EXPECT_TRUE(linked({{0, 0}, {1, 0}, {1.08, 0}})) << "a body behind the other end blocks nothing";
+  scenario.radio.line_of_sight = false;
+  EXPECT_TRUE(linked({{0, 0}, {1, 0}, {0.5, 0}}));
+}
+
+TEST_F(Straight, TheDeadAreSilent) {
+  EXPECT_FALSE(linked({{0, 0}, {1, 0}}, {0, 1}));
+  EXPECT_FALSE(linked({{0, 0}, {1, 0}}, {1, 0}));
+}
+
+TEST(Radio, AWideAndThinSwarmTakesNoMoreMemoryThanADenseOne) {
+  Scenario scenario;
+  std::vector<Vec2> positions;
+  for (int k = 0; k < 400; ++k) positions.push_back({1000.0 * k, 1500.0 * (k % 7)});
+  const std::vector<std::uint8_t> alive(positions.size(), 1);
+  Radio radio(scenario, positions.size());
+  Executor executor(1);
+  radio.update(positions, alive, executor);
+  EXPECT_EQ(radio.offsets().back(), 0U);
+  EXPECT_LT(radio.memory_bytes(), 400U * 1000U);
+}
+
+}  // namespace
+}  // namespace banyan::world

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Worlds that several tests share, and what an onlooker can tell of the trees in them.
+#pragma once
+
+#include <cstdlib>
+#include <string>
+
+#include "banyan/world/random.hpp"
+#include "banyan/world/world.hpp"
+
+namespace banyan::world {
+
+// BANYAN_LONG=1 asks for long searches.
+inline bool long_search() {
+  const char* value = std::getenv("BANYAN_LONG");
+  return value != nullptr && std::string(value) != "0" && *value != '\0';
+}
+
+// The paper's conditions (spec): a compact cluster of robots, targets on a ring.
+inline Scenario ring(const std::string& algorithm, std::size_t robots, std::size_t targets, double radius_m, std::uint64_t seed) {
+  Scenario s;
+  s.mission.algorithm = algorithm;
+  s.swarm.robots = robots;
+  s.targets = RingTargets{targets, radius_m};
+  s.seed = seed;
+  return s;
+}
+
+// Everything at once that makes a run hard.
+inline Scenario hostile(const std::string& algorithm, std::size_t robots, std::uint64_t seed) {
+  Scenario s = ring(algorithm, robots, 3, 4.0, seed);
+  s.radio.line_of_sight = true;
+  s.radio.loss = 0.3;
+  s.radio.range_noise_m = 0.02;
+  s.radio.bearing_noise_rad = 0.02;
+  s.robot.wheel_noise = 0.05;
+  s.robot.odometry_noise = 0.05;
+  return s;
+}
+
+}  // namespace banyan::world
