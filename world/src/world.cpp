@@ -231,7 +231,10 @@ void World::Impl::think(Executor& executor) {
     Inbox& inbox = inboxes[static_cast<std::size_t>(worker)];
     for (std::size_t i = begin; i < end; ++i) {
       if (i + 1 < end) fetch(i + 1);
-      if (alive[i] == 0) continue;
+      if (alive[i] == 0) {
+        next_messages[i] = messages[i];  // its last broadcast, in both buffers
+        continue;
+      }
       inbox.packets.resize(radio.links(i).size());
       std::span<const Packet> packets(inbox.packets.data(), silence ? 0 : receive(i, inbox.packets));
       const Message* content = messages.data();
