@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// A tick of a world that has warmed up takes nothing from the heap.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "banyan/world/threads.hpp"
+#include "worlds.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* p = alignment <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (p == nullptr) throw std::bad_alloc();
+  return p;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, 1); }
+void* operator new(std::size_t size, std::align_val_t a) { return counted(size, static_cast<std::size_t>(a)); }
+void* operator new[](std::size_t size) { return counted(size, 1); }
+void* operator new[](std::size_t size, std::align_val_t a) { return counted(size, static_cast<std::size_t>(a)); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+namespace banyan::world {
+namespace {
+
+TEST(Allocation, TheCounterCounts) {
+  const long before = allocations;
+  { const std::vector<int> v(10); }
+  EXPECT_GT(allocations, before);
+}
+
+// Nobody spreads out further once the workers stand still, so no buffer has to grow any more: what
+// is left would be an allocation in every tick.
+TEST(Allocation, ATickTakesNothingFromTheHeap) {
+  for (const char* algorithm : {"outwards", "inwards"}) {
+    for (const std::size_t robots : {20U, 150U}) {
+      Scenario s = hostile(algorithm, robots, 5);
+      s.targets = RingTargets{3, 1.5};
+      s.radio.latency_ticks = 2;
+      s.radio.slots = 10;
+      World world(s);
+      Executor executor(1);
+      for (int t = 0; t < 300; ++t) world.step(executor);
+      const long before = allocations;
+      constexpr int ticks = 200;
+      for (int t = 0; t < ticks; ++t) world.step(executor);
+      EXPECT_EQ(allocations - before, 0) << algorithm << ", " << robots << " robots";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace banyan::world
