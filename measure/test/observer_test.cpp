@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+// The account of a run, on worlds whose account can be told by hand or counted anew from outside.
+#include "banyan/measure/observer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "banyan/controller/trig.hpp"
+#include "banyan/measure/fiedler.hpp"
+#include "banyan/measure/steiner.hpp"
+
+namespace banyan::measure {
+namespace {
+
+using world::Event;
+using world::Scenario;
+using world::Vec2;
+using world::World;
+
+Scenario ring(std::size_t robots, std::size_t targets, double radius_m, std::uint64_t seed = 1) {
+  Scenario s;
+  s.swarm.robots = robots;
+  s.targets = world::RingTargets{targets, radius_m};
+  s.seed = seed;
+  return s;
+}
+
+// Robots in a row along x, all frozen; the last one is the worker of a target 3 m further on.
+Scenario chain(std::size_t robots, double pitch_m) {
+  Scenario s;
+  s.swarm.start.layout = world::Layout::list;
+  for (std::size_t i = 0; i < robots; ++i) {
+    s.swarm.start.positions.push_back({static_cast<double>(i) * pitch_m, 0.0});
+    Event freeze;
+    freeze.kind = Event::Kind::freeze;
+    freeze.index = i;
+    s.events.push_back(freeze);
+  }
+  s.swarm.robots = robots;
+  s.swarm.root = 0;
+  s.targets = std::vector<Vec2>{{static_cast<double>(robots - 1) * pitch_m + 3.0, 0.0}};
+  s.mission.time_limit_s = 1000;
+  return s;
+}
+
+Tick after(World& world, Observer& observer, int ticks) {
+  for (int t = 0; t < ticks; ++t) {
+    world.step();
+    observer.observe(world);
+  }
+  return observer.last();
+}
+
+TEST(Observer, CountsAChain) {
+  World world(chain(6, 1.1));
+  Observer observer(world);
+  const Tick tick = after(world, observer, 150);
+  EXPECT_EQ(tick.tick, 150U);
+  EXPECT_NEAR(tick.time_s, 15.0, 1e-9);
+  EXPECT_EQ(tick.alive, 6U);
+  EXPECT_EQ(tick.roots, 1U);
+  EXPECT_EQ(tick.workers, 1U);
+  EXPECT_EQ(tick.connectors, 4U);
+  EXPECT_EQ(tick.spares, 0U);
+  EXPECT_EQ(tick.committed, 6U);
+  EXPECT_EQ(tick.edges, 5U);
+  EXPECT_EQ(tick.components, 1U);
+  EXPECT_FALSE(tick.fiedler_low);
+  EXPECT_EQ(tick.fiedler, -1.0);
+  EXPECT_EQ(tick.targets_reached, 0U);
+  EXPECT_NEAR(tick.worst_target_distance_m, 3.0, 1e-9);
+  EXPECT_EQ(observer.run().broken_ticks, 0U);
+}
+
+TEST(Observer, ComputesTheFiedlerValueOfAPath) {
+  World world(chain(7, 1.1));  // everybody hears the next one only
+  Observer observer(world);
+  world.step();
+  const double expected = 2.0 - 2.0 * std::cos(pi<double> / 7.0);
+  EXPECT_NEAR(observer.observe(world, true).fiedler, expected, 1e-9);
+}
+
+TEST(Observer, ADeadConnectorBreaksEdgesAndSplitsTheGraph) {
+  Scenario s = chain(6, 1.1);
+  Event die;
+  die.time_s = 15.0;
+  die.index = 2;
+  s.events.push_back(die);
+  World world(s);
+  Observer observer(world);
+  EXPECT_EQ(after(world, observer, 150).broken_by_death, 0U);
+  const Tick tick = after(world, observer, 1);
+  EXPECT_EQ(tick.alive, 5U);
+  EXPECT_EQ(tick.broken_by_death, 1U) << "robot 3 has lost its parent; a dead child is nobody's parent edge";
+  EXPECT_EQ(tick.broken_by_distance, 0U);
+  EXPECT_EQ(tick.components, 2U);
+  EXPECT_TRUE(tick.fiedler_low);
+  EXPECT_TRUE(tick.fiedler_low_by_distance);
+  EXPECT_EQ(observer.run().split_ticks, 1U);
+  EXPECT_EQ(observer.run().broken_ticks, 1U);
+  const measure::Run run = observer.result(world);
+  EXPECT_NEAR(run.disconnected_time_ratio, 1.0 / 151.0, 1e-12);
+  EXPECT_NEAR(run.fiedler_time_ratio, 1.0 / 151.0, 1e-12);
+  EXPECT_EQ(run.disconnected_time_ratio_by_distance, 0.0);
+}
+
+// A body dropped onto the line of sight between two robots: seen from outside the edge is there by
+// distance and gone by occlusion.
+TEST(Observer, TellsOcclusionFromDistance) {
+  Scenario s = chain(4, 1.1);
+  s.radio.line_of_sight = true;
+  s.obstacles = {world::Wall{{1.65, -0.5}, {1.65, 0.5}}};
+  World world(s);
+  Observer observer(world);
+  world.step();
+  const Tick tick = observer.observe(world);
+  EXPECT_EQ(tick.components, 2U);
+  EXPECT_EQ(tick.components_by_distance, 1U);
+  EXPECT_TRUE(tick.fiedler_low);
+  EXPECT_FALSE(tick.fiedler_low_by_distance);
+  EXPECT_EQ(observer.run().split_ticks, 1U);
+  EXPECT_EQ(observer.run().split_ticks_by_distance, 0U);
+}
+
+TEST(Observer, CompletionIsTheFirstTickWithAllWorkersWithinTolerance) {
+  World world(ring(12, 2, 2.0));
+  Observer observer(world);
+  std::uint64_t expected = 0;
+  while (!observer.finished()) {
+    world.step();
+    observer.observe(world);
+    std::size_t reached = 0;
+    double worst = 0;
+    for (const world::Target& target : world.targets()) {
+      const double d = distance(world.positions()[target.worker], target.position);
+      worst = std::max(worst, d);
+      reached += d <= 0.2 ? 1 : 0;
+    }
+    EXPECT_EQ(observer.last().targets_reached, reached);
+    EXPECT_NEAR(observer.last().worst_target_distance_m, worst, 1e-12);
+    if (reached == 2 && expected == 0) expected = world.tick();
+  }
+  const measure::Run& run = observer.run();
+  ASSERT_TRUE(run.complete);
+  EXPECT_EQ(run.ticks, expected);
+  EXPECT_NEAR(run.completion_time_s, static_cast<double>(expected) * 0.1, 1e-9);
+  EXPECT_NEAR(run.time_limit_s, 10 * 2.0 / 0.2, 1e-9);
+  EXPECT_NEAR(run.normalized_time, run.completion_time_s / run.time_limit_s, 1e-12);
+}
+
+TEST(Observer, GoesOnAfterCompletionIfToldTo) {
+  Scenario s = ring(12, 2, 2.0);
+  s.mission.stop_when_complete = false;
+  s.mission.time_limit_s = 60;
+  World world(s);
+  Observer observer(world);
+  while (!observer.finished()) {
+    world.step();
+    observer.observe(world);
+  }
+  EXPECT_EQ(world.tick(), 600U);
+  EXPECT_TRUE(observer.run().complete);
+  EXPECT_LT(observer.run().completion_time_s, 60.0);
+}
+
+TEST(Observer, AtTheTimeLimitARunIsOverAndNotComplete) {
+  Scenario s = chain(3, 1.0);
+  s.mission.time_limit_s = 2.0;
+  World world(s);
+  Observer observer(world);
+  for (int t = 0; t < 19; ++t) after(world, observer, 1);
+  EXPECT_FALSE(observer.finished());
+  after(world, observer, 1);
+  EXPECT_TRUE(observer.finished());
+  const measure::Run run = observer.result(world);
+  EXPECT_FALSE(run.complete);
+  EXPECT_EQ(run.normalized_time, 1.0);
+  EXPECT_EQ(run.completion_time_s, -1.0);
+}
+
+TEST(Observer, ADeadWorkerReachesNothing) {
+  Scenario s = ring(12, 2, 1.0);
+  World probe(s);
+  Event die;
+  die.index = probe.targets()[0].worker;
+  s.events = {die};
+  World world(s);
+  Observer observer(world);
+  for (int t = 0; t < 400; ++t) EXPECT_LE(after(world, observer, 1).targets_reached, 1U);
+  EXPECT_FALSE(observer.run().complete);
+}
+
+TEST(Observer, KnowsTheBounds) {
+  World world(ring(20, 3, 3.0));
+  const Observer observer(world);
+  double slowest = 0;
+  std::vector<Vec2> targets;
+  for (const world::Target& target : world.targets()) {
+    slowest = std::max(slowest, (distance(world.positions()[target.worker], target.position) - 0.2) / 0.2);
+    targets.push_back(target.position);
+  }
+  EXPECT_NEAR(observer.run().time_bound_s, slowest, 1e-9);
+  EXPECT_NEAR(observer.run().steiner_length_m, 9.0, 1e-5) << "three at 120 degrees: the star is minimal";
+  EXPECT_EQ(observer.run().robots_bound, static_cast<std::uint32_t>(std::ceil((9.0 - 3 * 0.2) / 2.0)) + 1);
+  EXPECT_EQ(observer.run().robots, 20U);
+}
+
+// Components by repeated merging, edges by plain loops: the same run counted by somebody else.
+class Recount {
+ public:
+  void add(const World& world, const Tick& tick) {
+    const std::size_t n = world.size();
+    const double range2 = world.scenario().radio.range_m * world.scenario().radio.range_m;
+    std::uint32_t far = 0, hidden = 0, dead = 0, edges = 0, committed = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const State& s = world.states()[i];
+      if (world.alive()[i] == 0 || s.role == Role::spare) continue;
+      ++committed;
+      std::vector<RobotId> ups;
+      if (s.parent != nobody) ups.push_back(s.parent);
+      if (s.old_parent != nobody && s.old_parent != s.parent) ups.push_back(s.old_parent);
+      for (const RobotId up : ups) {
+        ++edges;
+        const auto links = world.links(i);
+        const bool linked = std::find(links.begin(), links.end(), std::uint32_t{up}) != links.end();
+        if (linked) continue;
+        if (world.alive()[up] == 0) ++dead;
+        else if (squared_norm(world.positions()[i] - world.positions()[up]) >= range2) ++far;
+        else ++hidden;
+      }
+    }
+    EXPECT_EQ(tick.edges, edges);
+    EXPECT_EQ(tick.committed, committed);
+    EXPECT_EQ(tick.broken_by_distance, far);
+    EXPECT_EQ(tick.broken_by_occlusion, hidden);
+    EXPECT_EQ(tick.broken_by_death, dead);
+    EXPECT_EQ(tick.components, components(world, false));
+    EXPECT_EQ(tick.components_by_distance, components(world, true));
+    EXPECT_EQ(tick.alive, tick.roots + tick.workers + tick.connectors + tick.spares);
+    ++ticks;
+    broken += far + hidden + dead > 0 ? 1 : 0;
+    broken_far += far > 0 ? 1 : 0;
+    broken_hidden += hidden > 0 ? 1 : 0;
+    split += tick.components > 1 ? 1 : 0;
+    low += tick.fiedler_low ? 1 : 0;
+    committed_sum += committed;
+  }
+
+  double ticks = 0, broken = 0, broken_far = 0, broken_hidden = 0, split = 0, low = 0, committed_sum = 0;
+
+ private:
+  static std::uint32_t components(const World& world, bool by_distance) {
+    const std::size_t n = world.size();
+    const double range2 = world.scenario().radio.range_m * world.scenario().radio.range_m;
+    std::vector<std::size_t> leader(n);
+    std::iota(leader.begin(), leader.end(), std::size_t{0});
+    const auto find = [&](std::size_t i) {
+      while (leader[i] != i) i = leader[i];
+      return i;
+    };
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < n; ++i) count += world.alive()[i] != 0 ? 1 : 0;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j) {
+        const auto links = world.links(i);
+        const bool near = world.alive()[i] != 0 && world.alive()[j] != 0 && squared_norm(world.positions()[i] - world.positions()[j]) < range2;
+        const bool joined = by_distance ? near : std::find(links.begin(), links.end(), static_cast<std::uint32_t>(j)) != links.end();
+        if (!joined || find(i) == find(j)) continue;
+        leader[find(i)] = find(j);
+        --count;
+      }
+    return count;
+  }
+};
+
+TEST(Observer, AgreesWithARecountOfAHardRun) {
+  for (const char* algorithm : {"outwards", "inwards"}) {
+    for (const char* reading : {"literal", "corrected"}) {
+      Scenario s = ring(30, 3, 6.0, 4);
+      s.mission.algorithm = algorithm;
+      s.mission.reading = reading;
+      s.radio.line_of_sight = true;
+      s.radio.loss = 0.3;
+      for (std::size_t k = 0; k < 6; ++k) {
+        Event die;
+        die.time_s = 20.0 + 5.0 * static_cast<double>(k);
+        die.index = 3 * k;
+        s.events.push_back(die);
+      }
+      World world(s);
+      Observer observer(world);
+      Recount recount;
+      for (int t = 0; t < 900; ++t) {
+        world.step();
+        recount.add(world, observer.observe(world));
+      }
+      const measure::Run run = observer.result(world);
+      EXPECT_EQ(static_cast<double>(run.ticks), recount.ticks);
+      EXPECT_NEAR(run.disconnected_time_ratio, recount.broken / 900, 1e-12);
+      EXPECT_NEAR(run.disconnected_time_ratio_by_distance, recount.broken_far / 900, 1e-12);
+      EXPECT_NEAR(run.disconnected_time_ratio_by_occlusion, recount.broken_hidden / 900, 1e-12);
+      EXPECT_NEAR(run.fiedler_time_ratio, recount.low / 900, 1e-12);
+      EXPECT_EQ(static_cast<double>(run.split_ticks), recount.split);
+      EXPECT_NEAR(run.mean_committed, recount.committed_sum / 900, 1e-9);
+      EXPECT_GT(run.broken_ticks, 0U) << "a run without trouble tests nothing";
+      EXPECT_EQ(run.hash, world.hash());
+      EXPECT_NEAR(run.bytes_per_robot_s, static_cast<double>(world.packets_sent() * wire_size) / (30 * 90.0), 1e-9);
+      std::uint64_t insertions = 0;
+      std::uint64_t epochs = 0;
+      for (const State& state : world.states()) {
+        insertions += state.tally.insertions;
+        epochs = std::max<std::uint64_t>(epochs, state.epoch);
+      }
+      EXPECT_EQ(run.insertions, insertions);
+      EXPECT_LE(run.epochs, epochs);
+      EXPECT_GE(run.epochs, 1U);
+      EXPECT_GE(run.start_phase_ticks, 3.0);
+    }
+  }
+}
+
+// The threshold is judged at every tick and without a full eigenvalue: compare with one.
+TEST(Observer, JudgesTheFiedlerValueAsItIs) {
+  World world(chain(60, 1.9));  // lambda_2 of a path of 60: 0.0027
+  Observer observer(world);
+  world.step();
+  const Tick path = observer.observe(world, true);
+  EXPECT_NEAR(path.fiedler, 2.0 - 2.0 * std::cos(pi<double> / 60.0), 1e-9);
+  EXPECT_FALSE(path.fiedler_low);
+  World longer(chain(110, 1.9));  // 0.00082
+  Observer second(longer);
+  longer.step();
+  const Tick low = second.observe(longer, true);
+  EXPECT_EQ(low.components, 1U);
+  EXPECT_LT(low.fiedler, 1e-3);
+  EXPECT_TRUE(low.fiedler_low);
+  EXPECT_TRUE(low.fiedler_low_by_distance);
+}
+
+TEST(Observer, CanBeMoved) {
+  World world(chain(4, 1.0));
+  Observer a(world);
+  after(world, a, 3);
+  Observer b(std::move(a));
+  EXPECT_EQ(b.run().ticks, 3U);
+  Observer c(world);
+  c = std::move(b);
+  after(world, c, 1);
+  EXPECT_EQ(c.run().ticks, 4U);
+}
+
+}  // namespace
+}  // namespace banyan::measure
