@@ -82,6 +82,8 @@ constexpr Key<Form> scenario_list[] = {
      ChoiceAccess<Form>{[]() -> Names { return reading_names; },
                         [](const Form& f) { return index_of(reading_names, f.configuration.scenario.mission.reading); },
                         [](Form& f, std::size_t i) { f.configuration.scenario.mission.reading = reading_names[i]; }}},
+    {"mission", "scale", "", {0.0, 1000.0, true}, "factor on Table I's lengths S, A, delta, E and J (paper Sec. IV-C)",
+     [](Form& f) -> double& { return f.configuration.scenario.mission.scale; }},
     {"mission", "target_tolerance_m", "m", {0.0, far_away, true}, "a target is reached when its worker is this near",
      [](Form& f) -> double& { return f.configuration.scenario.mission.target_tolerance_m; }},
     {"mission", "time_limit_s", "s", {0.0, 1e7},
@@ -142,7 +144,7 @@ constexpr Key<Form> scenario_list[] = {
      [](Form& f) -> double& { return f.configuration.scenario.robot.max_force_n; }},
     {"robot", "max_torque_nm", "N m", {0.0, 1e6, true}, "largest torque of the wheels (body box2d)",
      [](Form& f) -> double& { return f.configuration.scenario.robot.max_torque_nm; }},
-    {"robot", "max_acceleration_m_s2", "m/s^2", {0.0, 1e4, true}, "bound on each component of u (body linear)",
+    {"robot", "max_acceleration_m_s2", "m/s^2", {0.0, 1e4, true}, "bound on the acceleration |u| (body linear)",
      [](Form& f) -> double& { return f.configuration.scenario.robot.max_acceleration_m_s2; }},
 
     {"radio", "range_m", "m", {0.0, 100.0, true}, "C: two robots nearer than this hear each other",

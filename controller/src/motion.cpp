@@ -67,7 +67,7 @@ Vec2 tree_motion(const Robot& robot) noexcept {
   // Emergency: u = p_parent, at full speed. A silent parent may be anywhere: to where it must be.
   if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
   if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
-  const Vec2 u = clamped((robot.is_root() ? Vec2{} : robot.self.pull) + avoidance(robot), 1.0F);
+  const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
   return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p) : u);
 }
 

@@ -22,7 +22,7 @@ constexpr ParameterInfo table[] = {
     {"insertion_timeout_s", "", "s", "a spare on its way to an edge gives up after this", "spec 7", 1.0F, 600.0F, &Params::insertion_timeout_s},
     {"connector_patience_s", "", "s", "a connector without child turns spare after this", "spec 3", 0.1F, 600.0F, &Params::connector_patience_s},
     {"centroid_margin_m", "", "m", "a better root is nearer to the centroid by more than this", "spec 8", 0.0F, 10.0F, &Params::centroid_margin_m},
-    {"arrival_distance_m", "", "m", "a worker's pull fades in proportion within this", "spec 9", 0.01F, 10.0F, &Params::arrival_distance_m},
+    {"arrival_distance_m", "", "m", "a worker's pull fades in proportion within this; the mission's target tolerance unless set", "spec 9", 0.01F, 10.0F, &Params::arrival_distance_m},
     {"communication_range_m", "C", "m", "radio range", "spec 2, row 8", 0.05F, 100.0F, &Params::communication_range_m},
     {"tick_s", "", "s", "control period", "spec 9", 0.01F, 1.0F, &Params::tick_s},
     {"speed_gain_m_s", "K", "m/s", "speed per unit of the control law", "spec 2, row 9", 0.001F, 10.0F, &Params::speed_gain_m_s},

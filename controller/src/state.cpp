@@ -25,7 +25,7 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.root.id), static_cast<int>(s.done_ticks), static_cast<int>(s.label_cm),
                       static_cast<int>(s.label_wait_ticks), static_cast<int>(s.flood_parent), static_cast<int>(s.flood_done),
                       static_cast<int>(s.flood_robots), static_cast<int>(s.flood_workers), static_cast<int>(s.parent),
-                      static_cast<int>(s.old_parent), static_cast<int>(s.committed), static_cast<int>(s.drafted),
+                      static_cast<int>(s.old_parent), static_cast<int>(s.committed),
                       static_cast<int>(s.search_ticks), static_cast<int>(s.orphan_ticks), static_cast<int>(s.childless_ticks),
                       static_cast<int>(s.pulse), static_cast<int>(s.depth), static_cast<int>(s.tree_hops), static_cast<int>(s.subtree),
                       static_cast<int>(s.subtree_workers), static_cast<int>(s.count), static_cast<int>(s.centroid_known),

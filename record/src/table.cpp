@@ -63,7 +63,7 @@ constexpr std::array<Column<Row>, 47> run_table{{
     {"time_bound_s", "no completion can be earlier", 4, [](const Row& r) -> Cell { return r.run.time_bound_s; }},
     {"robots_bound", "no fewer committed robots can connect the targets", 0,
      [](const Row& r) { return natural(r.run.robots_bound); }},
-    {"steiner_length_m", "length of a shortest network of root and targets, certified from below", 4,
+    {"steiner_length_m", "length of a shortest network of the targets, certified from below", 4,
      [](const Row& r) -> Cell { return r.run.steiner_length_m; }},
     {"committed", "robots in the tree at the end", 0, [](const Row& r) { return natural(r.run.committed); }},
     {"mean_committed", "mean over ticks", 4, [](const Row& r) -> Cell { return r.run.mean_committed; }},

@@ -124,6 +124,7 @@ void check_mission(Report& report, const Mission& mission) {
   check_name(report, "mission.algorithm", mission.algorithm, names);
   const std::string_view readings[] = {"corrected", "literal"};
   check_name(report, "mission.reading", mission.reading, readings);
+  report.number_in("mission.scale", mission.scale, positive(1000.0));
   report.number_in("mission.target_tolerance_m", mission.target_tolerance_m, positive(world_size));
   report.number_in("mission.time_limit_s", mission.time_limit_s, up_to(1e7));
   for (const auto& [name, value] : mission.parameters) check_parameter(report, name, value);
@@ -496,6 +497,8 @@ double time_limit_s(const Scenario& scenario) {
 
 Params controller_params(const Scenario& scenario, const Policy& policy) {
   Params params = policy.defaults(scenario.mission.reading == "literal" ? Reading::literal : Reading::corrected);
+  for (const ParameterInfo& info : parameter_table())
+    if (info.source == "Table I" && info.unit == "m") params.*info.member *= static_cast<float>(scenario.mission.scale);
   params.communication_range_m = static_cast<float>(scenario.radio.range_m);
   params.tick_s = static_cast<float>(scenario.tick_s);
   params.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);

@@ -42,7 +42,6 @@ struct State {
   RobotId parent = nobody;
   RobotId old_parent = nobody;
   bool committed = false;
-  bool drafted = false;                  // an orphan named me as parent before I had one
   std::uint16_t search_ticks = 0;        // without a candidate parent
   std::uint16_t orphan_ticks = 0;        // depth invalid though I matter
   std::uint16_t childless_ticks = 0;     // connector without a child that is no spare

@@ -23,6 +23,7 @@ using Vec2 = BasicVec2<double>;
 struct Mission {
   std::string algorithm = "outwards";   // a name in the policy registry
   std::string reading = "corrected";    // or "literal"
+  double scale = 1.0;                   // on Table I's lengths (paper Sec. IV-C, "rescaled")
   double target_tolerance_m = 0.20;
   double time_limit_s = 0.0;            // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
