@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Behaviour over the paper's 27 worlds (spec 12): T in {2, 3, 4} targets on a circle of r in
+// Behaviour over the paper's 27 worlds (Sec. IV-B): T in {2, 3, 4} targets on a circle of r in
 // {3, 6, 9} m, redundancy k in {2, 3, 4}, many seeds. Prints one row per radius: share complete,
 // median normalised time, runs with a broken edge or a split graph, committed robots.
 //

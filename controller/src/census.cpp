@@ -34,7 +34,7 @@ void add_child(const Robot& robot, int k, Sums& sums) noexcept {
   sums.want_m = std::max(sums.want_m, static_cast<float>(m.want_cm) * 0.01F);
 }
 
-// u_target = tau (l - p) / |l - p|, fading on arrival so that the worker does not chatter (spec 9).
+// u_target = tau (l - p) / |l - p|, fading on arrival so that the worker does not chatter (protocol 9).
 void add_own_target(const Robot& robot, Sums& sums) noexcept {
   const Params& p = robot.params;
   const float distance_m = norm(*robot.target);

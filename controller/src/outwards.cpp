@@ -26,7 +26,7 @@ class Outwards final : public Policy {
   [[nodiscard]] bool prefers(const Robot& robot, int a, int b) const noexcept override {
     return robot.table().range(a) < robot.table().range(b);
   }
-  // Never equality: with motion and occlusion the flood under-counts (spec 4).
+  // Never equality: with motion and occlusion the flood under-counts (protocol 4).
   [[nodiscard]] bool tree_complete(const Robot& robot) const noexcept override {
     return robot.self.subtree >= robot.self.flood_robots;
   }

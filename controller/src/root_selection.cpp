@@ -39,7 +39,7 @@ void accept_offer(Robot& robot) noexcept {
     self.centroid = from_edge_frame({static_cast<float>(m.centroid_x_cm) * 0.01F, static_cast<float>(m.centroid_y_cm) * 0.01F}, h.position);
     self.centroid_known = true;
     self.new_root = nobody;
-    // The edge to the parent stays an edge of the tree until GROW TREE (spec 8).
+    // The edge to the parent stays an edge of the tree until GROW TREE (protocol 8).
     if (self.parent != nobody) {
       self.old_parent = self.parent;
       robot.old_parent = robot.parent;

@@ -40,7 +40,7 @@ void update_role(Robot& robot) noexcept {
     self.childless_ticks = 0;
   } else if (self.role != Role::spare) {
     self.role = Role::connector;  // a root that has handed over is one, too
-    // Patience: a child may only have been silent, or be about to name me (spec 3).
+    // Patience: a child may only have been silent, or be about to name me (protocol 3).
     if (++self.childless_ticks > robot.params.ticks(robot.params.connector_patience_s)) {
       self.role = Role::spare;
       self.childless_ticks = 0;

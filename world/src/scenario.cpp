@@ -23,7 +23,7 @@ namespace {
 constexpr double world_size = 1e4;        // m; beyond it single precision on robots loses the millimetre
 constexpr std::size_t most_robots = nobody;  // ids are 16 bits, the last one means nobody
 constexpr std::size_t most_targets = 10000;
-constexpr double delta_inwards = 1.540841;  // m; spec 2, row 10
+constexpr double delta_inwards = 1.540841;  // m; protocol 2, row 10
 
 std::string number(double x) {
   char text[32];

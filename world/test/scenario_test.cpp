@@ -204,7 +204,7 @@ TEST(Scenario, RedundancyGivesThePapersNinetyFour) {
   Scenario scenario;
   scenario.swarm.redundancy = 4;
   scenario.targets = RingTargets{4, 9.0, 0.7, {}};
-  EXPECT_EQ(robot_count(scenario), 94U);  // spec 2, row 10
+  EXPECT_EQ(robot_count(scenario), 94U);  // protocol 2, row 10
   scenario.swarm.start.center = {2, 3};
   scenario.targets = RingTargets{4, 9.0, 0.7, {2, 3}};
   EXPECT_EQ(robot_count(scenario), 94U) << "distances count from the start";

@@ -16,7 +16,7 @@ inline bool long_search() {
   return value != nullptr && std::string(value) != "0" && *value != '\0';
 }
 
-// The paper's conditions (spec): a compact cluster of robots, targets on a ring.
+// The paper's conditions (Sec. IV-B): a compact cluster of robots, targets on a ring.
 inline Scenario ring(const std::string& algorithm, std::size_t robots, std::size_t targets, double radius_m, std::uint64_t seed) {
   Scenario s;
   s.mission.algorithm = algorithm;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The robot's program: one pure function per tick. Start reading here; controller.cpp strings the
-// rooms together in the order of the paper's Fig. 1.
+// rooms together in the order of the paper's Fig. 1. Comments say "protocol N" for section N of
+// docs/protocol.md, and "paper Sec. N" or "Alg. N" for the paper itself.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vectors in messages (spec 1). Robots share no compass, but the two ends of an edge share the
+// Vectors in messages (protocol 1). Robots share no compass, but the two ends of an edge share the
 // edge: a vector sent from j to i is written with the x axis along the direction from j to i. No
 // table of mutual bearings and no extra byte is needed.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Epochs, phases and barriers (paper Fig. 1, spec 4). "Go" spreads by gossip over the whole radio
+// Epochs, phases and barriers (paper Fig. 1, protocol 4). "Go" spreads by gossip over the whole radio
 // graph and only grows, so a lost message delays a robot but never strands it.
 #pragma once
 

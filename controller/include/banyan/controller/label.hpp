@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // START TREE: the distance to the root along hops, fixed once per epoch, and the echo by which the
-// root learns that everybody has one (spec 4, 5).
+// root learns that everybody has one (protocol 4, 5).
 #pragma once
 
 #include "banyan/controller/robot.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one broadcast a robot sends per tick, and its wire format (spec 1). The fields are kept in
+// The one broadcast a robot sends per tick, and its wire format (protocol 1). The fields are kept in
 // their wire types, so what a receiver computes with is exactly what travelled.
 #pragma once
 
@@ -45,7 +45,7 @@ struct Message {
   Role role = Role::spare;
   Phase phase = Phase::init;
   Need need = Need::no_need;
-  bool flood_done = false;      // START echo: my flood subtree is complete (spec 4)
+  bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
   bool committed = false;       // I am in this epoch's tree
   bool parent_silent = false;   // my parent has not been heard for longer than I
   std::uint16_t epoch = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robot motion (paper Sec. III-G, spec 9): virtual forces, the guard, and what the wheels make of it.
+// Robot motion (paper Sec. III-G, protocol 9): virtual forces, the guard, and what the wheels make of it.
 #pragma once
 
 #include "banyan/controller/controller.hpp"

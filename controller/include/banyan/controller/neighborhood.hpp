@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The neighbour table: who has been heard, what they said, and where they are relative to me
-// (spec 1). Nothing here is known in any frame but the robot's own.
+// (protocol 1). Nothing here is known in any frame but the robot's own.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 
 namespace banyan {
 
-// How the paper's misprints and gaps are read (spec 2, docs/algorithms.md).
+// How the paper's misprints and gaps are read (protocol 2, docs/algorithms.md).
 enum class Reading : std::uint8_t { literal, corrected };
 
 // What the wheels allow. A holonomic robot moves in any direction without turning.
@@ -19,7 +19,7 @@ struct Params {
   // Motion, Table I
   float safe_range_m = 1.3893F;        // S
   float avoidance_range_m = 0.4316F;   // A
-  float ideal_distance_m = 1.90F;      // delta, also the emergency range (spec 2, row 1)
+  float ideal_distance_m = 1.90F;      // delta, also the emergency range (protocol 2, row 1)
   float interaction_gain = 10.0F;      // epsilon, with lengths in cm
   float target_gain = 0.49F;           // tau
   // Tree growth, Table I
@@ -29,15 +29,15 @@ struct Params {
   float recruitment_distance_m = 1.3209F;  // E
   float insertion_distance_m = 0.0979F;    // J
   // Gaps of the paper
-  float avoidance_gain = 0.5F;         // spec 9
+  float avoidance_gain = 0.5F;         // protocol 9
   float parent_margin_m = 0.02F;       // a parent is chosen at d <= delta - margin (corrected)
-  float guard_rate_per_s = 1.0F;       // guard (spec 2, row 4)
-  float barrier_timeout_s = 10.0F;     // START and SELECT PARENT never wait longer (spec 4)
-  float handover_timeout_s = 2.0F;     // unacknowledged offer of the root token (spec 8)
-  float insertion_timeout_s = 25.0F;   // EXTEND EDGE gives up (spec 7)
-  float connector_patience_s = 3.0F;   // childless connector turns spare (spec 3)
-  float centroid_margin_m = 0.05F;     // a better root is closer by more than this (spec 8)
-  float arrival_distance_m = 0.2F;     // a worker's pull fades within this (spec 9)
+  float guard_rate_per_s = 1.0F;       // guard (protocol 2, row 4)
+  float barrier_timeout_s = 10.0F;     // START and SELECT PARENT never wait longer (protocol 4)
+  float handover_timeout_s = 2.0F;     // unacknowledged offer of the root token (protocol 8)
+  float insertion_timeout_s = 25.0F;   // EXTEND EDGE gives up (protocol 7)
+  float connector_patience_s = 3.0F;   // childless connector turns spare (protocol 3)
+  float centroid_margin_m = 0.05F;     // a better root is closer by more than this (protocol 8)
+  float arrival_distance_m = 0.2F;     // a worker's pull fades within this (protocol 9)
   // Platform
   float communication_range_m = 2.0F;  // C
   float tick_s = 0.1F;
@@ -48,7 +48,7 @@ struct Params {
   Reading reading = Reading::corrected;
 
   [[nodiscard]] bool corrected() const noexcept { return reading == Reading::corrected; }
-  // The longest edge a robot may choose (spec 2, row 4).
+  // The longest edge a robot may choose (protocol 2, row 4).
   [[nodiscard]] float parent_range_m() const noexcept {
     return corrected() ? ideal_distance_m - parent_margin_m : communication_range_m;
   }
@@ -62,7 +62,7 @@ struct ParameterInfo {
   std::string_view symbol;   // the paper's, "" if it has none
   std::string_view unit;     // "m", "s", "" ...
   std::string_view meaning;  // one sentence
-  std::string_view source;   // "Table I", "spec 9" ...
+  std::string_view source;   // "Table I", "protocol 9" ...
   float minimum;
   float maximum;
   float Params::*member;
@@ -72,7 +72,7 @@ struct ParameterInfo {
 [[nodiscard]] std::span<const ParameterInfo> parameter_table() noexcept;
 
 // The first fault in words ("recruitment_distance_m must be below safe_range_m"), or nothing.
-// Checks each range, 0 < E < S < delta < C (spec 2, row 1) and A < E.
+// Checks each range, 0 < E < S < delta < C (protocol 2, row 1) and A < E.
 [[nodiscard]] std::string_view fault(const Params& params) noexcept;
 
 }  // namespace banyan

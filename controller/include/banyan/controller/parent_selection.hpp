@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SELECT PARENT, and keeping a parent afterwards: repair of a silent one, re-attachment of orphans
-// (paper Sec. III-D, III-E; spec 5).
+// (paper Sec. III-D, III-E; protocol 5).
 #pragma once
 
 #include "banyan/controller/robot.hpp"
@@ -29,7 +29,7 @@ void take_parent(Robot& robot, int k) noexcept;
 
 void leave_tree(Robot& robot) noexcept;
 
-// Depth invalid for so long that this robot must not pull its branch any further (spec 5).
+// Depth invalid for so long that this robot must not pull its branch any further (protocol 5).
 [[nodiscard]] bool is_orphan(const Robot& robot) noexcept;
 
 }  // namespace banyan

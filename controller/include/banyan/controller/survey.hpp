@@ -8,7 +8,7 @@ namespace banyan {
 
 void survey(Robot& robot) noexcept;
 
-// spare, connector, worker or root (spec 3), from the survey. Turning spare leaves the tree, unless
+// spare, connector, worker or root (protocol 3), from the survey. Turning spare leaves the tree, unless
 // spares still hang on this robot.
 void update_role(Robot& robot) noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The metrics of spec 11: what one tick looked like, and what a whole run came to.
+// The metrics of protocol 11: what one tick looked like, and what a whole run came to.
 #pragma once
 
 #include <cstdint>

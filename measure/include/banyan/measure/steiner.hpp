@@ -20,7 +20,7 @@ struct SteinerLength {
 // times that (Chung & Graham 1985) and the exact tree of 9 terminals far apart.
 [[nodiscard]] SteinerLength steiner_length(const std::vector<world::Vec2>& terminals);
 
-// ceil((Steiner - T tolerance) / C) + 1 with the certified lower length (spec 11).
+// ceil((Steiner - T tolerance) / C) + 1 with the certified lower length (protocol 11).
 [[nodiscard]] std::uint32_t robots_bound(const std::vector<world::Vec2>& targets, double tolerance_m, double range_m);
 
 }  // namespace banyan::measure

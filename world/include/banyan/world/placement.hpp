@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where robots begin: a compact connected cluster, random headings (spec, conditions).
+// Where robots begin: a compact connected cluster, random headings (docs/model.md).
 #pragma once
 
 #include <vector>

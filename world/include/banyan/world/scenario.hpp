@@ -42,7 +42,7 @@ struct Start {
 };
 
 struct Swarm {
-  std::size_t robots = 0;               // 0: from redundancy, ceil(k sum_i |p_i| / 1.540841) (spec 2, row 10)
+  std::size_t robots = 0;               // 0: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
   double redundancy = 2.0;              // k
   Start start;
   std::optional<std::size_t> root;      // index; none: a random robot that is no worker
@@ -75,7 +75,7 @@ struct RadioModel {
 };
 
 struct RingTargets { std::size_t count = 3; double radius_m = 3.0; double phase_rad = 0.0; Vec2 center{}; };
-// |p| = radius sqrt(0.1 + 0.9 u): uniform in an annulus (spec 14), drawn from the run's seed.
+// |p| = radius sqrt(0.1 + 0.9 u): uniform in an annulus, drawn from the run's seed.
 struct RandomTargets { std::size_t count = 4; double radius_m = 9.0; Vec2 center{}; };
 using Targets = std::variant<std::vector<Vec2>, RingTargets, RandomTargets>;
 
@@ -125,7 +125,7 @@ struct Fault {
 // The target positions that `scenario` and its seed stand for. Random ones keep clear of obstacles.
 [[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);
 
-// Number of robots: swarm.robots, or the paper's redundancy factor (spec 2, row 10).
+// Number of robots: swarm.robots, or the paper's redundancy factor (protocol 2, row 10).
 // At least one more than targets.
 [[nodiscard]] std::size_t robot_count(const Scenario& scenario);
 
