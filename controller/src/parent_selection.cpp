@@ -166,8 +166,8 @@ void update_tree_hops(Robot& robot) noexcept {
     nearest = k;
   }
   self.tree_hops = static_cast<std::uint8_t>(hops + 1);
-  // Whoever drafts this spare must find it ahead; one that is about to join an edge stays behind.
-  if (nearest >= 0 && self.request == nobody) follow(robot, nearest);
+  // Whoever drafts this spare (in GROW TREE) must find it ahead; one about to join an edge stays behind.
+  if (nearest >= 0 && self.phase >= Phase::grow_tree && self.request == nobody) follow(robot, nearest);
 }
 
 }  // namespace

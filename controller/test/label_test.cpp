@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Labels are taken once, along the shortest hop, and the echo tells the root when all have one.
+#include "banyan/controller/label.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+Bench starting() {
+  Bench bench;
+  bench.state.epoch = 1;
+  bench.state.phase = Phase::start_tree;
+  bench.state.root = {1, 9};
+  return bench;
+}
+
+TEST(Label, IsTheSmallestSumOfLabelAndRangeAndTakenOnce) {
+  Bench bench = starting();
+  bench.put(9, {1.8F, 0}).label_cm = 0;       // 180
+  bench.put(5, {0.5F, 0}).label_cm = 100;     // 150
+  bench.put(6, {0.1F, 0}).label_cm = 190;     // 200
+  bench.put(7, {0.1F, 0.1F});                 // no label yet
+  bench.step();
+  EXPECT_EQ(bench.state.label_cm, unknown_label) << "nearer ones may still speak up";
+  bench.steps(2);
+  EXPECT_EQ(bench.state.label_cm, 150);
+  EXPECT_EQ(bench.state.flood_parent, 5);
+  bench.say(5).label_cm = 10;
+  bench.steps(5);
+  EXPECT_EQ(bench.state.label_cm, 150) << "fixed for the epoch";
+}
+
+TEST(Label, WaitsLongerWhenAllAreFar) {
+  Bench bench = starting();
+  bench.put(9, {1.9F, 0}).label_cm = 0;
+  bench.steps(6);
+  EXPECT_EQ(bench.state.label_cm, unknown_label);
+  bench.step();
+  EXPECT_EQ(bench.state.label_cm, 190);
+}
+
+TEST(Label, OfAnotherEpochCountsNothing) {
+  Bench bench = starting();
+  bench.put(9, {1.0F, 0}).label_cm = 0;
+  bench.say(9).epoch = 0;
+  bench.steps(20);
+  EXPECT_EQ(bench.state.label_cm, unknown_label);
+}
+
+TEST(Label, TheEchoSumsTheFloodTree) {
+  Bench bench = starting();
+  bench.put(9, {1.0F, 0}).label_cm = 0;
+  for (const RobotId id : {RobotId{5}, RobotId{6}}) {
+    Message& m = bench.put(id, {-0.5F, 0.1F * static_cast<float>(id)});
+    m.label_cm = 150;
+    m.flood_parent = 1;
+    m.flood_robots = 3;
+    m.flood_workers = 1;
+  }
+  bench.steps(4);
+  EXPECT_FALSE(bench.state.flood_done);
+  bench.say(5).flood_done = true;
+  EXPECT_FALSE(bench.step().message.flood_done);
+  bench.say(6).flood_done = true;
+  const Output output = bench.step();
+  EXPECT_TRUE(output.message.flood_done);
+  EXPECT_EQ(output.message.flood_robots, 7);
+  EXPECT_EQ(output.message.flood_workers, 2);
+  bench.put(7, {0.3F, 0});  // somebody without label appears
+  EXPECT_FALSE(bench.step().message.flood_done);
+}
+
+TEST(Label, GrowsAlongEveryEdgeAndSaturates) {
+  EXPECT_EQ(edge_cm(0.0F), 1);
+  EXPECT_EQ(edge_cm(1.234F), 123);
+  EXPECT_EQ(label_below(100, 0.5F), 150);
+  EXPECT_EQ(label_below(unknown_label - 1, 2.0F), unknown_label - 1);
+}
+
+}  // namespace
+}  // namespace banyan

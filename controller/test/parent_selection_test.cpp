@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Who may be a parent, whom each policy prefers, and what becomes of robots that lose theirs.
+#include "banyan/controller/parent_selection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+Bench selecting(const Policy& policy, Reading reading = Reading::corrected) {
+  Bench bench(policy, reading);
+  bench.state.epoch = 1;
+  bench.state.phase = Phase::select_parent;
+  bench.state.root = {1, 9};
+  bench.state.label_cm = 200;
+  return bench;
+}
+
+// A neighbour in the tree.
+Message& committed(Bench& bench, RobotId id, Vec2 position, std::uint16_t label_cm) {
+  Message& m = bench.put(id, position);
+  m.committed = true;
+  m.role = Role::connector;
+  m.label_cm = label_cm;
+  m.depth = 3;
+  m.tree_hops = 0;
+  return m;
+}
+
+TEST(Candidate, IsAliveNoWorkerOfThisEpochNearEnoughAndAhead) {
+  Bench bench = selecting(outwards());
+  committed(bench, 5, {1.0F, 0}, 100);
+  const auto is = [&] {
+    const Robot robot = bench.tick();
+    return is_candidate(robot, robot.table().find(5));
+  };
+  EXPECT_TRUE(is());
+  bench.say(5).role = Role::worker;
+  EXPECT_FALSE(is());
+  bench.say(5).role = Role::connector;
+  bench.say(5).epoch = 2;
+  EXPECT_FALSE(is());
+  bench.say(5).epoch = 1;
+  bench.say(5).label_cm = 200;
+  EXPECT_FALSE(is()) << "the order is strict";
+  bench.say(5).label_cm = 199;
+  EXPECT_TRUE(is());
+  bench.move(5, {bench.params.ideal_distance_m - 0.01F, 0});
+  EXPECT_FALSE(is()) << "2 cm must be left";
+  bench.move(5, {bench.params.ideal_distance_m - 0.021F, 0});
+  EXPECT_TRUE(is());
+  bench.state.pulse = 7;
+  EXPECT_FALSE(is()) << "staler than what I have sent: it may hang on me";
+}
+
+TEST(Candidate, LiteralReachesToC) {
+  Bench bench = selecting(outwards(), Reading::literal);
+  committed(bench, 5, {1.99F, 0}, 100);
+  const Robot robot = bench.tick();
+  EXPECT_TRUE(is_candidate(robot, 0));
+}
+
+TEST(Ahead, IsFresherOrAsFreshAndNearerToTheRoot) {
+  Bench bench = selecting(outwards());
+  bench.state.pulse = 10;
+  Message& m = committed(bench, 5, {1.0F, 0}, 100);
+  const auto ahead = [&](std::uint16_t pulse, std::uint16_t label) {
+    m.pulse = pulse;
+    m.label_cm = label;
+    const Robot robot = bench.tick();
+    return is_ahead(robot, 0);
+  };
+  EXPECT_TRUE(ahead(10, 199));
+  EXPECT_FALSE(ahead(10, 200));
+  EXPECT_FALSE(ahead(9, 0));
+  EXPECT_TRUE(ahead(11, 5000));
+  EXPECT_FALSE(ahead(11, unknown_label));
+}
+
+TEST(Outwards, TakesTheClosestCommittedCandidate) {
+  Bench bench = selecting(outwards());
+  committed(bench, 5, {1.5F, 0}, 50);
+  committed(bench, 6, {1.0F, 0}, 150);
+  committed(bench, 7, {0.2F, 0}, 180).committed = false;
+  committed(bench, 8, {0.1F, 0}, 250);
+  bench.step();
+  EXPECT_EQ(bench.state.parent, 6);
+  EXPECT_TRUE(bench.state.committed);
+  EXPECT_EQ(bench.state.depth, 4);
+}
+
+TEST(Inwards, OnlyWorkersAndTheNamedJoinAndTheyTakeTheSmallestLabelWithinS) {
+  Bench bench = selecting(inwards());
+  committed(bench, 5, {1.45F, 0}, 20);   // beyond S
+  committed(bench, 6, {1.3F, 0}, 60);
+  committed(bench, 7, {0.2F, 0}, 180);
+  bench.steps(3);
+  EXPECT_EQ(bench.state.parent, nobody) << "nobody needs me";
+  Message& child = bench.put(20, {-1.0F, 0});
+  child.parent = 1;
+  child.role = Role::worker;
+  child.label_cm = 300;
+  bench.step();
+  EXPECT_EQ(bench.state.parent, 6);
+
+  Bench worker = selecting(inwards());
+  worker.state.is_worker = true;
+  committed(worker, 5, {1.45F, 0}, 20);
+  worker.step();
+  EXPECT_EQ(worker.state.parent, 5) << "beyond S if there is nobody nearer";
+}
+
+TEST(Join, TheFloodParentWillDoAfterFourTicks) {
+  Bench bench = selecting(outwards());
+  bench.state.flood_parent = 5;
+  committed(bench, 5, {1.89F, 0}, 50).committed = false;
+  bench.steps(4);
+  EXPECT_EQ(bench.state.parent, nobody);
+  bench.step();
+  EXPECT_EQ(bench.state.parent, 5);
+}
+
+TEST(Join, AChildlessRobotMaySortItselfInBehindWhoeverIsFresher) {
+  Bench bench = selecting(outwards());
+  committed(bench, 5, {1.0F, 0}, 400).pulse = 3;
+  bench.steps(7);
+  EXPECT_EQ(bench.state.parent, nobody);
+  bench.step();
+  EXPECT_EQ(bench.state.parent, 5);
+  EXPECT_EQ(bench.state.label_cm, 500);
+  EXPECT_EQ(bench.state.pulse, 3);
+}
+
+// A worker in GROW TREE that hangs on 5, and 6 beside it.
+Bench working() {
+  Bench bench = grown();
+  bench.state.is_worker = true;
+  bench.state.label_cm = 200;
+  bench.state.parent = 5;
+  bench.state.committed = true;
+  committed(bench, 5, {1.0F, 0}, 100);
+  committed(bench, 6, {1.0F, 0.5F}, 120);
+  return bench;
+}
+
+TEST(Repair, ASilentParentIsReplacedOnceTheLivenessPeriodIsOver) {
+  Bench bench = working();
+  bench.step();
+  bench.silence(5);
+  bench.steps(bench.params.ticks(bench.params.liveness_period_s));
+  EXPECT_EQ(bench.state.parent, 5);
+  bench.step();
+  EXPECT_EQ(bench.state.parent, 6);
+  EXPECT_EQ(bench.state.tally.repairs, 1U);
+}
+
+TEST(Repair, WithoutReplacementTheParentIsKept) {
+  Bench bench = working();
+  bench.step();
+  bench.silence(5);
+  bench.say(6).label_cm = 250;  // behind me
+  bench.steps(40);
+  EXPECT_EQ(bench.state.parent, 5);
+  EXPECT_EQ(bench.state.depth, invalid_depth);
+}
+
+TEST(Orphan, StandsStillAndThenAttachesToWhoeverIsFresherAndNearestToTheTree) {
+  Bench bench = working();
+  bench.state.pulse = 5;
+  bench.say(5).depth = invalid_depth;  // the chain broke above
+  bench.say(5).pulse = 5;
+  bench.say(5).tree_hops = unreachable;
+  bench.say(6).pulse = 4;              // stale: may be below me
+  committed(bench, 7, {0.5F, 1.0F}, 700).pulse = 9;
+  bench.steps(6);
+  EXPECT_TRUE(is_orphan(bench.tick()));
+  EXPECT_EQ(bench.state.parent, 5);
+  bench.steps(20);
+  EXPECT_EQ(bench.state.parent, 7);
+  EXPECT_EQ(bench.state.label_cm, 812);
+  EXPECT_NE(bench.state.depth, invalid_depth);
+}
+
+TEST(Orphan, CanDraftAFreeSpareThatIsNearerToTheTree) {
+  Bench bench = working();
+  bench.say(5).depth = invalid_depth;
+  bench.say(5).tree_hops = unreachable;
+  bench.silence(6);
+  Message& spare = bench.put(8, {0.0F, 1.0F});
+  spare.label_cm = 50;
+  spare.pulse = 9;
+  spare.tree_hops = 1;
+  bench.steps(25);
+  EXPECT_EQ(bench.state.parent, 8);
+}
+
+TEST(Pulse, FlowsFromTheParentAndTakesTheLabelAlongIfNeeded) {
+  Bench bench = working();
+  bench.say(5).pulse = 4;
+  bench.step();
+  EXPECT_EQ(bench.state.pulse, 4);
+  EXPECT_EQ(bench.state.label_cm, 200) << "still behind its parent's";
+  bench.say(5).label_cm = 260;  // the same pulse: nothing moves
+  bench.step();
+  EXPECT_EQ(bench.state.label_cm, 200);
+  bench.say(5).pulse = 5;
+  bench.step();
+  EXPECT_EQ(bench.state.label_cm, 360);
+}
+
+TEST(Pulse, TheRootCounts) {
+  Bench bench = grown();
+  bench.state.root = {1, 1};
+  bench.state.role = Role::root;
+  bench.state.label_cm = 0;
+  EXPECT_EQ(bench.steps(10).message.pulse, 10);
+  bench.state.pulse = UINT16_MAX;
+  EXPECT_EQ(bench.step().message.pulse, UINT16_MAX) << "it does not wrap";
+}
+
+TEST(Prune, ASpareLeafLeavesItsBranchAndOneWithChildrenStays) {
+  Bench bench = grown();
+  bench.state.label_cm = 200;
+  bench.state.parent = 5;
+  bench.state.committed = true;
+  committed(bench, 5, {1.0F, 0}, 100);
+  Message& child = bench.put(8, {-0.5F, 0});
+  child.parent = 1;
+  child.label_cm = 300;
+  bench.steps(3);
+  EXPECT_EQ(bench.state.role, Role::spare) << "its child is a spare";
+  EXPECT_EQ(bench.state.parent, 5);
+  bench.silence(8);
+  bench.steps(bench.params.ticks(bench.params.liveness_period_s) + 2);
+  EXPECT_EQ(bench.state.parent, nobody);
+  EXPECT_FALSE(bench.state.committed);
+}
+
+TEST(Root, HasNoParentAndDepthOne) {
+  Bench bench = grown();
+  bench.state.root = {1, 1};
+  committed(bench, 5, {1.0F, 0}, 0).pulse = 100;
+  bench.steps(30);
+  EXPECT_EQ(bench.state.parent, nobody);
+  EXPECT_EQ(bench.state.depth, 1);
+}
+
+}  // namespace
+}  // namespace banyan
