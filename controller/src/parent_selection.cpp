@@ -175,7 +175,8 @@ void update_tree_hops(Robot& robot) noexcept {
 bool is_candidate(const Robot& robot, int k) noexcept {
   const Message& m = robot.table().message(k);
   // An edge that exists may be as long as the guard lets it grow.
-  const float range_m = k == robot.old_parent ? robot.params.ideal_distance_m : robot.params.parent_range_m();
+  const float range_m =
+      std::max(robot.params.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
   return robot.table().alive(k) && m.role != Role::worker && m.epoch == robot.self.epoch &&
          m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
 }
