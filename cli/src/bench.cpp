@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "banyan/controller/trig.hpp"
@@ -32,12 +32,12 @@ struct BenchLayout {
   std::size_t robots;
   bool dense;
   std::uint64_t settle_ticks;  // before the first window: beyond START and SELECT PARENT
+  std::uint64_t lap_ticks;     // then back to the settled world, before the layout has changed
 };
-constexpr BenchLayout bench_layouts[] = {{"dense-94-los", 94, true, 400},
-                                         {"spread-94-los", 94, false, 400},
-                                         {"spread-1000-los", 1000, false, 150},
-                                         {"spread-10000-los", 10000, false, 60}};
-constexpr std::uint64_t lap_ticks = 1000;
+constexpr BenchLayout bench_layouts[] = {{"dense-94-los", 94, true, 400, 1000},
+                                         {"spread-94-los", 94, false, 400, 1000},
+                                         {"spread-1000-los", 1000, false, 60, 100},
+                                         {"spread-10000-los", 10000, false, 60, 100}};
 constexpr double spread_pitch_m = 1.3;
 constexpr double dense_pitch_m = 0.21;
 
@@ -82,12 +82,9 @@ double median(std::vector<double> values) {
 
 // Bytes of the process in memory.
 double resident_bytes() {
-  long pages = 0, resident = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) resident = 0;
-    std::fclose(file);
-  }
-  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  double pages = 0.0, resident = 0.0;
+  if (!(std::ifstream("/proc/self/statm") >> pages >> resident)) resident = 0.0;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
 struct Neighbors {
@@ -122,7 +119,7 @@ double moving_share(world::World& world) {
 }
 
 // One window: steps for `seconds` of measured time; copies back to `settled` do not count.
-void measure_window(const world::World& settled, double seconds, Sample& sample, int windows) {
+void measure_window(const world::World& settled, std::uint64_t lap_ticks, double seconds, Sample& sample, int windows) {
   double spent_s = 0.0;
   double cpu_s = 0.0;
   double steps = 0.0;
@@ -168,7 +165,7 @@ Sample measure_layout(const BenchLayout& layout, const BenchOptions& options, Pr
   sample.resident_bytes_per_robot = std::max(0.0, resident_bytes() - before) / n;
   sample.start = neighbors_of(settled);
   for (int w = 0; w < options.windows; ++w) {
-    measure_window(settled, options.window_s, sample, options.windows);
+    measure_window(settled, layout.lap_ticks, options.window_s, sample, options.windows);
     if (progress.due()) progress.show(0.0, format("%s: window %d of %d", layout.name, w + 1, options.windows), false);
   }
   return sample;

@@ -26,6 +26,7 @@ std::string all_problems(const Loaded& loaded) {
 
 Loaded parse(const std::string& text, const std::vector<std::string>& sets = {}) {
   std::vector<Override> overrides;
+  overrides.reserve(sets.size());
   for (const auto& s : sets) overrides.push_back({s, "--set " + s});
   return parse_configuration("w.toml", text, overrides);
 }
@@ -311,10 +312,10 @@ template <class Owner> rc::Gen<json> value_of(const Key<Owner>& key) {
       const auto text = rc::gen::nonEmpty(rc::gen::string<std::string>());
       if (key.name != "name") {
         return rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange(' ', '\x7f')),
-                            [](std::string s) { return json(s + "\t\"\\"); });
+                            [](const std::string& s) { return json(s + "\t\"\\"); });
       }
       return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange('a', 'z'))),
-                          [](std::string s) { return json(s.substr(0, 100)); });
+                          [](const std::string& s) { return json(s.substr(0, 100)); });
     }
     rc::Gen<json> operator()(world::Vec2& (*)(Owner&)) const { return point; }
     rc::Gen<json> operator()(std::vector<world::Vec2>& (*)(Owner&)) const { return list(point); }
