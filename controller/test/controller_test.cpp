@@ -17,7 +17,7 @@
 #include "bench.hpp"
 
 namespace {
-std::atomic<long> allocations{0};
+std::atomic<long> allocations{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 void* counted(std::size_t size, std::size_t alignment) {
   ++allocations;
   void* p = alignment <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);

@@ -65,7 +65,7 @@ struct CacheAligned {
   template <class U>
   explicit CacheAligned(const CacheAligned<U>&) noexcept {}
   T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-  void deallocate(T* p, std::size_t n) noexcept { ::operator delete(p, n * sizeof(T), line); }
+  void deallocate(T* p, std::size_t) noexcept { ::operator delete(p, line); }
   friend bool operator==(const CacheAligned&, const CacheAligned&) noexcept { return true; }
 };
 

@@ -10,7 +10,7 @@
 #include "worlds.hpp"
 
 namespace {
-std::atomic<long> allocations{0};
+std::atomic<long> allocations{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++allocations;

@@ -137,7 +137,7 @@ void compare(const Crowd& c, const Radio& radio, std::uint64_t seed) {
       }
       if (std::fabs(in_range) < edge || std::fabs(hidden) < edge) continue;
       ASSERT_EQ(heard, in_range > 0 && hidden < 0) << "seed " << seed << ": " << i << " - " << j << " of " << n;
-      ASSERT_EQ(blocked.count({i, j}) > 0, in_range > 0 && hidden > 0) << "seed " << seed << ": " << i << " - " << j << " of " << n;
+      ASSERT_EQ(blocked.contains({i, j}), in_range > 0 && hidden > 0) << "seed " << seed << ": " << i << " - " << j << " of " << n;
     }
   }
   ASSERT_EQ(links, radio.offsets().back());
@@ -223,6 +223,7 @@ TEST_F(Straight, TheDeadAreSilent) {
 TEST(Radio, AWideAndThinSwarmTakesNoMoreMemoryThanADenseOne) {
   Scenario scenario;
   std::vector<Vec2> positions;
+  positions.reserve(400);
   for (int k = 0; k < 400; ++k) positions.push_back({1000.0 * k, 1500.0 * (k % 7)});
   const std::vector<std::uint8_t> alive(positions.size(), 1);
   Radio radio(scenario, positions.size());
