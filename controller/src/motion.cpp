@@ -74,13 +74,19 @@ Vec2 tree_motion(const Robot& robot) noexcept {
 // ADJUST POSITION: beyond S straight to the reference; within, orbit (literal) or stand still,
 // because orbiting spares block lines of sight.
 Vec2 adjust_position(const Robot& robot) noexcept {
+  const Params& p = robot.params;
   const int k = robot.table().find(robot.self.parent != nobody ? robot.self.parent : robot.self.reference);
   if (k < 0) return avoidance(robot);
   const Vec2 reference = robot.table().position(k);
-  if (norm(reference) > (robot.params.corrected() ? 0.5F * robot.params.recruitment_distance_m : robot.params.safe_range_m)) return unit(reference) + (robot.params.corrected() ? avoidance(robot) : Vec2{});
-  if (robot.self.called && norm(reference) > robot.params.avoidance_range_m) return unit(reference) + avoidance(robot);
-  const Vec2 along = unit(Vec2{reference.y, -reference.x});
-  return robot.params.corrected() ? avoidance(robot) : along * robot.params.target_gain + avoidance(robot);
+  const float d = norm(reference);
+  if (!p.corrected()) {
+    if (d > p.safe_range_m) return unit(reference);
+    return unit(Vec2{reference.y, -reference.x}) * p.target_gain + avoidance(robot);
+  }
+  // Near a robot of the tree within reach of its edges; a crowd far from the tree stays spread out.
+  const float reach_m = robot.table().message(k).role != Role::spare ? 0.5F * p.recruitment_distance_m : p.safe_range_m;
+  const bool called = robot.self.called && d > p.avoidance_range_m;
+  return d > reach_m || called ? unit(reference) + avoidance(robot) : avoidance(robot);
 }
 
 Vec2 spare_motion(const Robot& robot) noexcept {

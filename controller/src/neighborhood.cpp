@@ -51,7 +51,8 @@ void Neighborhood::update(std::span<const Heard> heard, const Carry& carry, int 
 
 void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<RobotId, 2> keep) noexcept {
   const RobotId id = heard.message->id;
-  if (id == self || id == nobody) return;
+  // A position that is not finite is a fault of the sensor: as if nothing had been heard.
+  if (id == self || id == nobody || !(squared_norm(heard.position) < 1e12F)) return;
   // Packets tend to arrive in the order of the last tick: try the slot after the last match first.
   int k = hint < size_ && entries_[hint].id == id ? hint : find(id);
   if (k >= 0) {

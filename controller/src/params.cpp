@@ -39,6 +39,7 @@ std::string_view fault(const Params& params) noexcept {
     const float value = params.*info.member;
     if (!(value >= info.minimum && value <= info.maximum)) return info.key;  // NaN fails too
   }
+  if (!(params.reconfiguration_period_s / params.tick_s < 65535.0F)) return "reconfiguration_period_s (R) must be below 65535 ticks";
   if (!(params.avoidance_range_m < params.recruitment_distance_m)) return "avoidance_range_m (A) must be below recruitment_distance_m (E)";
   if (!(params.recruitment_distance_m < params.safe_range_m)) return "recruitment_distance_m (E) must be below safe_range_m (S)";
   if (!(params.safe_range_m < params.ideal_distance_m)) return "safe_range_m (S) must be below ideal_distance_m (delta)";

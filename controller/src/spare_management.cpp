@@ -224,6 +224,7 @@ bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept {
 void manage_spares(Robot& robot) noexcept {
   State& self = robot.self;
   spread_call(robot);
+  self.called = false;  // look_for_edge() finds out anew
   if (self.inserted_child != nobody) watch_inserted_child(robot);
   if (self.role != Role::spare) {
     self.request = nobody;

@@ -22,6 +22,16 @@ struct Executor::Team {
   void* context = nullptr;
   std::vector<std::jthread> members;
 
+  // Also where a thread could not be started: those that were must not wait for ever.
+  ~Team() {
+    {
+      const std::lock_guard lock(mutex);
+      stop = true;
+    }
+    start.notify_all();
+    members.clear();  // joins before the rest of the team goes
+  }
+
   void work(int worker, int threads) {
     std::uint64_t seen = 0;
     for (;;) {
@@ -50,15 +60,7 @@ Executor::Executor(int threads) : threads_(std::max(1, threads)) {
     team_->members.emplace_back([this, worker] { team_->work(worker, threads_); });
 }
 
-Executor::~Executor() {
-  if (!team_) return;
-  {
-    const std::lock_guard lock(team_->mutex);
-    team_->stop = true;
-  }
-  team_->start.notify_all();
-  team_->members.clear();  // joins before the rest of the team goes
-}
+Executor::~Executor() = default;
 
 void Executor::run(std::size_t n, Call call, void* context) {
   {

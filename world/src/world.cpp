@@ -202,7 +202,9 @@ void World::Impl::apply(const Event& event) {
       frozen_until[event.index] = event.value > 0.0 ? tick + static_cast<std::uint64_t>(event.value / scenario.tick_s + 0.5) : forever;
       break;
     case Event::Kind::set_loss: loss = event.value; break;
-    case Event::Kind::move_target: targets[event.index].position = event.position; break;
+    case Event::Kind::move_target:   // it may never have found a worker (assign_target)
+      if (event.index < targets.size()) targets[event.index].position = event.position;
+      break;
     case Event::Kind::add_target: assign_target(event.position); break;
   }
 }
@@ -399,6 +401,7 @@ std::uint64_t World::hash() const noexcept {
       for (std::uint32_t k = 0; k < flight.count[i]; ++k) {
         d.add(flight.packets[flight.offsets[i] + k].sender);
         d.add(flight.packets[flight.offsets[i] + k].position);
+        for (const std::uint8_t byte : encode(flight.messages[flight.packets[flight.offsets[i] + k].sender])) d.add(byte);
       }
   return w.bodies->hash(d.value());
 }

@@ -59,7 +59,6 @@ class Radio {
   void scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const;
   void gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const;
   [[nodiscard]] std::uint32_t find_blocker(Scratch& s, std::size_t target) const noexcept;
-  [[nodiscard]] bool still_blocks(std::uint32_t blocker, std::size_t i, Vec2 d, double d2, std::span<const Vec2> positions) const noexcept;
   void merge(std::size_t robots);
 
   double range_m_;
