@@ -19,15 +19,18 @@ struct Sums {
   float want_m = 0.0F;
 };
 
-void add_child(const Robot& robot, int k, Sums& sums) noexcept {
+// `counts`: whether the child belongs to the tree that is being counted; its pull counts always.
+void add_child(const Robot& robot, int k, bool counts, Sums& sums) noexcept {
   const Message& m = robot.table().message(k);
   if (up_of(m) != robot.self.id) return;  // its vectors are addressed to somebody else
   const Vec2 sender = robot.table().position(k);
-  sums.a += from_edge_frame(m.q, sender);
-  sums.robots += m.subtree;
-  sums.workers += m.subtree_workers;
-  sums.counts += m.count;
-  ++sums.children;
+  if (counts) {
+    sums.a += from_edge_frame(m.q, sender);
+    sums.robots += m.subtree;
+    sums.workers += m.subtree_workers;
+    sums.counts += m.count;
+    ++sums.children;
+  }
   if (m.role == Role::spare) return;
   sums.pull += from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, sender);
   ++sums.pulling;
@@ -69,10 +72,11 @@ void take_census(Robot& robot) noexcept {
   State& self = robot.self;
   Sums sums;
   if (self.is_worker) sums.workers = 1;
-  for (const int k : robot.children) add_child(robot, k, sums);
   // SELECT PARENT's barrier counts the new tree alone; in START TREE there is only the old one.
-  if (self.phase != Phase::select_parent || robot.children.size == 0)
-    for (const int k : robot.old_children) add_child(robot, k, sums);
+  const bool selecting = self.phase == Phase::select_parent;
+  for (const int k : robot.children) add_child(robot, k, true, sums);
+  if (!selecting || robot.children.size == 0)
+    for (const int k : robot.old_children) add_child(robot, k, !selecting, sums);
   if (self.is_worker && robot.target != nullptr) add_own_target(robot, sums);
 
   self.subtree = saturate(sums.robots);

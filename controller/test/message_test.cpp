@@ -146,6 +146,8 @@ TEST(Message, VectorsGoToTheParentOrDuringASwitchToTheOldOne) {
   EXPECT_EQ(up_of(m), 4);
   m.parent = 5;
   EXPECT_EQ(up_of(m), 5);
+  m.role = Role::root;  // a root keeps the edge to its old parent, but reports to nobody
+  EXPECT_EQ(up_of(m), nobody);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ inline constexpr float q_limit_m = 1.0e9F;
 
 // The tree neighbour that vectors of the census are addressed to: the parent or, during a switch
 // while there is none, the old parent.
-constexpr RobotId up_of(const Message& m) noexcept { return m.parent != nobody ? m.parent : m.old_parent; }
+constexpr RobotId up_of(const Message& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
 
 inline constexpr std::size_t wire_size = 61;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 1;
