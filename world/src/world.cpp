@@ -33,10 +33,10 @@ std::vector<State> make_room(std::size_t n) {
   std::vector<State> states;
   states.reserve(n);
 #ifdef __linux__
-  constexpr std::uintptr_t page = 4096;
-  const auto first = (reinterpret_cast<std::uintptr_t>(states.data()) + page - 1) / page * page;
-  const auto last = reinterpret_cast<std::uintptr_t>(states.data() + n) / page * page;
-  if (last > first) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  constexpr std::size_t page = 4096;
+  void* first = states.data();
+  std::size_t bytes = n * sizeof(State);
+  if (std::align(page, page, first, bytes) != nullptr) madvise(first, bytes / page * page, MADV_HUGEPAGE);
 #endif
   return states;
 }
