@@ -79,8 +79,13 @@ std::vector<fs::path> sources(const fs::path& folder) {
   return found;
 }
 
-// A private header: beside the file, or in its room's src/ or test/.
+// A private header: beside the file, or in its room's src/ or test/; tests may share the helpers of
+// the tests of a room below.
 std::optional<std::string> quoted_fault(const fs::path& room_folder, const fs::path& file, const std::string& name) {
+  if (file.lexically_relative(room_folder / "test").begin()->string() != "..") {
+    for (const std::string& below : may_include.at(room_folder.filename().string()))
+      if (fs::exists(room_folder.parent_path() / below / "test" / name) && name.find("..") == std::string::npos) return std::nullopt;
+  }
   for (const fs::path& folder : {file.parent_path(), room_folder / "src", room_folder / "test"}) {
     if (!fs::exists(folder / name)) continue;
     const std::string inside = fs::weakly_canonical(folder / name).lexically_relative(fs::weakly_canonical(room_folder)).string();
@@ -176,6 +181,11 @@ TEST_F(WrongHouse, WorldReachesOut) {
   EXPECT_NE(faults_of("world/src/x.cpp", "#include \"no-such-file.hpp\""), "");
   std::ofstream(house_ / "world/src/z.hpp") << "\n";
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"../src/z.hpp\""), "");
+}
+TEST_F(WrongHouse, OnlyTestsShareTheHelpersOfTests) {
+  EXPECT_EQ(faults_of("controller/test/helper.hpp", ""), "");
+  EXPECT_EQ(faults_of("world/test/x_test.cpp", "#include \"helper.hpp\""), "");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"helper.hpp\""), "world/src/x.cpp: helper.hpp is not in its room\n");
 }
 TEST_F(WrongHouse, WorldReadsToml) { EXPECT_NE(faults_of("world/src/x.cpp", "#include <toml++/toml.h>"), ""); }
 TEST_F(WrongHouse, RoomThatDoesNotExist) { EXPECT_NE(faults_of("cli/src/x.cpp", "#include \"banyan/attic/x.hpp\""), ""); }
