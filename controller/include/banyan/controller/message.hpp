@@ -62,7 +62,7 @@ struct Message {
   std::uint16_t flood_workers = 0;
   std::uint16_t subtree = 0;          // 1 + sum over children
   std::uint16_t subtree_workers = 0;
-  std::uint16_t count = 0;            // Alg. 2's c_i, published in the literal reading
+  std::uint16_t count = 0;            // Alg. 2's c_i, beside the sums above; nothing depends on it
   std::uint16_t want_cm = 0;          // largest remaining worker distance below me
   Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
   std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
