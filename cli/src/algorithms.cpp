@@ -11,6 +11,8 @@
 #include "terminal.hpp"
 
 namespace banyan::cli {
+
+using namespace config;
 namespace {
 
 constexpr Reading readings[] = {Reading::corrected, Reading::literal};

@@ -23,6 +23,8 @@
 #include "terminal.hpp"
 
 namespace banyan::cli {
+
+using namespace config;
 namespace {
 
 using Clock = std::chrono::steady_clock;

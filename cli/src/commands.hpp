@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "config.hpp"
+#include "banyan/config/config.hpp"
 
 namespace banyan::cli {
 
 struct RunOptions {
   std::string scenario;
-  std::vector<Override> overrides;  // --set, --seed, --series, ... in the order given
-  std::string out;                  // "": out/<name>-<algorithm>-<seed>
+  std::vector<config::Override> overrides;  // --set, --seed, --series, ... in the order given
+  std::string out;                          // "": out/<name>-<algorithm>-<seed>
   bool json = false;
   bool quiet = false;
   bool force = false;
@@ -51,7 +51,7 @@ int draw_command(const DrawOptions& options);
 
 struct ValidateOptions {
   std::vector<std::string> files;
-  std::vector<Override> overrides;
+  std::vector<config::Override> overrides;
   bool json = false;
   bool quiet = false;
   std::string show;  // "toml" or "json": print the complete effective configuration

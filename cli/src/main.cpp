@@ -19,6 +19,7 @@
 namespace {
 
 using namespace banyan::cli;
+using namespace banyan::config;
 
 constexpr const char* purpose =
     "Banyan: a swarm of robots deploys to several distant targets and keeps its radio\n"

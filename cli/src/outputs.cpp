@@ -7,6 +7,8 @@
 #include "terminal.hpp"
 
 namespace banyan::cli {
+
+using namespace config;
 namespace {
 
 namespace fs = std::filesystem;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "banyan/config/config.hpp"
 #include "banyan/record/file.hpp"
-#include "config.hpp"
 
 namespace banyan::cli {
 
@@ -15,7 +15,7 @@ class RunOutputs {
   // Makes sure that the run may write before it starts. With `out` empty the directory is
   // out/<name>-<algorithm>-<seed>, with ".2", ".3" ... appended while one is taken and not `force`.
   // A given directory that holds results is an error unless `force`.
-  RunOutputs(const Configuration& configuration, const std::string& out, bool force);
+  RunOutputs(const config::Configuration& configuration, const std::string& out, bool force);
 
   [[nodiscard]] const std::string& directory() const noexcept { return directory_; }
   [[nodiscard]] record::Existing existing() const noexcept { return existing_; }
@@ -26,7 +26,7 @@ class RunOutputs {
 
   // With force: removes files of the earlier run that this one did not write, so that what lies
   // together belongs together.
-  void remove_leftovers(const Output& written) const;
+  void remove_leftovers(const config::Output& written) const;
   // Removes the directory if it was made for this run and is still empty.
   void abandon() const noexcept;
 

@@ -13,6 +13,8 @@
 #include "terminal.hpp"
 
 namespace banyan::cli {
+
+using namespace config;
 namespace {
 
 record::Recording open_recording(const std::string& path) {

@@ -19,6 +19,8 @@
 #include "terminal.hpp"
 
 namespace banyan::cli {
+
+using namespace config;
 namespace {
 
 // Below this, handing out work costs more than a second thread brings.

@@ -8,6 +8,8 @@
 #include "terminal.hpp"
 
 namespace banyan::cli {
+
+using namespace config;
 namespace {
 
 std::string line(const char* label, const std::string& text) { return format("  %-10s ", label) + text + "\n"; }
@@ -33,10 +35,11 @@ std::string time_text(const measure::Run& run) {
 
 std::string tree_text(const measure::Run& run) {
   if (run.broken_ticks == 0) return "no edge broken in any of " + plural(run.ticks, "tick");
-  std::string text = format("some edge broken in %s of %s (%.2f %%): by distance %s, by occlusion %s",
-                grouped(static_cast<double>(run.broken_ticks)).c_str(), plural(run.ticks, "tick").c_str(),
-                100.0 * run.disconnected_time_ratio, grouped(static_cast<double>(run.broken_ticks_by_distance)).c_str(),
-                grouped(static_cast<double>(run.broken_ticks_by_occlusion)).c_str());
+  std::string text =
+      format("some edge broken in %s of %s (%.2f %%): by distance %s, by occlusion %s",
+             grouped(static_cast<double>(run.broken_ticks)).c_str(), plural(run.ticks, "tick").c_str(),
+             100.0 * run.disconnected_time_ratio, grouped(static_cast<double>(run.broken_ticks_by_distance)).c_str(),
+             grouped(static_cast<double>(run.broken_ticks_by_occlusion)).c_str());
   if (run.broken_ticks_by_death > 0) text += ", by death " + grouped(static_cast<double>(run.broken_ticks_by_death));
   return text;
 }

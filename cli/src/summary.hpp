@@ -16,7 +16,7 @@ struct SummaryExtras {
   std::size_t targets_reached = 0;
 };
 
-[[nodiscard]] std::string summary_text(const record::RunRow& row, const Configuration& configuration,
+[[nodiscard]] std::string summary_text(const record::RunRow& row, const config::Configuration& configuration,
                                        const RunOutputs& outputs, const SummaryExtras& extras);
 
 }  // namespace banyan::cli

@@ -13,6 +13,8 @@
 #include <cstring>
 
 namespace banyan::cli {
+
+using namespace config;
 namespace {
 
 // A signal handler can reach nothing but a global.

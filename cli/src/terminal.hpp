@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "document.hpp"
+#include "banyan/config/document.hpp"
 
 namespace banyan::cli {
 
@@ -36,7 +36,7 @@ void print(std::string_view text);
 // One line to standard error, prefixed "banyan: ".
 void complain(std::string_view text);
 // All problems to standard error, at most a hundred; then, for errors, their number.
-void print_problems(const std::vector<Problem>& problems);
+void print_problems(const std::vector<config::Problem>& problems);
 
 // A line on standard error that tells how far a run is: rewritten in place on a terminal, else a
 // line every ten seconds. Silent for runs shorter than two seconds and when not wanted.

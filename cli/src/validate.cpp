@@ -6,6 +6,8 @@
 #include "terminal.hpp"
 
 namespace banyan::cli {
+
+using namespace config;
 namespace {
 
 std::string count_of(std::size_t n, const std::string& noun) {

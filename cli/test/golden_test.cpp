@@ -14,7 +14,7 @@
 
 #include "banyan/world/threads.hpp"
 #include "banyan/world/world.hpp"
-#include "config.hpp"
+#include "banyan/config/config.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {

@@ -16,7 +16,7 @@
 #include <sstream>
 #include <thread>
 
-#include "config.hpp"
+#include "banyan/config/config.hpp"
 
 namespace banyan::cli {
 namespace {

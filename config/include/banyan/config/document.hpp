@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-namespace banyan::cli {
+namespace banyan::config {
 
 // Where something was written: a file and a line, or a command line option (line 0).
 struct Place {
@@ -78,8 +78,10 @@ class DocumentError : public std::runtime_error {
 
 // For messages: the shortest decimal text of a number; "1" rather than "1.0", "10000000" for 1e7.
 [[nodiscard]] std::string number_text(double value);
+// 1.9F as the double 1.9.
+[[nodiscard]] double widened(float value);
 
 // The candidate nearest to `word`, or nothing when none is near enough to be meant.
 [[nodiscard]] std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
-}  // namespace banyan::cli
+}  // namespace banyan::config

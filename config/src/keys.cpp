@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "keys.hpp"
+#include "banyan/config/keys.hpp"
 
 #include <algorithm>
 
+#include "banyan/config/document.hpp"
 #include "banyan/controller/message.hpp"
 #include "banyan/controller/params.hpp"
 #include "banyan/controller/policy.hpp"
-#include "document.hpp"
 
-namespace banyan::cli {
+namespace banyan::config {
 namespace {
 
 using world::Vec2;
@@ -34,7 +34,7 @@ std::size_t index_of(Names names, std::string_view name) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-constexpr double far_away = 1e4;                    // m, the size of a world
+constexpr double far_away = 1e4;  // m, the size of a world
 constexpr double most_robots = nobody;
 constexpr Range anywhere{-far_away, far_away};
 constexpr Range share{0.0, 1.0};
@@ -54,83 +54,164 @@ constexpr Section section_list[] = {
     {"robot", "One robot's body and wheels. The defaults are a Khepera IV."},
     {"radio", "Who hears whom, and how well."},
     {"targets", "Where the workers have to go.", "layout"},
-    {"obstacles", "An obstacle each: `[[obstacles]]` as often as needed. They block motion and, with "
-                  "`radio.line_of_sight`, the radio. Robots have no sensor for them: they slide along.", "kind"},
+    {"obstacles",
+     "An obstacle each: `[[obstacles]]` as often as needed. They block motion and, with "
+     "`radio.line_of_sight`, the radio. Robots have no sensor for them: they slide along.",
+     "kind"},
     {"events", "What happens to the world at a given time: `[[events]]` as often as needed.", "kind"},
     {"output", "What `banyan run` keeps. It never changes what happens."},
 };
 
 constexpr Key<Form> scenario_list[] = {
-    {"", "name", "", {}, "names the run and its output directory; letters, digits, '-', '_' and '.'",
-     [](Form& f) -> std::string& { return f.configuration.scenario.name; }, "", false, "the file's name"},
-    {"", "description", "", {}, "what this world is about, for readers",
+    {"",
+     "name",
+     "",
+     {},
+     "names the run and its output directory; letters, digits, '-', '_' and '.'",
+     [](Form& f) -> std::string& { return f.configuration.scenario.name; },
+     "",
+     false,
+     "the file's name"},
+    {"",
+     "description",
+     "",
+     {},
+     "what this world is about, for readers",
      [](Form& f) -> std::string& { return f.configuration.scenario.description; }},
-    {"", "tick_s", "s", {0.0, 1.0, true}, "length of a tick; robots broadcast, decide and move once a tick",
+    {"",
+     "tick_s",
+     "s",
+     {0.0, 1.0, true},
+     "length of a tick; robots broadcast, decide and move once a tick",
      [](Form& f) -> double& { return f.configuration.scenario.tick_s; }},
     {"", "seed", "", seeds, "decides everything random; the same seed gives the same run",
      [](Form& f) -> std::size_t& { return f.configuration.scenario.seed; }},
 
-    {"mission", "algorithm", "", {}, "how the tree grows",
-     ChoiceAccess<Form>{algorithm_names,
-                        [](const Form& f) {
-                          return index_of(algorithm_names(), f.configuration.scenario.mission.algorithm);
-                        },
-                        [](Form& f, std::size_t i) {
-                          f.configuration.scenario.mission.algorithm = algorithm_names()[i];
-                        }}},
-    {"mission", "reading", "", {}, "the paper as printed (literal), or with its gaps closed (corrected)",
+    {"mission",
+     "algorithm",
+     "",
+     {},
+     "how the tree grows",
+     ChoiceAccess<Form>{
+         algorithm_names,
+         [](const Form& f) { return index_of(algorithm_names(), f.configuration.scenario.mission.algorithm); },
+         [](Form& f, std::size_t i) { f.configuration.scenario.mission.algorithm = algorithm_names()[i]; }}},
+    {"mission",
+     "reading",
+     "",
+     {},
+     "the paper as printed (literal), or with its gaps closed (corrected)",
      ChoiceAccess<Form>{[]() -> Names { return reading_names; },
                         [](const Form& f) { return index_of(reading_names, f.configuration.scenario.mission.reading); },
                         [](Form& f, std::size_t i) { f.configuration.scenario.mission.reading = reading_names[i]; }}},
-    {"mission", "scale", "", {0.0, 1000.0, true}, "factor on Table I's lengths S, A, delta, E and J (paper Sec. IV-C)",
+    {"mission",
+     "scale",
+     "",
+     {0.0, 1000.0, true},
+     "factor on Table I's lengths S, A, delta, E and J (paper Sec. IV-C)",
      [](Form& f) -> double& { return f.configuration.scenario.mission.scale; }},
-    {"mission", "target_tolerance_m", "m", {0.0, far_away, true}, "a target is reached when its worker is this near",
+    {"mission",
+     "target_tolerance_m",
+     "m",
+     {0.0, far_away, true},
+     "a target is reached when its worker is this near",
      [](Form& f) -> double& { return f.configuration.scenario.mission.target_tolerance_m; }},
-    {"mission", "time_limit_s", "s", {0.0, 1e7},
+    {"mission",
+     "time_limit_s",
+     "s",
+     {0.0, 1e7},
      "the run ends then; 0: ten times a straight drive to the farthest target",
      [](Form& f) -> double& { return f.configuration.scenario.mission.time_limit_s; }},
-    {"mission", "stop_when_complete", "", {}, "end the run as soon as all targets are reached at once",
+    {"mission",
+     "stop_when_complete",
+     "",
+     {},
+     "end the run as soon as all targets are reached at once",
      [](Form& f) -> bool& { return f.configuration.scenario.mission.stop_when_complete; }},
 
-    {"swarm", "robots", "", {2.0, most_robots}, "number of robots",
-     [](Form& f) -> std::size_t& { return f.configuration.scenario.swarm.robots; }, "", false,
+    {"swarm",
+     "robots",
+     "",
+     {2.0, most_robots},
+     "number of robots",
+     [](Form& f) -> std::size_t& { return f.configuration.scenario.swarm.robots; },
+     "",
+     false,
      "from redundancy, or the length of start.positions_m"},
-    {"swarm", "redundancy", "", {0.0, 1000.0, true},
+    {"swarm",
+     "redundancy",
+     "",
+     {0.0, 1000.0, true},
      "the paper's k: ceil(k * sum of target distances / 1.540841 m) robots",
      [](Form& f) -> double& { return f.configuration.scenario.swarm.redundancy; }},
-    {"swarm", "root", "", {0.0, most_robots - 1}, "index of the first root, counted from 0 at the centre of the start",
-     [](Form& f) -> std::optional<std::size_t>& { return f.configuration.scenario.swarm.root; }, "", false,
+    {"swarm",
+     "root",
+     "",
+     {0.0, most_robots - 1},
+     "index of the first root, counted from 0 at the centre of the start",
+     [](Form& f) -> std::optional<std::size_t>& { return f.configuration.scenario.swarm.root; },
+     "",
+     false,
      "a random robot that is no worker"},
 
-    {"swarm.start", "layout", "", {}, "hexagonal or square lattice, or a list of positions",
+    {"swarm.start",
+     "layout",
+     "",
+     {},
+     "hexagonal or square lattice, or a list of positions",
      ChoiceAccess<Form>{
          []() -> Names { return layout_names; },
          [](const Form& f) { return static_cast<std::size_t>(f.configuration.scenario.swarm.start.layout); },
          [](Form& f, std::size_t i) { f.configuration.scenario.swarm.start.layout = static_cast<world::Layout>(i); }}},
     {"swarm.start", "center_m", "m", anywhere, "centre of the cluster",
      [](Form& f) -> Vec2& { return f.configuration.scenario.swarm.start.center; }},
-    {"swarm.start", "pitch_m", "m", {0.0, 1000.0, true}, "distance between neighbours of the lattice",
-     [](Form& f) -> double& { return f.configuration.scenario.swarm.start.pitch_m; }, "hexagonal grid"},
-    {"swarm.start", "jitter_m", "m", {0.0, 1000.0}, "each robot is off its lattice point by up to this",
-     [](Form& f) -> double& { return f.configuration.scenario.swarm.start.jitter_m; }, "hexagonal grid"},
+    {"swarm.start",
+     "pitch_m",
+     "m",
+     {0.0, 1000.0, true},
+     "distance between neighbours of the lattice",
+     [](Form& f) -> double& { return f.configuration.scenario.swarm.start.pitch_m; },
+     "hexagonal grid"},
+    {"swarm.start",
+     "jitter_m",
+     "m",
+     {0.0, 1000.0},
+     "each robot is off its lattice point by up to this",
+     [](Form& f) -> double& { return f.configuration.scenario.swarm.start.jitter_m; },
+     "hexagonal grid"},
     {"swarm.start", "positions_m", "m", anywhere, "one [x, y] per robot",
      [](Form& f) -> std::vector<Vec2>& { return f.configuration.scenario.swarm.start.positions; }, "list", true},
     {"swarm.start", "headings_deg", "deg", any_angle, "one angle per robot, counter-clockwise from the x axis",
      [](Form& f) -> std::vector<double>& { return f.configuration.scenario.swarm.start.headings_rad; }, "list", false,
      "random"},
 
-    {"robot", "body", "", {}, "disks: wheels and contacts, fast; box2d: with mass and force limits; linear: the "
-                              "paper's point masses, holonomic",
-     ChoiceAccess<Form>{[]() -> Names { return body_names; },
-                        [](const Form& f) { return static_cast<std::size_t>(f.configuration.scenario.robot.body); },
-                        [](Form& f, std::size_t i) {
-                          f.configuration.scenario.robot.body = static_cast<world::BodyModel>(i);
-                        }}},
-    {"robot", "radius_m", "m", {0.0, 100.0, true}, "radius of the body",
+    {"robot",
+     "body",
+     "",
+     {},
+     "disks: wheels and contacts, fast; box2d: with mass and force limits; linear: the "
+     "paper's point masses, holonomic",
+     ChoiceAccess<Form>{
+         []() -> Names { return body_names; },
+         [](const Form& f) { return static_cast<std::size_t>(f.configuration.scenario.robot.body); },
+         [](Form& f, std::size_t i) { f.configuration.scenario.robot.body = static_cast<world::BodyModel>(i); }}},
+    {"robot",
+     "radius_m",
+     "m",
+     {0.0, 100.0, true},
+     "radius of the body",
      [](Form& f) -> double& { return f.configuration.scenario.robot.radius_m; }},
-    {"robot", "wheel_distance_m", "m", {0.0, 2.0, true}, "distance between the wheels",
+    {"robot",
+     "wheel_distance_m",
+     "m",
+     {0.0, 2.0, true},
+     "distance between the wheels",
      [](Form& f) -> double& { return f.configuration.scenario.robot.wheel_distance_m; }},
-    {"robot", "wheel_limit_m_s", "m/s", {0.0, 10.0, true}, "largest speed of a wheel",
+    {"robot",
+     "wheel_limit_m_s",
+     "m/s",
+     {0.0, 10.0, true},
+     "largest speed of a wheel",
      [](Form& f) -> double& { return f.configuration.scenario.robot.wheel_limit_m_s; }},
     {"robot", "wheel_noise", "", share, "sigma of the factor on each wheel's speed, drawn every tick",
      [](Form& f) -> double& { return f.configuration.scenario.robot.wheel_noise; }},
@@ -138,63 +219,146 @@ constexpr Key<Form> scenario_list[] = {
      [](Form& f) -> double& { return f.configuration.scenario.robot.wheel_bias; }},
     {"robot", "odometry_noise", "", share, "sigma of the factor on each odometry reading",
      [](Form& f) -> double& { return f.configuration.scenario.robot.odometry_noise; }},
-    {"robot", "mass_kg", "kg", {0.0, 1e4, true}, "mass (body box2d)",
+    {"robot",
+     "mass_kg",
+     "kg",
+     {0.0, 1e4, true},
+     "mass (body box2d)",
      [](Form& f) -> double& { return f.configuration.scenario.robot.mass_kg; }},
-    {"robot", "max_force_n", "N", {0.0, 1e6, true}, "largest force of the wheels (body box2d)",
+    {"robot",
+     "max_force_n",
+     "N",
+     {0.0, 1e6, true},
+     "largest force of the wheels (body box2d)",
      [](Form& f) -> double& { return f.configuration.scenario.robot.max_force_n; }},
-    {"robot", "max_torque_nm", "N m", {0.0, 1e6, true}, "largest torque of the wheels (body box2d)",
+    {"robot",
+     "max_torque_nm",
+     "N m",
+     {0.0, 1e6, true},
+     "largest torque of the wheels (body box2d)",
      [](Form& f) -> double& { return f.configuration.scenario.robot.max_torque_nm; }},
-    {"robot", "max_acceleration_m_s2", "m/s^2", {0.0, 1e4, true}, "bound on the acceleration |u| (body linear)",
+    {"robot",
+     "max_acceleration_m_s2",
+     "m/s^2",
+     {0.0, 1e4, true},
+     "bound on the acceleration |u| (body linear)",
      [](Form& f) -> double& { return f.configuration.scenario.robot.max_acceleration_m_s2; }},
 
-    {"radio", "range_m", "m", {0.0, 100.0, true}, "C: two robots nearer than this hear each other",
+    {"radio",
+     "range_m",
+     "m",
+     {0.0, 100.0, true},
+     "C: two robots nearer than this hear each other",
      [](Form& f) -> double& { return f.configuration.scenario.radio.range_m; }},
-    {"radio", "line_of_sight", "", {}, "robots and obstacles in between block a packet",
+    {"radio",
+     "line_of_sight",
+     "",
+     {},
+     "robots and obstacles in between block a packet",
      [](Form& f) -> bool& { return f.configuration.scenario.radio.line_of_sight; }},
     {"radio", "loss", "", share, "probability that a packet does not arrive, per packet and receiver",
      [](Form& f) -> double& { return f.configuration.scenario.radio.loss; }},
-    {"radio", "range_noise_m", "m", {0.0, 1000.0}, "sigma of the measured range",
+    {"radio",
+     "range_noise_m",
+     "m",
+     {0.0, 1000.0},
+     "sigma of the measured range",
      [](Form& f) -> double& { return f.configuration.scenario.radio.range_noise_m; }},
-    {"radio", "bearing_noise_deg", "deg", {0.0, 180.0}, "sigma of the measured bearing",
+    {"radio",
+     "bearing_noise_deg",
+     "deg",
+     {0.0, 180.0},
+     "sigma of the measured bearing",
      [](Form& f) -> double& { return f.configuration.scenario.radio.bearing_noise_rad; }},
-    {"radio", "latency_ticks", "ticks", {1.0, 100.0}, "a message is heard so many ticks after it was sent",
+    {"radio",
+     "latency_ticks",
+     "ticks",
+     {1.0, 100.0},
+     "a message is heard so many ticks after it was sent",
      [](Form& f) -> int& { return f.configuration.scenario.radio.latency_ticks; }},
-    {"radio", "slots", "", {0.0, 65535.0}, "packets a robot can receive in one tick; 0: no limit",
+    {"radio",
+     "slots",
+     "",
+     {0.0, 65535.0},
+     "packets a robot can receive in one tick; 0: no limit",
      [](Form& f) -> int& { return f.configuration.scenario.radio.slots; }},
 
-    {"targets", "layout", "", {}, "a list of positions, equal angles on a circle, or random in an annulus",
-     ChoiceAccess<Form>{[]() -> Names { return target_layout_names; },
-                        [](const Form& f) { return f.targets_layout; },
+    {"targets",
+     "layout",
+     "",
+     {},
+     "a list of positions, equal angles on a circle, or random in an annulus",
+     ChoiceAccess<Form>{[]() -> Names { return target_layout_names; }, [](const Form& f) { return f.targets_layout; },
                         [](Form& f, std::size_t i) { f.targets_layout = i; }}},
     {"targets", "positions_m", "m", anywhere, "one [x, y] per target",
      [](Form& f) -> std::vector<Vec2>& { return f.target_positions; }, "list", true},
-    {"targets", "count", "", {1.0, 10000.0}, "number of targets",
-     [](Form& f) -> std::size_t& { return f.target_count; }, "ring random"},
-    {"targets", "radius_m", "m", {0.0, far_away}, "distance of the targets from the centre; the largest one if random",
-     [](Form& f) -> double& { return f.target_radius_m; }, "ring random"},
+    {"targets",
+     "count",
+     "",
+     {1.0, 10000.0},
+     "number of targets",
+     [](Form& f) -> std::size_t& { return f.target_count; },
+     "ring random"},
+    {"targets",
+     "radius_m",
+     "m",
+     {0.0, far_away},
+     "distance of the targets from the centre; the largest one if random",
+     [](Form& f) -> double& { return f.target_radius_m; },
+     "ring random"},
     {"targets", "phase_deg", "deg", any_angle, "direction of the first target, counter-clockwise from the x axis",
      [](Form& f) -> double& { return f.target_phase_rad; }, "ring"},
     {"targets", "center_m", "m", anywhere, "centre of the circle or annulus",
      [](Form& f) -> Vec2& { return f.target_center; }, "ring random"},
 
-    {"output", "record", "", {}, "write the recording run.mcap",
+    {"output",
+     "record",
+     "",
+     {},
+     "write the recording run.mcap",
      [](Form& f) -> bool& { return f.configuration.output.record; }},
-    {"output", "record_every", "ticks", {1.0, 1e6}, "record the robots every so many ticks; metrics at every tick",
+    {"output",
+     "record_every",
+     "ticks",
+     {1.0, 1e6},
+     "record the robots every so many ticks; metrics at every tick",
      [](Form& f) -> std::uint32_t& { return f.configuration.output.record_every; }},
-    {"output", "series", "", {}, "write series.csv, a row of metrics per tick",
+    {"output",
+     "series",
+     "",
+     {},
+     "write series.csv, a row of metrics per tick",
      [](Form& f) -> bool& { return f.configuration.output.series; }},
 };
 
 constexpr Key<ObstacleForm> obstacle_list[] = {
-    {"obstacles", "kind", "", {}, "shape of the obstacle",
+    {"obstacles",
+     "kind",
+     "",
+     {},
+     "shape of the obstacle",
      ChoiceAccess<ObstacleForm>{[]() -> Names { return obstacle_names; }, [](const ObstacleForm& o) { return o.kind; },
-                                [](ObstacleForm& o, std::size_t i) { o.kind = i; }}, "", true},
-    {"obstacles", "center_m", "m", anywhere, "centre",
-     [](ObstacleForm& o) -> Vec2& { return o.center; }, "disc box", true},
-    {"obstacles", "radius_m", "m", {0.0, far_away, true}, "radius",
-     [](ObstacleForm& o) -> double& { return o.radius_m; }, "disc", true},
-    {"obstacles", "size_m", "m", {0.0, far_away, true}, "length and width",
-     [](ObstacleForm& o) -> Vec2& { return o.size; }, "box", true},
+                                [](ObstacleForm& o, std::size_t i) { o.kind = i; }},
+     "",
+     true},
+    {"obstacles", "center_m", "m", anywhere, "centre", [](ObstacleForm& o) -> Vec2& { return o.center; }, "disc box",
+     true},
+    {"obstacles",
+     "radius_m",
+     "m",
+     {0.0, far_away, true},
+     "radius",
+     [](ObstacleForm& o) -> double& { return o.radius_m; },
+     "disc",
+     true},
+    {"obstacles",
+     "size_m",
+     "m",
+     {0.0, far_away, true},
+     "length and width",
+     [](ObstacleForm& o) -> Vec2& { return o.size; },
+     "box",
+     true},
     {"obstacles", "angle_deg", "deg", any_angle, "direction of the length, counter-clockwise from the x axis",
      [](ObstacleForm& o) -> double& { return o.angle_rad; }, "box"},
     {"obstacles", "from_m", "m", anywhere, "one end", [](ObstacleForm& o) -> Vec2& { return o.from; }, "wall", true},
@@ -203,17 +367,40 @@ constexpr Key<ObstacleForm> obstacle_list[] = {
 
 constexpr Key<EventForm> event_list[] = {
     {"events", "time_s", "s", {0.0, 1e7}, "when", [](EventForm& e) -> double& { return e.time_s; }, "", true},
-    {"events", "kind", "", {}, "what happens",
+    {"events",
+     "kind",
+     "",
+     {},
+     "what happens",
      ChoiceAccess<EventForm>{[]() -> Names { return event_names; }, [](const EventForm& e) { return e.kind; },
-                             [](EventForm& e, std::size_t i) { e.kind = i; }}, "", true},
-    {"events", "robot", "", {0.0, most_robots - 1}, "index of the robot, counted from 0",
-     [](EventForm& e) -> std::size_t& { return e.robot; }, "die freeze", true},
-    {"events", "duration_s", "s", {0.0, 1e7}, "how long it stands still; 0: for good",
-     [](EventForm& e) -> double& { return e.duration_s; }, "freeze"},
-    {"events", "loss", "", share, "the new radio.loss",
-     [](EventForm& e) -> double& { return e.loss; }, "set_loss", true},
-    {"events", "target", "", {0.0, 1e5}, "index of the target, counted from 0",
-     [](EventForm& e) -> std::size_t& { return e.target; }, "move_target", true},
+                             [](EventForm& e, std::size_t i) { e.kind = i; }},
+     "",
+     true},
+    {"events",
+     "robot",
+     "",
+     {0.0, most_robots - 1},
+     "index of the robot, counted from 0",
+     [](EventForm& e) -> std::size_t& { return e.robot; },
+     "die freeze",
+     true},
+    {"events",
+     "duration_s",
+     "s",
+     {0.0, 1e7},
+     "how long it stands still; 0: for good",
+     [](EventForm& e) -> double& { return e.duration_s; },
+     "freeze"},
+    {"events", "loss", "", share, "the new radio.loss", [](EventForm& e) -> double& { return e.loss; }, "set_loss",
+     true},
+    {"events",
+     "target",
+     "",
+     {0.0, 1e5},
+     "index of the target, counted from 0",
+     [](EventForm& e) -> std::size_t& { return e.target; },
+     "move_target",
+     true},
     {"events", "position_m", "m", anywhere, "where the target is from then on",
      [](EventForm& e) -> Vec2& { return e.position; }, "move_target add_target", true},
 };
@@ -232,9 +419,12 @@ struct ToObstacleForm {
 
 world::Obstacle to_obstacle(const ObstacleForm& o) {
   switch (o.kind) {
-    case 0: return world::Disc{o.center, o.radius_m};
-    case 1: return world::Box{o.center, o.size, o.angle_rad};
-    default: return world::Wall{o.from, o.to};
+    case 0:
+      return world::Disc{o.center, o.radius_m};
+    case 1:
+      return world::Box{o.center, o.size, o.angle_rad};
+    default:
+      return world::Wall{o.from, o.to};
   }
 }
 
@@ -291,12 +481,15 @@ Configuration to_configuration(const Form& form) {
   Configuration configuration = form.configuration;
   auto& scenario = configuration.scenario;
   switch (form.targets_layout) {
-    case 0: scenario.targets = form.target_positions; break;
+    case 0:
+      scenario.targets = form.target_positions;
+      break;
     case 1:
       scenario.targets =
           world::RingTargets{form.target_count, form.target_radius_m, form.target_phase_rad, form.target_center};
       break;
-    default: scenario.targets = world::RandomTargets{form.target_count, form.target_radius_m, form.target_center};
+    default:
+      scenario.targets = world::RandomTargets{form.target_count, form.target_radius_m, form.target_center};
   }
   scenario.obstacles.clear();
   scenario.events.clear();
@@ -327,12 +520,17 @@ std::string range_text(const Range& range, std::string_view unit) {
   const bool high = range.maximum < std::numeric_limits<double>::infinity();
   std::string text;
   const std::string at_most = high ? ", at most " + number_text(range.maximum) : "";
-  if (low && range.above) text = "above " + number_text(range.minimum) + at_most;
-  else if (low && high) text = number_text(range.minimum) + " to " + number_text(range.maximum);
-  else if (low) text = "at least " + number_text(range.minimum);
-  else if (high) text = "at most " + number_text(range.maximum);
-  else return "any finite number";
+  if (low && range.above)
+    text = "above " + number_text(range.minimum) + at_most;
+  else if (low && high)
+    text = number_text(range.minimum) + " to " + number_text(range.maximum);
+  else if (low)
+    text = "at least " + number_text(range.minimum);
+  else if (high)
+    text = "at most " + number_text(range.maximum);
+  else
+    return "any finite number";
   return unit.empty() ? text : text + " " + std::string(unit);
 }
 
-}  // namespace banyan::cli
+}  // namespace banyan::config

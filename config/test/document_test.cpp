@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files become trees with places; what is no scenario text is refused with a reason.
-#include "document.hpp"
+#include "banyan/config/document.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace banyan::cli {
+namespace banyan::config {
 namespace {
 
 std::string failure_of(const std::string& path, const std::string& text) {
@@ -137,4 +137,4 @@ TEST(Nearest, FindsWhatWasMeant) {
 }
 
 }  // namespace
-}  // namespace banyan::cli
+}  // namespace banyan::config

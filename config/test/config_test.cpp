@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The strict configuration: what is accepted means what it says, what is wrong is said at once with
 // its place, and what is written reads back as the same.
-#include "config.hpp"
+#include "banyan/config/config.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -13,7 +13,7 @@
 
 #include "banyan/controller/params.hpp"
 
-namespace banyan::cli {
+namespace banyan::config {
 namespace {
 
 using nlohmann::json;
@@ -488,4 +488,4 @@ TEST(Scenarios, AreTheWorldsTheyAreNamedAfter) {
 }
 
 }  // namespace
-}  // namespace banyan::cli
+}  // namespace banyan::config

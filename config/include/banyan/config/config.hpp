@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "document.hpp"
-#include "keys.hpp"
+#include "banyan/config/document.hpp"
+#include "banyan/config/keys.hpp"
 
-namespace banyan::cli {
+namespace banyan::config {
 
 // An option that changes a key: "radio.loss=0.3", named "--set radio.loss=0.3" in messages.
 struct Override {
@@ -36,4 +36,4 @@ struct Loaded {
 [[nodiscard]] std::string config_json(const Configuration& configuration, int indent = -1);
 [[nodiscard]] std::string config_toml(const Configuration& configuration);
 
-}  // namespace banyan::cli
+}  // namespace banyan::config

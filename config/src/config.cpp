@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "config.hpp"
+#include "banyan/config/config.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include "banyan/controller/params.hpp"
 #include "banyan/controller/trig.hpp"
 
-namespace banyan::cli {
+namespace banyan::config {
 namespace {
 
 using world::Vec2;
@@ -48,15 +48,6 @@ std::string alternatives(std::string_view when) {
     when.remove_prefix(std::min(end + 1, when.size()));
   }
   return alternatives(names);
-}
-
-// 1.9F as the double 1.9.
-double widened(float value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  double result = 0.0;
-  std::from_chars(text.data(), end, result);
-  return result;
 }
 
 // ------------------------------------------------------------------------------------- reading --
@@ -751,4 +742,4 @@ std::string config_toml(const Configuration& configuration) {
   return out;
 }
 
-}  // namespace banyan::cli
+}  // namespace banyan::config

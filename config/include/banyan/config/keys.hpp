@@ -16,7 +16,7 @@
 
 #include "banyan/world/scenario.hpp"
 
-namespace banyan::cli {
+namespace banyan::config {
 
 // [output]: what a run keeps. Not part of the world: it never changes what happens.
 struct Output {
@@ -122,4 +122,4 @@ struct KeyRow {
 [[nodiscard]] std::vector<KeyRow> key_rows();
 [[nodiscard]] std::string key_reference_markdown();
 
-}  // namespace banyan::cli
+}  // namespace banyan::config

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "document.hpp"
+#include "banyan/config/document.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -20,7 +20,7 @@
 
 #include "banyan/world/names.hpp"
 
-namespace banyan::cli {
+namespace banyan::config {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{64} << 20;
@@ -405,6 +405,14 @@ std::string number_text(double value) {
   return {buffer.data(), end};
 }
 
+double widened(float value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  double result = 0.0;
+  std::from_chars(text.data(), end, result);
+  return result;
+}
+
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
   word = word.substr(0, 100);  // a very long word is like nothing anyway
   std::string_view best;
@@ -421,4 +429,4 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
   return best;
 }
 
-}  // namespace banyan::cli
+}  // namespace banyan::config

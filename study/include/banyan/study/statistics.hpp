@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The statistics of a study. Pure functions; the same input gives the same bits on any machine.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace banyan::study {
+
+// The q-quantile, q in [0, 1], by linear interpolation between order statistics (type 7 of Hyndman
+// & Fan 1996: the default of R, NumPy and pandas). NaN for no values.
+[[nodiscard]] double quantile(std::span<const double> sorted, double q) noexcept;
+
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// What one group of runs came to in one metric.
+struct Summary {
+  std::size_t count = 0;
+  double minimum = 0.0, lower_quartile = 0.0, median = 0.0, upper_quartile = 0.0, maximum = 0.0;
+  double mean = 0.0, standard_deviation = 0.0;   // n - 1; 0 for one value
+  double positive = 0.0;                         // share of values above 0
+  Interval median_interval, mean_interval;       // bootstrap
+  Interval positive_interval;                    // Wilson score
+};
+struct SummaryOptions {
+  double confidence = 0.95;                      // in (0, 1)
+  std::size_t resamples = 2000;                  // of the bootstrap
+  std::uint64_t seed = 1;
+};
+// `values` in any order, finite. All NaN with count 0. Intervals: percentile bootstrap (Efron &
+// Tibshirani 1993, ch. 13).
+[[nodiscard]] Summary summarize(std::span<const double> values, const SummaryOptions& options = {});
+// Wilson's interval of a share: `hits` of `count` (Wilson 1927). {0, 1} for no trials.
+[[nodiscard]] Interval wilson(std::size_t hits, std::size_t count, double confidence);
+
+// Paired tests, two-sided. `first` and `second` are of the same length, the pairs at the same index.
+struct PairedTest {
+  std::size_t pairs = 0;
+  double median_difference = 0.0;    // of first - second
+  Interval difference_interval;      // bootstrap of that median
+  std::size_t first_larger = 0, second_larger = 0;   // the rest are ties
+  double effect = 0.0;               // matched-pairs rank-biserial correlation, -1 to 1 (Kerby 2014)
+  double p = 1.0;
+};
+// Wilcoxon's signed-rank test: exact up to 50 differences without ties among their sizes, else the
+// normal approximation with tie and continuity correction. Zero differences are dropped (Wilcoxon
+// 1945). p = 1 if all are zero.
+[[nodiscard]] PairedTest wilcoxon(std::span<const double> first, std::span<const double> second,
+                                  const SummaryOptions& options = {});
+// McNemar's exact test, for values that are 0 or 1: the binomial test on the pairs that differ.
+[[nodiscard]] PairedTest mcnemar(std::span<const double> first, std::span<const double> second,
+                                 const SummaryOptions& options = {});
+
+// Holm's step-down correction (Holm 1979) of a family of p values: adjusted values in the same
+// order, each at most 1, monotone with the raw ones. NaN stays NaN and does not count.
+[[nodiscard]] std::vector<double> holm(std::span<const double> p);
+
+}  // namespace banyan::study
