@@ -698,38 +698,47 @@ std::size_t Loaded::errors() const noexcept {
       std::count_if(problems.begin(), problems.end(), [](const Problem& p) { return !p.warning; }));
 }
 
-Loaded parse_configuration(const std::string& path, std::string_view text, const std::vector<Override>& overrides) {
-  Loaded loaded;
-  try {
-    Node root = parse_document(path, text);
-    // The run.json of an earlier run: run it again.
-    const Node* format = root.find("format");
-    if (format && format->string() && format->string()->starts_with("banyan.")) {
-      if (const Node* config = root.find("config"); config && config->table()) root = Node(*config);
-    }
-    root.place.line = 0;
-    for (const auto& o : overrides) {
-      for (auto& problem : apply_override(root, o.assignment, o.origin)) loaded.problems.push_back(std::move(problem));
-    }
-    Reader reader(loaded.problems);
-    loaded.configuration = to_configuration(reader.read(root));
-    if (loaded.configuration.scenario.name.empty()) loaded.configuration.scenario.name = name_from(path);
-    add_semantic_problems(loaded.configuration, reader, loaded.problems);
-    std::stable_sort(loaded.problems.begin(), loaded.problems.end(), [](const Problem& a, const Problem& b) {
-      return a.place.from_file() != b.place.from_file() ? a.place.from_file() : a.place.line < b.place.line;
-    });
-  } catch (const DocumentError& e) { loaded.problems.push_back(e.problem); }
+Loaded configure(Node root, const std::string& path, std::vector<Problem> problems) {
+  Loaded loaded{{}, std::move(problems)};
+  root.place.line = 0;
+  Reader reader(loaded.problems);
+  loaded.configuration = to_configuration(reader.read(root));
+  if (loaded.configuration.scenario.name.empty()) loaded.configuration.scenario.name = name_from(path);
+  add_semantic_problems(loaded.configuration, reader, loaded.problems);
+  std::stable_sort(loaded.problems.begin(), loaded.problems.end(), [](const Problem& a, const Problem& b) {
+    return a.place.from_file() != b.place.from_file() ? a.place.from_file() : a.place.line < b.place.line;
+  });
   return loaded;
+}
+
+Node parse_scenario(const std::string& path, std::string_view text) {
+  Node root = parse_document(path, text);
+  const Node* format = root.find("format");
+  if (format && format->string() && format->string()->starts_with("banyan.")) {
+    if (const Node* config = root.find("config"); config && config->table()) return *config;
+  }
+  return root;
+}
+
+Loaded parse_configuration(const std::string& path, std::string_view text, const std::vector<Override>& overrides) {
+  try {
+    Node root = parse_scenario(path, text);
+    std::vector<Problem> problems;
+    for (const auto& o : overrides) {
+      if (!o.file.empty()) {
+        overlay(root, as_option(parse_document(o.file, read_text_file(o.file))));
+        continue;
+      }
+      for (auto& problem : apply_override(root, o.assignment, o.origin)) problems.push_back(std::move(problem));
+    }
+    return configure(std::move(root), path, std::move(problems));
+  } catch (const DocumentError& e) { return {{}, {e.problem}}; }
 }
 
 Loaded load_configuration(const std::string& path, const std::vector<Override>& overrides) {
   try {
     return parse_configuration(path, read_text_file(path), overrides);
-  } catch (const DocumentError& e) {
-    Loaded loaded;
-    loaded.problems.push_back(e.problem);
-    return loaded;
-  }
+  } catch (const DocumentError& e) { return {{}, {e.problem}}; }
 }
 
 std::string config_json(const Configuration& configuration, int indent) {

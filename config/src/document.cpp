@@ -356,17 +356,8 @@ Node parse_document(const std::string& path, std::string_view text) {
   return root;
 }
 
-std::vector<Problem> apply_override(Node& root, std::string_view assignment, const std::string& origin) {
-  const auto place = Place{shared(origin), 0};
-  const auto equals = assignment.find('=');
-  if (equals == std::string_view::npos) { return {{place, "", "expects key=value, such as radio.loss=0.3"}}; }
-  if (!valid_utf8(assignment)) return {{place, "", "is not valid UTF-8 text"}};
-  auto trim = [](std::string_view s) {
-    while (s.starts_with(' ')) s.remove_prefix(1);
-    while (s.ends_with(' ')) s.remove_suffix(1);
-    return s;
-  };
-  const auto key = trim(assignment.substr(0, equals));
+std::vector<Problem> assign(Node& root, std::string_view key, Node value) {
+  const auto place = value.place;
   const auto steps = split_path(key);
   if (!steps || steps->size() > deepest_nesting) {
     return {{place, "", "\"" + std::string(key) + "\" is no key; keys look like radio.loss or events[0].time_s"}};
@@ -393,8 +384,46 @@ std::vector<Problem> apply_override(Node& root, std::string_view assignment, con
     }
     at = next;
   }
-  *at = override_value(trim(assignment.substr(equals + 1)), place.origin);
+  *at = std::move(value);
   return {};
+}
+
+Node as_option(Node node) {
+  node.place = {shared(node.place.text()), 0};
+  if (auto* members = node.table()) {
+    for (auto& member : *members) member.value = as_option(std::move(member.value));
+  }
+  if (auto* items = node.array()) {
+    for (auto& item : *items) item = as_option(std::move(item));
+  }
+  return node;
+}
+
+void overlay(Node& root, Node changes) {
+  if (!root.table() || !changes.table()) {
+    root = std::move(changes);
+    return;
+  }
+  for (auto& [name, value] : *changes.table()) {
+    if (Node* there = root.find(name))
+      overlay(*there, std::move(value));
+    else
+      root.table()->push_back({std::move(name), std::move(value)});
+  }
+}
+
+std::vector<Problem> apply_override(Node& root, std::string_view assignment, const std::string& origin) {
+  const auto place = Place{shared(origin), 0};
+  const auto equals = assignment.find('=');
+  if (equals == std::string_view::npos) { return {{place, "", "expects key=value, such as radio.loss=0.3"}}; }
+  if (!valid_utf8(assignment)) return {{place, "", "is not valid UTF-8 text"}};
+  auto trim = [](std::string_view s) {
+    while (s.starts_with(' ')) s.remove_prefix(1);
+    while (s.ends_with(' ')) s.remove_suffix(1);
+    return s;
+  };
+  const auto key = trim(assignment.substr(0, equals));
+  return assign(root, key, override_value(trim(assignment.substr(equals + 1)), place.origin));
 }
 
 std::string number_text(double value) {

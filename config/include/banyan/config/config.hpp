@@ -11,10 +11,12 @@
 
 namespace banyan::config {
 
-// An option that changes a key: "radio.loss=0.3", named "--set radio.loss=0.3" in messages.
+// An option that changes a key: "radio.loss=0.3", named "--set radio.loss=0.3" in messages; or a
+// file whose keys are laid over the scenario's, such as tuned parameters.
 struct Override {
   std::string assignment;
   std::string origin;
+  std::string file = {};  // instead of an assignment
 };
 
 struct Loaded {
@@ -31,6 +33,12 @@ struct Loaded {
 // The same for text that is already in memory.
 [[nodiscard]] Loaded parse_configuration(const std::string& path, std::string_view text,
                                          const std::vector<Override>& overrides = {});
+
+// The steps in between, for who changes the tree himself: the tree of a scenario file (of the
+// configuration in a run.json); throws DocumentError. And from a tree to a Configuration, with
+// `problems` found before; `path` names the scenario if it has no name.
+[[nodiscard]] Node parse_scenario(const std::string& path, std::string_view text);
+[[nodiscard]] Loaded configure(Node root, const std::string& path, std::vector<Problem> problems = {});
 
 // The complete effective configuration. Read back, it gives the same scenario, bit for bit.
 [[nodiscard]] std::string config_json(const Configuration& configuration, int indent = -1);

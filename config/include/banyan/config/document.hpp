@@ -71,9 +71,19 @@ class DocumentError : public std::runtime_error {
 // JSON if the name ends in .json or the text starts with '{', else TOML. The result is a table.
 [[nodiscard]] Node parse_document(const std::string& path, std::string_view text);
 
-// Applies "key=value": the value as in TOML, or else taken as bare text. The key is a dotted path;
-// "events[0].time_s" reaches into lists. Returns what is wrong with it, if anything. `origin` is
-// how messages name it.
+// Puts `value` where `key`, a dotted path, says: "radio.loss", "events[0].time_s". Sections that are
+// missing are made. Returns what is wrong with the key, if anything.
+[[nodiscard]] std::vector<Problem> assign(Node& root, std::string_view key, Node value);
+
+// The same tree as if it came from an option: where a file's keys contradict it, it wins silently.
+// Its places still name the file and line.
+[[nodiscard]] Node as_option(Node node);
+
+// Lays `changes` over `root`: tables are merged key by key, anything else is replaced.
+void overlay(Node& root, Node changes);
+
+// assign() of "key=value": the value as in TOML, or else taken as bare text. `origin` is how
+// messages name it.
 [[nodiscard]] std::vector<Problem> apply_override(Node& root, std::string_view assignment, const std::string& origin);
 
 // For messages: the shortest decimal text of a number; "1" rather than "1.0", "10000000" for 1e7.
