@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The statistics of a study. Pure functions; the same input gives the same bits on any machine.
+// Values are finite, in any unit; results named after a value are in its unit.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace banyan::study {
 
 // The q-quantile, q in [0, 1], by linear interpolation between order statistics (type 7 of Hyndman
-// & Fan 1996: the default of R, NumPy and pandas). NaN for no values.
+// & Fan 1996: the default of R, NumPy and pandas). `sorted` ascends. q beyond its range counts as
+// its nearer end. NaN for no values or if q is NaN.
 [[nodiscard]] double quantile(std::span<const double> sorted, double q) noexcept;
 
 struct Interval {
@@ -21,29 +25,35 @@ struct Interval {
 struct Summary {
   std::size_t count = 0;
   double minimum = 0.0, lower_quartile = 0.0, median = 0.0, upper_quartile = 0.0, maximum = 0.0;
-  double mean = 0.0, standard_deviation = 0.0;   // n - 1; 0 for one value
-  double positive = 0.0;                         // share of values above 0
-  Interval median_interval, mean_interval;       // bootstrap
-  Interval positive_interval;                    // Wilson score
+  double mean = 0.0, standard_deviation = 0.0;  // n - 1; 0 for one value
+  double positive = 0.0;                        // share of values above 0
+  Interval median_interval, mean_interval;      // bootstrap
+  Interval positive_interval;                   // Wilson score
 };
 struct SummaryOptions {
-  double confidence = 0.95;                      // in (0, 1)
-  std::size_t resamples = 2000;                  // of the bootstrap
+  double confidence = 0.95;      // in (0, 1)
+  std::size_t resamples = 2000;  // of the bootstrap; with 0, its intervals are NaN
   std::uint64_t seed = 1;
 };
 // `values` in any order, finite. All NaN with count 0. Intervals: percentile bootstrap (Efron &
-// Tibshirani 1993, ch. 13).
+// Tibshirani 1993, ch. 13). The order of the values does not change a bit of the result.
+// Throws std::invalid_argument if a value is not finite or the confidence not in (0, 1).
 [[nodiscard]] Summary summarize(std::span<const double> values, const SummaryOptions& options = {});
 // Wilson's interval of a share: `hits` of `count` (Wilson 1927). {0, 1} for no trials.
+// Throws std::invalid_argument if hits > count or the confidence is not in (0, 1).
 [[nodiscard]] Interval wilson(std::size_t hits, std::size_t count, double confidence);
 
 // Paired tests, two-sided. `first` and `second` are of the same length, the pairs at the same index.
+// Two values are equal, and two differences of one size, if they are so up to the rounding of their
+// decimals (8 units in the last place of the larger value): 0.3 - 0.2 and 0.2 - 0.1 are ties.
+// Throw std::invalid_argument if the lengths differ, a value or difference is not finite or the
+// confidence not in (0, 1). No pairs: p = 1, effect 0, the medians NaN.
 struct PairedTest {
   std::size_t pairs = 0;
-  double median_difference = 0.0;    // of first - second
-  Interval difference_interval;      // bootstrap of that median
-  std::size_t first_larger = 0, second_larger = 0;   // the rest are ties
-  double effect = 0.0;               // matched-pairs rank-biserial correlation, -1 to 1 (Kerby 2014)
+  double median_difference = std::numeric_limits<double>::quiet_NaN();  // of first - second
+  Interval difference_interval;                                         // bootstrap of that median
+  std::size_t first_larger = 0, second_larger = 0;                      // the rest are ties
+  double effect = 0.0;  // matched-pairs rank-biserial correlation, -1 to 1 (Kerby 2014); 0 if all are ties
   double p = 1.0;
 };
 // Wilcoxon's signed-rank test: exact up to 50 differences without ties among their sizes, else the
@@ -52,6 +62,7 @@ struct PairedTest {
 [[nodiscard]] PairedTest wilcoxon(std::span<const double> first, std::span<const double> second,
                                   const SummaryOptions& options = {});
 // McNemar's exact test, for values that are 0 or 1: the binomial test on the pairs that differ.
+// Throws std::invalid_argument if a value is neither.
 [[nodiscard]] PairedTest mcnemar(std::span<const double> first, std::span<const double> second,
                                  const SummaryOptions& options = {});
 
