@@ -82,7 +82,7 @@ double two_sided_quantile(double confidence) noexcept {
 // The bootstrap -----------------------------------------------------------------------------------
 
 // How often each of n values is drawn in one resample of n; the draws are a function of (seed,
-// resample) alone. One draw of 64 bits gives two indices, uniform up to n / 2^32.
+// resample) alone. One draw of 64 bits gives two indices, uniform up to n / 2^32; n < 2^32.
 void resample(std::uint64_t seed, std::size_t number, std::span<std::uint32_t> times) noexcept {
   std::fill(times.begin(), times.end(), 0U);
   const std::size_t n = times.size();
