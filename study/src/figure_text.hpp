@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Text in figures: made safe for gnuplot and XML, measured and broken into lines, so that labels
+// are placed by their size and never run into each other.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace banyan::study {
+
+// `text` as valid UTF-8 without control characters other than "\n": a tab or carriage return
+// becomes a space, anything else that XML forbids U+FFFD.
+[[nodiscard]] std::string clean(std::string_view text);
+
+// The width of one line in DejaVu Sans, `size_px` high; at most a little too large. Characters
+// beyond ASCII count as the widest of the Latin, Greek and CJK ones.
+[[nodiscard]] double text_width_px(std::string_view line, double size_px, bool bold = false) noexcept;
+
+// `line` if it is at most `width_px` wide, else its beginning with an ellipsis.
+[[nodiscard]] std::string shortened(std::string_view line, double width_px, double size_px, bool bold = false);
+
+// Breaks at "\n" and, where a line would be wider than `width_px`, at spaces. A single word may be
+// wider. No lines for an empty text. `text` is clean.
+[[nodiscard]] std::vector<std::string> wrapped(std::string_view text, double width_px, double size_px,
+                                               bool bold = false);
+
+// clean() and wrapped(), and shortened() where a word is wider still: fits in any case.
+[[nodiscard]] std::vector<std::string> fitted(std::string_view text, double width_px, double size_px,
+                                              bool bold = false);
+
+// One line as a gnuplot string: in single quotes, where gnuplot knows no escapes, commands or macros.
+[[nodiscard]] std::string quoted(std::string_view line);
+
+// The fewest digits that read back as `value`; "NaN" if it is not finite.
+[[nodiscard]] std::string number(double value);
+
+// With `decimals` digits behind the point, "0.5000" as "0.5000"; finite.
+[[nodiscard]] std::string fixed(double value, int decimals);
+
+}  // namespace banyan::study
