@@ -38,9 +38,7 @@ void Script::begin(std::string_view what, const std::string& name) {
   line("# Run by gnuplot in its folder, this script draws an svg and a png of its own name.");
   line("reset");
   line("set encoding utf8");
-  std::string file = name;
-  std::replace(file.begin(), file.end(), '\n', ' ');  // the one byte that quotes cannot hold
-  line("output = './'." + quoted(file));
+  line("output = " + quoted("./" + name));
   line("if (exists('ARG1') && strlen(ARG1) > 0) { output = ARG1 }  # gnuplot -c script output");
 }
 

@@ -127,13 +127,18 @@ std::vector<std::string> fitted(std::string_view text, double width_px, double s
   return lines;
 }
 
-std::string quoted(std::string_view line) {
-  std::string result = "'";
-  for (const char c : line) {
-    if (c == '\'') result += '\'';  // doubled
-    result += c;
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto b = static_cast<std::uint8_t>(c);
+    if (b >= 0x20U && b != 0x7FU && std::string_view("\"\\`@").find(c) == std::string_view::npos) {
+      result += c;
+    } else {
+      for (const unsigned shift : {6U, 3U, 0U}) result += static_cast<char>('0' + ((b >> shift) & 7U));
+      result.insert(result.size() - 3, 1, '\\');
+    }
   }
-  return result + "'";
+  return result + "\"";
 }
 
 std::string number(double value) {

@@ -29,8 +29,10 @@ namespace banyan::study {
 [[nodiscard]] std::vector<std::string> fitted(std::string_view text, double width_px, double size_px,
                                               bool bold = false);
 
-// One line as a gnuplot string: in single quotes, where gnuplot knows no escapes, commands or macros.
-[[nodiscard]] std::string quoted(std::string_view line);
+// As a gnuplot string: in double quotes, with what gnuplot would act on there (quotes, backslashes,
+// commands in backquotes, macros) and control characters as octal numbers. Single quotes would not
+// do: gnuplot 5.4 takes '''x' for an empty string with commands behind it.
+[[nodiscard]] std::string quoted(std::string_view text);
 
 // The fewest digits that read back as `value`; "NaN" if it is not finite.
 [[nodiscard]] std::string number(double value);
