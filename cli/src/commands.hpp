@@ -74,6 +74,31 @@ int keys_command(const KeysOptions& options);
 // For shell completion: what may follow `word` after --set, one candidate per line.
 int complete_keys_command(const std::string& word);
 
+struct StudyOptions {
+  std::string file;
+  std::vector<config::Override> overrides;  // of all runs
+  std::string out;                          // "": out/<name>
+  int threads = 0;                          // 0: all cores; under mpirun one a process
+  std::string shard;                        // "3/8", "": everything
+  std::string sbatch;                       // write a job script there instead
+  int shards = 16;                          // of that script
+  bool dry_run = false;
+  bool yes = false;
+  bool force = false;
+  bool extend = false;
+  bool retry = false;
+  bool mix_versions = false;
+  bool quiet = false;
+};
+int study_command(const StudyOptions& options);
+
+struct CollectOptions {
+  StudyOptions study;
+  std::vector<std::string> from;  // more folders with shards
+  bool partial = false;
+};
+int collect_command(const CollectOptions& options);
+
 struct BenchOptions {
   bool json = false;
   int windows = 7;                // measured windows per layout
@@ -81,5 +106,15 @@ struct BenchOptions {
   std::vector<std::string> only;  // names of layouts; empty: all
 };
 int bench_command(const BenchOptions& options);
+
+struct TuneOptions {
+  std::string file;
+  std::string out;       // "": out/<name>
+  int threads = 0;       // 0: all cores
+  bool force = false;
+  bool quiet = false;
+  bool dry_run = false;
+};
+int tune_command(const TuneOptions& options);
 
 }  // namespace banyan::cli

@@ -70,6 +70,29 @@ constexpr const char* algorithms_footer = "Examples:\n  banyan algorithms\n  ban
 constexpr const char* keys_footer =
     "Examples:\n  banyan keys\n  banyan keys radio.\n  banyan keys --markdown > docs/scenario-keys.md";
 
+constexpr const char* tune_footer =
+    "Writes best.toml (parameters for a scenario), tune.json, generations.csv and the figure fitness;\n"
+    "nsga2 also front.csv. Stopped at any moment, the same command goes on where it was, to the same\n"
+    "result. docs/tuning.md describes the file. Over several machines: mpirun banyan tune FILE.\n\n"
+    "Examples:\n"
+    "  banyan tune studies/tune-outwards-small.toml --dry-run\n"
+    "  banyan tune studies/tune-outwards-small.toml --out results/tuned";
+
+constexpr const char* study_footer =
+    "Writes runs.csv (a row per run), statistics.csv, comparisons.csv, figures/ and study.json. Stopped\n"
+    "at any moment, the same command goes on where it was. docs/studies.md describes the file.\n\n"
+    "Examples:\n"
+    "  banyan study studies/first.toml --dry-run\n"
+    "  banyan study studies/first.toml\n"
+    "  mpirun -n 64 banyan study studies/paper.toml\n"
+    "  seq 8 | parallel banyan study studies/paper.toml --shard {}/8\n"
+    "  banyan study studies/paper.toml --sbatch paper.sbatch --shards 50";
+
+constexpr const char* collect_footer =
+    "Examples:\n"
+    "  banyan collect studies/paper.toml\n"
+    "  banyan collect studies/paper.toml --out all shards-of-a shards-of-b";
+
 constexpr const char* bench_footer =
     "Layouts: dense-94-los (94 moving robots, about 85 in range of each), spread-94-los,\n"
     "spread-1000-los and spread-10000-los (7 neighbours each); all with line of sight, one thread, the\n"
@@ -93,6 +116,21 @@ void add_overrides(CLI::App& command, std::vector<Override>& overrides) {
       ->expected(1, 10000)
       ->take_all();
   command
+      .add_option_function<std::vector<std::string>>(
+          "-w,--with",
+          [&overrides](const std::vector<std::string>& list) {
+            for (const auto& file : list) overrides.push_back({"", "--with " + file, file});
+          },
+          "lay the keys of a file over the scenario, such as tuned parameters; may be repeated")
+      ->type_name("FILE")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->expected(1, 100)
+      ->take_all();
+}
+
+void add_seed(CLI::App& command, std::vector<Override>& overrides) {
+  command
       .add_option_function<std::string>(
           "--seed",
           [&overrides](const std::string& seed) {
@@ -112,6 +150,7 @@ void add_run(CLI::App& app, std::function<int()>& action) {
       ->required()
       ->type_name("FILE");
   add_overrides(*command, options->overrides);
+  add_seed(*command, options->overrides);
   command->add_option("-o,--out", options->out, "directory for the results, default out/<name>-<algorithm>-<seed>")
       ->type_name("DIR");
   command->add_flag("-f,--force", options->force, "replace results that are already there");
@@ -150,6 +189,7 @@ void add_validate(CLI::App& app, std::function<int()>& action) {
   command->footer(validate_footer);
   command->add_option("files", options->files, "scenarios")->required()->type_name("FILE");
   add_overrides(*command, options->overrides);
+  add_seed(*command, options->overrides);
   command->add_option("--show", options->show, "print the complete configuration, defaults included")
       ->type_name("toml|json")
       ->check(CLI::IsMember({"toml", "json"}).description(""));
@@ -230,6 +270,69 @@ void add_keys(CLI::App& app, std::function<int()>& action) {
   completion->callback([word, &action] { action = [word] { return complete_keys_command(*word); }; });
 }
 
+void add_tune(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<TuneOptions>();
+  auto* command = app.add_subcommand("tune", "search parameters of the controller by evolution")->group(command_group);
+  command->footer(tune_footer);
+  command->add_option("file", options->file, "a tune file (.toml or .json)")->required()->type_name("FILE");
+  command->add_option("-o,--out", options->out, "directory for the results, default out/<name>")->type_name("DIR");
+  command->add_option("-t,--threads", options->threads, "threads, default all cores; never changes the result")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256).description(""));
+  command->add_flag("-f,--force", options->force, "start over, replacing what is there");
+  command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
+  command->add_flag("-n,--dry-run", options->dry_run, "say what would be done, and do nothing");
+  command->callback([options, &action] { action = [options] { return tune_command(*options); }; });
+}
+
+// What `study` and `collect` have in common.
+void add_study_options(CLI::App& command, StudyOptions& options) {
+  command.add_option("study", options.file, "a study (.toml or .json)")->required()->type_name("FILE");
+  add_overrides(command, options.overrides);
+  command.add_option("-o,--out", options.out, "directory for everything, default out/<name>")->type_name("DIR");
+  command.add_flag("-f,--force", options.force, "throw away what is there and start over");
+  command.add_flag("--extend", options.extend,
+                   "the study has changed since it finished there: keep the runs both have");
+  command.add_flag("--mix-versions", options.mix_versions, "go on with results of another version of banyan");
+  command.add_flag("-y,--yes", options.yes, "do not ask, however many runs it is");
+  command.add_flag("-q,--quiet", options.quiet, "no plan, no progress, no summary; warnings and errors only");
+}
+
+void add_study(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<StudyOptions>();
+  auto* command = app.add_subcommand("study", "run a scenario many times over and compare")->group(command_group);
+  command->footer(study_footer);
+  add_study_options(*command, *options);
+  command->add_flag("-n,--dry-run", options->dry_run, "print the plan and an estimate of its time, and start nothing");
+  command->add_flag("--retry", options->retry, "also run again what has failed");
+  command
+      ->add_option("-t,--threads", options->threads,
+                   "runs at once, default all cores; under mpirun per process, default 1")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256).description(""));
+  command->add_option("--shard", options->shard, "do the i-th of n equal parts only; `banyan collect` merges them")
+      ->type_name("I/N");
+  command
+      ->add_option("--sbatch", options->sbatch,
+                   "write a job array for Slurm to this file (-: standard output) and leave")
+      ->type_name("FILE");
+  command->add_option("--shards", options->shards, "tasks of that array, default 16")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000).description(""));
+  command->callback([options, &action] { action = [options] { return study_command(*options); }; });
+}
+
+void add_collect(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<CollectOptions>();
+  auto* command =
+      app.add_subcommand("collect", "merge the shards of a study into its tables and figures")->group(command_group);
+  command->footer(collect_footer);
+  add_study_options(*command, options->study);
+  command->add_option("folders", options->from, "more folders that shards have written to")->type_name("DIR");
+  command->add_flag("--partial", options->partial, "although runs are missing");
+  command->callback([options, &action] { action = [options] { return collect_command(*options); }; });
+}
+
 void add_bench(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<BenchOptions>();
   auto* command =
@@ -298,6 +401,9 @@ int run_program(int argc, char** argv) {
   add_draw(app, action);
   add_algorithms(app, action);
   add_keys(app, action);
+  add_tune(app, action);
+  add_study(app, action);
+  add_collect(app, action);
   add_bench(app, action);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {

@@ -15,47 +15,61 @@ namespace banyan::study {
 // once; must not throw.
 using Work = std::string (*)(std::string_view task);
 
-// All functions may be called from any thread.
+// All functions may be called from any thread. Destroying the workers cancels what is queued and
+// waits for what runs; an exception of a Done that nobody has waited for is lost then.
 class Workers {
  public:
-  // Gets the result of a task, on a thread of the workers' own: lock what it shares. It may post,
-  // but not wait.
+  // Gets the result of a task, on a thread of the workers' own: lock what it shares. It may post and
+  // cancel, but not wait, and should be short, since the next results may have to queue behind it.
   using Done = std::function<void(std::string result)>;
 
   virtual ~Workers() = default;
-  // Queues a task; tasks start in the order posted.
+  // Queues a task; tasks are handed out in the order posted.
   virtual void post(std::string task, Done done) = 0;
   // Until every task that was not cancelled has had its Done. An exception that a Done has thrown
-  // ends here, once; it also cancels what was queued.
+  // ends here, once (the first, if there are several). It has also cancelled what was queued, and
+  // what is posted before it ends here is dropped.
   virtual void wait() = 0;
-  // Drops all tasks that have not started; those that run are finished and delivered.
+  // Drops all tasks that have not started; those that run are finished and delivered, as are those
+  // that another process already has, which is at most one more than it has threads.
   virtual void cancel() = 0;
   // Tasks that can run at once, at least 1.
   [[nodiscard]] virtual std::size_t size() const = 0;
 };
 
-// `threads` threads of this process, at least 1.
+// `threads` threads of this process, at least 1. std::system_error if the system has no more.
 [[nodiscard]] std::unique_ptr<Workers> thread_workers(Work work, int threads);
 
-// The processes that mpirun or srun started together; a single one if it did not, or if this was
-// built without MPI. At most one object per process.
+// The processes that mpirun or srun (with --mpi=pmix, or what `srun --mpi=list` offers) started
+// together; a single one if they did not. At most one object per process.
+//
+// SIGINT and SIGTERM are the first process's business, which may cancel and end in order: the others
+// ignore both while they have this object. Open MPI's mpirun answers Ctrl-C, and SIGTERM, with SIGTERM
+// to every process and a second later with SIGKILL (--mca odls_base_sigkill_timeout <seconds> gives
+// more time), so what matters has to be in its file by then. If a process dies, the launcher ends all.
 class Processes {
  public:
-  // Joins the others. Without the environment of an MPI launcher nothing of MPI is touched.
+  // Joins the others and waits for all of them to do so. Without the environment of a launcher
+  // nothing of MPI is touched. std::runtime_error if there are several processes but this was built
+  // without MPI, std::logic_error for the second object in a process that was launched.
   Processes();
   Processes(const Processes&) = delete;
   Processes& operator=(const Processes&) = delete;
-  // The first process lets go of the others.
+  // The first process lets go of the others, whether it ever had workers or not; each of the others
+  // waits for that, whether it served or not.
   ~Processes();
 
   [[nodiscard]] static bool supported() noexcept;   // built with MPI
   [[nodiscard]] int rank() const noexcept;          // 0: the first, which has the workers
   [[nodiscard]] int size() const noexcept;          // 1 without MPI
 
-  // In the first process: workers with `threads` threads in every process, this one included. A
-  // task goes to whoever is free next. Must be destroyed before the Processes.
+  // In the first process: workers with `threads` threads (at least 1) in this process and in the
+  // others as many as they serve with. A task goes to whoever is free next. Waits until every other
+  // process serves or leaves. Must be destroyed before the Processes, and before the next workers
+  // are asked for. std::logic_error in another process.
   [[nodiscard]] std::unique_ptr<Workers> workers(Work work, int threads);
-  // In every other process: does tasks until the first process lets go.
+  // In every other process, once: does tasks with `threads` threads (at least 1) until the first
+  // process lets go. std::logic_error in the first process and the second time.
   void serve(Work work, int threads);
 
  private:

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "sbatch.hpp"
+
+#include <filesystem>
+
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+// As one word of a shell.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+}  // namespace
+
+std::string sbatch_script(const StudyOptions& options, const std::string& name, const std::string& folder) {
+  namespace fs = std::filesystem;
+  const std::string program = quoted(fs::read_symlink("/proc/self/exe").string());
+  const std::string file = quoted(fs::absolute(options.file).lexically_normal().string());
+  const std::string shards = std::to_string(options.shards);
+  std::string changes;
+  for (const auto& o : options.overrides)
+    changes += o.file.empty() ? " --set " + quoted(o.assignment) : " --with " + quoted(fs::absolute(o.file).string());
+  return "#!/bin/bash\n"
+         "# The study " +
+         name +
+         " as a job array, a shard per task. Adapt time and memory, then:\n"
+         "#   job=$(sbatch --parsable " +
+         (options.sbatch == "-" ? "THIS-FILE" : options.sbatch) +
+         ")\n"
+         "#   sbatch --dependency=afterany:$job --wrap \"" +
+         "the collect line below\"\n"
+         "# A task that was cut off goes on where it stopped when the array is submitted again.\n"
+         "#SBATCH --job-name=banyan-" +
+         name +
+         "\n"
+         "#SBATCH --array=1-" +
+         shards +
+         "\n"
+         "#SBATCH --ntasks=1\n"
+         "#SBATCH --cpus-per-task=" +
+         std::to_string(std::max(1, options.threads)) +
+         "\n"
+         "#SBATCH --mem-per-cpu=500M\n"
+         "#SBATCH --time=04:00:00\n"
+         "\n"
+         "mkdir -p " +
+         quoted(folder) +
+         "\n"
+         "exec " +
+         program + " study " + file + " --out " + quoted(folder) + changes + " \\\n  --shard \"$SLURM_ARRAY_TASK_ID/" +
+         shards + "\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet" + (options.yes ? " --yes" : "") +
+         "\n"
+         "\n"
+         "# When all tasks are done:\n"
+         "# " +
+         program + " collect " + file + " --out " + quoted(folder) + changes + "\n";
+}
+
+}  // namespace banyan::cli

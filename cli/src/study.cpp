@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+// `banyan study` and `banyan collect`: many runs, from their file to tables and figures.
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <thread>
+
+#include "banyan/record/file.hpp"
+#include "banyan/study/conduct.hpp"
+#include "banyan/study/folder.hpp"
+#include "banyan/study/journal.hpp"
+#include "banyan/study/plan.hpp"
+#include "banyan/study/study.hpp"
+#include "banyan/study/workers.hpp"
+#include "banyan/version.hpp"
+#include "commands.hpp"
+#include "sbatch.hpp"
+#include "study_summary.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+
+using namespace study;
+namespace {
+
+constexpr double ask_above = 100'000;  // runs
+constexpr double sampling_s = 2.0;     // how long an estimate may take
+
+// "3/8"; the shard's number counts from 1.
+Shard shard_of(const std::string& text) {
+  if (text.empty()) return {};
+  Shard shard;
+  char rest = 0;
+  const bool read = std::sscanf(text.c_str(), "%zu/%zu%c", &shard.number, &shard.count, &rest) == 2;
+  if (!read || text.find_first_not_of("0123456789/") != std::string::npos || shard.number < 1 ||
+      shard.number > shard.count || shard.count > 100'000)
+    throw CommandError(exit_usage, "--shard " + text + ": expects i/n with i from 1 to n, such as 3/8");
+  return shard;
+}
+
+// Asks on a terminal; without one only --yes will do.
+void confirm_number(double rows, bool yes) {
+  if (rows <= ask_above || yes) return;
+  const std::string number = grouped(rows) + " runs";
+  if (::isatty(STDIN_FILENO) != 1)
+    throw CommandError(exit_usage, "this study has " + number + "; add --yes if that is meant");
+  std::fprintf(stderr, "banyan: this study has %s; go on? [y/N] ", number.c_str());
+  std::fflush(stderr);
+  char answer[16] = "";
+  if (!std::fgets(answer, sizeof answer, stdin) || (answer[0] != 'y' && answer[0] != 'Y'))
+    throw CommandError(exit_usage, "nothing was started");
+}
+
+struct Prepared {
+  Study study;
+  Plan plan;
+};
+
+// The study and its plan, or exit_usage with every problem told.
+bool prepare(const StudyOptions& options, Prepared& prepared) {
+  auto loaded = load_study(options.file, options.overrides);
+  if (!loaded.ok()) {
+    print_problems(loaded.problems);
+    return false;
+  }
+  prepared.study = std::move(loaded.study);
+  confirm_number(count_rows(prepared.study), options.yes || options.dry_run);
+  prepared.plan = make_plan(prepared.study);
+  print_problems(prepared.plan.problems);
+  return prepared.plan.ok();
+}
+
+Folder folder_of(const StudyOptions& options, const Study& study) {
+  std::string path = options.out.empty() ? "out/" + study.name : options.out;
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return {path};
+}
+
+void make_directory(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw CommandError(exit_lost, path + ": cannot be created: " + error.message());
+}
+
+// Nothing that is there may get lost: a folder is used only if it is of this very study.
+void check_folder(const Folder& folder, const Prepared& prepared, const StudyOptions& options) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (fs::exists(folder.path, ignored) && !fs::is_directory(folder.path, ignored))
+    throw CommandError(exit_usage, folder.path + " exists and is no directory; --out needs one");
+  if (options.force) {
+    for (const auto& journal : journals_in(folder.path)) fs::remove(journal, ignored);
+    for (const auto& file : {folder.table(), folder.statistics(), folder.comparisons(), folder.json()})
+      fs::remove(file, ignored);
+    fs::remove_all(folder.figures(), ignored);
+    fs::remove_all(folder.runs(), ignored);
+    return;
+  }
+  const auto there = finished(folder);
+  if (!there && fs::exists(folder.table(), ignored) && journals_in(folder.path).empty())
+    throw CommandError(exit_usage, folder.table() + " is not of a study; choose another --out DIR");
+  if (!there || options.extend) return;
+  if (there->study != prepared.study.name)
+    throw CommandError(exit_usage,
+                       folder.path + " holds the finished study \"" + there->study + "\"; choose another --out DIR");
+  if (there->plan != plan_text(prepared.plan))
+    throw CommandError(exit_usage,
+                       folder.path + " holds this study finished with another plan (" +
+                           grouped(static_cast<double>(there->runs)) + " runs; now " +
+                           grouped(static_cast<double>(prepared.plan.runs.size())) +
+                           "). --extend keeps the runs that both have and makes the tables anew, --force starts "
+                           "over, or choose another --out DIR");
+}
+
+void check_builds(const Gathered& gathered, const StudyOptions& options) {
+  if (options.mix_versions) return;
+  for (const auto& build : gathered.builds) {
+    if (build != this_build())
+      throw CommandError(exit_usage,
+                         "the results that are there were made by banyan " + build + ", and this is " + this_build() +
+                             ": --mix-versions goes on with both, --force starts over, or choose another --out DIR");
+  }
+}
+
+std::vector<std::size_t> runs_to_do(const Plan& plan, const Shard& shard, const Outcomes& known, bool retry) {
+  std::vector<std::size_t> todo;
+  for (std::size_t run = 0; run < plan.runs.size(); ++run) {
+    if (!shard.holds(run)) continue;
+    const auto at = known.find(plan.runs[run].id);
+    if (at == known.end() || (retry && !at->second.error.empty())) todo.push_back(run);
+  }
+  return todo;
+}
+
+std::string plan_summary(const Prepared& prepared, const Shard& shard, std::size_t todo) {
+  const auto& [study, plan] = prepared;
+  std::string text = study.name + ": " + grouped(static_cast<double>(plan.rows.size())) + " runs\n";
+  for (std::size_t p = 0; p < study.parts.size(); ++p) {
+    const auto& part = study.parts[p];
+    text += "  " + (part.name.empty() ? "" : part.name + ": ");
+    for (const auto& axis : part.axes) {
+      text += axis.name + " (";
+      for (std::size_t v = 0; v < axis.values.size() && v < 12; ++v) text += (v > 0 ? ", " : "") + axis.values[v].label;
+      text += axis.values.size() > 12 ? format(", ... %zu in all) x ", axis.values.size()) : ") x ";
+    }
+    text += format("%zu seed%s\n", part.seeds.size(), part.seeds.size() == 1 ? "" : "s");
+  }
+  if (plan.runs.size() < plan.rows.size())
+    text += format("  %zu different simulations: parts share the others\n", plan.runs.size());
+  if (!shard.whole()) text += format("  shard %zu of %zu\n", shard.number, shard.count);
+  if (todo < plan.runs.size()) text += "  " + grouped(static_cast<double>(todo)) + " to do here\n";
+  return text;
+}
+
+int threads_of(const StudyOptions& options, const Processes& processes) {
+  if (options.threads > 0) return options.threads;
+  // mpirun has counted the cores already.
+  return processes.size() > 1 ? 1 : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
+}
+
+int dry_run(const Prepared& prepared, const Shard& shard, const std::vector<std::size_t>& todo, const Folder& folder,
+            int at_once) {
+  const double seconds = estimate_s(prepared.plan, todo, sampling_s) / at_once;
+  print(plan_summary(prepared, shard, todo.size()) + "  about " + duration_text(seconds) +
+        format(" with %d at once", at_once) + " (from sample runs); results in " + folder.path + "\n");
+  return exit_done;
+}
+
+Watch progress_watch(Progress& progress) {
+  return [&progress](const Standing& now) {
+    if (progress.due() && now.done > 0) {
+      const double rate = static_cast<double>(now.done) / progress.elapsed_s();
+      progress.show(now.share,
+                    format("%s of %s done, %zu failed, %.1f/s", grouped(static_cast<double>(now.done)).c_str(),
+                           grouped(static_cast<double>(now.wanted)).c_str(), now.failed, rate),
+                    false);
+    }
+    return stop_signal() == 0;
+  };
+}
+
+int finish(const Prepared& prepared, const Outcomes& outcomes, const Folder& folder, bool quiet) {
+  const auto written = write_results(prepared.study, prepared.plan, outcomes, folder);
+  for (const auto& complaint : written.complaints) complain("figure " + complaint);
+  const Results results(prepared.study, prepared.plan, outcomes);
+  if (!quiet) print(study_summary(prepared.study, results, folder, written));
+  if (results.failed() > 0) {
+    complain(format("%zu of %zu runs failed: column \"error\" of ", results.failed(), results.rows()) + folder.table() +
+             "; --retry tries them again");
+    return exit_lost;
+  }
+  return written.complaints.empty() ? exit_done : exit_lost;
+}
+
+int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard& shard, Processes& processes) {
+  const auto folder = folder_of(options, prepared.study);
+  check_folder(folder, prepared, options);
+  auto gathered = gather(journals_in(folder.path), prepared.study.name);
+  check_builds(gathered, options);
+  const auto todo = runs_to_do(prepared.plan, shard, gathered.outcomes, options.retry);
+  const int threads = threads_of(options, processes);
+  if (options.dry_run) return dry_run(prepared, shard, todo, folder, threads * processes.size());
+  if (!options.quiet) print(plan_summary(prepared, shard, todo.size()));
+
+  make_directory(folder.path + "/journal");
+  catch_stop_signals();
+  ::signal(SIGPIPE, SIG_IGN);
+  Standing standing;
+  {
+    Journal journal(folder.journal(shard), prepared.study.name, std::string(version), std::string(git_id()));
+    const auto workers = processes.workers(simulate, threads);
+    Progress progress(!options.quiet);
+    standing = conduct(prepared.plan, todo, *workers, journal, folder.runs(), progress_watch(progress));
+  }
+  if (standing.stopped) {
+    complain(format("stopped by %s after %zu of %zu runs; the same command goes on from there",
+                    stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM", standing.done, standing.wanted));
+    return exit_signal + stop_signal();
+  }
+  if (!shard.whole()) {
+    if (!options.quiet) {
+      print(format("shard %zu of %zu is done (%zu runs, %zu failed); when all are: banyan collect ", shard.number,
+                   shard.count, standing.done, standing.failed) +
+            options.file + " --out " + folder.path + "\n");
+    }
+    return standing.failed > 0 ? exit_lost : exit_done;
+  }
+  gathered = gather(journals_in(folder.path), prepared.study.name);
+  return finish(prepared, gathered.outcomes, folder, options.quiet);
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options) {
+  Processes processes;
+  if (processes.rank() > 0) {
+    processes.serve(simulate, std::max(1, options.threads));
+    return exit_done;
+  }
+  const auto shard = shard_of(options.shard);
+  if (processes.size() > 1 && options.file == "-")
+    throw CommandError(exit_usage, "a study under mpirun must be a file, not standard input");
+  Prepared prepared;
+  if (!prepare(options, prepared)) return exit_usage;
+  if (!options.sbatch.empty()) {
+    const auto folder = folder_of(options, prepared.study);
+    const auto script = sbatch_script(options, prepared.study.name, std::filesystem::absolute(folder.path).string());
+    if (options.sbatch == "-")
+      print(script);
+    else
+      record::write_file(options.sbatch, script, options.force ? record::Existing::replace : record::Existing::keep);
+    return exit_done;
+  }
+  return run_plan(options, prepared, shard, processes);
+}
+
+int collect_command(const CollectOptions& options) {
+  Prepared prepared;
+  const StudyOptions& of = options.study;
+  if (!prepare(of, prepared)) return exit_usage;
+  const auto folder = folder_of(of, prepared.study);
+  if (!of.force) check_folder(folder, prepared, of);
+  auto journals = journals_in(folder.path);
+  for (const auto& from : options.from) {
+    const auto more = journals_in(from);
+    if (more.empty())
+      throw CommandError(exit_usage, from + " holds no results of a study (" + from + "/journal/*.jsonl)");
+    journals.insert(journals.end(), more.begin(), more.end());
+  }
+  if (journals.empty())
+    throw CommandError(exit_usage, folder.path + " holds no results of a study; run banyan study first");
+  const auto gathered = gather(journals, prepared.study.name);
+  check_builds(gathered, of);
+  const auto missing = runs_to_do(prepared.plan, {}, gathered.outcomes, false);
+  if (!missing.empty()) {
+    complain(format("%zu of %zu runs are missing", missing.size(), prepared.plan.runs.size()) +
+             (options.partial
+                  ? ""
+                  : "; finish the shards (banyan study --shard i/n), or add --partial to collect what is there"));
+    if (!options.partial) return exit_lost;
+  }
+  make_directory(folder.path);
+  return finish(prepared, gathered.outcomes, folder, of.quiet);
+}
+
+}  // namespace banyan::cli

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "study_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "banyan/study/statistics.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+using namespace study;
+
+// Sorted, without what is not there.
+std::vector<double> values_of(const Values& all, const std::vector<std::size_t>& rows) {
+  std::vector<double> values;
+  for (const auto row : rows) {
+    if (std::isfinite(all[row])) values.push_back(all[row]);
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+double share_above_zero(const std::vector<double>& values) {
+  const auto count = std::count_if(values.begin(), values.end(), [](double v) { return v > 0.0; });
+  return values.empty() ? 0.0 : 100.0 * static_cast<double>(count) / static_cast<double>(values.size());
+}
+
+std::string row_text(const Results& results, const std::string& name, const std::vector<std::size_t>& rows) {
+  const auto time = values_of(results.values("normalized_time"), rows);
+  return format("  %-32s %8zu %9.1f %% %12.3f %9.1f %% %9.1f %%\n", name.substr(0, 32).c_str(), rows.size(),
+                share_above_zero(values_of(results.values("complete"), rows)), quantile(time, 0.5),
+                share_above_zero(values_of(results.values("broken_ticks"), rows)),
+                share_above_zero(values_of(results.values("split_ticks"), rows)));
+}
+
+}  // namespace
+
+std::string study_summary(const Study& study, const Results& results, const Folder& folder, const Written& written) {
+  std::string text =
+      format("\n  %-32s %8s %11s %12s %11s %11s\n", "", "runs", "complete", "median time", "edge broken", "net split");
+  for (std::size_t p = 0; p < study.parts.size(); ++p) {
+    const auto& part = study.parts[p];
+    std::vector<std::string> labels;
+    for (const auto& axis : part.axes) {
+      if (axis.name != study.statistics.compare) continue;
+      for (const auto& value : axis.values) labels.push_back(value.label);
+    }
+    if (labels.empty()) labels.emplace_back();
+    for (const auto& label : labels) {
+      std::vector<std::size_t> rows;
+      for (std::size_t row = 0; row < results.rows(); ++row) {
+        if (results.planned(row).part == p && (label.empty() || results.label(row, study.statistics.compare) == label))
+          rows.push_back(row);
+      }
+      if (!rows.empty())
+        text += row_text(results, part.name + (part.name.empty() || label.empty() ? "" : ", ") + label, rows);
+    }
+  }
+  text += "  (time: completion / limit, 1 if never complete; the last two: share of runs with any such tick)\n\n";
+  text +=
+      "  table      " + folder.table() + "\n  statistics " + folder.statistics() + ", " + folder.comparisons() + "\n";
+  if (!written.figures.empty())
+    text += format("  figures    %zu in ", written.figures.size()) + folder.figures() +
+            " (.svg, .png and the .gp to redraw them)\n";
+  return text;
+}
+
+}  // namespace banyan::cli

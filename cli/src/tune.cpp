@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// `banyan tune`: from a tune file to its folder of results.
+#include <signal.h>
+
+#include <algorithm>
+#include <cinttypes>
+#include <filesystem>
+#include <thread>
+
+#include "banyan/study/simulate.hpp"
+#include "banyan/study/tune.hpp"
+#include "commands.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+
+using config::number_text;
+using study::TunePlan;
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string plural(std::uint64_t n, const char* noun) {
+  return grouped(static_cast<double>(n)) + " " + noun + (n == 1 ? "" : "s");
+}
+
+std::string line(const char* label, const std::string& text) { return format("  %-10s ", label) + text + "\n"; }
+
+// What is searched and how, for the summary and for --dry-run.
+std::string plan_text(const TunePlan& plan) {
+  const auto& o = plan.optimizer;
+  const auto& mission = plan.worlds.front().scenario.mission;
+  std::string text = line("algorithm", mission.algorithm + " (" + mission.reading + ")");
+  text += line("search", std::string(study::name_of(o.search)) + ", " + plural(o.islands, "island") + " of " +
+                             plural(o.population, "individual") + ", " + plural(o.generations, "generation") +
+                             format(", seed %" PRIu64, o.seed));
+  std::string worlds;
+  for (const auto& world : plan.worlds) worlds += (worlds.empty() ? "" : ", ") + world.scenario.name;
+  text += line("worlds", worlds);
+  return text + line("seeds", plural(plan.training.size(), "seed") + " to train on, " +
+                                  grouped(static_cast<double>(plan.test.size())) + " to test with");
+}
+
+std::string dry_run_text(const TunePlan& plan, const std::string& directory) {
+  const auto evaluations = plan.evaluations() * plan.optimizer.islands;
+  const auto compared = (plan.optimizer.islands + 2ULL) * plan.worlds.size() * (plan.training.size() + plan.test.size());
+  std::string text = plan.name + ": nothing was started\n\n" + plan_text(plan);
+  text += line("runs", "at most " + grouped(static_cast<double>(evaluations * plan.runs() + compared)) + ": " +
+                           plural(evaluations, "evaluation") + " of " + plural(plan.runs(), "run") + ", and " +
+                           grouped(static_cast<double>(compared)) + " to compare; what cannot be run or was seen before costs none");
+  text += line("results", "in " + directory + "/");
+  text += "\n  parameter                  from      to        start\n";
+  for (std::size_t i = 0; i < plan.bounds.size(); ++i) {
+    const auto& bound = plan.bounds[i];
+    text += format("  %-26s %-9s %-9s %s\n", bound.parameter.c_str(), number_text(bound.low).c_str(),
+                   number_text(bound.high).c_str(),
+                   plan.initial.empty() ? "random" : number_text(plan.initial[i]).c_str());
+  }
+  return text;
+}
+
+std::string score_text(const study::TuneScore& score) {
+  if (score.trials == 0) return "cannot be run";
+  return format("%7.4f %5.1f %% %9s %5.1f %%", score.merit.fitness(), 100.0 * score.complete_share,
+                score.median_time_s ? format("%.1f s", *score.median_time_s).c_str() : "-",
+                100.0 * score.disconnected_share);
+}
+
+std::string comparison_text(const TunePlan& plan, const study::TuneResult& result) {
+  std::string text =
+      "                  on the training seeds               on the test seeds\n"
+      "                  fitness  complete  median  discon.  fitness  complete  median  discon.\n";
+  for (const auto& c : result.candidates)
+    text += format("  %-12s  %-35s %s\n", c.name.c_str(), score_text(c.training).c_str(), score_text(c.test).c_str());
+  text += "\n  parameter                  best        default     bounds\n";
+  const auto& best = result.candidates[0];
+  const auto& untuned = result.candidates[1];
+  for (std::size_t i = 0; i < plan.bounds.size(); ++i) {
+    const auto& bound = plan.bounds[i];
+    text += format("  %-26s %-11.6g %-11.6g %s to %s\n", bound.parameter.c_str(), best.point[i], untuned.point[i],
+                   number_text(bound.low).c_str(), number_text(bound.high).c_str());
+  }
+  return text;
+}
+
+std::string summary_text(const TunePlan& plan, const study::TuneResult& result, const std::string& directory,
+                         double wall_s) {
+  const auto& best = result.candidates.front();
+  std::string text = plan.name + format(": best fitness %.4f, %.4f on the test seeds\n\n",
+                                        best.training.merit.fitness(), best.test.merit.fitness());
+  text += plan_text(plan);
+  text += line("work", plural(result.evaluations, "evaluation") + format(", %.1f s", wall_s) +
+                           (result.resumed_at > 0 ? format(" from generation %u on", result.resumed_at) : ""));
+  text += "\n" + comparison_text(plan, result);
+  text += "\n\"default\" is the scenarios without tuning; \"discon.\" is the share of runs with any disconnection.\n";
+  text += "\nResults in " + directory + "/\n";
+  text += "  best.toml        the best parameters, [mission.parameters] for a scenario\n";
+  text += "  tune.json        everything above, with the whole configuration\n";
+  text += "  generations.csv  fitness over generations; fitness.svg, fitness.png: drawn\n";
+  if (plan.optimizer.search == study::Search::nsga2)
+    text += "  front.csv        " + plural(result.front, "compromise") + " between connectivity and time\n";
+  return text;
+}
+
+std::string directory_of(const TuneOptions& options, const TunePlan& plan) {
+  std::string directory = options.out.empty() ? "out/" + plan.name : options.out;
+  while (directory.size() > 1 && directory.ends_with('/')) directory.pop_back();
+  return directory;
+}
+
+// Makes sure that the tuning may write there.
+void claim(const std::string& directory, bool force) {
+  std::error_code error;
+  if (fs::exists(directory, error) && !fs::is_directory(directory, error))
+    throw CommandError(exit_usage, directory + " exists and is no directory; --out needs one");
+  if (study::tune_finished(directory) && !force)
+    throw CommandError(exit_usage, directory + " already holds a finished tuning; add --force to replace it, or choose "
+                                               "another --out DIR");
+  fs::create_directories(directory, error);
+  if (error) throw CommandError(exit_lost, directory + ": cannot be created: " + error.message());
+  if (force) study::remove_tune_outputs(directory);
+}
+
+study::TuneResult search(const TunePlan& plan, study::Workers& workers, const std::string& directory,
+                         Progress& progress) {
+  study::TuneHooks hooks;
+  hooks.stopped = [] { return stop_signal() != 0; };
+  hooks.progress = [&](double share, const std::string& text) {
+    if (progress.due()) progress.show(share, text, false);
+  };
+  try {
+    return study::tune(plan, workers, directory, hooks);
+  } catch (const study::TuneError& e) { throw CommandError(exit_lost, e.what()); }
+}
+
+}  // namespace
+
+int tune_command(const TuneOptions& options) {
+  const int threads =
+      options.threads > 0 ? options.threads : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
+  study::Processes processes;
+  if (processes.rank() != 0) {
+    processes.serve(study::simulate, threads);
+    return exit_done;
+  }
+  const auto loaded = study::load_tune(options.file);
+  print_problems(loaded.problems);
+  if (!loaded.ok()) return exit_usage;
+  const TunePlan& plan = loaded.plan;
+  const std::string directory = directory_of(options, plan);
+  if (options.dry_run) {
+    print(dry_run_text(plan, directory));
+    return exit_done;
+  }
+
+  claim(directory, options.force);
+  catch_stop_signals();
+  Progress progress(!options.quiet);
+  const auto workers = processes.workers(study::simulate, threads);
+  const auto result = search(plan, *workers, directory, progress);
+  progress.clear();
+  if (result.interrupted) {
+    complain(std::string("stopped by ") + (stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM") +
+             "; the same command goes on from the last generation in " + directory);
+    return exit_signal + stop_signal();
+  }
+  for (const auto& warning : result.warnings) complain("warning: " + warning);
+  if (!options.quiet) print(summary_text(plan, result, directory, progress.elapsed_s()));
+  return exit_done;
+}
+
+}  // namespace banyan::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Where a study keeps what: everything below one folder.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "banyan/study/plan.hpp"
+#include "banyan/study/results.hpp"
+
+namespace banyan::study {
+
+// journal/      raw results, a line per run as it finishes: never rewritten
+// runs/         recordings and series, where the study asks for them
+// runs.csv, statistics.csv, comparisons.csv, figures/, study.json    made from the journal
+struct Folder {
+  std::string path;
+  [[nodiscard]] std::string journal(const Shard& shard) const;
+  [[nodiscard]] std::string runs() const { return path + "/runs"; }
+  [[nodiscard]] std::string table() const { return path + "/runs.csv"; }
+  [[nodiscard]] std::string statistics() const { return path + "/statistics.csv"; }
+  [[nodiscard]] std::string comparisons() const { return path + "/comparisons.csv"; }
+  [[nodiscard]] std::string figures() const { return path + "/figures"; }
+  [[nodiscard]] std::string json() const { return path + "/study.json"; }
+};
+
+// What study.json of a finished study says.
+struct Finished {
+  std::string study;
+  std::string plan;  // Plan::digest, hexadecimal
+  std::uint64_t runs = 0;
+};
+// Nothing if the study has not finished there; throws record::FileError for a study.json that is none.
+[[nodiscard]] std::optional<Finished> finished(const Folder& folder);
+
+// Results of several journals together.
+struct Gathered {
+  Outcomes outcomes;
+  std::vector<std::string> builds;  // "0.1.0 (git 123abc)" of each journal, each once
+};
+// A run that failed and succeeded elsewhere has succeeded. Throws record::FileError for what
+// read_journal() throws, for a journal of another study, and for two different results of one run.
+[[nodiscard]] Gathered gather(const std::vector<std::string>& journals, const std::string& study);
+
+// "0.1.0 (git 123abc)" of this program.
+[[nodiscard]] std::string this_build();
+
+// Writes everything that is made from the journals, replacing what was made before; returns what
+// went wrong with the figures. Throws record::FileError.
+struct Written {
+  std::vector<std::string> figures;
+  std::vector<std::string> complaints;
+};
+Written write_results(const Study& study, const Plan& plan, const Outcomes& outcomes, const Folder& folder);
+
+}  // namespace banyan::study

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What a study makes of its results: statistics, comparisons, figures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "banyan/study/results.hpp"
+
+namespace banyan::study {
+
+// Tidy CSVs: a row per part, grouping, group of runs and metric; "*" for an axis that is pooled.
+[[nodiscard]] std::string statistics_csv(const Study& study, const Results& results);
+// A row per group, pair of values of the axis `compare` and metric: runs paired by seed and by all
+// pooled axes. Wilcoxon's test for numbers, McNemar's for booleans; Holm's correction over all tests
+// of one part.
+[[nodiscard]] std::string comparisons_csv(const Study& study, const Results& results);
+
+// Draws the study's figures into `folder`; returns what went wrong, if anything (no gnuplot), and
+// the names of the figures drawn. Throws record::FileError.
+struct Drawn {
+  std::vector<std::string> figures;
+  std::vector<std::string> complaints;
+};
+Drawn draw_figures(const Study& study, const Results& results, const std::string& folder);
+
+}  // namespace banyan::study

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// What a study file says: which runs, and what is to be made of their results. docs/studies.md
+// describes the file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "banyan/config/config.hpp"
+
+namespace banyan::study {
+
+// A change to a scenario: a key and its value, or (key "") a tree of keys laid over it.
+struct Change {
+  std::string key;
+  config::Node value;
+};
+
+struct AxisValue {
+  std::string label;     // "9", "on", "tuned": in folder names, tables and figures
+  std::string scenario;  // another base scenario, "" if it stays
+  std::vector<Change> changes;
+};
+
+// What is varied: one key, several keys that vary together (zipped), the base scenario, or files
+// laid over it.
+struct Axis {
+  std::string name;               // "r"; unique in its part
+  std::string title;              // for figures, "target radius r (m)"; the name by default
+  std::vector<AxisValue> values;  // not empty, labels unique
+};
+
+// A block of runs: every combination of its axes' values, each with every seed.
+struct Part {
+  std::string name;             // "" if the file has no [[parts]]
+  std::string scenario;         // path of the base scenario
+  std::vector<Change> changes;  // to all of its runs
+  std::vector<Axis> axes;
+  std::vector<std::uint64_t> seeds;
+  config::Place place;
+  [[nodiscard]] double combinations() const noexcept;  // may be huge
+};
+
+// Runs picked by the labels of axes: every axis named must have one of these labels.
+using Where = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+// Box plots (paper Figs. 5-7): one figure per combination of the labels of `each`, a panel per
+// label of `panels`, a group of boxes per combination of labels of `x`, a colour per label of `series`.
+struct FigurePlan {
+  std::string name;  // file name without ending
+  std::string title;
+  std::string metric;  // column of the table, of numbers or booleans
+  std::string y_title;
+  std::string part;
+  Where where;
+  std::vector<std::string> each, x;
+  std::string panels, series;
+  std::size_t columns = 3;
+  std::optional<double> y_minimum, y_maximum;
+};
+
+struct StatisticsPlan {
+  std::vector<std::string> metrics;  // columns of the table
+  // Axes by which runs are grouped; the other axes are pooled. One more grouping, by all axes, is
+  // always made.
+  std::vector<std::vector<std::string>> by;
+  std::string compare = "algorithm";  // axis whose values are compared pair by pair; where it exists
+  double confidence = 0.95;
+  std::size_t resamples = 2000;
+};
+
+struct Study {
+  std::string name;
+  std::string description;
+  std::string path;         // of the file
+  std::string text;         // its content
+  std::vector<Part> parts;  // not empty
+  std::vector<FigurePlan> figures;
+  StatisticsPlan statistics;
+};
+
+struct LoadedStudy {
+  Study study;  // complete only if ok()
+  std::vector<config::Problem> problems;
+  [[nodiscard]] bool ok() const noexcept { return problems.empty(); }
+};
+
+// Reads a study (TOML or JSON); paths in it are relative to it. `overrides` change all runs
+// (`--set`, `--with`). Everything wrong with the file itself is reported at once; what is wrong with
+// the scenarios that come out of it is found by plan().
+[[nodiscard]] LoadedStudy load_study(const std::string& path, const std::vector<config::Override>& overrides = {});
+[[nodiscard]] LoadedStudy parse_study(const std::string& path, std::string_view text,
+                                      const std::vector<config::Override>& overrides = {});
+
+}  // namespace banyan::study

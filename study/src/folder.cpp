@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/study/folder.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "banyan/record/file.hpp"
+#include "banyan/study/journal.hpp"
+#include "banyan/study/report.hpp"
+#include "banyan/version.hpp"
+
+namespace banyan::study {
+namespace {
+
+using nlohmann::ordered_json;
+using record::Existing;
+using record::FileError;
+
+constexpr std::string_view format_name = "banyan.study";
+
+std::string build_of(const std::string& version_text, const std::string& git) {
+  return version_text + " (git " + git + ")";
+}
+
+// The processor's name, "" where Linux does not tell.
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    const auto colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "";
+}
+
+ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& outcomes, const Results& results) {
+  double wall_s = 0.0;
+  for (const auto& run : plan.runs) {
+    if (const auto at = outcomes.find(run.id); at != outcomes.end()) wall_s += at->second.wall_s;
+  }
+  ordered_json parts = ordered_json::array();
+  for (const auto& part : study.parts) {
+    ordered_json axes = ordered_json::array();
+    for (const auto& axis : part.axes) {
+      ordered_json labels = ordered_json::array();
+      for (const auto& value : axis.values) labels.push_back(value.label);
+      axes.push_back({{"name", axis.name}, {"title", axis.title}, {"values", labels}});
+    }
+    parts.push_back({{"name", part.name}, {"scenario", part.scenario}, {"seeds", part.seeds}, {"axes", axes}});
+  }
+  return {{"format", format_name},
+          {"format_version", 1},
+          {"study", study.name},
+          {"description", study.description},
+          {"plan", plan_text(plan)},
+          {"runs", plan.runs.size()},
+          {"rows", results.rows()},
+          {"failed", results.failed()},
+          {"missing", results.missing()},
+          {"processor_time_s", wall_s},
+          {"version", std::string(version)},
+          {"git", std::string(git_id())},
+          {"machine", {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}}},
+          {"parts", parts},
+          {"config", study.text}};
+}
+
+}  // namespace
+
+std::string Folder::journal(const Shard& shard) const {
+  if (shard.whole()) return path + "/journal/all.jsonl";
+  return path + "/journal/shard-" + std::to_string(shard.number) + "-of-" + std::to_string(shard.count) + ".jsonl";
+}
+
+std::string this_build() { return build_of(std::string(version), std::string(git_id())); }
+
+std::optional<Finished> finished(const Folder& folder) {
+  if (!std::filesystem::exists(folder.json())) return std::nullopt;
+  const record::InputFile file(folder.json());
+  std::string text;
+  if (!file.read(0, file.size(), text)) throw FileError(folder.json(), "cannot be read");
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("format", "") != format_name)
+    throw FileError(folder.json(), "is not what a study writes; choose another folder, or remove it");
+  return Finished{json.value("study", ""), json.value("plan", ""), json.value("runs", std::uint64_t{0})};
+}
+
+Gathered gather(const std::vector<std::string>& journals, const std::string& study) {
+  Gathered gathered;
+  for (const auto& path : journals) {
+    const auto content = read_journal(path);
+    if (content.bytes == 0) continue;  // killed before its first line
+    if (content.study != study)
+      throw FileError(path, "belongs to the study \"" + content.study + "\", not to \"" + study + "\"");
+    const auto build = build_of(content.version, content.git);
+    if (std::find(gathered.builds.begin(), gathered.builds.end(), build) == gathered.builds.end())
+      gathered.builds.push_back(build);
+    for (const auto& entry : content.entries) {
+      const auto [at, added] = gathered.outcomes.emplace(entry.id, entry.outcome);
+      if (added) continue;
+      if (!at->second.error.empty())
+        at->second = entry.outcome;
+      else if (entry.outcome.error.empty() && entry.outcome.row != at->second.row)
+        throw FileError(path, "holds another result of the run " + entry.id +
+                                  " than an earlier journal: builds or "
+                                  "machines that do not agree");
+    }
+  }
+  return gathered;
+}
+
+Written write_results(const Study& study, const Plan& plan, const Outcomes& outcomes, const Folder& folder) {
+  const Results results(study, plan, outcomes);
+  record::write_file(folder.table(), results.csv(), Existing::replace);
+  record::write_file(folder.statistics(), statistics_csv(study, results), Existing::replace);
+  record::write_file(folder.comparisons(), comparisons_csv(study, results), Existing::replace);
+  Drawn drawn;
+  if (!study.figures.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(folder.figures(), error);
+    if (error) throw FileError(folder.figures(), "cannot be created: " + error.message());
+    drawn = draw_figures(study, results, folder.figures());
+  }
+  // Last: it says that the rest is there.
+  record::write_file(folder.json(), study_json(study, plan, outcomes, results).dump(2) + "\n", Existing::replace);
+  return {drawn.figures, drawn.complaints};
+}
+
+}  // namespace banyan::study

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/study/journal.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "banyan/record/file.hpp"
+#include "banyan/record/mcap.hpp"
+
+namespace banyan::study {
+namespace {
+
+using nlohmann::json;
+using record::FileError;
+
+constexpr std::string_view format_name = "banyan.journal";
+constexpr int format_version = 1;
+constexpr std::int64_t sync_period_ns = 1'000'000'000;
+constexpr std::size_t crc_digits = 8;
+
+std::string framed(const std::string& text) {
+  std::string crc(crc_digits, '0');
+  std::array<char, crc_digits> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), record::mcap::crc32(text), 16).ptr;
+  std::copy_backward(digits.data(), end, crc.data() + crc.size());
+  return crc + " " + text + "\n";
+}
+
+// The JSON of a line, or nothing if it is damaged.
+std::optional<json> unframed(std::string_view line) {
+  if (line.size() < crc_digits + 1 || line[crc_digits] != ' ') return std::nullopt;
+  std::uint32_t crc = 0;
+  const auto [stop, error] = std::from_chars(line.data(), line.data() + crc_digits, crc, 16);
+  if (error != std::errc{} || stop != line.data() + crc_digits) return std::nullopt;
+  line.remove_prefix(crc_digits + 1);
+  if (record::mcap::crc32(line) != crc) return std::nullopt;
+  json value = json::parse(line, nullptr, false);
+  return value.is_object() ? std::optional(std::move(value)) : std::nullopt;
+}
+
+json header(const std::string& study, const std::string& version, const std::string& git) {
+  return {{"format", format_name},
+          {"format_version", format_version},
+          {"study", study},
+          {"version", version},
+          {"git", git}};
+}
+
+JournalContent parse(const std::string& path, std::string_view text) {
+  JournalContent content;
+  std::size_t number = 0;
+  const auto fail = [&](const std::string& what) -> void {
+    throw FileError(path, "line " + std::to_string(number) + ": " + what);
+  };
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    if (end == std::string_view::npos) return content;  // torn by a kill: as if never written
+    ++number;
+    const auto line = unframed(text.substr(0, end));
+    if (number == 1) {
+      if (!line || line->value("format", "") != format_name) fail("this is no journal of a study");
+      if (line->value("format_version", 0) != format_version) fail("the journal is of another format version");
+      content.study = line->value("study", "");
+      content.version = line->value("version", "");
+      content.git = line->value("git", "");
+    } else {
+      if (!line || !line->contains("id"))
+        fail(
+            "the line is damaged; delete it (or the file), and its run is done again. All other lines are sound or "
+            "will be named one by one");
+      content.entries.push_back(
+          {line->value("id", ""), {line->value("row", ""), line->value("error", ""), line->value("wall_s", 0.0)}});
+    }
+    text.remove_prefix(end + 1);
+    content.bytes += end + 1;
+  }
+  return content;
+}
+
+std::string whole_file(const std::string& path) {
+  const record::InputFile file(path);
+  std::string text;
+  if (!file.read(0, file.size(), text)) throw FileError(path, "read", EIO);
+  return text;
+}
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+JournalContent read_journal(const std::string& path) { return parse(path, whole_file(path)); }
+
+Journal::Journal(std::string path, std::string study, std::string version, std::string git) : path_(std::move(path)) {
+  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);  // NOLINT(hicpp-signed-bitwise)
+  if (descriptor_ < 0) throw FileError(path_, "open", errno);
+  try {
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)  // NOLINT(hicpp-signed-bitwise)
+      throw FileError(path_, "another banyan is at work on this study (or this shard of it)");
+    content_ = parse(path_, whole_file(path_));
+    if (content_.bytes > 0 && content_.study != study)
+      throw FileError(path_, "belongs to the study \"" + content_.study + "\", not to \"" + study + "\"");
+    end_ = content_.bytes;
+    if (::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0) throw FileError(path_, "truncate", errno);
+    if (::lseek(descriptor_, static_cast<off_t>(end_), SEEK_SET) < 0) throw FileError(path_, "seek", errno);
+    if (end_ == 0) {
+      content_.study = study;
+      content_.version = version;
+      content_.git = git;
+      write_line(header(study, version, git).dump());
+    }
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+Journal::~Journal() {
+  (void)::fdatasync(descriptor_);
+  ::close(descriptor_);
+}
+
+void Journal::append(const JournalEntry& entry) {
+  const json line{
+      {"id", entry.id}, {"wall_s", entry.outcome.wall_s}, {"error", entry.outcome.error}, {"row", entry.outcome.row}};
+  write_line(line.dump(-1, ' ', false, json::error_handler_t::replace));
+  if (now_ns() - synced_ns_ >= sync_period_ns) sync();
+}
+
+void Journal::sync() {
+  if (::fdatasync(descriptor_) != 0) throw FileError(path_, "write to the disk", errno);
+  synced_ns_ = now_ns();
+}
+
+void Journal::write_line(const std::string& text) {
+  const std::string line = framed(text);
+  try {
+    record::write_all(descriptor_, line, path_);
+  } catch (const FileError&) {
+    // A file that cannot be cut back ends in a torn line, which the next reader drops as well.
+    (void)::ftruncate(descriptor_, static_cast<off_t>(end_));
+    (void)::lseek(descriptor_, static_cast<off_t>(end_), SEEK_SET);
+    throw;
+  }
+  end_ += line.size();
+}
+
+std::vector<std::string> journals_in(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "/journal", error)) {
+    if (entry.path().extension() == ".jsonl") found.push_back(entry.path().string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace banyan::study

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/study/plan.hpp"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "banyan/controller/digest.hpp"
+#include "hexadecimal.hpp"
+
+namespace banyan::study {
+namespace {
+
+using config::Node;
+using config::Problem;
+
+// What a run is, without what only says how it is called and what is kept of it.
+std::string id_of(const config::Configuration& configuration) {
+  config::Configuration bare = configuration;
+  bare.scenario.name.clear();
+  bare.scenario.description.clear();
+  bare.output = {};
+  return hexadecimal(digest_of(config::config_json(bare)));
+}
+
+// As part of a path.
+std::string file_text(std::string_view label) {
+  std::string text;
+  for (const char c : label) {
+    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                      c == '_' || c == '.' || c == ',' || c == '+';
+    text += good ? c : '-';
+  }
+  return text.substr(0, 60);
+}
+
+class Planner {
+ public:
+  explicit Planner(const Study& study) : study_(study) {}
+
+  Plan plan() {
+    for (std::size_t p = 0; p < study_.parts.size(); ++p) plan_part(p);
+    for (auto& [text, found] : found_) report(std::move(found));
+    std::stable_sort(plan_.problems.begin(), plan_.problems.end(),
+                     [](const Problem& a, const Problem& b) { return !a.warning && b.warning; });
+    Digest digest;
+    for (const auto& row : plan_.rows) {
+      digest.add(digest_of(plan_.runs[row.run].id));
+      digest.add(row.part);
+    }
+    plan_.digest = digest.value();
+    return std::move(plan_);
+  }
+
+ private:
+  // The same problem in many combinations is told once.
+  struct Found {
+    Problem problem;
+    std::string first;      // combination
+    std::size_t count = 0;  // combinations
+    double of = 0.0;        // of the part
+  };
+
+  void plan_part(std::size_t p) {
+    const Part& part = study_.parts[p];
+    seen_.clear();
+    std::vector<std::size_t> values(part.axes.size(), 0);
+    if (std::any_of(part.axes.begin(), part.axes.end(), [](const Axis& a) { return a.values.empty(); })) return;
+    while (true) {
+      plan_combination(p, values);
+      std::size_t k = values.size();  // count up, the last axis first
+      while (k > 0 && ++values[k - 1] == part.axes[k - 1].values.size()) values[--k] = 0;
+      if (k == 0) return;
+    }
+  }
+
+  void plan_combination(std::size_t p, const std::vector<std::size_t>& values) {
+    const Part& part = study_.parts[p];
+    std::string scenario = part.scenario;
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      const auto& value = part.axes[a].values[values[a]];
+      if (!value.scenario.empty()) scenario = value.scenario;
+    }
+    auto loaded = configuration_of(part, values, scenario);
+    const std::string combination = name_of(part, values, ", ");
+    bool ok = true;
+    for (auto& problem : loaded.problems) {
+      ok = ok && problem.warning;
+      note(std::move(problem), combination, part.combinations());
+    }
+    if (!ok) return;
+    plan_.combinations.push_back(loaded.configuration);
+    const std::string folder = (part.name.empty() ? "" : part.name + "/") + name_of(part, values, ",", true);
+    for (const std::uint64_t seed : part.seeds) {
+      loaded.configuration.scenario.seed = seed;
+      const std::size_t run = add_run(loaded.configuration, folder, seed);
+      plan_.rows.push_back({p, values, seed, run});
+      if (!seen_.emplace(run, combination).second && !twice_) {
+        twice_ = true;
+        plan_.problems.push_back({part.place, part.name.empty() ? "axes" : "parts." + part.name,
+                                  "two of its runs are the same: (" + seen_.at(run) + ") and (" + combination +
+                                      ") with seed " + std::to_string(seed) + " (id " + plan_.runs[run].id + ")"});
+      }
+    }
+  }
+
+  config::Loaded configuration_of(const Part& part, const std::vector<std::size_t>& values,
+                                  const std::string& scenario) {
+    std::vector<Problem> problems;
+    Node root;
+    try {
+      root = tree_of(scenario);
+    } catch (const config::DocumentError& e) { return {{}, {e.problem}}; }
+    const config::Place place = root.place;
+    // Recordings of thousands of runs are kept on request only.
+    (void)config::assign(root, "output.record", {false, place});
+    const auto change = [&](const Change& c) {
+      if (c.key.empty())
+        config::overlay(root, c.value);
+      else
+        for (auto& problem : config::assign(root, c.key, c.value)) problems.push_back(std::move(problem));
+    };
+    for (const auto& c : part.changes) change(c);
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      for (const auto& c : part.axes[a].values[values[a]].changes) change(c);
+    }
+    return config::configure(std::move(root), scenario, std::move(problems));
+  }
+
+  // Each file is read once.
+  const Node& tree_of(const std::string& scenario) {
+    const auto known = trees_.find(scenario);
+    if (known != trees_.end()) return known->second;
+    return trees_.emplace(scenario, config::parse_scenario(scenario, config::read_text_file(scenario))).first->second;
+  }
+
+  static std::string name_of(const Part& part, const std::vector<std::size_t>& values, const std::string& separator,
+                             bool for_files = false) {
+    std::string text;
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      const auto& label = part.axes[a].values[values[a]].label;
+      text += (a > 0 ? separator : "") + part.axes[a].name + "=" + (for_files ? file_text(label) : label);
+    }
+    return text.empty() ? "all" : text.substr(0, 200);
+  }
+
+  std::size_t add_run(const config::Configuration& configuration, const std::string& folder, std::uint64_t seed) {
+    PlannedRun run;
+    run.id = id_of(configuration);
+    if (const auto known = index_.find(run.id); known != index_.end()) return known->second;
+    run.combination = plan_.combinations.size() - 1;
+    run.seed = seed;
+    run.directory = folder + "/seed=" + std::to_string(seed);
+    if (!directories_.insert(run.directory).second) run.directory += "-" + run.id;
+    const auto& scenario = configuration.scenario;
+    run.cost = static_cast<double>(world::robot_count(scenario)) * world::time_limit_s(scenario) / scenario.tick_s;
+    index_.emplace(run.id, plan_.runs.size());
+    plan_.runs.push_back(std::move(run));
+    return plan_.runs.size() - 1;
+  }
+
+  void note(Problem problem, const std::string& combination, double of) {
+    auto& found = found_[to_string(problem)];
+    if (found.count++ == 0) {
+      found.problem = std::move(problem);
+      found.first = combination;
+      found.of = of;
+    }
+  }
+
+  void report(Found found) {
+    if (static_cast<double>(found.count) < found.of)
+      found.problem.text +=
+          " (in " + std::to_string(found.count) + " combinations of axes, the first: " + found.first + ")";
+    plan_.problems.push_back(std::move(found.problem));
+  }
+
+  const Study& study_;
+  Plan plan_;
+  std::map<std::string, Node> trees_;
+  std::map<std::string, std::size_t, std::less<>> index_;  // id -> run
+  std::set<std::string> directories_;
+  std::map<std::size_t, std::string> seen_;  // runs of this part -> combination
+  std::map<std::string, Found> found_;
+  bool twice_ = false;
+};
+
+}  // namespace
+
+bool Plan::ok() const noexcept {
+  return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
+}
+
+std::string plan_text(const Plan& plan) { return hexadecimal(plan.digest); }
+
+config::Configuration configuration_of(const Plan& plan, const PlannedRun& run) {
+  auto configuration = plan.combinations[run.combination];
+  configuration.scenario.seed = run.seed;
+  return configuration;
+}
+
+double count_rows(const Study& study) noexcept {
+  double rows = 0.0;
+  for (const auto& part : study.parts) rows += part.combinations() * static_cast<double>(part.seeds.size());
+  return rows;
+}
+
+Plan make_plan(const Study& study) { return Planner(study).plan(); }
+
+}  // namespace banyan::study

@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/study/study.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "banyan/config/table_reader.hpp"
+#include "banyan/study/results.hpp"
+
+namespace banyan::study {
+namespace {
+
+using config::Node;
+using config::Problem;
+using config::TableReader;
+
+constexpr std::size_t most_series = 8;
+
+std::string beside(const std::string& file, const std::string& reference) {
+  const std::filesystem::path path(reference);
+  if (path.is_absolute() || file == "-") return reference;
+  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+}
+
+// What a name may be that becomes part of a file name.
+bool fit_for_files(std::string_view name) {
+  const auto good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+           c == '.';
+  };
+  return !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
+}
+
+void check_name(TableReader& table, const std::string& name) {
+  if (table.has("name") && !fit_for_files(name)) {
+    table.report("name", "is \"" + name + "\"; allowed: up to 100 letters, digits, '-', '_' and '.', not '.' first");
+  }
+}
+
+// [set]: dotted keys, quoted or not, and sections.
+std::vector<Change> read_set(TableReader& table) {
+  std::vector<Change> changes;
+  const Node* set = table.table("set");
+  if (!set) return changes;
+  for (const auto& [name, value] : *set->table()) {
+    if (name.find('.') != std::string::npos) {
+      changes.push_back({name, config::as_option(value)});
+    } else {
+      Node tree{Node::Table{}, value.place};
+      tree.table()->push_back({name, value});
+      changes.push_back({"", config::as_option(std::move(tree))});
+    }
+  }
+  return changes;
+}
+
+// A file of keys as a change, such as parameters/*.toml.
+std::optional<Change> read_overlay(const std::string& path, const config::Place& place, const std::string& key,
+                                   std::vector<Problem>& problems) {
+  try {
+    return Change{"", config::as_option(config::parse_document(path, config::read_text_file(path)))};
+  } catch (const config::DocumentError& e) {
+    problems.push_back({place, key, "names a file that cannot be used: " + config::to_string(e.problem)});
+    return std::nullopt;
+  }
+}
+
+std::string label_of(const Node& value) {
+  if (value.string()) return *value.string();
+  if (const auto* yes = std::get_if<bool>(&value.value)) return *yes ? "on" : "off";
+  if (const auto* whole = std::get_if<std::int64_t>(&value.value)) return std::to_string(*whole);
+  if (const auto* real = std::get_if<double>(&value.value)) return config::number_text(*real);
+  return "";
+}
+
+class StudyReader {
+ public:
+  StudyReader(std::string path, std::vector<Problem>& problems) : path_(std::move(path)), problems_(problems) {}
+
+  Study read(const Node& root, const std::vector<config::Override>& overrides) {
+    Study study;
+    TableReader top(root, "", problems_);
+    study.name = top.text("name", std::filesystem::path(path_).stem().string());
+    check_name(top, study.name);
+    study.description = top.text("description");
+    Part common = read_part(top, Part{}, "axes");
+    study.parts = read_parts(top, common);
+    read_statistics(top, study);
+    read_figures(top, study);
+    top.finish();
+    add_overrides(study, overrides);
+    return study;
+  }
+
+ private:
+  // Scenario, seeds, [set], `with` and axes of `table`, over those of `common`.
+  Part read_part(TableReader& table, Part part, std::string_view axes) {
+    if (table.has("scenario")) part.scenario = beside(path_, table.text("scenario"));
+    if (auto seeds = table.seeds("seeds"); !seeds.empty()) part.seeds = std::move(seeds);
+    for (const auto& file : table.texts("with")) {
+      if (auto change = read_overlay(beside(path_, file), table.place("with"), table.path("with"), problems_))
+        part.changes.push_back(std::move(*change));
+    }
+    for (auto& change : read_set(table)) part.changes.push_back(std::move(change));
+    const auto list = table.tables(axes);
+    std::set<std::string> own;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      Axis axis = read_axis(*list[i], table.path(axes) + "[" + std::to_string(i) + "]");
+      if (!own.insert(axis.name).second)
+        problems_.push_back({list[i]->place, table.path(axes), "has two axes named \"" + axis.name + "\""});
+      const auto same =
+          std::find_if(part.axes.begin(), part.axes.end(), [&](const Axis& a) { return a.name == axis.name; });
+      if (same != part.axes.end())
+        *same = std::move(axis);
+      else
+        part.axes.push_back(std::move(axis));
+    }
+    return part;
+  }
+
+  std::vector<Part> read_parts(TableReader& top, const Part& common) {
+    std::vector<Part> parts;
+    const auto list = top.tables("parts");
+    if (top.has("parts") && list.empty()) top.report("parts", "is an empty list: give at least one part, or none");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      TableReader table(*list[i], "parts[" + std::to_string(i) + "]", problems_);
+      table.require("name");
+      const std::string name = table.text("name");
+      check_name(table, name);
+      if (std::any_of(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; }))
+        table.report("name", "is the name of an earlier part");
+      parts.push_back(read_part(table, common, "axes"));
+      parts.back().name = name;
+      parts.back().place = list[i]->place;
+      table.finish();
+    }
+    if (list.empty()) parts.push_back(common);
+    for (const Part& part : parts) check_part(part, top);
+    return parts;
+  }
+
+  void check_part(const Part& part, TableReader& top) {
+    const std::string key = part.name.empty() ? "" : "parts." + part.name;
+    const auto place = part.name.empty() ? top.place("") : part.place;
+    const bool by_axis = std::any_of(part.axes.begin(), part.axes.end(), [](const Axis& axis) {
+      return !axis.values.empty() && std::all_of(axis.values.begin(), axis.values.end(),
+                                                 [](const AxisValue& v) { return !v.scenario.empty(); });
+    });
+    if (part.scenario.empty() && !by_axis)
+      problems_.push_back({place, key, "has no scenario: name the file to start from, scenario = \"...\""});
+    if (part.seeds.empty() && !seeds_at_fault())
+      problems_.push_back({place, key, "has no seeds: give them as seeds = \"1-50\""});
+  }
+  [[nodiscard]] bool seeds_at_fault() const {
+    return std::any_of(problems_.begin(), problems_.end(), [](const Problem& p) { return p.key.ends_with("seeds"); });
+  }
+
+  // ---------------------------------------------------------------------------------- axes --
+
+  Axis read_axis(const Node& node, const std::string& path) {
+    TableReader table(node, path, problems_);
+    Axis axis;
+    const std::string key = table.text("key");
+    const auto keys = table.texts("keys");
+    if (table.has("key") == table.has("keys"))
+      table.report("", "needs either key, a key of a scenario, or keys, a list of keys that vary together");
+    axis.name = table.text("name", last_name(keys.empty() ? key : keys.front()));
+    check_name(table, axis.name);
+    if (is_metric(axis.name) && !is_identifying(axis.name))
+      table.report("name", "\"" + axis.name + "\" is a column of results; give the axis another name");
+    axis.title = table.text("title", axis.name);
+    table.require("values");
+    if (const Node* values = table.list("values")) {
+      for (std::size_t i = 0; i < values->array()->size(); ++i) {
+        const Node& value = (*values->array())[i];
+        axis.values.push_back(keys.empty() ? read_value(value, key, table) : read_zipped(value, keys, table));
+      }
+    }
+    read_labels(table, axis);
+    table.finish();
+    return axis;
+  }
+
+  static std::string last_name(const std::string& key) {
+    const auto dot = key.rfind('.');
+    return dot == std::string::npos ? key : key.substr(dot + 1);
+  }
+
+  AxisValue read_value(const Node& value, const std::string& key, TableReader& table) {
+    AxisValue result;
+    result.label = label_of(value);
+    if (key == "scenario" || key == "with") {
+      if (!value.string()) {
+        table.report("values", "holds " + value.describe() + "; key = \"" + key + "\" needs names of files");
+        return result;
+      }
+      result.label = value.string()->empty() ? "none" : std::filesystem::path(*value.string()).stem().string();
+      if (key == "scenario")
+        result.scenario = beside(path_, *value.string());
+      else if (!value.string()->empty()) {
+        if (auto change = read_overlay(beside(path_, *value.string()), value.place, table.path("values"), problems_))
+          result.changes.push_back(std::move(*change));
+      }
+      return result;
+    }
+    result.changes.push_back({key, config::as_option(value)});
+    return result;
+  }
+
+  AxisValue read_zipped(const Node& value, const std::vector<std::string>& keys, TableReader& table) {
+    AxisValue result;
+    const auto* items = value.array();
+    if (!items || items->size() != keys.size()) {
+      table.report("values", "holds " + value.describe() + "; with " + std::to_string(keys.size()) +
+                                 " keys each value is a list of " + std::to_string(keys.size()));
+      return result;
+    }
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const AxisValue one = read_value((*items)[k], keys[k], table);
+      if (!one.scenario.empty()) result.scenario = one.scenario;
+      result.changes.insert(result.changes.end(), one.changes.begin(), one.changes.end());
+      result.label += (k > 0 ? "," : "") + one.label;
+    }
+    return result;
+  }
+
+  static void read_labels(TableReader& table, Axis& axis) {
+    const auto labels = table.texts("labels");
+    if (!labels.empty() && labels.size() != axis.values.size()) {
+      table.report("labels",
+                   "are " + std::to_string(labels.size()) + " for " + std::to_string(axis.values.size()) + " values");
+      return;
+    }
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < axis.values.size(); ++i) {
+      std::string& label = axis.values[i].label;
+      if (!labels.empty()) label = labels[i];
+      if (label.empty()) table.report("labels", "are needed: value " + std::to_string(i + 1) + " has no short text");
+      if (!seen.insert(label).second && !label.empty())
+        table.report(labels.empty() ? "values" : "labels", "holds \"" + label + "\" twice");
+    }
+  }
+
+  // ------------------------------------------------------------------- statistics, figures --
+
+  void check_metric(TableReader& table, std::string_view name, const std::string& metric) {
+    if (metric.empty() || is_metric(metric)) return;
+    const auto near = config::nearest(metric, metrics());
+    table.report(name, "\"" + metric + "\" is no column of numbers in the table of runs" +
+                           (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
+  }
+
+  static std::vector<std::string_view> axis_names(const std::vector<Part>& parts) {
+    std::vector<std::string_view> names;
+    for (const auto& part : parts) {
+      for (const auto& axis : part.axes) {
+        if (std::find(names.begin(), names.end(), axis.name) == names.end()) names.push_back(axis.name);
+      }
+    }
+    return names;
+  }
+
+  void check_axis(TableReader& table, std::string_view name, const std::string& axis,
+                  const std::vector<std::string_view>& known) {
+    if (axis.empty() || std::find(known.begin(), known.end(), axis) != known.end()) return;
+    std::string list;
+    for (const auto k : known) list += (list.empty() ? "" : ", ") + std::string(k);
+    const auto near = config::nearest(axis, known);
+    table.report(name, "\"" + axis + "\" is no axis here (axes: " + (list.empty() ? "none" : list) + ")" +
+                           (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
+  }
+
+  void read_statistics(TableReader& top, Study& study) {
+    auto& plan = study.statistics;
+    plan.metrics = {
+        "complete",           "normalized_time", "disconnected_time_ratio", "disconnected_time_ratio_by_distance",
+        "fiedler_time_ratio", "committed"};
+    const Node* node = top.table("statistics");
+    if (!node) return;
+    TableReader table(*node, "statistics", problems_);
+    const auto known = axis_names(study.parts);
+    if (auto metrics = table.texts("metrics"); !metrics.empty()) plan.metrics = std::move(metrics);
+    for (const auto& metric : plan.metrics) check_metric(table, "metrics", metric);
+    plan.compare = table.text("compare", plan.compare);
+    if (table.has("compare")) check_axis(table, "compare", plan.compare, known);
+    plan.confidence = table.number("confidence", plan.confidence, {0.5, 0.9999});
+    plan.resamples = static_cast<std::size_t>(table.whole("resamples", 2000, {100, 1e6}));
+    if (const Node* by = table.list("by")) {
+      for (const auto& group : *by->array()) {
+        plan.by.emplace_back();
+        const auto* names = group.array();
+        if (!names) table.report("by", "is a list of lists of axes, such as [[\"algorithm\", \"r\"], [\"algorithm\"]]");
+        for (std::size_t i = 0; names && i < names->size(); ++i) {
+          const auto* name = (*names)[i].string();
+          plan.by.back().push_back(name ? *name : "");
+          check_axis(table, "by", name ? *name : (*names)[i].describe(), known);
+        }
+      }
+    }
+    table.finish();
+  }
+
+  void read_figures(TableReader& top, Study& study) {
+    const auto list = top.tables("figures");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      TableReader table(*list[i], "figures[" + std::to_string(i) + "]", problems_);
+      study.figures.push_back(read_figure(table, study));
+      table.finish();
+    }
+    std::set<std::string> names;
+    for (const auto& figure : study.figures) {
+      if (!names.insert(figure.name).second) top.report("figures", "has two figures named \"" + figure.name + "\"");
+    }
+    if (!top.has("figures")) add_standard_figures(study);
+  }
+
+  FigurePlan read_figure(TableReader& table, const Study& study) {
+    FigurePlan figure;
+    table.require("metric");
+    figure.metric = table.text("metric");
+    check_metric(table, "metric", figure.metric);
+    figure.name = table.text("name", figure.metric);
+    check_name(table, figure.name);
+    figure.title = table.text("title");
+    figure.y_title = table.text("y_title", figure.metric);
+    figure.part = table.text("part", study.parts.front().name);
+    const auto part =
+        std::find_if(study.parts.begin(), study.parts.end(), [&](const Part& p) { return p.name == figure.part; });
+    if (part == study.parts.end()) table.report("part", "\"" + figure.part + "\" is no part of this study");
+    const auto known = part == study.parts.end() ? axis_names(study.parts) : axis_names({*part});
+    figure.each = table.texts("each");
+    figure.x = table.texts("x");
+    figure.panels = table.text("panels");
+    figure.series = table.text("series");
+    for (const auto& axis : figure.each) check_axis(table, "each", axis, known);
+    for (const auto& axis : figure.x) check_axis(table, "x", axis, known);
+    check_axis(table, "panels", figure.panels, known);
+    check_axis(table, "series", figure.series, known);
+    figure.columns = static_cast<std::size_t>(table.whole("columns", 3, {1, 6}));
+    figure.y_minimum = table.number("y_minimum", config::Range{});
+    figure.y_maximum = table.number("y_maximum", config::Range{});
+    if (figure.y_minimum && figure.y_maximum && *figure.y_minimum >= *figure.y_maximum)
+      table.report("y_minimum", "must be below y_maximum");
+    if (const Node* where = table.table("where")) {
+      TableReader inner(*where, table.path("where"), problems_);
+      for (const auto& [axis, value] : *where->table()) {
+        check_axis(table, "where", axis, known);
+        figure.where.emplace_back(axis, read_picked(inner, axis, part == study.parts.end() ? nullptr : &*part));
+      }
+    }
+    return figure;
+  }
+
+  // The labels of an axis, each of which must exist: a figure of nothing is a mistake.
+  static std::vector<std::string> read_picked(TableReader& table, const std::string& name, const Part* part) {
+    std::vector<std::string> labels;
+    const Node* node = table.any(name);
+    const auto* items = node->array();
+    for (std::size_t i = 0; items ? i < items->size() : i < 1; ++i)
+      labels.push_back(label_of(items ? (*items)[i] : *node));
+    if (!part) return labels;
+    for (const auto& axis : part->axes) {
+      if (axis.name != name) continue;
+      std::vector<std::string_view> known;
+      for (const auto& value : axis.values) known.push_back(value.label);
+      for (const auto& label : labels) {
+        if (std::find(known.begin(), known.end(), label) != known.end()) continue;
+        const auto near = config::nearest(label, known);
+        table.report(name, "\"" + label + "\" is no value of the axis \"" + name + "\"" +
+                               (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
+      }
+    }
+    return labels;
+  }
+
+  // Without [[figures]]: time and connection of every part, over as many axes as a figure can show.
+  static void add_standard_figures(Study& study) {
+    for (const auto& part : study.parts) {
+      std::vector<std::string> left;
+      std::string series;
+      for (const auto& axis : part.axes) {
+        const bool fits = axis.values.size() <= most_series;
+        if (fits && (series.empty() || axis.name == study.statistics.compare)) {
+          if (!series.empty()) left.push_back(series);
+          series = axis.name;
+        } else {
+          left.push_back(axis.name);
+        }
+      }
+      for (const char* metric : {"normalized_time", "disconnected_time_ratio"}) {
+        FigurePlan figure;
+        figure.metric = figure.y_title = metric;
+        figure.name = (part.name.empty() ? "" : part.name + "-") + std::string(metric);
+        figure.part = part.name;
+        figure.series = series;
+        auto rest = left;
+        if (!rest.empty()) {
+          figure.x = {rest.back()};
+          rest.pop_back();
+        }
+        if (!rest.empty()) {
+          figure.panels = rest.back();
+          rest.pop_back();
+        }
+        figure.each = rest;
+        study.figures.push_back(std::move(figure));
+      }
+    }
+  }
+
+  // ----------------------------------------------------------------------------- overrides --
+
+  void add_overrides(Study& study, const std::vector<config::Override>& overrides) {
+    for (const auto& o : overrides) {
+      std::vector<Change> changes;
+      if (o.file.empty()) {
+        Node tree{Node::Table{}, {}};
+        for (auto& problem : config::apply_override(tree, o.assignment, o.origin))
+          problems_.push_back(std::move(problem));
+        changes.push_back({"", std::move(tree)});
+      } else if (auto change = read_overlay(o.file, {}, o.origin, problems_)) {
+        changes.push_back(std::move(*change));
+      }
+      for (auto& part : study.parts) part.changes.insert(part.changes.end(), changes.begin(), changes.end());
+    }
+  }
+
+  std::string path_;
+  std::vector<Problem>& problems_;
+};
+
+}  // namespace
+
+double Part::combinations() const noexcept {
+  double product = 1.0;
+  for (const auto& axis : axes) product *= static_cast<double>(axis.values.size());
+  return product;
+}
+
+LoadedStudy parse_study(const std::string& path, std::string_view text,
+                        const std::vector<config::Override>& overrides) {
+  LoadedStudy loaded;
+  try {
+    const Node root = config::parse_document(path, text);
+    loaded.study = StudyReader(path, loaded.problems).read(root, overrides);
+    loaded.study.path = path;
+    loaded.study.text = text;
+    std::stable_sort(loaded.problems.begin(), loaded.problems.end(),
+                     [](const Problem& a, const Problem& b) { return a.place.line < b.place.line; });
+  } catch (const config::DocumentError& e) { loaded.problems.push_back(e.problem); }
+  return loaded;
+}
+
+LoadedStudy load_study(const std::string& path, const std::vector<config::Override>& overrides) {
+  try {
+    return parse_study(path, config::read_text_file(path), overrides);
+  } catch (const config::DocumentError& e) { return {{}, {e.problem}}; }
+}
+
+}  // namespace banyan::study

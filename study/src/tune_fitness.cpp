@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The paper's two-step performance, from rows of the table of runs to one number.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "banyan/record/table.hpp"
+#include "banyan/study/statistics.hpp"
+#include "banyan/study/tune.hpp"
+#include "tune_point.hpp"
+
+namespace banyan::study {
+namespace {
+
+// The cells of a CSV line, quotes taken off (RFC 4180).
+std::vector<std::string> cells_of(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += c;
+      ++i;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+std::size_t column(std::string_view name) {
+  const auto columns = record::run_columns();
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; });
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+// The number in a cell; nothing if there is none, or no finite one.
+std::optional<double> number_in(const std::vector<std::string>& cells, std::string_view name) {
+  const auto at = column(name);
+  if (at >= cells.size()) return std::nullopt;
+  const std::string& text = cells[at];
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+// How far these parameters are from 0 < A < E < S < delta < C, in units of C; nothing if they keep it.
+std::optional<double> disorder(const Params& params) {
+  const std::array<std::pair<float, float>, 4> ordered{
+      {{params.avoidance_range_m, params.recruitment_distance_m},
+       {params.recruitment_distance_m, params.safe_range_m},
+       {params.safe_range_m, params.ideal_distance_m},
+       {params.ideal_distance_m, params.communication_range_m}}};
+  std::optional<double> sum;
+  for (const auto& [smaller, larger] : ordered) {
+    if (smaller < larger) continue;
+    sum = sum.value_or(0.0) + static_cast<double>(smaller - larger) / params.communication_range_m;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<Trial> trial_of(std::string_view run_csv_row) {
+  const auto cells = cells_of(run_csv_row);
+  if (cells.size() != record::run_columns().size()) return std::nullopt;
+  const std::string& complete = cells[column("complete")];
+  // Of the ticks rather than of the rounded ratio: a single broken tick of a long run counts.
+  const auto ticks = number_in(cells, "ticks"), broken = number_in(cells, "broken_ticks"),
+             split = number_in(cells, "split_ticks"), time = number_in(cells, "normalized_time"),
+             done_s = number_in(cells, "completion_time_s");
+  if (!ticks || !broken || !split || !time || (complete != "true" && complete != "false")) return std::nullopt;
+  Trial trial;
+  trial.complete = complete == "true";
+  if (trial.complete && !done_s) return std::nullopt;
+  trial.disconnected = *ticks > 0.0 ? std::min(std::max(*broken, *split) / *ticks, 1.0) : 0.0;
+  trial.normalized_time = std::clamp(*time, 0.0, 1.0);
+  trial.completion_time_s = trial.complete ? *done_s : 0.0;
+  return trial;
+}
+
+double Merit::fitness() const noexcept {
+  if (infeasible > 0.0) return -infeasible;
+  return disconnected > 0.0 ? 1.0 - disconnected : 2.0 - time;
+}
+
+Merit merit_of(std::span<const Trial> trials) noexcept {
+  Merit merit{0.0, 0.0, 0.0};
+  for (const auto& trial : trials) {
+    merit.disconnected += trial.disconnected;
+    merit.time += trial.normalized_time;
+  }
+  merit.disconnected /= static_cast<double>(trials.size());
+  merit.time /= static_cast<double>(trials.size());
+  return merit;
+}
+
+double infeasibility(const TunePlan& plan, std::span<const double> point) {
+  constexpr double least = 1e-6;  // two parameters that should differ are equal
+  double worst = 0.0;
+  for (const auto& world : plan.worlds) {
+    const auto params = world::controller_params(with_parameters(world.scenario, plan.bounds, point));
+    if (fault(params).empty()) continue;
+    const auto distance = disorder(params);
+    worst = std::max(worst, distance ? std::max(*distance / (1.0 + *distance), least) : 1.0);
+  }
+  return worst;
+}
+
+TuneScore score_of(std::span<const Trial> trials) {
+  TuneScore score;
+  score.merit = merit_of(trials);
+  score.trials = trials.size();
+  std::vector<double> times_s;
+  std::size_t disconnected = 0;
+  for (const auto& trial : trials) {
+    if (trial.complete) times_s.push_back(trial.completion_time_s);
+    if (trial.disconnected > 0.0) ++disconnected;
+  }
+  const auto count = static_cast<double>(trials.size());
+  score.complete_share = static_cast<double>(times_s.size()) / count;
+  score.disconnected_share = static_cast<double>(disconnected) / count;
+  std::sort(times_s.begin(), times_s.end());
+  if (!times_s.empty()) score.median_time_s = quantile(times_s, 0.5);
+  return score;
+}
+
+}  // namespace banyan::study

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "tune_outputs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "banyan/record/file.hpp"
+#include "banyan/record/table.hpp"
+#include "banyan/study/figure.hpp"
+#include "banyan/version.hpp"
+#include "tune_point.hpp"
+
+namespace banyan::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using config::number_text;
+
+constexpr const char* files[] = {"checkpoint.jsonl", "generations.csv", "best.toml",   "front.csv",
+                                 "fitness.gp",       "fitness.svg",     "fitness.png", "tune.json"};
+
+std::string parameter_names(const TunePlan& plan) {
+  std::string text;
+  for (const auto& bound : plan.bounds) text += "," + bound.parameter;
+  return text;
+}
+std::string parameter_values(const std::vector<double>& point) {
+  std::string text;
+  for (const double value : point) text += "," + number_text(value);
+  return text;
+}
+
+// A fragment for a scenario. What it says of itself is the same however often the tuning stopped.
+std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
+  const auto& o = plan.optimizer;
+  const auto& mission = plan.worlds.front().scenario.mission;
+  const auto number = [](auto n) { return std::to_string(n); };
+  std::string text = "# The best parameters of the tuning " + plan.name + " for " + mission.algorithm + " (" +
+                     mission.reading + "),\n";
+  text += "# by " + std::string(name_of(o.search)) + ": " + number(o.generations) + " generations of " +
+          number(o.population) + " individuals on " + number(o.islands) + " islands, seed " + number(o.seed) + ".\n";
+  text += "# Fitness " + number_text(best.training.merit.fitness()) + " on the training seeds, " +
+          number_text(best.test.merit.fitness()) + " on the test seeds.\n";
+  text += "# Banyan " + std::string(version) + " (git " + std::string(git_id()) + "), tuning " + tune_digest(plan) + ".\n";
+  text += "[mission.parameters]\n";
+  for (std::size_t i = 0; i < plan.bounds.size(); ++i)
+    text += plan.bounds[i].parameter + " = " + number_text(best.point[i]) + "\n";
+  return text;
+}
+
+std::string front_csv(const TunePlan& plan, const std::vector<FrontPoint>& front) {
+  std::string text = "island,disconnected_time_ratio,normalized_time" + parameter_names(plan) + "\n";
+  for (const auto& p : front)
+    text += std::to_string(p.island) + "," + number_text(p.disconnected) + "," + number_text(p.time) +
+            parameter_values(p.point) + "\n";
+  return text;
+}
+
+Json score_json(const TuneScore& score) {
+  return {{"fitness", score.merit.fitness()},
+          {"runs", score.trials},
+          {"complete_share", score.complete_share},
+          {"median_completion_time_s", score.median_time_s ? Json(*score.median_time_s) : Json()},
+          {"mean_normalized_time", score.merit.time},
+          {"disconnected_share", score.disconnected_share},
+          {"mean_disconnected_time_ratio", score.merit.disconnected}};
+}
+
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    const auto colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+std::string result_json(const TunePlan& plan, const TuneResult& result) {
+  Json candidates = Json::array();
+  for (const auto& c : result.candidates) {
+    Json parameters = Json::object();
+    for (std::size_t i = 0; i < plan.bounds.size(); ++i) parameters[plan.bounds[i].parameter] = c.point[i];
+    candidates.push_back({{"name", c.name},
+                          {"parameters", parameters},
+                          {"training", score_json(c.training)},
+                          {"test", score_json(c.test)}});
+  }
+  const Json root{{"format", "banyan.tune"},
+                  {"format_version", 1},
+                  {"version", version},
+                  {"git", git_id()},
+                  {"machine", {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}}},
+                  {"digest", tune_digest(plan)},
+                  {"tuning", Json::parse(tune_json(plan))},
+                  {"evaluations", result.evaluations},
+                  {"candidates", candidates}};
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// The mean over islands of a number per generation.
+template <class Member>
+std::vector<double> mean_over_islands(const TunePlan& plan, const std::vector<GenerationRow>& history, Member member) {
+  std::vector<double> sums(plan.optimizer.generations + 1ULL, 0.0);
+  for (const auto& row : history) sums[row.generation] += row.*member / plan.optimizer.islands;
+  return sums;
+}
+
+CurveFigure fitness_figure(const TunePlan& plan, const std::vector<GenerationRow>& history) {
+  constexpr std::uint32_t most_islands = 6;  // beyond, their curves say less than the mean and the range
+  CurveFigure figure{plan.name, "generation", "fitness", {}, std::nullopt, std::nullopt};
+  std::vector<double> generations;
+  for (std::uint32_t g = 0; g <= plan.optimizer.generations; ++g) generations.push_back(g);
+  const auto islands = plan.optimizer.islands;
+  std::vector<std::vector<double>> best(islands);
+  for (const auto& row : history) best[row.island].push_back(row.best);
+  if (islands <= most_islands) {
+    for (std::uint32_t i = 0; i < islands; ++i)
+      figure.curves.push_back({"best, island " + std::to_string(i), generations, best[i], {}, {}, false});
+  } else {
+    auto low = best.front(), high = best.front();
+    for (const auto& island : best) {
+      for (std::size_t g = 0; g < low.size(); ++g) {
+        low[g] = std::min(low[g], island[g]);
+        high[g] = std::max(high[g], island[g]);
+      }
+    }
+    figure.curves.push_back(
+        {"best, mean and range of the islands", generations, mean_over_islands(plan, history, &GenerationRow::best), low,
+         high, false});
+  }
+  figure.curves.push_back(
+      {"mean of the populations", generations, mean_over_islands(plan, history, &GenerationRow::mean), {}, {}, false});
+  return figure;
+}
+
+bool dominates(const FrontPoint& a, const FrontPoint& b) {
+  return a.disconnected <= b.disconnected && a.time <= b.time && (a.disconnected < b.disconnected || a.time < b.time);
+}
+
+}  // namespace
+
+std::string checkpoint_path(const std::string& directory) { return directory + "/checkpoint.jsonl"; }
+
+bool tune_finished(const std::string& directory) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::symlink_status(directory + "/tune.json", ignored));
+}
+
+void remove_tune_outputs(const std::string& directory) {
+  // The mark of a finished tuning goes last: stopped half-way, this is still known for what it was.
+  for (const char* file : files) {
+    std::error_code error;
+    const std::string path = directory + "/" + file;
+    std::filesystem::remove(path, error);
+    if (error) throw record::FileError(path, "remove", error.value());
+  }
+}
+
+void write_generations(const std::string& directory, const TunePlan& plan, const std::vector<GenerationRow>& history) {
+  std::string text =
+      "generation,island,evaluations,best_fitness,mean_fitness,worst_fitness" + parameter_names(plan) + "\n";
+  for (const auto& row : history) {
+    const std::uint64_t evaluations = plan.optimizer.population * (row.generation + 1ULL);
+    text += std::to_string(row.generation) + "," + std::to_string(row.island) + "," + std::to_string(evaluations) + "," +
+            number_text(row.best) + "," + number_text(row.mean) + "," + number_text(row.worst) +
+            parameter_values(row.best_point) + "\n";
+  }
+  record::write_file(directory + "/generations.csv", text, record::Existing::replace);
+}
+
+std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandState>& islands) {
+  std::vector<FrontPoint> all;
+  for (std::uint32_t i = 0; i < islands.size(); ++i) {
+    for (std::size_t k = 0; k < islands[i].points.size(); ++k) {
+      const auto& goals = islands[i].objectives[k];
+      if (goals.size() == 2 && goals[0] <= 1.0)  // above: cannot be run
+        all.push_back({i, goals[0], goals[1], from_unit(plan.bounds, islands[i].points[k])});
+    }
+  }
+  std::vector<FrontPoint> front;
+  for (const auto& p : all) {
+    const auto beaten = [&](const FrontPoint& q) { return dominates(q, p); };
+    const auto same = [&](const FrontPoint& q) { return q.disconnected == p.disconnected && q.time == p.time; };
+    if (std::none_of(all.begin(), all.end(), beaten) && std::none_of(front.begin(), front.end(), same))
+      front.push_back(p);
+  }
+  std::stable_sort(front.begin(), front.end(),
+                   [](const auto& a, const auto& b) { return a.disconnected < b.disconnected; });
+  return front;
+}
+
+void write_results(const std::string& directory, const TunePlan& plan, const std::vector<GenerationRow>& history,
+                   const std::vector<FrontPoint>& front, TuneResult& result) {
+  constexpr auto replace = record::Existing::replace;
+  record::write_file(directory + "/best.toml", best_toml(plan, result.candidates.front()), replace);
+  if (plan.optimizer.search == Search::nsga2) {
+    record::write_file(directory + "/front.csv", front_csv(plan, front), replace);
+    result.front = front.size();
+  }
+  try {
+    draw(fitness_figure(plan, history), directory + "/fitness");
+  } catch (const FigureError& e) { result.warnings.push_back(std::string("the figure could not be drawn: ") + e.what()); }
+  record::write_file(directory + "/tune.json", result_json(plan, result), replace);
+}
+
+}  // namespace banyan::study
