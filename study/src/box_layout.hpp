@@ -37,8 +37,9 @@ struct BoxLayout {
   double width = 0.0, height = 0.0;
 
   [[nodiscard]] Area area(std::size_t panel) const {
-    const auto column = static_cast<double>(panel % columns), row = static_cast<double>(panel / columns);
-    const double x = left + column * (panel_width + gap), y = top + row * row_pitch();
+    const std::size_t row = panel / columns, column = panel % columns;
+    const double x = left + static_cast<double>(column) * (panel_width + gap),
+                 y = top + static_cast<double>(row) * row_pitch();
     return {x, x + panel_width, y, y + panel_height};
   }
   [[nodiscard]] double row_pitch() const { return panel_height + title_height + 14.0; }

@@ -2,6 +2,7 @@
 // From a figure to its three files (figure.hpp).
 #include "banyan/study/figure.hpp"
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -15,7 +16,7 @@ namespace banyan::study {
 namespace {
 
 namespace fs = std::filesystem;
-using std::string_view_literals::operator""sv;
+constexpr std::string_view end_of_svg = "</svg>", end_of_png = "IEND\xAE\x42\x60\x82";
 
 // gnuplot draws here; its pictures reach their place whole or not at all.
 class TemporaryFolder {
@@ -61,7 +62,7 @@ template <typename Figure> void draw_files(const Figure& figure, const std::stri
   const TemporaryFolder folder;
   const std::string drawn = folder.path() + "/figure";
   run_gnuplot(script, drawn);
-  const std::string svg = picture(drawn + ".svg", "</svg>"sv), png = picture(drawn + ".png", "IEND\xAE\x42\x60\x82"sv);
+  const std::string svg = picture(drawn + ".svg", end_of_svg), png = picture(drawn + ".png", end_of_png);
   record::write_file(stem + ".svg", svg, record::Existing::replace);
   record::write_file(stem + ".png", png, record::Existing::replace);
 }

@@ -63,7 +63,7 @@ Axis axis_over(const Extent& extent, std::optional<double> minimum, std::optiona
                double margin, int most_ticks) {
   double low = minimum.value_or(extent.any ? extent.low : 0.0);
   double high = maximum.value_or(extent.any ? extent.high : 1.0);
-  const bool zero = from_zero && low >= 0.0 && !minimum;
+  const bool zero = from_zero && low >= 0.0 && !minimum && maximum.value_or(1.0) > 0.0;
   if (zero) low = 0.0;
   if (!(low < high)) {  // one value only, or all beyond a given end
     const double half =

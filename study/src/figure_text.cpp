@@ -129,11 +129,15 @@ std::vector<std::string> fitted(std::string_view text, double width_px, double s
 
 std::string quoted(std::string_view text) {
   std::string result = "\"";
+  bool after_number = false;  // which would swallow a digit: gnuplot reads more than three
   for (const char c : text) {
     const auto b = static_cast<std::uint8_t>(c);
-    if (b >= 0x20U && b != 0x7FU && std::string_view("\"\\`@").find(c) == std::string_view::npos) {
+    const bool digit = c >= '0' && c <= '9';
+    after_number = after_number && digit;
+    if (!after_number && b >= 0x20U && b != 0x7FU && std::string_view("\"\\`@").find(c) == std::string_view::npos) {
       result += c;
     } else {
+      after_number = true;
       for (const unsigned shift : {6U, 3U, 0U}) result += static_cast<char>('0' + ((b >> shift) & 7U));
       result.insert(result.size() - 3, 1, '\\');
     }
