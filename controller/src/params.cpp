@@ -43,7 +43,7 @@ std::string_view fault(const Params& params) noexcept {
   if (!(params.avoidance_range_m < params.recruitment_distance_m)) return "avoidance_range_m (A) must be below recruitment_distance_m (E)";
   if (!(params.recruitment_distance_m < params.safe_range_m)) return "recruitment_distance_m (E) must be below safe_range_m (S)";
   if (!(params.safe_range_m < params.ideal_distance_m)) return "safe_range_m (S) must be below ideal_distance_m (delta)";
-  if (!(params.ideal_distance_m < params.communication_range_m)) return "ideal_distance_m (delta) must be below the radio range C";
+  if (!(params.ideal_distance_m <= params.communication_range_m)) return "ideal_distance_m (delta) must not exceed the radio range C";
   return {};
 }
 

@@ -72,7 +72,8 @@ struct ParameterInfo {
 [[nodiscard]] std::span<const ParameterInfo> parameter_table() noexcept;
 
 // The first fault in words ("recruitment_distance_m must be below safe_range_m"), or nothing.
-// Checks each range, 0 < E < S < delta < C (protocol 2, row 1) and A < E.
+// Checks each range, 0 < E < S < delta <= C (protocol 2, row 1; delta = C leaves an edge no margin) and
+// A < E.
 [[nodiscard]] std::string_view fault(const Params& params) noexcept;
 
 }  // namespace banyan
