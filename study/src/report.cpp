@@ -169,8 +169,10 @@ class Comparer {
                                    [&](const Axis& a) { return a.name == study_.statistics.compare; });
     if (axis == part.axes.end()) return;
     const auto compared = static_cast<std::size_t>(axis - part.axes.begin());
+    std::set<std::vector<std::string>> done;  // groupings that differ in the compared axis alone are one
     for (auto by : groupings(study_, part)) {
-      if (!contains(by, axis->name)) by.push_back(axis->name);
+      std::erase(by, axis->name);
+      if (!done.insert(by).second) continue;
       std::map<GroupKey, std::vector<std::vector<std::size_t>>> groups;  // rows by value of the compared axis
       for (const std::size_t row : rows_of(results_, p)) {
         auto key = key_of(part, results_.planned(row), by);
