@@ -124,7 +124,10 @@ Written write_results(const Study& study, const Plan& plan, const Outcomes& outc
     drawn = draw_figures(study, results, folder.figures());
   }
   // Last: it says that the rest is there.
-  record::write_file(folder.json(), study_json(study, plan, outcomes, results).dump(2) + "\n", Existing::replace);
+  // Paths may hold any bytes.
+  const auto json = study_json(study, plan, outcomes, results);
+  record::write_file(folder.json(), json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n",
+                     Existing::replace);
   return {drawn.figures, drawn.complaints};
 }
 

@@ -122,9 +122,10 @@ Results::Results(const Study& study, const Plan& plan, const Outcomes& outcomes)
     const auto found = outcomes.find(run.id);
     if (found == outcomes.end()) continue;
     present_.push_back(row);
-    outcomes_.push_back(&found->second);
-    auto cells = found->second.error.empty() ? split_csv(found->second.row) : std::vector<std::string>{};
+    errors_.push_back(found->second.error);
+    auto cells = errors_.back().empty() ? split_csv(found->second.row) : std::vector<std::string>{};
     if (cells.size() != run_columns().size()) {
+      if (errors_.back().empty()) errors_.back() = "its row has other columns: written by another version of banyan";
       cells = identity_of(plan, run);
       ++failed_;
     }
@@ -165,7 +166,7 @@ std::string Results::csv() const {
     const auto& p = planned(row);
     text += study_.name + "," + study_.parts[p.part].name + "," + plan_.runs[p.run].id;
     for (const auto& axis : shown) text += "," + record::csv_quoted(label(row, axis));
-    text += "," + record::csv_quoted(outcomes_[row]->error);
+    text += "," + record::csv_quoted(errors_[row]);
     for (const auto& cell : cells_[row]) text += "," + record::csv_quoted(cell);
     text += "\n";
   }

@@ -83,7 +83,7 @@ std::string one_line(std::string text) {
 }
 
 Task decode_task(std::string_view bytes) {
-  const json task = json::parse(bytes);
+  const json task = json::from_msgpack(bytes);
   return {task.at("config").get<std::string>(), task.at("directory").get<std::string>()};
 }
 
@@ -100,7 +100,10 @@ Outcome outcome_of(const Task& task) {
 }  // namespace
 
 std::string encode(const Task& task) {
-  return json{{"config", task.config_json}, {"directory", task.directory}}.dump();
+  // Not as text: a directory's name may hold any bytes.
+  std::string bytes;
+  json::to_msgpack({{"config", task.config_json}, {"directory", task.directory}}, bytes);
+  return bytes;
 }
 
 std::string encode(const Outcome& outcome) {

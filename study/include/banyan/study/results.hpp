@@ -45,7 +45,7 @@ class Results {
   const Plan& plan_;
   std::vector<std::string> axes_;
   std::vector<std::size_t> present_;             // rows of the plan
-  std::vector<const Outcome*> outcomes_;         // of these
+  std::vector<std::string> errors_;              // of these, "" if there is none
   std::vector<std::vector<std::string>> cells_;  // of these, by column of a run; empty if failed
   std::size_t failed_ = 0;
 };
