@@ -30,7 +30,7 @@ std::string sbatch_script(const StudyOptions& options, const std::string& name, 
          name +
          " as a job array, a shard per task. Adapt time and memory, then:\n"
          "#   job=$(sbatch --parsable " +
-         (options.sbatch == "-" ? "THIS-FILE" : options.sbatch) +
+         (options.sbatch == "-" || options.sbatch.find('\n') != std::string::npos ? "THIS-FILE" : options.sbatch) +
          ")\n"
          "#   sbatch --dependency=afterany:$job --wrap \"" +
          "the collect line below\"\n"
@@ -56,9 +56,8 @@ std::string sbatch_script(const StudyOptions& options, const std::string& name, 
          shards + "\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet" + (options.yes ? " --yes" : "") +
          "\n"
          "\n"
-         "# When all tasks are done:\n"
-         "# " +
-         program + " collect " + file + " --out " + quoted(folder) + changes + "\n";
+         "# When all tasks are done (after exec, so never by a task):\n" +
+         program + " collect " + file + " --out " + quoted(folder) + changes + (options.yes ? " --yes" : "") + "\n";
 }
 
 }  // namespace banyan::cli

@@ -27,8 +27,9 @@ namespace banyan::cli {
 using namespace study;
 namespace {
 
-constexpr double ask_above = 100'000;  // runs
-constexpr double sampling_s = 2.0;     // how long an estimate may take
+constexpr double ask_above = 100'000;   // runs
+constexpr double at_most = 10'000'000;  // a plan is held in memory
+constexpr double sampling_s = 2.0;      // how long an estimate may take
 
 // "3/8"; the shard's number counts from 1.
 Shard shard_of(const std::string& text) {
@@ -44,8 +45,10 @@ Shard shard_of(const std::string& text) {
 
 // Asks on a terminal; without one only --yes will do.
 void confirm_number(double rows, bool yes) {
-  if (rows <= ask_above || yes) return;
   const std::string number = grouped(rows) + " runs";
+  if (rows > at_most)
+    throw CommandError(exit_usage, "this study has " + number + "; " + grouped(at_most) + " are the most");
+  if (rows <= ask_above || yes) return;
   if (::isatty(STDIN_FILENO) != 1)
     throw CommandError(exit_usage, "this study has " + number + "; add --yes if that is meant");
   std::fprintf(stderr, "banyan: this study has %s; go on? [y/N] ", number.c_str());
@@ -86,23 +89,42 @@ void make_directory(const std::string& path) {
   if (error) throw CommandError(exit_lost, path + ": cannot be created: " + error.message());
 }
 
+// Whether a study has left its results, or a beginning of them, in the folder.
+bool is_of_a_study(const Folder& folder) { return !journals_in(folder.path).empty() || finished(folder).has_value(); }
+
+// Files of these names that no study has written are somebody else's.
+void check_strangers(const Folder& folder) {
+  if (is_of_a_study(folder)) return;
+  std::error_code ignored;
+  for (const auto& path :
+       {folder.table(), folder.statistics(), folder.comparisons(), folder.figures(), folder.runs()}) {
+    if (std::filesystem::exists(path, ignored))
+      throw CommandError(exit_usage, path + " is not of a study; choose another --out DIR");
+  }
+}
+
+void throw_away(const Folder& folder) {
+  namespace fs = std::filesystem;
+  for (const auto& journal : journals_in(folder.path)) {
+    if (in_use(journal)) throw CommandError(exit_usage, journal + ": another banyan is at work on this study");
+  }
+  std::error_code ignored;
+  for (const auto& journal : journals_in(folder.path)) fs::remove(journal, ignored);
+  for (const auto& file : {folder.table(), folder.statistics(), folder.comparisons(), folder.json()})
+    fs::remove(file, ignored);
+  fs::remove_all(folder.figures(), ignored);
+  fs::remove_all(folder.runs(), ignored);
+}
+
 // Nothing that is there may get lost: a folder is used only if it is of this very study.
 void check_folder(const Folder& folder, const Prepared& prepared, const StudyOptions& options) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   if (fs::exists(folder.path, ignored) && !fs::is_directory(folder.path, ignored))
     throw CommandError(exit_usage, folder.path + " exists and is no directory; --out needs one");
-  if (options.force) {
-    for (const auto& journal : journals_in(folder.path)) fs::remove(journal, ignored);
-    for (const auto& file : {folder.table(), folder.statistics(), folder.comparisons(), folder.json()})
-      fs::remove(file, ignored);
-    fs::remove_all(folder.figures(), ignored);
-    fs::remove_all(folder.runs(), ignored);
-    return;
-  }
+  check_strangers(folder);
+  if (options.force) return;
   const auto there = finished(folder);
-  if (!there && fs::exists(folder.table(), ignored) && journals_in(folder.path).empty())
-    throw CommandError(exit_usage, folder.table() + " is not of a study; choose another --out DIR");
   if (!there || options.extend) return;
   if (there->study != prepared.study.name)
     throw CommandError(exit_usage,
@@ -196,10 +218,29 @@ int finish(const Prepared& prepared, const Outcomes& outcomes, const Folder& fol
   return written.complaints.empty() ? exit_done : exit_lost;
 }
 
+// Runs that failed earlier count as well: the exit status is about the shard, not about this call.
+int finish_shard(const Plan& plan, const Shard& shard, const Outcomes& outcomes, const Folder& folder,
+                 const StudyOptions& options) {
+  std::size_t done = 0, failed = 0;
+  for (std::size_t run = 0; run < plan.runs.size(); ++run) {
+    const auto at = outcomes.find(plan.runs[run].id);
+    if (!shard.holds(run) || at == outcomes.end()) continue;
+    ++done;
+    if (!at->second.error.empty()) ++failed;
+  }
+  if (!options.quiet)
+    print(format("shard %zu of %zu is done (%zu runs, %zu failed); when all are: banyan collect ", shard.number,
+                 shard.count, done, failed) +
+          options.file + " --out " + folder.path + "\n");
+  if (failed > 0) complain(format("%zu of %zu runs failed; --retry tries them again", failed, done));
+  return failed > 0 ? exit_lost : exit_done;
+}
+
 int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard& shard, Processes& processes) {
   const auto folder = folder_of(options, prepared.study);
   check_folder(folder, prepared, options);
-  auto gathered = gather(journals_in(folder.path), prepared.study.name);
+  if (options.force && !options.dry_run) throw_away(folder);
+  auto gathered = options.force ? Gathered{} : gather(journals_in(folder.path), prepared.study.name);
   check_builds(gathered, options);
   const auto todo = runs_to_do(prepared.plan, shard, gathered.outcomes, options.retry);
   const int threads = threads_of(options, processes);
@@ -221,15 +262,8 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
                     stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM", standing.done, standing.wanted));
     return exit_signal + stop_signal();
   }
-  if (!shard.whole()) {
-    if (!options.quiet) {
-      print(format("shard %zu of %zu is done (%zu runs, %zu failed); when all are: banyan collect ", shard.number,
-                   shard.count, standing.done, standing.failed) +
-            options.file + " --out " + folder.path + "\n");
-    }
-    return standing.failed > 0 ? exit_lost : exit_done;
-  }
   gathered = gather(journals_in(folder.path), prepared.study.name);
+  if (!shard.whole()) return finish_shard(prepared.plan, shard, gathered.outcomes, folder, options);
   return finish(prepared, gathered.outcomes, folder, options.quiet);
 }
 
@@ -242,11 +276,16 @@ int study_command(const StudyOptions& options) {
     return exit_done;
   }
   const auto shard = shard_of(options.shard);
+  if (!shard.whole() && options.force)
+    throw CommandError(exit_usage,
+                       "--force would throw away the other shards too; remove the folder first, or use "
+                       "another --out DIR");
   if (processes.size() > 1 && options.file == "-")
     throw CommandError(exit_usage, "a study under mpirun must be a file, not standard input");
   Prepared prepared;
   if (!prepare(options, prepared)) return exit_usage;
   if (!options.sbatch.empty()) {
+    if (options.file == "-") throw CommandError(exit_usage, "--sbatch needs a study in a file, not standard input");
     const auto folder = folder_of(options, prepared.study);
     const auto script = sbatch_script(options, prepared.study.name, std::filesystem::absolute(folder.path).string());
     if (options.sbatch == "-")

@@ -157,6 +157,15 @@ void Journal::write_line(const std::string& text) {
   end_ += line.size();
 }
 
+bool in_use(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool locked =
+      ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;  // NOLINT(hicpp-signed-bitwise)
+  ::close(descriptor);
+  return locked;
+}
+
 std::vector<std::string> journals_in(const std::string& folder) {
   std::vector<std::string> found;
   std::error_code error;

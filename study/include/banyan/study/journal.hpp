@@ -56,6 +56,9 @@ class Journal {
   std::int64_t synced_ns_ = 0;
 };
 
+// Whether a process has the journal open to write it.
+[[nodiscard]] bool in_use(const std::string& path);
+
 // The journals of a study's folder, "journal/*.jsonl" by name.
 [[nodiscard]] std::vector<std::string> journals_in(const std::string& folder);
 
