@@ -328,7 +328,7 @@ std::string read_text_file(const std::string& path) {
   } closer{fd};
   struct stat status {};
   if (::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode)) {
-    fail(place, "is a directory; give the scenario file in it");
+    fail(place, "is a directory; give the file in it");
   }
   std::string text;
   std::array<char, 65536> buffer;
@@ -343,7 +343,7 @@ std::string read_text_file(const std::string& path) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
   if (text.find('\0') != std::string::npos) fail(place, "is a binary file; a scenario is text (TOML or JSON)");
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-    fail(place, "is empty; a scenario needs at least [targets]");
+    fail(place, "is empty; see scenarios/ and studies/ for examples");
   return text;
 }
 
