@@ -67,10 +67,8 @@ std::string recorded(std::string_view task) {
 
 class WorkersGated : public testing::Test {
  protected:
-  WorkersGated() { gate = &own_; }
-  ~WorkersGated() override { gate = nullptr; }
-  WorkersGated(const WorkersGated&) = delete;
-  WorkersGated& operator=(const WorkersGated&) = delete;
+  void SetUp() override { gate = &own_; }
+  void TearDown() override { gate = nullptr; }
 
  private:
   Gate own_;
@@ -156,7 +154,7 @@ TEST(Workers, DoneMayPostAndWaitSeesIt) {
 
 TEST(Workers, AnyThreadMayPost) {
   const auto workers = thread_workers(backwards, 2);
-  std::vector<std::atomic<int>> times(4 * 300);
+  std::vector<std::atomic<int>> times(1200);
   {
     std::vector<std::jthread> posters;
     for (std::size_t p = 0; p < 4; ++p) {
@@ -332,9 +330,9 @@ struct Outcome {
 
 Outcome run(const std::string& command) {
   Outcome outcome;
-  std::FILE* pipe = ::popen((command + " </dev/null").c_str(), "r");
+  std::FILE* pipe = ::popen((command + " </dev/null").c_str(), "r");  // NOLINT(cert-env33-c): our own command
   if (pipe == nullptr) return outcome;
-  for (int c; (c = std::fgetc(pipe)) != EOF;) outcome.output += static_cast<char>(c);
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) outcome.output += static_cast<char>(c);
   const int status = ::pclose(pipe);
   outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
