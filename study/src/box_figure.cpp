@@ -125,7 +125,7 @@ void draw_boxes(Script& script, const BoxFigure& figure, std::size_t panel, cons
              " fs " + std::string(style.fill) + " border lc " + color + " notitle";
     // A box without height is its median line alone, which then shows whose it is.
     plots += ", \\\n    " + data + " using ($1-width/2):4:(width):(0):($3==$5 ? 0x" +
-             std::string(style.color.substr(1)) + " : 0x1a1a1a) with vectors nohead lw 2 lc rgb variable notitle";
+             std::string(style.color.substr(1)) + " : 0x1a1a1a) with vectors nohead lw 2.5 lc rgb variable notitle";
   }
   for (std::size_t s = 0; s < figure.series.size(); ++s) {
     if (!blocks[s].points) continue;

@@ -59,7 +59,7 @@ void Script::begin_drawing() {
   line("}");
   line("set output output.'.'.format");
   line("unset label; unset object; unset arrow; unset key");
-  line("set border 3 back lc rgb '#595959' lw 1");
+  line("set border 3 back lc rgb '#808080' lw 1");
   line("set tics nomirror out scale 0.5 textcolor rgb 'black'");
   line("set grid ytics noxtics back lt 1 lc rgb '#dedede' lw 0.7");
   line("set multiplot");
