@@ -16,6 +16,7 @@ using config::Problem;
 using config::TableReader;
 
 constexpr std::size_t most_series = 8;
+constexpr const char* seeds_instead = "a study takes its seeds from its own key, seeds = \"1-50\"";
 
 std::string beside(const std::string& file, const std::string& reference) {
   const std::filesystem::path path(reference);
@@ -32,6 +33,15 @@ bool fit_for_files(std::string_view name) {
   return !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
 }
 
+// The file's name without its ending, made fit.
+std::string default_name(const std::string& path) {
+  std::string name = path == "-" ? "study" : std::filesystem::path(path).stem().string().substr(0, 100);
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (!fit_for_files("x" + name.substr(i, 1)) || (i == 0 && name[i] == '.')) name[i] = '-';
+  }
+  return name.empty() ? "study" : name;
+}
+
 void check_name(TableReader& table, const std::string& name) {
   if (table.has("name") && !fit_for_files(name)) {
     table.report("name", "is \"" + name + "\"; allowed: up to 100 letters, digits, '-', '_' and '.', not '.' first");
@@ -44,7 +54,9 @@ std::vector<Change> read_set(TableReader& table) {
   const Node* set = table.table("set");
   if (!set) return changes;
   for (const auto& [name, value] : *set->table()) {
-    if (name.find('.') != std::string::npos) {
+    if (name == "seed") {
+      table.report("set", std::string("sets seed; ") + seeds_instead);
+    } else if (name.find('.') != std::string::npos) {
       changes.push_back({name, config::as_option(value)});
     } else {
       Node tree{Node::Table{}, value.place};
@@ -81,7 +93,7 @@ class StudyReader {
   Study read(const Node& root, const std::vector<config::Override>& overrides) {
     Study study;
     TableReader top(root, "", problems_);
-    study.name = top.text("name", std::filesystem::path(path_).stem().string());
+    study.name = top.text("name", default_name(path_));
     check_name(top, study.name);
     study.description = top.text("description");
     Part common = read_part(top, Part{}, "axes");
@@ -165,6 +177,7 @@ class StudyReader {
     const auto keys = table.texts("keys");
     if (table.has("key") == table.has("keys"))
       table.report("", "needs either key, a key of a scenario, or keys, a list of keys that vary together");
+    check_keys(table, key, keys);
     axis.name = table.text("name", last_name(keys.empty() ? key : keys.front()));
     check_name(table, axis.name);
     if (is_metric(axis.name) && !is_identifying(axis.name))
@@ -180,6 +193,15 @@ class StudyReader {
     read_labels(table, axis);
     table.finish();
     return axis;
+  }
+
+  static void check_keys(TableReader& table, const std::string& key, const std::vector<std::string>& keys) {
+    const auto check = [&](std::string_view name, const std::string& one) {
+      if (one.empty()) table.report(name, "is empty; keys look like radio.loss");
+      if (one == "seed") table.report(name, std::string("is seed; ") + seeds_instead);
+    };
+    if (table.has("key")) check("key", key);
+    for (const auto& one : keys) check("keys", one);
   }
 
   static std::string last_name(const std::string& key) {
@@ -337,6 +359,7 @@ class StudyReader {
     for (const auto& axis : figure.x) check_axis(table, "x", axis, known);
     check_axis(table, "panels", figure.panels, known);
     check_axis(table, "series", figure.series, known);
+    if (part != study.parts.end()) check_series(table, *part, figure.series);
     figure.columns = static_cast<std::size_t>(table.whole("columns", 3, {1, 6}));
     figure.y_minimum = table.number("y_minimum", config::Range{});
     figure.y_maximum = table.number("y_maximum", config::Range{});
@@ -352,11 +375,20 @@ class StudyReader {
     return figure;
   }
 
+  static void check_series(TableReader& table, const Part& part, const std::string& series) {
+    for (const auto& axis : part.axes) {
+      if (axis.name == series && axis.values.size() > most_series)
+        table.report("series", "\"" + series + "\" has " + std::to_string(axis.values.size()) +
+                                   " values; a figure has colours for " + std::to_string(most_series));
+    }
+  }
+
   // The labels of an axis, each of which must exist: a figure of nothing is a mistake.
   static std::vector<std::string> read_picked(TableReader& table, const std::string& name, const Part* part) {
     std::vector<std::string> labels;
     const Node* node = table.any(name);
     const auto* items = node->array();
+    if (items && items->empty()) table.report(name, "is an empty list: give at least one value");
     for (std::size_t i = 0; items ? i < items->size() : i < 1; ++i)
       labels.push_back(label_of(items ? (*items)[i] : *node));
     if (!part) return labels;
@@ -415,15 +447,34 @@ class StudyReader {
     for (const auto& o : overrides) {
       std::vector<Change> changes;
       if (o.file.empty()) {
-        Node tree{Node::Table{}, {}};
-        for (auto& problem : config::apply_override(tree, o.assignment, o.origin))
-          problems_.push_back(std::move(problem));
-        changes.push_back({"", std::move(tree)});
+        if (auto change = read_assignment(o)) changes.push_back(std::move(*change));
       } else if (auto change = read_overlay(o.file, {}, o.origin, problems_)) {
         changes.push_back(std::move(*change));
       }
       for (auto& part : study.parts) part.changes.insert(part.changes.end(), changes.begin(), changes.end());
     }
+  }
+
+  // "key=value" for later: a key may reach into a list that only the scenario has.
+  std::optional<Change> read_assignment(const config::Override& o) {
+    const auto equals = std::min(o.assignment.find('='), o.assignment.size());
+    std::string key = o.assignment.substr(0, equals);
+    key.erase(0, key.find_first_not_of(' '));
+    key.erase(key.find_last_not_of(' ') + 1);
+    Node tree{Node::Table{}, {}};
+    const bool whole = key.empty() || equals == o.assignment.size();  // not of that form: to be told so
+    auto found = config::apply_override(tree, whole ? o.assignment : "value" + o.assignment.substr(equals), o.origin);
+    if (key == "seed") {
+      Problem problem;
+      problem.place.origin = std::make_shared<const std::string>(o.origin);
+      problem.key = key;
+      problem.text = seeds_instead;
+      found.push_back(std::move(problem));
+    }
+    problems_.insert(problems_.end(), found.begin(), found.end());
+    Node* value = tree.find("value");
+    if (!found.empty() || !value) return std::nullopt;
+    return Change{key, std::move(*value)};
   }
 
   std::string path_;
