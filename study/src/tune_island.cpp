@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tune_island.hpp"
 
+#include <boost/math/special_functions/nonfinite_num_facets.hpp>
 #include <pagmo/algorithms/cmaes.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
 #include <pagmo/algorithms/sga.hpp>
@@ -10,6 +11,7 @@
 #include <pagmo/s11n.hpp>
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <sstream>
 #include <utility>
 #include <variant>
@@ -90,6 +92,14 @@ Algorithm make_algorithm(const TuneOptimizer& o, unsigned seed) {
   }
   return pagmo::sga(1, o.crossover_probability, crossover_index, o.mutation_probability, mutation_index, tournament,
                     "sbx", "polynomial", "tournament", seed);
+}
+
+// pagmo's cmaes has a member that it never sets nor uses, but archives: whatever was in the memory,
+// not a number perhaps. These write such numbers so that they can be read again.
+constexpr unsigned archive_flags = boost::archive::no_codecvt;
+std::locale archive_locale() {
+  const std::locale writes(std::locale::classic(), new boost::math::nonfinite_num_put<char>);
+  return {writes, new boost::math::nonfinite_num_get<char>};
 }
 
 }  // namespace
@@ -187,7 +197,8 @@ void Island::evolve() {
 
 IslandState Island::state() const {
   std::ostringstream text;
-  boost::archive::text_oarchive archive(text);
+  text.imbue(archive_locale());
+  boost::archive::text_oarchive archive(text, archive_flags);
   std::visit([&](const auto& algorithm) { archive << algorithm; }, search_->algorithm);
   return {search_->units, search_->objectives, text.str()};
 }
@@ -204,7 +215,8 @@ void Island::restore(const IslandState& state) {
   if (!good) throw TuneError("the population is not one of this tuning");
   try {
     std::istringstream text(state.algorithm);
-    boost::archive::text_iarchive archive(text);
+    text.imbue(archive_locale());
+    boost::archive::text_iarchive archive(text, archive_flags);
     std::visit([&](auto& algorithm) { archive >> algorithm; }, s.algorithm);
   } catch (const std::exception& e) {  // boost's and the standard library's
     throw TuneError(std::string("the algorithm's state cannot be read: ") + e.what());

@@ -204,6 +204,8 @@ void write_results(const std::string& directory, const TunePlan& plan, const std
     draw(fitness_figure(plan, history), directory + "/fitness");
   } catch (const FigureError& e) { result.warnings.push_back(std::string("the figure could not be drawn: ") + e.what()); }
   record::write_file(directory + "/tune.json", result_json(plan, result), replace);
+  std::error_code ignored;  // it would be in nobody's way
+  std::filesystem::remove(checkpoint_path(directory), ignored);
 }
 
 }  // namespace banyan::study

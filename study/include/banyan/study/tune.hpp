@@ -149,8 +149,8 @@ struct TuneHooks {
 void remove_tune_outputs(const std::string& directory);
 
 // Searches, and writes into `directory` (which exists) a checkpoint and generations.csv after every
-// generation, at the end best.toml, tune.json, front.csv (nsga2) and the figure fitness. Goes on
-// from the checkpoint that is there. The same plan gives the same result however often it was
+// generation, at the end best.toml, front.csv (nsga2), the figure fitness and tune.json in place of
+// the checkpoint. Goes on from the checkpoint that is there. The same plan gives the same result however often it was
 // stopped and whatever does the work. `workers` must do study::simulate. Throws TuneError and
 // record::FileError.
 [[nodiscard]] TuneResult tune(const TunePlan& plan, Workers& workers, const std::string& directory,
