@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace banyan::study {
@@ -170,10 +172,15 @@ TEST(Workers, AnyThreadMayPost) {
 
 TEST(Workers, WhatDonesHoldIsGoneAfterWait) {
   const auto workers = thread_workers(backwards, 2);
-  const auto token = std::make_shared<int>(0);
-  for (int i = 0; i < 200; ++i) workers->post("x", [token](const std::string&) {});
+  std::atomic<bool> gone = false;
+  // Slow to go, so that a wait() that returns too early has no luck; a right one needs none.
+  std::shared_ptr<void> held(nullptr, [&](void*) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    gone = true;
+  });
+  workers->post("x", [held = std::move(held)](const std::string&) {});
   workers->wait();
-  EXPECT_EQ(token.use_count(), 1);
+  EXPECT_TRUE(gone);
 }
 
 TEST_F(WorkersGated, AnExceptionOfDoneCancelsAndEndsInWaitOnce) {
