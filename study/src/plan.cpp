@@ -115,6 +115,8 @@ class Planner {
     const config::Place place = root.place;
     // Recordings of thousands of runs are kept on request only.
     (void)config::assign(root, "output.record", {false, place});
+    // What is checked is a run of the study: the scenario's own seed may be one that has no world.
+    if (!part.seeds.empty()) (void)config::assign(root, "seed", {static_cast<std::int64_t>(part.seeds.front()), place});
     const auto change = [&](const Change& c) {
       if (c.key.empty())
         config::overlay(root, c.value);

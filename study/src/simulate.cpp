@@ -9,6 +9,7 @@
 
 #include "banyan/config/config.hpp"
 #include "banyan/measure/observer.hpp"
+#include "banyan/record/file.hpp"
 #include "banyan/record/recording.hpp"
 #include "banyan/record/table.hpp"
 #include "banyan/version.hpp"
@@ -28,7 +29,9 @@ class Keeper {
     if (task.directory.empty()) return;
     const auto& output = configuration.output;
     if (!output.record && !output.series) return;
-    std::filesystem::create_directories(task.directory);
+    std::error_code error;
+    std::filesystem::create_directories(task.directory, error);
+    if (error) throw record::FileError(task.directory, "cannot create", error.value());
     if (output.record) {
       record::RecorderOptions options;
       options.every_ticks = output.record_every;
