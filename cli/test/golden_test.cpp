@@ -56,10 +56,10 @@ void write_table(const std::vector<Row>& rows) {
 }
 
 std::string hash_of(const Row& row, int threads) {
-  std::vector<Override> overrides;
+  std::vector<config::Override> overrides;
   std::istringstream words(row.overrides);
   for (std::string word; words >> word;) overrides.push_back({word, "golden"});
-  const auto loaded = load_configuration(std::string(BANYAN_SCENARIOS) + "/" + row.scenario + ".toml", overrides);
+  const auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + row.scenario + ".toml", overrides);
   EXPECT_TRUE(loaded.ok()) << row.scenario << " " << row.overrides;
   world::World world(loaded.configuration.scenario);
   world::Executor executor(threads);

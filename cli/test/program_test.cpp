@@ -295,7 +295,7 @@ TEST_F(Program, ValidateSpeaksJsonAndShowsWhatAScenarioStandsFor) {
   EXPECT_EQ(report[1]["config"]["swarm"]["robots"], 8);
 
   const auto shown = run({"validate", "small.toml", "--show", "toml", "--set", "radio.loss=0.5"});
-  const auto again = parse_configuration("shown.toml", shown.out);
+  const auto again = config::parse_configuration("shown.toml", shown.out);
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(again.configuration.scenario.radio.loss, 0.5);
 }
