@@ -43,18 +43,20 @@ std::string plan_text(const TunePlan& plan) {
 
 std::string dry_run_text(const TunePlan& plan, const std::string& directory) {
   const auto evaluations = plan.evaluations() * plan.optimizer.islands;
-  const auto compared = (plan.optimizer.islands + 2ULL) * plan.worlds.size() * (plan.training.size() + plan.test.size());
+  const auto compared =
+      (plan.optimizer.islands + 2ULL) * plan.worlds.size() * (plan.training.size() + plan.test.size());
   std::string text = plan.name + ": nothing was started\n\n" + plan_text(plan);
   text += line("runs", "at most " + grouped(static_cast<double>(evaluations * plan.runs() + compared)) + ": " +
                            plural(evaluations, "evaluation") + " of " + plural(plan.runs(), "run") + ", and " +
-                           grouped(static_cast<double>(compared)) + " to compare; what cannot be run or was seen before costs none");
+                           grouped(static_cast<double>(compared)) +
+                           " to compare; what cannot be run or was seen before costs none");
   text += line("results", "in " + directory + "/");
   text += "\n  parameter                  from      to        start\n";
   for (std::size_t i = 0; i < plan.bounds.size(); ++i) {
     const auto& bound = plan.bounds[i];
-    text += format("  %-26s %-9s %-9s %s\n", bound.parameter.c_str(), number_text(bound.low).c_str(),
-                   number_text(bound.high).c_str(),
-                   plan.initial.empty() ? "random" : number_text(plan.initial[i]).c_str());
+    text +=
+        format("  %-26s %-9s %-9s %s\n", bound.parameter.c_str(), number_text(bound.low).c_str(),
+               number_text(bound.high).c_str(), plan.initial.empty() ? "random" : number_text(plan.initial[i]).c_str());
   }
   return text;
 }
@@ -114,8 +116,9 @@ void claim(const std::string& directory, bool force) {
   if (fs::exists(directory, error) && !fs::is_directory(directory, error))
     throw CommandError(exit_usage, directory + " exists and is no directory; --out needs one");
   if (study::tune_finished(directory) && !force)
-    throw CommandError(exit_usage, directory + " already holds a finished tuning; add --force to replace it, or choose "
-                                               "another --out DIR");
+    throw CommandError(exit_usage, directory +
+                                       " already holds a finished tuning; add --force to replace it, or choose "
+                                       "another --out DIR");
   fs::create_directories(directory, error);
   if (error) throw CommandError(exit_lost, directory + ": cannot be created: " + error.message());
   if (force) study::remove_tune_outputs(directory);
@@ -136,8 +139,8 @@ study::TuneResult search(const TunePlan& plan, study::Workers& workers, const st
 }  // namespace
 
 int tune_command(const TuneOptions& options) {
-  const int threads =
-      options.threads > 0 ? options.threads : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
+  const int threads = options.threads > 0 ? options.threads
+                                          : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
   study::Processes processes;
   if (processes.rank() != 0) {
     processes.serve(study::simulate, threads);

@@ -47,10 +47,14 @@ class TuneProgram : public ::testing::Test {
 
   static std::string file(int generations) {
     return "name = \"t\"\n[[worlds]]\nscenario = \"world.toml\"\n[seeds]\ntraining = \"1-2\"\ntest = \"11-12\"\n"
-           "[optimizer]\ngenerations = " + std::to_string(generations) + "\npopulation = 6\nislands = 2\n"
+           "[optimizer]\ngenerations = " +
+           std::to_string(generations) +
+           "\npopulation = 6\nislands = 2\n"
            "[bounds]\ntarget_gain = [0.1, 1.1]\ninteraction_gain = [1.0, 20.0]\n";
   }
-  void write(const std::string& name, const std::string& text) { std::ofstream(home_ / name, std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(home_ / name, std::ios::binary) << text;
+  }
   [[nodiscard]] std::string read(const std::string& name) const { return contents(home_ / name); }
   [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(home_ / name); }
 
@@ -156,7 +160,8 @@ TEST_F(TuneProgram, ADryRunSaysWhatItWouldDoAndDoesNothing) {
 }
 
 TEST_F(TuneProgram, RefusesBadInputBeforeItStarts) {
-  write("bad.toml", "[[worlds]]\nscenario = \"nowhere.toml\"\n[seeds]\ntraining = \"1-3\"\ntest = \"3-4\"\n[bounds]\nx = [1, 2]\n");
+  write("bad.toml",
+        "[[worlds]]\nscenario = \"nowhere.toml\"\n[seeds]\ntraining = \"1-3\"\ntest = \"3-4\"\n[bounds]\nx = [1, 2]\n");
   const auto outcome = run({"bad.toml"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_TRUE(has(outcome.err, "bad.toml:2: error: worlds[0].scenario: ")) << outcome.err;

@@ -98,7 +98,8 @@ class Course {
                        std::to_string(plan_.optimizer.generations) + ", " + std::to_string(evaluator_.runs()) + " runs";
     if (generation_ == plan_.optimizer.generations) text = "comparing on the test seeds";
     if (!history_.empty()) text += ", best fitness " + std::to_string(best).substr(0, 6);
-    hooks_.progress(total > 0 ? std::min(static_cast<double>(evaluations) / static_cast<double>(total), 1.0) : 1.0, text);
+    hooks_.progress(total > 0 ? std::min(static_cast<double>(evaluations) / static_cast<double>(total), 1.0) : 1.0,
+                    text);
   }
 
   void restore(Checkpoint saved) {
@@ -146,7 +147,8 @@ class Course {
   void conclude(TuneResult& result) {
     const auto last = history_.end() - static_cast<std::ptrdiff_t>(islands_.size());
     // The first of equals, so that it is always the same.
-    const auto best = std::max_element(last, history_.end(), [](const auto& a, const auto& b) { return a.best < b.best; });
+    const auto best =
+        std::max_element(last, history_.end(), [](const auto& a, const auto& b) { return a.best < b.best; });
     if (best->best < 0.0)
       throw TuneError("nothing was found that can be run: no point kept 0 < A < E < S < delta < C. Change [bounds]");
     result.candidates.push_back({"best", best->best_point, {}, {}});

@@ -61,15 +61,17 @@ bool plausible(const Checkpoint& checkpoint, const TunePlan& plan) {
 }
 
 TuneError damaged(const std::string& path, const std::string& how) {
-  return TuneError{path + ": the checkpoint is damaged (" + how + "); start over with --force, or with another --out DIR"};
+  return TuneError{path + ": the checkpoint is damaged (" + how +
+                   "); start over with --force, or with another --out DIR"};
 }
 
 // The lines as they should be for this plan.
 void check_owner(const std::string& path, const Json& head, const TunePlan& plan) {
   if (head.at("digest") != tune_digest(plan))
-    throw TuneError(path +
-                    ": the checkpoint belongs to another tuning: the tune file, or a scenario that it names, was changed "
-                    "after it started. Undo the change to go on, or start over with --force or another --out DIR");
+    throw TuneError(
+        path +
+        ": the checkpoint belongs to another tuning: the tune file, or a scenario that it names, was changed "
+        "after it started. Undo the change to go on, or start over with --force or another --out DIR");
   const auto now = std::string(version) + " " + std::string(git_id());
   const auto then = head.at("version").get<std::string>() + " " + head.at("git").get<std::string>();
   if (now != then)
@@ -92,7 +94,8 @@ std::optional<Checkpoint> load_checkpoint(const std::string& path, const TunePla
   std::string text;
   if (!file.read(0, file.size(), text)) throw damaged(path, "it became shorter while it was read");
   const auto first = text.find('\n');
-  if (first == std::string::npos || text.size() < first + 2 || text.back() != '\n') throw damaged(path, "its end is missing");
+  if (first == std::string::npos || text.size() < first + 2 || text.back() != '\n')
+    throw damaged(path, "its end is missing");
   const std::string body = text.substr(first + 1, text.size() - first - 2);
   try {
     const Json head = Json::parse(text.substr(0, first));

@@ -14,16 +14,16 @@ namespace banyan::study {
 // One island after one generation: a row of generations.csv.
 struct GenerationRow {
   std::uint32_t island = 0;
-  std::uint32_t generation = 0;     // 0: the random one
-  double best = 0.0;                // fitness of the best point that the island has seen so far
-  double mean = 0.0, worst = 0.0;   // of its population
-  std::vector<double> best_point;   // in the order of the bounds
+  std::uint32_t generation = 0;    // 0: the random one
+  double best = 0.0;               // fitness of the best point that the island has seen so far
+  double mean = 0.0, worst = 0.0;  // of its population
+  std::vector<double> best_point;  // in the order of the bounds
 };
 
 struct Checkpoint {
-  std::uint32_t generation = 0;         // all islands have finished it
+  std::uint32_t generation = 0;  // all islands have finished it
   std::vector<IslandState> islands;
-  std::vector<GenerationRow> history;   // generation by generation, in it island by island
+  std::vector<GenerationRow> history;  // generation by generation, in it island by island
 };
 
 // Replaces the file, atomically. Throws record::FileError.

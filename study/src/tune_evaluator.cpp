@@ -91,8 +91,7 @@ std::vector<Merit> Evaluator::merits(const std::vector<std::vector<double>>& poi
   if (!unknown.empty()) {
     const auto results = trials(unknown, plan_.training);
     const std::lock_guard lock(known_mutex_);
-    for (std::size_t i = 0; i < unknown.size(); ++i)
-      known_[*unknown[i]] = found[*unknown[i]] = merit_of(results[i]);
+    for (std::size_t i = 0; i < unknown.size(); ++i) known_[*unknown[i]] = found[*unknown[i]] = merit_of(results[i]);
   }
   if (stopped_) throw Stopped();
   evaluations_ += points.size();

@@ -101,13 +101,15 @@ class Reader {
       const auto owner = config::platform_key(info.key);
       if (info.key == name && owner.empty()) return &info;
       if (info.key == name) {
-        problems_.push_back({place, section + "." + name, "follows from the key " + std::string(owner) + " of the scenario"});
+        problems_.push_back(
+            {place, section + "." + name, "follows from the key " + std::string(owner) + " of the scenario"});
         return nullptr;
       }
       if (owner.empty()) known.push_back(info.key);
     }
     std::string what = "there is no such parameter";
-    if (const auto near = config::nearest(name, known); !near.empty()) what += "; did you mean " + std::string(near) + "?";
+    if (const auto near = config::nearest(name, known); !near.empty())
+      what += "; did you mean " + std::string(near) + "?";
     problems_.push_back({place, section + "." + name, what + " (`banyan algorithms` lists them)"});
     return nullptr;
   }

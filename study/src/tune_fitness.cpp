@@ -53,11 +53,10 @@ std::optional<double> number_in(const std::vector<std::string>& cells, std::stri
 
 // How far these parameters are from 0 < A < E < S < delta < C, in units of C; nothing if they keep it.
 std::optional<double> disorder(const Params& params) {
-  const std::array<std::pair<float, float>, 4> ordered{
-      {{params.avoidance_range_m, params.recruitment_distance_m},
-       {params.recruitment_distance_m, params.safe_range_m},
-       {params.safe_range_m, params.ideal_distance_m},
-       {params.ideal_distance_m, params.communication_range_m}}};
+  const std::array<std::pair<float, float>, 4> ordered{{{params.avoidance_range_m, params.recruitment_distance_m},
+                                                        {params.recruitment_distance_m, params.safe_range_m},
+                                                        {params.safe_range_m, params.ideal_distance_m},
+                                                        {params.ideal_distance_m, params.communication_range_m}}};
   std::optional<double> sum;
   for (const auto& [smaller, larger] : ordered) {
     if (smaller < larger) continue;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tune_island.hpp"
 
+#include <algorithm>
 #include <boost/math/special_functions/nonfinite_num_facets.hpp>
+#include <cmath>
+#include <locale>
 #include <pagmo/algorithms/cmaes.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
 #include <pagmo/algorithms/sga.hpp>
@@ -9,9 +12,6 @@
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 #include <pagmo/s11n.hpp>
-#include <algorithm>
-#include <cmath>
-#include <locale>
 #include <sstream>
 #include <utility>
 #include <variant>
@@ -88,7 +88,8 @@ Algorithm make_algorithm(const TuneOptimizer& o, unsigned seed) {
       constexpr double automatic = -1.0, never = 0.0;
       return pagmo::cmaes(1, automatic, automatic, automatic, automatic, o.step, never, never, true, true, seed);
     }
-    case Search::sga: break;
+    case Search::sga:
+      break;
   }
   return pagmo::sga(1, o.crossover_probability, crossover_index, o.mutation_probability, mutation_index, tournament,
                     "sbx", "polynomial", "tournament", seed);
@@ -113,8 +114,7 @@ class WholeGeneration {
   pagmo::vector_double operator()(const pagmo::problem& /*problem*/, const pagmo::vector_double& units) const {
     return evaluate(*evaluator_, *plan_, units);
   }
-  template <class Archive>
-  void serialize(Archive& /*archive*/, unsigned /*version*/) {}
+  template <class Archive> void serialize(Archive& /*archive*/, unsigned /*version*/) {}
 
  private:
   Evaluator* evaluator_ = nullptr;

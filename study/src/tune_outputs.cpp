@@ -44,7 +44,8 @@ std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
           number(o.population) + " individuals on " + number(o.islands) + " islands, seed " + number(o.seed) + ".\n";
   text += "# Fitness " + number_text(best.training.merit.fitness()) + " on the training seeds, " +
           number_text(best.test.merit.fitness()) + " on the test seeds.\n";
-  text += "# Banyan " + std::string(version) + " (git " + std::string(git_id()) + "), tuning " + tune_digest(plan) + ".\n";
+  text +=
+      "# Banyan " + std::string(version) + " (git " + std::string(git_id()) + "), tuning " + tune_digest(plan) + ".\n";
   text += "[mission.parameters]\n";
   for (std::size_t i = 0; i < plan.bounds.size(); ++i)
     text += plan.bounds[i].parameter + " = " + number_text(best.point[i]) + "\n";
@@ -127,9 +128,8 @@ CurveFigure fitness_figure(const TunePlan& plan, const std::vector<GenerationRow
         high[g] = std::max(high[g], island[g]);
       }
     }
-    figure.curves.push_back(
-        {"best, mean and range of the islands", generations, mean_over_islands(plan, history, &GenerationRow::best), low,
-         high, false});
+    figure.curves.push_back({"best, mean and range of the islands", generations,
+                             mean_over_islands(plan, history, &GenerationRow::best), low, high, false});
   }
   figure.curves.push_back(
       {"mean of the populations", generations, mean_over_islands(plan, history, &GenerationRow::mean), {}, {}, false});
@@ -164,8 +164,8 @@ void write_generations(const std::string& directory, const TunePlan& plan, const
       "generation,island,evaluations,best_fitness,mean_fitness,worst_fitness" + parameter_names(plan) + "\n";
   for (const auto& row : history) {
     const std::uint64_t evaluations = plan.optimizer.population * (row.generation + 1ULL);
-    text += std::to_string(row.generation) + "," + std::to_string(row.island) + "," + std::to_string(evaluations) + "," +
-            number_text(row.best) + "," + number_text(row.mean) + "," + number_text(row.worst) +
+    text += std::to_string(row.generation) + "," + std::to_string(row.island) + "," + std::to_string(evaluations) +
+            "," + number_text(row.best) + "," + number_text(row.mean) + "," + number_text(row.worst) +
             parameter_values(row.best_point) + "\n";
   }
   record::write_file(directory + "/generations.csv", text, record::Existing::replace);
@@ -202,7 +202,9 @@ void write_results(const std::string& directory, const TunePlan& plan, const std
   }
   try {
     draw(fitness_figure(plan, history), directory + "/fitness");
-  } catch (const FigureError& e) { result.warnings.push_back(std::string("the figure could not be drawn: ") + e.what()); }
+  } catch (const FigureError& e) {
+    result.warnings.push_back(std::string("the figure could not be drawn: ") + e.what());
+  }
   record::write_file(directory + "/tune.json", result_json(plan, result), replace);
   std::error_code ignored;  // it would be in nobody's way
   std::filesystem::remove(checkpoint_path(directory), ignored);

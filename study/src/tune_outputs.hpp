@@ -17,8 +17,8 @@ void write_generations(const std::string& directory, const TunePlan& plan, const
 // A point that no other is better than in both goals.
 struct FrontPoint {
   std::uint32_t island = 0;
-  double disconnected = 0.0, time = 0.0;   // Merit's
-  std::vector<double> point;               // in the order of the bounds
+  double disconnected = 0.0, time = 0.0;  // Merit's
+  std::vector<double> point;              // in the order of the bounds
 };
 // Of all islands' last populations, ascending in `disconnected`, each pair of goals once.
 [[nodiscard]] std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandState>& islands);

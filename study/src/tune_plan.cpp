@@ -11,9 +11,12 @@ using Json = nlohmann::ordered_json;
 
 std::string_view name_of(Search search) noexcept {
   switch (search) {
-    case Search::sga: return "sga";
-    case Search::nsga2: return "nsga2";
-    case Search::cmaes: return "cmaes";
+    case Search::sga:
+      return "sga";
+    case Search::nsga2:
+      return "nsga2";
+    case Search::cmaes:
+      return "cmaes";
   }
   return "?";
 }
@@ -24,8 +27,11 @@ std::uint64_t TunePlan::evaluations() const noexcept {
 
 std::string tune_json(const TunePlan& plan) {
   const auto& o = plan.optimizer;
-  Json optimizer{{"algorithm", name_of(o.search)}, {"generations", o.generations}, {"population", o.population},
-                 {"islands", o.islands},           {"seed", o.seed}};
+  Json optimizer{{"algorithm", name_of(o.search)},
+                 {"generations", o.generations},
+                 {"population", o.population},
+                 {"islands", o.islands},
+                 {"seed", o.seed}};
   if (o.search == Search::cmaes) {
     optimizer["step"] = o.step;
   } else {

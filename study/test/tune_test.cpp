@@ -83,7 +83,8 @@ TEST(TuneFitness, TheTwoStepsByHand) {
 }
 
 TEST(TuneFitness, ScoresInNumbersForPeople) {
-  const std::vector<Trial> trials{{true, 0.0, 0.2, 20.0}, {true, 0.5, 0.4, 40.0}, {false, 0.0, 1.0, 0.0}, {true, 0.0, 0.9, 90.0}};
+  const std::vector<Trial> trials{
+      {true, 0.0, 0.2, 20.0}, {true, 0.5, 0.4, 40.0}, {false, 0.0, 1.0, 0.0}, {true, 0.0, 0.9, 90.0}};
   const auto score = score_of(trials);
   EXPECT_EQ(score.trials, 4U);
   EXPECT_DOUBLE_EQ(score.complete_share, 0.75);
@@ -105,7 +106,8 @@ class Tune : public ::testing::Test {
     path_ = std::getenv("PATH");
     ::setenv("PATH", home_.c_str(), 1);
     write("world.toml",
-          "name = \"world\"\n[mission]\ntime_limit_s = 10.0\n[swarm]\nrobots = 5\n[targets]\ncount = 2\nradius_m = 1.0\n");
+          "name = \"world\"\n[mission]\ntime_limit_s = 10.0\n[swarm]\nrobots = 5\n[targets]\ncount = 2\nradius_m = "
+          "1.0\n");
   }
   void TearDown() override {
     ::setenv("PATH", path_.c_str(), 1);
@@ -119,11 +121,11 @@ class Tune : public ::testing::Test {
     return (home_ / name).string();
   }
   // A whole file; a part given replaces the one with the same start.
-  [[nodiscard]] static std::string file(const std::string& optimizer = "",
-                                        const std::string& bounds = "target_gain = [0.1, 1.1]\navoidance_gain = [0.0, 2.0]\n",
-                                        const std::string& seeds = "training = \"1-2\"\ntest = [11, 12, 13]\n",
-                                        const std::string& worlds = "[[worlds]]\nscenario = \"world.toml\"\n",
-                                        const std::string& rest = "") {
+  [[nodiscard]] static std::string file(
+      const std::string& optimizer = "",
+      const std::string& bounds = "target_gain = [0.1, 1.1]\navoidance_gain = [0.0, 2.0]\n",
+      const std::string& seeds = "training = \"1-2\"\ntest = [11, 12, 13]\n",
+      const std::string& worlds = "[[worlds]]\nscenario = \"world.toml\"\n", const std::string& rest = "") {
     return worlds + "[seeds]\n" + seeds + "[optimizer]\n" + optimizer + "[bounds]\n" + bounds + rest;
   }
   [[nodiscard]] LoadedTune load(const std::string& text) const {
@@ -137,7 +139,8 @@ class Tune : public ::testing::Test {
   // Exactly one problem, at that line of the file, with that in its text.
   void expect_problem(const std::string& text, int line, const std::string& part) const {
     const auto loaded = load(text);
-    ASSERT_EQ(loaded.problems.size(), 1U) << text << (loaded.problems.empty() ? "" : config::to_string(loaded.problems[1 % loaded.problems.size()]));
+    ASSERT_EQ(loaded.problems.size(), 1U)
+        << text << (loaded.problems.empty() ? "" : config::to_string(loaded.problems[1 % loaded.problems.size()]));
     EXPECT_FALSE(loaded.ok());
     EXPECT_EQ(loaded.problems[0].place.line, line) << config::to_string(loaded.problems[0]);
     EXPECT_TRUE(has(config::to_string(loaded.problems[0]), part)) << config::to_string(loaded.problems[0]);
@@ -166,7 +169,7 @@ TEST_F(Tune, ReadsAFile) {
   EXPECT_EQ(p.training, (std::vector<std::uint64_t>{3, 4, 5}));
   EXPECT_EQ(p.test, (std::vector<std::uint64_t>{9}));
   ASSERT_EQ(p.worlds.size(), 2U);
-  EXPECT_EQ(p.worlds[0].scenario.radio.range_m, 2.5);   // a world's own change wins
+  EXPECT_EQ(p.worlds[0].scenario.radio.range_m, 2.5);  // a world's own change wins
   EXPECT_EQ(p.worlds[1].scenario.radio.range_m, 2.25);
   EXPECT_EQ(p.worlds[0].scenario.mission.algorithm, "inwards");
   EXPECT_EQ(std::get<world::RingTargets>(p.worlds[1].scenario.targets).radius_m, 1.5);
@@ -177,8 +180,9 @@ TEST_F(Tune, ReadsAFile) {
 
 TEST_F(Tune, ReadsJsonToTheSamePlan) {
   const auto toml = plan(file("generations = 3\n", "target_gain = [0.1, 1.1]\n"));
-  const auto loaded = parse_tune((home_ / "tune.json").string(),
-                                 R"({"worlds": [{"scenario": "world.toml"}], "seeds": {"training": "1-2", "test": [11, 12, 13]},
+  const auto loaded =
+      parse_tune((home_ / "tune.json").string(),
+                 R"({"worlds": [{"scenario": "world.toml"}], "seeds": {"training": "1-2", "test": [11, 12, 13]},
                                      "optimizer": {"generations": 3}, "bounds": {"target_gain": [0.1, 1.1]}})");
   ASSERT_TRUE(loaded.ok());
   EXPECT_EQ(tune_json(loaded.plan), tune_json(toml));
@@ -189,7 +193,8 @@ TEST_F(Tune, TheDigestIsOfWhatCounts) {
   const auto digest = tune_digest(plan(file()));
   EXPECT_EQ(tune_digest(plan("# a comment\n" + file())), digest);
   EXPECT_NE(tune_digest(plan(file("seed = 2\n"))), digest);
-  EXPECT_NE(tune_digest(plan(file("", "target_gain = [0.1, 1.1]\navoidance_gain = [0.0, 2.0000000000000004]\n"))), digest);
+  EXPECT_NE(tune_digest(plan(file("", "target_gain = [0.1, 1.1]\navoidance_gain = [0.0, 2.0000000000000004]\n"))),
+            digest);
   write("world.toml", contents(home_ / "world.toml") + "center_m = [0.1, 0.0]\n");
   EXPECT_NE(tune_digest(plan(file())), digest);
 }
@@ -232,19 +237,23 @@ TEST_F(Tune, EveryFaultOfAFileHasItsLine) {
   expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = 3\n"), 2, "must be a text");
   expect_problem(file("", bounds, seeds, "[[worlds]]\n"), 1, "worlds[0].scenario");
   expect_problem(file("", bounds, seeds, "worlds = []\n"), 1, "at least one world");
-  expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\nset = { \"radio.rnge_m\" = 2.5 }\n"), 0,
+  expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\nset = { \"radio.rnge_m\" = 2.5 }\n"),
+                 0,
                  "tune.toml:3: error: radio.rnge_m");  // an option, to config
   expect_problem(file("", bounds, seeds,
                       "[[worlds]]\nscenario = \"world.toml\"\n[[worlds]]\nscenario = \"world.toml\"\n"
                       "set = { \"mission.algorithm\" = \"inwards\" }\n"),
                  4, "one search is for one algorithm");
-  expect_problem(file("", bounds, seeds, "nmae = \"x\"\n[[worlds]]\nscenario = \"world.toml\"\n"), 1, "did you mean name");
-  expect_problem(file("", bounds, seeds, "name = \"a/b\"\n[[worlds]]\nscenario = \"world.toml\"\n"), 1, "letters, digits");
+  expect_problem(file("", bounds, seeds, "nmae = \"x\"\n[[worlds]]\nscenario = \"world.toml\"\n"), 1,
+                 "did you mean name");
+  expect_problem(file("", bounds, seeds, "name = \"a/b\"\n[[worlds]]\nscenario = \"world.toml\"\n"), 1,
+                 "letters, digits");
 
-  expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\ntarget_gain = 1.5\n"), 10,
-                 "allowed: 0.1 to 1.1");
-  expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\navoidance_gain = 1.5\n"), 10,
-                 "is not searched");
+  expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\ntarget_gain = 1.5\n"),
+                 10, "allowed: 0.1 to 1.1");
+  expect_problem(
+      file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\navoidance_gain = 1.5\n"), 10,
+      "is not searched");
   expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\nnonsense = 1.5\n"), 10,
                  "no such parameter");
   expect_problem(file("", "safe_range_m = [0.5, 2.5]\n", seeds, "[[worlds]]\nscenario = \"world.toml\"\n",
@@ -278,10 +287,10 @@ TEST_F(Tune, InfeasibilityGrowsWithTheDistance) {
   const auto p = plan(file("", "recruitment_distance_m = [0.5, 3.0]\nsafe_range_m = [0.5, 3.0]\n"));
   const auto at = [&](double e, double s) { return infeasibility(p, std::vector{e, s}); };
   EXPECT_EQ(at(1.3, 1.4), 0.0);
-  EXPECT_GT(at(1.4, 1.4), 0.0);                                        // E < S is strict
-  EXPECT_NEAR(at(1.6, 1.4), 0.1 / 1.1, 1e-6);                          // 0.2 m of C = 2 m too much
+  EXPECT_GT(at(1.4, 1.4), 0.0);                // E < S is strict
+  EXPECT_NEAR(at(1.6, 1.4), 0.1 / 1.1, 1e-6);  // 0.2 m of C = 2 m too much
   EXPECT_NEAR(at(2.4, 1.4), 0.5 / 1.5, 1e-6);
-  EXPECT_NEAR(at(1.0, 2.1), 0.1 / 1.1, 1e-6);                          // S < delta = 1.9
+  EXPECT_NEAR(at(1.0, 2.1), 0.1 / 1.1, 1e-6);  // S < delta = 1.9
   EXPECT_LE(at(3.0, 0.5), 1.0);
 }
 
@@ -289,16 +298,15 @@ TEST_F(Tune, InfeasibilityGrowsWithTheDistance) {
 
 std::atomic<int> runs{0};
 
-json config_of(std::string_view task) {
-  return json::parse(json::from_msgpack(task).at("config").get<std::string>());
-}
+json config_of(std::string_view task) { return json::parse(json::from_msgpack(task).at("config").get<std::string>()); }
 
 // What a formula makes of a run: quickest at target_gain 0.6 and avoidance_gain 1.0.
 std::string bowl(std::string_view task) {
   ++runs;
   const auto config = config_of(task);
   const auto& parameters = config.at("mission").at("parameters");
-  const double x = parameters.value("target_gain", 0.49) - 0.6, y = (parameters.value("avoidance_gain", 0.5) - 1.0) / 2.0;
+  const double x = parameters.value("target_gain", 0.49) - 0.6,
+               y = (parameters.value("avoidance_gain", 0.5) - 1.0) / 2.0;
   const double time = std::min(2.0 * (x * x + y * y) + 0.001 * config.at("seed").get<double>(), 1.0);
   Outcome outcome;
   outcome.row = record::run_csv_row(row_with(true, 1000, 0, 0, time));
@@ -391,7 +399,8 @@ TEST_P(TuneSearch, AnyNumberOfThreadsGivesTheSame) {
 }
 
 TEST_P(TuneSearch, FindsTheBottomOfABowl) {
-  const auto p = plan(file("generations = 25\npopulation = 16\nislands = 2\nalgorithm = \"" + std::string(GetParam()) + "\"\n"));
+  const auto p =
+      plan(file("generations = 25\npopulation = 16\nislands = 2\nalgorithm = \"" + std::string(GetParam()) + "\"\n"));
   const auto workers = thread_workers(bowl, 2);
   const auto result = tune(p, *workers, folder("out"));
   const auto& best = result.candidates.at(0);
@@ -467,8 +476,8 @@ TEST_F(Tune, BestTomlIsAFragmentOfAScenario) {
   const auto directory = folder("out");
   const auto workers = thread_workers(bowl, 2);
   const auto result = tune(p, *workers, directory);
-  const auto loaded = config::parse_configuration(
-      "with-best.toml", contents(home_ / "world.toml") + contents(directory + "/best.toml"));
+  const auto loaded = config::parse_configuration("with-best.toml",
+                                                  contents(home_ / "world.toml") + contents(directory + "/best.toml"));
   ASSERT_TRUE(loaded.ok());
   const auto& parameters = loaded.configuration.scenario.mission.parameters;
   ASSERT_EQ(parameters.size(), 2U);
@@ -477,9 +486,10 @@ TEST_F(Tune, BestTomlIsAFragmentOfAScenario) {
 }
 
 TEST_F(Tune, StartsFromTheInitialPoint) {
-  const auto p = plan(file("generations = 1\npopulation = 2\nislands = 1\n",
-                           "target_gain = [0.1, 1.1]\navoidance_gain = [0.0, 2.0]\n", "training = [1]\ntest = [2]\n",
-                           "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\ntarget_gain = 0.6\navoidance_gain = 1.0\n"));
+  const auto p =
+      plan(file("generations = 1\npopulation = 2\nislands = 1\n",
+                "target_gain = [0.1, 1.1]\navoidance_gain = [0.0, 2.0]\n", "training = [1]\ntest = [2]\n",
+                "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\ntarget_gain = 0.6\navoidance_gain = 1.0\n"));
   const auto workers = thread_workers(bowl, 1);
   const auto result = tune(p, *workers, folder("out"));
   EXPECT_NEAR(result.candidates[0].training.merit.fitness(), 2.0 - 0.001, 1e-6);
@@ -570,8 +580,8 @@ class TuneCheckpoint : public Tune {
 };
 
 TEST_F(TuneCheckpoint, DamageOfAnyKindIsToldAndNothingIsOverwritten) {
-  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{50}, whole_.find('\n'), whole_.find('\n') + 1,
-                                   whole_.size() / 2, whole_.size() - 2, whole_.size() - 1}) {
+  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{50}, whole_.find('\n'),
+                                   whole_.find('\n') + 1, whole_.size() / 2, whole_.size() - 2, whole_.size() - 1}) {
     put(whole_.substr(0, length));
     expect_refused(plan_, "damaged");
     EXPECT_EQ(contents(checkpoint()).size(), length);

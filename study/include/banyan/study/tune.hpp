@@ -26,30 +26,30 @@ enum class Search : std::uint8_t { sga, nsga2, cmaes };
 
 struct TuneOptimizer {
   Search search = Search::sga;
-  std::uint32_t generations = 100;         // after the random one
-  std::uint32_t population = 24;           // individuals of an island
-  std::uint32_t islands = 4;               // independent instances
+  std::uint32_t generations = 100;  // after the random one
+  std::uint32_t population = 24;    // individuals of an island
+  std::uint32_t islands = 4;        // independent instances
   std::uint64_t seed = 1;
-  double crossover_probability = 0.9;      // sga, nsga2
-  double mutation_probability = 0.0;       // sga, nsga2: per parameter
-  double step = 0.3;                       // cmaes: first standard deviation, as a share of the bounds
+  double crossover_probability = 0.9;  // sga, nsga2
+  double mutation_probability = 0.0;   // sga, nsga2: per parameter
+  double step = 0.3;                   // cmaes: first standard deviation, as a share of the bounds
 };
 
 // One parameter that is searched, in the parameter's own unit.
 struct TuneBound {
-  std::string parameter;                   // key of parameter_table()
-  double low = 0.0, high = 0.0;            // low < high
+  std::string parameter;         // key of parameter_table()
+  double low = 0.0, high = 0.0;  // low < high
 };
 
 struct TunePlan {
   std::string name;
   std::string description;
-  std::vector<config::Configuration> worlds;   // at least one, all with the same algorithm and reading
-  std::vector<std::uint64_t> training;         // seeds that the search sees
-  std::vector<std::uint64_t> test;             // seeds that only the final comparison sees
+  std::vector<config::Configuration> worlds;  // at least one, all with the same algorithm and reading
+  std::vector<std::uint64_t> training;        // seeds that the search sees
+  std::vector<std::uint64_t> test;            // seeds that only the final comparison sees
   TuneOptimizer optimizer;
-  std::vector<TuneBound> bounds;               // at least one, in the order of the file
-  std::vector<double> initial;                 // a point to start from, in the order of `bounds`; or empty
+  std::vector<TuneBound> bounds;  // at least one, in the order of the file
+  std::vector<double> initial;    // a point to start from, in the order of `bounds`; or empty
 
   // Evaluations of one island, the random generation included.
   [[nodiscard]] std::uint64_t evaluations() const noexcept;
@@ -58,8 +58,8 @@ struct TunePlan {
 };
 
 struct LoadedTune {
-  TunePlan plan;                           // complete only if ok()
-  std::vector<config::Problem> problems;   // in the order of the file; warnings of the scenarios too
+  TunePlan plan;                          // complete only if ok()
+  std::vector<config::Problem> problems;  // in the order of the file; warnings of the scenarios too
   [[nodiscard]] bool ok() const noexcept;
 };
 // Reads a tune file (TOML or JSON) and the scenarios it names, relative to its own place. Strict,
@@ -78,19 +78,19 @@ struct LoadedTune {
 // One run, as fitness sees it.
 struct Trial {
   bool complete = false;
-  double disconnected = 0.0;               // share of its ticks, in [0, 1]: a tree edge broken, or the
-                                           // radio graph in several pieces, whichever was more often
-  double normalized_time = 1.0;            // completion time / limit, in [0, 1]; 1 if not complete
-  double completion_time_s = 0.0;          // if complete
+  double disconnected = 0.0;       // share of its ticks, in [0, 1]: a tree edge broken, or the
+                                   // radio graph in several pieces, whichever was more often
+  double normalized_time = 1.0;    // completion time / limit, in [0, 1]; 1 if not complete
+  double completion_time_s = 0.0;  // if complete
 };
 // From a row of the table of runs; nothing if it is no such row.
 [[nodiscard]] std::optional<Trial> trial_of(std::string_view run_csv_row);
 
 // What a point of the search space came to.
 struct Merit {
-  double infeasible = 0.0;                 // 0: it can be run; else in (0, 1], the larger the farther from it
-  double disconnected = 1.0;               // mean over the trials
-  double time = 1.0;                       // mean normalised time
+  double infeasible = 0.0;    // 0: it can be run; else in (0, 1], the larger the farther from it
+  double disconnected = 1.0;  // mean over the trials
+  double time = 1.0;          // mean normalised time
 
   // The paper's two steps: 1 - disconnected, in [0, 1), if any trial was disconnected at any time;
   // else 2 - time, in [1, 2]. Below 0, as far as -1, if it cannot be run at all.
@@ -111,24 +111,24 @@ struct TuneScore {
   Merit merit;
   std::size_t trials = 0;
   double complete_share = 0.0;
-  std::optional<double> median_time_s;     // completion time of the complete ones; none: no median
-  double disconnected_share = 0.0;         // of the trials, with any disconnection at all
+  std::optional<double> median_time_s;  // completion time of the complete ones; none: no median
+  double disconnected_share = 0.0;      // of the trials, with any disconnection at all
 };
 [[nodiscard]] TuneScore score_of(std::span<const Trial> trials);
 
 struct TuneCandidate {
-  std::string name;                        // "best", "island 2", "default"
-  std::vector<double> point;               // in the order of the bounds
+  std::string name;           // "best", "island 2", "default"
+  std::vector<double> point;  // in the order of the bounds
   TuneScore training, test;
 };
 
 struct TuneResult {
-  bool interrupted = false;                // nothing below then; the next tune() goes on
-  std::uint32_t resumed_at = 0;            // generations that were already there
-  std::uint64_t evaluations = 0;           // of all islands, from the beginning
-  std::vector<TuneCandidate> candidates;   // the best, the default, then the best of each island
-  std::size_t front = 0;                   // nsga2: rows of front.csv
-  std::vector<std::string> warnings;       // such as a figure that could not be drawn
+  bool interrupted = false;               // nothing below then; the next tune() goes on
+  std::uint32_t resumed_at = 0;           // generations that were already there
+  std::uint64_t evaluations = 0;          // of all islands, from the beginning
+  std::vector<TuneCandidate> candidates;  // the best, the default, then the best of each island
+  std::size_t front = 0;                  // nsga2: rows of front.csv
+  std::vector<std::string> warnings;      // such as a figure that could not be drawn
 };
 
 // The tuning cannot go on: a broken checkpoint, a checkpoint of another tuning, a run that failed.
@@ -138,7 +138,7 @@ class TuneError : public std::runtime_error {
 };
 
 struct TuneHooks {
-  std::function<bool()> stopped;           // asked about ten times a second; true: leave soon
+  std::function<bool()> stopped;  // asked about ten times a second; true: leave soon
   // The share of what this call has to do that is done, in [0, 1], and words; as often.
   std::function<void(double share, const std::string& text)> progress;
 };
