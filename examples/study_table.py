@@ -13,10 +13,14 @@ folder = sys.argv[1] if len(sys.argv) > 1 else "out/first"
 runs = pd.read_csv(f"{folder}/runs.csv")
 runs = runs[runs["error"].isna()]
 
-# Columns that say what was run and differ within this study.
-axes = [c for c in runs.columns[: runs.columns.get_loc("robots")]
-        if c not in ("study", "run", "error", "name", "seed", "version", "git") and runs[c].nunique() > 1]
-print(runs.groupby(axes)["normalized_time"].describe()[["count", "25%", "50%", "75%"]], "\n")
+# Columns that say what was run and differ within this study; of two that say the same, the first.
+axes = []
+for c in runs.columns[: runs.columns.get_loc("robots")]:
+    if c in ("study", "run", "error", "name", "seed", "version", "git") or runs[c].nunique() < 2:
+        continue
+    if all(runs.groupby([a, c]).ngroups > runs[a].nunique() for a in axes):
+        axes.append(c)
+print(runs.groupby(axes)["normalized_time"].describe()[["count", "25%", "50%", "75%"]].to_string(), "\n")
 
 # The same seed is the same start: compare run by run.
 others = [a for a in axes if a != "algorithm"] + ["seed"]

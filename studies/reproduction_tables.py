@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The tables of docs/reproduction.md, from the statistics of studies/paper.toml.
+
+   python3 studies/reproduction_tables.py results/paper docs/reproduction.md
+
+Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; without a page it
+prints all tables. Needs nothing but Python's standard library.
+"""
+import csv
+import re
+import sys
+
+READINGS = ["literal", "corrected"]
+SIGHT = ["off", "on"]
+RADII = ["3", "6", "9"]
+ALGORITHMS = ["outwards", "inwards"]
+
+
+class Statistics:
+    """Rows of statistics.csv and comparisons.csv by part, metric and the labels of axes."""
+
+    def __init__(self, folder):
+        self.rows = self._read(f"{folder}/statistics.csv")
+        self.comparisons = self._read(f"{folder}/comparisons.csv")
+        with open(f"{folder}/statistics.csv", newline="") as file:
+            header = next(csv.reader(file))
+        self.axes = header[1:header.index("metric")]
+
+    @staticmethod
+    def _read(path):
+        index = {}
+        with open(path, newline="") as file:
+            for row in csv.DictReader(file):
+                index.setdefault((row["part"], row["metric"]), []).append(row)
+        return index
+
+    def _find(self, rows, labels):
+        # Axes that are not named are pooled, or do not exist in this part.
+        wanted = {axis: labels.get(axis, "*") for axis in self.axes}
+        found = [r for r in rows if all(r[a] == w or (w == "*" and r[a] == "") for a, w in wanted.items())]
+        if len(found) != 1:
+            sys.exit(f"{len(found)} rows instead of one for {labels}")
+        return found[0]
+
+    def of(self, part, metric, **labels):
+        return self._find(self.rows[(part, metric)], labels)
+
+    def compare(self, part, metric, **labels):
+        return self._find(self.comparisons[(part, metric)], labels)
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def percent(row, field="positive"):
+    value = 100 * float(row[field])
+    return f"{value:.0f}" if value in (0, 100) or value >= 10 else f"{value:.1f}"
+
+
+def interval(row):
+    return f"{percent(row)} ({percent(row, 'positive_low')}–{percent(row, 'positive_high')})"
+
+
+def number(text, digits=3):
+    return f"{float(text):.{digits}f}"
+
+
+def p_value(text):
+    value = float(text)
+    if value >= 0.001:
+        return f"{value:.3f}"
+    return "< 0.001" if value > 1e-300 else "0"
+
+
+def time_row(row):
+    """Medians, paired difference with interval, who was sooner, p."""
+    pairs = int(row["pairs"])
+    return [number(row["first_median"]), number(row["second_median"]),
+            f"{float(row['median_difference']):+.3f} ({float(row['difference_low']):+.3f} to {float(row['difference_high']):+.3f})",
+            f"{100 * int(row['second_larger']) / pairs:.0f}", p_value(row["p_holm"])]
+
+
+TIME_HEADER = ["outwards", "inwards", "outwards − inwards (95 %)", "outwards sooner, % of pairs", "p (Holm)"]
+
+
+def time(s):
+    rows = [[reading, los, f"{r} m"] + time_row(s.compare("worlds", "normalized_time", reading=reading, los=los, r=r))
+            for reading in READINGS for los in SIGHT for r in RADII]
+    return table(["reading", "line of sight", "r"] + TIME_HEADER, rows)
+
+
+def by_redundancy(s, part, metric, ks):
+    """A share of runs, per radius and redundancy."""
+    rows = []
+    for reading in READINGS:
+        for los in SIGHT:
+            for algorithm in ALGORITHMS:
+                cells = [" / ".join(percent(s.of(part, metric, reading=reading, los=los, algorithm=algorithm, r=r, k=k))
+                                    for k in ks) for r in RADII]
+                rows.append([reading, los, algorithm] + cells)
+    ks_text = "/".join(ks)
+    return table(["reading", "line of sight", "algorithm"] + [f"r = {r} m, k = {ks_text}" for r in RADII], rows)
+
+
+def complete(s):
+    return by_redundancy(s, "worlds", "complete", ["2", "3", "4"])
+
+
+def split(s):
+    return by_redundancy(s, "worlds", "split_ticks", ["2", "3", "4"])
+
+
+def fiedler(s):
+    return by_redundancy(s, "worlds", "fiedler_time_ratio", ["2", "3", "4"])
+
+
+def broken(s):
+    rows = []
+    for reading in READINGS:
+        for los in SIGHT:
+            for algorithm in ALGORITHMS:
+                cells = []
+                for r in RADII:
+                    labels = dict(reading=reading, los=los, algorithm=algorithm, r=r)
+                    cells.append(" / ".join(
+                        [percent(s.of("worlds", f"disconnected_time_ratio_by_{why}", **labels)) for why in ("distance", "occlusion")]
+                        + [f"{100 * float(s.of('worlds', 'disconnected_time_ratio', **labels)['mean']):.1f}"]))
+                rows.append([reading, los, algorithm] + cells)
+    return table(["reading", "line of sight", "algorithm"] + [f"r = {r} m" for r in RADII], rows)
+
+
+def broken_by_redundancy(s):
+    return by_redundancy(s, "worlds", "disconnected_time_ratio_by_distance", ["2", "3", "4"])
+
+
+def redundancy(s):
+    ks = ["2", "4", "6", "8"]
+    rows = []
+    for reading in READINGS:
+        for los in SIGHT:
+            for algorithm in ALGORITHMS:
+                for r in RADII:
+                    labels = [dict(reading=reading, los=los, algorithm=algorithm, r=r, k=k) for k in ks]
+
+                    def shares(metric, labels=labels):
+                        return " / ".join(percent(s.of("redundancy", metric, **one)) for one in labels)
+
+                    rows.append([reading, los, algorithm, f"{r} m",
+                                 " / ".join(number(s.of("redundancy", "normalized_time", **one)["median"]) for one in labels),
+                                 shares("complete"), shares("disconnected_time_ratio_by_distance"), shares("split_ticks")])
+    return table(["reading", "line of sight", "algorithm", "r", "median time, k = 2/4/6/8", "complete, %",
+                  "edge broken by distance, % of runs", "network split, % of runs"], rows)
+
+
+def sweep(s, part, axis, values):
+    rows = []
+    for reading in READINGS:
+        for algorithm in ALGORITHMS:
+            for value in values:
+                labels = [dict(reading=reading, algorithm=algorithm, r=r) | {axis: value} for r in RADII]
+                rows.append([reading, algorithm, value,
+                             " / ".join(percent(s.of(part, "complete", **one)) for one in labels),
+                             " / ".join(number(s.of(part, "normalized_time", **one)["median"]) for one in labels),
+                             " / ".join(percent(s.of(part, "disconnected_time_ratio_by_distance", **one)) for one in labels),
+                             " / ".join(percent(s.of(part, "split_ticks", **one)) for one in labels)])
+    return table(["reading", "algorithm", axis, "complete, %, r = 3/6/9 m", "median time", "edge broken by distance, % of runs",
+                  "network split, % of runs"], rows)
+
+
+def radio_range(s):
+    return sweep(s, "range", "C", ["1.9", "2", "2.5", "3"])
+
+
+def speed(s):
+    return sweep(s, "speed", "v", ["0.1", "0.2", "0.4", "0.8"])
+
+
+def gain(s):
+    return sweep(s, "gain", "K", ["0.1", "0.2", "0.4", "0.8"])
+
+
+def real(s):
+    rows = []
+    for part, text in (("real-two", "2 targets, same start, 15 runs"), ("real-three", "3 targets, same start, 10 runs"),
+                       ("random-two", "2 targets, random starts, 50 runs"), ("random-three", "3 targets, random starts, 50 runs")):
+        for reading in READINGS:
+            for body in ("disks", "box2d"):
+                labels = dict(reading=reading, los="off", body=body)
+                done = [percent(s.of(part, "complete", algorithm=a, **labels)) for a in ALGORITHMS]
+                rows.append([text, reading, body, " / ".join(done)]
+                            + time_row(s.compare(part, "normalized_time", **labels)))
+    return table(["set-up", "reading", "bodies", "complete, %, outwards / inwards"] + TIME_HEADER, rows)
+
+
+TABLES = {"time": time, "complete": complete, "broken": broken, "broken-by-redundancy": broken_by_redundancy, "split": split,
+          "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "real": real}
+
+
+def main():
+    s = Statistics(sys.argv[1] if len(sys.argv) > 1 else "results/paper")
+    if len(sys.argv) < 3:
+        for name, make in TABLES.items():
+            print(f"## {name}\n\n{make(s)}\n")
+        return
+    with open(sys.argv[2], encoding="utf-8") as file:
+        page = file.read()
+    for name in re.findall(r"<!-- table: ([\w-]+) -->", page):
+        if name in TABLES:
+            page = re.sub(rf"(<!-- table: {name} -->\n).*?(<!-- end -->)", lambda m, n=name: m[1] + TABLES[n](s) + "\n" + m[2],
+                          page, flags=re.S)
+    with open(sys.argv[2], "w", encoding="utf-8") as file:
+        file.write(page)
+
+
+if __name__ == "__main__":
+    main()
