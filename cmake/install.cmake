@@ -57,7 +57,7 @@ install(FILES ${generated}/banyan.pc DESTINATION ${pc_dir} COMPONENT development
 
 if(TARGET banyan_cli)
   install(TARGETS banyan_cli RUNTIME COMPONENT program)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
           FILES_MATCHING PATTERN "*.toml")
   if(EXISTS ${PROJECT_SOURCE_DIR}/cli/completion/banyan.bash)
     install(FILES ${PROJECT_SOURCE_DIR}/cli/completion/banyan.bash RENAME banyan
