@@ -359,7 +359,6 @@ class StudyReader {
     for (const auto& axis : figure.x) check_axis(table, "x", axis, known);
     check_axis(table, "panels", figure.panels, known);
     check_axis(table, "series", figure.series, known);
-    if (part != study.parts.end()) check_series(table, *part, figure.series);
     figure.columns = static_cast<std::size_t>(table.whole("columns", 3, {1, 6}));
     figure.y_minimum = table.number("y_minimum", config::Range{});
     figure.y_maximum = table.number("y_maximum", config::Range{});
@@ -372,13 +371,17 @@ class StudyReader {
         figure.where.emplace_back(axis, read_picked(inner, axis, part == study.parts.end() ? nullptr : &*part));
       }
     }
+    if (part != study.parts.end()) check_series(table, *part, figure);
     return figure;
   }
 
-  static void check_series(TableReader& table, const Part& part, const std::string& series) {
+  static void check_series(TableReader& table, const Part& part, const FigurePlan& figure) {
     for (const auto& axis : part.axes) {
-      if (axis.name == series && axis.values.size() > most_series)
-        table.report("series", "\"" + series + "\" has " + std::to_string(axis.values.size()) +
+      if (axis.name != figure.series) continue;
+      std::size_t count = axis.values.size();
+      for (const auto& [name, labels] : figure.where) count = name == axis.name ? labels.size() : count;
+      if (count > most_series)
+        table.report("series", "\"" + axis.name + "\" has " + std::to_string(count) +
                                    " values; a figure has colours for " + std::to_string(most_series));
     }
   }
