@@ -66,6 +66,7 @@ class TuneProgram : public ::testing::Test {
     ::dup2(::open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
     ::dup2(::open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (auto& a : arguments) argv.push_back(a.data());
     argv.push_back(nullptr);
     ::execv(BANYAN_PROGRAM, argv.data());

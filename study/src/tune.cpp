@@ -58,6 +58,7 @@ class Course {
     std::size_t left = jobs.size();
     std::exception_ptr failure;
     std::vector<std::jthread> threads;
+    threads.reserve(jobs.size());
     for (const auto& job : jobs) {
       threads.emplace_back([&] {
         std::exception_ptr mine;

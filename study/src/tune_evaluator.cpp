@@ -96,6 +96,7 @@ std::vector<Merit> Evaluator::merits(const std::vector<std::vector<double>>& poi
   if (stopped_) throw Stopped();
   evaluations_ += points.size();
   std::vector<Merit> merits;
+  merits.reserve(points.size());
   for (const auto& point : points) merits.push_back(found[point]);
   return merits;
 }

@@ -163,7 +163,7 @@ class Reader {
     table.finish();
     if (known) check_optimizer(table);
   }
-  void check_optimizer(TableReader& table) {
+  void check_optimizer(TableReader& table) const {
     const auto& o = plan_.optimizer;
     const bool cmaes = o.search == Search::cmaes;
     const std::string is = "is " + std::to_string(o.population) + "; ";
