@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -485,6 +486,58 @@ TEST(Scenarios, AreTheWorldsTheyAreNamedAfter) {
   EXPECT_EQ(robots("paper-large"), 94U);  // the paper's largest swarm
   EXPECT_EQ(robots("swarm-1000"), 1000U);
   EXPECT_EQ(robots("swarm-10000"), 10000U);
+}
+
+// ------------------------------------------------------------------ files laid over, and trees
+
+class Laid : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file_ = std::filesystem::temp_directory_path() / ("banyan-laid-" + std::to_string(::getpid()) + ".toml");
+    std::ofstream(file_) << "# tuned\nradio.range_m = 3.0\n[targets]\nradius_m = 2.5\n";
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+  [[nodiscard]] Override laid() const { return {"", "--with " + file_.string(), file_.string()}; }
+  std::filesystem::path file_;
+};
+
+TEST_F(Laid, ItsKeysWinOverTheScenarioAndTheRestStays) {
+  const auto loaded = parse_configuration("w.toml", small + "[radio]\nrange_m = 2.0\nloss = 0.1\n", {laid()});
+  ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
+  EXPECT_EQ(loaded.configuration.scenario.radio.range_m, 3.0);
+  EXPECT_EQ(loaded.configuration.scenario.radio.loss, 0.1);
+  EXPECT_EQ(std::get<world::RingTargets>(loaded.configuration.scenario.targets).radius_m, 2.5);
+  EXPECT_EQ(std::get<world::RingTargets>(loaded.configuration.scenario.targets).count, 2U);
+  EXPECT_TRUE(loaded.problems.empty());
+}
+
+TEST_F(Laid, TheLaterOptionWins) {
+  const Override set{"radio.range_m=4", "--set"};
+  EXPECT_EQ(parse_configuration("w.toml", small, {laid(), set}).configuration.scenario.radio.range_m, 4.0);
+  EXPECT_EQ(parse_configuration("w.toml", small, {set, laid()}).configuration.scenario.radio.range_m, 3.0);
+}
+
+TEST_F(Laid, ItsFaultsNameItsLine) {
+  std::ofstream(file_) << "\nradio.rnage_m = 3.0\n[radio.x]\n";
+  EXPECT_TRUE(says(parse_configuration("w.toml", small, {laid()}), file_.string() + ":2: error: radio.rnage_m: "));
+  std::ofstream(file_) << "x = = 1\n";
+  EXPECT_TRUE(says(parse_configuration("w.toml", small, {laid()}), file_.string() + ":1: error: this is not TOML"));
+  const Override missing{"", "--with", file_.string() + "-none"};
+  EXPECT_TRUE(says(parse_configuration("w.toml", small, {missing}), "-none: error: there is no such file"));
+}
+
+TEST(Trees, OfAnEarlierRunAreItsConfiguration) {
+  const auto loaded = parse(small);
+  const auto document = R"({"format": "banyan.run", "config": )" + config_json(loaded.configuration) + "}";
+  const auto again = configure(parse_scenario("run.json", document), "run.json");
+  ASSERT_TRUE(again.ok()) << all_problems(again);
+  EXPECT_EQ(config_json(again.configuration), config_json(loaded.configuration));
+}
+
+TEST(Trees, KeepProblemsFoundBefore) {
+  const auto loaded = configure(parse_scenario("w.toml", small), "w.toml", {{{}, "key", "was wrong"}});
+  EXPECT_FALSE(loaded.ok());
+  EXPECT_TRUE(says(loaded, "key: was wrong"));
 }
 
 }  // namespace

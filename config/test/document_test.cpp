@@ -127,6 +127,57 @@ TEST(Override, SaysWhatIsWrongWithIt) {
   }
 }
 
+TEST(Assign, MakesWhatIsMissingAndReachesIntoLists) {
+  Node root = parse_document("a.toml", "x = 1\n[[events]]\ntime_s = 1\n[[events]]\ntime_s = 2\n");
+
+  EXPECT_TRUE(assign(root, "a.b.c", {std::int64_t{5}, {}}).empty());
+  EXPECT_TRUE(assign(root, "events[1].time_s", {3.5, {}}).empty());
+  EXPECT_TRUE(assign(root, "x", {true, {}}).empty());
+  EXPECT_TRUE(assign(root, "events[0]", {std::string("whole"), {}}).empty());
+
+  EXPECT_EQ(std::get<std::int64_t>(root.find("a")->find("b")->find("c")->value), 5);
+  const auto& events = *root.find("events")->array();
+  EXPECT_EQ(std::get<double>(events[1].find("time_s")->value), 3.5);
+  EXPECT_EQ(*events[0].string(), "whole");
+  EXPECT_TRUE(std::get<bool>(root.find("x")->value));
+}
+
+TEST(Assign, FaultsAreAtThePlaceOfTheValue) {
+  Node root = parse_document("a.toml", "x = 1\nevents = []\n");
+  const Node value = parse_document("b.toml", "\n\nv = 1\n").table()->front().value;
+
+  for (const char* key : {"", "a..b", "events[0]", "x[0]", ".a", "a[", "a[b]"}) {
+    const auto problems = assign(root, key, value);
+    ASSERT_EQ(problems.size(), 1U) << key;
+    EXPECT_EQ(problems[0].place.text(), "b.toml:3") << key;
+  }
+}
+
+TEST(AsOption, KeepsEveryPlaceInWordsButNotAsAFile) {
+  const Node option = as_option(parse_document("a.toml", "[s]\ny = [1,\n 2]\n"));
+
+  const Node* y = option.find("s")->find("y");
+  EXPECT_EQ(y->place.text(), "a.toml:2");
+  EXPECT_FALSE(y->place.from_file());
+  EXPECT_EQ((*y->array())[1].place.text(), "a.toml:3");
+  EXPECT_EQ(as_option(option).find("s")->find("y")->place.text(), "a.toml:2");  // again is no change
+}
+
+TEST(Overlay, MergesTablesAndReplacesTheRest) {
+  Node root = parse_document("a.toml", "x = 1\nl = [1, 2]\n[s]\na = 1\nb = 2\n[t]\nq = 1\n");
+
+  overlay(root, parse_document("b.toml", "l = [3]\nn = 4\nt = 5\n[s]\nb = 3\nc.d = 4\n[x]\ny = 1\n"));
+
+  EXPECT_EQ(root.find("l")->array()->size(), 1U);
+  EXPECT_EQ(std::get<std::int64_t>(root.find("n")->value), 4);
+  EXPECT_EQ(std::get<std::int64_t>(root.find("t")->value), 5);
+  EXPECT_EQ(std::get<std::int64_t>(root.find("s")->find("a")->value), 1);
+  EXPECT_EQ(std::get<std::int64_t>(root.find("s")->find("b")->value), 3);
+  EXPECT_EQ(std::get<std::int64_t>(root.find("s")->find("c")->find("d")->value), 4);
+  EXPECT_EQ(std::get<std::int64_t>(root.find("x")->find("y")->value), 1);
+  EXPECT_EQ(root.find("s")->find("b")->place.text(), "b.toml:5");
+}
+
 TEST(Nearest, FindsWhatWasMeant) {
   const std::vector<std::string_view> keys = {"range_m", "line_of_sight", "loss", "latency_ticks"};
 
