@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+// Tables of statistics against values that are worked out here, group by group and pair by pair.
+#include "banyan/study/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "banyan/record/table.hpp"
+#include "banyan/study/statistics.hpp"
+#include "banyan/version.hpp"
+#include "temporary_folder.hpp"
+
+namespace banyan::study {
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+// No cell of these tables is quoted.
+std::vector<Row> read_table(const std::string& text) {
+  std::vector<Row> rows;
+  std::vector<std::string> names;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    std::vector<std::string> cells(1);
+    for (const char c : line) {
+      if (c == ',')
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    }
+    if (names.empty()) {
+      names = cells;
+      continue;
+    }
+    EXPECT_EQ(cells.size(), names.size()) << line;
+    Row row;
+    for (std::size_t i = 0; i < std::min(names.size(), cells.size()); ++i) row[names[i]] = cells[i];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Rows whose cells are as given.
+std::vector<Row> picked(const std::vector<Row>& rows, const Row& wanted) {
+  std::vector<Row> found;
+  for (const auto& row : rows) {
+    if (std::all_of(wanted.begin(), wanted.end(), [&](const auto& w) { return row.at(w.first) == w.second; }))
+      found.push_back(row);
+  }
+  return found;
+}
+
+double number(const std::string& cell) { return cell.empty() ? std::nan("") : std::stod(cell); }
+
+// Two parts: algorithm x r x q, and algorithm alone. Metrics depend on everything, in no simple way.
+class ReportTest : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    write("w.toml", "[swarm]\nrobots = 6\n[targets]\ncount = 2\nradius_m = 0.9\n");
+    prepare("by = [[\"r\"], [\"algorithm\", \"r\"], [\"algorithm\"], []]\n");
+  }
+  void prepare(const std::string& by) {
+    auto loaded = parse_study(path("s.toml"),
+                              "scenario = \"w.toml\"\nseeds = \"1-7\"\nfigures = []\n"
+                              "[[axes]]\nname = \"algorithm\"\nkeys = [\"mission.algorithm\", \"radio.range_m\"]\n"
+                              "values = [[\"outwards\", 2], [\"inwards\", 2], [\"inwards\", 3]]\n"
+                              "labels = [\"outwards\", \"inwards\", \"tuned\"]\n"
+                              "[[parts]]\nname = \"big\"\n"
+                              "[[parts.axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1.5, 1.0]\n"
+                              "[[parts.axes]]\nname = \"q\"\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n"
+                              "[[parts]]\nname = \"small\"\n"
+                              "[statistics]\nresamples = 100\nmetrics = [\"normalized_time\", \"complete\"]\n" +
+                                  by);
+    ASSERT_TRUE(loaded.ok()) << config::to_string(loaded.problems.front());
+    study_ = std::move(loaded.study);
+    plan_ = make_plan(study_);
+    ASSERT_TRUE(plan_.ok()) << config::to_string(plan_.problems.front());
+    outcomes_.clear();
+    for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
+      record::RunRow row{
+          record::identify(configuration_of(plan_, plan_.runs[i]).scenario, version, git_id()), {}, false};
+      row.run.normalized_time = time_of(i);
+      row.run.complete = complete(i);
+      outcomes_[plan_.runs[i].id] = {record::run_csv_row(row), "", 1.0};
+    }
+  }
+  // Of a run of the plan; with six decimals, as in the table.
+  static double time_of(std::size_t run) { return static_cast<double>((run * 7919 + 13) % 1009) / 1000.0; }
+  static bool complete(std::size_t run) { return (run * 31 + 7) % 5 < 3; }
+  static double value_of(std::size_t run, const std::string& metric) {
+    return metric == "complete" ? (complete(run) ? 1.0 : 0.0) : time_of(run);
+  }
+  // The label of an axis in a row of the plan, "" if its part has none.
+  [[nodiscard]] std::string label(const PlannedRow& row, const std::string& axis) const {
+    const auto& axes = study_.parts[row.part].axes;
+    for (std::size_t a = 0; a < axes.size(); ++a)
+      if (axes[a].name == axis) return axes[a].values[row.values[a]].label;
+    return "";
+  }
+  [[nodiscard]] bool there(const PlannedRow& row) const {
+    const auto at = outcomes_.find(plan_.runs[row.run].id);
+    return at != outcomes_.end() && at->second.error.empty();
+  }
+  // Whether a run belongs to the group that a row of a table is about.
+  [[nodiscard]] bool in_group(const PlannedRow& run, const Row& row, bool but_algorithm) const {
+    if (study_.parts[run.part].name != row.at("part")) return false;
+    for (const char* axis : {"algorithm", "r", "q"}) {
+      if (but_algorithm && axis == std::string("algorithm")) continue;
+      if (row.at(axis) != "*" && row.at(axis) != label(run, axis)) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] std::vector<Row> statistics() const {
+    return read_table(statistics_csv(study_, Results(study_, plan_, outcomes_)));
+  }
+  [[nodiscard]] std::vector<Row> comparisons() const {
+    return read_table(comparisons_csv(study_, Results(study_, plan_, outcomes_)));
+  }
+  void check_statistics() const {
+    for (const auto& row : statistics()) {
+      std::vector<double> values;
+      for (const auto& run : plan_.rows)
+        if (there(run) && in_group(run, row, false)) values.push_back(value_of(run.run, row.at("metric")));
+      ASSERT_EQ(row.at("runs"), std::to_string(values.size()));
+      if (values.empty()) {
+        EXPECT_EQ(row.at("mean") + row.at("median") + row.at("positive_high"), "");
+        continue;
+      }
+      std::sort(values.begin(), values.end());
+      double sum = 0.0, squares = 0.0, positive = 0.0;
+      for (const double v : values) sum += v, positive += v > 0.0 ? 1.0 : 0.0;
+      const auto n = static_cast<double>(values.size());
+      for (const double v : values) squares += (v - sum / n) * (v - sum / n);
+      EXPECT_NEAR(number(row.at("mean")), sum / n, 1e-5);
+      EXPECT_NEAR(number(row.at("standard_deviation")), values.size() > 1 ? std::sqrt(squares / (n - 1)) : 0.0, 1e-5);
+      EXPECT_NEAR(number(row.at("minimum")), values.front(), 1e-6);
+      EXPECT_NEAR(number(row.at("maximum")), values.back(), 1e-6);
+      const auto half = values.size() / 2;
+      const double median = values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+      EXPECT_NEAR(number(row.at("median")), median, 1e-6);
+      EXPECT_NEAR(number(row.at("positive")), positive / n, 1e-5);
+      EXPECT_LE(number(row.at("mean_low")), number(row.at("mean")) + 1e-6);
+      EXPECT_GE(number(row.at("mean_high")), number(row.at("mean")) - 1e-6);
+    }
+  }
+  void check_comparisons() const {
+    for (const auto& row : comparisons()) {
+      std::vector<double> first, second;
+      for (const auto& a : plan_.rows) {
+        for (const auto& b : plan_.rows) {
+          if (a.part != b.part || a.seed != b.seed || label(a, "r") != label(b, "r") || label(a, "q") != label(b, "q"))
+            continue;
+          if (label(a, "algorithm") != row.at("first") || label(b, "algorithm") != row.at("second")) continue;
+          if (!there(a) || !there(b) || !in_group(a, row, true)) continue;
+          first.push_back(value_of(a.run, row.at("metric")));
+          second.push_back(value_of(b.run, row.at("metric")));
+        }
+      }
+      EXPECT_EQ(row.at("algorithm"), "*");
+      ASSERT_EQ(row.at("pairs"), std::to_string(first.size()));
+      EXPECT_EQ(row.at("test"), row.at("metric") == "complete" ? "mcnemar" : "wilcoxon");
+      std::size_t larger = 0, smaller = 0;
+      for (std::size_t i = 0; i < first.size(); ++i) larger += first[i] > second[i], smaller += first[i] < second[i];
+      EXPECT_EQ(row.at("first_larger"), std::to_string(larger));
+      EXPECT_EQ(row.at("second_larger"), std::to_string(smaller));
+      if (first.empty()) {
+        for (const char* cell :
+             {"first_median", "second_median", "median_difference", "difference_low", "difference_high", "p", "p_holm"})
+          EXPECT_EQ(row.at(cell), "") << cell;
+        continue;
+      }
+      const auto test = row.at("metric") == "complete" ? mcnemar(first, second, {0.95, 100, 1})
+                                                       : wilcoxon(first, second, {0.95, 100, 1});
+      EXPECT_NEAR(number(row.at("p")), test.p, 1e-5);
+      EXPECT_NEAR(number(row.at("effect")), test.effect, 1e-5);
+    }
+  }
+
+  Study study_;
+  Plan plan_;
+  Outcomes outcomes_;
+};
+
+TEST_F(ReportTest, GroupsAreThoseAskedForOnce) {
+  const auto rows = statistics();
+  const auto count = [&](const Row& wanted) { return picked(rows, wanted).size(); };
+  const std::string metric = "complete";
+  EXPECT_EQ(count({{"part", "big"}, {"metric", metric}}), 3U * 2 * 2 + 2 + 3 * 2 + 3 + 1);
+  EXPECT_EQ(count({{"part", "small"}, {"metric", metric}}), 3U + 1) << "by algorithm, and all";
+  EXPECT_EQ(count({{"part", "big"}, {"algorithm", "*"}, {"r", "*"}, {"q", "*"}, {"metric", metric}}), 1U);
+  EXPECT_EQ(count({{"part", "small"}, {"r", ""}, {"metric", metric}}), 4U) << "an axis that a part has not";
+  // In the order of the file: 1.5 before 1.
+  const auto by_r = picked(rows, {{"part", "big"}, {"algorithm", "*"}, {"q", "*"}, {"metric", metric}});
+  EXPECT_EQ(by_r.at(0).at("r"), "1.5");
+  EXPECT_EQ(by_r.at(1).at("r"), "1");
+}
+
+TEST_F(ReportTest, StatisticsAreOfTheRunsOfTheirGroup) { check_statistics(); }
+
+TEST_F(ReportTest, ComparisonsPairBySeedAndPooledAxes) { check_comparisons(); }
+
+TEST_F(ReportTest, MissingAndFailedRunsAreNotCounted) {
+  for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
+    if (i % 5 == 1) outcomes_[plan_.runs[i].id] = {"", "failed", 1.0};
+    if (i % 7 == 3) outcomes_.erase(plan_.runs[i].id);
+  }
+  check_statistics();
+  check_comparisons();
+}
+
+TEST_F(ReportTest, AGroupOfWhichAllFailedHasNoNumbers) {
+  for (const auto& row : plan_.rows)
+    if (label(row, "algorithm") == "inwards") outcomes_[plan_.runs[row.run].id] = {"", "failed", 1.0};
+  check_statistics();
+  check_comparisons();
+  EXPECT_FALSE(picked(comparisons(), {{"pairs", "0"}, {"p_holm", ""}}).empty());
+}
+
+TEST_F(ReportTest, NoTestIsMadeTwice) {
+  // [r] and [algorithm, r] differ in the compared axis alone, and so do [algorithm] and [].
+  auto rows = comparisons();
+  for (auto& row : rows)
+    EXPECT_EQ(picked(rows, {{"part", row["part"]},
+                            {"r", row["r"]},
+                            {"q", row["q"]},
+                            {"metric", row["metric"]},
+                            {"first", row["first"]},
+                            {"second", row["second"]}})
+                  .size(),
+              1U);
+  EXPECT_EQ(picked(rows, {{"part", "big"}}).size(), (4U + 2 + 1) * 2 * 3);
+  EXPECT_EQ(picked(rows, {{"part", "small"}}).size(), 1U * 2 * 3);
+}
+
+TEST_F(ReportTest, HolmCorrectsWithinAPart) {
+  for (const char* part : {"big", "small"}) {
+    auto rows = picked(comparisons(), {{"part", part}});
+    std::sort(rows.begin(), rows.end(),
+              [](const Row& a, const Row& b) { return number(a.at("p")) < number(b.at("p")); });
+    double least = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      least = std::max(least, std::min(1.0, static_cast<double>(rows.size() - i) * number(rows[i].at("p"))));
+      EXPECT_NEAR(number(rows[i].at("p_holm")), least, 1e-3) << part;
+    }
+  }
+}
+
+TEST_F(ReportTest, WithoutTheComparedAxisThereIsNothingToCompare) {
+  study_.statistics.compare = "r";
+  for (const auto& row : comparisons()) EXPECT_EQ(row.at("part"), "big");
+  study_.statistics.compare = "none";
+  EXPECT_TRUE(comparisons().empty());
+  EXPECT_FALSE(comparisons_csv(study_, Results(study_, plan_, outcomes_)).empty()) << "a header all the same";
+}
+
+}  // namespace
+}  // namespace banyan::study
