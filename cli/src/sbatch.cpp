@@ -25,15 +25,17 @@ std::string sbatch_script(const StudyOptions& options, const std::string& name, 
   std::string changes;
   for (const auto& o : options.overrides)
     changes += o.file.empty() ? " --set " + quoted(o.assignment) : " --with " + quoted(fs::absolute(o.file).string());
+  const bool plain = options.sbatch.find_first_of("\n'\"$`\\ ") == std::string::npos;
+  const std::string script = options.sbatch == "-" || !plain ? "THIS-FILE" : options.sbatch;
   return "#!/bin/bash\n"
          "# The study " +
          name +
-         " as a job array, a shard per task. Adapt time and memory, then:\n"
+         " as a job array, a shard per task, and then its tables. Adapt time and memory:\n"
          "#   job=$(sbatch --parsable " +
-         (options.sbatch == "-" || options.sbatch.find('\n') != std::string::npos ? "THIS-FILE" : options.sbatch) +
+         script +
          ")\n"
-         "#   sbatch --dependency=afterany:$job --wrap \"" +
-         "the collect line below\"\n"
+         "#   sbatch --dependency=afterany:$job --wrap \"$(tail -n 1 " +
+         script + ")\"\n" +
          "# A task that was cut off goes on where it stopped when the array is submitted again.\n"
          "#SBATCH --job-name=banyan-" +
          name +
