@@ -63,24 +63,27 @@ std::string dry_run_text(const TunePlan& plan, const std::string& directory) {
 
 std::string score_text(const study::TuneScore& score) {
   if (score.trials == 0) return "cannot be run";
-  return format("%7.4f %5.1f %% %9s %5.1f %%", score.merit.fitness(), 100.0 * score.complete_share,
+  return format("%7.4f %6.1f %% %9s %6.1f %%", score.merit.fitness(), 100.0 * score.complete_share,
                 score.median_time_s ? format("%.1f s", *score.median_time_s).c_str() : "-",
                 100.0 * score.disconnected_share);
 }
 
 std::string comparison_text(const TunePlan& plan, const study::TuneResult& result) {
-  std::string text =
-      "                  on the training seeds               on the test seeds\n"
-      "                  fitness  complete  median  discon.  fitness  complete  median  discon.\n";
+  const std::string columns = format("%7s %8s %9s %8s", "fitness", "complete", "median", "discon.");
+  std::string text = format("  %-12s  %-37s %s\n", "", "training seeds", "test seeds");
+  text += format("  %-12s  %-37s %s\n", "", columns.c_str(), columns.c_str());
   for (const auto& c : result.candidates)
-    text += format("  %-12s  %-35s %s\n", c.name.c_str(), score_text(c.training).c_str(), score_text(c.test).c_str());
+    text += format("  %-12s  %-37s %s\n", c.name.c_str(), score_text(c.training).c_str(), score_text(c.test).c_str());
   text += "\n  parameter                  best        default     bounds\n";
   const auto& best = result.candidates[0];
   const auto& untuned = result.candidates[1];
   for (std::size_t i = 0; i < plan.bounds.size(); ++i) {
     const auto& bound = plan.bounds[i];
-    text += format("  %-26s %-11.6g %-11.6g %s to %s\n", bound.parameter.c_str(), best.point[i], untuned.point[i],
-                   number_text(bound.low).c_str(), number_text(bound.high).c_str());
+    const double margin = 0.01 * (bound.high - bound.low);
+    const bool at_bound = best.point[i] < bound.low + margin || best.point[i] > bound.high - margin;
+    text += format("  %-26s %-11.6g %-11.6g %s to %s%s\n", bound.parameter.c_str(), best.point[i], untuned.point[i],
+                   number_text(bound.low).c_str(), number_text(bound.high).c_str(),
+                   at_bound ? "; the best is at the edge: widen them?" : "");
   }
   return text;
 }
@@ -96,7 +99,7 @@ std::string summary_text(const TunePlan& plan, const study::TuneResult& result, 
   text += "\n" + comparison_text(plan, result);
   text += "\n\"default\" is the scenarios without tuning; \"discon.\" is the share of runs with any disconnection.\n";
   text += "\nResults in " + directory + "/\n";
-  text += "  best.toml        the best parameters, [mission.parameters] for a scenario\n";
+  text += "  best.toml        the best parameters; lay them over a scenario: banyan run FILE --with best.toml\n";
   text += "  tune.json        everything above, with the whole configuration\n";
   text += "  generations.csv  fitness over generations; fitness.svg, fitness.png: drawn\n";
   if (plan.optimizer.search == study::Search::nsga2)

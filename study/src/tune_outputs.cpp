@@ -2,6 +2,7 @@
 #include "tune_outputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -109,6 +110,23 @@ std::vector<double> mean_over_islands(const TunePlan& plan, const std::vector<Ge
   return sums;
 }
 
+// From the lowest to the highest value, to round numbers: near the end all that counts is in the last
+// per cent.
+void fit_axis(CurveFigure& figure) {
+  double low = figure.curves.front().y.front(), high = low;
+  for (const auto& curve : figure.curves) {
+    for (const auto& values : {curve.y, curve.low, curve.high}) {
+      for (const double value : values) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+    }
+  }
+  const double step = high > low ? std::pow(10.0, std::floor(std::log10(high - low))) : 0.1;
+  figure.y_minimum = std::floor(low / step) * step;
+  figure.y_maximum = std::max(std::ceil(high / step) * step, *figure.y_minimum + step);
+}
+
 CurveFigure fitness_figure(const TunePlan& plan, const std::vector<GenerationRow>& history) {
   constexpr std::uint32_t most_islands = 6;  // beyond, their curves say less than the mean and the range
   CurveFigure figure{plan.name, "generation", "fitness", {}, std::nullopt, std::nullopt};
@@ -133,6 +151,7 @@ CurveFigure fitness_figure(const TunePlan& plan, const std::vector<GenerationRow
   }
   figure.curves.push_back(
       {"mean of the populations", generations, mean_over_islands(plan, history, &GenerationRow::mean), {}, {}, false});
+  fit_axis(figure);
   return figure;
 }
 
