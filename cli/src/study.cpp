@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -35,10 +36,12 @@ constexpr double sampling_s = 2.0;      // how long an estimate may take
 Shard shard_of(const std::string& text) {
   if (text.empty()) return {};
   Shard shard;
-  char rest = 0;
-  const bool read = std::sscanf(text.c_str(), "%zu/%zu%c", &shard.number, &shard.count, &rest) == 2;
-  if (!read || text.find_first_not_of("0123456789/") != std::string::npos || shard.number < 1 ||
-      shard.number > shard.count || shard.count > 100'000)
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  const bool slash = number.ec == std::errc{} && number.ptr != end && *number.ptr == '/';
+  const auto count = std::from_chars(slash ? number.ptr + 1 : end, end, shard.count);
+  const bool read = slash && count.ec == std::errc{} && count.ptr == end;
+  if (!read || shard.number < 1 || shard.number > shard.count || shard.count > 100'000)
     throw CommandError(exit_usage, "--shard " + text + ": expects i/n with i from 1 to n, such as 3/8");
   return shard;
 }
@@ -161,8 +164,7 @@ std::vector<std::size_t> runs_to_do(const Plan& plan, const Shard& shard, const 
 std::string plan_summary(const Prepared& prepared, const Shard& shard, std::size_t todo) {
   const auto& [study, plan] = prepared;
   std::string text = study.name + ": " + grouped(static_cast<double>(plan.rows.size())) + " runs\n";
-  for (std::size_t p = 0; p < study.parts.size(); ++p) {
-    const auto& part = study.parts[p];
+  for (const auto& part : study.parts) {
     text += "  " + (part.name.empty() ? "" : part.name + ": ");
     for (const auto& axis : part.axes) {
       text += axis.name + " (";

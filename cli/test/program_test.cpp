@@ -504,7 +504,8 @@ using Words = std::vector<std::string>;
 
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
   EXPECT_EQ(complete(" "),
-            (Words{"--help", "--version", "algorithms", "bench", "draw", "export", "keys", "run", "validate"}));
+            (Words{"--help", "--version", "algorithms", "bench", "collect", "draw", "export", "keys", "run", "study", "tune",
+                   "validate"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});

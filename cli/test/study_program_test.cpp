@@ -696,7 +696,14 @@ TEST_F(StudyProgram, TheJobArrayDoesWhatOneProcessDoes) {
   expect_same_tables(odd + "/o ut", wanted);
 }
 
-TEST_F(StudyProgram, AJobArrayNeedsAFile) { expect_refused({"study", "-", "--sbatch", "-"}, "is empty"); }
+TEST_F(StudyProgram, AJobArrayNeedsAFile) {
+  const int input = ::open((home_ / "s.toml").c_str(), O_RDONLY);
+  const auto outcome = run({"study", "-", "--sbatch", "-"}, {.input = input});
+  ::close(input);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.err, "banyan: --sbatch needs a study in a file, not standard input\n");
+  EXPECT_EQ(outcome.out, "");
+}
 
 }  // namespace
 }  // namespace banyan::cli

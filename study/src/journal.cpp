@@ -103,7 +103,8 @@ std::int64_t now_ns() {
 
 JournalContent read_journal(const std::string& path) { return parse(path, whole_file(path)); }
 
-Journal::Journal(std::string path, std::string study, std::string version, std::string git) : path_(std::move(path)) {
+Journal::Journal(std::string path, const std::string& study, const std::string& version, const std::string& git)
+    : path_(std::move(path)) {
   descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);  // NOLINT(hicpp-signed-bitwise)
   if (descriptor_ < 0) throw FileError(path_, "open", errno);
   try {

@@ -185,8 +185,7 @@ class StudyReader {
     axis.title = table.text("title", axis.name);
     table.require("values");
     if (const Node* values = table.list("values")) {
-      for (std::size_t i = 0; i < values->array()->size(); ++i) {
-        const Node& value = (*values->array())[i];
+      for (const Node& value : *values->array()) {
         axis.values.push_back(keys.empty() ? read_value(value, key, table) : read_zipped(value, keys, table));
       }
     }
@@ -266,7 +265,7 @@ class StudyReader {
 
   // ------------------------------------------------------------------- statistics, figures --
 
-  void check_metric(TableReader& table, std::string_view name, const std::string& metric) {
+  static void check_metric(TableReader& table, std::string_view name, const std::string& metric) {
     if (metric.empty() || is_metric(metric)) return;
     const auto near = config::nearest(metric, metrics());
     table.report(name, "\"" + metric + "\" is no column of numbers in the table of runs" +
@@ -283,8 +282,8 @@ class StudyReader {
     return names;
   }
 
-  void check_axis(TableReader& table, std::string_view name, const std::string& axis,
-                  const std::vector<std::string_view>& known) {
+  static void check_axis(TableReader& table, std::string_view name, const std::string& axis,
+                         const std::vector<std::string_view>& known) {
     if (axis.empty() || std::find(known.begin(), known.end(), axis) != known.end()) return;
     std::string list;
     for (const auto k : known) list += (list.empty() ? "" : ", ") + std::string(k);

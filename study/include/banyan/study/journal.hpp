@@ -34,7 +34,7 @@ class Journal {
  public:
   // Creates the file, or opens it behind its last whole line. Throws record::FileError if another
   // process has it open, if it is damaged, or if it belongs to another study.
-  Journal(std::string path, std::string study, std::string version, std::string git);
+  Journal(std::string path, const std::string& study, const std::string& version, const std::string& git);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
   ~Journal();
@@ -47,7 +47,7 @@ class Journal {
   void sync();
 
  private:
-  void write_line(const std::string& json);
+  void write_line(const std::string& text);
 
   std::string path_;
   JournalContent content_;
