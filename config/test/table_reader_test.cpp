@@ -24,7 +24,7 @@ class Reading {
   // The only problem, and that there was just one since the last call.
   std::string problem() {
     EXPECT_EQ(problems.size(), 1U);
-    const auto text = problems.empty() ? "" : to_string(problems.back());
+    auto text = problems.empty() ? "" : to_string(problems.back());
     problems.clear();
     return text;
   }
