@@ -411,8 +411,7 @@ class Reader {
     if (!text) {
       report(node.place, path, "must be text in quotes, not " + node.describe());
     } else if (key.name == "name" && !good_name(*text)) {
-      report(node.place, path,
-             "is " + in_quotes(*text) + "; allowed: 1 to 100 letters, digits, '-', '_' and '.', no '.' at the start");
+      report(node.place, path, "is " + in_quotes(*text) + "; allowed: " + std::string(name_rule));
     } else {
       access(owner) = *text;
     }
@@ -473,31 +472,12 @@ class Reader {
     report(node.place, path, message);
   }
 
- public:
-  static bool good_name(std::string_view name) {
-    auto good = [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-             c == '.';
-    };
-    return !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
-  }
-
  private:
   std::vector<Problem>& problems_;
   Form form_;
   std::map<std::string, std::pair<std::string, Place>> places_;  // bare key -> key as written, place
   std::set<std::string> faulty_;                                 // bare keys
 };
-
-std::string name_from(const std::string& path) {
-  std::string name = path == "-" ? "standard-input" : std::filesystem::path(path).stem().string();
-  for (char& c : name) {
-    if (!Reader::good_name(std::string("x") + c)) c = '-';
-  }
-  if (name.starts_with('.')) name[0] = '-';
-  name.resize(std::min<std::size_t>(name.size(), 100));
-  return name.empty() ? "scenario" : name;
-}
 
 // world/ names fields as the struct does; a user knows them by the keys of the file.
 std::string in_file_terms(std::string text) {
@@ -703,7 +683,7 @@ Loaded configure(Node root, const std::string& path, std::vector<Problem> proble
   root.place.line = 0;
   Reader reader(loaded.problems);
   loaded.configuration = to_configuration(reader.read(root));
-  if (loaded.configuration.scenario.name.empty()) loaded.configuration.scenario.name = name_from(path);
+  if (loaded.configuration.scenario.name.empty()) loaded.configuration.scenario.name = name_from(path, "scenario");
   add_semantic_problems(loaded.configuration, reader, loaded.problems);
   std::stable_sort(loaded.problems.begin(), loaded.problems.end(), [](const Problem& a, const Problem& b) {
     return a.place.from_file() != b.place.from_file() ? a.place.from_file() : a.place.line < b.place.line;

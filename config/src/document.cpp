@@ -13,6 +13,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -327,9 +328,7 @@ std::string read_text_file(const std::string& path) {
     ~Closer() { ::close(fd); }
   } closer{fd};
   struct stat status {};
-  if (::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode)) {
-    fail(place, "is a directory; give the file in it");
-  }
+  if (::fstat(fd, &status) == 0 && S_ISDIR(status.st_mode)) { fail(place, "is a directory; give the file in it"); }
   std::string text;
   std::array<char, 65536> buffer;
   while (true) {
@@ -440,6 +439,24 @@ double widened(float value) {
   double result = 0.0;
   std::from_chars(text.data(), end, result);
   return result;
+}
+
+bool good_name(std::string_view name) {
+  const auto good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+           c == '.';
+  };
+  return !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
+}
+
+std::string name_from(const std::string& path, std::string_view fallback) {
+  std::string name = path == "-" ? "standard-input" : std::filesystem::path(path).stem().string();
+  for (char& c : name) {
+    if (!good_name(std::string("x") + c)) c = '-';
+  }
+  if (name.starts_with('.')) name[0] = '-';
+  name.resize(std::min<std::size_t>(name.size(), 100));
+  return name.empty() ? std::string(fallback) : name;
 }
 
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {

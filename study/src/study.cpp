@@ -24,28 +24,9 @@ std::string beside(const std::string& file, const std::string& reference) {
   return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
 }
 
-// What a name may be that becomes part of a file name.
-bool fit_for_files(std::string_view name) {
-  const auto good = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-           c == '.';
-  };
-  return !name.empty() && name.size() <= 100 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
-}
-
-// The file's name without its ending, made fit.
-std::string default_name(const std::string& path) {
-  std::string name = path == "-" ? "study" : std::filesystem::path(path).stem().string().substr(0, 100);
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (!fit_for_files("x" + name.substr(i, 1)) || (i == 0 && name[i] == '.')) name[i] = '-';
-  }
-  return name.empty() ? "study" : name;
-}
-
 void check_name(TableReader& table, const std::string& name) {
-  if (table.has("name") && !fit_for_files(name)) {
-    table.report("name", "is \"" + name + "\"; allowed: up to 100 letters, digits, '-', '_' and '.', not '.' first");
-  }
+  if (table.has("name") && !config::good_name(name))
+    table.report("name", "is \"" + name + "\"; allowed: " + std::string(config::name_rule));
 }
 
 // [set]: dotted keys, quoted or not, and sections.
@@ -93,7 +74,7 @@ class StudyReader {
   Study read(const Node& root, const std::vector<config::Override>& overrides) {
     Study study;
     TableReader top(root, "", problems_);
-    study.name = top.text("name", default_name(path_));
+    study.name = top.text("name", config::name_from(path_, "study"));
     check_name(top, study.name);
     study.description = top.text("description");
     Part common = read_part(top, Part{}, "axes");

@@ -24,22 +24,6 @@ constexpr double largest_seed = 9007199254740992.0;  // 2^53: exact in every rea
 
 std::string in_quotes(std::string_view name) { return "\"" + std::string(name) + "\""; }
 
-bool good_name(std::string_view name) {
-  constexpr std::string_view good = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  return !name.empty() && name.size() <= 100 && name.front() != '.' &&
-         name.find_first_not_of(good) == std::string_view::npos;
-}
-
-std::string name_from(const std::string& path) {
-  std::string name = path == "-" ? "standard-input" : std::filesystem::path(path).stem().string();
-  for (char& c : name) {
-    if (!good_name(std::string("x") + c)) c = '-';
-  }
-  if (name.starts_with('.')) name[0] = '-';
-  name.resize(std::min<std::size_t>(name.size(), 100));
-  return name.empty() ? "tuning" : name;
-}
-
 // Another fault than those of one value on its own: cannot be told while values are missing.
 bool sound(const std::vector<Problem>& problems) {
   return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
@@ -51,10 +35,9 @@ class Reader {
       : path_(path), problems_(problems), top_(root, "", problems) {}
 
   TunePlan read() {
-    plan_.name = top_.text("name", name_from(path_));
-    if (!good_name(plan_.name))
-      top_.report("name", "is " + in_quotes(plan_.name) +
-                              "; allowed: 1 to 100 letters, digits, '-', '_' and '.', no '.' at the start");
+    plan_.name = top_.text("name", config::name_from(path_, "tuning"));
+    if (!config::good_name(plan_.name))
+      top_.report("name", "is " + in_quotes(plan_.name) + "; allowed: " + std::string(config::name_rule));
     plan_.description = top_.text("description");
     read_seeds();
     read_bounds();

@@ -204,7 +204,7 @@ y_maximum = 1.5
 
 TEST_F(StudyFile, DefaultNamesAreFitForFiles) {
   EXPECT_EQ(parse(head, {}, "a study, \"odd\".toml").study.name, "a-study---odd-");
-  EXPECT_EQ(parse_study("-", "").study.name, "study");
+  EXPECT_EQ(parse_study("-", "").study.name, "standard-input");
   EXPECT_EQ(parse(head, {}, ".toml").study.name, "-toml");
 }
 

@@ -91,6 +91,12 @@ void overlay(Node& root, Node changes);
 // 1.9F as the double 1.9.
 [[nodiscard]] double widened(float value);
 
+// Names become parts of paths: of scenarios, studies, tunings.
+inline constexpr std::string_view name_rule = "1 to 100 letters, digits, '-', '_' and '.', no '.' at the start";
+[[nodiscard]] bool good_name(std::string_view name);
+// The file's name without its ending, made good; `fallback` if nothing is left of it.
+[[nodiscard]] std::string name_from(const std::string& path, std::string_view fallback);
+
 // The candidate nearest to `word`, or nothing when none is near enough to be meant.
 [[nodiscard]] std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
