@@ -8,6 +8,8 @@ Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; 
 prints all tables. Needs nothing but Python's standard library.
 """
 import csv
+import gzip
+import os
 import re
 import sys
 
@@ -23,14 +25,20 @@ class Statistics:
     def __init__(self, folder):
         self.rows = self._read(f"{folder}/statistics.csv")
         self.comparisons = self._read(f"{folder}/comparisons.csv")
-        with open(f"{folder}/statistics.csv", newline="") as file:
+        with self._open(f"{folder}/statistics.csv") as file:
             header = next(csv.reader(file))
         self.axes = header[1:header.index("metric")]
 
     @staticmethod
-    def _read(path):
+    def _open(path):
+        if os.path.exists(path):
+            return open(path, newline="", encoding="utf-8")
+        return gzip.open(path + ".gz", "rt", newline="", encoding="utf-8")
+
+    @classmethod
+    def _read(cls, path):
         index = {}
-        with open(path, newline="") as file:
+        with cls._open(path) as file:
             for row in csv.DictReader(file):
                 index.setdefault((row["part"], row["metric"]), []).append(row)
         return index

@@ -131,7 +131,7 @@ Pairing pair_up(const Results& results, const Values& values, const std::vector<
 
 struct Comparison {
   std::string cells;  // up to the names of the test
-  std::string test;
+  std::size_t grouping = 0, metric = 0;
   PairedTest result;
 };
 
@@ -148,14 +148,12 @@ class Comparer {
     for (std::size_t p = 0; p < study_.parts.size(); ++p) {
       comparisons_.clear();
       compare_part(p);
-      std::vector<double> raw;
-      for (const auto& c : comparisons_) raw.push_back(c.result.pairs > 0 ? c.result.p : std::nan(""));
-      const auto adjusted = holm(raw);
+      const auto adjusted = corrected();
       for (std::size_t i = 0; i < comparisons_.size(); ++i) {
         const auto& r = comparisons_[i].result;
         text += comparisons_[i].cells + "," + shown(r.median_difference) + "," + shown(r.difference_interval.low) +
                 "," + shown(r.difference_interval.high) + "," + std::to_string(r.first_larger) + "," +
-                std::to_string(r.second_larger) + "," + shown(r.effect) + "," + shown(raw[i]) + "," +
+                std::to_string(r.second_larger) + "," + shown(r.effect) + "," + shown(p_of(comparisons_[i])) + "," +
                 shown(adjusted[i]) + "\n";
       }
     }
@@ -163,6 +161,23 @@ class Comparer {
   }
 
  private:
+  static double p_of(const Comparison& c) { return c.result.pairs > 0 ? c.result.p : std::nan(""); }
+
+  // Tests that answer one question are one family: a metric, over all groups of one grouping.
+  [[nodiscard]] std::vector<double> corrected() const {
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> families;
+    for (std::size_t i = 0; i < comparisons_.size(); ++i)
+      families[{comparisons_[i].grouping, comparisons_[i].metric}].push_back(i);
+    std::vector<double> adjusted(comparisons_.size());
+    for (const auto& [family, members] : families) {
+      std::vector<double> raw;
+      for (const std::size_t i : members) raw.push_back(p_of(comparisons_[i]));
+      const auto values = holm(raw);
+      for (std::size_t k = 0; k < members.size(); ++k) adjusted[members[k]] = values[k];
+    }
+    return adjusted;
+  }
+
   void compare_part(std::size_t p) {
     const Part& part = study_.parts[p];
     const auto axis = std::find_if(part.axes.begin(), part.axes.end(),
@@ -181,11 +196,11 @@ class Comparer {
         sides.resize(axis->values.size());
         sides[results_.planned(row).values[compared]].push_back(row);
       }
-      for (const auto& [key, sides] : groups) compare_group(p, compared, key, sides);
+      for (const auto& [key, sides] : groups) compare_group(p, compared, done.size(), key, sides);
     }
   }
 
-  void compare_group(std::size_t p, std::size_t compared, const GroupKey& key,
+  void compare_group(std::size_t p, std::size_t compared, std::size_t grouping, const GroupKey& key,
                      const std::vector<std::vector<std::size_t>>& sides) {
     const Axis& axis = study_.parts[p].axes[compared];
     for (std::size_t m = 0; m < values_.size(); ++m) {
@@ -195,6 +210,8 @@ class Comparer {
           const bool binary = is_boolean(study_.statistics.metrics[m]);
           const auto options = options_of(study_.statistics);
           Comparison c;
+          c.grouping = grouping;
+          c.metric = m;
           c.result =
               binary ? mcnemar(pairs.first, pairs.second, options) : wilcoxon(pairs.first, pairs.second, options);
           c.cells = group_cells(study_, results_, p, key) + "," + study_.statistics.metrics[m] + "," +

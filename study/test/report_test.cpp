@@ -237,15 +237,21 @@ TEST_F(ReportTest, NoTestIsMadeTwice) {
   EXPECT_EQ(picked(rows, {{"part", "small"}}).size(), 1U * 2 * 3);
 }
 
-TEST_F(ReportTest, HolmCorrectsWithinAPart) {
-  for (const char* part : {"big", "small"}) {
-    auto rows = picked(comparisons(), {{"part", part}});
+// A family is one metric in one grouping of one part: which axes are pooled tells the grouping.
+TEST_F(ReportTest, HolmCorrectsTheTestsOfOneQuestion) {
+  std::map<std::string, std::vector<Row>> families;
+  for (const Row& row : comparisons()) {
+    const auto pooled = [&](const char* axis) { return row.at(axis) == "*" ? "*" : "."; };
+    families[row.at("part") + row.at("metric") + pooled("r") + pooled("q")].push_back(row);
+  }
+  EXPECT_EQ(families.size(), 2U * (3U + 1U)) << "big by r and q, by r, by nothing; small";
+  for (auto& [name, rows] : families) {
     std::sort(rows.begin(), rows.end(),
-              [](const Row& a, const Row& b) { return number(a.at("p")) < number(b.at("p")); });
+              [](const Row& x, const Row& y) { return number(x.at("p")) < number(y.at("p")); });
     double least = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       least = std::max(least, std::min(1.0, static_cast<double>(rows.size() - i) * number(rows[i].at("p"))));
-      EXPECT_NEAR(number(rows[i].at("p_holm")), least, 1e-3) << part;
+      EXPECT_NEAR(number(rows[i].at("p_holm")), least, 1e-3) << name;
     }
   }
 }
