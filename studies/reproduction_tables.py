@@ -190,6 +190,12 @@ def gain(s):
     return sweep(s, "gain", "K", ["0.1", "0.2", "0.4", "0.8"])
 
 
+def pull(s):
+    rows = [[reading, tau, f"{r} m"] + time_row(s.compare("pull", "normalized_time", reading=reading, tau=tau, r=r))
+            for reading in READINGS for tau in ("0.2539", "0.49", "1") for r in RADII]
+    return table(["reading", "τ of both", "r"] + TIME_HEADER, rows)
+
+
 def real(s):
     rows = []
     for part, text in (("real-two", "2 targets, same start, 15 runs"), ("real-three", "3 targets, same start, 10 runs"),
@@ -204,7 +210,7 @@ def real(s):
 
 
 TABLES = {"time": time, "complete": complete, "broken": broken, "broken-by-redundancy": broken_by_redundancy, "split": split,
-          "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "real": real}
+          "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "pull": pull, "real": real}
 
 
 def main():

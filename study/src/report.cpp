@@ -272,9 +272,11 @@ std::vector<Labels> combinations(const Part& part, const std::vector<std::string
   return list;
 }
 
-std::string in_words(const std::vector<std::string>& names, const Labels& labels, const std::string& separator) {
+// "reading = literal, line of sight = off"
+std::string in_words(const Part& part, const std::vector<std::string>& names, const Labels& labels) {
   std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) text += (i > 0 ? separator : "") + names[i] + " = " + labels[i];
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i > 0 ? ", " : "") + axis_of(part, names[i])->title + " = " + labels[i];
   return text;
 }
 
@@ -302,7 +304,7 @@ class Illustrator {
     const auto panels = labels_of(part, plan.panels, plan.where);
     const auto series = labels_of(part, plan.series, plan.where);
     BoxFigure figure;
-    figure.title = plan.title + (plan.title.empty() || each.empty() ? "" : ": ") + in_words(plan.each, each, ", ");
+    figure.title = plan.title + (plan.title.empty() || each.empty() ? "" : ": ") + in_words(part, plan.each, each);
     figure.y_label = plan.y_title;
     figure.columns = std::min(plan.columns, panels.size());
     figure.y_minimum = plan.y_minimum;
