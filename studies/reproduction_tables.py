@@ -209,22 +209,49 @@ def real(s):
     return table(["set-up", "reading", "bodies", "complete, %, outwards / inwards"] + TIME_HEADER, rows)
 
 
+def tuned(s):
+    """From results/tuned: each set of parameters, where it was tuned and where it was not."""
+    rows = []
+    for algorithm in ALGORITHMS:
+        for parameters in ("Table I", "small", "large"):
+            def cells(metric, show, parameters=parameters, algorithm=algorithm):
+                rings = [[show(s.of(f"{algorithm}-rings", metric, parameters=parameters, los=los, r=r)) for r in RADII]
+                         for los in SIGHT]
+                return ([show(s.of(f"{algorithm}-nine", metric, parameters=parameters))]
+                        + [" / ".join(one) for one in rings]
+                        + [" / ".join(show(s.of(f"{algorithm}-random", metric, parameters=parameters, los=los)) for los in SIGHT)])
+
+            rows.append([algorithm, parameters, "time"] + cells("normalized_time", lambda row: number(row["median"])))
+            rows.append(["", "", "edge broken, %"] + cells("disconnected_time_ratio_by_distance", percent))
+    return table(["algorithm", "parameters", "", "nine robots", "rings 3/6/9 m, sight off", "rings 3/6/9 m, sight on",
+                  "random targets, sight off/on"], rows)
+
+
 TABLES = {"time": time, "complete": complete, "broken": broken, "broken-by-redundancy": broken_by_redundancy, "split": split,
           "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "pull": pull, "real": real}
+# Tables of another study, whose results lie beside those of the first.
+OTHERS = {"tuned": ("tuned", tuned)}
 
 
 def main():
-    s = Statistics(sys.argv[1] if len(sys.argv) > 1 else "results/paper")
+    folder = sys.argv[1] if len(sys.argv) > 1 else "results/paper"
+    beside = os.path.dirname(os.path.abspath(folder))
+    s = Statistics(folder)
+    made = {name: make(s) for name, make in TABLES.items()}
+    for name, (other, make) in OTHERS.items():
+        if os.path.isdir(os.path.join(beside, other)):
+            made[name] = make(Statistics(os.path.join(beside, other)))
     if len(sys.argv) < 3:
-        for name, make in TABLES.items():
-            print(f"## {name}\n\n{make(s)}\n")
+        for name, text in made.items():
+            print(f"## {name}\n\n{text}\n")
         return
     with open(sys.argv[2], encoding="utf-8") as file:
         page = file.read()
     for name in re.findall(r"<!-- table: ([\w-]+) -->", page):
-        if name in TABLES:
-            page = re.sub(rf"(<!-- table: {name} -->\n).*?(<!-- end -->)", lambda m, n=name: m[1] + TABLES[n](s) + "\n" + m[2],
-                          page, flags=re.S)
+        if name not in made:
+            sys.exit(f"{sys.argv[2]}: there is no table {name}; there are {', '.join(made)}")
+        page = re.sub(rf"(<!-- table: {name} -->\n).*?(<!-- end -->)", lambda m, n=name: m[1] + made[n] + "\n" + m[2], page,
+                      flags=re.S)
     with open(sys.argv[2], "w", encoding="utf-8") as file:
         file.write(page)
 
