@@ -329,7 +329,7 @@ void add_collect(CLI::App& app, std::function<int()>& action) {
   command->footer(collect_footer);
   add_study_options(*command, options->study);
   command->add_option("folders", options->from, "more folders that shards have written to")->type_name("DIR");
-  command->add_flag("--partial", options->partial, "although runs are missing");
+  command->add_flag("--partial", options->partial, "make the tables although runs are missing");
   command->callback([options, &action] { action = [options] { return collect_command(*options); }; });
 }
 

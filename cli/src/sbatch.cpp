@@ -27,6 +27,9 @@ std::string sbatch_script(const StudyOptions& options, const std::string& name, 
     changes += o.file.empty() ? " --set " + quoted(o.assignment) : " --with " + quoted(fs::absolute(o.file).string());
   const bool plain = options.sbatch.find_first_of("\n'\"$`\\ ") == std::string::npos;
   const std::string script = options.sbatch == "-" || !plain ? "THIS-FILE" : options.sbatch;
+  // Whoever writes the script has been asked already.
+  const std::string more =
+      std::string(options.extend ? " --extend" : "") + (options.mix_versions ? " --mix-versions" : "");
   return "#!/bin/bash\n"
          "# The study " +
          name +
@@ -55,11 +58,12 @@ std::string sbatch_script(const StudyOptions& options, const std::string& name, 
          "\n"
          "exec " +
          program + " study " + file + " --out " + quoted(folder) + changes + " \\\n  --shard \"$SLURM_ARRAY_TASK_ID/" +
-         shards + "\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet" + (options.yes ? " --yes" : "") +
+         shards + "\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet --yes" + more +
+         (options.retry ? " --retry" : "") +
          "\n"
          "\n"
          "# When all tasks are done (after exec, so never by a task):\n" +
-         program + " collect " + file + " --out " + quoted(folder) + changes + (options.yes ? " --yes" : "") + "\n";
+         program + " collect " + file + " --out " + quoted(folder) + changes + " --yes" + more + "\n";
 }
 
 }  // namespace banyan::cli

@@ -207,10 +207,10 @@ Watch progress_watch(Progress& progress) {
   };
 }
 
-int finish(const Prepared& prepared, const Outcomes& outcomes, const Folder& folder, bool quiet) {
-  const auto written = write_results(prepared.study, prepared.plan, outcomes, folder);
+int finish(const Prepared& prepared, const Gathered& gathered, const Folder& folder, bool quiet) {
+  const auto written = write_results(prepared.study, prepared.plan, gathered, folder);
   for (const auto& complaint : written.complaints) complain("figure " + complaint);
-  const Results results(prepared.study, prepared.plan, outcomes);
+  const Results results(prepared.study, prepared.plan, gathered.outcomes);
   if (!quiet) print(study_summary(prepared.study, results, folder, written));
   if (results.failed() > 0) {
     complain(format("%zu of %zu runs failed: column \"error\" of ", results.failed(), results.rows()) + folder.table() +
@@ -266,7 +266,18 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
   }
   gathered = gather(journals_in(folder.path), prepared.study.name);
   if (!shard.whole()) return finish_shard(prepared.plan, shard, gathered.outcomes, folder, options);
-  return finish(prepared, gathered.outcomes, folder, options.quiet);
+  return finish(prepared, gathered, folder, options.quiet);
+}
+
+// What came from other folders, so that this one can go on by itself.
+void keep_collected(const Prepared& prepared, const Gathered& all, const Folder& folder) {
+  const auto own = gather(journals_in(folder.path), prepared.study.name);
+  Journal journal(folder.path + "/journal/collected.jsonl", prepared.study.name, std::string(version),
+                  std::string(git_id()));
+  for (const auto& [id, outcome] : all.outcomes) {
+    if (!own.outcomes.contains(id)) journal.append({id, outcome});
+  }
+  journal.sync();
 }
 
 }  // namespace
@@ -324,8 +335,9 @@ int collect_command(const CollectOptions& options) {
                   : "; finish the shards (banyan study --shard i/n), or add --partial to collect what is there"));
     if (!options.partial) return exit_lost;
   }
-  make_directory(folder.path);
-  return finish(prepared, gathered.outcomes, folder, of.quiet);
+  make_directory(folder.path + "/journal");
+  if (!options.from.empty()) keep_collected(prepared, gathered, folder);
+  return finish(prepared, gathered, folder, of.quiet);
 }
 
 }  // namespace banyan::cli

@@ -22,24 +22,29 @@ std::vector<double> values_of(const Values& all, const std::vector<std::size_t>&
   return values;
 }
 
-double share_above_zero(const std::vector<double>& values) {
+// "98.3 %", "-" for no runs.
+std::string share_above_zero(const std::vector<double>& values) {
+  if (values.empty()) return "-";
   const auto count = std::count_if(values.begin(), values.end(), [](double v) { return v > 0.0; });
-  return values.empty() ? 0.0 : 100.0 * static_cast<double>(count) / static_cast<double>(values.size());
+  return format("%.1f %%", 100.0 * static_cast<double>(count) / static_cast<double>(values.size()));
 }
 
 std::string row_text(const Results& results, const std::string& name, const std::vector<std::size_t>& rows) {
   const auto time = values_of(results.values("normalized_time"), rows);
-  return format("  %-32s %8zu %9.1f %% %12.3f %9.1f %% %9.1f %%\n", name.substr(0, 32).c_str(), rows.size(),
-                share_above_zero(values_of(results.values("complete"), rows)), quantile(time, 0.5),
-                share_above_zero(values_of(results.values("broken_ticks"), rows)),
-                share_above_zero(values_of(results.values("split_ticks"), rows)));
+  const auto share = [&](const char* column) { return share_above_zero(values_of(results.values(column), rows)); };
+  std::string text =
+      format("  %-32s %8zu %11s %13s %13s %11s", name.empty() ? "all" : name.substr(0, 32).c_str(), time.size(),
+             share("complete").c_str(), time.empty() ? "-" : format("%.3f", quantile(time, 0.5)).c_str(),
+             share("broken_ticks").c_str(), share("split_ticks").c_str());
+  if (time.size() < rows.size()) text += format("  + %zu failed", rows.size() - time.size());
+  return text + "\n";
 }
 
 }  // namespace
 
 std::string study_summary(const Study& study, const Results& results, const Folder& folder, const Written& written) {
   std::string text =
-      format("\n  %-32s %8s %11s %12s %11s %11s\n", "", "runs", "complete", "median time", "edge broken", "net split");
+      format("\n  %-32s %8s %11s %13s %13s %11s\n", "", "runs", "complete", "median time", "edge broken", "net split");
   for (std::size_t p = 0; p < study.parts.size(); ++p) {
     const auto& part = study.parts[p];
     std::vector<std::string> labels;

@@ -27,7 +27,7 @@ struct GroupLabels {
 struct BoxLayout {
   std::size_t columns, rows;
   double panel_width, panel_height, gap;  // gap: between columns
-  Axis axis;
+  FigureAxis axis;
   GroupLabels groups;
   std::vector<std::string> title, y_label, x_label;
   std::vector<std::vector<std::string>> panel_titles;

@@ -13,10 +13,6 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t queued_per_worker = 4;  // enough that nobody waits, few enough to keep no memory
 
-bool keeps_files(const config::Configuration& configuration) {
-  return configuration.output.record || configuration.output.series;
-}
-
 std::string task_of(const Plan& plan, const PlannedRun& run, const std::string& runs_folder) {
   const auto configuration = configuration_of(plan, run);
   return encode(
@@ -34,6 +30,21 @@ class Conductor {
         runs_folder_(std::move(runs_folder)) {
     standing_.wanted = todo_.size();
     for (const auto run : todo_) work_ += plan_.runs[run].cost;
+  }
+
+  Conductor(const Conductor&) = delete;
+  Conductor& operator=(const Conductor&) = delete;
+  // What still runs refers to this: an exception of run() must not leave it behind.
+  ~Conductor() {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    workers_.cancel();
+    try {
+      workers_.wait();
+    } catch (...) {  // NOLINT(bugprone-empty-catch): a second failure; the first is on its way
+    }
   }
 
   Standing run(const Watch& watch) {
@@ -70,22 +81,25 @@ class Conductor {
 
   // On a thread of the workers.
   void deliver(std::size_t run, const std::string& result) {
-    const auto outcome = decode_outcome(result);
     const std::lock_guard lock(mutex_);
     --in_flight_;
     try {
-      journal_.append({plan_.runs[run].id, outcome});
-    } catch (...) {
+      note(run, decode_outcome(result));
+      post_next();
+    } catch (...) {  // ends in wait()
       broken_ = stopping_ = true;
       changed_.notify_all();
       throw;
     }
+    if (in_flight_ == 0) changed_.notify_all();
+  }
+
+  void note(std::size_t run, const Outcome& outcome) {
+    journal_.append({plan_.runs[run].id, outcome});
     ++standing_.done;
     if (!outcome.error.empty()) ++standing_.failed;
     done_work_ += plan_.runs[run].cost;
     standing_.share = work_ > 0.0 ? std::min(1.0, done_work_ / work_) : 1.0;
-    post_next();
-    if (in_flight_ == 0) changed_.notify_all();
   }
 
   void stop() {

@@ -35,7 +35,7 @@ void check(const CurveFigure& figure) {
 }
 
 struct Axes {
-  Axis x, y;
+  FigureAxis x, y;
 };
 
 Axes axes_of(const CurveFigure& figure) {
@@ -133,7 +133,7 @@ void draw_curves(Script& script, const CurveFigure& figure) {
 }
 
 void set_axes(Script& script, const Axes& axes) {
-  for (const auto& [letter, axis] : {std::pair<const char*, const Axis&>{"x", axes.x}, {"y", axes.y}}) {
+  for (const auto& [letter, axis] : {std::pair<const char*, const FigureAxis&>{"x", axes.x}, {"y", axes.y}}) {
     const std::string name = letter;
     script.line("set " + name + "range [" + number(axis.low) + ":" + number(axis.high) + "]");
     script.line("set " + name + "tics nomirror " + number(axis.first_tick) + ", " + number(axis.step));

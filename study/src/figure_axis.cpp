@@ -47,9 +47,9 @@ void Extent::add(double value) noexcept {
   any = true;
 }
 
-std::string Axis::format() const { return decimals < 0 ? "%g" : "%." + std::to_string(decimals) + "f"; }
+std::string FigureAxis::format() const { return decimals < 0 ? "%g" : "%." + std::to_string(decimals) + "f"; }
 
-double Axis::label_width_px(double size_px) const {
+double FigureAxis::label_width_px(double size_px) const {
   double widest = 0.0;
   const int ticks = static_cast<int>((high - first_tick) / step + 1e-9);
   for (int i = 0; i <= ticks; ++i) {
@@ -59,7 +59,7 @@ double Axis::label_width_px(double size_px) const {
   return widest;
 }
 
-Axis axis_over(const Extent& extent, std::optional<double> minimum, std::optional<double> maximum, bool from_zero,
+FigureAxis axis_over(const Extent& extent, std::optional<double> minimum, std::optional<double> maximum, bool from_zero,
                double margin, int most_ticks) {
   double low = minimum.value_or(extent.any ? extent.low : 0.0);
   double high = maximum.value_or(extent.any ? extent.high : 1.0);
@@ -72,7 +72,7 @@ Axis axis_over(const Extent& extent, std::optional<double> minimum, std::optiona
     if (!maximum) high = std::max(low, high) + half;
   }
   const double size = high - low;
-  Axis axis;
+  FigureAxis axis;
   axis.low = minimum || zero ? low : low - margin * size;
   axis.high = maximum ? high : high + margin * size;
   axis.step = round_step(axis.high - axis.low, most_ticks);

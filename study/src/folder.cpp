@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "banyan/record/file.hpp"
+#include "banyan/record/table.hpp"
 #include "banyan/study/journal.hpp"
 #include "banyan/study/report.hpp"
 #include "banyan/version.hpp"
@@ -21,10 +22,6 @@ using record::FileError;
 
 constexpr std::string_view format_name = "banyan.study";
 
-std::string build_of(const std::string& version_text, const std::string& git) {
-  return version_text + " (git " + git + ")";
-}
-
 // The processor's name, "" where Linux does not tell.
 std::string processor() {
   std::ifstream in("/proc/cpuinfo");
@@ -35,7 +32,8 @@ std::string processor() {
   return "";
 }
 
-ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& outcomes, const Results& results) {
+ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& outcomes, const Results& results,
+                        const std::vector<std::string>& builds) {
   double wall_s = 0.0;
   for (const auto& run : plan.runs) {
     if (const auto at = outcomes.find(run.id); at != outcomes.end()) wall_s += at->second.wall_s;
@@ -62,6 +60,7 @@ ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& ou
           {"processor_time_s", wall_s},
           {"version", std::string(version)},
           {"git", std::string(git_id())},
+          {"builds", builds},
           {"machine", {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}}},
           {"parts", parts},
           {"config", study.text}};
@@ -74,7 +73,7 @@ std::string Folder::journal(const Shard& shard) const {
   return path + "/journal/shard-" + std::to_string(shard.number) + "-of-" + std::to_string(shard.count) + ".jsonl";
 }
 
-std::string this_build() { return build_of(std::string(version), std::string(git_id())); }
+std::string this_build() { return build_text(std::string(version), std::string(git_id())); }
 
 std::optional<Finished> finished(const Folder& folder) {
   if (!std::filesystem::exists(folder.json())) return std::nullopt;
@@ -87,6 +86,18 @@ std::optional<Finished> finished(const Folder& folder) {
   return Finished{json.value("study", ""), json.value("plan", ""), json.value("runs", std::uint64_t{0})};
 }
 
+// The same run, whatever it was called and whoever made it: all columns from the first of the results on.
+static bool same_result(const std::string& row, const std::string& other) {
+  if (row == other) return true;
+  const auto first = record::csv_cells(row), second = record::csv_cells(other);
+  const auto& columns = record::run_columns();
+  if (first.size() != second.size() || first.size() != columns.size()) return false;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (!is_identifying(columns[c].name) && first[c] != second[c]) return false;
+  }
+  return true;
+}
+
 Gathered gather(const std::vector<std::string>& journals, const std::string& study) {
   Gathered gathered;
   for (const auto& path : journals) {
@@ -94,15 +105,16 @@ Gathered gather(const std::vector<std::string>& journals, const std::string& stu
     if (content.bytes == 0) continue;  // killed before its first line
     if (content.study != study)
       throw FileError(path, "belongs to the study \"" + content.study + "\", not to \"" + study + "\"");
-    const auto build = build_of(content.version, content.git);
-    if (std::find(gathered.builds.begin(), gathered.builds.end(), build) == gathered.builds.end())
-      gathered.builds.push_back(build);
+    for (const auto& build : content.builds) {
+      if (std::find(gathered.builds.begin(), gathered.builds.end(), build) == gathered.builds.end())
+        gathered.builds.push_back(build);
+    }
     for (const auto& entry : content.entries) {
       const auto [at, added] = gathered.outcomes.emplace(entry.id, entry.outcome);
       if (added) continue;
       if (!at->second.error.empty())
         at->second = entry.outcome;
-      else if (entry.outcome.error.empty() && entry.outcome.row != at->second.row)
+      else if (entry.outcome.error.empty() && !same_result(entry.outcome.row, at->second.row))
         throw FileError(path, "holds another result of the run " + entry.id +
                                   " than an earlier journal: builds or "
                                   "machines that do not agree");
@@ -111,8 +123,8 @@ Gathered gather(const std::vector<std::string>& journals, const std::string& stu
   return gathered;
 }
 
-Written write_results(const Study& study, const Plan& plan, const Outcomes& outcomes, const Folder& folder) {
-  const Results results(study, plan, outcomes);
+Written write_results(const Study& study, const Plan& plan, const Gathered& gathered, const Folder& folder) {
+  const Results results(study, plan, gathered.outcomes);
   record::write_file(folder.table(), results.csv(), Existing::replace);
   record::write_file(folder.statistics(), statistics_csv(study, results), Existing::replace);
   record::write_file(folder.comparisons(), comparisons_csv(study, results), Existing::replace);
@@ -125,7 +137,7 @@ Written write_results(const Study& study, const Plan& plan, const Outcomes& outc
   }
   // Last: it says that the rest is there.
   // Paths may hold any bytes.
-  const auto json = study_json(study, plan, outcomes, results);
+  const auto json = study_json(study, plan, gathered.outcomes, results, gathered.builds);
   record::write_file(folder.json(), json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n",
                      Existing::replace);
   return {drawn.figures, drawn.complaints};

@@ -67,12 +67,15 @@ JournalContent parse(const std::string& path, std::string_view text) {
     if (end == std::string_view::npos) return content;  // torn by a kill: as if never written
     ++number;
     const auto line = unframed(text.substr(0, end));
-    if (number == 1) {
+    if (number == 1 || (line && line->contains("format"))) {
       if (!line || line->value("format", "") != format_name) fail("this is no journal of a study");
       if (line->value("format_version", 0) != format_version) fail("the journal is of another format version");
       content.study = line->value("study", "");
       content.version = line->value("version", "");
       content.git = line->value("git", "");
+      const auto build = build_text(content.version, content.git);
+      if (std::find(content.builds.begin(), content.builds.end(), build) == content.builds.end())
+        content.builds.push_back(build);
     } else {
       if (!line || !line->contains("id"))
         fail(
@@ -101,6 +104,8 @@ std::int64_t now_ns() {
 
 }  // namespace
 
+std::string build_text(const std::string& version, const std::string& git) { return version + " (git " + git + ")"; }
+
 JournalContent read_journal(const std::string& path) { return parse(path, whole_file(path)); }
 
 Journal::Journal(std::string path, const std::string& study, const std::string& version, const std::string& git)
@@ -116,12 +121,8 @@ Journal::Journal(std::string path, const std::string& study, const std::string& 
     end_ = content_.bytes;
     if (::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0) throw FileError(path_, "truncate", errno);
     if (::lseek(descriptor_, static_cast<off_t>(end_), SEEK_SET) < 0) throw FileError(path_, "seek", errno);
-    if (end_ == 0) {
-      content_.study = study;
-      content_.version = version;
-      content_.git = git;
-      write_line(header(study, version, git).dump());
-    }
+    if (end_ == 0 || content_.version != version || content_.git != git) write_line(header(study, version, git).dump());
+    if (end_ == 0) content_.study = study;
   } catch (...) {
     ::close(descriptor_);
     throw;

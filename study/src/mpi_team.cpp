@@ -52,7 +52,7 @@ class Other {
     slots_ = std::vector<Slot>(free_);
   }
 
-  void give(int rank, Task task, std::shared_ptr<TaskQueue> queue) {
+  void give(int rank, QueuedTask task, std::shared_ptr<TaskQueue> queue) {
     const auto slot = std::ranges::find_if(slots_, [](const Slot& s) { return s.queue == nullptr; });
     slot->queue = std::move(queue);
     slot->done = std::move(task.done);

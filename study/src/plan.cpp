@@ -7,6 +7,7 @@
 #include <set>
 
 #include "banyan/controller/digest.hpp"
+#include "file_text.hpp"
 #include "hexadecimal.hpp"
 
 namespace banyan::study {
@@ -22,17 +23,6 @@ std::string id_of(const config::Configuration& configuration) {
   bare.scenario.description.clear();
   bare.output = {};
   return hexadecimal(digest_of(config::config_json(bare)));
-}
-
-// As part of a path.
-std::string file_text(std::string_view label) {
-  std::string text;
-  for (const char c : label) {
-    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-                      c == '_' || c == '.' || c == ',' || c == '+';
-    text += good ? c : '-';
-  }
-  return text.substr(0, 60);
 }
 
 class Planner {
@@ -150,16 +140,27 @@ class Planner {
   std::size_t add_run(const config::Configuration& configuration, const std::string& folder, std::uint64_t seed) {
     PlannedRun run;
     run.id = id_of(configuration);
-    if (const auto known = index_.find(run.id); known != index_.end()) return known->second;
     run.combination = plan_.combinations.size() - 1;
     run.seed = seed;
     run.directory = folder + "/seed=" + std::to_string(seed);
+    if (const auto known = index_.find(run.id); known != index_.end()) {
+      share_run(plan_.runs[known->second], run, configuration);
+      return known->second;
+    }
     if (!directories_.insert(run.directory).second) run.directory += "-" + run.id;
     const auto& scenario = configuration.scenario;
     run.cost = static_cast<double>(world::robot_count(scenario)) * world::time_limit_s(scenario) / scenario.tick_s;
     index_.emplace(run.id, plan_.runs.size());
     plan_.runs.push_back(std::move(run));
     return plan_.runs.size() - 1;
+  }
+
+  // Two parts ask for the same run: if only the later one wants its files, it is done as that one says.
+  void share_run(PlannedRun& first, const PlannedRun& again, const config::Configuration& configuration) {
+    if (!keeps_files(configuration) || keeps_files(plan_.combinations[first.combination])) return;
+    first.combination = again.combination;
+    first.directory = again.directory;
+    if (!directories_.insert(first.directory).second) first.directory += "-" + first.id;
   }
 
   void note(Problem problem, const std::string& combination, double of) {
@@ -192,6 +193,10 @@ class Planner {
 
 bool Plan::ok() const noexcept {
   return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
+}
+
+bool keeps_files(const config::Configuration& configuration) noexcept {
+  return configuration.output.record || configuration.output.series;
 }
 
 std::string plan_text(const Plan& plan) { return hexadecimal(plan.digest); }

@@ -10,6 +10,7 @@
 #include "banyan/record/table.hpp"
 #include "banyan/study/figure.hpp"
 #include "banyan/study/statistics.hpp"
+#include "file_text.hpp"
 
 namespace banyan::study {
 namespace {
@@ -94,8 +95,8 @@ std::vector<double> finite(const Values& values, const std::vector<std::size_t>&
   return list;
 }
 
-std::string summary_cells(const Summary& s) {
-  std::string text = std::to_string(s.count);
+std::string summary_cells(const Summary& s, std::size_t planned) {
+  std::string text = std::to_string(s.count) + "," + std::to_string(planned - s.count);
   for (const double value : {s.mean, s.standard_deviation, s.mean_interval.low, s.mean_interval.high, s.minimum,
                              s.lower_quartile, s.median, s.upper_quartile, s.maximum, s.median_interval.low,
                              s.median_interval.high, s.positive, s.positive_interval.low, s.positive_interval.high})
@@ -143,7 +144,8 @@ class Comparer {
 
   std::string csv() {
     std::string text = group_header(results_) +
-                       ",metric,first,second,test,pairs,first_median,second_median,median_difference,difference_low,"
+                       ",metric,first,second,test,pairs,first_mean,second_mean,first_median,second_median,median_"
+                       "difference,difference_low,"
                        "difference_high,first_larger,second_larger,effect,p,p_holm\n";
     for (std::size_t p = 0; p < study_.parts.size(); ++p) {
       comparisons_.clear();
@@ -217,13 +219,22 @@ class Comparer {
           c.cells = group_cells(study_, results_, p, key) + "," + study_.statistics.metrics[m] + "," +
                     record::csv_quoted(axis.values[i].label) + "," + record::csv_quoted(axis.values[j].label) + "," +
                     (binary ? "mcnemar" : "wilcoxon") + "," + std::to_string(c.result.pairs) + "," +
-                    shown(median(pairs.first)) + "," + shown(median(pairs.second));
+                    shown(mean(pairs.first)) + "," + shown(mean(pairs.second)) + "," +
+                    (binary ? "," : shown(median(pairs.first)) + "," + shown(median(pairs.second)));
+          if (binary)
+            c.result.median_difference = c.result.difference_interval.low = c.result.difference_interval.high =
+                std::nan("");
           comparisons_.push_back(std::move(c));
         }
       }
     }
   }
 
+  static double mean(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+  }
   static double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return quantile(values, 0.5);
@@ -319,15 +330,21 @@ class Illustrator {
       figure.panels.push_back(std::move(panel));
     }
     fill(plan, p, each, {groups, panels, series}, figure);
-    std::string name = plan.name;
-    for (std::size_t i = 0; i < each.size(); ++i) name += "-" + plan.each[i] + "-" + each[i];
-    for (char& c : name) {
-      if (c == '/' || c == ' ' || c == '\\') c = '-';
-    }
+    const std::string name = file_name(plan, each);
     try {
       draw(figure, folder_ + "/" + name);
       drawn_.figures.push_back(name);
     } catch (const FigureError& e) { drawn_.complaints.push_back(name + ": " + e.what()); }
+  }
+
+  // Different labels may look the same in a file name.
+  std::string file_name(const FigurePlan& plan, const Labels& each) {
+    std::string name = plan.name;
+    for (std::size_t i = 0; i < each.size(); ++i) name += "-" + plan.each[i] + "-" + file_text(each[i]);
+    name = name.substr(0, 200);
+    std::string unique = name;
+    for (int n = 2; !names_.insert(unique).second; ++n) unique = name + "-" + std::to_string(n);
+    return unique;
   }
 
   static void label_groups(const Part& part, const FigurePlan& plan, const std::vector<Labels>& groups,
@@ -375,6 +392,7 @@ class Illustrator {
   const Study& study_;
   const Results& results_;
   std::string folder_;
+  std::set<std::string> names_;
   Drawn drawn_;
 };
 
@@ -382,20 +400,24 @@ class Illustrator {
 
 std::string statistics_csv(const Study& study, const Results& results) {
   std::string text = group_header(results) +
-                     ",metric,runs,mean,standard_deviation,mean_low,mean_high,minimum,lower_quartile,median,"
+                     ",metric,runs,missing,mean,standard_deviation,mean_low,mean_high,minimum,lower_quartile,median,"
                      "upper_quartile,maximum,median_low,median_high,positive,positive_low,positive_high\n";
   std::vector<Values> values;
   for (const auto& metric : study.statistics.metrics) values.push_back(results.values(metric));
   for (std::size_t p = 0; p < study.parts.size(); ++p) {
     const auto rows = rows_of(results, p);
     for (const auto& by : groupings(study, study.parts[p])) {
+      std::map<GroupKey, std::size_t> planned;  // also of groups of which nothing is there
+      for (const auto& row : results.plan().rows) {
+        if (row.part == p) ++planned[key_of(study.parts[p], row, by)];
+      }
       std::map<GroupKey, std::vector<std::size_t>> groups;
       for (const std::size_t row : rows) groups[key_of(study.parts[p], results.planned(row), by)].push_back(row);
-      for (const auto& [key, members] : groups) {
+      for (const auto& [key, count] : planned) {
         for (std::size_t m = 0; m < values.size(); ++m) {
-          const auto summary = summarize(finite(values[m], members), options_of(study.statistics));
+          const auto summary = summarize(finite(values[m], groups[key]), options_of(study.statistics));
           text += group_cells(study, results, p, key) + "," + study.statistics.metrics[m] + "," +
-                  summary_cells(summary) + "\n";
+                  summary_cells(summary, count) + "\n";
         }
       }
     }

@@ -12,30 +12,6 @@
 namespace banyan::study {
 namespace {
 
-// RFC 4180, one line.
-std::vector<std::string> split_csv(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted) {
-      if (c != '"')
-        cells.back() += c;
-      else if (i + 1 < line.size() && line[i + 1] == '"')
-        cells.back() += line[++i];
-      else
-        quoted = false;
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == ',') {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
 struct RunColumn {
   std::string name;
   bool metric = false;  // numbers or booleans
@@ -79,7 +55,7 @@ double number_in(const std::string& cell) {
 // What identifies a run that left no row.
 std::vector<std::string> identity_of(const Plan& plan, const PlannedRun& run) {
   const auto scenario = configuration_of(plan, run).scenario;
-  auto cells = split_csv(record::run_csv_row({record::identify(scenario, version, git_id()), {}, false}));
+  auto cells = record::csv_cells(record::run_csv_row({record::identify(scenario, version, git_id()), {}, false}));
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (!run_columns()[c].identifying) cells[c].clear();
   }
@@ -123,7 +99,7 @@ Results::Results(const Study& study, const Plan& plan, const Outcomes& outcomes)
     if (found == outcomes.end()) continue;
     present_.push_back(row);
     errors_.push_back(found->second.error);
-    auto cells = errors_.back().empty() ? split_csv(found->second.row) : std::vector<std::string>{};
+    auto cells = errors_.back().empty() ? record::csv_cells(found->second.row) : std::vector<std::string>{};
     if (cells.size() != run_columns().size()) {
       if (errors_.back().empty()) errors_.back() = "its row has other columns: written by another version of banyan";
       cells = identity_of(plan, run);

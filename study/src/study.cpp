@@ -161,7 +161,7 @@ class StudyReader {
     check_keys(table, key, keys);
     axis.name = table.text("name", last_name(keys.empty() ? key : keys.front()));
     check_name(table, axis.name);
-    if (is_metric(axis.name) && !is_identifying(axis.name))
+    if (taken(axis.name))
       table.report("name", "\"" + axis.name + "\" is a column of results; give the axis another name");
     axis.title = table.text("title", axis.name);
     table.require("values");
@@ -170,9 +170,30 @@ class StudyReader {
         axis.values.push_back(keys.empty() ? read_value(value, key, table) : read_zipped(value, keys, table));
       }
     }
+    if (is_identifying(axis.name) && (table.has("labels") || !told_by_its_column(axis)))
+      table.report("name", "\"" + axis.name +
+                               "\" is a column of runs, which holds no labels and does not tell these values "
+                               "apart; give the axis another name");
     read_labels(table, axis);
     table.finish();
     return axis;
+  }
+
+  // Names of the tables' other columns.
+  static bool taken(const std::string& name) {
+    constexpr std::string_view others[] = {"study", "part", "run", "error", "metric", "runs", "missing", "hash"};
+    return (is_metric(name) && !is_identifying(name)) ||
+           std::find(std::begin(others), std::end(others), name) != std::end(others);
+  }
+
+  // In the table a column of the same name stands for the axis: one change a value, all different.
+  static bool told_by_its_column(const Axis& axis) {
+    std::set<std::string> told;
+    for (const auto& value : axis.values) {
+      if (value.scenario.empty() && value.changes.size() == 1 && !value.changes.front().key.empty())
+        told.insert(value.label);
+    }
+    return told.size() == axis.values.size();
   }
 
   static void check_keys(TableReader& table, const std::string& key, const std::vector<std::string>& keys) {
@@ -278,10 +299,12 @@ class StudyReader {
     plan.metrics = {
         "complete",           "normalized_time", "disconnected_time_ratio", "disconnected_time_ratio_by_distance",
         "fiedler_time_ratio", "committed"};
+    const auto known = axis_names(study.parts);
+    if (!known.empty() && std::find(known.begin(), known.end(), plan.compare) == known.end())
+      plan.compare = known.front();
     const Node* node = top.table("statistics");
     if (!node) return;
     TableReader table(*node, "statistics", problems_);
-    const auto known = axis_names(study.parts);
     if (auto metrics = table.texts("metrics"); !metrics.empty()) plan.metrics = std::move(metrics);
     for (const auto& metric : plan.metrics) check_metric(table, "metrics", metric);
     plan.compare = table.text("compare", plan.compare);
@@ -382,7 +405,7 @@ class StudyReader {
       for (const auto& label : labels) {
         if (std::find(known.begin(), known.end(), label) != known.end()) continue;
         const auto near = config::nearest(label, known);
-        table.report(name, "\"" + label + "\" is no value of the axis \"" + name + "\"" +
+        table.report(name, "\"" + label + "\" is no label of the axis \"" + name + "\"" +
                                (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
       }
     }
@@ -430,11 +453,32 @@ class StudyReader {
     for (const auto& o : overrides) {
       std::vector<Change> changes;
       if (o.file.empty()) {
-        if (auto change = read_assignment(o)) changes.push_back(std::move(*change));
+        if (auto change = read_assignment(o)) {
+          check_varied(study, o, change->key);
+          changes.push_back(std::move(*change));
+        }
       } else if (auto change = read_overlay(o.file, {}, o.origin, problems_)) {
         changes.push_back(std::move(*change));
       }
       for (auto& part : study.parts) part.changes.insert(part.changes.end(), changes.begin(), changes.end());
+    }
+  }
+
+  // An axis has the last word on its keys: an option for one of them would do nothing.
+  void check_varied(const Study& study, const config::Override& o, const std::string& key) {
+    for (const auto& part : study.parts) {
+      for (const auto& axis : part.axes) {
+        const bool varied = std::any_of(axis.values.begin(), axis.values.end(), [&](const AxisValue& value) {
+          return std::any_of(value.changes.begin(), value.changes.end(), [&](const Change& c) { return c.key == key; });
+        });
+        if (!varied) continue;
+        Problem problem;
+        problem.place.origin = std::make_shared<const std::string>(o.origin);
+        problem.key = key;
+        problem.text = "is varied by the axis \"" + axis.name + "\"";
+        problems_.push_back(std::move(problem));
+        return;
+      }
     }
   }
 

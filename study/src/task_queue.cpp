@@ -5,7 +5,7 @@
 
 namespace banyan::study {
 
-void TaskQueue::post(Task task) {
+void TaskQueue::post(QueuedTask task) {
   {
     const std::lock_guard lock(mutex_);
     if (closed_ || failure_) return;
@@ -14,27 +14,27 @@ void TaskQueue::post(Task task) {
   posted_.notify_one();
 }
 
-std::optional<Task> TaskQueue::take() {
+std::optional<QueuedTask> TaskQueue::take() {
   std::unique_lock lock(mutex_);
   posted_.wait(lock, [this] { return closed_ || !queued_.empty(); });
   if (queued_.empty()) return std::nullopt;
   return pop();
 }
 
-std::optional<Task> TaskQueue::try_take(std::size_t left) {
+std::optional<QueuedTask> TaskQueue::try_take(std::size_t left) {
   const std::lock_guard lock(mutex_);
   if (queued_.size() <= left) return std::nullopt;
   return pop();
 }
 
-Task TaskQueue::pop() {
-  Task task = std::move(queued_.front());
+QueuedTask TaskQueue::pop() {
+  QueuedTask task = std::move(queued_.front());
   queued_.pop_front();
   ++running_;
   return task;
 }
 
-void TaskQueue::deliver(Task task, std::string result) {
+void TaskQueue::deliver(QueuedTask task, std::string result) {
   try {
     task.done(std::move(result));
   } catch (...) { fail(std::current_exception()); }
@@ -69,7 +69,7 @@ bool TaskQueue::closed() const {
 // Unlocked in between, for what a Done holds is free to call us when it goes; counted as running
 // until then.
 void TaskQueue::drop(std::unique_lock<std::mutex>& lock) {
-  std::deque<Task> dropped;
+  std::deque<QueuedTask> dropped;
   dropped.swap(queued_);
   const std::size_t count = dropped.size();
   running_ += count;

@@ -17,7 +17,7 @@
 
 namespace banyan::study {
 
-struct Task {
+struct QueuedTask {
   std::string bytes;
   Workers::Done done;
 };
@@ -25,13 +25,13 @@ struct Task {
 // post, wait and cancel are those of Workers. All functions may be called from any thread.
 class TaskQueue {
  public:
-  void post(Task task);
+  void post(QueuedTask task);
   // The next task, which runs from now on and must be delivered. Waits for one; nothing once closed.
-  [[nodiscard]] std::optional<Task> take();
+  [[nodiscard]] std::optional<QueuedTask> take();
   // The same without waiting: nothing unless more than `left` tasks are queued.
-  [[nodiscard]] std::optional<Task> try_take(std::size_t left);
+  [[nodiscard]] std::optional<QueuedTask> try_take(std::size_t left);
   // Gives a task that was taken its result.
-  void deliver(Task task, std::string result);
+  void deliver(QueuedTask task, std::string result);
   void wait();
   void cancel();
   // Drops what is queued and whatever is still posted; returns when nothing runs any more.
@@ -39,7 +39,7 @@ class TaskQueue {
   [[nodiscard]] bool closed() const;
 
  private:
-  [[nodiscard]] Task pop();
+  [[nodiscard]] QueuedTask pop();
   void drop(std::unique_lock<std::mutex>& lock);
   void fail(std::exception_ptr thrown);
   void settle(std::size_t count);
@@ -47,7 +47,7 @@ class TaskQueue {
 
   mutable std::mutex mutex_;
   std::condition_variable posted_, settled_;
-  std::deque<Task> queued_;
+  std::deque<QueuedTask> queued_;
   std::size_t running_ = 0;     // taken or being dropped
   std::exception_ptr failure_;  // what a Done has thrown and wait() has not
   bool closed_ = false;

@@ -20,7 +20,7 @@ Extent of(std::initializer_list<double> values) {
 }
 
 TEST(FigureAxis, BeginsAtZeroUnlessAValueIsBelow) {
-  const Axis shares = axis_over(of({0.3, 1.0}), {}, {}, true, 0.04, 6);
+  const FigureAxis shares = axis_over(of({0.3, 1.0}), {}, {}, true, 0.04, 6);
   EXPECT_EQ(shares.low, 0.0);
   EXPECT_DOUBLE_EQ(shares.high, 1.04);
   EXPECT_EQ(shares.first_tick, 0.0);
@@ -31,11 +31,11 @@ TEST(FigureAxis, BeginsAtZeroUnlessAValueIsBelow) {
 }
 
 TEST(FigureAxis, KeepsGivenEnds) {
-  const Axis axis = axis_over(of({0.3, 5.0}), 0.2, 0.8, true, 0.04, 6);
+  const FigureAxis axis = axis_over(of({0.3, 5.0}), 0.2, 0.8, true, 0.04, 6);
   EXPECT_EQ(axis.low, 0.2);
   EXPECT_EQ(axis.high, 0.8);
   EXPECT_EQ(axis_over(of({0.3, 5.0}), 7.0, {}, true, 0.04, 6).low, 7.0) << "all values below it";
-  const Axis below = axis_over(of({0.3, 5.0}), {}, -7.0, true, 0.04, 6);
+  const FigureAxis below = axis_over(of({0.3, 5.0}), {}, -7.0, true, 0.04, 6);
   EXPECT_EQ(below.high, -7.0) << "all values above it";
   EXPECT_LT(below.low, -7.0);
 }
@@ -48,7 +48,7 @@ TEST(FigureAxis, HasRoundTicksAndASizeForAnyValues) {
                                of({1e6, 1e6 + 1}), of({-1e12, 1e12}), of({1e-300}), of({-0.1, -0.05})}) {
     for (const bool zero : {true, false}) {
       for (const auto& [low, high] : ends) {
-        const Axis axis = axis_over(extent, low, high, zero, 0.04, 6);
+        const FigureAxis axis = axis_over(extent, low, high, zero, 0.04, 6);
         ASSERT_LT(axis.low, axis.high) << extent.low;
         ASSERT_LE(axis.low, axis.first_tick + 1e-6 * axis.step);
         const double ticks = (axis.high - axis.first_tick) / axis.step;

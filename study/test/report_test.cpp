@@ -62,20 +62,21 @@ class ReportTest : public TemporaryFolder {
   void SetUp() override {
     TemporaryFolder::SetUp();
     write("w.toml", "[swarm]\nrobots = 6\n[targets]\ncount = 2\nradius_m = 0.9\n");
-    prepare("by = [[\"r\"], [\"algorithm\", \"r\"], [\"algorithm\"], []]\n");
+    prepare("by = [[\"r\"], [\"way\", \"r\"], [\"way\"], []]\n");
   }
   void prepare(const std::string& by) {
-    auto loaded = parse_study(path("s.toml"),
-                              "scenario = \"w.toml\"\nseeds = \"1-7\"\nfigures = []\n"
-                              "[[axes]]\nname = \"algorithm\"\nkeys = [\"mission.algorithm\", \"radio.range_m\"]\n"
-                              "values = [[\"outwards\", 2], [\"inwards\", 2], [\"inwards\", 3]]\n"
-                              "labels = [\"outwards\", \"inwards\", \"tuned\"]\n"
-                              "[[parts]]\nname = \"big\"\n"
-                              "[[parts.axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1.5, 1.0]\n"
-                              "[[parts.axes]]\nname = \"q\"\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n"
-                              "[[parts]]\nname = \"small\"\n"
-                              "[statistics]\nresamples = 100\nmetrics = [\"normalized_time\", \"complete\"]\n" +
-                                  by);
+    auto loaded = parse_study(
+        path("s.toml"),
+        "scenario = \"w.toml\"\nseeds = \"1-7\"\nfigures = []\n"
+        "[[axes]]\nname = \"way\"\nkeys = [\"mission.algorithm\", \"radio.range_m\"]\n"
+        "values = [[\"outwards\", 2], [\"inwards\", 2], [\"inwards\", 3]]\n"
+        "labels = [\"outwards\", \"inwards\", \"tuned\"]\n"
+        "[[parts]]\nname = \"big\"\n"
+        "[[parts.axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1.5, 1.0]\n"
+        "[[parts.axes]]\nname = \"q\"\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n"
+        "[[parts]]\nname = \"small\"\n"
+        "[statistics]\ncompare = \"way\"\nresamples = 100\nmetrics = [\"normalized_time\", \"complete\"]\n" +
+            by);
     ASSERT_TRUE(loaded.ok()) << config::to_string(loaded.problems.front());
     study_ = std::move(loaded.study);
     plan_ = make_plan(study_);
@@ -109,8 +110,8 @@ class ReportTest : public TemporaryFolder {
   // Whether a run belongs to the group that a row of a table is about.
   [[nodiscard]] bool in_group(const PlannedRow& run, const Row& row, bool but_algorithm) const {
     if (study_.parts[run.part].name != row.at("part")) return false;
-    for (const char* axis : {"algorithm", "r", "q"}) {
-      if (but_algorithm && axis == std::string("algorithm")) continue;
+    for (const char* axis : {"way", "r", "q"}) {
+      if (but_algorithm && axis == std::string("way")) continue;
       if (row.at(axis) != "*" && row.at(axis) != label(run, axis)) return false;
     }
     return true;
@@ -155,13 +156,13 @@ class ReportTest : public TemporaryFolder {
         for (const auto& b : plan_.rows) {
           if (a.part != b.part || a.seed != b.seed || label(a, "r") != label(b, "r") || label(a, "q") != label(b, "q"))
             continue;
-          if (label(a, "algorithm") != row.at("first") || label(b, "algorithm") != row.at("second")) continue;
+          if (label(a, "way") != row.at("first") || label(b, "way") != row.at("second")) continue;
           if (!there(a) || !there(b) || !in_group(a, row, true)) continue;
           first.push_back(value_of(a.run, row.at("metric")));
           second.push_back(value_of(b.run, row.at("metric")));
         }
       }
-      EXPECT_EQ(row.at("algorithm"), "*");
+      EXPECT_EQ(row.at("way"), "*");
       ASSERT_EQ(row.at("pairs"), std::to_string(first.size()));
       EXPECT_EQ(row.at("test"), row.at("metric") == "complete" ? "mcnemar" : "wilcoxon");
       std::size_t larger = 0, smaller = 0;
@@ -192,10 +193,10 @@ TEST_F(ReportTest, GroupsAreThoseAskedForOnce) {
   const std::string metric = "complete";
   EXPECT_EQ(count({{"part", "big"}, {"metric", metric}}), 3U * 2 * 2 + 2 + 3 * 2 + 3 + 1);
   EXPECT_EQ(count({{"part", "small"}, {"metric", metric}}), 3U + 1) << "by algorithm, and all";
-  EXPECT_EQ(count({{"part", "big"}, {"algorithm", "*"}, {"r", "*"}, {"q", "*"}, {"metric", metric}}), 1U);
+  EXPECT_EQ(count({{"part", "big"}, {"way", "*"}, {"r", "*"}, {"q", "*"}, {"metric", metric}}), 1U);
   EXPECT_EQ(count({{"part", "small"}, {"r", ""}, {"metric", metric}}), 4U) << "an axis that a part has not";
   // In the order of the file: 1.5 before 1.
-  const auto by_r = picked(rows, {{"part", "big"}, {"algorithm", "*"}, {"q", "*"}, {"metric", metric}});
+  const auto by_r = picked(rows, {{"part", "big"}, {"way", "*"}, {"q", "*"}, {"metric", metric}});
   EXPECT_EQ(by_r.at(0).at("r"), "1.5");
   EXPECT_EQ(by_r.at(1).at("r"), "1");
 }
@@ -215,7 +216,7 @@ TEST_F(ReportTest, MissingAndFailedRunsAreNotCounted) {
 
 TEST_F(ReportTest, AGroupOfWhichAllFailedHasNoNumbers) {
   for (const auto& row : plan_.rows)
-    if (label(row, "algorithm") == "inwards") outcomes_[plan_.runs[row.run].id] = {"", "failed", 1.0};
+    if (label(row, "way") == "inwards") outcomes_[plan_.runs[row.run].id] = {"", "failed", 1.0};
   check_statistics();
   check_comparisons();
   EXPECT_FALSE(picked(comparisons(), {{"pairs", "0"}, {"p_holm", ""}}).empty());

@@ -297,7 +297,7 @@ TEST_F(StudyFile, SaysWhatIsWrongWithStatisticsAndFigures) {
   EXPECT_TRUE(says(with(figure + "part = \"q\"\n"), "\"q\" is no part of this study"));
   EXPECT_TRUE(says(with(figure + "series = \"r\"\n"),
                    "s.toml:9: error: figures[0].series: \"r\" has 9 values; a figure has colours for 8"));
-  EXPECT_TRUE(says(with(figure + "where = { r = [10] }\n"), "\"10\" is no value of the axis \"r\""));
+  EXPECT_TRUE(says(with(figure + "where = { r = [10] }\n"), "\"10\" is no label of the axis \"r\""));
   EXPECT_TRUE(says(with(figure + "where = { r = [] }\n"), "is an empty list"));
   EXPECT_TRUE(says(with(figure + "y_minimum = 2\ny_maximum = 1\n"), "must be below y_maximum"));
   EXPECT_TRUE(says(with(figure + figure), "has two figures named \"committed\""));

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "banyan/measure/metrics.hpp"
 #include "banyan/record/file.hpp"
@@ -61,6 +62,8 @@ struct Column {
 [[nodiscard]] std::string series_csv_header();
 [[nodiscard]] std::string series_csv_row(const measure::Tick& tick);
 [[nodiscard]] std::string csv_quoted(std::string_view field);
+// The fields of one line, unquoted; at least one.
+[[nodiscard]] std::vector<std::string> csv_cells(std::string_view line);
 [[nodiscard]] std::string json_quoted(std::string_view text);
 
 void write_run_csv(const std::string& path, const RunRow& row, Existing existing = Existing::keep);

@@ -15,34 +15,34 @@ namespace banyan::study {
 // All texts may hold any bytes and "\n"; they are shown as they are, without gnuplot's markup. What is
 // too long for its place is broken into lines, turned, or ends in an ellipsis.
 
-struct Series {                        // one colour, named in the legend
+struct Series {  // one colour, named in the legend
   std::string name;
 };
 // The boxes of one panel: values[group][series], each the runs behind one box, finite, in any order;
 // empty: no box.
 struct Panel {
-  std::string title;                   // "r = 3 m"
+  std::string title;  // "r = 3 m"
   std::vector<std::vector<std::vector<double>>> values;
 };
 struct BoxFigure {
-  std::string title;                   // "" for none
-  std::string x_label, y_label;        // "redundancy k", "completion time / limit"
-  std::vector<std::string> groups;     // labels along the x axis
-  std::vector<Series> series;          // at least one, at most eight
-  std::size_t columns = 1;             // panels side by side; the rest goes below
-  std::vector<Panel> panels;           // row by row, all with the same axes
-  std::optional<double> y_minimum, y_maximum;   // else from the values
+  std::string title;                           // "" for none
+  std::string x_label, y_label;                // "redundancy k", "completion time / limit"
+  std::vector<std::string> groups;             // labels along the x axis
+  std::vector<Series> series;                  // at least one, at most eight
+  std::size_t columns = 1;                     // panels side by side; the rest goes below
+  std::vector<Panel> panels;                   // row by row, all with the same axes
+  std::optional<double> y_minimum, y_maximum;  // else from the values
 };
 // Lines with a band instead of boxes: a quantity over generations, or over a parameter.
 struct Curve {
   std::string name;
-  std::vector<double> x, y;            // of the same length, x finite; NaN in y, low or high: a gap
-  std::vector<double> low, high;       // a band, or both empty
-  bool points = false;                 // mark the points; else a bare line
+  std::vector<double> x, y;       // of the same length, x finite; NaN in y, low or high: a gap
+  std::vector<double> low, high;  // a band, or both empty
+  bool points = false;            // mark the points; else a bare line
 };
 struct CurveFigure {
   std::string title, x_label, y_label;
-  std::vector<Curve> curves;           // at most eight
+  std::vector<Curve> curves;  // at most eight
   std::optional<double> y_minimum, y_maximum;
 };
 

@@ -53,6 +53,6 @@ struct Written {
   std::vector<std::string> figures;
   std::vector<std::string> complaints;
 };
-Written write_results(const Study& study, const Plan& plan, const Outcomes& outcomes, const Folder& folder);
+Written write_results(const Study& study, const Plan& plan, const Gathered& gathered, const Folder& folder);
 
 }  // namespace banyan::study

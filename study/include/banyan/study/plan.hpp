@@ -38,6 +38,9 @@ struct Plan {
   [[nodiscard]] bool ok() const noexcept;
 };
 
+// Whether a run leaves files of its own besides its row.
+[[nodiscard]] bool keeps_files(const config::Configuration& configuration) noexcept;
+
 // The digest as text, 16 hexadecimal digits.
 [[nodiscard]] std::string plan_text(const Plan& plan);
 

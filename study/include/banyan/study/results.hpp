@@ -27,6 +27,7 @@ class Results {
 
   // The axes' names over all parts, each once, in order of appearance.
   [[nodiscard]] const std::vector<std::string>& axes() const noexcept { return axes_; }
+  [[nodiscard]] const Plan& plan() const noexcept { return plan_; }
   [[nodiscard]] std::size_t rows() const noexcept { return present_.size(); }
   [[nodiscard]] std::size_t missing() const noexcept { return plan_.rows.size() - present_.size(); }
   [[nodiscard]] std::size_t failed() const noexcept { return failed_; }

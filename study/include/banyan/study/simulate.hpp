@@ -15,9 +15,9 @@ struct Task {
 };
 
 struct Outcome {
-  std::string row;          // record::run_csv_row; "" if there is an error
-  std::string error;        // why there is no row, one line
-  double wall_s = 0.0;      // time it took
+  std::string row;      // record::run_csv_row; "" if there is an error
+  std::string error;    // why there is no row, one line
+  double wall_s = 0.0;  // time it took
 };
 
 // As they travel. decode_outcome() of anything else than an encoded outcome is an outcome with an

@@ -56,9 +56,9 @@ struct PairedTest {
   double effect = 0.0;  // matched-pairs rank-biserial correlation, -1 to 1 (Kerby 2014); 0 if all are ties
   double p = 1.0;
 };
-// Wilcoxon's signed-rank test: exact up to 50 differences without ties among their sizes, else the
-// normal approximation with tie and continuity correction. Zero differences are dropped (Wilcoxon
-// 1945). p = 1 if all are zero.
+// Wilcoxon's signed-rank test: exact up to 50 differences, beyond them the normal approximation with
+// tie and continuity correction. Differences of one size share the mean of their ranks, in both. Zero
+// differences are dropped (Wilcoxon 1945). p = 1 if all are zero.
 [[nodiscard]] PairedTest wilcoxon(std::span<const double> first, std::span<const double> second,
                                   const SummaryOptions& options = {});
 // McNemar's exact test, for values that are 0 or 1: the binomial test on the pairs that differ.

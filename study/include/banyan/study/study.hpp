@@ -68,7 +68,8 @@ struct StatisticsPlan {
   // Axes by which runs are grouped; the other axes are pooled. One more grouping, by all axes, is
   // always made.
   std::vector<std::vector<std::string>> by;
-  std::string compare = "algorithm";  // axis whose values are compared pair by pair; where it exists
+  std::string compare = "algorithm";  // axis whose values are compared pair by pair, in parts that have it;
+                                      // the first axis of the study if there is none of this name
   double confidence = 0.95;
   std::size_t resamples = 2000;
 };
@@ -91,7 +92,7 @@ struct LoadedStudy {
 
 // Reads a study (TOML or JSON); paths in it are relative to it. `overrides` change all runs
 // (`--set`, `--with`). Everything wrong with the file itself is reported at once; what is wrong with
-// the scenarios that come out of it is found by plan().
+// the scenarios that come out of it is found by make_plan().
 [[nodiscard]] LoadedStudy load_study(const std::string& path, const std::vector<config::Override>& overrides = {});
 [[nodiscard]] LoadedStudy parse_study(const std::string& path, std::string_view text,
                                       const std::vector<config::Override>& overrides = {});

@@ -59,9 +59,9 @@ class Processes {
   // waits for that, whether it served or not.
   ~Processes();
 
-  [[nodiscard]] static bool supported() noexcept;   // built with MPI
-  [[nodiscard]] int rank() const noexcept;          // 0: the first, which has the workers
-  [[nodiscard]] int size() const noexcept;          // 1 without MPI
+  [[nodiscard]] static bool supported() noexcept;  // built with MPI
+  [[nodiscard]] int rank() const noexcept;         // 0: the first, which has the workers
+  [[nodiscard]] int size() const noexcept;         // 1 without MPI
 
   // In the first process: workers with `threads` threads (at least 1) in this process and in the
   // others as many as they serve with. A task goes to whoever is free next. Waits until every other
