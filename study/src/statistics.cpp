@@ -176,7 +176,8 @@ struct SignedRanks {
   std::size_t count = 0;  // of differences other than 0
   double plus = 0.0;      // sum of the ranks of the positive ones
   double minus = 0.0;
-  double ties = 0.0;  // sum of t^3 - t over groups of t differences of one size
+  double ties = 0.0;               // sum of t^3 - t over groups of t differences of one size
+  std::vector<std::size_t> twice;  // every rank, doubled: a mid-rank may be half a number
 };
 
 // Ranks of the sizes from 1 on; those of one size share the mean of their ranks.
@@ -192,6 +193,7 @@ SignedRanks signed_ranks(std::vector<Difference> pairs) {
     };
     for (end = begin + 1; end < pairs.size() && tied(pairs[end - 1], pairs[end]);) ++end;
     const double rank = 0.5 * static_cast<double>(begin + 1 + end);
+    result.twice.insert(result.twice.end(), end - begin, begin + 1 + end);
     for (std::size_t i = begin; i < end; ++i) (pairs[i].value > 0.0 ? result.plus : result.minus) += rank;
     const auto t = static_cast<double>(end - begin);
     result.ties += t * (t * t - 1.0);
@@ -201,14 +203,14 @@ SignedRanks signed_ranks(std::vector<Difference> pairs) {
 
 constexpr std::size_t exact_limit = 50;  // of differences: every count below stays under 2^53
 
-// Of the 2^n equally likely ways to sign the ranks 1 to n, how many have a smaller sum no larger
-// than observed: subset sums by dynamic programming. Exact.
+// Of the 2^n equally likely ways to sign the ranks, how many have a smaller sum no larger than
+// observed: subset sums of the doubled ranks by dynamic programming. Exact, with ties too.
 double exact_p(const SignedRanks& ranks) {
-  const auto smaller = static_cast<std::size_t>(std::min(ranks.plus, ranks.minus));
+  const auto smaller = static_cast<std::size_t>(2.0 * std::min(ranks.plus, ranks.minus));
   std::vector<double> ways(smaller + 1, 0.0);
   ways[0] = 1.0;
-  for (std::size_t rank = 1; rank <= ranks.count; ++rank)
-    for (std::size_t sum = smaller; sum >= rank; --sum) ways[sum] += ways[sum - rank];
+  for (const std::size_t twice : ranks.twice)
+    for (std::size_t sum = smaller; sum >= twice; --sum) ways[sum] += ways[sum - twice];
   const double tail = std::accumulate(ways.begin(), ways.end(), 0.0);
   return std::min(1.0, std::ldexp(tail, 1 - static_cast<int>(ranks.count)));
 }
@@ -298,7 +300,7 @@ PairedTest wilcoxon(std::span<const double> first, std::span<const double> secon
   const SignedRanks ranks = signed_ranks(pairs);
   if (ranks.count == 0) return result;
   result.effect = (ranks.plus - ranks.minus) / (ranks.plus + ranks.minus);
-  result.p = ranks.count <= exact_limit && ranks.ties == 0.0 ? exact_p(ranks) : normal_p(ranks);
+  result.p = ranks.count <= exact_limit ? exact_p(ranks) : normal_p(ranks);
   return result;
 }
 
