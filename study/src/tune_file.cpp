@@ -179,9 +179,19 @@ class Reader {
         changes.emplace_back(key, config::as_option(node));
     }
   }
+  // The [set] of the file or of one world.
+  void read_set(TableReader& table, Changes& changes) {
+    const Node* set = table.table("set");
+    if (!set) return;
+    for (const auto& [name, value] : *set->table()) {
+      if (name == "seed")
+        problems_.push_back({value.place, table.path("set"), "sets seed; a tuning takes its seeds from [seeds]"});
+    }
+    collect(*set, "", changes);
+  }
   void read_worlds() {
     Changes everywhere;
-    if (const Node* set = top_.table("set")) collect(*set, "", everywhere);
+    read_set(top_, everywhere);
     top_.require("worlds", "[[worlds]] with a scenario, once for each kind of trial");
     const auto worlds = top_.tables("worlds");
     if (const Node* list = top_.any("worlds"); list && list->array() && list->array()->empty())
@@ -195,7 +205,7 @@ class Reader {
   void read_world(TableReader& table, Changes changes) {
     table.require("scenario");
     const std::string file = table.text("scenario");
-    if (const Node* set = table.table("set")) collect(*set, "", changes);
+    read_set(table, changes);
     if (file.empty()) return;
     const std::string where = (std::filesystem::path(path_).parent_path() / file).lexically_normal().string();
     try {

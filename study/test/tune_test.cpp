@@ -249,6 +249,10 @@ TEST_F(Tune, EveryFaultOfAFileHasItsLine) {
   expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\nset = { \"radio.rnge_m\" = 2.5 }\n"),
                  0,
                  "tune.toml:3: error: radio.rnge_m");  // an option, to config
+  expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\nset = { seed = 3 }\n"), 3,
+                 "worlds[0].set: sets seed; a tuning takes its seeds from [seeds]");
+  expect_problem(file("", bounds, seeds, "[[worlds]]\nscenario = \"world.toml\"\n", "[set]\nseed = 3\n"), 10,
+                 "set: sets seed; a tuning takes its seeds from [seeds]");
   expect_problem(file("", bounds, seeds,
                       "[[worlds]]\nscenario = \"world.toml\"\n[[worlds]]\nscenario = \"world.toml\"\n"
                       "set = { \"mission.algorithm\" = \"inwards\" }\n"),
