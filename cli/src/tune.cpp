@@ -127,6 +127,12 @@ void claim(const std::string& directory, bool force) {
   if (force) study::remove_tune_outputs(directory);
 }
 
+int threads_of(const TuneOptions& options, const study::Processes& processes) {
+  if (options.threads > 0) return options.threads;
+  // mpirun has counted the cores already.
+  return processes.size() > 1 ? 1 : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
+}
+
 study::TuneResult search(const TunePlan& plan, study::Workers& workers, const std::string& directory,
                          Progress& progress) {
   study::TuneHooks hooks;
@@ -142,9 +148,8 @@ study::TuneResult search(const TunePlan& plan, study::Workers& workers, const st
 }  // namespace
 
 int tune_command(const TuneOptions& options) {
-  const int threads = options.threads > 0 ? options.threads
-                                          : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
   study::Processes processes;
+  const int threads = threads_of(options, processes);
   if (processes.rank() != 0) {
     processes.serve(study::simulate, threads);
     return exit_done;
