@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "banyan/record/table.hpp"
@@ -117,17 +118,19 @@ TuneScore score_of(std::span<const Trial> trials) {
   TuneScore score;
   score.merit = merit_of(trials);
   score.trials = trials.size();
-  std::vector<double> times_s;
-  std::size_t disconnected = 0;
+  std::vector<double> times_s;  // a run that was never complete is later than all
+  std::size_t complete = 0, disconnected = 0;
   for (const auto& trial : trials) {
-    if (trial.complete) times_s.push_back(trial.completion_time_s);
+    times_s.push_back(trial.complete ? trial.completion_time_s : std::numeric_limits<double>::infinity());
+    if (trial.complete) ++complete;
     if (trial.disconnected > 0.0) ++disconnected;
   }
   const auto count = static_cast<double>(trials.size());
-  score.complete_share = static_cast<double>(times_s.size()) / count;
+  score.complete_share = static_cast<double>(complete) / count;
   score.disconnected_share = static_cast<double>(disconnected) / count;
   std::sort(times_s.begin(), times_s.end());
-  if (!times_s.empty()) score.median_time_s = quantile(times_s, 0.5);
+  // Infinite, or of two infinite ones NaN.
+  if (const double median = quantile(times_s, 0.5); std::isfinite(median)) score.median_time_s = median;
   return score;
 }
 

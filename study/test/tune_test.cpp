@@ -99,8 +99,18 @@ TEST(TuneFitness, ScoresInNumbersForPeople) {
   EXPECT_DOUBLE_EQ(score.complete_share, 0.75);
   EXPECT_DOUBLE_EQ(score.disconnected_share, 0.25);
   ASSERT_TRUE(score.median_time_s);
-  EXPECT_DOUBLE_EQ(*score.median_time_s, 40.0);
-  EXPECT_FALSE(score_of(std::vector<Trial>{{false, 0.0, 1.0, 0.0}}).median_time_s);
+  EXPECT_DOUBLE_EQ(*score.median_time_s, 65.0);  // of 20, 40, 90 and never
+}
+
+TEST(TuneFitness, RunsNeverCompleteAreLaterThanAllInTheMedian) {
+  const Trial quick{true, 0.0, 0.2, 20.0}, slow{true, 0.0, 0.4, 40.0}, never{false, 0.0, 1.0, 0.0};
+  const auto median = [](std::vector<Trial> trials) { return score_of(trials).median_time_s; };
+  EXPECT_EQ(median({quick, never, slow}), 40.0);
+  EXPECT_EQ(median({never, quick, slow, quick}), 30.0);
+  EXPECT_FALSE(median({never}));
+  EXPECT_FALSE(median({quick, never}));  // between 20 s and never
+  EXPECT_FALSE(median({never, quick, never}));
+  EXPECT_FALSE(median({never, never}));
 }
 
 // ----------------------------------------------------------------------------------- the file --

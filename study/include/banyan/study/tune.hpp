@@ -111,7 +111,8 @@ struct TuneScore {
   Merit merit;
   std::size_t trials = 0;
   double complete_share = 0.0;
-  std::optional<double> median_time_s;  // completion time of the complete ones; none: no median
+  std::optional<double> median_time_s;  // completion time; a run never complete is later than all
+                                        // others; none unless more than half are complete
   double disconnected_share = 0.0;      // of the trials, with any disconnection at all
 };
 [[nodiscard]] TuneScore score_of(std::span<const Trial> trials);
