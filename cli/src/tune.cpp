@@ -43,8 +43,7 @@ std::string plan_text(const TunePlan& plan) {
 
 std::string dry_run_text(const TunePlan& plan, const std::string& directory) {
   const auto evaluations = plan.evaluations() * plan.optimizer.islands;
-  const auto compared =
-      (plan.optimizer.islands + 2ULL) * plan.worlds.size() * (plan.training.size() + plan.test.size());
+  const auto compared = plan.comparison_runs();
   std::string text = plan.name + ": nothing was started\n\n" + plan_text(plan);
   text += line("runs", "at most " + grouped(static_cast<double>(evaluations * plan.runs() + compared)) + ": " +
                            plural(evaluations, "evaluation") + " of " + plural(plan.runs(), "run") + ", and " +

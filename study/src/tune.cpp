@@ -91,16 +91,22 @@ class Course {
   void call_hooks() {
     if (hooks_.stopped && hooks_.stopped()) evaluator_.stop();
     if (!hooks_.progress) return;
-    const auto evaluations = evaluator_.evaluations();
-    const auto total = plan_.evaluations() * plan_.optimizer.islands - evaluations_before_;
     double best = -1.0;
     for (const auto& row : history_) best = std::max(best, row.best);
     std::string text = "generation " + std::to_string(history_.empty() ? 0 : generation_ + 1) + " of " +
                        std::to_string(plan_.optimizer.generations) + ", " + std::to_string(evaluator_.runs()) + " runs";
     if (generation_ == plan_.optimizer.generations) text = "comparing on the test seeds";
     if (!history_.empty()) text += ", best fitness " + std::to_string(best).substr(0, 6);
-    hooks_.progress(total > 0 ? std::min(static_cast<double>(evaluations) / static_cast<double>(total), 1.0) : 1.0,
-                    text);
+    hooks_.progress(share_done(), text);
+  }
+  // In runs, those of the comparison included. An evaluation counts as all its runs, whether or not
+  // it needed them.
+  [[nodiscard]] double share_done() const {
+    const auto evaluations = plan_.evaluations() * plan_.optimizer.islands - evaluations_before_;
+    const auto compared = runs_before_comparison_ ? evaluator_.runs() - *runs_before_comparison_ : 0;
+    const auto done = evaluator_.evaluations() * plan_.runs() + compared;
+    const auto total = evaluations * plan_.runs() + plan_.comparison_runs();
+    return std::min(static_cast<double>(done) / static_cast<double>(total), 1.0);
   }
 
   void restore(Checkpoint saved) {
@@ -156,6 +162,7 @@ class Course {
     result.candidates.push_back({"default", untuned_point(plan_), {}, {}});
     for (auto row = last; row != history_.end(); ++row)
       result.candidates.push_back({"island " + std::to_string(row->island), row->best_point, {}, {}});
+    runs_before_comparison_ = evaluator_.runs();
     attend({[&] { compare(result.candidates); }});
     result.evaluations = plan_.evaluations() * plan_.optimizer.islands;
     const auto front = plan_.optimizer.search == Search::nsga2 ? front_of(plan_, states()) : std::vector<FrontPoint>{};
@@ -189,6 +196,7 @@ class Course {
   std::vector<GenerationRow> history_;
   std::uint32_t generation_ = 0;
   std::uint64_t evaluations_before_ = 0;
+  std::optional<std::uint64_t> runs_before_comparison_;  // once it has begun
 };
 
 }  // namespace

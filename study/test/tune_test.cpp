@@ -547,6 +547,21 @@ TEST_F(Tune, NsgaTwoLeavesAFrontInWhichNobodyBeatsAnother) {
   EXPECT_EQ(rows, result.front);
 }
 
+TEST_F(Tune, TheComparisonIsPartOfTheProgress) {
+  const auto p = plan(file(optimizer("sga")));  // 2 islands x 8 x 5 evaluations of 2 runs; 4 candidates on 5 seeds
+  const auto workers = thread_workers(bowl, 2);
+  TuneHooks hooks;
+  std::vector<double> searching, comparing;
+  hooks.progress = [&](double share, const std::string& text) {
+    (has(text, "comparing") ? comparing : searching).push_back(share);
+  };
+  (void)tune(p, *workers, folder("out"), hooks);
+  ASSERT_FALSE(searching.empty());
+  ASSERT_FALSE(comparing.empty());
+  EXPECT_DOUBLE_EQ(searching.back(), 160.0 / 180.0);
+  EXPECT_DOUBLE_EQ(comparing.back(), 1.0);
+}
+
 TEST_F(Tune, WhatCannotBeRunOrWasSeenCostsNoRun) {
   const auto p = plan(file("population = 16\ngenerations = 6\nislands = 1\n",
                            "safe_range_m = [0.5, 1.95]\nrecruitment_distance_m = [0.45, 1.9]\n"));

@@ -55,6 +55,10 @@ struct TunePlan {
   [[nodiscard]] std::uint64_t evaluations() const noexcept;
   // Runs that one evaluation needs.
   [[nodiscard]] std::size_t runs() const noexcept { return worlds.size() * training.size(); }
+  // Runs of the comparison at the end, at most: of the best, the default and each island's best.
+  [[nodiscard]] std::uint64_t comparison_runs() const noexcept {
+    return (optimizer.islands + 2ULL) * worlds.size() * (training.size() + test.size());
+  }
 };
 
 struct LoadedTune {
