@@ -75,7 +75,7 @@ class StudyProgram : public ::testing::Test {
     write("w.toml", "[mission]\ntime_limit_s = 5.0\n[swarm]\nrobots = 6\n[targets]\ncount = 2\nradius_m = 0.9\n");
     // Never complete, a few milliseconds a run: long enough to be caught in the middle.
     write("long.toml",
-          "[mission]\ntime_limit_s = 120.0\n[swarm]\nrobots = 12\n[targets]\ncount = 2\nradius_m = 60.0\n");
+          "[mission]\ntime_limit_s = 300.0\n[swarm]\nrobots = 12\n[targets]\ncount = 2\nradius_m = 60.0\n");
     write("s.toml", study("w.toml", "1-5"));
     write("long-study.toml", study("long.toml", "1-15"));
   }
