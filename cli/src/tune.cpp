@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cinttypes>
 #include <filesystem>
+#include <memory>
 #include <thread>
 
 #include "banyan/study/simulate.hpp"
@@ -112,18 +113,32 @@ std::string directory_of(const TuneOptions& options, const TunePlan& plan) {
   return directory;
 }
 
-// Makes sure that the tuning may write there.
-void claim(const std::string& directory, bool force) {
+void refuse_what_is_there(const std::string& directory, bool force) {
   std::error_code error;
   if (fs::exists(directory, error) && !fs::is_directory(directory, error))
     throw CommandError(exit_usage, directory + " exists and is no directory; --out needs one");
+  if (const auto foreign = study::foreign_tune_output(directory); !foreign.empty())
+    throw CommandError(exit_usage, foreign +
+                                       " is not from a tuning, and one would replace it; move it away, or choose "
+                                       "another --out DIR");
   if (study::tune_finished(directory) && !force)
     throw CommandError(exit_usage, directory +
                                        " already holds a finished tuning; add --force to replace it, or choose "
                                        "another --out DIR");
+}
+
+// Makes sure that the tuning, and no other, may write there as long as the lock lives.
+std::unique_ptr<study::TuneLock> claim(const std::string& directory, bool force) {
+  refuse_what_is_there(directory, force);  // before anything is written
+  std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw CommandError(exit_lost, directory + ": cannot be created: " + error.message());
-  if (force) study::remove_tune_outputs(directory);
+  try {
+    auto lock = std::make_unique<study::TuneLock>(directory);
+    refuse_what_is_there(directory, force);  // another may have finished meanwhile
+    if (force) study::remove_tune_outputs(directory);
+    return lock;
+  } catch (const study::TuneBusy& e) { throw CommandError(exit_usage, e.what()); }
 }
 
 int threads_of(const TuneOptions& options, const study::Processes& processes) {
@@ -163,7 +178,7 @@ int tune_command(const TuneOptions& options) {
     return exit_done;
   }
 
-  claim(directory, options.force);
+  const auto lock = claim(directory, options.force);
   catch_stop_signals();
   Progress progress(!options.quiet);
   const auto workers = processes.workers(study::simulate, threads);

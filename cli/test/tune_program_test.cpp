@@ -151,6 +151,37 @@ TEST_F(TuneProgram, NeverReplacesAFinishedTuningUnasked) {
   EXPECT_EQ(read("out/t/tune.json"), before);  // the same seed
 }
 
+TEST_F(TuneProgram, NeverReplacesFilesThatAreNotItsOwn) {
+  fs::create_directory(home_ / "mine");
+  for (const char* name : {"best.toml", "fitness.svg", "generations.csv", "tune.json"}) {
+    write(std::string("mine/") + name, "mine");
+    for (const std::vector<std::string>& flags : {std::vector<std::string>{}, {"--force"}}) {
+      std::vector<std::string> arguments{"quick.toml", "--out", "mine"};
+      arguments.insert(arguments.end(), flags.begin(), flags.end());
+      const auto outcome = run(arguments);
+      EXPECT_EQ(outcome.code, 2) << name;
+      EXPECT_TRUE(has(outcome.err, std::string("mine/") + name + " is not from a tuning")) << outcome.err;
+      EXPECT_EQ(read(std::string("mine/") + name), "mine");
+    }
+    fs::remove(home_ / "mine" / name);
+  }
+}
+
+TEST_F(TuneProgram, TwoInOneFolderAtOnceAreRefused) {
+  const auto child = start({"long.toml"});
+  wait_for_generations("out/t/generations.csv", 2);
+  ::kill(child, SIGSTOP);  // still at work
+  for (const char* flag : {"--quiet", "--force"}) {
+    const auto outcome = run({"long.toml", flag});
+    EXPECT_EQ(outcome.code, 2) << flag;
+    EXPECT_TRUE(has(outcome.err, "another banyan is at work")) << outcome.err;
+  }
+  ::kill(child, SIGCONT);
+  EXPECT_EQ(finish(child).code, 0);
+  EXPECT_TRUE(exists("out/t/tune.json"));
+  EXPECT_FALSE(exists("out/t/tune.lock"));
+}
+
 TEST_F(TuneProgram, ADryRunSaysWhatItWouldDoAndDoesNothing) {
   const auto outcome = run({"quick.toml", "--dry-run"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;

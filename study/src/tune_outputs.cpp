@@ -20,8 +20,24 @@ namespace {
 using Json = nlohmann::ordered_json;
 using config::number_text;
 
-constexpr const char* files[] = {"checkpoint.jsonl", "generations.csv", "best.toml",   "front.csv",
-                                 "fitness.gp",       "fitness.svg",     "fitness.png", "tune.json"};
+// What tells whose they are goes last: stopped half-way, they are still known for what they were.
+constexpr const char* files[] = {"generations.csv", "best.toml",   "front.csv",        "fitness.gp",
+                                 "fitness.svg",     "fitness.png", "checkpoint.jsonl", "tune.json"};
+
+bool is_there(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
+}
+
+// Whether a file starts like this, or is empty: a power failure may have left nothing of it.
+bool starts_with(const std::string& path, std::string_view start) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::ifstream in(path, std::ios::binary);
+  std::string text(start.size(), '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  return in.eof() ? start.starts_with(text.substr(0, static_cast<std::size_t>(in.gcount()))) : text == start;
+}
 
 std::string parameter_names(const TunePlan& plan) {
   std::string text;
@@ -163,13 +179,20 @@ bool dominates(const FrontPoint& a, const FrontPoint& b) {
 
 std::string checkpoint_path(const std::string& directory) { return directory + "/checkpoint.jsonl"; }
 
-bool tune_finished(const std::string& directory) {
-  std::error_code ignored;
-  return std::filesystem::exists(std::filesystem::symlink_status(directory + "/tune.json", ignored));
+bool tune_finished(const std::string& directory) { return is_there(directory + "/tune.json"); }
+
+std::string foreign_tune_output(const std::string& directory) {
+  const std::string finished = directory + "/tune.json", under_way = checkpoint_path(directory);
+  if (is_there(finished) && !starts_with(finished, "{\n  \"format\": \"banyan.tune\",")) return finished;
+  if (is_there(under_way) && !starts_with(under_way, "{\"format\":\"banyan.tune-checkpoint\",")) return under_way;
+  if (is_there(finished) || is_there(under_way)) return "";
+  for (const char* file : files) {
+    if (const std::string path = directory + "/" + file; is_there(path)) return path;
+  }
+  return "";
 }
 
 void remove_tune_outputs(const std::string& directory) {
-  // The mark of a finished tuning goes last: stopped half-way, this is still known for what it was.
   for (const char* file : files) {
     std::error_code error;
     const std::string path = directory + "/" + file;

@@ -665,6 +665,47 @@ TEST_F(TuneCheckpoint, IsRemovedWithTheOtherOutputsAndNothingElse) {
   EXPECT_TRUE(fs::exists(fs::path(directory_) / "mine.txt"));
 }
 
+TEST_F(Tune, KnowsItsOwnFilesFromOthers) {
+  const auto directory = folder("out");
+  const auto foreign = [&] { return fs::path(foreign_tune_output(directory)).filename().string(); };
+  EXPECT_EQ(foreign(), "");
+  write("out/mine.txt", "mine");
+  EXPECT_EQ(foreign(), "");
+  for (const char* name : {"best.toml", "generations.csv", "front.csv", "fitness.gp", "fitness.svg", "fitness.png"}) {
+    write(std::string("out/") + name, "mine");
+    EXPECT_EQ(foreign(), name);
+    fs::remove(fs::path(directory) / name);
+  }
+  for (const char* name : {"tune.json", "checkpoint.jsonl"}) {
+    write(std::string("out/") + name, "{\"worlds\": [{\"scenario\": \"world.toml\"}]}");
+    EXPECT_EQ(foreign(), name);
+    fs::remove(fs::path(directory) / name);
+  }
+  const auto workers = thread_workers(bowl, 2);
+  (void)tune(plan(file(optimizer("sga", 1))), *workers, directory);
+  EXPECT_EQ(foreign(), "");
+}
+
+TEST_F(Tune, AFolderIsLockedOnceAtATime) {
+  const auto directory = folder("out");
+  {
+    const TuneLock lock(directory);
+    EXPECT_THROW(TuneLock another(directory), TuneBusy);
+    EXPECT_THROW(TuneLock another(directory), TuneBusy);  // the first refusal took nothing away
+  }
+  EXPECT_TRUE(fs::is_empty(directory));
+  EXPECT_NO_THROW(TuneLock again(directory));
+  EXPECT_THROW(TuneLock nowhere(directory + "/nowhere"), record::FileError);
+}
+
+TEST_F(TuneCheckpoint, IsKnownHoweverMuchOfItIsLeft) {
+  EXPECT_EQ(foreign_tune_output(directory_), "");
+  for (const std::size_t length : {std::size_t{0}, std::size_t{10}, whole_.size() / 2}) {
+    put(whole_.substr(0, length));
+    EXPECT_EQ(foreign_tune_output(directory_), "") << length;
+  }
+}
+
 TEST_F(TuneCheckpoint, AFullDiskIsAnErrorAndKeepsTheOldOne) {
   fs::remove(checkpoint());
   fs::create_directory(checkpoint());  // cannot be replaced by a file

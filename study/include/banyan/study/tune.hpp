@@ -142,6 +142,26 @@ class TuneError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Another process has the TuneLock.
+class TuneBusy : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Keeps `directory`, which exists, for one tuning as long as it lives; a process that dies gives it
+// up. Its file tune.lock goes with it. Throws TuneBusy, and record::FileError if it cannot lock.
+class TuneLock {
+ public:
+  explicit TuneLock(const std::string& directory);
+  ~TuneLock();
+  TuneLock(const TuneLock&) = delete;
+  TuneLock& operator=(const TuneLock&) = delete;
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+};
+
 struct TuneHooks {
   std::function<bool()> stopped;  // asked about ten times a second; true: leave soon
   // The share of what this call has to do that is done, in [0, 1], and words; as often.
@@ -150,7 +170,11 @@ struct TuneHooks {
 
 // Whether `directory` holds the results of a tuning that came to its end.
 [[nodiscard]] bool tune_finished(const std::string& directory);
-// Removes what tune() writes from `directory`, and nothing else.
+// The first file of `directory` that has the name of one of tune()'s but is not known to be from a
+// tuning: nothing says so, or it is itself what should and does not. Empty if there is none.
+[[nodiscard]] std::string foreign_tune_output(const std::string& directory);
+// Removes what tune() writes from `directory`, and nothing else. Only where foreign_tune_output()
+// finds none; throws record::FileError.
 void remove_tune_outputs(const std::string& directory);
 
 // Searches, and writes into `directory` (which exists) a checkpoint and generations.csv after every
