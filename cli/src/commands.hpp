@@ -109,8 +109,8 @@ int bench_command(const BenchOptions& options);
 
 struct TuneOptions {
   std::string file;
-  std::string out;       // "": out/<name>
-  int threads = 0;       // 0: all cores
+  std::string out;  // "": out/<name>
+  int threads = 0;  // 0: all cores; under mpirun 1 per process
   bool force = false;
   bool quiet = false;
   bool dry_run = false;

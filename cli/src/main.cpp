@@ -276,7 +276,9 @@ void add_tune(CLI::App& app, std::function<int()>& action) {
   command->footer(tune_footer);
   command->add_option("file", options->file, "a tune file (.toml or .json)")->required()->type_name("FILE");
   command->add_option("-o,--out", options->out, "directory for the results, default out/<name>")->type_name("DIR");
-  command->add_option("-t,--threads", options->threads, "threads, default all cores; never changes the result")
+  command
+      ->add_option("-t,--threads", options->threads,
+                   "runs at once, default all cores; under mpirun per process, default 1; never changes the result")
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
   command->add_flag("-f,--force", options->force, "start over, replacing what is there");
