@@ -59,7 +59,7 @@ class Clone {
     std::string form = (fs::temp_directory_path() / "banyan-documents-XXXXXX").string();
     if (::mkdtemp(form.data()) == nullptr) throw std::runtime_error("no temporary directory");
     path = form;
-    for (const char* folder : {"scenarios", "studies", "parameters"})
+    for (const char* folder : {"scenarios", "studies", "parameters", "results"})
       if (fs::exists(source / folder)) fs::create_symlink(source / folder, path / folder);
     fs::create_symlink(BANYAN_PROGRAM, path / "banyan");
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -12,6 +11,7 @@
 #include "banyan/study/journal.hpp"
 #include "banyan/study/report.hpp"
 #include "banyan/version.hpp"
+#include "machine.hpp"
 
 namespace banyan::study {
 namespace {
@@ -21,16 +21,6 @@ using record::Existing;
 using record::FileError;
 
 constexpr std::string_view format_name = "banyan.study";
-
-// The processor's name, "" where Linux does not tell.
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    const auto colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "";
-}
 
 ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& outcomes, const Results& results,
                         const std::vector<std::string>& builds) {
@@ -61,7 +51,7 @@ ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& ou
           {"version", std::string(version)},
           {"git", std::string(git_id())},
           {"builds", builds},
-          {"machine", {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}}},
+          {"machine", {{"processor", processor_name()}, {"cores", std::thread::hardware_concurrency()}}},
           {"parts", parts},
           {"config", study.text}};
 }

@@ -15,26 +15,6 @@
 namespace banyan::study {
 namespace {
 
-// The cells of a CSV line, quotes taken off (RFC 4180).
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += c;
-      ++i;
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
 std::size_t column(std::string_view name) {
   const auto columns = record::run_columns();
   const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; });
@@ -69,7 +49,7 @@ std::optional<double> disorder(const Params& params) {
 }  // namespace
 
 std::optional<Trial> trial_of(std::string_view run_csv_row) {
-  const auto cells = cells_of(run_csv_row);
+  const auto cells = record::csv_cells(run_csv_row);
   if (cells.size() != record::run_columns().size()) return std::nullopt;
   const std::string& complete = cells[column("complete")];
   // Of the ticks rather than of the rounded ratio: a single broken tick of a long run counts.

@@ -12,6 +12,7 @@
 #include "banyan/record/table.hpp"
 #include "banyan/study/figure.hpp"
 #include "banyan/version.hpp"
+#include "machine.hpp"
 #include "tune_point.hpp"
 
 namespace banyan::study {
@@ -50,6 +51,13 @@ std::string parameter_values(const std::vector<double>& point) {
   return text;
 }
 
+// "paper-large: 36 robots, radio.range_m = 2, line of sight off, loss 0".
+std::string in_words(const world::Scenario& scenario) {
+  return scenario.name + ": " + std::to_string(world::robot_count(scenario)) + " robots, radio.range_m = " +
+         number_text(scenario.radio.range_m) + ", line of sight " + (scenario.radio.line_of_sight ? "on" : "off") +
+         ", loss " + number_text(scenario.radio.loss) + ".";
+}
+
 // A fragment for a scenario. What it says of itself is the same however often the tuning stopped.
 std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
   const auto& o = plan.optimizer;
@@ -63,6 +71,7 @@ std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
           number_text(best.test.merit.fitness()) + " on the test seeds.\n";
   text +=
       "# Banyan " + std::string(version) + " (git " + std::string(git_id()) + "), tuning " + tune_digest(plan) + ".\n";
+  for (const auto& world : plan.worlds) text += "# Tuned in " + in_words(world.scenario) + "\n";
   text += "[mission.parameters]\n";
   for (std::size_t i = 0; i < plan.bounds.size(); ++i)
     text += plan.bounds[i].parameter + " = " + number_text(best.point[i]) + "\n";
@@ -87,15 +96,6 @@ Json score_json(const TuneScore& score) {
           {"mean_disconnected_time_ratio", score.merit.disconnected}};
 }
 
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    const auto colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown";
-}
-
 std::string result_json(const TunePlan& plan, const TuneResult& result) {
   Json candidates = Json::array();
   for (const auto& c : result.candidates) {
@@ -110,7 +110,7 @@ std::string result_json(const TunePlan& plan, const TuneResult& result) {
                   {"format_version", 1},
                   {"version", version},
                   {"git", git_id()},
-                  {"machine", {{"processor", processor()}, {"cores", std::thread::hardware_concurrency()}}},
+                  {"machine", {{"processor", processor_name()}, {"cores", std::thread::hardware_concurrency()}}},
                   {"digest", tune_digest(plan)},
                   {"tuning", Json::parse(tune_json(plan))},
                   {"evaluations", result.evaluations},
