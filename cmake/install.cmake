@@ -94,6 +94,9 @@ mark_as_advanced(DPKG_SHLIBDEPS FILE_PROGRAM)
 if(DPKG_SHLIBDEPS AND FILE_PROGRAM)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 else()
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libc6, libstdc++6, libbox2d2, libzstd1")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
+      "libc6, libstdc++6, libbox2d2, libzstd1, libpagmo8, libboost-serialization1.74.0, libopenmpi3")
 endif()
+# Studies do without, but for figures and for mpirun.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox, openmpi-bin")
 include(CPack)
