@@ -14,7 +14,7 @@ foreach(room IN ITEMS version controller world measure record config)
   target_compile_features(banyan_${room} PUBLIC cxx_std_20)
   set_target_properties(banyan_${room} PROPERTIES EXPORT_NAME ${room})
   install(TARGETS banyan_${room} EXPORT banyan-${room} ARCHIVE COMPONENT development)
-  install(EXPORT banyan-${room} FILE banyan-${room}.cmake NAMESPACE banyan:: DESTINATION ${cmake_dir}
+  install(EXPORT banyan-${room} FILE banyan-${room}-targets.cmake NAMESPACE banyan:: DESTINATION ${cmake_dir}
           COMPONENT development)
   if(NOT room STREQUAL version)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/ TYPE INCLUDE COMPONENT development
@@ -49,7 +49,7 @@ endforeach()
 set(pc_requires "")
 set(pc_system_libs "")
 if(TARGET banyan_world)
-  set(pc_requires "box2d, libzstd")
+  set(pc_requires "box2d, libzstd, tomlplusplus")
   set(pc_system_libs "-pthread")
 endif()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/banyan.pc.in ${generated}/banyan.pc @ONLY)
@@ -84,7 +84,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}
  network connected by growing a tree. This is the simulator and its tools.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbanyan-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbox2d-dev, libzstd-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbox2d-dev, libzstd-dev, libtomlplusplus-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION} (development files)
  The robot's program (controller), the simulated world, its measures and the
  writer of recordings, as static libraries with headers.")
@@ -95,7 +95,7 @@ if(DPKG_SHLIBDEPS AND FILE_PROGRAM)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 else()
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
-      "libc6, libstdc++6, libbox2d2, libzstd1, libpagmo8, libboost-serialization1.74.0, libopenmpi3")
+      "libc6, libstdc++6, libbox2d2, libzstd1, libtomlplusplus3, libpagmo8, libboost-serialization1.74.0, libopenmpi3")
 endif()
 # Studies do without, but for figures and for mpirun.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox, openmpi-bin")

@@ -192,7 +192,8 @@ TEST(Params, TheOrderOfDistancesIsChecked) {
   EXPECT_TRUE(faulty(&Params::avoidance_range_m, 1.33F));
   EXPECT_TRUE(faulty(&Params::recruitment_distance_m, 1.40F));
   EXPECT_TRUE(faulty(&Params::safe_range_m, 1.95F));
-  EXPECT_TRUE(faulty(&Params::ideal_distance_m, 2.0F));
+  EXPECT_TRUE(faulty(&Params::ideal_distance_m, 2.01F));
+  EXPECT_FALSE(faulty(&Params::ideal_distance_m, 2.0F)) << "an edge without margin, but possible";
 }
 
 TEST(Policies, AreFoundByName) {
