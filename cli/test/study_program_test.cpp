@@ -279,7 +279,7 @@ TEST_F(StudyProgram, TwoProcessesOfMpiGiveTheTableOfOne) {
   if (!study::Processes::supported()) GTEST_SKIP() << "this build has no MPI";
   const auto wanted = reference("s.toml");
 
-  // As in study/test/workers_test.cpp: as root, more processes than cores, shared memory alone.
+  // As in study/test/workers/workers_test.cpp: as root, more processes than cores, shared memory alone.
   Circumstances how{.program = BANYAN_MPIRUN};
   how.environment = {{"ASAN_OPTIONS", "detect_leaks=0"},
                      {"OMPI_ALLOW_RUN_AS_ROOT", "1"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Ranges and ticks of axes.
-#include "../src/figure_axis.hpp"
+#include "../../src/figure/figure_axis.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The numbers of a box, against R 4's quantile(type = 7) and against counting.
-#include "../src/box_numbers.hpp"
+#include "../../src/figure/box_numbers.hpp"
 
 #include <gtest/gtest.h>
 

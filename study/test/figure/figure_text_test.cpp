@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Texts of figures: what they are made of, how wide they are, where they break.
-#include "../src/figure_text.hpp"
+#include "../../src/figure/figure_text.hpp"
 
 #include <gtest/gtest.h>
 

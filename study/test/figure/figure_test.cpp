@@ -17,7 +17,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "../src/figure_text.hpp"
+#include "../../src/figure/figure_text.hpp"
 #include "banyan/world/random.hpp"
 
 namespace banyan::study {
