@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program as a user meets it: started for real, in a directory of its own, judged by its exit
-// code, what it says and the files it leaves.
-#include <fcntl.h>
-#include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
+// The program's commands on one run and its files, started for real.
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +10,7 @@
 #include <thread>
 
 #include "banyan/config/config.hpp"
+#include "started_program.hpp"
 
 namespace banyan::cli {
 namespace {
@@ -25,76 +19,15 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-struct Outcome {
-  int code = -1;  // exit code, or 1000 + the signal that killed it
-  std::string out, err;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-class Program : public ::testing::Test {
+class Program : public StartedProgram {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "banyan-program-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    home_ = pattern;
+    StartedProgram::SetUp();
     write("small.toml", "[swarm]\nrobots = 8\n[targets]\ncount = 2\nradius_m = 1.5\n");
     // Never complete: its target is out of reach. Ends by its limit of three hours only.
     write("endless.toml", "[mission]\ntime_limit_s = 10000.0\n[swarm]\nrobots = 60\n[targets]\nradius_m = 200.0\n");
   }
-  void TearDown() override { fs::remove_all(home_); }
-
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(home_ / name, std::ios::binary) << text;
-  }
-  [[nodiscard]] std::string read(const std::string& name) const { return contents(home_ / name); }
-  [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(home_ / name); }
   [[nodiscard]] json read_json(const std::string& name) const { return json::parse(read(name)); }
-
-  // Starts the program in home_. `largest_file`: what it may write into one file, like a full disk.
-  pid_t start(const std::vector<std::string>& arguments, rlim_t largest_file = RLIM_INFINITY, const char* out = nullptr,
-              const std::string& program = BANYAN_PROGRAM) {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    if (::chdir(home_.c_str()) != 0) ::_exit(99);
-    const int to_out = ::open(out ? out : "stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int to_err = ::open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int from = ::open("/dev/null", O_RDONLY);
-    ::dup2(to_out, 1);
-    ::dup2(to_err, 2);
-    ::dup2(from, 0);
-    if (largest_file != RLIM_INFINITY) {
-      const rlimit limit{largest_file, largest_file};
-      ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    std::vector<char*> argv{const_cast<char*>("banyan")};
-    for (const auto& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-    argv.push_back(nullptr);
-    ::execv(program.c_str(), argv.data());
-    ::_exit(98);
-  }
-  Outcome finish(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read("stdout.txt"), read("stderr.txt")};
-  }
-  Outcome run(const std::vector<std::string>& arguments) { return finish(start(arguments)); }
-
-  // A run that must not start: exit code 2, a reason, and no trace of results.
-  void expect_refused(const std::vector<std::string>& arguments, const std::string& reason) {
-    const auto outcome = run(arguments);
-    EXPECT_EQ(outcome.code, 2) << outcome.err;
-    EXPECT_TRUE(has(outcome.err, reason)) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_FALSE(exists("out"));
-  }
-
-  fs::path home_;
 };
 
 // ------------------------------------------------------------------------------------- a good run
@@ -324,8 +257,8 @@ TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
 // --------------------------------------------------------------------------- disk full, interruption
 
 TEST_F(Program, AFullDiskIsSaidAndLeavesNoDamagedFile) {
-  const auto outcome =
-      finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o"}, 300'000));
+  const auto outcome = finish(
+      start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o"}, {.largest_file = 300'000}));
 
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "o/run.mcap: cannot write: File too large")) << outcome.err;  // what EFBIG is called
@@ -341,7 +274,8 @@ TEST_F(Program, AFullDiskDoesNotCostTheEarlierResults) {
   const auto recording = read("o/run.mcap"), table = read("o/run.csv");
 
   const auto outcome =
-      finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o", "--force"}, 300'000));
+      finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o", "--force"},
+                   {.largest_file = 300'000}));
 
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(read("o/run.mcap"), recording);
@@ -359,7 +293,7 @@ TEST_F(Program, AFullStandardOutputIsAnError) {
                                              {"export", "o/run.mcap", "--csv"},
                                              {"draw", "o/run.mcap"},
                                              {"validate", "small.toml"}}) {
-    const auto outcome = finish(start(arguments, RLIM_INFINITY, "/dev/full"));
+    const auto outcome = finish(start(arguments, {.out = "/dev/full"}));
     EXPECT_EQ(outcome.code, 1) << arguments[0];
     EXPECT_TRUE(has(outcome.err, "standard output: ")) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "No space left on device")) << outcome.err;
@@ -489,8 +423,7 @@ class Completion : public Program {
   std::vector<std::string> complete(const std::string& line) {
     const std::string script =
         "source " BANYAN_COMPLETION "; COMP_LINE=$1; COMP_POINT=${#1}; _banyan; printf '%s\\n' \"${COMPREPLY[@]}\"";
-    const auto outcome =
-        finish(start({"-c", script, "bash", BANYAN_PROGRAM + line}, RLIM_INFINITY, nullptr, "/bin/bash"));
+    const auto outcome = finish(start({"-c", script, "bash", BANYAN_PROGRAM + line}, {.program = "/bin/bash"}));
     std::vector<std::string> words;
     std::istringstream in(outcome.out);
     for (std::string word; std::getline(in, word);)
@@ -503,9 +436,8 @@ class Completion : public Program {
 using Words = std::vector<std::string>;
 
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
-  EXPECT_EQ(complete(" "),
-            (Words{"--help", "--version", "algorithms", "bench", "collect", "draw", "export", "keys", "run", "study", "tune",
-                   "validate"}));
+  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "bench", "collect", "draw", "export", "keys",
+                                  "run", "study", "tune", "validate"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});

@@ -22,6 +22,7 @@
 
 #include "banyan/record/mcap.hpp"
 #include "banyan/study/workers.hpp"
+#include "started_program.hpp"
 
 namespace banyan::cli {
 namespace {
@@ -29,28 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using namespace std::chrono_literals;
-
-struct Outcome {
-  int code = -1;  // exit code, or 1000 + the signal that killed it
-  std::string out, err;
-};
-
-struct Circumstances {
-  rlim_t largest_file = RLIM_INFINITY;   // what may be written into one file, like a full disk
-  std::string directory = "";            // below home
-  std::string program = BANYAN_PROGRAM;  // found in PATH if there is no slash
-  std::vector<std::pair<std::string, std::string>> environment = {};
-  int input = -1;  // a descriptor for standard input, else /dev/null
-};
-
-using Arguments = std::vector<std::string>;
-
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -66,12 +45,10 @@ std::string journal_line(const std::string& text) {
   return crc.data() + text;
 }
 
-class StudyProgram : public ::testing::Test {
+class StudyProgram : public StartedProgram {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "banyan-study-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    home_ = pattern;
+    StartedProgram::SetUp();
     write("w.toml", "[mission]\ntime_limit_s = 5.0\n[swarm]\nrobots = 6\n[targets]\ncount = 2\nradius_m = 0.9\n");
     // Never complete, a few milliseconds a run: long enough to be caught in the middle.
     write("long.toml",
@@ -79,7 +56,6 @@ class StudyProgram : public ::testing::Test {
     write("s.toml", study("w.toml", "1-5"));
     write("long-study.toml", study("long.toml", "1-15"));
   }
-  void TearDown() override { fs::remove_all(home_); }
 
   // Four combinations of two axes.
   static std::string study(const std::string& scenario, const std::string& seeds, const std::string& more = "") {
@@ -91,52 +67,10 @@ class StudyProgram : public ::testing::Test {
            more;
   }
 
-  void write(const std::string& name, const std::string& text) {
-    fs::create_directories((home_ / name).parent_path());
-    std::ofstream(home_ / name, std::ios::binary) << text;
-  }
-  [[nodiscard]] std::string read(const std::string& name) const { return contents(home_ / name); }
-  [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(home_ / name); }
-
-  pid_t start(const Arguments& arguments, const Circumstances& how = {}) {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    const int to_out = ::open((home_ / "stdout.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int to_err = ::open((home_ / "stderr.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    ::dup2(to_out, 1);
-    ::dup2(to_err, 2);
-    ::dup2(how.input >= 0 ? how.input : ::open("/dev/null", O_RDONLY), 0);
-    if (::chdir((home_ / how.directory).c_str()) != 0) ::_exit(99);
-    for (const auto& [name, value] : how.environment) ::setenv(name.c_str(), value.c_str(), 1);
-    if (how.largest_file != RLIM_INFINITY) {
-      const rlimit limit{how.largest_file, how.largest_file};
-      ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    std::vector<char*> argv{const_cast<char*>(how.program.c_str())};
-    for (const auto& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-    argv.push_back(nullptr);
-    ::execvp(how.program.c_str(), argv.data());
-    ::_exit(98);
-  }
-  Outcome finish(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read("stdout.txt"), read("stderr.txt")};
-  }
-  Outcome run(const Arguments& arguments, const Circumstances& how = {}) { return finish(start(arguments, how)); }
   Outcome shell(const std::string& script, const Circumstances& how = {}) {
     auto in_bash = how;
     in_bash.program = "bash";
     return run({"-c", script}, in_bash);
-  }
-
-  // What must not start: exit code 2, a reason, and no trace of results.
-  void expect_refused(const Arguments& arguments, const std::string& reason) {
-    const auto outcome = run(arguments);
-    EXPECT_EQ(outcome.code, 2) << outcome.err;
-    EXPECT_TRUE(has(outcome.err, reason)) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_FALSE(exists("out"));
   }
 
   // The tables of an undisturbed run of the file, to compare with.
@@ -175,8 +109,6 @@ class StudyProgram : public ::testing::Test {
     }
     return false;
   }
-
-  fs::path home_;
 };
 
 // ------------------------------------------------------------------------------ a study that runs

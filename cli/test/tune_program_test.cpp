@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "banyan/config/config.hpp"
+#include "started_program.hpp"
 
 namespace banyan::cli {
 namespace {
@@ -22,28 +23,14 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-class TuneProgram : public ::testing::Test {
+class TuneProgram : public StartedProgram {
  protected:
-  struct Outcome {
-    int code = -1;  // exit code, or 1000 + the signal that killed it
-    std::string out, err;
-  };
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "banyan-tune-program-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    home_ = pattern;
+    StartedProgram::SetUp();
     write("world.toml", "[mission]\ntime_limit_s = 10.0\n[swarm]\nrobots = 5\n[targets]\ncount = 2\nradius_m = 1.0\n");
     write("quick.toml", file(2));
     write("long.toml", file(40));
   }
-  void TearDown() override { fs::remove_all(home_); }
 
   static std::string file(int generations) {
     return "name = \"t\"\n[[worlds]]\nscenario = \"world.toml\"\n[seeds]\ntraining = \"1-2\"\ntest = \"11-12\"\n"
@@ -52,32 +39,11 @@ class TuneProgram : public ::testing::Test {
            "\npopulation = 6\nislands = 2\n"
            "[bounds]\ntarget_gain = [0.1, 1.1]\ninteraction_gain = [1.0, 20.0]\n";
   }
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(home_ / name, std::ios::binary) << text;
+  pid_t start(Arguments arguments) {
+    arguments.insert(arguments.begin(), "tune");
+    return StartedProgram::start(arguments);
   }
-  [[nodiscard]] std::string read(const std::string& name) const { return contents(home_ / name); }
-  [[nodiscard]] bool exists(const std::string& name) const { return fs::exists(home_ / name); }
-
-  pid_t start(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"banyan", "tune"});
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    if (::chdir(home_.c_str()) != 0) ::_exit(99);
-    ::dup2(::open("stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
-    ::dup2(::open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
-    std::vector<char*> argv;
-    argv.reserve(arguments.size() + 1);
-    for (auto& a : arguments) argv.push_back(a.data());
-    argv.push_back(nullptr);
-    ::execv(BANYAN_PROGRAM, argv.data());
-    ::_exit(98);
-  }
-  Outcome finish(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), read("stdout.txt"), read("stderr.txt")};
-  }
-  Outcome run(std::vector<std::string> arguments) { return finish(start(std::move(arguments))); }
+  Outcome run(Arguments arguments) { return finish(start(std::move(arguments))); }
 
   // Waits until some generations are on the disk.
   void wait_for_generations(const std::string& table, std::ptrdiff_t rows) const {
@@ -88,8 +54,6 @@ class TuneProgram : public ::testing::Test {
     }
     FAIL() << "no generations within 20 s";
   }
-
-  fs::path home_;
 };
 
 TEST_F(TuneProgram, LeavesItsFilesAndASummary) {
