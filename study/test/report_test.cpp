@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -110,11 +111,11 @@ class ReportTest : public TemporaryFolder {
   // Whether a run belongs to the group that a row of a table is about.
   [[nodiscard]] bool in_group(const PlannedRow& run, const Row& row, bool but_algorithm) const {
     if (study_.parts[run.part].name != row.at("part")) return false;
-    for (const char* axis : {"way", "r", "q"}) {
-      if (but_algorithm && axis == std::string("way")) continue;
-      if (row.at(axis) != "*" && row.at(axis) != label(run, axis)) return false;
-    }
-    return true;
+    constexpr std::array<std::string_view, 3> axes{"way", "r", "q"};
+    return std::all_of(axes.begin(), axes.end(), [&](std::string_view name) {
+      const std::string axis(name);
+      return (but_algorithm && axis == "way") || row.at(axis) == "*" || row.at(axis) == label(run, axis);
+    });
   }
   [[nodiscard]] std::vector<Row> statistics() const {
     return read_table(statistics_csv(study_, Results(study_, plan_, outcomes_)));
