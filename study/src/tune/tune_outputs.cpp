@@ -182,12 +182,12 @@ std::string checkpoint_path(const std::string& directory) { return directory + "
 bool tune_finished(const std::string& directory) { return is_there(directory + "/tune.json"); }
 
 std::string foreign_tune_output(const std::string& directory) {
-  const std::string finished = directory + "/tune.json", under_way = checkpoint_path(directory);
+  std::string finished = directory + "/tune.json", under_way = checkpoint_path(directory);
   if (is_there(finished) && !starts_with(finished, "{\n  \"format\": \"banyan.tune\",")) return finished;
   if (is_there(under_way) && !starts_with(under_way, "{\"format\":\"banyan.tune-checkpoint\",")) return under_way;
   if (is_there(finished) || is_there(under_way)) return "";
   for (const char* file : files) {
-    if (const std::string path = directory + "/" + file; is_there(path)) return path;
+    if (std::string path = directory + "/" + file; is_there(path)) return path;
   }
   return "";
 }
