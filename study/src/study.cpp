@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <span>
 
 #include "banyan/config/table_reader.hpp"
 #include "banyan/study/results.hpp"
@@ -274,7 +275,8 @@ class StudyReader {
                            (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
   }
 
-  static std::vector<std::string_view> axis_names(const std::vector<Part>& parts) {
+  // Views of the parts' own texts.
+  static std::vector<std::string_view> axis_names(std::span<const Part> parts) {
     std::vector<std::string_view> names;
     for (const auto& part : parts) {
       for (const auto& axis : part.axes) {
@@ -353,7 +355,8 @@ class StudyReader {
     const auto part =
         std::find_if(study.parts.begin(), study.parts.end(), [&](const Part& p) { return p.name == figure.part; });
     if (part == study.parts.end()) table.report("part", "\"" + figure.part + "\" is no part of this study");
-    const auto known = part == study.parts.end() ? axis_names(study.parts) : axis_names({*part});
+    const auto known =
+        axis_names(part == study.parts.end() ? std::span<const Part>(study.parts) : std::span<const Part>(&*part, 1));
     figure.each = table.texts("each");
     figure.x = table.texts("x");
     figure.panels = table.text("panels");
