@@ -37,6 +37,7 @@ Message compose(const Robot& robot) noexcept {
   m.role = self.role;
   m.phase = self.phase;
   m.need = self.need;
+  m.serves = self.serves;
   m.flood_done = self.flood_done;
   m.committed = self.committed;
   m.parent_silent = self.parent != nobody && !robot.parent_alive();
@@ -85,13 +86,14 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
   state.id = id;
   state.is_worker = worker;
   state.role = root ? Role::root : worker ? Role::worker : Role::spare;
+  if (worker) state.serves = id;
   if (root) state.root = {1, id};
   return state;
 }
 
 Output step(const Params& params, const Policy& policy, State& state, std::span<const Heard> heard,
-            const Odometry& odometry, const Vec2* target) noexcept {
-  Robot robot(params, policy, state, heard, target);
+            const Odometry& odometry, const Vec2* target, std::span<const Vec2> obstacles) noexcept {
+  Robot robot(params, policy, state, heard, target, obstacles);
   const Carry carry(odometry);
   carry_memory(state, carry);
   state.neighbors.update(heard, carry, robot.liveness_ticks(), state.id, {state.parent, state.old_parent});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wire format, version 1: the fields in the order of the writer below, little-endian, no padding.
+// Wire format, version 2: the fields in the order of the writer below, little-endian, no padding.
 // Encoder and decoder share one list of fields, so they cannot drift apart.
 #include "banyan/controller/message.hpp"
 
@@ -96,6 +96,16 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.new_root);
   visit(m.centroid_x_cm);
   visit(m.centroid_y_cm);
+  visit(m.heartbeat);
+  visit(m.serves);
+  visit(m.root_for);
+  visit(m.root_x_cm);
+  visit(m.root_y_cm);
+  visit(m.task_for);
+  visit(m.task_serves);
+  visit(m.task_x_cm);
+  visit(m.task_y_cm);
+  visit(m.child_count);
 }
 
 bool bounded(float q) noexcept { return std::fabs(q) <= q_limit_m; }  // false for NaN too

@@ -20,7 +20,7 @@ void add(Digest& d, const Neighborhood& table) noexcept {
 
 std::uint64_t hash(const State& s) noexcept {
   Digest d;
-  for (const int v : {static_cast<int>(s.id), static_cast<int>(s.is_worker), static_cast<int>(s.role), static_cast<int>(s.epoch),
+  for (const int v : {static_cast<int>(s.id), static_cast<int>(s.is_worker), static_cast<int>(s.serves), static_cast<int>(s.role), static_cast<int>(s.epoch),
                       static_cast<int>(s.phase), static_cast<int>(s.phase_ticks), static_cast<int>(s.root.sequence),
                       static_cast<int>(s.root.id), static_cast<int>(s.done_ticks), static_cast<int>(s.label_cm),
                       static_cast<int>(s.label_wait_ticks), static_cast<int>(s.flood_parent), static_cast<int>(s.flood_done),
@@ -43,6 +43,8 @@ std::uint64_t hash(const State& s) noexcept {
   d.add(s.tally.insertions);
   d.add(s.tally.handovers);
   d.add(s.tally.repairs);
+  d.add(s.tally.elections);
+  d.add(s.tally.replacements);
   add(d, s.neighbors);
   return d.value();
 }

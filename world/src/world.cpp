@@ -218,6 +218,7 @@ void World::Impl::assign_target(Vec2 position) {
   }
   if (best == states.size()) return;  // nobody is left to send
   states[best].is_worker = true;
+  states[best].serves = static_cast<RobotId>(best);
   target_of[best] = static_cast<std::int32_t>(targets.size());
   targets.push_back({position, best});
 }

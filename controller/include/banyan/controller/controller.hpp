@@ -32,8 +32,9 @@ struct Output {
 
 // One tick. `heard`: every packet received since the last step, any order, duplicates allowed
 // (the last counts). `target`: from me to my target in my body frame, m; null unless a worker.
+// `obstacles`: the nearest point of each obstacle within reach of the proximity sensor, body frame, m.
 // Changes `state` only; allocates nothing; same arguments, same result on every machine.
 [[nodiscard]] Output step(const Params& params, const Policy& policy, State& state, std::span<const Heard> heard,
-                          const Odometry& odometry, const Vec2* target) noexcept;
+                          const Odometry& odometry, const Vec2* target, std::span<const Vec2> obstacles = {}) noexcept;
 
 }  // namespace banyan

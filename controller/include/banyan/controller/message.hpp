@@ -39,7 +39,6 @@ inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
 
-// Ordered so that it fills 64 bytes, one cache line, without a gap.
 struct Message {
   RobotId id = nobody;
   Role role = Role::spare;
@@ -73,10 +72,21 @@ struct Message {
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
   std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
   std::int16_t centroid_y_cm = 0;
+  // Healing (healing.hpp): one addressee a tick in turn is told where the root is, and one robot may
+  // be asked to take over the target of a worker that fell silent.
+  std::uint16_t heartbeat = 0;        // gossip: the root's count of ticks, compared modulo 2^16
+  RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
+  RobotId root_for = nobody;          // addressee of the next two
+  std::int16_t root_x_cm = 0;         // root - addressee, edge frame to `root_for`
+  std::int16_t root_y_cm = 0;
+  RobotId task_for = nobody;          // addressee of the next three
+  RobotId task_serves = nobody;       // the target's first worker
+  std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `task_for`
+  std::int16_t task_y_cm = 0;
+  std::uint8_t child_count = 0;       // living children that are no spares
 
   friend bool operator==(const Message&, const Message&) = default;
 };
-static_assert(sizeof(Message) == 64);
 
 inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: +-2
 // Largest |component| of q. A sender keeps within it and decode() rejects what exceeds it, or one
@@ -87,8 +97,8 @@ inline constexpr float q_limit_m = 1.0e9F;
 // while there is none, the old parent.
 constexpr RobotId up_of(const Message& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 61;  // bytes, little-endian, no padding
-inline constexpr std::uint8_t wire_version = 1;
+inline constexpr std::size_t wire_size = 80;  // bytes, little-endian, no padding
+inline constexpr std::uint8_t wire_version = 2;
 using Wire = std::array<std::uint8_t, wire_size>;
 
 [[nodiscard]] Wire encode(const Message& message) noexcept;

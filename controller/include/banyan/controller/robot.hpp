@@ -24,14 +24,16 @@ struct IndexList {
 };
 
 struct Robot {
-  Robot(const Params& params_, const Policy& policy_, State& self_, std::span<const Heard> heard_, const Vec2* target_) noexcept
-      : params(params_), policy(policy_), self(self_), target(target_), heard(heard_) {}
+  Robot(const Params& params_, const Policy& policy_, State& self_, std::span<const Heard> heard_, const Vec2* target_,
+        std::span<const Vec2> obstacles_ = {}) noexcept
+      : params(params_), policy(policy_), self(self_), target(target_), heard(heard_), obstacles(obstacles_) {}
 
   const Params& params;
   const Policy& policy;
   State& self;
   const Vec2* target;          // own frame, m; null unless a worker
   std::span<const Heard> heard;
+  std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
 
   // Survey (survey.hpp)
   int parent = -1;             // index of the parent in the table

@@ -16,11 +16,14 @@ struct Tally {
   std::uint32_t insertions = 0;  // times I was inserted into an edge
   std::uint32_t handovers = 0;   // times I took over the root token
   std::uint32_t repairs = 0;     // times I replaced a lost parent or re-attached as an orphan
+  std::uint32_t elections = 0;   // times I made myself root because the root had fallen silent
+  std::uint32_t replacements = 0;  // times I took over the target of a worker that had fallen silent
 };
 
 struct State {
   RobotId id = nobody;
   bool is_worker = false;
+  RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
   Role role = Role::spare;
 
   // Epoch, phase, root token: gossip (epoch.hpp)
