@@ -10,6 +10,7 @@
 #include "banyan/controller/label.hpp"
 #include "banyan/controller/motion.hpp"
 #include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/policy.hpp"
 #include "banyan/controller/root_selection.hpp"
 #include "banyan/controller/spare_management.hpp"
 #include "banyan/controller/survey.hpp"
@@ -59,6 +60,7 @@ Message compose(const Robot& robot) noexcept {
   m.request = self.request;
   m.inserted_child = self.inserted_child;
   m.call_hops = self.call_hops;
+  m.child_count = robot.useful_children;
   m.want_cm = fixed<std::uint16_t>(self.want_m, 100.0F);
   const int up = self.parent != nobody ? robot.parent : robot.old_parent;
   if (up >= 0) {
@@ -105,6 +107,7 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   advance(robot);         // the root's barriers
   update_label(robot);    // Start Tree
   select_parent(robot);   // Select Parent, repair
+  policy.tend_tree(robot);  // shortcuts that a policy takes meanwhile
   take_census(robot);     // Alg. 1 and 2
   select_root(robot);     // Select Root, the root's side
   manage_spares(robot);   // Grow Tree

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/policy.hpp"
 #include "banyan/controller/spare_management.hpp"
 #include "banyan/controller/trig.hpp"
 
@@ -44,33 +45,6 @@ Vec2 tree_force(const Robot& robot) noexcept {
   return u;
 }
 
-// u^avoid: repulsion from robots nearer than A that are no tree neighbours.
-Vec2 avoidance(const Robot& robot) noexcept {
-  const Neighborhood& table = robot.table();
-  const float a = robot.params.avoidance_range_m;
-  Vec2 u;
-  for (int k = 0; k < table.size(); ++k) {
-    const float d = table.range(k);
-    if (d >= a || d <= 0.0F || !table.alive(k) || is_tree_neighbor(robot, k)) continue;
-    u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
-  }
-  return u;
-}
-
-// A robot of the tree: the paper's u_i.
-Vec2 tree_motion(const Robot& robot) noexcept {
-  const Params& p = robot.params;
-  const int up = nearest_up(robot);
-  const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
-  const float d = norm(parent);
-  const bool silent = up >= 0 && !robot.table().alive(up);
-  // Emergency: u = p_parent, at full speed. A silent parent may be anywhere: to where it must be.
-  if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
-  if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
-  const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
-  return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p) : u);
-}
-
 // ADJUST POSITION: beyond S straight to the reference; within, orbit (literal) or stand still,
 // because orbiting spares block lines of sight.
 Vec2 adjust_position(const Robot& robot) noexcept {
@@ -89,13 +63,6 @@ Vec2 adjust_position(const Robot& robot) noexcept {
   return d > reach_m || called ? unit(reference) + avoidance(robot) : avoidance(robot);
 }
 
-Vec2 spare_motion(const Robot& robot) noexcept {
-  Vec2 midpoint;
-  if (robot.self.spare_state == SpareState::extend_edge && edge_midpoint(robot, robot.self.request, midpoint))
-    return unit(midpoint) + avoidance(robot);
-  return adjust_position(robot);
-}
-
 Guard guard_of(const Robot& robot) noexcept {
   Guard guard;
   if (robot.params.corrected())
@@ -104,6 +71,38 @@ Guard guard_of(const Robot& robot) noexcept {
 }
 
 }  // namespace
+
+Vec2 avoidance(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  const float a = robot.params.avoidance_range_m;
+  Vec2 u;
+  for (int k = 0; k < table.size(); ++k) {
+    const float d = table.range(k);
+    if (d >= a || d <= 0.0F || !table.alive(k) || is_tree_neighbor(robot, k)) continue;
+    u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
+  }
+  return u;
+}
+
+Vec2 spring_motion(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const int up = nearest_up(robot);
+  const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
+  const float d = norm(parent);
+  const bool silent = up >= 0 && !robot.table().alive(up);
+  // Emergency: u = p_parent, at full speed. A silent parent may be anywhere: to where it must be.
+  if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
+  if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
+  const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
+  return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p) : u);
+}
+
+Vec2 attendance_motion(const Robot& robot) noexcept {
+  Vec2 midpoint;
+  if (robot.self.spare_state == SpareState::extend_edge && edge_midpoint(robot, robot.self.request, midpoint))
+    return unit(midpoint) + avoidance(robot);
+  return adjust_position(robot);
+}
 
 float interaction(float distance_m, const Params& params) noexcept {
   const float d = distance_m * 100.0F;
@@ -165,7 +164,7 @@ Velocity drive(Vec2 v, const Guard& guard, const Params& params) noexcept {
 
 Velocity move(const Robot& robot) noexcept {
   const Params& p = robot.params;
-  const Vec2 u = robot.self.role == Role::spare ? spare_motion(robot) : tree_motion(robot);
+  const Vec2 u = robot.self.role == Role::spare ? robot.policy.spare_motion(robot) : robot.policy.tree_motion(robot);
   const Guard guard = guard_of(robot);
   const Vec2 v = guard.apply(clamped(u, 1.0F) * p.speed_gain_m_s);
   return drive(clamped(v, p.wheel_limit_m_s), guard, p);

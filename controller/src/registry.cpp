@@ -6,7 +6,7 @@
 namespace banyan {
 
 std::span<const Policy* const> policies() noexcept {
-  static const std::array<const Policy*, 2> all{&outwards(), &inwards()};
+  static const std::array<const Policy*, 3> all{&outwards(), &inwards(), &convoy()};
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include "banyan/controller/label.hpp"
 #include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/policy.hpp"
 
 namespace banyan {
 namespace {
@@ -15,21 +16,6 @@ constexpr std::uint8_t call_reach_hops = 40;
 constexpr float infinite_m = 1e9F;
 
 // ---- The owner of an edge: NO NEED -> NEED -> AWAIT ----
-
-// The edge is too long, and some worker below still wants to go on. As printed (literal) the second
-// half is missing, and the first reads "smaller" (docs/algorithms.md, row 2).
-bool is_stretched(const Robot& robot) noexcept {
-  const State& self = robot.self;
-  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance_m &&
-         (!robot.params.corrected() || self.want_m > 0.0F);
-}
-
-bool child_in_need(const Robot& robot) noexcept {
-  return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) {
-    const Message& m = robot.table().message(k);
-    return m.role != Role::spare && m.need == Need::need;
-  });
-}
 
 void end_grant(State& self) noexcept {
   self.grant = nobody;
@@ -78,12 +64,12 @@ void own_edge(Robot& robot) noexcept {
   const bool parent_awaits = parent.need == Need::await && parent.grant != nobody;
   switch (self.need) {
     case Need::no_need:
-      if (is_stretched(robot) || child_in_need(robot)) self.need = Need::need;
+      if (robot.policy.needs_spare(robot)) self.need = Need::need;
       break;
     case Need::need:
       // Two insertions next to each other would leave the lower one without its parent.
       if (parent_awaits) self.need = Need::await;
-      else if (!is_stretched(robot) && !child_in_need(robot)) self.need = Need::no_need;
+      else if (!robot.policy.needs_spare(robot)) self.need = Need::no_need;
       else if (self.phase == Phase::grow_tree) {
         self.grant = best_request(robot);
         self.grant_ticks = 0;
@@ -189,7 +175,7 @@ void follow_request(Robot& robot) noexcept {
   self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
   if (self.ungranted_ticks > ungranted_limit_ticks || (m.grant != nobody && !granted)) return give_up(self);
   if (granted) self.spare_state = SpareState::extend_edge;
-  if (granted && norm(midpoint) <= robot.params.insertion_distance_m) join_edge(robot, owner);
+  if (granted && robot.policy.may_insert(robot, owner, table.find(m.parent))) join_edge(robot, owner);
 }
 
 void look_for_edge(Robot& robot) noexcept {
@@ -210,6 +196,19 @@ void watch_inserted_child(Robot& robot) noexcept {
 }
 
 }  // namespace
+
+bool is_stretched(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance_m &&
+         (!robot.params.corrected() || self.want_m > 0.0F);
+}
+
+bool child_in_need(const Robot& robot) noexcept {
+  return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) {
+    const Message& m = robot.table().message(k);
+    return m.role != Role::spare && m.need == Need::need;
+  });
+}
 
 bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept {
   const Neighborhood& table = robot.table();

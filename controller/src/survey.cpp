@@ -13,6 +13,7 @@ void survey(Robot& robot) noexcept {
   robot.parent = robot.old_parent = -1;
   robot.children.size = robot.old_children.size = 0;
   robot.useful_child = false;
+  robot.useful_children = 0;
   robot.call_hops = nobody_calls;
   for (int k = 0; k < table.size(); ++k) {
     const RobotId id = table.id(k);
@@ -25,7 +26,9 @@ void survey(Robot& robot) noexcept {
     if (!names_me && m.old_parent != self.id) continue;
     // Whoever has not entered this epoch yet names the parent of the last one.
     (names_me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
-    if (m.role != Role::spare) robot.useful_child = true;
+    if (m.role == Role::spare) continue;
+    robot.useful_child = true;
+    ++robot.useful_children;
   }
 }
 

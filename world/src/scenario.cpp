@@ -497,8 +497,9 @@ double time_limit_s(const Scenario& scenario) {
 
 Params controller_params(const Scenario& scenario, const Policy& policy) {
   Params params = policy.defaults(scenario.mission.reading == "literal" ? Reading::literal : Reading::corrected);
+  const double scale = scenario.mission.scale * (policy.scales_with_range() ? scenario.radio.range_m / 2.0 : 1.0);
   for (const ParameterInfo& info : parameter_table())
-    if (info.source == "Table I" && info.unit == "m") params.*info.member *= static_cast<float>(scenario.mission.scale);
+    if (info.source == "Table I" && info.unit == "m") params.*info.member *= static_cast<float>(scale);
   params.communication_range_m = static_cast<float>(scenario.radio.range_m);
   params.tick_s = static_cast<float>(scenario.tick_s);
   params.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);

@@ -9,6 +9,13 @@ namespace banyan {
 
 [[nodiscard]] Velocity move(const Robot& robot) noexcept;
 
+// The paper's u_i for a robot of the tree: springs along its edges, the target's pull within f.
+[[nodiscard]] Vec2 spring_motion(const Robot& robot) noexcept;
+// A spare's: to the midpoint of the edge it was granted, else ADJUST POSITION.
+[[nodiscard]] Vec2 attendance_motion(const Robot& robot) noexcept;
+// u^avoid: repulsion from robots nearer than A that are no tree neighbours.
+[[nodiscard]] Vec2 avoidance(const Robot& robot) noexcept;
+
 // u_tree's magnitude, (epsilon/d)((delta/d)^2 - (delta/d)^4) with lengths in cm: positive towards
 // the neighbour. Not bounded as d goes to 0.
 [[nodiscard]] float interaction(float distance_m, const Params& params) noexcept;

@@ -15,7 +15,27 @@ enum class Reading : std::uint8_t { literal, corrected };
 // What the wheels allow. A holonomic robot moves in any direction without turning.
 enum class Drive : std::uint8_t { differential, holonomic };
 
-struct Params {
+// What only convoy reads (docs/convoy.md). Every length is in units of C.
+struct ConvoyParams {
+  float pull_start = 0.675F;        // a child farther than this pulls its parent along
+  float pull_width = 0.15F;         // and with full strength so much farther
+  float tension_gain = 0.2F;        // edges are taut strings: straight chains, junctions of 120 degrees
+  float tension_start = 0.15F;
+  float tension_width = 0.15F;
+  float slack_gain = 0.5F;          // edges of a chain share their slack
+  float first_edge = 0.35F;         // the longest edge that is chosen while there is a choice
+  float clearance = 0.10F;          // a robot nearer than this to a segment blocks it, or soon may
+  float corridor_width = 0.35F;     // robots within it move out of a tree edge's line of sight
+  float corridor_gain = 0.5F;
+  float join_margin = 0.05F;        // a spare joins an edge whose ends are nearer than delta minus this
+  float shortest_split = 0.4F;      // shorter edges get no spare
+  float release_distance = 0.75F;   // a grandparent nearer than this becomes the parent
+  float spare_avoidance = 0.14F;    // repulsion from spares begins here
+  float merge_distance = 0.9F;      // longest edge made to save a robot, once all below have arrived
+  float compact_distance = 0.875F;  // a chain that has arrived stretches its edges to this
+};
+
+struct Params : ConvoyParams {
   // Motion, Table I
   float safe_range_m = 1.3893F;        // S
   float avoidance_range_m = 0.4316F;   // A

@@ -8,5 +8,6 @@ namespace banyan {
 
 [[nodiscard]] const Policy& outwards() noexcept;
 [[nodiscard]] const Policy& inwards() noexcept;
+[[nodiscard]] const Policy& convoy() noexcept;
 
 }  // namespace banyan

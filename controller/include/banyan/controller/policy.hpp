@@ -19,6 +19,8 @@ class Policy {
   [[nodiscard]] virtual std::string_view summary() const noexcept = 0;  // one sentence
   // Table I's column, in the given reading.
   [[nodiscard]] virtual Params defaults(Reading reading) const noexcept = 0;
+  // Whether the lengths among them stand for C = 2 m and grow with it. Table I's are absolute.
+  [[nodiscard]] virtual bool scales_with_range() const noexcept { return false; }
 
   // SELECT PARENT (paper Sec. III-D, III-E). Whether a robot without parent may join the tree now;
   // whether it accepts neighbour k of its table among the candidates; whether it prefers candidate
@@ -31,6 +33,18 @@ class Policy {
   [[nodiscard]] virtual bool tree_complete(const Robot& robot) const noexcept = 0;
   // GROW TREE: whether a spare that has a parent leaves its branch now (paper Sec. III-D).
   [[nodiscard]] virtual bool leaves_branch(const Robot& robot) const noexcept = 0;
+
+  // ---- What follows is the paper's own unless a policy says otherwise (policy.cpp). ----
+
+  // The edge to my parent, or one below it, wants a spare (paper Fig. 5).
+  [[nodiscard]] virtual bool needs_spare(const Robot& robot) const noexcept;
+  // A spare whose edge is granted joins it from where it is: `owner` and `parent` are the edge's ends.
+  [[nodiscard]] virtual bool may_insert(const Robot& robot, int owner, int parent) const noexcept;
+  // Changes of the tree between reconstructions, once a tick after SELECT PARENT's work. None.
+  virtual void tend_tree(Robot& robot) const noexcept;
+  // What robots of the tree and spares want to do, in units of speed_gain (paper Sec. III-G).
+  [[nodiscard]] virtual Vec2 tree_motion(const Robot& robot) const noexcept;
+  [[nodiscard]] virtual Vec2 spare_motion(const Robot& robot) const noexcept;
 
  protected:
   constexpr Policy() = default;

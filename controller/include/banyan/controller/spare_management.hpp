@@ -9,6 +9,12 @@ namespace banyan {
 
 void manage_spares(Robot& robot) noexcept;
 
+// The edge to my parent is too long, and some worker below still wants to go on. As printed (literal)
+// the second half is missing, and the first reads "smaller" (docs/algorithms.md, row 2).
+[[nodiscard]] bool is_stretched(const Robot& robot) noexcept;
+// A child that is no spare is in NEED.
+[[nodiscard]] bool child_in_need(const Robot& robot) noexcept;
+
 // Where a spare in EXTEND EDGE is heading: the midpoint of the edge it was granted, own frame, m.
 // False if it does not know both ends.
 [[nodiscard]] bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The rules of convoy (docs/convoy.md) that need more than a line: how it moves, and how it keeps
+// its tree small and in sight between two reconstructions.
+#pragma once
+
+#include "banyan/controller/robot.hpp"
+
+namespace banyan {
+
+// A robot of the tree: a worker drives to its target, a connector follows the children that tow it;
+// tension straightens chains; nobody stays in another edge's line of sight. In units of speed_gain.
+[[nodiscard]] Vec2 towed_motion(const Robot& robot) noexcept;
+
+// A spare: where it is, unless it is called, in the way, or left behind.
+[[nodiscard]] Vec2 waiting_motion(const Robot& robot) noexcept;
+
+// Release, sight and merge: takes another parent than the present one where that saves a robot or
+// keeps the edge in sight. Each keeps the order of parent_selection.hpp, so no cycle can close.
+void take_shortcuts(Robot& robot) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
+// springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
+#include "banyan/controller/convoy.hpp"
+#include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/policies.hpp"
+#include "banyan/controller/sight.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr int silence_ticks = 2;      // a parent silent for so long counts as hidden
+
+class Convoy final : public Policy {
+ public:
+  constexpr Convoy() = default;
+  [[nodiscard]] std::string_view name() const noexcept override { return "convoy"; }
+  [[nodiscard]] std::string_view summary() const noexcept override {
+    return "a sparse tree that its workers tow; spares join near the root, without travelling";
+  }
+  // Lengths for C = 2 m.
+  [[nodiscard]] Params defaults(Reading reading) const noexcept override {
+    Params p = inwards().defaults(reading);
+    p.ideal_distance_m = 1.90F;        // G: no edge outgrows it
+    p.safe_range_m = 1.80F;            // a spare follows its reference beyond it
+    p.recruitment_distance_m = 1.65F;  // a longer edge asks for a spare
+    p.avoidance_range_m = 0.36F;
+    p.target_gain = 1.0F;
+    p.guard_rate_per_s = 2.0F;
+    p.connector_patience_s = 1.0F;
+    return p;
+  }
+  [[nodiscard]] bool scales_with_range() const noexcept override { return true; }
+
+  [[nodiscard]] bool may_join(const Robot& robot) const noexcept override { return inwards().may_join(robot); }
+  [[nodiscard]] bool accepts(const Robot&, int) const noexcept override { return true; }
+  [[nodiscard]] bool prefers(const Robot& robot, int a, int b) const noexcept override;
+  [[nodiscard]] bool tree_complete(const Robot& robot) const noexcept override { return inwards().tree_complete(robot); }
+  [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
+
+  [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
+  [[nodiscard]] bool may_insert(const Robot& robot, int owner, int parent) const noexcept override;
+  void tend_tree(Robot& robot) const noexcept override { take_shortcuts(robot); }
+  [[nodiscard]] Vec2 tree_motion(const Robot& robot) const noexcept override { return towed_motion(robot); }
+  [[nodiscard]] Vec2 spare_motion(const Robot& robot) const noexcept override { return waiting_motion(robot); }
+};
+
+// Short first edges, then such as need no spare, then the nearest; a blocked one is as good as far.
+struct Preference {
+  int rank;
+  float key;
+  Preference(const Robot& robot, int k) noexcept {
+    const Params& p = robot.params;
+    const float c = p.communication_range_m;
+    float range_m = robot.table().range(k);
+    if (!sees_clearly(robot, k, p.clearance * c)) range_m += 5.0F * c;
+    rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
+    key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
+  }
+};
+
+bool Convoy::prefers(const Robot& robot, int a, int b) const noexcept {
+  const Preference pa(robot, a);
+  const Preference pb(robot, b);
+  return pa.rank != pb.rank ? pa.rank < pb.rank : pa.key < pb.key;
+}
+
+// Not passed on upwards: towed, the chain brings its slack to where the spares are by itself.
+bool Convoy::needs_spare(const Robot& robot) const noexcept {
+  if (robot.parent < 0) return false;
+  const float d = robot.table().range(robot.parent);
+  const bool hidden = robot.table().age(robot.parent) > silence_ticks;
+  return (d > robot.params.recruitment_distance_m && robot.self.want_m > 0.0F) ||
+         (hidden && d > robot.params.shortest_split * robot.params.communication_range_m);
+}
+
+bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  const float reach_m = p.ideal_distance_m - p.join_margin * p.communication_range_m;
+  const float clearance_m = p.clearance * p.communication_range_m;
+  return table.range(owner) < reach_m && table.range(parent) < reach_m && sees_clearly(robot, owner, clearance_m) &&
+         sees_clearly(robot, parent, clearance_m);
+}
+
+constexpr Convoy instance;
+
+}  // namespace
+
+const Policy& convoy() noexcept { return instance; }
+
+}  // namespace banyan

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// How convoy keeps its tree small and in sight between reconstructions (docs/convoy.md, rules 5, 6, 9).
+#include <algorithm>
+
+#include "banyan/controller/convoy.hpp"
+#include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/sight.hpp"
+
+namespace banyan {
+namespace {
+
+// A robot of the tree that I may hang on: heard this tick or the last, ahead of me, in sight.
+bool is_hold(const Robot& robot, int k, float range_m) noexcept {
+  const Neighborhood& table = robot.table();
+  const Message& m = table.message(k);
+  return table.age(k) <= 1 && table.range(k) <= range_m && m.role != Role::spare && m.parent != robot.self.id &&
+         m.old_parent != robot.self.id && m.depth != invalid_depth && is_ahead(robot, k) &&
+         sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+}
+
+// Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
+void release(Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  const Message& parent = table.message(robot.parent);
+  if (parent.role != Role::connector || parent.child_count != 1 || parent.parent == nobody || parent.need == Need::await ||
+      parent.inserted_child != nobody)
+    return;
+  const int k = table.find(parent.parent);
+  if (k < 0 || table.message(k).role == Role::worker) return;
+  if (is_hold(robot, k, robot.params.release_distance * robot.params.communication_range_m)) take_parent(robot, k);
+}
+
+// Rule 6: my parent is hidden. The visible robot with a smaller label nearest to the old edge.
+void keep_in_sight(Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  const Vec2 parent = table.position(robot.parent);
+  int best = -1;
+  float best_m = 1e9F;
+  for (int k = 0; k < table.size(); ++k) {
+    const Message& m = table.message(k);
+    if (k == robot.parent || m.role == Role::worker || m.label_cm >= robot.self.label_cm) continue;
+    if (!is_hold(robot, k, robot.params.parent_range_m())) continue;
+    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k)));  // to the old edge
+    if (d < best_m) {
+      best_m = d;
+      best = k;
+    }
+  }
+  if (best >= 0) take_parent(robot, best);
+}
+
+}  // namespace
+
+void take_shortcuts(Robot& robot) noexcept {
+  const State& self = robot.self;
+  if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.grant != nobody ||
+      self.inserted_child != nobody)
+    return;
+  constexpr int hidden_ticks = 1;
+  if (robot.table().age(robot.parent) > hidden_ticks) keep_in_sight(robot);
+  else release(robot);
+}
+
+}  // namespace banyan

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// How convoy moves (docs/convoy.md, rules 2, 6, 7 and 8).
+#include <algorithm>
+
+#include "banyan/controller/convoy.hpp"
+#include "banyan/controller/motion.hpp"
+#include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/sight.hpp"
+#include "banyan/controller/spare_management.hpp"
+
+namespace banyan {
+namespace {
+
+float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
+
+bool is_tree_neighbor(const Robot& robot, int k) noexcept {
+  if (k == robot.parent || k == robot.old_parent) return true;
+  const Message& m = robot.table().message(k);
+  return m.parent == robot.self.id || m.old_parent == robot.self.id;
+}
+
+// Children that still have to go on tow: in proportion to how far the edge is stretched.
+Vec2 tow(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  const float c = p.communication_range_m;
+  Vec2 u;
+  const auto add = [&](int k) {
+    const Message& m = table.message(k);
+    if (m.role == Role::spare || m.want_cm == 0 || up_of(m) != robot.self.id) return;
+    u += unit(table.position(k)) * ramp(table.range(k), p.pull_start * c, p.pull_width * c);
+  };
+  for (const int k : robot.children) add(k);
+  for (const int k : robot.old_children) add(k);
+  return u;
+}
+
+template <class Visit>
+void for_each_edge(const Robot& robot, Visit visit) noexcept {
+  const Neighborhood& table = robot.table();
+  if (robot.parent >= 0) visit(robot.parent);
+  else if (robot.old_parent >= 0) visit(robot.old_parent);
+  for (const int k : robot.children)
+    if (table.message(k).role != Role::spare) visit(k);
+}
+
+// Edges as strings under tension: a chain becomes straight, three chains meet at 120 degrees.
+Vec2 tension(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const float c = p.communication_range_m;
+  Vec2 u;
+  for_each_edge(robot, [&](int k) {
+    u += unit(robot.table().position(k)) * ramp(robot.table().range(k), p.tension_start * c, p.tension_width * c);
+  });
+  return u * p.tension_gain;
+}
+
+// Repulsion, from spares only when they are nearer still: they make room themselves.
+Vec2 elbow_room(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  Vec2 u;
+  for (int k = 0; k < table.size(); ++k) {
+    const float d = table.range(k);
+    if (d >= p.avoidance_range_m || d <= 0.0F || !table.alive(k) || is_tree_neighbor(robot, k)) continue;
+    const float a = table.message(k).role == Role::spare ? p.spare_avoidance * p.communication_range_m : p.avoidance_range_m;
+    if (d < a) u += table.position(k) * (-p.avoidance_gain * (a / d - 1.0F) / d);
+  }
+  return u;
+}
+
+// Out of the line of sight of tree edges that are not mine, if I hear both ends.
+Vec2 make_way(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  const float width_m = p.corridor_width * p.communication_range_m;
+  Vec2 u;
+  for (int k = 0; k < table.size(); ++k) {
+    const Message& m = table.message(k);
+    if (m.parent == nobody || m.parent == robot.self.id || m.role == Role::spare || table.age(k) > 0 || k == robot.parent) continue;
+    const int up = table.find(m.parent);
+    if (up < 0) continue;
+    const Vec2 a = table.position(k);
+    const Vec2 b = table.position(up);
+    const Vec2 near = nearest_on_segment(a, b);
+    const float d = norm(near);
+    if (d >= width_m) continue;
+    const Vec2 along = unit(b - a);
+    const Vec2 side = d > 1e-3F ? -near / d : Vec2{-along.y, along.x};
+    u += side * (1.0F - d / width_m);
+  }
+  return u * p.corridor_gain;
+}
+
+Vec2 clamped(Vec2 u, float limit) noexcept {
+  const float n = norm(u);
+  return n > limit ? u * (limit / n) : u;
+}
+
+}  // namespace
+
+Vec2 towed_motion(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
+  if (up >= 0 && !robot.table().alive(up)) return unit(robot.table().position(up));
+  if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
+  if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
+  if (robot.self.is_worker) return robot.self.pull + elbow_room(robot);
+  return clamped(tow(robot), 1.0F) + tension(robot) + elbow_room(robot) + make_way(robot);
+}
+
+Vec2 waiting_motion(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Vec2 room = elbow_room(robot) + make_way(robot);
+  Vec2 midpoint;
+  if (robot.self.spare_state == SpareState::extend_edge && edge_midpoint(robot, robot.self.request, midpoint))
+    return unit(midpoint) + room;
+  const int k = robot.table().find(robot.self.parent != nobody ? robot.self.parent : robot.self.reference);
+  if (k < 0) return room;
+  const Vec2 reference = robot.table().position(k);
+  const float d = norm(reference);
+  const bool called = robot.self.called && d > p.avoidance_range_m;
+  return d > p.safe_range_m || called ? unit(reference) + room : room;
+}
+
+}  // namespace banyan
