@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Euclidean Steiner trees by Smith's (1992) branch and bound: full topologies grow by one terminal
 // at a time, and the shortest tree of a partial topology bounds all that grow from it, because
-// taking a terminal out of a tree never makes it longer. The shortest tree of a topology is a
+// taking a terminal out of a tree never makes it longer. Which terminal is next is decided anew for
+// each topology (after Fampa & Anstreicher 2008). The shortest tree of a topology is a
 // convex problem, sum of |edge|; it is solved by Newton's method on sqrt(|edge|^2 + e^2) for
 // falling e. Every bound is the value of a feasible point of the dual problem (a flow of unit
 // vectors), so nothing is cut off by rounding or by stopping early.
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -21,7 +23,8 @@ namespace {
 
 using world::Vec2;
 
-constexpr std::size_t exact_limit = 9;
+constexpr std::size_t exact_limit = 12;
+constexpr int most_looks = 150'000;       // topologies relaxed before a search gives up: some seconds
 constexpr double steiner_ratio = 0.8241;  // Chung & Graham 1985
 constexpr double tolerance = 2e-7;        // relative; what is not better by this is not looked at
 
@@ -65,8 +68,8 @@ std::vector<Vec2> far_apart(std::vector<Vec2> points, std::size_t most) {
   return points;
 }
 
-// A full topology over the first `terminals` points: node k < exact_limit is terminal k, node
-// exact_limit + s is Steiner point s, which has three edges.
+// A full topology over `terminals` of the points, 0 and 1 among them: node k < exact_limit is
+// terminal k, node exact_limit + s is Steiner point s, which has three edges.
 struct Tree {
   struct Edge { int a, b; };
   int terminals = 0;
@@ -79,10 +82,10 @@ struct Tree {
 constexpr int first_steiner = static_cast<int>(exact_limit);
 constexpr bool is_steiner(int node) noexcept { return node >= first_steiner; }
 
-// The topology with the next terminal tied to edge `k` by a new Steiner point.
-Tree grown(const Tree& tree, int k) noexcept {
+// The topology with a further terminal tied to edge `k` by a new Steiner point.
+Tree grown(const Tree& tree, int terminal, int k) noexcept {
   Tree next = tree;
-  const int terminal = next.terminals++;
+  ++next.terminals;
   const int middle = first_steiner + tree.steiner_points();
   const Tree::Edge split = tree.edges[k];
   next.edges[k] = {split.a, middle};
@@ -210,6 +213,16 @@ class Relaxation {
   Matrix hessian_;
 };
 
+// A partial topology and what is known of the terminals still missing: `open[t]` has a bit for
+// every edge to which terminal t may yet be tied. What is hopeless for a topology is hopeless for
+// all that grow from it: an edge that is split hands its bit to its three parts, since with the
+// terminal that split it taken out again they are the edge they were.
+struct Node {
+  Tree tree;
+  std::array<std::uint32_t, exact_limit> open{};
+};
+static_assert(2 * exact_limit - 3 <= 32, "a bit for every edge");
+
 class Search {
  public:
   // 3 to exact_limit distinct terminals.
@@ -220,37 +233,83 @@ class Search {
   }
 
   SteinerLength run() {
-    Tree tree;
-    std::copy(terminals_.begin(), terminals_.end(), tree.at.begin());
-    tree.terminals = 2;
-    tree.edge_count = 1;
-    tree.edges[0] = {0, 1};
-    grow(tree);
+    Node start;
+    std::copy(terminals_.begin(), terminals_.end(), start.tree.at.begin());
+    start.tree.terminals = 2;
+    start.tree.edge_count = 1;
+    start.tree.edges[0] = {0, 1};
+    for (std::size_t t = 2; t < terminals_.size(); ++t) start.open[t] = 1;
+    grow(start);
     const double lower = std::min(certain_, best_ * (1.0 - tolerance));
     return {lower, best_, lower >= best_ * (1.0 - 1e-6)};
   }
 
  private:
+  struct Branch { double bound; int edge; Tree tree; };
+
   [[nodiscard]] bool hopeless(double bound) const noexcept { return bound >= best_ * (1.0 - tolerance); }
 
-  void grow(const Tree& tree) {
-    if (tree.terminals == static_cast<int>(terminals_.size())) return;
-    struct Branch { double bound; Tree tree; };
+  // Of the missing terminals the one that promises the least work is tied first. One without a
+  // place rules the whole topology out.
+  void grow(Node node) {
+    double least = std::numeric_limits<double>::infinity();
+    int chosen = 0;
     std::vector<Branch> branches;
-    branches.reserve(static_cast<std::size_t>(tree.edge_count));
-    for (int k = 0; k < tree.edge_count; ++k) {
-      Branch branch{0.0, grown(tree, k)};
-      branch.bound = relax(branch.tree);
-      if (!hopeless(branch.bound)) branches.push_back(branch);
+    for (int t = 2; t < static_cast<int>(terminals_.size()); ++t) {
+      if (node.open[t] == 0) continue;
+      std::vector<Branch> found = places(node, t);
+      if (found.empty()) return;
+      const double work = work_in(found, length(node.tree));
+      if (work >= least) continue;
+      least = work;
+      chosen = t;
+      branches = std::move(found);
     }
     std::sort(branches.begin(), branches.end(), [](const Branch& a, const Branch& b) { return a.bound < b.bound; });
-    for (const Branch& branch : branches)
-      if (!hopeless(branch.bound)) grow(branch.tree);
+    for (const Branch& branch : branches) {
+      if (hopeless(branch.bound)) return;  // so are those after it
+      if (looks_ < most_looks) grow(with(node, chosen, branch));
+      else certain_ = std::min(certain_, branch.bound);
+    }
+  }
+
+  // Every way to tie the terminal to the topology that may still lead to a shorter tree.
+  std::vector<Branch> places(Node& node, int terminal) {
+    std::vector<Branch> found;
+    for (int k = 0; k < node.tree.edge_count; ++k) {
+      if ((node.open[terminal] >> k & 1U) == 0) continue;
+      Branch branch{0.0, k, grown(node.tree, terminal, k)};
+      branch.bound = relax(branch.tree);
+      if (hopeless(branch.bound)) node.open[terminal] &= ~(1U << k);
+      else found.push_back(branch);
+    }
+    return found;
+  }
+
+  // What is under a branch dwindles fast with the share of the room, between the topology it grows
+  // from and the best tree, that its bound takes up.
+  [[nodiscard]] double work_in(const std::vector<Branch>& branches, double before) const noexcept {
+    const double room = std::max(best_ - before, tolerance * best_);
+    double work = 0.0;
+    for (const Branch& branch : branches) {
+      const double left = std::clamp((best_ - branch.bound) / room, 0.0, 1.0);
+      work += left * left * left * left;
+    }
+    return work;
+  }
+
+  static Node with(const Node& node, int terminal, const Branch& branch) noexcept {
+    Node next{branch.tree, node.open};
+    for (std::uint32_t& edges : next.open)
+      if ((edges >> branch.edge & 1U) != 0) edges |= 3U << node.tree.edge_count;  // the two new edges
+    next.open[terminal] = 0;
+    return next;
   }
 
   // A lower bound for the topology, only as good as it takes to decide: above the best tree, or
   // (unfinished topologies) certainly not. A finished one that is better becomes the best tree.
   double relax(Tree& tree) {
+    ++looks_;
     const bool finished = tree.terminals == static_cast<int>(terminals_.size());
     double bound = 0.0;
     double e = 0.1;
@@ -270,7 +329,8 @@ class Search {
   Relaxation relaxation_;
   double scale_ = 0.0;
   double best_;     // length of the shortest tree found
-  double certain_;  // smallest bound of a topology that was looked at to the end
+  double certain_;  // smallest bound of a topology that was looked at to the end, or given up
+  int looks_ = 0;
 };
 
 }  // namespace
@@ -282,9 +342,17 @@ SteinerLength steiner_length(const std::vector<Vec2>& terminals) {
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   const double spanning = spanning_tree_length(distinct);
   if (distinct.size() <= 2) return {spanning, spanning, true};
-  const SteinerLength found = Search(far_apart(distinct, exact_limit)).run();
-  if (distinct.size() <= exact_limit) return found;
-  return {std::max(steiner_ratio * spanning, found.lower_m), spanning, false};
+  SteinerLength best{steiner_ratio * spanning, spanning, false};
+  // Where a search gives up, a search among fewer terminals may still bound better than the ratio.
+  const std::size_t first = std::min(distinct.size(), exact_limit);
+  for (std::size_t most = first; most > 2 && most + 4 >= first; most -= 2) {
+    const SteinerLength found = Search(far_apart(distinct, most)).run();
+    best.lower_m = std::max(best.lower_m, found.lower_m);
+    if (most == distinct.size()) best.upper_m = found.upper_m;
+    if (found.exact) break;
+  }
+  best.exact = best.lower_m >= best.upper_m * (1.0 - 1e-6);
+  return best;
 }
 
 std::uint32_t robots_bound(const std::vector<Vec2>& targets, double tolerance_m, double range_m) {
