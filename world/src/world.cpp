@@ -145,7 +145,7 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
   frozen_until.assign(n, 0);
   target_of.assign(n, -1);
   for (std::size_t t = 0; t < positions.size(); ++t) {
-    targets.push_back({positions[t], assignment.worker[t]});
+    targets.push_back({.position = positions[t], .worker = assignment.worker[t]});
     target_of[assignment.worker[t]] = static_cast<std::int32_t>(t);
   }
   states = make_room(n);
@@ -220,7 +220,7 @@ void World::Impl::assign_target(Vec2 position) {
   states[best].is_worker = true;
   states[best].serves = static_cast<RobotId>(best);
   target_of[best] = static_cast<std::int32_t>(targets.size());
-  targets.push_back({position, best});
+  targets.push_back({.position = position, .worker = best});
 }
 
 void World::Impl::act() {
@@ -273,12 +273,14 @@ void World::Impl::think(Executor& executor) {
       for (const Packet& packet : packets) inbox.heard.push_back({content + packet.sender, packet.position});
       received_by[static_cast<std::size_t>(worker)] += packets.size();
 
+      // A controller that has resigned, or has taken over another's target, gets none from outside.
       banyan::Vec2 target{};
-      if (target_of[i] >= 0) {
+      const bool sees_target = target_of[i] >= 0 && states[i].is_worker && states[i].serves == static_cast<RobotId>(i);
+      if (sees_target) {
         const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
         target = {static_cast<float>(d.x), static_cast<float>(d.y)};
       }
-      const Output output = banyan::step(params, *policy, states[i], inbox.heard, odometry[i], target_of[i] >= 0 ? &target : nullptr);
+      const Output output = banyan::step(params, *policy, states[i], inbox.heard, odometry[i], sees_target ? &target : nullptr);
       next_messages[i] = output.message;
       commands[i] = output.velocity;
     }
@@ -371,6 +373,22 @@ std::span<const State> World::states() const noexcept { return impl_->states; }
 std::span<const Message> World::messages() const noexcept { return impl_->messages; }
 std::span<const std::uint8_t> World::alive() const noexcept { return impl_->alive; }
 std::span<const Target> World::targets() const noexcept { return impl_->targets; }
+std::optional<std::size_t> World::holder(std::size_t target) const noexcept {
+  const Impl& w = *impl_;
+  if (target >= w.targets.size() || !w.targets[target].active) return std::nullopt;
+  const auto [position, first, active] = w.targets[target];
+  const double tolerance = w.scenario.mission.target_tolerance_m;
+  std::optional<std::size_t> best;
+  double best_m = 0.0;
+  for (std::size_t i = 0; i < w.states.size(); ++i) {
+    if (w.alive[i] == 0 || w.messages[i].role != Role::worker || w.messages[i].serves != static_cast<RobotId>(first)) continue;
+    const double away_m = distance(w.poses.position[i], position);
+    if (away_m > tolerance || (best && away_m >= best_m)) continue;
+    best = i;
+    best_m = away_m;
+  }
+  return best;
+}
 std::span<const std::uint32_t> World::links(std::size_t i) const noexcept { return impl_->radio.links(i); }
 Pairs World::blocked() const noexcept { return impl_->radio.blocked(); }
 std::uint64_t World::packets_received() const noexcept { return impl_->received; }

@@ -340,5 +340,48 @@ TEST(World, WheelNoiseShowsInTheMotionButNotInTheOdometryOfIt) {
   EXPECT_GT(remembered, 0);
 }
 
+// Who holds a target, from the public view alone: the nearest living worker that serves it.
+std::optional<std::size_t> holder_by_hand(const World& world, std::size_t t) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const Message& said = world.messages()[i];
+    const double away = distance(world.positions()[i], world.targets()[t].position);
+    if (world.alive()[i] == 0 || said.role != Role::worker || said.serves != world.targets()[t].worker) continue;
+    if (away > world.scenario().mission.target_tolerance_m) continue;
+    if (!best || away < distance(world.positions()[*best], world.targets()[t].position)) best = i;
+  }
+  return best;
+}
+
+TEST(Holder, IsTheWorkerOnceItHasArrived) {
+  World world(ring("inwards", 14, 2, 2.0, 1));
+  EXPECT_FALSE(world.holder(0));
+  std::size_t held = 0;
+  for (int t = 0; t < 600; ++t) {
+    world.step();
+    for (std::size_t k = 0; k < 2; ++k) {
+      ASSERT_EQ(world.holder(k), holder_by_hand(world, k)) << world.tick();
+      if (!world.holder(k)) continue;
+      ASSERT_EQ(*world.holder(k), world.targets()[k].worker);
+      ++held;
+    }
+  }
+  EXPECT_GT(held, 100U);
+  EXPECT_FALSE(world.holder(2)) << "there is no such target";
+}
+
+TEST(Holder, IsNoneOnceTheWorkerIsDead) {
+  Scenario s = ring("inwards", 14, 2, 2.0, 1);
+  Event death;
+  death.time_s = 60.0;
+  death.index = World(s).targets()[1].worker;
+  s.events = {death};
+  World world(s);
+  while (world.tick() < 600) world.step();
+  ASSERT_TRUE(world.holder(1));
+  world.step();
+  EXPECT_FALSE(world.holder(1));
+}
+
 }  // namespace
 }  // namespace banyan::world

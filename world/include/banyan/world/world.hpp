@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,7 +22,8 @@ using Pairs = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
 
 struct Target {
   Vec2 position{};
-  std::size_t worker = 0;   // index of the robot it is assigned to
+  std::size_t worker = 0;   // index of the robot first sent there; its id is what `serves` names
+  bool active = true;       // false once it has been given up (Event::Kind::remove_target)
 };
 
 class World {
@@ -53,6 +55,11 @@ class World {
   [[nodiscard]] std::span<const Message> messages() const noexcept;  // last broadcast of each robot
   [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays)
   [[nodiscard]] std::span<const Target> targets() const noexcept;
+  // Who holds targets()[target]: the living robot that broadcasts the role of a worker, serves this
+  // target and is within mission.target_tolerance_m of it; the nearest, then the first, of several.
+  // Need not be targets()[target].worker: a spare may have taken over. None if nobody does, if the
+  // target was given up or if there is no such target. O(N).
+  [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
   // Robots that robot i could hear and be heard by at the current positions: in range, line of
   // sight free, both alive. Ascending. Packet loss is not in it.
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
