@@ -70,10 +70,9 @@ Vec2 elbow_room(const Robot& robot) noexcept {
 }
 
 // Out of the line of sight of tree edges that are not mine, if I hear both ends.
-Vec2 make_way(const Robot& robot) noexcept {
+Vec2 make_way(const Robot& robot, float width_m) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
-  const float width_m = p.corridor_width * p.communication_range_m;
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
@@ -106,21 +105,23 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   if (robot.self.is_worker) return robot.self.pull + elbow_room(robot);
-  return clamped(tow(robot), 1.0F) + tension(robot) + elbow_room(robot) + make_way(robot);
+  return clamped(robot.is_root() ? Vec2{} : tow(robot), 1.0F) + tension(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m);
 }
 
 Vec2 waiting_motion(const Robot& robot) noexcept {
   const Params& p = robot.params;
-  const Vec2 room = elbow_room(robot) + make_way(robot);
+  const float c = p.communication_range_m;
+  const State& self = robot.self;
   Vec2 midpoint;
-  if (robot.self.spare_state == SpareState::extend_edge && edge_midpoint(robot, robot.self.request, midpoint))
-    return unit(midpoint) + room;
-  const int k = robot.table().find(robot.self.parent != nobody ? robot.self.parent : robot.self.reference);
-  if (k < 0) return room;
-  const Vec2 reference = robot.table().position(k);
+  if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
+    return unit(midpoint) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+  const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
+  const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
-  const bool called = robot.self.called && d > p.avoidance_range_m;
-  return d > p.safe_range_m || called ? unit(reference) + room : room;
+  // On its way along a chain it may come nearer to the line of sight than while it waits.
+  if (d > p.safe_range_m || (self.called && d > p.avoidance_range_m))
+    return unit(reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+  return elbow_room(robot) + make_way(robot, p.corridor_width * c);
 }
 
 }  // namespace banyan

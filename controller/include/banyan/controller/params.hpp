@@ -24,9 +24,9 @@ struct ConvoyParams {
   float tension_width = 0.15F;
   float slack_gain = 0.5F;          // edges of a chain share their slack
   float first_edge = 0.35F;         // the longest edge that is chosen while there is a choice
-  float clearance = 0.10F;          // a robot nearer than this to a segment blocks it, or soon may
-  float corridor_width = 0.35F;     // robots within it move out of a tree edge's line of sight
-  float corridor_gain = 0.5F;
+  float clearance = 0.08F;          // a robot nearer than this to a segment blocks it, or soon may
+  float corridor_width = 0.5F;     // robots within it move out of a tree edge's line of sight
+  float corridor_gain = 4.0F;
   float join_margin = 0.05F;        // a spare joins an edge whose ends are nearer than delta minus this
   float shortest_split = 0.4F;      // shorter edges get no spare
   float release_distance = 0.75F;   // a grandparent nearer than this becomes the parent
