@@ -19,7 +19,7 @@ enum class Drive : std::uint8_t { differential, holonomic };
 struct ConvoyParams {
   float pull_start = 0.675F;        // a child farther than this pulls its parent along
   float pull_width = 0.15F;         // and with full strength so much farther
-  float tension_gain = 0.2F;        // edges are taut strings: straight chains, junctions of 120 degrees
+  float tension_gain = 0.4F;        // edges are taut strings: straight chains, junctions of 120 degrees
   float tension_start = 0.15F;
   float tension_width = 0.15F;
   float slack_gain = 0.5F;          // edges of a chain share their slack
