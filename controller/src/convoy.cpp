@@ -83,8 +83,9 @@ bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcep
   const Neighborhood& table = robot.table();
   const float reach_m = p.ideal_distance_m - p.join_margin * p.communication_range_m;
   const float clearance_m = p.clearance * p.communication_range_m;
-  return table.range(owner) < reach_m && table.range(parent) < reach_m && sees_clearly(robot, owner, clearance_m) &&
-         sees_clearly(robot, parent, clearance_m);
+  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m) return false;
+  const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
+  return in_the_way || (sees_clearly(robot, owner, clearance_m) && sees_clearly(robot, parent, clearance_m));
 }
 
 constexpr Convoy instance;

@@ -22,7 +22,7 @@ struct ConvoyParams {
   float tension_gain = 0.4F;        // edges are taut strings: straight chains, junctions of 120 degrees
   float tension_start = 0.15F;
   float tension_width = 0.15F;
-  float slack_gain = 0.5F;          // edges of a chain share their slack
+  float slack_gain = 2.0F;          // edges of a chain share their slack
   float first_edge = 0.35F;         // the longest edge that is chosen while there is a choice
   float clearance = 0.08F;          // a robot nearer than this to a segment blocks it, or soon may
   float corridor_width = 0.5F;     // robots within it move out of a tree edge's line of sight
