@@ -41,7 +41,7 @@ class Convoy final : public Policy {
   [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
   // Only when the edge is about to hold the workers back.
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
-    return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.safe_range_m;
+    return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.call_distance * robot.params.communication_range_m;
   }
   [[nodiscard]] bool may_insert(const Robot& robot, int owner, int parent) const noexcept override;
   void tend_tree(Robot& robot) const noexcept override { take_shortcuts(robot); }

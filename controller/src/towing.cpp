@@ -101,7 +101,7 @@ Vec2 make_way(const Robot& robot, float width_m) noexcept {
     if (d >= width_m) continue;
     const Vec2 along = unit(b - a);
     const Vec2 side = d > 1e-3F ? -near / d : Vec2{-along.y, along.x};
-    u += side * (1.0F - d / width_m);
+    u += side * std::min(width_m / std::max(d, 1e-3F) - 1.0F, 20.0F);
   }
   return u * p.corridor_gain;
 }
