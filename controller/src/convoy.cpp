@@ -39,6 +39,12 @@ class Convoy final : public Policy {
   [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
 
   [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
+  [[nodiscard]] bool workers_relay() const noexcept override { return true; }
+  // Not while the workers get on: the tree mends itself meanwhile, and a new one is not free.
+  [[nodiscard]] bool reconstructs(const Robot& robot) const noexcept override {
+    constexpr float patience_s = 5.0F;
+    return robot.self.stalled_ticks > robot.params.ticks(patience_s);
+  }
   // Only when the edge is about to hold the workers back.
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
     return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.call_distance * robot.params.communication_range_m;
@@ -58,7 +64,8 @@ struct Preference {
     const float c = p.communication_range_m;
     float range_m = robot.table().range(k);
     if (!sees_clearly(robot, k, p.clearance * c)) range_m += 5.0F * c;
-    rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
+    if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
+  rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
   }
 };

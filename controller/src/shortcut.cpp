@@ -31,6 +31,7 @@ void release(Robot& robot) noexcept {
 }
 
 // An edge that would need a spare: a robot of the tree may stand nearer.
+constexpr float DANGER = 0.65F;
 void take_nearer(Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
@@ -44,17 +45,22 @@ void take_nearer(Robot& robot) noexcept {
   if (best >= 0) take_parent(robot, best);
 }
 
-// Rule 6: my parent is hidden. The visible robot with a smaller label nearest to the old edge.
-void keep_in_sight(Robot& robot) noexcept {
+// Rule 6: my parent is hidden, or soon will be. The visible robot nearest to the old edge that is
+// ahead of me: one of the tree or, when it is too late, a spare, which joins because it is named.
+void keep_in_sight(Robot& robot, bool hidden) noexcept {
+  const Params& p = robot.params;
   const Neighborhood& table = robot.table();
   const Vec2 parent = table.position(robot.parent);
+  const float clearance_m = p.clearance * p.communication_range_m;
   int best = -1;
   float best_m = 1e9F;
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
-    if (k == robot.parent || m.role == Role::worker || m.label_cm >= robot.self.label_cm) continue;
-    if (!is_hold(robot, k, robot.params.parent_range_m())) continue;
-    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k)));  // to the old edge
+    if (k == robot.parent || m.label_cm >= robot.self.label_cm || table.age(k) > 0) continue;
+    const bool spare = hidden && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
+                       m.tree_hops != unreachable && table.range(k) <= p.parent_range_m() && sees_clearly(robot, k, clearance_m);
+    if (!spare && !is_hold(robot, k, p.parent_range_m())) continue;
+    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k))) + (spare ? p.communication_range_m : 0.0F);
     if (d < best_m) {
       best_m = d;
       best = k;
@@ -71,7 +77,9 @@ void take_shortcuts(Robot& robot) noexcept {
       self.inserted_child != nobody)
     return;
   constexpr int hidden_ticks = 1;
-  if (robot.table().age(robot.parent) > hidden_ticks) keep_in_sight(robot);
+  const Params& p = robot.params;
+  const bool hidden = robot.table().age(robot.parent) > hidden_ticks;
+  if (hidden || !sees_clearly(robot, robot.parent, DANGER * p.clearance * p.communication_range_m)) keep_in_sight(robot, hidden);
   else if (robot.self.need == Need::need) take_nearer(robot);
   else release(robot);
 }

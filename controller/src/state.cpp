@@ -34,10 +34,11 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.inserted_child), static_cast<int>(s.inserted_ticks), static_cast<int>(s.spare_state),
                       static_cast<int>(s.request), static_cast<int>(s.request_ticks), static_cast<int>(s.ungranted_ticks),
                       static_cast<int>(s.reference), static_cast<int>(s.called), static_cast<int>(s.unserved_ticks),
-                      static_cast<int>(s.call_hops)})
+                      static_cast<int>(s.call_hops), static_cast<int>(s.stalled_ticks)})
     d.add(v);
   d.add(s.q);
   d.add(s.want_m);
+  d.add(s.least_want_m);
   d.add(s.pull);
   d.add(s.centroid);
   d.add(s.tally.insertions);

@@ -59,6 +59,8 @@ struct State {
   Vec2 q;                                // m, own frame; at the root Alg. 1's centroid
   float want_m = 0.0F;                   // largest remaining worker distance below me
   Vec2 pull;                             // target pull, own frame
+  float least_want_m = 0.0F;             // the least want_m since it last grew
+  std::uint16_t stalled_ticks = 0;       // since least_want_m last shrank by a hand's breadth
 
   // Root selection (root_selection.hpp)
   Vec2 centroid;                         // m, own frame
