@@ -56,7 +56,7 @@ void keep_in_sight(Robot& robot, bool hidden) noexcept {
   float best_m = 1e9F;
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
-    if (k == robot.parent || m.label_cm >= robot.self.label_cm || table.age(k) > 0) continue;
+    if (k == robot.parent || table.age(k) > 0) continue;
     const bool spare = hidden && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
                        m.tree_hops != unreachable && table.range(k) <= p.parent_range_m() && sees_clearly(robot, k, clearance_m);
     if (!spare && !is_hold(robot, k, p.parent_range_m())) continue;
