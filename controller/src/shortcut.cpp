@@ -45,6 +45,17 @@ void take_nearer(Robot& robot) noexcept {
   if (best >= 0) take_parent(robot, best);
 }
 
+// A worker goes its own way and cannot be towed: as long as I have to go on, anybody else will do.
+void leave_worker(Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.message(k).role == Role::worker || !is_hold(robot, k, robot.params.parent_range_m())) continue;
+    if (best < 0 || table.range(k) < table.range(best)) best = k;
+  }
+  if (best >= 0) take_parent(robot, best);
+}
+
 // Rule 6: my parent is hidden, or soon will be. The visible robot nearest to the old edge that is
 // ahead of me: one of the tree or, when it is too late, a spare, which joins because it is named.
 void keep_in_sight(Robot& robot, bool hidden) noexcept {
@@ -66,20 +77,22 @@ void keep_in_sight(Robot& robot, bool hidden) noexcept {
       best = k;
     }
   }
-  if (best >= 0) take_parent(robot, best);
+  if (best < 0) return;
+  robot.self.grant = nobody;  // of the edge that is given up
+  take_parent(robot, best);
 }
 
 }  // namespace
 
 void take_shortcuts(Robot& robot) noexcept {
   const State& self = robot.self;
-  if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.grant != nobody ||
-      self.inserted_child != nobody)
-    return;
+  if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.inserted_child != nobody) return;
   constexpr int hidden_ticks = 1;
   const Params& p = robot.params;
   const bool hidden = robot.table().age(robot.parent) > hidden_ticks;
   if (hidden || !sees_clearly(robot, robot.parent, DANGER * p.clearance * p.communication_range_m)) keep_in_sight(robot, hidden);
+  else if (self.grant != nobody) return;  // the tree changes here already
+  else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (robot.self.need == Need::need) take_nearer(robot);
   else release(robot);
 }

@@ -19,18 +19,22 @@ bool is_tree_neighbor(const Robot& robot, int k) noexcept {
   return m.parent == robot.self.id || m.old_parent == robot.self.id;
 }
 
-// Children that still have to go on tow: in proportion to how far the edge is stretched. The root
-// stays with the spares as long as it can: they are needed where its edges grow.
+// Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
+// junctions stay with the spares as long as they can: there their edges grow and are split.
 Vec2 tow(const Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
   const float c = p.communication_range_m;
-  const float start_m = robot.is_root() ? p.safe_range_m : p.pull_start * c;
+  const auto tows = [&](int k) {
+    const Message& m = table.message(k);
+    return m.role != Role::spare && m.want_cm > 0 && up_of(m) == robot.self.id;
+  };
+  const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
+                     std::count_if(robot.old_children.begin(), robot.old_children.end(), tows);
+  const float start_m = robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start * c;
   Vec2 u;
   const auto add = [&](int k) {
-    const Message& m = table.message(k);
-    if (m.role == Role::spare || m.want_cm == 0 || up_of(m) != robot.self.id) return;
-    u += unit(table.position(k)) * ramp(table.range(k), start_m, p.pull_width * c);
+    if (tows(k)) u += unit(table.position(k)) * ramp(table.range(k), start_m, p.pull_width * c);
   };
   for (const int k : robot.children) add(k);
   for (const int k : robot.old_children) add(k);
