@@ -11,6 +11,7 @@
 namespace banyan {
 namespace {
 
+constexpr float FOLLOW_S = 0.5F, FOLLOW_T = 0.7F;
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
 bool is_tree_neighbor(const Robot& robot, int k) noexcept {
@@ -137,8 +138,11 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
+  // Sight can be lost at any distance: it follows in good time, and a spare that leads it even earlier.
+  const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
+  const float reach_m = (led ? FOLLOW_S : FOLLOW_T) * c;
   // On its way along a chain it may come nearer to the line of sight than while it waits.
-  if (d > p.safe_range_m || (self.called && d > p.avoidance_range_m))
+  if (d > reach_m || (self.called && d > p.avoidance_range_m))
     return unit(reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   return elbow_room(robot) + make_way(robot, p.corridor_width * c);
 }
