@@ -11,7 +11,7 @@
 namespace banyan {
 namespace {
 
-constexpr float FOLLOW_S = 0.5F, FOLLOW_T = 0.7F;
+constexpr float FOLLOW_S = 0.25F, FOLLOW_T = 0.5F;
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
 bool is_tree_neighbor(const Robot& robot, int k) noexcept {
