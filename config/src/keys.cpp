@@ -128,6 +128,12 @@ constexpr Key<Form> scenario_list[] = {
      {},
      "end the run as soon as all targets are reached at once",
      [](Form& f) -> bool& { return f.configuration.scenario.mission.stop_when_complete; }},
+    {"mission",
+     "settle_s",
+     "s",
+     {0.0, 1e7},
+     "with stop_when_complete: go on this long after completion, so that the tree can settle",
+     [](Form& f) -> double& { return f.configuration.scenario.mission.settle_s; }},
 
     {"swarm",
      "robots",

@@ -127,6 +127,7 @@ void check_mission(Report& report, const Mission& mission) {
   report.number_in("mission.scale", mission.scale, positive(1000.0));
   report.number_in("mission.target_tolerance_m", mission.target_tolerance_m, positive(world_size));
   report.number_in("mission.time_limit_s", mission.time_limit_s, up_to(1e7));
+  report.number_in("mission.settle_s", mission.settle_s, up_to(1e7));
   for (const auto& [name, value] : mission.parameters) check_parameter(report, name, value);
 }
 

@@ -54,6 +54,7 @@ const std::vector<Case>& cases() {
       {"mission.reading", "did you mean literal?", [](Scenario& s) { s.mission.reading = "literl"; }},
       {"mission.target_tolerance_m", "-1", [](Scenario& s) { s.mission.target_tolerance_m = -1; }},
       {"mission.time_limit_s", "inf", [](Scenario& s) { s.mission.time_limit_s = infinity; }},
+      {"mission.settle_s", "-1", [](Scenario& s) { s.mission.settle_s = -1; }},
       {"mission.time_limit_s", "must be given",
        [](Scenario& s) { s.swarm.robots = 9, s.targets = RingTargets{3, 0.0, 0, {}}; }},
       {"mission.parameters.target_gian", "did you mean target_gain?",

@@ -27,6 +27,7 @@ struct Mission {
   double target_tolerance_m = 0.20;
   double time_limit_s = 0.0;            // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
+  double settle_s = 0.0;                // with stop_when_complete: how long to go on after completion
   std::vector<std::pair<std::string, double>> parameters;  // overrides, keys of parameter_table()
 };
 
