@@ -86,12 +86,23 @@ struct Wall { Vec2 from; Vec2 to; };    // a segment without thickness
 using Obstacle = std::variant<Disc, Box, Wall>;
 
 struct Event {
-  enum class Kind : std::uint8_t { die, freeze, set_loss, move_target, add_target };
+  enum class Kind : std::uint8_t { die, freeze, set_loss, move_target, add_target, kill, blackout, remove_target };
+  // What time_s counts from: the start, the moment at which the workers' remaining distances have
+  // fallen to half of what they were at the start, or the first at which all targets are held at
+  // once (docs/model.md). An event whose moment never comes never happens.
+  enum class When : std::uint8_t { time, half_way, complete };
+  // Whom a kill is drawn from: the living who broadcast the role when it acts.
+  enum class Of : std::uint8_t { robots, connectors, root, worker, worker_and_parent };
   double time_s = 0.0;
   Kind kind = Kind::die;
-  std::size_t index = 0;                // robot (die, freeze) or target (move_target)
-  double value = 0.0;                   // loss (set_loss); seconds of freezing (freeze, 0: for good)
+  std::size_t index = 0;                // robot (die, freeze) or target (move_target, remove_target)
+  double value = 0.0;                   // loss (set_loss); seconds (freeze, 0: for good; blackout); m/s (move_target, 0: it jumps)
   Vec2 position{};                      // move_target, add_target
+  When when = When::time;
+  Of of = Of::robots;                   // kill, and the rest of this struct
+  std::optional<double> share{};        // of those it is drawn from when it begins, rounded; not beside count
+  std::optional<std::size_t> count{};   // how many; neither: one
+  double every_s = 0.0;                 // one by one, so far apart; 0: all at once
 };
 
 struct Scenario {
