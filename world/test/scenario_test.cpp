@@ -318,23 +318,28 @@ TEST(Names, TheNearestIsSuggestedAndNonsenseIsNot) {
   EXPECT_EQ(listed(known), "outwards, inwards or convoy");
 }
 
+bool possible(const Scenario& s) {
+  const auto list = faults(s);
+  return std::all_of(list.begin(), list.end(), [](const Fault& f) { return f.warning; });
+}
+
 TEST(Scenario, WhoeverServedATargetThatIsGivenUpIsFreeForAnother) {
   Scenario s;
   s.swarm.robots = 4;  // three workers and the root
-  s.events = {event(Kind::remove_target, 0, 1.0), event(Kind::add_target, 0, 2.0)};
-  EXPECT_TRUE(faults(s).empty());
+  s.events = {event(Event::Kind::remove_target, 0, 1.0), event(Event::Kind::add_target, 0, 2.0)};
+  EXPECT_TRUE(possible(s));
   s.events[0].time_s = 3.0;  // too late
-  EXPECT_FALSE(faults(s).empty());
+  EXPECT_FALSE(possible(s));
 }
 
 TEST(Scenario, ATargetThatIsAddedAtSomeMomentMayBeNamed) {
   Scenario s;
   s.swarm.robots = 9;
-  s.events = {event(Kind::add_target, 0, 0.0), event(Kind::move_target, 3, 1.0)};
+  s.events = {event(Event::Kind::add_target, 0, 0.0), event(Event::Kind::move_target, 3, 1.0)};
   s.events[0].when = Event::When::half_way;
-  EXPECT_TRUE(faults(s).empty());
+  EXPECT_TRUE(possible(s));
   s.events[1].index = 4;
-  EXPECT_FALSE(faults(s).empty());
+  EXPECT_FALSE(possible(s));
 }
 
 }  // namespace
