@@ -39,6 +39,10 @@ class Convoy final : public Policy {
   [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
 
   [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
+  // Only when the edge is about to hold the workers back.
+  [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
+    return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.call_distance * robot.params.communication_range_m;
+  }
   [[nodiscard]] bool may_insert(const Robot& robot, int owner, int parent) const noexcept override;
   void tend_tree(Robot& robot) const noexcept override { take_shortcuts(robot); }
   [[nodiscard]] Vec2 tree_motion(const Robot& robot) const noexcept override { return towed_motion(robot); }
@@ -79,8 +83,9 @@ bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcep
   const Neighborhood& table = robot.table();
   const float reach_m = p.ideal_distance_m - p.join_margin * p.communication_range_m;
   const float clearance_m = p.clearance * p.communication_range_m;
-  return table.range(owner) < reach_m && table.range(parent) < reach_m && sees_clearly(robot, owner, clearance_m) &&
-         sees_clearly(robot, parent, clearance_m);
+  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m) return false;
+  const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
+  return in_the_way || (sees_clearly(robot, owner, clearance_m) && sees_clearly(robot, parent, clearance_m));
 }
 
 constexpr Convoy instance;

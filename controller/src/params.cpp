@@ -35,6 +35,7 @@ constexpr ParameterInfo table[] = {
     {"corridor_gain", "", "", "convoy: strength of moving out of a corridor", "convoy 6", 0.0F, 10.0F, &Params::corridor_gain},
     {"join_margin", "", "C", "convoy: a spare joins an edge if both ends are nearer than delta minus this", "convoy 4", 0.0F, 1.0F, &Params::join_margin},
     {"shortest_split", "", "C", "convoy: edges shorter than this are not split", "convoy 4", 0.0F, 1.0F, &Params::shortest_split},
+    {"call_distance", "", "C", "convoy: a longer edge whose need nobody answers calls spares from afar", "convoy 7", 0.0F, 1.0F, &Params::call_distance},
     {"release_distance", "", "C", "convoy: a grandparent nearer than this becomes the parent", "convoy 5", 0.0F, 1.0F, &Params::release_distance},
     {"spare_avoidance", "", "C", "convoy: spares repel within this", "convoy 2", 0.0F, 1.0F, &Params::spare_avoidance},
     {"merge_distance", "", "C", "convoy: longest edge made to save a robot once all below have arrived", "convoy 9", 0.0F, 1.0F, &Params::merge_distance},

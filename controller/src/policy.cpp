@@ -9,6 +9,8 @@ namespace banyan {
 
 bool Policy::needs_spare(const Robot& robot) const noexcept { return is_stretched(robot) || child_in_need(robot); }
 
+bool Policy::may_call(const Robot&) const noexcept { return true; }
+
 bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcept {
   const Neighborhood& table = robot.table();
   return norm((table.position(owner) + table.position(parent)) * 0.5F) <= robot.params.insertion_distance_m;

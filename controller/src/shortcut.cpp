@@ -30,6 +30,20 @@ void release(Robot& robot) noexcept {
   if (is_hold(robot, k, robot.params.release_distance * robot.params.communication_range_m)) take_parent(robot, k);
 }
 
+// An edge that would need a spare: a robot of the tree may stand nearer.
+void take_nearer(Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  float best_m = p.release_distance * p.communication_range_m;
+  for (int k = 0; k < table.size(); ++k) {
+    if (k == robot.parent || table.range(k) >= best_m || table.message(k).role == Role::worker || !is_hold(robot, k, best_m)) continue;
+    best = k;
+    best_m = table.range(k);
+  }
+  if (best >= 0) take_parent(robot, best);
+}
+
 // Rule 6: my parent is hidden. The visible robot with a smaller label nearest to the old edge.
 void keep_in_sight(Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
@@ -58,6 +72,7 @@ void take_shortcuts(Robot& robot) noexcept {
     return;
   constexpr int hidden_ticks = 1;
   if (robot.table().age(robot.parent) > hidden_ticks) keep_in_sight(robot);
+  else if (robot.self.need == Need::need) take_nearer(robot);
   else release(robot);
 }
 

@@ -19,16 +19,18 @@ bool is_tree_neighbor(const Robot& robot, int k) noexcept {
   return m.parent == robot.self.id || m.old_parent == robot.self.id;
 }
 
-// Children that still have to go on tow: in proportion to how far the edge is stretched.
+// Children that still have to go on tow: in proportion to how far the edge is stretched. The root
+// stays with the spares as long as it can: they are needed where its edges grow.
 Vec2 tow(const Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
   const float c = p.communication_range_m;
+  const float start_m = robot.is_root() ? p.safe_range_m : p.pull_start * c;
   Vec2 u;
   const auto add = [&](int k) {
     const Message& m = table.message(k);
     if (m.role == Role::spare || m.want_cm == 0 || up_of(m) != robot.self.id) return;
-    u += unit(table.position(k)) * ramp(table.range(k), p.pull_start * c, p.pull_width * c);
+    u += unit(table.position(k)) * ramp(table.range(k), start_m, p.pull_width * c);
   };
   for (const int k : robot.children) add(k);
   for (const int k : robot.old_children) add(k);
@@ -53,6 +55,19 @@ Vec2 tension(const Robot& robot) noexcept {
     u += unit(robot.table().position(k)) * ramp(robot.table().range(k), p.tension_start * c, p.tension_width * c);
   });
   return u * p.tension_gain;
+}
+
+// Somewhere near an edge waits in vain for a spare: long edges take slack from short ones.
+Vec2 shared_slack(const Robot& robot) noexcept {
+  constexpr int reach_hops = 8;
+  const Params& p = robot.params;
+  if (robot.self.call_hops > reach_hops) return {};
+  const float start_m = p.pull_start * p.communication_range_m;
+  Vec2 u;
+  for_each_edge(robot, [&](int k) {
+    u += unit(robot.table().position(k)) * ramp(robot.table().range(k), start_m, p.ideal_distance_m - start_m);
+  });
+  return u * p.slack_gain;
 }
 
 // Repulsion, from spares only when they are nearer still: they make room themselves.
@@ -86,7 +101,7 @@ Vec2 make_way(const Robot& robot, float width_m) noexcept {
     if (d >= width_m) continue;
     const Vec2 along = unit(b - a);
     const Vec2 side = d > 1e-3F ? -near / d : Vec2{-along.y, along.x};
-    u += side * (1.0F - d / width_m);
+    u += side * std::min(width_m / std::max(d, 1e-3F) - 1.0F, 20.0F);
   }
   return u * p.corridor_gain;
 }
@@ -105,7 +120,7 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   if (robot.self.is_worker) return robot.self.pull + elbow_room(robot);
-  return clamped(robot.is_root() ? Vec2{} : tow(robot), 1.0F) + tension(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m);
+  return clamped(tow(robot), 1.0F) + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m);
 }
 
 Vec2 waiting_motion(const Robot& robot) noexcept {

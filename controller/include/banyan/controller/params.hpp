@@ -19,16 +19,17 @@ enum class Drive : std::uint8_t { differential, holonomic };
 struct ConvoyParams {
   float pull_start = 0.675F;        // a child farther than this pulls its parent along
   float pull_width = 0.15F;         // and with full strength so much farther
-  float tension_gain = 0.2F;        // edges are taut strings: straight chains, junctions of 120 degrees
+  float tension_gain = 0.4F;        // edges are taut strings: straight chains, junctions of 120 degrees
   float tension_start = 0.15F;
   float tension_width = 0.15F;
-  float slack_gain = 0.5F;          // edges of a chain share their slack
+  float slack_gain = 2.0F;          // edges of a chain share their slack
   float first_edge = 0.35F;         // the longest edge that is chosen while there is a choice
   float clearance = 0.08F;          // a robot nearer than this to a segment blocks it, or soon may
-  float corridor_width = 0.5F;     // robots within it move out of a tree edge's line of sight
-  float corridor_gain = 4.0F;
+  float corridor_width = 0.35F;     // robots within it move out of a tree edge's line of sight
+  float corridor_gain = 0.5F;
   float join_margin = 0.05F;        // a spare joins an edge whose ends are nearer than delta minus this
   float shortest_split = 0.4F;      // shorter edges get no spare
+  float call_distance = 0.9F;     // a longer edge in need calls spares from afar
   float release_distance = 0.75F;   // a grandparent nearer than this becomes the parent
   float spare_avoidance = 0.14F;    // repulsion from spares begins here
   float merge_distance = 0.9F;      // longest edge made to save a robot, once all below have arrived

@@ -38,6 +38,8 @@ class Policy {
 
   // The edge to my parent, or one below it, wants a spare (paper Fig. 5).
   [[nodiscard]] virtual bool needs_spare(const Robot& robot) const noexcept;
+  // An edge whose need nobody answers calls spares from afar (protocol 7).
+  [[nodiscard]] virtual bool may_call(const Robot& robot) const noexcept;
   // A spare whose edge is granted joins it from where it is: `owner` and `parent` are the edge's ends.
   [[nodiscard]] virtual bool may_insert(const Robot& robot, int owner, int parent) const noexcept;
   // Changes of the tree between reconstructions, once a tick after SELECT PARENT's work. None.
