@@ -110,6 +110,9 @@ void World::Impl::die(std::size_t i) {
   alive[i] = 0;
   ++deaths;
   last_death = tick;
+  if (scenario.robot.dead_bodies) return;
+  bodies->remove(i);
+  radio.forget(static_cast<std::uint32_t>(i));
 }
 
 // How many is settled when the event begins, who is drawn anew each time.

@@ -173,6 +173,13 @@ void check_robot(Report& report, const RobotModel& robot) {
   report.number_in("robot.max_force_n", robot.max_force_n, positive(1e6));
   report.number_in("robot.max_torque_nm", robot.max_torque_nm, positive(1e6));
   report.number_in("robot.max_acceleration_m_s2", robot.max_acceleration_m_s2, positive(1e4));
+  report.number_in("robot.proximity_m", robot.proximity_m, up_to(100.0));
+}
+
+void check_clocks(Report& report, const Clocks& clocks) {
+  report.number_in("clocks.drift", clocks.drift, up_to(0.5));
+  report.number_in("clocks.substeps", clocks.substeps, {2.0, 100.0});
+  if (!clocks.asynchronous && clocks.drift != 0.0) report.warn("clocks.drift", "has no effect without clocks.asynchronous");
 }
 
 void check_radio(Report& report, const RadioModel& radio) {
@@ -249,6 +256,7 @@ void check_numbers(Report& report, const Scenario& scenario) {
   check_swarm(report, scenario.swarm);
   check_robot(report, scenario.robot);
   check_radio(report, scenario.radio);
+  check_clocks(report, scenario.clocks);
   std::visit(CheckTargets{report}, scenario.targets);
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     std::visit(CheckObstacle{report, element("obstacles", i)}, scenario.obstacles[i]);

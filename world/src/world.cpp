@@ -63,6 +63,7 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
       poses(place(s)),
       bodies(make_bodies(s, poses)),
       radio(s, poses.position.size()),
+      proximity(s),
       agenda(s.events) {
   if (own != nullptr) adopt(*own);
   const std::size_t n = poses.position.size();
@@ -99,7 +100,7 @@ void World::Impl::adopt(const Policy& own) {
 
 World::Impl::Impl(const Impl& o)
     : scenario(o.scenario), policy(o.policy), params(o.params), loss(o.loss), tick(o.tick), poses(o.poses),
-      bodies(o.bodies->clone()), radio(o.radio), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
+      bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
       target_of(o.target_of), states(make_room(o.states.size())), messages(o.messages), next_messages(o.next_messages), commands(o.commands),
       moving(o.moving), odometry(o.odometry), agenda(o.agenda), silent_until(o.silent_until), deaths(o.deaths),
       last_death(o.last_death), flights(o.flights), arriving(o.arriving),
@@ -125,6 +126,7 @@ void World::Impl::act() {
 
 void World::Impl::broadcast(Executor& executor) {
   radio.update(poses.position, alive, executor);
+  proximity.update(poses.position, alive, deaths);
   const auto living = static_cast<std::uint64_t>(std::count(alive.begin(), alive.end(), 1));
   if (tick > 0) sent += living;
 }
@@ -167,20 +169,27 @@ void World::Impl::think(Executor& executor) {
       for (const Packet& packet : packets) inbox.heard.push_back({content + packet.sender, packet.position});
       received_by[static_cast<std::size_t>(worker)] += packets.size();
 
-      // A controller that has resigned, or has taken over another's target, gets none from outside.
-      banyan::Vec2 target{};
-      const bool sees_target = target_of[i] >= 0 && states[i].is_worker && states[i].serves == static_cast<RobotId>(i);
-      if (sees_target) {
-        const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
-        target = {static_cast<float>(d.x), static_cast<float>(d.y)};
-      }
-      const Output output = banyan::step(params, *policy, states[i], inbox.heard, odometry[i], sees_target ? &target : nullptr);
+      const Output output = consult(i, inbox.heard, odometry[i]);
       next_messages[i] = output.message;
       commands[i] = output.velocity;
     }
   });
   std::swap(messages, next_messages);
   for (const std::uint64_t r : received_by) received += r;
+}
+
+// One step of robot i's controller, with what its own sensors give it.
+Output World::Impl::consult(std::size_t i, std::span<const Heard> heard, const Odometry& moved) noexcept {
+  // A controller that has resigned, or has taken over another's target, gets none from outside.
+  banyan::Vec2 target{};
+  const bool sees_target = target_of[i] >= 0 && states[i].is_worker && states[i].serves == static_cast<RobotId>(i);
+  if (sees_target) {
+    const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
+    target = {static_cast<float>(d.x), static_cast<float>(d.y)};
+  }
+  Proximity::Seen seen;
+  const std::size_t obstacles = proximity.sense(poses, i, seen);
+  return banyan::step(params, *policy, states[i], heard, moved, sees_target ? &target : nullptr, {seen.data(), obstacles});
 }
 
 // Robot i is next: asks for the memory its step will touch while the one before it computes. States

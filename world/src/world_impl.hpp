@@ -14,6 +14,7 @@
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/radio.hpp"
 #include "banyan/world/world.hpp"
+#include "proximity.hpp"
 
 namespace banyan::world {
 
@@ -64,6 +65,7 @@ struct World::Impl {
   std::size_t receive(std::size_t i, std::span<Packet> packets) const noexcept;
   std::size_t keep_slots(std::size_t i, std::span<Packet> packets, std::size_t count) const noexcept;
   [[nodiscard]] banyan::Vec2 measure(std::size_t i, std::uint32_t sender) const noexcept;
+  Output consult(std::size_t i, std::span<const Heard> heard, const Odometry& moved) noexcept;
   void adopt(const Policy& own);
 
   // Events (events.cpp)
@@ -98,6 +100,7 @@ struct World::Impl {
   Poses poses;
   std::unique_ptr<Bodies> bodies;
   Radio radio;
+  Proximity proximity;
   std::vector<Target> targets;
   std::vector<Course> courses;                 // one per target
   std::vector<std::uint8_t> alive;

@@ -63,6 +63,8 @@ struct RobotModel {
   double max_force_n = 1.5;             // box2d
   double max_torque_nm = 1.5;           // box2d
   double max_acceleration_m_s2 = 1.0;   // linear: |u| <= this (paper II-A)
+  bool dead_bodies = true;              // the dead stay and block motion and sight; false: they vanish
+  double proximity_m = 0.30;            // reach of the proximity sensor from the robot's centre; 0: none
 };
 
 struct RadioModel {
@@ -105,6 +107,14 @@ struct Event {
   double every_s = 0.0;                 // one by one, so far apart; 0: all at once
 };
 
+// Without it all robots step at the begin of every tick. With it each has its own phase, uniform in
+// its period, and its own rate; bodies move and packets fly in `substeps` steps per tick.
+struct Clocks {
+  bool asynchronous = false;
+  double drift = 0.0;                   // a clock's rate is 1 + uniform(-drift, drift), drawn once
+  int substeps = 5;
+};
+
 struct Scenario {
   std::string name;
   std::string description;
@@ -114,6 +124,7 @@ struct Scenario {
   Swarm swarm;
   RobotModel robot;
   RadioModel radio;
+  Clocks clocks;
   Targets targets = RingTargets{};
   std::vector<Obstacle> obstacles;
   std::vector<Event> events;            // any order; equal times act in file order
