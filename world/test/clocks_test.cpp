@@ -88,7 +88,8 @@ TEST(Clocks, WhatWaitsIsCarriedAlong) {
       for (int k = 1; k < table.size(); ++k) {
         if (table.age(k) > 0 || table.age(k - 1) > 0) continue;
         const double believed = static_cast<double>(distance(table.position(k), table.position(k - 1)));
-        worst = std::max(worst, std::abs(believed - distance(world.positions()[table.id(k)], world.positions()[table.id(k - 1)])));
+        worst = std::max(
+            worst, std::abs(believed - distance(world.positions()[table.id(k)], world.positions()[table.id(k - 1)])));
       }
     }
   }
