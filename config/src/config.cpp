@@ -404,6 +404,12 @@ class Reader {
     if (read_whole(node, path, key.range, key.unit, value)) access(owner) = static_cast<std::size_t>(value);
   }
   template <class Owner>
+  void read_as(const Node& node, const std::string& path, const Key<Owner>& key,
+               std::optional<double>& (*access)(Owner&), Owner& owner) {
+    double value = 0.0;
+    if (read_number(node, path, key.range, key.unit, value)) access(owner) = value;
+  }
+  template <class Owner>
   void read_as(const Node& node, const std::string& path, const Key<Owner>& key, std::string& (*access)(Owner&),
                Owner& owner) {
     // A bare number or truth value after `--set name=` is meant as text.
@@ -569,6 +575,9 @@ template <class Owner> struct ToJson {
   Json operator()(std::uint32_t& (*access)(Owner&)) const { return access(owner); }
   Json operator()(std::size_t& (*access)(Owner&)) const { return access(owner); }
   Json operator()(std::optional<std::size_t>& (*access)(Owner&)) const {
+    return access(owner) ? Json(*access(owner)) : Json();
+  }
+  Json operator()(std::optional<double>& (*access)(Owner&)) const {
     return access(owner) ? Json(*access(owner)) : Json();
   }
   Json operator()(std::string& (*access)(Owner&)) const { return access(owner); }

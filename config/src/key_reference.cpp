@@ -18,6 +18,7 @@ template <class Owner> struct TypeName {
   std::string operator()(std::uint32_t& (*)(Owner&)) const { return "whole number"; }
   std::string operator()(std::size_t& (*)(Owner&)) const { return "whole number"; }
   std::string operator()(std::optional<std::size_t>& (*)(Owner&)) const { return "whole number"; }
+  std::string operator()(std::optional<double>& (*)(Owner&)) const { return "number"; }
   std::string operator()(std::string& (*)(Owner&)) const { return "text"; }
   std::string operator()(world::Vec2& (*)(Owner&)) const { return "[x, y]"; }
   std::string operator()(std::vector<world::Vec2>& (*)(Owner&)) const { return "[[x, y], ...]"; }

@@ -18,7 +18,10 @@ constexpr std::string_view layout_names[] = {"hexagonal", "grid", "list"};
 constexpr std::string_view body_names[] = {"disks", "box2d", "linear"};
 constexpr std::string_view target_layout_names[] = {"list", "ring", "random"};
 constexpr std::string_view obstacle_names[] = {"disc", "box", "wall"};
-constexpr std::string_view event_names[] = {"die", "freeze", "set_loss", "move_target", "add_target"};
+constexpr std::string_view event_names[] = {"die",        "freeze", "set_loss", "move_target",
+                                            "add_target", "kill",   "blackout", "remove_target"};
+constexpr std::string_view when_names[] = {"time", "half-way", "complete"};
+constexpr std::string_view of_names[] = {"robots", "connectors", "root", "worker", "worker_and_parent"};
 constexpr std::string_view reading_names[] = {"corrected", "literal"};
 
 Names algorithm_names() {
@@ -53,12 +56,14 @@ constexpr Section section_list[] = {
     {"swarm.start", "Where the robots begin: a compact connected cluster.", "layout"},
     {"robot", "One robot's body and wheels. The defaults are a Khepera IV."},
     {"radio", "Who hears whom, and how well."},
+    {"clocks", "When robots step: all together, or each by its own clock."},
     {"targets", "Where the workers have to go.", "layout"},
     {"obstacles",
      "An obstacle each: `[[obstacles]]` as often as needed. They block motion and, with "
-     "`radio.line_of_sight`, the radio. Robots have no sensor for them: they slide along.",
+     "`radio.line_of_sight`, the radio. Robots see them only within `robot.proximity_m`.",
      "kind"},
-    {"events", "What happens to the world at a given time: `[[events]]` as often as needed.", "kind"},
+    {"events", "What happens to the world at a given time or moment of the mission: `[[events]]` as often as needed.",
+     "kind"},
     {"output", "What `banyan run` keeps. It never changes what happens."},
 };
 
@@ -128,6 +133,12 @@ constexpr Key<Form> scenario_list[] = {
      {},
      "end the run as soon as all targets are reached at once",
      [](Form& f) -> bool& { return f.configuration.scenario.mission.stop_when_complete; }},
+    {"mission",
+     "settle_s",
+     "s",
+     {0.0, 1e7},
+     "with stop_when_complete: go on this long after completion, so that the tree can settle",
+     [](Form& f) -> double& { return f.configuration.scenario.mission.settle_s; }},
 
     {"swarm",
      "robots",
@@ -243,6 +254,18 @@ constexpr Key<Form> scenario_list[] = {
      {0.0, 1e4, true},
      "bound on the acceleration |u| (body linear)",
      [](Form& f) -> double& { return f.configuration.scenario.robot.max_acceleration_m_s2; }},
+    {"robot",
+     "dead_bodies",
+     "",
+     {},
+     "the dead stay where they are and block motion and sight; false: they vanish",
+     [](Form& f) -> bool& { return f.configuration.scenario.robot.dead_bodies; }},
+    {"robot",
+     "proximity_m",
+     "m",
+     {0.0, 100.0},
+     "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none",
+     [](Form& f) -> double& { return f.configuration.scenario.robot.proximity_m; }},
 
     {"radio",
      "range_m",
@@ -282,6 +305,25 @@ constexpr Key<Form> scenario_list[] = {
      {0.0, 65535.0},
      "packets a robot can receive in one tick; 0: no limit",
      [](Form& f) -> int& { return f.configuration.scenario.radio.slots; }},
+
+    {"clocks",
+     "asynchronous",
+     "",
+     {},
+     "each robot steps at its own moments, not all of them at the begin of every tick",
+     [](Form& f) -> bool& { return f.configuration.scenario.clocks.asynchronous; }},
+    {"clocks",
+     "drift",
+     "",
+     {0.0, 0.5},
+     "each clock's rate is 1 + uniform(-drift, drift), drawn once",
+     [](Form& f) -> double& { return f.configuration.scenario.clocks.drift; }},
+    {"clocks",
+     "substeps",
+     "",
+     {2.0, 100.0},
+     "parts of a tick after each of which bodies move and packets fly (asynchronous)",
+     [](Form& f) -> int& { return f.configuration.scenario.clocks.substeps; }},
 
     {"targets",
      "layout",
@@ -366,7 +408,25 @@ constexpr Key<ObstacleForm> obstacle_list[] = {
 };
 
 constexpr Key<EventForm> event_list[] = {
-    {"events", "time_s", "s", {0.0, 1e7}, "when", [](EventForm& e) -> double& { return e.time_s; }, "", true},
+    {"events",
+     "time_s",
+     "s",
+     {0.0, 1e7},
+     "when: so long after what `when` says",
+     [](EventForm& e) -> double& { return e.time_s; },
+     "",
+     true},
+    {"events",
+     "when",
+     "",
+     {},
+     "what time_s counts from: time, the start; half-way, the workers' remaining distances have fallen to half; "
+     "complete, all targets are held at once for the first time. An event whose moment never comes never happens",
+     ChoiceAccess<EventForm>{[]() -> Names { return when_names; }, [](const EventForm& e) { return e.when; },
+                             [](EventForm& e, std::size_t i) { e.when = i; }},
+     "",
+     false,
+     "time"},
     {"events",
      "kind",
      "",
@@ -388,9 +448,9 @@ constexpr Key<EventForm> event_list[] = {
      "duration_s",
      "s",
      {0.0, 1e7},
-     "how long it stands still; 0: for good",
+     "how long it stands still (freeze; 0: for good) or nobody hears anything (blackout)",
      [](EventForm& e) -> double& { return e.duration_s; },
-     "freeze"},
+     "freeze blackout"},
     {"events", "loss", "", share, "the new radio.loss", [](EventForm& e) -> double& { return e.loss; }, "set_loss",
      true},
     {"events",
@@ -399,10 +459,50 @@ constexpr Key<EventForm> event_list[] = {
      {0.0, 1e5},
      "index of the target, counted from 0",
      [](EventForm& e) -> std::size_t& { return e.target; },
-     "move_target",
+     "move_target remove_target",
      true},
-    {"events", "position_m", "m", anywhere, "where the target is from then on",
+    {"events", "position_m", "m", anywhere, "where the target is from then on, or drives to",
      [](EventForm& e) -> Vec2& { return e.position; }, "move_target add_target", true},
+    {"events",
+     "speed_m_s",
+     "m/s",
+     {0.0, 100.0},
+     "the target drives there in a straight line; 0: it jumps",
+     [](EventForm& e) -> double& { return e.speed_m_s; },
+     "move_target",
+     false,
+     "0"},
+    {"events",
+     "of",
+     "",
+     {},
+     "whom the dead are drawn from: the living, by the role they broadcast when it acts; worker_and_parent: a worker "
+     "and its parent in the tree",
+     ChoiceAccess<EventForm>{[]() -> Names { return of_names; }, [](const EventForm& e) { return e.of; },
+                             [](EventForm& e, std::size_t i) { e.of = i; }},
+     "kill",
+     false,
+     "robots"},
+    {"events", "share", "", share, "how many die: so much of those they are drawn from when it begins, rounded",
+     [](EventForm& e) -> std::optional<double>& { return e.share; }, "kill", false, "count counts"},
+    {"events",
+     "count",
+     "",
+     {1.0, most_robots},
+     "how many die; not beside share",
+     [](EventForm& e) -> std::optional<std::size_t>& { return e.count; },
+     "kill",
+     false,
+     "1"},
+    {"events",
+     "every_s",
+     "s",
+     {0.0, 1e7},
+     "they die one by one, so far apart; 0: all at once",
+     [](EventForm& e) -> double& { return e.every_s; },
+     "kill",
+     false,
+     "0"},
 };
 
 // clang-format on
@@ -430,22 +530,37 @@ world::Obstacle to_obstacle(const ObstacleForm& o) {
 
 EventForm to_event_form(const world::Event& e) {
   using Kind = world::Event::Kind;
-  EventForm form{.kind = static_cast<std::size_t>(e.kind), .time_s = e.time_s, .position = e.position};
+  EventForm form{.kind = static_cast<std::size_t>(e.kind),
+                 .time_s = e.time_s,
+                 .position = e.position,
+                 .when = static_cast<std::size_t>(e.when),
+                 .of = static_cast<std::size_t>(e.of),
+                 .share = e.share,
+                 .count = e.count,
+                 .every_s = e.every_s};
   if (e.kind == Kind::die || e.kind == Kind::freeze) form.robot = e.index;
-  if (e.kind == Kind::move_target) form.target = e.index;
-  if (e.kind == Kind::freeze) form.duration_s = e.value;
+  if (e.kind == Kind::move_target || e.kind == Kind::remove_target) form.target = e.index;
+  if (e.kind == Kind::freeze || e.kind == Kind::blackout) form.duration_s = e.value;
   if (e.kind == Kind::set_loss) form.loss = e.value;
+  if (e.kind == Kind::move_target) form.speed_m_s = e.value;
   return form;
 }
 
 world::Event to_event(const EventForm& form) {
   using Kind = world::Event::Kind;
-  world::Event e{.time_s = form.time_s, .kind = static_cast<Kind>(form.kind)};
+  world::Event e{
+      .time_s = form.time_s, .kind = static_cast<Kind>(form.kind), .when = static_cast<world::Event::When>(form.when)};
   if (e.kind == Kind::die || e.kind == Kind::freeze) e.index = form.robot;
-  if (e.kind == Kind::move_target) e.index = form.target;
-  if (e.kind == Kind::freeze) e.value = form.duration_s;
+  if (e.kind == Kind::move_target || e.kind == Kind::remove_target) e.index = form.target;
+  if (e.kind == Kind::freeze || e.kind == Kind::blackout) e.value = form.duration_s;
   if (e.kind == Kind::set_loss) e.value = form.loss;
+  if (e.kind == Kind::move_target) e.value = form.speed_m_s;
   if (e.kind == Kind::move_target || e.kind == Kind::add_target) e.position = form.position;
+  if (e.kind != Kind::kill) return e;
+  e.of = static_cast<world::Event::Of>(form.of);
+  e.share = form.share;
+  e.count = form.count;
+  e.every_s = form.every_s;
   return e;
 }
 

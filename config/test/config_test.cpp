@@ -212,6 +212,113 @@ TEST(Config, TargetsOutOfReachAreAWarningWithTheBound) {
   EXPECT_TRUE(says(loaded, "w.toml:3: warning: targets: out of reach: no connected network of fewer than 51 robots"));
 }
 
+TEST(Config, ReadsEventsOfEveryKind) {
+  const auto loaded = parse(small + R"([[events]]
+time_s = 5
+when = "half-way"
+kind = "kill"
+of = "connectors"
+share = 0.33
+[[events]]
+time_s = 6.0
+when = "complete"
+kind = "kill"
+of = "worker_and_parent"
+count = 2
+every_s = 10
+[[events]]
+time_s = 7
+kind = "blackout"
+duration_s = 1.5
+[[events]]
+time_s = 8
+kind = "remove_target"
+target = 1
+[[events]]
+time_s = 9
+kind = "move_target"
+target = 0
+position_m = [1, -1]
+speed_m_s = 0.05
+)");
+  ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
+  using Event = world::Event;
+  const auto& events = loaded.configuration.scenario.events;
+  ASSERT_EQ(events.size(), 5U);
+  EXPECT_EQ(events[0].kind, Event::Kind::kill);
+  EXPECT_EQ(events[0].when, Event::When::half_way);
+  EXPECT_EQ(events[0].of, Event::Of::connectors);
+  EXPECT_EQ(events[0].share, 0.33);
+  EXPECT_FALSE(events[0].count);
+  EXPECT_EQ(events[0].every_s, 0.0);
+  EXPECT_EQ(events[1].when, Event::When::complete);
+  EXPECT_EQ(events[1].of, Event::Of::worker_and_parent);
+  EXPECT_EQ(events[1].count, std::size_t{2});
+  EXPECT_EQ(events[1].every_s, 10.0);
+  EXPECT_FALSE(events[1].share);
+  EXPECT_EQ(events[2].kind, Event::Kind::blackout);
+  EXPECT_EQ(events[2].value, 1.5);
+  EXPECT_EQ(events[2].when, Event::When::time);
+  EXPECT_EQ(events[3].kind, Event::Kind::remove_target);
+  EXPECT_EQ(events[3].index, 1U);
+  EXPECT_EQ(events[4].value, 0.05);
+  EXPECT_EQ(events[4].position, (world::Vec2{1.0, -1.0}));
+}
+
+TEST(Config, FaultsOfEventsHaveTheirLine) {
+  const auto loaded = parse(small + R"([[events]]
+kind = "kill"
+time_s = 1
+share = 1.5
+[[events]]
+kind = "kill"
+time_s = 1
+count = 0
+of = "worker_and_parents"
+[[events]]
+kind = "die"
+time_s = 1
+robot = 1
+every_s = 2
+when = "halfway"
+[[events]]
+kind = "move_target"
+time_s = 1
+target = 0
+position_m = [1, 1]
+speed_m_s = -0.1
+)");
+  EXPECT_TRUE(says(loaded, "w.toml:7: error: events[0].share: is 1.5; allowed: 0 to 1"));
+  EXPECT_TRUE(says(loaded, "w.toml:11: error: events[1].count: is 0; allowed: 1 to 65535"));
+  EXPECT_TRUE(says(loaded, "w.toml:12: error: events[1].of: must be \"robots\", \"connectors\""));
+  EXPECT_TRUE(says(loaded, "did you mean \"worker_and_parent\"?"));
+  EXPECT_TRUE(
+      says(loaded, "w.toml:17: error: events[2].every_s: has no meaning with kind = \"die\", only with \"kill\""));
+  EXPECT_TRUE(says(loaded, "w.toml:18: error: events[2].when: must be \"time\", \"half-way\" or \"complete\""));
+  EXPECT_TRUE(says(loaded, "w.toml:24: error: events[3].speed_m_s: is -0.1; allowed: 0 to 100"));
+  EXPECT_EQ(loaded.errors(), 6U) << all_problems(loaded);
+}
+
+TEST(Config, EventsThatContradictThemselvesHaveTheirLine) {
+  const auto loaded = parse(small + R"([[events]]
+kind = "kill"
+time_s = 1
+share = 0.5
+count = 3
+[[events]]
+kind = "remove_target"
+time_s = 1
+target = 2
+[[events]]
+kind = "blackout"
+time_s = 1
+)");
+  EXPECT_TRUE(says(loaded, "w.toml:7: error: events[0].share: give share or count, not both"));
+  EXPECT_TRUE(says(loaded, "w.toml:13: error: events[2].duration_s: must be a number above 0"));
+  EXPECT_TRUE(says(parse(small + "[[events]]\nkind = \"remove_target\"\ntime_s = 1\ntarget = 2\n"),
+                   "w.toml:7: error: events[0].target: there is no target 2 at that time; the last one is 1"));
+}
+
 TEST(Config, TheSameKeyElsewhereIsNamed) {
   EXPECT_TRUE(says(parse(small + "[robot]\nrange_m = 3\n"),
                    "robot.range_m: there is no such key; did you mean radio.range_m?"));
@@ -309,6 +416,7 @@ template <class Owner> rc::Gen<json> value_of(const Key<Owner>& key) {
     rc::Gen<json> operator()(std::uint32_t& (*)(Owner&)) const { return whole; }
     rc::Gen<json> operator()(std::size_t& (*)(Owner&)) const { return whole; }
     rc::Gen<json> operator()(std::optional<std::size_t>& (*)(Owner&)) const { return whole; }
+    rc::Gen<json> operator()(std::optional<double>& (*)(Owner&)) const { return real; }
     rc::Gen<json> operator()(std::string& (*)(Owner&)) const {
       const auto text = rc::gen::nonEmpty(rc::gen::string<std::string>());
       if (key.name != "name") {

@@ -2,9 +2,14 @@
 #include "banyan/measure/observer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "banyan/measure/fiedler.hpp"
+#include "banyan/measure/recovery.hpp"
 #include "banyan/measure/steiner.hpp"
 
 namespace banyan::measure {
@@ -88,34 +93,70 @@ struct Observer::Impl {
   void measure_targets(const world::World& world);
   void time_phases(const world::World& world);
   void add_up();
+  void watch_recovery(const world::World& world);
+  [[nodiscard]] bool all_held() const noexcept {
+    return tick.active_targets > 0 && tick.targets_reached == tick.active_targets;
+  }
+  [[nodiscard]] bool finished() const noexcept;
+  [[nodiscard]] bool survivors_suffice(const world::World& world) const;
 
   Tick tick;
   Run run;
   double range_m;
   double tolerance_m;
   bool stop_when_complete;
+  double settle_s;
   std::uint64_t sample_ticks;
   LivingGraph graph;
   Spectrum with_occlusion, by_distance;
   std::uint64_t committed_sum = 0, low_ticks = 0, low_ticks_by_distance = 0;
   std::uint64_t start_ticks = 0, select_ticks = 0;
+  std::uint64_t two_roots_streak = 0, longest_two_roots = 0;
+  std::vector<double> nearest_worker;          // by target: squared distance
+  std::vector<world::Vec2> first_targets;      // those the bounds are about
+  Recovery recovery;
+  bool pending_kills;
 };
+
+namespace {
+
+std::vector<world::Vec2> active_positions(const world::World& world) {
+  std::vector<world::Vec2> positions;
+  for (const world::Target& target : world.targets())
+    if (target.active) positions.push_back(target.position);
+  return positions;
+}
+
+// Edges from the living robots of the tree to their living parents.
+double network_length_m(const world::World& world) {
+  double length_m = 0.0;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const Message& m = world.messages()[i];
+    if (world.alive()[i] == 0 || m.role == Role::spare || m.parent >= world.size()) continue;
+    if (world.alive()[m.parent] != 0) length_m += distance(world.positions()[i], world.positions()[m.parent]);
+  }
+  return length_m;
+}
+
+}  // namespace
 
 Observer::Impl::Impl(const world::World& world)
     : range_m(world.scenario().radio.range_m),
       tolerance_m(world.scenario().mission.target_tolerance_m),
       stop_when_complete(world.scenario().mission.stop_when_complete),
-      sample_ticks(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(sample_period_s / world.scenario().tick_s + 0.5))) {
+      settle_s(world.scenario().mission.settle_s),
+      sample_ticks(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(sample_period_s / world.scenario().tick_s + 0.5))),
+      first_targets(active_positions(world)),
+      recovery(world.scenario().tick_s),
+      pending_kills(world.pending_kills()) {
   run.robots = static_cast<std::uint32_t>(world.size());
   run.time_limit_s = world::time_limit_s(world.scenario());
-  std::vector<world::Vec2> targets;
   for (const world::Target& target : world.targets()) {
-    targets.push_back(target.position);
     const double distance_m = distance(world.positions()[target.worker], target.position);
     run.time_bound_s = std::max(run.time_bound_s, (distance_m - tolerance_m) / world.scenario().robot.wheel_limit_m_s);
   }
-  run.steiner_length_m = steiner_length(targets).lower_m;
-  run.robots_bound = robots_bound(targets, tolerance_m, range_m);
+  run.steiner_length_m = steiner_length(first_targets).lower_m;
+  run.robots_bound = robots_bound(first_targets, tolerance_m, range_m);
 }
 
 void Observer::Impl::count_robots(const world::World& world) {
@@ -176,19 +217,33 @@ void Observer::Impl::judge_graph(const world::World& world, bool exact_fiedler) 
   tick.fiedler_low_by_distance = by_distance.low;
 }
 
+// One pass over the robots for all targets, where World::holder takes one for each.
 void Observer::Impl::measure_targets(const world::World& world) {
+  const auto targets = world.targets();
+  nearest_worker.assign(targets.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const Message& m = world.messages()[i];
+    if (m.role != Role::worker || world.alive()[i] == 0) continue;
+    for (std::size_t t = 0; t < targets.size(); ++t)
+      if (m.serves == targets[t].worker)
+        nearest_worker[t] = std::min(nearest_worker[t], squared_norm(world.positions()[i] - targets[t].position));
+  }
   tick.worst_target_distance_m = 0.0;
-  tick.targets_reached = 0;
-  for (const world::Target& target : world.targets()) {
-    const double distance_m = distance(world.positions()[target.worker], target.position);
-    tick.worst_target_distance_m = std::max(tick.worst_target_distance_m, distance_m);
-    if (world.alive()[target.worker] != 0 && distance_m <= tolerance_m) ++tick.targets_reached;
+  tick.targets_reached = tick.active_targets = 0;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].active) continue;
+    ++tick.active_targets;
+    const double distance_m = std::sqrt(nearest_worker[t]);
+    if (distance_m <= tolerance_m) ++tick.targets_reached;
+    const double first_m = distance(world.positions()[targets[t].worker], targets[t].position);
+    const double counted_m = std::isfinite(distance_m) ? distance_m : first_m;
+    tick.worst_target_distance_m = std::max(tick.worst_target_distance_m, counted_m);
   }
-  if (!run.complete && tick.targets_reached == world.targets().size()) {
-    run.complete = true;
-    run.completion_time_s = tick.time_s;
-    run.normalized_time = tick.time_s / run.time_limit_s;
-  }
+  // A run that heals on after its limit is no longer in time.
+  if (run.complete || !all_held() || tick.time_s > run.time_limit_s + 1e-9) return;
+  run.complete = true;
+  run.completion_time_s = tick.time_s;
+  run.normalized_time = tick.time_s / run.time_limit_s;
 }
 
 // Barrier lengths as the root lives them; the newest token decides who that is.
@@ -219,6 +274,34 @@ void Observer::Impl::add_up() {
   run.split_ticks_by_distance += tick.components_by_distance > 1 ? 1 : 0;
   low_ticks += tick.fiedler_low ? 1 : 0;
   low_ticks_by_distance += tick.fiedler_low_by_distance ? 1 : 0;
+  two_roots_streak = tick.roots > 1 ? two_roots_streak + 1 : 0;
+  run.two_roots_ticks += tick.roots > 1 ? 1 : 0;
+  longest_two_roots = std::max(longest_two_roots, two_roots_streak);
+}
+
+void Observer::Impl::watch_recovery(const world::World& world) {
+  recovery.observe(world.deaths(), tick.components == 1 && tick.roots == 1 && all_held());
+  pending_kills = world.pending_kills();
+  run.deaths = static_cast<std::uint32_t>(world.deaths());
+  run.survivors = tick.alive;
+  if (const auto last = world.last_death_tick()) run.last_death_s = static_cast<double>(*last) * world.scenario().tick_s;
+  run.recovered = recovery.recovered();
+  run.recovery_time_s = recovery.time_s();
+}
+
+// Without deaths: complete, or the limit. With deaths, those of a complete run are all waited for,
+// since every moment of the mission has come; those of a run that is not complete at its limit may
+// wait for a moment that never comes.
+bool Observer::Impl::finished() const noexcept {
+  const bool limit_reached = run.time_s >= run.time_limit_s - 1e-9;
+  if (!stop_when_complete) return limit_reached;
+  if (!run.complete) return limit_reached && recovery.settled();
+  return run.time_s >= run.completion_time_s + settle_s - 1e-9 && !pending_kills && recovery.settled();
+}
+
+bool Observer::Impl::survivors_suffice(const world::World& world) const {
+  const std::vector<world::Vec2> targets = active_positions(world);
+  return run.survivors >= (targets == first_targets ? run.robots_bound : robots_bound(targets, tolerance_m, range_m));
 }
 
 Observer::Observer(const world::World& world) : impl_(std::make_unique<Impl>(world)) {}
@@ -235,16 +318,14 @@ const Tick& Observer::observe(const world::World& world, bool exact_fiedler) {
   impl_->measure_targets(world);
   impl_->time_phases(world);
   impl_->add_up();
+  impl_->watch_recovery(world);
   return impl_->tick;
 }
 
 const Tick& Observer::last() const noexcept { return impl_->tick; }
 const Run& Observer::run() const noexcept { return impl_->run; }
 
-bool Observer::finished() const noexcept {
-  const Run& run = impl_->run;
-  return (run.complete && impl_->stop_when_complete) || run.time_s >= run.time_limit_s - 1e-9;
-}
+bool Observer::finished() const noexcept { return impl_->finished(); }
 
 Run Observer::result(const world::World& world) const {
   Run run = impl_->run;
@@ -258,14 +339,21 @@ Run Observer::result(const world::World& world) const {
   const double epochs = std::max(1.0, static_cast<double>(run.epochs));
   run.start_phase_ticks = static_cast<double>(impl_->start_ticks) / epochs;
   run.select_phase_ticks = static_cast<double>(impl_->select_ticks) / epochs;
-  run.insertions = run.handovers = run.repairs = 0;
+  run.insertions = run.handovers = run.repairs = run.elections = run.replacements = 0;
   for (const State& s : world.states()) {
     run.insertions += s.tally.insertions;
     run.handovers += s.tally.handovers;
     run.repairs += s.tally.repairs;
+    run.elections += s.tally.elections;
+    run.replacements += s.tally.replacements;
   }
   if (run.time_s > 0.0)
     run.bytes_per_robot_s = static_cast<double>(world.packets_sent() * wire_size) / (static_cast<double>(world.size()) * run.time_s);
+  if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
+  run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
+  run.network_length_m = network_length_m(world);
+  run.longest_two_roots_s = static_cast<double>(impl_->longest_two_roots) * world.scenario().tick_s;
+  run.survivors_suffice = impl_->survivors_suffice(world);
   run.hash = world.hash();
   return run;
 }

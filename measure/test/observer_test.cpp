@@ -9,8 +9,10 @@
 #include <numeric>
 #include <vector>
 
+#include "banyan/controller/policies.hpp"
 #include "banyan/controller/trig.hpp"
 #include "banyan/measure/fiedler.hpp"
+#include "banyan/measure/recovery.hpp"
 #include "banyan/measure/steiner.hpp"
 
 namespace banyan::measure {
@@ -209,6 +211,224 @@ TEST(Observer, KnowsTheBounds) {
   EXPECT_EQ(observer.run().robots, 20U);
 }
 
+TEST(Observer, MeasuresTheNetworkThatIsLeft) {
+  Scenario s = chain(6, 1.1);
+  Event die;
+  die.time_s = 15.0;
+  die.index = 2;
+  s.events.push_back(die);
+  World world(s);
+  Observer observer(world);
+  after(world, observer, 150);
+  EXPECT_NEAR(observer.result(world).network_length_m, 5 * 1.1, 1e-9);
+  EXPECT_EQ(observer.result(world).committed_ratio, 6.0) << "one target: one robot would do";
+  after(world, observer, 1);
+  EXPECT_NEAR(observer.result(world).network_length_m, 3 * 1.1, 1e-9) << "neither its edge nor the edge to it";
+}
+
+TEST(Observer, RatiosAreToTheBounds) {
+  World world(ring(24, 3, 3.0));
+  Observer observer(world);
+  while (!observer.finished()) after(world, observer, 1);
+  const measure::Run run = observer.result(world);
+  ASSERT_TRUE(run.complete);
+  EXPECT_GE(run.time_ratio, 1.0);
+  EXPECT_NEAR(run.time_ratio * run.time_bound_s, run.completion_time_s, 1e-9);
+  EXPECT_NEAR(run.committed_ratio * run.robots_bound, run.committed, 1e-9);
+  World started(ring(24, 3, 3.0));
+  EXPECT_EQ(Observer(started).result(started).time_ratio, -1.0) << "not complete";
+  Scenario there = ring(12, 1, 0.1);
+  there.mission.time_limit_s = 10.0;
+  World at_home(there);
+  Observer soon(at_home);
+  after(at_home, soon, 1);
+  EXPECT_TRUE(soon.run().complete);
+  EXPECT_EQ(soon.result(at_home).time_ratio, -1.0) << "nothing to be a ratio of";
+}
+
+// outwards, but robot 2 calls itself root now and then, and counts what nobody does here.
+class Pretender final : public Policy {
+ public:
+  std::string_view name() const noexcept override { return "pretender"; }
+  std::string_view summary() const noexcept override { return "for this test"; }
+  Params defaults(Reading reading) const noexcept override { return outwards().defaults(reading); }
+  bool may_join(const Robot& robot) const noexcept override { return outwards().may_join(robot); }
+  bool accepts(const Robot& robot, int k) const noexcept override { return outwards().accepts(robot, k); }
+  bool prefers(const Robot& robot, int a, int b) const noexcept override { return outwards().prefers(robot, a, b); }
+  bool tree_complete(const Robot& robot) const noexcept override { return outwards().tree_complete(robot); }
+  bool leaves_branch(const Robot& robot) const noexcept override { return outwards().leaves_branch(robot); }
+  void tend_tree(Robot& robot) const noexcept override {
+    if (robot.self.id != 2 || robot.self.phase_ticks % 16 < 9) return;
+    robot.self.role = Role::root;
+    robot.self.tally.elections += 1;
+    robot.self.tally.replacements += 2;
+  }
+};
+
+TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
+  const Pretender pretender;
+  World world(chain(6, 1.1), pretender);
+  Observer observer(world);
+  std::uint64_t ticks = 0, streak = 0, longest = 0;
+  for (int t = 0; t < 150; ++t) {
+    const std::uint32_t roots = after(world, observer, 1).roots;
+    streak = roots > 1 ? streak + 1 : 0;
+    longest = std::max(longest, streak);
+    ticks += roots > 1 ? 1 : 0;
+  }
+  ASSERT_GT(ticks, longest) << "more than once";
+  ASSERT_GT(longest, 1U);
+  const measure::Run run = observer.result(world);
+  EXPECT_EQ(run.two_roots_ticks, ticks);
+  EXPECT_NEAR(run.longest_two_roots_s, 0.1 * static_cast<double>(longest), 1e-9);
+  EXPECT_EQ(run.elections, world.states()[2].tally.elections);
+  EXPECT_EQ(run.replacements, 2 * run.elections);
+  EXPECT_GT(run.elections, 0U);
+}
+
+TEST(Observer, SettlesAfterCompletionEvenBeyondTheLimit) {
+  Scenario s = ring(12, 2, 2.0);
+  World brief(s);
+  Observer first(brief);
+  while (!first.finished()) after(brief, first, 1);
+  const double complete_s = first.run().completion_time_s;
+  s.mission.settle_s = 5.0;
+  s.mission.time_limit_s = complete_s + 1.0;
+  World world(s);
+  Observer observer(world);
+  while (!observer.finished()) after(world, observer, 1);
+  EXPECT_NEAR(observer.run().completion_time_s, complete_s, 1e-9);
+  EXPECT_NEAR(observer.run().time_s, complete_s + 5.0, 1e-9);
+  EXPECT_EQ(observer.result(world).committed, observer.last().committed);
+  s.mission.time_limit_s = complete_s - 1.0;
+  World late(s);
+  Observer cut(late);
+  while (!cut.finished()) after(late, cut, 1);
+  EXPECT_FALSE(cut.run().complete);
+  EXPECT_NEAR(cut.run().time_s, complete_s - 1.0, 1e-9);
+}
+
+// ---- Deaths ----
+
+Event death(std::size_t robot, double time_s, Event::When when = Event::When::time) {
+  Event e;
+  e.index = robot;
+  e.time_s = time_s;
+  e.when = when;
+  return e;
+}
+
+// A robot of the given role at the end of a run, the last of them.
+std::size_t last_with(const World& world, Role role) {
+  std::size_t found = world.size();
+  for (std::size_t i = 0; i < world.size(); ++i)
+    if (world.messages()[i].role == role) found = i;
+  return found;
+}
+
+World completed(const Scenario& s) {
+  World world(s);
+  Observer observer(world);
+  while (!observer.finished()) after(world, observer, 1);
+  EXPECT_TRUE(observer.run().complete);
+  return world;
+}
+
+TEST(Observer, ASpareIsNotMissed) {
+  Scenario s = ring(20, 2, 2.0);
+  const World probe = completed(s);
+  const std::size_t spare = last_with(probe, Role::spare);
+  ASSERT_LT(spare, probe.size());
+  s.events = {death(spare, 3.0, Event::When::complete)};
+  World world(s);
+  Observer observer(world);
+  std::vector<bool> whole;  // at each look after the death
+  while (!observer.finished()) {
+    const Tick tick = after(world, observer, 1);
+    if (world.alive()[spare] == 0) whole.push_back(tick.components == 1 && tick.roots == 1 && world.holder(0) && world.holder(1));
+  }
+  const measure::Run run = observer.result(world);
+  EXPECT_NEAR(run.completion_time_s, probe.time_s(), 1e-9) << "what comes later does not change it";
+  EXPECT_EQ(run.deaths, 1U);
+  EXPECT_EQ(run.survivors, 19U);
+  EXPECT_NEAR(run.last_death_s, static_cast<double>(*world.last_death_tick()) * 0.1, 1e-9);
+  EXPECT_GT(run.last_death_s, run.completion_time_s + 2.9);
+  ASSERT_TRUE(run.recovered);
+  EXPECT_TRUE(run.survivors_suffice);
+  std::size_t first = 0;
+  while (first + 200 < whole.size() && !(whole[first] && whole[first + 200])) ++first;
+  EXPECT_NEAR(run.recovery_time_s, 0.1 * static_cast<double>(first), 1e-9);
+  EXPECT_EQ(whole.size(), first + 201) << "seen 20 s later, and not a tick longer";
+}
+
+TEST(Observer, AWorkerThatNobodyReplacesIsNeverRecoveredFrom) {
+  Scenario s = ring(14, 2, 1.0);
+  const World probe = completed(s);
+  s.events = {death(probe.targets()[1].worker, 0.0, Event::When::complete)};
+  World world(s);
+  Observer observer(world);
+  while (!observer.finished()) {
+    const Tick tick = after(world, observer, 1);
+    std::uint32_t held = 0;
+    for (std::size_t t = 0; t < 2; ++t) held += world.holder(t) ? 1 : 0;
+    EXPECT_EQ(tick.targets_reached, held);
+  }
+  const measure::Run run = observer.result(world);
+  EXPECT_TRUE(run.complete);
+  EXPECT_EQ(observer.last().targets_reached, 1U);
+  EXPECT_FALSE(run.recovered);
+  EXPECT_EQ(run.recovery_time_s, -1.0);
+  EXPECT_NEAR(run.time_s, run.last_death_s + 0.1 + recovery_limit_s + recovery_hold_s, 1e-9);
+  const Vec2 body = world.positions()[probe.targets()[1].worker];
+  EXPECT_GE(observer.last().worst_target_distance_m, distance(body, world.targets()[1].position) - 1e-12);
+}
+
+TEST(Observer, WhatWasLostBeforeTheLimitIsWaitedForButNotWhatMayNeverCome) {
+  Scenario s = chain(5, 1.0);
+  s.mission.time_limit_s = 30.0;
+  s.events.push_back(death(1, 0.0, Event::When::complete));
+  World never(s);
+  Observer idle(never);
+  while (!idle.finished()) after(never, idle, 1);
+  EXPECT_NEAR(idle.run().time_s, 30.0, 1e-9);
+  EXPECT_EQ(idle.run().deaths, 0U);
+  EXPECT_TRUE(never.pending_kills());
+  s.events.push_back(death(2, 10.0));
+  World world(s);
+  Observer observer(world);
+  while (!observer.finished()) after(world, observer, 1);
+  EXPECT_FALSE(observer.run().complete);
+  EXPECT_NEAR(observer.run().time_s, 10.1 + recovery_limit_s + recovery_hold_s, 1e-9);
+  s.mission.stop_when_complete = false;
+  World cut(s);
+  Observer limit(cut);
+  while (!limit.finished()) after(cut, limit, 1);
+  EXPECT_NEAR(limit.run().time_s, 30.0, 1e-9);
+}
+
+TEST(Observer, SurvivorsAreComparedWithWhatTheTargetsLeftNeed) {
+  Scenario s = chain(7, 1.0);
+  s.targets = std::vector<Vec2>{{-2.0, 0.0}, {8.0, 0.0}};  // (10 - 0.4) / 2 = 4.8: six robots
+  s.mission.target_tolerance_m = 0.2;
+  s.events.push_back(death(2, 1.0));
+  s.events.push_back(death(3, 2.0));
+  Event give_up;
+  give_up.time_s = 3.0;
+  give_up.kind = Event::Kind::remove_target;
+  give_up.index = 1;
+  s.events.push_back(give_up);
+  World world(s);
+  Observer observer(world);
+  EXPECT_EQ(observer.run().robots_bound, 6U);
+  after(world, observer, 15);
+  EXPECT_TRUE(observer.result(world).survivors_suffice) << "six of seven";
+  EXPECT_EQ(after(world, observer, 10).active_targets, 2U);
+  EXPECT_FALSE(observer.result(world).survivors_suffice) << "five";
+  EXPECT_EQ(after(world, observer, 10).active_targets, 1U);
+  EXPECT_TRUE(observer.result(world).survivors_suffice) << "one target needs one robot";
+  EXPECT_EQ(observer.result(world).robots_bound, 6U) << "the start's";
+}
+
 // Components by repeated merging, edges by plain loops: the same run counted by somebody else.
 class Recount {
  public:
@@ -241,6 +461,9 @@ class Recount {
     EXPECT_EQ(tick.components, components(world, false));
     EXPECT_EQ(tick.components_by_distance, components(world, true));
     EXPECT_EQ(tick.alive, tick.roots + tick.workers + tick.connectors + tick.spares);
+    std::uint32_t held = 0;
+    for (std::size_t t = 0; t < world.targets().size(); ++t) held += world.holder(t) ? 1 : 0;
+    EXPECT_EQ(tick.targets_reached, held);
     ++ticks;
     broken += far + hidden + dead > 0 ? 1 : 0;
     broken_far += far > 0 ? 1 : 0;

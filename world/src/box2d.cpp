@@ -78,7 +78,7 @@ class Box2d final : public Bodies {
  public:
   Box2d(const Scenario& scenario, std::size_t robots)
       : robot_{scenario.robot}, obstacles_{scenario.obstacles}, seed_{scenario.seed}, momentum_(robots), body_(robots),
-        path_(robots) {
+        path_(robots), gone_(robots, 0) {
     substeps_ = std::max(1, static_cast<int>(std::ceil(scenario.tick_s / longest_substep_s - 1e-9)));
     h_ = scenario.tick_s / substeps_;
     mass_.mass = static_cast<float>(robot_.mass_kg);
@@ -97,16 +97,22 @@ class Box2d final : public Bodies {
     const std::span<Path> path(path_);
     for (std::size_t i = 0; i < path.size(); ++i) path[i] = {wheel_twist(robot_, command[i], seed_, i, tick)};
     for (int s = 0; s < substeps_; ++s) {
-      for (std::size_t i = 0; i < path.size(); ++i) drive(*body_[i], path[i].wheels, poses.heading[i]);
+      for (std::size_t i = 0; i < path.size(); ++i)
+        if (gone_[i] == 0) drive(*body_[i], path[i].wheels, poses.heading[i]);
       world.Step(static_cast<float>(h_), velocity_iterations, position_iterations);
-      for (std::size_t i = 0; i < path.size(); ++i) roll(*body_[i], path[i], poses.heading[i]);
+      for (std::size_t i = 0; i < path.size(); ++i)
+        if (gone_[i] == 0) roll(*body_[i], path[i], poses.heading[i]);
     }
     for (std::size_t i = 0; i < path.size(); ++i) {
+      odometry[i] = {};
+      if (gone_[i] != 0) continue;
       poses.position[i] = from_box2d(body_[i]->GetPosition());
       momentum_[i] = {body_[i]->GetLinearVelocity(), body_[i]->GetAngularVelocity()};
       odometry[i] = measured_odometry(robot_, path[i].shift_m, path[i].turn_rad, seed_, i, tick);
     }
   }
+
+  void remove(std::size_t i) override { gone_[i] = 1; }
 
   [[nodiscard]] std::uint64_t hash(std::uint64_t h) const noexcept override {
     const auto add = [&h](float x) { h = mix(h ^ std::bit_cast<std::uint32_t>(x)); };
@@ -140,6 +146,7 @@ class Box2d final : public Bodies {
     fixture.density = 1.0F;
     fixture.friction = friction;
     for (std::size_t i = 0; i < body_.size(); ++i) {
+      if (gone_[i] != 0) continue;
       b2BodyDef def;
       def.type = b2_dynamicBody;
       def.position = to_box2d(poses.position[i]);
@@ -185,6 +192,7 @@ class Box2d final : public Bodies {
   std::vector<Momentum> momentum_;
   std::vector<b2Body*> body_;  // of the tick under way
   std::vector<Path> path_;
+  std::vector<std::uint8_t> gone_;   // 1: no body any more; follows from who is alive, so not in the hash
 };
 
 }  // namespace

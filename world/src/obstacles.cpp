@@ -79,6 +79,25 @@ double clearance_of(const Wall& wall, Vec2 p) noexcept {
   return distance(nearest_on_segment(wall.from, wall.to, p), p);
 }
 
+Vec2 surface_of(const Disc& disc, Vec2 p) noexcept {
+  const Vec2 away = unit(p - disc.center);
+  return disc.center + (away == Vec2{} ? Vec2{1.0, 0.0} : away) * disc.radius_m;
+}
+
+Vec2 surface_of(const Box& box, Vec2 p) noexcept {
+  const LocalBox local(box);
+  const Vec2 q = rotate_back(local.rotation, p - box.center);
+  Vec2 surface{std::clamp(q.x, -local.half.x, local.half.x), std::clamp(q.y, -local.half.y, local.half.y)};
+  if (surface == q) {  // inside: out through the nearest side
+    const bool sideways = local.half.x - std::abs(q.x) <= local.half.y - std::abs(q.y);
+    if (sideways) surface.x = q.x < 0.0 ? -local.half.x : local.half.x;
+    else surface.y = q.y < 0.0 ? -local.half.y : local.half.y;
+  }
+  return box.center + rotate(local.rotation, surface);
+}
+
+Vec2 surface_of(const Wall& wall, Vec2 p) noexcept { return nearest_on_segment(wall.from, wall.to, p); }
+
 // Away from `from` until `reach` is between them; along `fallback` if they coincide.
 Vec2 push_from(Vec2 from, Vec2 p, double reach, Vec2 fallback) noexcept {
   const Vec2 away = p - from;
@@ -123,6 +142,10 @@ bool blocks(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept {
 
 double clearance(const Obstacle& obstacle, Vec2 p) noexcept {
   return std::visit([&](const auto& o) { return clearance_of(o, p); }, obstacle);
+}
+
+Vec2 nearest_surface_point(const Obstacle& obstacle, Vec2 p) noexcept {
+  return std::visit([&](const auto& o) { return surface_of(o, p); }, obstacle);
 }
 
 Vec2 push_out(const Obstacle& obstacle, Vec2 p, double radius) noexcept {

@@ -20,6 +20,7 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       radius_m_(scenario.robot.radius_m),
       near_m_(2.0 * scenario.robot.radius_m + 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s + 0.01),
       line_of_sight_(scenario.radio.line_of_sight),
+      dead_vanish_(!scenario.robot.dead_bodies),
       obstacles_(scenario.obstacles),
       offsets_(robots + 1, 0),
       fill_(robots, 0),
@@ -80,8 +81,12 @@ void Radio::build_grid(std::span<const Vec2> positions) {
   // The loop has moved every start one cell up: cell c now begins at cell_start_[c + 1].
 }
 
-// Everybody within range of robot i, ascending.
-void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const {
+void Radio::forget(std::uint32_t i) {
+  std::erase_if(near_, [i](const Pair& pair) { return pair.first == i || pair.second == i; });
+}
+
+// Everybody within range of robot i who is still there, ascending.
+void Radio::gather(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const {
   const double reach = std::max(range_m_, near_m_);
   const double reach2 = reach * reach;
   const Vec2 here = positions[i];
@@ -113,6 +118,14 @@ void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) c
   } else {
     reserve(positions.size());
     for (std::size_t j = 0; j < positions.size(); ++j) consider(j, positions[j]);
+  }
+  if (dead_vanish_) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      s.index[kept] = s.index[k];
+      kept += alive[s.index[k]] != 0 ? 1 : 0;
+    }
+    size = kept;
   }
   s.size = size;
   // The grid hands out neighbours cell by cell.
@@ -160,7 +173,8 @@ std::uint32_t Radio::find_blocker(Scratch& s, std::size_t target) const noexcept
 
 // Decides every pair (i, j > i), so that each is decided once and from the same end.
 void Radio::scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const {
-  gather(i, positions, s);
+  if (dead_vanish_ && alive[i] == 0) return;
+  gather(i, positions, alive, s);
   s.obstacles.clear();
   if (line_of_sight_)
     for (const Obstacle& obstacle : obstacles_)
@@ -182,6 +196,7 @@ void Radio::scan(std::size_t i, std::span<const Vec2> positions, std::span<const
     // Who blocked a pair a tick ago mostly still does.
     while (last < last_end && blocked_[last].second < other) ++last;
     std::uint32_t by = last < last_end && blocked_[last].second == other ? blocker_[last] : nobody_blocks;
+    if (by != nobody_blocks && dead_vanish_ && alive[by] == 0) by = nobody_blocks;
     if (by == nobody_blocks || !disc_blocks(positions[by] - positions[i], {s.dx[k], s.dy[k]}, s.d2[k], radius_m_)) by = find_blocker(s, k);
     const auto in_the_way = [&](const Obstacle* o) { return blocks(*o, positions[i], positions[other]); };
     if (by == nobody_blocks && std::none_of(s.obstacles.begin(), s.obstacles.end(), in_the_way)) {

@@ -127,6 +127,7 @@ void check_mission(Report& report, const Mission& mission) {
   report.number_in("mission.scale", mission.scale, positive(1000.0));
   report.number_in("mission.target_tolerance_m", mission.target_tolerance_m, positive(world_size));
   report.number_in("mission.time_limit_s", mission.time_limit_s, up_to(1e7));
+  report.number_in("mission.settle_s", mission.settle_s, up_to(1e7));
   for (const auto& [name, value] : mission.parameters) check_parameter(report, name, value);
 }
 
@@ -172,6 +173,13 @@ void check_robot(Report& report, const RobotModel& robot) {
   report.number_in("robot.max_force_n", robot.max_force_n, positive(1e6));
   report.number_in("robot.max_torque_nm", robot.max_torque_nm, positive(1e6));
   report.number_in("robot.max_acceleration_m_s2", robot.max_acceleration_m_s2, positive(1e4));
+  report.number_in("robot.proximity_m", robot.proximity_m, up_to(100.0));
+}
+
+void check_clocks(Report& report, const Clocks& clocks) {
+  report.number_in("clocks.drift", clocks.drift, up_to(0.5));
+  report.number_in("clocks.substeps", clocks.substeps, {2.0, 100.0});
+  if (!clocks.asynchronous && clocks.drift != 0.0) report.warn("clocks.drift", "has no effect without clocks.asynchronous");
 }
 
 void check_radio(Report& report, const RadioModel& radio) {
@@ -221,14 +229,24 @@ struct CheckObstacle {
   }
 };
 
+void check_kill(Report& report, const std::string& key, const Event& event) {
+  if (event.share && event.count) report.fail(key + ".share", "give share or count, not both");
+  if (event.share) report.number_in(key + ".share", *event.share, up_to(1.0));
+  if (event.count) report.count_in(key + ".count", *event.count, 1, most_robots);
+  report.number_in(key + ".every_s", event.every_s, up_to(1e7));
+}
+
 void check_event(Report& report, const std::string& key, const Event& event) {
   report.number_in(key + ".time_s", event.time_s, up_to(1e7));
   switch (event.kind) {
     case Event::Kind::set_loss: report.number_in(key + ".loss", event.value, up_to(1.0)); break;
     case Event::Kind::freeze: report.number_in(key + ".seconds", event.value, up_to(1e7)); break;
-    case Event::Kind::move_target:
+    case Event::Kind::blackout: report.number_in(key + ".duration_s", event.value, positive(1e7)); break;
+    case Event::Kind::move_target: report.number_in(key + ".speed_m_s", event.value, up_to(100.0)); [[fallthrough]];
     case Event::Kind::add_target: report.point(key + ".position", event.position); break;
-    case Event::Kind::die: break;
+    case Event::Kind::kill: check_kill(report, key, event); break;
+    case Event::Kind::die:
+    case Event::Kind::remove_target: break;
   }
 }
 
@@ -238,6 +256,7 @@ void check_numbers(Report& report, const Scenario& scenario) {
   check_swarm(report, scenario.swarm);
   check_robot(report, scenario.robot);
   check_radio(report, scenario.radio);
+  check_clocks(report, scenario.clocks);
   std::visit(CheckTargets{report}, scenario.targets);
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     std::visit(CheckObstacle{report, element("obstacles", i)}, scenario.obstacles[i]);
@@ -361,31 +380,64 @@ void check_swarm_fits(Report& report, const Scenario& scenario) {
   else check_lattice_cluster(report, scenario);
 }
 
-// Who and what events refer to exists when they happen; returns the number of targets in the end.
-std::size_t check_events(Report& report, const Scenario& scenario, std::size_t targets, std::size_t robots) {
-  std::vector<std::size_t> order(scenario.events.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return scenario.events[a].time_s < scenario.events[b].time_s;
-  });
-  const double limit = time_limit_s(scenario);
-  for (const std::size_t i : order) {
-    const Event& event = scenario.events[i];
-    const std::string key = element("events", i);
-    if (event.time_s >= limit)
-      report.warn(key + ".time_s", "the run ends before: its limit is " + number(limit) + " s");
-    const bool robot = event.kind == Event::Kind::die || event.kind == Event::Kind::freeze;
-    if (robot && event.index >= robots)
-      report.fail(key + ".robot", "there is no robot " + std::to_string(event.index) + "; the last one is " +
-                                      std::to_string(robots - 1));
-    if (event.kind == Event::Kind::move_target && event.index >= targets)
-      report.fail(key + ".target", "there is no target " + std::to_string(event.index) +
-                                       " at that time; the last one is " + std::to_string(targets - 1));
-    if (event.kind == Event::Kind::add_target || event.kind == Event::Kind::move_target)
-      check_target_room(report, scenario, key + ".position", "the target", event.position);
-    if (event.kind == Event::Kind::add_target) ++targets;
+// What the events before one leave behind, as far as that can be told beforehand.
+struct Sequel {
+  std::size_t targets;   // that have been there, given up or not
+  std::size_t served;    // those that are not given up
+  std::size_t most;      // the largest of `served` so far
+  std::vector<std::size_t> removed;
+};
+
+// Who and what an event refers to exists when it happens.
+void check_event_fits(Report& report, const Scenario& scenario, std::size_t index, std::size_t robots, const Sequel& before) {
+  const Event& event = scenario.events[index];
+  const std::string key = element("events", index);
+  const bool robot = event.kind == Event::Kind::die || event.kind == Event::Kind::freeze;
+  const bool target = event.kind == Event::Kind::move_target || event.kind == Event::Kind::remove_target;
+  if (const double limit = time_limit_s(scenario); event.time_s >= limit)
+    report.warn(key + ".time_s", "the run ends before: its limit is " + number(limit) + " s");
+  if (robot && event.index >= robots)
+    report.fail(key + ".robot", "there is no robot " + std::to_string(event.index) + "; the last one is " +
+                                    std::to_string(robots - 1));
+  if (target && event.index >= before.targets)
+    report.fail(key + ".target", "there is no target " + std::to_string(event.index) +
+                                     " at that time; the last one is " + std::to_string(before.targets - 1));
+  if (event.kind == Event::Kind::add_target || event.kind == Event::Kind::move_target)
+    check_target_room(report, scenario, key + ".position", "the target", event.position);
+}
+
+void follow(Sequel& sequel, const Event& event) {
+  if (event.kind == Event::Kind::add_target) {
+    ++sequel.targets;
+    sequel.most = std::max(sequel.most, ++sequel.served);
   }
-  return targets;
+  const auto known = std::find(sequel.removed.begin(), sequel.removed.end(), event.index);
+  if (event.kind == Event::Kind::remove_target && event.index < sequel.targets && known == sequel.removed.end()) {
+    sequel.removed.push_back(event.index);
+    --sequel.served;
+  }
+}
+
+// Returns the largest number of targets at a time. Events that wait for a moment of the mission are
+// taken as late as possible: after all the others, and adding to the most there has been.
+std::size_t check_events(Report& report, const Scenario& scenario, std::size_t targets, std::size_t robots) {
+  const std::vector<Event>& events = scenario.events;
+  std::vector<std::size_t> order(events.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return events[a].time_s < events[b].time_s; });
+  const auto waits = [&](std::size_t i) { return events[i].when != Event::When::time; };
+  const auto adds_late = static_cast<std::size_t>(std::count_if(order.begin(), order.end(), [&](std::size_t i) {
+    return waits(i) && events[i].kind == Event::Kind::add_target;
+  }));
+  Sequel sequel{targets + adds_late, targets, targets, {}};
+  for (const std::size_t i : order) {
+    if (waits(i)) continue;
+    check_event_fits(report, scenario, i, robots, sequel);
+    follow(sequel, events[i]);
+  }
+  for (const std::size_t i : order)
+    if (waits(i)) check_event_fits(report, scenario, i, robots, sequel);
+  return sequel.most + adds_late;
 }
 
 void check_targets_fit(Report& report, const Scenario& scenario) {
@@ -393,9 +445,9 @@ void check_targets_fit(Report& report, const Scenario& scenario) {
   const std::size_t robots = robot_count(scenario);
   for (std::size_t i = 0; i < targets.size(); ++i)
     check_target_room(report, scenario, target_key(scenario, i), "target " + std::to_string(i), targets[i]);
-  const std::size_t in_the_end = check_events(report, scenario, targets.size(), robots);
-  if (in_the_end + 1 > robots) {
-    report.fail("swarm.robots", std::to_string(robots) + " robots cannot serve " + std::to_string(in_the_end) +
+  const std::size_t at_most = check_events(report, scenario, targets.size(), robots);
+  if (at_most + 1 > robots) {
+    report.fail("swarm.robots", std::to_string(robots) + " robots cannot serve " + std::to_string(at_most) +
                                     " targets: each needs a worker, and the root is none of them");
     return;
   }

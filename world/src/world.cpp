@@ -16,16 +16,13 @@
 #endif
 
 #include "banyan/controller/digest.hpp"
-#include "banyan/world/bodies.hpp"
 #include "banyan/world/placement.hpp"
-#include "banyan/world/radio.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/threads.hpp"
+#include "world_impl.hpp"
 
 namespace banyan::world {
 namespace {
-
-constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
 
 // Room for n states in large pages, where the system has them: states lie 8 KB apart, so that in
 // small pages every robot costs address translations of its own. A hint; failure changes nothing.
@@ -41,7 +38,8 @@ std::vector<State> make_room(std::size_t n) {
   return states;
 }
 
-std::unique_ptr<Bodies> make_bodies(const Scenario& scenario, const Poses& poses) {
+std::unique_ptr<Bodies> make_bodies(Scenario scenario, const Poses& poses) {
+  if (scenario.clocks.asynchronous) scenario.tick_s /= scenario.clocks.substeps;  // clocks.cpp moves them so often
   switch (scenario.robot.body) {
     case BodyModel::box2d: return make_box2d(scenario, poses);
     case BodyModel::linear: return make_linear(scenario, poses.position.size());
@@ -56,78 +54,7 @@ void require_possible(const Scenario& scenario) {
   if (!text.empty()) throw std::invalid_argument(text);
 }
 
-// Puts every element of cache-line size into one cache line.
-template <class T>
-struct CacheAligned {
-  using value_type = T;
-  static constexpr std::align_val_t line{64};
-  CacheAligned() = default;
-  template <class U>
-  explicit CacheAligned(const CacheAligned<U>&) noexcept {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-  void deallocate(T* p, std::size_t) noexcept { ::operator delete(p, line); }
-  friend bool operator==(const CacheAligned&, const CacheAligned&) noexcept { return true; }
-};
-
-// One packet on its way to one receiver.
-struct Packet {
-  std::uint32_t sender;
-  banyan::Vec2 position;   // of the sender in the receiver's body frame, as measured
-};
-
-// Packets of one tick with latency above one: held back until they are heard.
-struct Flight {
-  std::vector<std::uint32_t> offsets, count;
-  std::vector<Packet> packets;
-  std::vector<Message, CacheAligned<Message>> messages;
-};
-
 }  // namespace
-
-struct World::Impl {
-  Impl(const Scenario& s, const Policy* own);   // own: null for the one that s names
-  Impl(const Impl& o);
-
-  // The phases of a tick, in order.
-  void happen();
-  void act();
-  void broadcast(Executor& executor);
-  void think(Executor& executor);
-
-  void fetch(std::size_t i) const noexcept;
-  std::size_t receive(std::size_t i, std::span<Packet> packets) const noexcept;
-  std::size_t keep_slots(std::size_t i, std::span<Packet> packets, std::size_t count) const noexcept;
-  [[nodiscard]] banyan::Vec2 measure(std::size_t i, std::uint32_t sender) const noexcept;
-  void apply(const Event& event);
-  void assign_target(Vec2 position);
-  void adopt(const Policy& own);
-
-  Scenario scenario;
-  const Policy* policy;
-  Params params;
-  double loss;
-  std::uint64_t tick = 0;
-
-  Poses poses;
-  std::unique_ptr<Bodies> bodies;
-  Radio radio;
-  std::vector<Target> targets;
-  std::vector<std::uint8_t> alive;
-  std::vector<std::uint64_t> frozen_until;     // tick; 0: not frozen
-  std::vector<std::int32_t> target_of;         // per robot, -1: none
-  std::vector<State> states;
-  std::vector<Message, CacheAligned<Message>> messages, next_messages;
-  std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
-  std::vector<Odometry> odometry;
-  std::vector<Event> events;                   // by time
-  std::size_t next_event = 0;
-  std::vector<Flight> flights;                 // ring of latency_ticks - 1
-  Flight arriving;                             // taken out of the ring: heard this tick
-  struct Inbox { std::vector<Packet> packets; std::vector<Heard> heard; };
-  std::vector<Inbox> inboxes;                  // one per thread
-  std::vector<std::uint64_t> received_by;      // packets, per thread
-  std::uint64_t received = 0, sent = 0;
-};
 
 World::Impl::Impl(const Scenario& s, const Policy* own)
     : scenario((require_possible(s), s)),
@@ -136,7 +63,9 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
       loss(s.radio.loss),
       poses(place(s)),
       bodies(make_bodies(s, poses)),
-      radio(s, poses.position.size()) {
+      radio(s, poses.position.size()),
+      proximity(s),
+      agenda(s.events) {
   if (own != nullptr) adopt(*own);
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
@@ -146,6 +75,7 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
   target_of.assign(n, -1);
   for (std::size_t t = 0; t < positions.size(); ++t) {
     targets.push_back({.position = positions[t], .worker = assignment.worker[t]});
+    courses.push_back({.start_m = distance(poses.position[assignment.worker[t]], positions[t])});
     target_of[assignment.worker[t]] = static_cast<std::int32_t>(t);
   }
   states = make_room(n);
@@ -157,9 +87,8 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
   commands.resize(n);
   moving.resize(n);
   odometry.resize(n);
-  events = s.events;
-  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.time_s < b.time_s; });
-  flights.resize(static_cast<std::size_t>(std::max(1, s.radio.latency_ticks) - 1));
+  if (s.clocks.asynchronous) set_clocks();
+  else flights.resize(static_cast<std::size_t>(std::max(1, s.radio.latency_ticks) - 1));
   Executor alone(1);
   radio.update(poses.position, alive, alone);
 }
@@ -173,9 +102,10 @@ void World::Impl::adopt(const Policy& own) {
 
 World::Impl::Impl(const Impl& o)
     : scenario(o.scenario), policy(o.policy), params(o.params), loss(o.loss), tick(o.tick), poses(o.poses),
-      bodies(o.bodies->clone()), radio(o.radio), targets(o.targets), alive(o.alive), frozen_until(o.frozen_until),
+      bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
       target_of(o.target_of), states(make_room(o.states.size())), messages(o.messages), next_messages(o.next_messages), commands(o.commands),
-      moving(o.moving), odometry(o.odometry), events(o.events), next_event(o.next_event), flights(o.flights), arriving(o.arriving),
+      moving(o.moving), odometry(o.odometry), agenda(o.agenda), silent_until(o.silent_until), deaths(o.deaths),
+      last_death(o.last_death), flights(o.flights), arriving(o.arriving), clocked(o.clocked),
       received(o.received), sent(o.sent) {
   states.assign(o.states.begin(), o.states.end());
 }
@@ -183,44 +113,16 @@ World::Impl::Impl(const Impl& o)
 // ---- One tick ----
 
 void World::step(Executor& executor) {
-  impl_->happen();             // events of the scenario
-  impl_->act();                // commands of the last tick become motion
-  impl_->broadcast(executor);  // messages of the last tick travel: links, losses, delays
-  impl_->think(executor);      // what is sensed and heard goes through each robot's controller
+  impl_->happen();               // events of the scenario
+  if (impl_->scenario.clocks.asynchronous) {
+    impl_->step_by_clocks(executor);
+  } else {
+    impl_->moment = impl_->tick;
+    impl_->act();                // commands of the last tick become motion
+    impl_->broadcast(executor);  // messages of the last tick travel: links, losses, delays
+    impl_->think(executor);      // what is sensed and heard goes through each robot's controller
+  }
   ++impl_->tick;
-}
-
-void World::Impl::happen() {
-  const double now = static_cast<double>(tick) * scenario.tick_s + 1e-9;
-  while (next_event < events.size() && events[next_event].time_s <= now) apply(events[next_event++]);
-}
-
-void World::Impl::apply(const Event& event) {
-  switch (event.kind) {
-    case Event::Kind::die: alive[event.index] = 0; break;
-    case Event::Kind::freeze:
-      frozen_until[event.index] = event.value > 0.0 ? tick + static_cast<std::uint64_t>(event.value / scenario.tick_s + 0.5) : forever;
-      break;
-    case Event::Kind::set_loss: loss = event.value; break;
-    case Event::Kind::move_target:   // it may never have found a worker (assign_target)
-      if (event.index < targets.size()) targets[event.index].position = event.position;
-      break;
-    case Event::Kind::add_target: assign_target(event.position); break;
-  }
-}
-
-// A new target goes to the nearest living robot that is neither worker nor root.
-void World::Impl::assign_target(Vec2 position) {
-  std::size_t best = states.size();
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    if (alive[i] == 0 || states[i].is_worker || states[i].role == Role::root) continue;
-    if (best == states.size() || squared_norm(poses.position[i] - position) < squared_norm(poses.position[best] - position)) best = i;
-  }
-  if (best == states.size()) return;  // nobody is left to send
-  states[best].is_worker = true;
-  states[best].serves = static_cast<RobotId>(best);
-  target_of[best] = static_cast<std::int32_t>(targets.size());
-  targets.push_back({.position = position, .worker = best});
 }
 
 void World::Impl::act() {
@@ -231,14 +133,19 @@ void World::Impl::act() {
 
 void World::Impl::broadcast(Executor& executor) {
   radio.update(poses.position, alive, executor);
+  proximity.update(poses.position, alive, deaths);
   const auto living = static_cast<std::uint64_t>(std::count(alive.begin(), alive.end(), 1));
   if (tick > 0) sent += living;
 }
 
-void World::Impl::think(Executor& executor) {
-  const std::size_t n = states.size();
+void World::Impl::make_inboxes(const Executor& executor) {
   inboxes.resize(std::max<std::size_t>(inboxes.size(), static_cast<std::size_t>(executor.threads())));
   received_by.assign(inboxes.size(), 0);
+}
+
+void World::Impl::think(Executor& executor) {
+  const std::size_t n = states.size();
+  make_inboxes(executor);
   Flight* flight = flights.empty() ? nullptr : &flights[tick % flights.size()];
   if (flight != nullptr) {
     // This slot's packets were sent latency - 1 ticks ago: they are heard now, and the slot is free
@@ -249,7 +156,7 @@ void World::Impl::think(Executor& executor) {
     flight->packets.resize(flight->offsets.back());
     flight->messages = messages;
   }
-  const bool silence = tick == 0;  // nobody has said anything yet
+  const bool silence = tick == 0 || tick < silent_until;  // nobody has said anything yet, or a blackout
 
   executor.parallel_for(n, [&](std::size_t begin, std::size_t end, int worker) {
     Inbox& inbox = inboxes[static_cast<std::size_t>(worker)];
@@ -266,27 +173,34 @@ void World::Impl::think(Executor& executor) {
         std::copy(packets.begin(), packets.end(), flight->packets.begin() + flight->offsets[i]);
         flight->count[i] = static_cast<std::uint32_t>(packets.size());
         content = arriving.messages.data();
-        packets = arriving.count.empty() ? std::span<const Packet>{}
+        packets = silence || arriving.count.empty() ? std::span<const Packet>{}
                                          : std::span<const Packet>(arriving.packets.data() + arriving.offsets[i], arriving.count[i]);
       }
       inbox.heard.clear();
       for (const Packet& packet : packets) inbox.heard.push_back({content + packet.sender, packet.position});
       received_by[static_cast<std::size_t>(worker)] += packets.size();
 
-      // A controller that has resigned, or has taken over another's target, gets none from outside.
-      banyan::Vec2 target{};
-      const bool sees_target = target_of[i] >= 0 && states[i].is_worker && states[i].serves == static_cast<RobotId>(i);
-      if (sees_target) {
-        const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
-        target = {static_cast<float>(d.x), static_cast<float>(d.y)};
-      }
-      const Output output = banyan::step(params, *policy, states[i], inbox.heard, odometry[i], sees_target ? &target : nullptr);
+      const Output output = consult(i, inbox.heard, odometry[i]);
       next_messages[i] = output.message;
       commands[i] = output.velocity;
     }
   });
   std::swap(messages, next_messages);
   for (const std::uint64_t r : received_by) received += r;
+}
+
+// One step of robot i's controller, with what its own sensors give it.
+Output World::Impl::consult(std::size_t i, std::span<const Heard> heard, const Odometry& moved) noexcept {
+  // A controller that has resigned, or has taken over another's target, gets none from outside.
+  banyan::Vec2 target{};
+  const bool sees_target = target_of[i] >= 0 && states[i].is_worker && states[i].serves == static_cast<RobotId>(i);
+  if (sees_target) {
+    const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
+    target = {static_cast<float>(d.x), static_cast<float>(d.y)};
+  }
+  Proximity::Seen seen;
+  const std::size_t obstacles = proximity.sense(poses, i, seen);
+  return banyan::step(params, *policy, states[i], heard, moved, sees_target ? &target : nullptr, {seen.data(), obstacles});
 }
 
 // Robot i is next: asks for the memory its step will touch while the one before it computes. States
@@ -305,28 +219,19 @@ void World::Impl::fetch(std::size_t i) const noexcept {
 
 // ---- The way of a packet ----
 
+bool World::Impl::lost(std::size_t i, std::uint32_t sender) const noexcept {
+  return loss > 0.0 && to_uniform(bits(scenario.seed, Purpose::loss, i, sender, moment)) < loss;
+}
+
 // Draws at transmission which packets reach robot i, and what its sensor makes of their origin.
 std::size_t World::Impl::receive(std::size_t i, std::span<Packet> packets) const noexcept {
   std::size_t count = 0;
   for (const std::uint32_t sender : radio.links(i)) {
-    if (loss > 0.0 && to_uniform(bits(scenario.seed, Purpose::loss, i, sender, tick)) < loss) continue;
+    if (lost(i, sender)) continue;
     packets[count++] = {sender, measure(i, sender)};
   }
   const auto slots = static_cast<std::size_t>(scenario.radio.slots);
   return slots > 0 && count > slots ? keep_slots(i, packets, count) : count;
-}
-
-// More packets than slots: every one has the same chance to be kept; the order stays.
-std::size_t World::Impl::keep_slots(std::size_t i, std::span<Packet> packets, std::size_t count) const noexcept {
-  std::size_t wanted = static_cast<std::size_t>(scenario.radio.slots);
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < count && wanted > 0; ++k) {
-    const double u = to_uniform(bits(scenario.seed, Purpose::slots, i, k, tick));
-    if (u * static_cast<double>(count - k) >= static_cast<double>(wanted)) continue;  // Knuth's algorithm S
-    packets[kept++] = packets[k];
-    --wanted;
-  }
-  return kept;
 }
 
 // Range and bearing of the sender in the receiver's body frame, with the sensor's noise.
@@ -335,11 +240,11 @@ banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noe
   const RadioModel& model = scenario.radio;
   if (model.range_noise_m > 0.0) {
     const double range = norm(d);
-    const double noisy = std::max(0.01, range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, tick)));
+    const double noisy = std::max(0.01, range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, moment)));
     d *= range > 0.0 ? noisy / range : 0.0;
   }
   if (model.bearing_noise_rad > 0.0)
-    d = rotate(unit_vector(model.bearing_noise_rad * to_normal(bits(scenario.seed, Purpose::bearing_noise, i, sender, tick))), d);
+    d = rotate(unit_vector(model.bearing_noise_rad * to_normal(bits(scenario.seed, Purpose::bearing_noise, i, sender, moment))), d);
   return {static_cast<float>(d.x), static_cast<float>(d.y)};
 }
 
@@ -373,22 +278,10 @@ std::span<const State> World::states() const noexcept { return impl_->states; }
 std::span<const Message> World::messages() const noexcept { return impl_->messages; }
 std::span<const std::uint8_t> World::alive() const noexcept { return impl_->alive; }
 std::span<const Target> World::targets() const noexcept { return impl_->targets; }
-std::optional<std::size_t> World::holder(std::size_t target) const noexcept {
-  const Impl& w = *impl_;
-  if (target >= w.targets.size() || !w.targets[target].active) return std::nullopt;
-  const auto [position, first, active] = w.targets[target];
-  const double tolerance = w.scenario.mission.target_tolerance_m;
-  std::optional<std::size_t> best;
-  double best_m = 0.0;
-  for (std::size_t i = 0; i < w.states.size(); ++i) {
-    if (w.alive[i] == 0 || w.messages[i].role != Role::worker || w.messages[i].serves != static_cast<RobotId>(first)) continue;
-    const double away_m = distance(w.poses.position[i], position);
-    if (away_m > tolerance || (best && away_m >= best_m)) continue;
-    best = i;
-    best_m = away_m;
-  }
-  return best;
-}
+std::optional<std::size_t> World::holder(std::size_t target) const noexcept { return impl_->holder(target); }
+std::size_t World::deaths() const noexcept { return impl_->deaths; }
+std::optional<std::uint64_t> World::last_death_tick() const noexcept { return impl_->last_death; }
+bool World::pending_kills() const noexcept { return impl_->agenda.deaths_to_come(); }
 std::span<const std::uint32_t> World::links(std::size_t i) const noexcept { return impl_->radio.links(i); }
 Pairs World::blocked() const noexcept { return impl_->radio.blocked(); }
 std::uint64_t World::packets_received() const noexcept { return impl_->received; }
@@ -399,7 +292,7 @@ std::uint64_t World::hash() const noexcept {
   Digest d;
   d.add(w.tick);
   d.add(w.loss);
-  d.add(w.next_event);
+  w.agenda.add_to(d);
   for (std::size_t i = 0; i < w.states.size(); ++i) {
     d.add(w.poses.position[i]);
     d.add(w.poses.heading[i]);
@@ -415,6 +308,7 @@ std::uint64_t World::hash() const noexcept {
     d.add(target.position);
     d.add(target.worker);
   }
+  w.add_events(d);
   for (const Flight& flight : w.flights)
     for (std::size_t i = 0; i < flight.count.size(); ++i)
       for (std::uint32_t k = 0; k < flight.count[i]; ++k) {
@@ -422,6 +316,7 @@ std::uint64_t World::hash() const noexcept {
         d.add(flight.packets[flight.offsets[i] + k].position);
         for (const std::uint8_t byte : encode(flight.messages[flight.packets[flight.offsets[i] + k].sender])) d.add(byte);
       }
+  w.add_clocks(d);
   return w.bodies->hash(d.value());
 }
 
@@ -433,6 +328,7 @@ std::size_t World::memory_bytes() const noexcept {
   for (const Flight& flight : w.flights)
     total += flight.packets.capacity() * sizeof(Packet) + flight.messages.capacity() * sizeof(Message) +
              (flight.offsets.capacity() + flight.count.capacity()) * sizeof(std::uint32_t);
+  for (const Clocked& robot : w.clocked) total += sizeof(Clocked) + robot.waiting.capacity() * sizeof(Waiting);
   for (const auto& inbox : w.inboxes)
     total += inbox.packets.capacity() * sizeof(Packet) + inbox.heard.capacity() * sizeof(Heard);
   return total;

@@ -10,7 +10,7 @@ namespace banyan::world {
 namespace {
 
 Event event(double time_s, Event::Kind kind, std::size_t index = 0, double value = 0.0, Vec2 position = {}) {
-  return {time_s, kind, index, value, position};
+  return {.time_s = time_s, .kind = kind, .index = index, .value = value, .position = position};
 }
 
 TEST(Events, TheDeadFallSilentAndStayWhereTheyAre) {
@@ -145,6 +145,94 @@ TEST(Events, AnEventAtTimeZeroActsBeforeTheFirstTick) {
   EXPECT_EQ(world.alive()[2], 0);
   world.step();
   EXPECT_EQ(world.packets_sent(), 15U);
+}
+
+TEST(Events, InABlackoutNobodyHearsAnything) {
+  for (const int latency : {1, 3}) {
+    Scenario s = ring("outwards", 20, 2, 4.0, 1);
+    s.radio.latency_ticks = latency;
+    s.events = {event(1.0, Event::Kind::blackout, 0, 0.7)};
+    World world(s);
+    for (int t = 0; t < 10; ++t) world.step();
+    const std::uint64_t before = world.packets_received();
+    EXPECT_GT(before, 0U);
+    // What was sent within it is lost, too.
+    for (int t = 0; t < 7 + latency - 1; ++t) {
+      world.step();
+      ASSERT_EQ(world.packets_received(), before) << t;
+    }
+    world.step();
+    EXPECT_GT(world.packets_received(), before);
+  }
+}
+
+TEST(Events, AnInterruptedBlackoutIsInTheHash) {
+  Scenario s = ring("outwards", 20, 2, 4.0, 1);
+  s.events = {event(1.0, Event::Kind::blackout, 0, 0.7)};
+  World a(s);
+  s.events[0].value = 0.8;
+  World b(s);
+  for (int t = 0; t < 12; ++t) {
+    a.step();
+    b.step();
+  }
+  EXPECT_NE(a.hash(), b.hash());
+}
+
+TEST(Events, ATargetDrivesInAStraightLineAtItsSpeed) {
+  Scenario s = ring("inwards", 14, 2, 2.0, 1);
+  const Vec2 goal{0.5, -2.5};
+  s.events = {event(2.0, Event::Kind::move_target, 1, 0.15, goal)};
+  World world(s);
+  const Vec2 from = world.targets()[1].position;
+  const double way = distance(from, goal);
+  for (int t = 0; t < 400; ++t) {
+    world.step();
+    const double gone = std::clamp(0.015 * (t - 20), 0.0, way);
+    const Vec2 expected = from + (goal - from) * (gone / way);
+    ASSERT_LT(distance(world.targets()[1].position, expected), 1e-9) << t;
+    ASSERT_NEAR(norm(world.targets()[0].position), 2.0, 1e-9);
+  }
+  EXPECT_EQ(world.targets()[1].position, goal);
+}
+
+TEST(Events, AJumpEndsADrive) {
+  Scenario s = ring("inwards", 14, 2, 2.0, 1);
+  s.events = {event(1.0, Event::Kind::move_target, 1, 0.1, {0.5, -2.5}), event(2.0, Event::Kind::move_target, 1, 0.0, {1.0, 1.0})};
+  World world(s);
+  for (int t = 0; t < 40; ++t) world.step();
+  EXPECT_EQ(world.targets()[1].position, (Vec2{1.0, 1.0}));
+}
+
+TEST(Events, ATargetThatIsGivenUpHasNoWorkerAnyMore) {
+  Scenario s = ring("inwards", 14, 2, 2.0, 1);
+  s.events = {event(3.0, Event::Kind::remove_target, 1)};
+  World world(s);
+  const std::size_t worker = world.targets()[1].worker;
+  for (int t = 0; t < 30; ++t) world.step();
+  EXPECT_TRUE(world.targets()[1].active);
+  EXPECT_TRUE(world.states()[worker].is_worker);
+  world.step();
+  EXPECT_FALSE(world.targets()[1].active);
+  EXPECT_TRUE(world.targets()[0].active);
+  EXPECT_FALSE(world.states()[worker].is_worker);
+  EXPECT_EQ(world.states()[worker].serves, nobody);
+  EXPECT_NE(world.messages()[worker].role, Role::worker);
+  for (int t = 0; t < 300; ++t) {
+    world.step();
+    ASSERT_FALSE(world.holder(1)) << t;
+  }
+}
+
+TEST(Events, WhoeverGaveUpATargetCanBeSentToAnother) {
+  Scenario s = ring("inwards", 3, 2, 2.0, 1);  // nobody else is left: the third is root
+  s.events = {event(1.0, Event::Kind::remove_target, 1), event(2.0, Event::Kind::add_target, 0, 0.0, {0.0, 1.0})};
+  World world(s);
+  const std::size_t worker = world.targets()[1].worker;
+  for (int t = 0; t < 21; ++t) world.step();
+  ASSERT_EQ(world.targets().size(), 3U);
+  EXPECT_EQ(world.targets()[2].worker, worker);
+  EXPECT_EQ(world.states()[worker].serves, worker);
 }
 
 }  // namespace

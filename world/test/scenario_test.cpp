@@ -54,6 +54,7 @@ const std::vector<Case>& cases() {
       {"mission.reading", "did you mean literal?", [](Scenario& s) { s.mission.reading = "literl"; }},
       {"mission.target_tolerance_m", "-1", [](Scenario& s) { s.mission.target_tolerance_m = -1; }},
       {"mission.time_limit_s", "inf", [](Scenario& s) { s.mission.time_limit_s = infinity; }},
+      {"mission.settle_s", "-1", [](Scenario& s) { s.mission.settle_s = -1; }},
       {"mission.time_limit_s", "must be given",
        [](Scenario& s) { s.swarm.robots = 9, s.targets = RingTargets{3, 0.0, 0, {}}; }},
       {"mission.parameters.target_gian", "did you mean target_gain?",
@@ -144,6 +145,14 @@ const std::vector<Case>& cases() {
        [](Scenario& s) { s.events = {event(Kind::move_target, 3, 1), event(Kind::add_target, 0, 2)}; }},
       {"events[0].loss", "7", [](Scenario& s) { s.events = {event(Kind::set_loss, 0)}, s.events[0].value = 7; }},
       {"events[0].seconds", "-1", [](Scenario& s) { s.events = {event(Kind::freeze, 0)}, s.events[0].value = -1; }},
+      {"events[0].target", "there is no target 3", [](Scenario& s) { s.events = {event(Kind::remove_target, 3)}; }},
+      {"events[0].speed_m_s", "-1", [](Scenario& s) { s.events = {event(Kind::move_target, 0)}, s.events[0].value = -1; }},
+      {"events[0].duration_s", "above 0", [](Scenario& s) { s.events = {event(Kind::blackout, 0)}; }},
+      {"events[0].share", "not both",
+       [](Scenario& s) { s.events = {event(Kind::kill, 0)}, s.events[0].share = 0.5, s.events[0].count = 2; }},
+      {"events[0].share", "1.1", [](Scenario& s) { s.events = {event(Kind::kill, 0)}, s.events[0].share = 1.1; }},
+      {"events[0].count", "not 0", [](Scenario& s) { s.events = {event(Kind::kill, 0)}, s.events[0].count = 0; }},
+      {"events[0].every_s", "nan", [](Scenario& s) { s.events = {event(Kind::kill, 0)}, s.events[0].every_s = nan; }},
       {"events[0].position", "must lie within",
        [](Scenario& s) { s.events = {event(Kind::add_target, 0)}, s.events[0].position = {nan, 0}; }},
       {"events[0].position", "inside an obstacle",
@@ -154,6 +163,11 @@ const std::vector<Case>& cases() {
        }},
       {"swarm.robots", "4 robots cannot serve 4 targets",
        [](Scenario& s) { s.swarm.robots = 4, s.events = {event(Kind::add_target, 0)}; }},
+      {"swarm.robots", "4 robots cannot serve 4 targets",
+       [](Scenario& s) {
+         s.swarm.robots = 4, s.events = {event(Kind::add_target, 0), event(Kind::remove_target, 0)};
+         s.events[0].when = Event::When::half_way;
+       }},
       {"events[0].time_s", "the run ends before", [](Scenario& s) { s.events = {event(Kind::die, 0, 1e6)}; }, true},
       {"targets", "out of reach",
        [](Scenario& s) { s.swarm.robots = 5, s.targets = std::vector<Vec2>{{-9, 0}, {9, 0}}; }, true},
@@ -302,6 +316,30 @@ TEST(Names, TheNearestIsSuggestedAndNonsenseIsNot) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
   EXPECT_EQ(edit_distance("", "abc"), 3U);
   EXPECT_EQ(listed(known), "outwards, inwards or convoy");
+}
+
+bool possible(const Scenario& s) {
+  const auto list = faults(s);
+  return std::all_of(list.begin(), list.end(), [](const Fault& f) { return f.warning; });
+}
+
+TEST(Scenario, WhoeverServedATargetThatIsGivenUpIsFreeForAnother) {
+  Scenario s;
+  s.swarm.robots = 4;  // three workers and the root
+  s.events = {event(Event::Kind::remove_target, 0, 1.0), event(Event::Kind::add_target, 0, 2.0)};
+  EXPECT_TRUE(possible(s));
+  s.events[0].time_s = 3.0;  // too late
+  EXPECT_FALSE(possible(s));
+}
+
+TEST(Scenario, ATargetThatIsAddedAtSomeMomentMayBeNamed) {
+  Scenario s;
+  s.swarm.robots = 9;
+  s.events = {event(Event::Kind::add_target, 0, 0.0), event(Event::Kind::move_target, 3, 1.0)};
+  s.events[0].when = Event::When::half_way;
+  EXPECT_TRUE(possible(s));
+  s.events[1].index = 4;
+  EXPECT_FALSE(possible(s));
 }
 
 }  // namespace

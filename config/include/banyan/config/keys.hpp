@@ -46,7 +46,13 @@ struct EventForm {
   std::size_t target = 0;
   double loss = 0.0;
   double duration_s = 0.0;
+  double speed_m_s = 0.0;
   world::Vec2 position{};
+  std::size_t when = 0;  // as Event::When
+  std::size_t of = 0;    // as Event::Of
+  std::optional<double> share;
+  std::optional<std::size_t> count;
+  double every_s = 0.0;
 };
 struct Form {
   Configuration configuration;     // targets, obstacles and events are below instead
@@ -71,10 +77,11 @@ template <class Owner> struct ChoiceAccess {
 
 // How to reach the member behind a key; the alternative is the key's type.
 template <class Owner>
-using Access = std::variant<bool& (*)(Owner&), double& (*)(Owner&), int& (*)(Owner&), std::uint32_t& (*)(Owner&),
-                            std::size_t& (*)(Owner&), std::optional<std::size_t>& (*)(Owner&), std::string& (*)(Owner&),
-                            world::Vec2& (*)(Owner&), std::vector<world::Vec2>& (*)(Owner&),
-                            std::vector<double>& (*)(Owner&), ChoiceAccess<Owner>>;
+using Access =
+    std::variant<bool& (*)(Owner&), double& (*)(Owner&), int& (*)(Owner&), std::uint32_t& (*)(Owner&),
+                 std::size_t& (*)(Owner&), std::optional<std::size_t>& (*)(Owner&), std::optional<double>& (*)(Owner&),
+                 std::string& (*)(Owner&), world::Vec2& (*)(Owner&), std::vector<world::Vec2>& (*)(Owner&),
+                 std::vector<double>& (*)(Owner&), ChoiceAccess<Owner>>;
 
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();

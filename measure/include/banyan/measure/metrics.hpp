@@ -25,11 +25,14 @@ struct Tick {
   bool fiedler_low = false;                // lambda_2 < 1e-3, with occlusion as simulated
   bool fiedler_low_by_distance = false;
   double fiedler = -1.0;                   // lambda_2; -1: not computed this tick
-  double worst_target_distance_m = 0.0;    // largest distance of a target to its worker
-  std::uint32_t targets_reached = 0;
+  std::uint32_t active_targets = 0;        // not given up
+  std::uint32_t targets_reached = 0;       // of these, held: a living worker that serves it is within tolerance
+  double worst_target_distance_m = 0.0;    // of these, the largest distance to the nearest living worker that
+                                           // serves it; if none does, to the body of the one first sent there
 };
 
-// A run so far; final once `finished`. The fields are the columns of the results table.
+// A run so far. The fields are the columns of the results table. Means, sums over robots and ratios
+// are filled in by Observer::result.
 struct Run {
   std::uint64_t ticks = 0;
   double time_s = 0.0;
@@ -38,11 +41,14 @@ struct Run {
   double time_limit_s = 0.0;
   double normalized_time = 1.0;            // completion time / limit, 1 when not complete
   double time_bound_s = 0.0;               // lower bound of the completion time
+  double time_ratio = -1.0;                // completion time / bound; -1: not complete, or the bound is 0
   std::uint32_t robots = 0;
   std::uint32_t robots_bound = 0;          // lower bound of the committed robots
   double steiner_length_m = 0.0;           // length the bound is computed from
   std::uint32_t committed = 0;             // at the end
   double mean_committed = 0.0;
+  double committed_ratio = 0.0;            // committed / robots_bound
+  double network_length_m = 0.0;           // edges to the parents, at the end; both ends alive, the child no spare
   std::uint64_t broken_ticks = 0;          // at least one broken tree edge
   std::uint64_t broken_ticks_by_distance = 0;
   std::uint64_t broken_ticks_by_occlusion = 0;
@@ -54,11 +60,20 @@ struct Run {
   std::uint64_t split_ticks_by_distance = 0;
   double fiedler_time_ratio = 0.0;
   double fiedler_time_ratio_by_distance = 0.0;
+  std::uint64_t two_roots_ticks = 0;       // more than one living root
+  double longest_two_roots_s = 0.0;        // the longest time of that without a break
   std::uint64_t insertions = 0, handovers = 0, repairs = 0;
+  std::uint64_t elections = 0, replacements = 0;  // of a root, of a worker that had fallen silent
   std::uint64_t epochs = 0;                // the highest epoch reached
   double start_phase_ticks = 0.0;          // mean length of a barrier phase, as lived by the root
   double select_phase_ticks = 0.0;
   double bytes_per_robot_s = 0.0;          // broadcast
+  std::uint32_t deaths = 0;
+  std::uint32_t survivors = 0;             // alive at the end
+  double last_death_s = -1.0;              // -1: none died
+  bool recovered = false;                  // from the last death (recovery.hpp); false if none died
+  double recovery_time_s = -1.0;           // from the last death; -1: not recovered
+  bool survivors_suffice = true;           // as many as the bound for the targets active at the end
   std::uint64_t hash = 0;                  // state hash of the world at the end
 };
 

@@ -20,7 +20,11 @@ class Observer {
   const Tick& observe(const world::World& world, bool exact_fiedler = false);
   [[nodiscard]] const Tick& last() const noexcept;
   [[nodiscard]] const Run& run() const noexcept;
-  // Every worker within tolerance of its target at once, or the time limit reached.
+  // Nothing dies: every active target held at once (with mission.stop_when_complete, then
+  // mission.settle_s later, even beyond the time limit), or the time limit reached. Robots die, and
+  // stop_when_complete: a complete run goes on until no deaths are to come and the swarm has
+  // recovered or can no longer (recovery.hpp); one that is not complete at its limit ends there, or
+  // once that is settled for the last death so far.
   [[nodiscard]] bool finished() const noexcept;
   [[nodiscard]] Run result(const world::World& world) const;   // run() with hash and means filled in
 

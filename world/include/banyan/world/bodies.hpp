@@ -33,6 +33,8 @@ class Bodies {
   // odometry measures: the motion of its wheels, not the push it got from a neighbour.
   virtual void step(std::span<const Velocity> command, NearPairs near, std::uint64_t tick, Poses& poses,
                     std::span<Odometry> odometry) = 0;
+  // From now on robot i has no body: nobody touches it. Its command stays zero.
+  virtual void remove(std::size_t) {}   // where contacts are only those of `near` there is nothing to do
   // Adds what the model remembers beside the poses (velocities) to a running hash.
   [[nodiscard]] virtual std::uint64_t hash(std::uint64_t h) const noexcept = 0;
 };

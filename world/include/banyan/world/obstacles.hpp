@@ -15,6 +15,10 @@ namespace banyan::world {
 // Distance of p to the obstacle's surface; negative inside a disc or box.
 [[nodiscard]] double clearance(const Obstacle& obstacle, Vec2 p) noexcept;
 
+// The point of the obstacle's surface nearest to p, also from inside; the first of several in a
+// fixed order (the side to the right, the positive x axis).
+[[nodiscard]] Vec2 nearest_surface_point(const Obstacle& obstacle, Vec2 p) noexcept;
+
 // The shortest shift that brings a disc of `radius` at p out of the obstacle; zero if it is out.
 [[nodiscard]] Vec2 push_out(const Obstacle& obstacle, Vec2 p, double radius) noexcept;
 

@@ -16,13 +16,16 @@ namespace banyan::world {
 
 // A link i-j exists while both live, |p_i - p_j| < C, and - with line of sight - the open segment
 // between the centres meets no obstacle and no body but their own: |p_k - segment| >= radius for
-// every other robot k beside the segment, dead ones included. Exactly symmetric: each pair is decided once.
+// every other robot k beside the segment, dead ones included unless they vanish. Exactly symmetric: each pair is decided once.
 class Radio {
  public:
   Radio(const Scenario& scenario, std::size_t robots);
 
   // Finds links, blocked pairs and near pairs at the given poses. O(N + pairs in range) time.
   void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor);
+
+  // Robot i has vanished since the last update: it is near to nobody.
+  void forget(std::uint32_t i);
 
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept {
     return {links_.data() + offsets_[i], links_.data() + offsets_[i + 1]};
@@ -57,7 +60,7 @@ class Radio {
 
   void build_grid(std::span<const Vec2> positions);
   void scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const;
-  void gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const;
+  void gather(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const;
   [[nodiscard]] std::uint32_t find_blocker(Scratch& s, std::size_t target) const noexcept;
   void merge(std::size_t robots);
 
@@ -65,6 +68,7 @@ class Radio {
   double radius_m_;
   double near_m_;
   bool line_of_sight_;
+  bool dead_vanish_;
   std::vector<Obstacle> obstacles_;
 
   // Grid of cells at least C wide, robots sorted by cell (counting sort). Not used while the swarm covers a few cells only.

@@ -27,6 +27,7 @@ struct Mission {
   double target_tolerance_m = 0.20;
   double time_limit_s = 0.0;            // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
+  double settle_s = 0.0;                // with stop_when_complete: how long to go on after completion
   std::vector<std::pair<std::string, double>> parameters;  // overrides, keys of parameter_table()
 };
 
@@ -62,6 +63,8 @@ struct RobotModel {
   double max_force_n = 1.5;             // box2d
   double max_torque_nm = 1.5;           // box2d
   double max_acceleration_m_s2 = 1.0;   // linear: |u| <= this (paper II-A)
+  bool dead_bodies = true;              // the dead stay and block motion and sight; false: they vanish
+  double proximity_m = 0.30;            // reach of the proximity sensor from the robot's centre; 0: none
 };
 
 struct RadioModel {
@@ -85,12 +88,31 @@ struct Wall { Vec2 from; Vec2 to; };    // a segment without thickness
 using Obstacle = std::variant<Disc, Box, Wall>;
 
 struct Event {
-  enum class Kind : std::uint8_t { die, freeze, set_loss, move_target, add_target };
+  enum class Kind : std::uint8_t { die, freeze, set_loss, move_target, add_target, kill, blackout, remove_target };
+  // What time_s counts from: the start, the moment at which the workers' remaining distances have
+  // fallen to half of what they were at the start, or the first at which all targets are held at
+  // once (docs/model.md). An event whose moment never comes never happens.
+  enum class When : std::uint8_t { time, half_way, complete };
+  // Whom a kill is drawn from: the living who broadcast the role when it acts.
+  enum class Of : std::uint8_t { robots, connectors, root, worker, worker_and_parent };
   double time_s = 0.0;
   Kind kind = Kind::die;
-  std::size_t index = 0;                // robot (die, freeze) or target (move_target)
-  double value = 0.0;                   // loss (set_loss); seconds of freezing (freeze, 0: for good)
+  std::size_t index = 0;                // robot (die, freeze) or target (move_target, remove_target)
+  double value = 0.0;                   // loss (set_loss); seconds (freeze, 0: for good; blackout); m/s (move_target, 0: it jumps)
   Vec2 position{};                      // move_target, add_target
+  When when = When::time;
+  Of of = Of::robots;                   // kill, and the rest of this struct
+  std::optional<double> share{};        // of those it is drawn from when it begins, rounded; not beside count
+  std::optional<std::size_t> count{};   // how many; neither: one
+  double every_s = 0.0;                 // one by one, so far apart; 0: all at once
+};
+
+// Without it all robots step at the begin of every tick. With it each has its own phase, uniform in
+// its period, and its own rate; bodies move and packets fly in `substeps` steps per tick.
+struct Clocks {
+  bool asynchronous = false;
+  double drift = 0.0;                   // a clock's rate is 1 + uniform(-drift, drift), drawn once
+  int substeps = 5;
 };
 
 struct Scenario {
@@ -102,6 +124,7 @@ struct Scenario {
   Swarm swarm;
   RobotModel robot;
   RadioModel radio;
+  Clocks clocks;
   Targets targets = RingTargets{};
   std::vector<Obstacle> obstacles;
   std::vector<Event> events;            // any order; equal times act in file order

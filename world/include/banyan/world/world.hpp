@@ -60,6 +60,12 @@ class World {
   // Need not be targets()[target].worker: a spare may have taken over. None if nobody does, if the
   // target was given up or if there is no such target. O(N).
   [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
+  [[nodiscard]] std::size_t deaths() const noexcept;               // since the start
+  // tick() at the begin of the step in which the last of them died; none if all live.
+  [[nodiscard]] std::optional<std::uint64_t> last_death_tick() const noexcept;
+  // Whether events are still to come that make robots die (Event::Kind::die, kill), those that
+  // wait for a moment of the mission included.
+  [[nodiscard]] bool pending_kills() const noexcept;
   // Robots that robot i could hear and be heard by at the current positions: in range, line of
   // sight free, both alive. Ascending. Packet loss is not in it.
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;

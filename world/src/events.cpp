@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// What happens to a world at the begin of a tick: targets drive, robots die, freeze or fall silent,
+// missions change.
+#include <algorithm>
+#include <limits>
+
+#include "banyan/world/random.hpp"
+#include "world_impl.hpp"
+
+namespace banyan::world {
+namespace {
+
+constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
+
+}  // namespace
+
+void World::Impl::happen() {
+  drive_targets();
+  const double now_s = static_cast<double>(tick) * scenario.tick_s;
+  watch_for_moments(now_s);
+  while (const auto entry = agenda.take(now_s + 1e-9)) apply(*entry);
+}
+
+void World::Impl::drive_targets() {
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    Course& course = courses[t];
+    if (course.speed_m_s == 0.0) continue;
+    const Vec2 way = course.goal - targets[t].position;
+    const double way_m = norm(way);
+    const double step_m = course.speed_m_s * scenario.tick_s;
+    targets[t].position = step_m < way_m ? targets[t].position + way * (step_m / way_m) : course.goal;
+    if (step_m >= way_m) course.speed_m_s = 0.0;
+  }
+}
+
+// ---- Moments of the mission ----
+
+void World::Impl::watch_for_moments(double now_s) {
+  if (agenda.waits_for(Event::When::half_way) && half_way()) agenda.come(Event::When::half_way, now_s);
+  if (agenda.waits_for(Event::When::complete) && complete()) agenda.come(Event::When::complete, now_s);
+}
+
+// From the target to the nearest living robot that serves it; to its first worker if none does.
+double World::Impl::remaining_m(std::size_t target) const noexcept {
+  const auto& [position, first, active] = targets[target];
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (alive[i] != 0 && role_of(i) == Role::worker && served_by(i) == static_cast<RobotId>(first))
+      least = std::min(least, distance(poses.position[i], position));
+  return least < std::numeric_limits<double>::infinity() ? least : distance(poses.position[first], position);
+}
+
+bool World::Impl::half_way() const noexcept {
+  double at_first = 0.0;
+  double now = 0.0;
+  bool any = false;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].active) continue;
+    any = true;
+    at_first += courses[t].start_m;
+    now += remaining_m(t);
+  }
+  return any && now <= 0.5 * at_first;
+}
+
+bool World::Impl::complete() const noexcept {
+  bool any = false;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].active) continue;
+    any = true;
+    if (!holder(t)) return false;
+  }
+  return any;
+}
+
+std::optional<std::size_t> World::Impl::holder(std::size_t target) const noexcept {
+  if (target >= targets.size() || !targets[target].active) return std::nullopt;
+  const auto& [position, first, active] = targets[target];
+  std::optional<std::size_t> best;
+  double best_m = 0.0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (alive[i] == 0 || role_of(i) != Role::worker || served_by(i) != static_cast<RobotId>(first)) continue;
+    const double away_m = distance(poses.position[i], position);
+    if (away_m > scenario.mission.target_tolerance_m || (best && away_m >= best_m)) continue;
+    best = i;
+    best_m = away_m;
+  }
+  return best;
+}
+
+// ---- What an event does ----
+
+void World::Impl::apply(Agenda::Entry entry) {
+  const Event& event = entry.event;
+  const auto until = [&] { return tick + static_cast<std::uint64_t>(event.value / scenario.tick_s + 0.5); };
+  switch (event.kind) {
+    case Event::Kind::die:
+      die(event.index);
+      break;
+    case Event::Kind::freeze:
+      frozen_until[event.index] = event.value > 0.0 ? until() : forever;
+      break;
+    case Event::Kind::set_loss:
+      loss = event.value;
+      break;
+    case Event::Kind::move_target:
+      move_target(event.index, event.position, event.value);
+      break;
+    case Event::Kind::add_target:
+      assign_target(event.position);
+      break;
+    case Event::Kind::kill:
+      kill(entry);
+      break;
+    case Event::Kind::blackout:
+      silent_until = std::max(silent_until, until());
+      break;
+    case Event::Kind::remove_target:
+      give_up(event.index);
+      break;
+  }
+}
+
+void World::Impl::die(std::size_t i) {
+  if (alive[i] == 0) return;
+  alive[i] = 0;
+  ++deaths;
+  last_death = tick;
+  if (scenario.robot.dead_bodies) return;
+  bodies->remove(i);
+  radio.forget(static_cast<std::uint32_t>(i));
+}
+
+// How many is settled when the event begins, who is drawn anew each time.
+void World::Impl::kill(Agenda::Entry entry) {
+  const Event& event = entry.event;
+  if (!entry.begun) {
+    entry.begun = true;
+    entry.begin_s = entry.due_s;
+    entry.left = event.share
+                     ? static_cast<std::uint64_t>(*event.share * static_cast<double>(count_among(event.of)) + 0.5)
+                     : event.count.value_or(1);
+  }
+  do {
+    if (entry.left == 0) return;
+    draw_victim(entry);
+    ++entry.drawn;
+    --entry.left;
+  } while (event.every_s == 0.0);
+  if (entry.left == 0) return;
+  entry.due_s = entry.begin_s + static_cast<double>(entry.drawn) * event.every_s;
+  agenda.again(entry);
+}
+
+bool World::Impl::among(Event::Of of, std::size_t i) const noexcept {
+  if (alive[i] == 0) return false;
+  switch (of) {
+    case Event::Of::robots:
+      return true;
+    case Event::Of::connectors:
+      return role_of(i) == Role::connector;
+    case Event::Of::root:
+      return role_of(i) == Role::root;
+    default:
+      return role_of(i) == Role::worker;
+  }
+}
+
+std::size_t World::Impl::count_among(Event::Of of) const noexcept {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) count += among(of, i) ? 1 : 0;
+  return count;
+}
+
+// Every one of them with the same chance. With nobody left to draw from, nobody dies.
+void World::Impl::draw_victim(const Agenda::Entry& entry) {
+  const Event::Of of = entry.event.of;
+  const double u = to_uniform(bits(scenario.seed, Purpose::kill, entry.number, entry.drawn));
+  auto rank = static_cast<std::size_t>(u * static_cast<double>(count_among(of)));
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!among(of, i) || rank-- > 0) continue;
+    const RobotId parent = up_of(messages[i]);
+    die(i);
+    if (of == Event::Of::worker_and_parent && parent != nobody) die(parent);
+    return;
+  }
+}
+
+void World::Impl::move_target(std::size_t target, Vec2 position, double speed_m_s) {
+  if (target >= targets.size()) return;  // it may never have found a worker (assign_target)
+  if (speed_m_s == 0.0) targets[target].position = position;
+  courses[target].goal = position;
+  courses[target].speed_m_s = speed_m_s;
+}
+
+// A new target goes to the nearest living robot that is neither worker nor root. One that was sent
+// to a target before stays out: its id names that one for as long as somebody may serve it.
+void World::Impl::assign_target(Vec2 position) {
+  std::size_t best = states.size();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (alive[i] == 0 || states[i].is_worker || states[i].role == Role::root || target_of[i] >= 0) continue;
+    if (best == states.size() ||
+        squared_norm(poses.position[i] - position) < squared_norm(poses.position[best] - position))
+      best = i;
+  }
+  if (best == states.size()) return;  // nobody is left to send
+  states[best].is_worker = true;
+  states[best].serves = static_cast<RobotId>(best);
+  target_of[best] = static_cast<std::int32_t>(targets.size());
+  targets.push_back({.position = position, .worker = best});
+  courses.push_back({.start_m = distance(poses.position[best], position)});
+}
+
+// Whoever serves the target is told to stop.
+void World::Impl::give_up(std::size_t target) {
+  if (target >= targets.size() || !targets[target].active) return;
+  targets[target].active = false;
+  courses[target].speed_m_s = 0.0;
+  const std::size_t first = targets[target].worker;
+  target_of[first] = -1;
+  for (State& state : states) {
+    if (!state.is_worker || state.serves != static_cast<RobotId>(first)) continue;
+    state.is_worker = false;
+    state.serves = nobody;
+  }
+}
+
+void World::Impl::add_events(Digest& digest) const noexcept {
+  if (silent_until > tick) digest.add(silent_until);
+  const bool half_way_counts = agenda.waits_for(Event::When::half_way);
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].active) digest.add(t);
+    if (half_way_counts) digest.add(courses[t].start_m);
+    if (courses[t].speed_m_s == 0.0) continue;
+    digest.add(courses[t].goal);
+    digest.add(courses[t].speed_m_s);
+  }
+}
+
+}  // namespace banyan::world

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The proximity sensor: where the surface of each obstacle within reach is nearest. Living robots
+// are not seen, they can be heard; the dead that stay are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "banyan/world/bodies.hpp"
+#include "banyan/world/scenario.hpp"
+
+namespace banyan::world {
+
+class Proximity {
+ public:
+  static constexpr std::size_t capacity = 8;  // what is farther than the nearest eight goes unseen
+  using Seen = std::array<banyan::Vec2, capacity>;
+
+  // Reach: scenario.robot.proximity_m from the robot's centre to the nearest point of a surface.
+  explicit Proximity(const Scenario& scenario);
+
+  // Where the dead lie now. O(dead log dead), nothing while all live or the dead vanish.
+  void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, std::size_t dead);
+  // What robot i sees, in its body frame, m: ascending by distance, equal ones obstacles before
+  // bodies and each in their order. Returns how many of `seen` are valid. O(obstacles + log dead).
+  std::size_t sense(const Poses& poses, std::size_t i, Seen& seen) const noexcept;
+
+ private:
+  struct Around {
+    Vec2 center;
+    double radius_m;
+  };  // a disc that holds the obstacle
+  struct Body {
+    Vec2 position;
+    std::uint32_t index;
+  };
+  class Nearest;
+
+  double reach_m_;
+  double radius_m_;
+  bool sees_dead_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<Around> around_;  // of each obstacle
+  std::vector<Body> dead_;      // by x
+};
+
+}  // namespace banyan::world

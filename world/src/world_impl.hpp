@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// What a world is made of, shared by the files that make it tick: world.cpp, events.cpp, clocks.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "agenda.hpp"
+#include "banyan/world/bodies.hpp"
+#include "banyan/world/radio.hpp"
+#include "banyan/world/random.hpp"
+#include "banyan/world/world.hpp"
+#include "proximity.hpp"
+
+namespace banyan::world {
+
+// Puts every element of cache-line size into one cache line.
+template <class T>
+struct CacheAligned {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+  CacheAligned() = default;
+  template <class U>
+  explicit CacheAligned(const CacheAligned<U>&) noexcept {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* p, std::size_t) noexcept { ::operator delete(p, line); }
+  friend bool operator==(const CacheAligned&, const CacheAligned&) noexcept { return true; }
+};
+
+// One packet on its way to one receiver.
+struct Packet {
+  std::uint32_t sender;
+  banyan::Vec2 position;   // of the sender in the receiver's body frame, as measured
+};
+
+// Packets of one tick with latency above one: held back until they are heard.
+struct Flight {
+  std::vector<std::uint32_t> offsets, count;
+  std::vector<Packet> packets;
+  std::vector<Message, CacheAligned<Message>> messages;
+};
+
+// What a target does beside being somewhere.
+struct Course {
+  double start_m = 0.0;     // how far its worker was from it at first
+  Vec2 goal{};              // where it drives
+  double speed_m_s = 0.0;   // 0: it stands
+};
+
+// Robots with clocks of their own (clocks.cpp).
+struct Waiting {              // a packet that has been sent to a robot and waits for its next step
+  Message message;
+  Vec2 position{};            // of the sender, in the receiver's frame at its last step before the measurement, m
+  std::uint64_t heard = 0;    // the substep in which it arrives
+};
+struct Clocked {
+  double phase = 0.0;         // of its clock at the start, in periods
+  double rate = 1.0;
+  bool told = false;          // it stepped in the last substep: its message travels in this one
+  Vec2 shift{};               // odometry since its last step, in the frame of that step, m
+  double turn = 0.0;          // rad
+  std::vector<Waiting> waiting;   // ascending by `heard`
+};
+
+struct World::Impl {
+  Impl(const Scenario& s, const Policy* own);   // own: null for the one that s names
+  Impl(const Impl& o);
+
+  // The phases of a tick, in order.
+  void happen();                               // events.cpp
+  void act();
+  void broadcast(Executor& executor);
+  void think(Executor& executor);
+
+  void fetch(std::size_t i) const noexcept;
+  std::size_t receive(std::size_t i, std::span<Packet> packets) const noexcept;
+  template <class P>
+  std::size_t keep_slots(std::size_t i, std::span<P> packets, std::size_t count) const noexcept;
+  [[nodiscard]] bool lost(std::size_t i, std::uint32_t sender) const noexcept;
+  void make_inboxes(const Executor& executor);
+  [[nodiscard]] banyan::Vec2 measure(std::size_t i, std::uint32_t sender) const noexcept;
+  Output consult(std::size_t i, std::span<const Heard> heard, const Odometry& moved) noexcept;
+  void adopt(const Policy& own);
+
+  // A tick of robots with clocks of their own (clocks.cpp)
+  void set_clocks();
+  void step_by_clocks(Executor& executor);
+  void count_wheel_turns();
+  void deliver(Executor& executor);
+  void wake(Executor& executor);
+  void step_one(std::size_t i, std::vector<Heard>& heard, std::uint64_t& received_here);
+  [[nodiscard]] bool strikes(std::size_t i) const noexcept;
+  void add_clocks(Digest& digest) const noexcept;
+
+  // Events (events.cpp)
+  void drive_targets();
+  void watch_for_moments(double now_s);
+  void apply(Agenda::Entry entry);
+  void kill(Agenda::Entry entry);
+  void draw_victim(const Agenda::Entry& entry);
+  [[nodiscard]] bool among(Event::Of of, std::size_t i) const noexcept;
+  [[nodiscard]] std::size_t count_among(Event::Of of) const noexcept;
+  void die(std::size_t i);
+  void move_target(std::size_t target, Vec2 position, double speed_m_s);
+  void assign_target(Vec2 position);
+  void give_up(std::size_t target);
+  [[nodiscard]] double remaining_m(std::size_t target) const noexcept;
+  [[nodiscard]] bool half_way() const noexcept;
+  [[nodiscard]] bool complete() const noexcept;
+
+  void add_events(Digest& digest) const noexcept;   // what is hashed of all this
+
+  // What robot i has told the others; before it has said anything, what the mission told it.
+  [[nodiscard]] Role role_of(std::size_t i) const noexcept { return tick == 0 ? states[i].role : messages[i].role; }
+  [[nodiscard]] RobotId served_by(std::size_t i) const noexcept { return tick == 0 ? states[i].serves : messages[i].serves; }
+  [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
+
+  Scenario scenario;
+  const Policy* policy;
+  Params params;
+  double loss;
+  std::uint64_t tick = 0;
+  std::uint64_t moment = 0;                    // what is drawn now is drawn for: the tick, or the substep
+
+  Poses poses;
+  std::unique_ptr<Bodies> bodies;
+  Radio radio;
+  Proximity proximity;
+  std::vector<Target> targets;
+  std::vector<Course> courses;                 // one per target
+  std::vector<std::uint8_t> alive;
+  std::vector<std::uint64_t> frozen_until;     // tick; 0: not frozen
+  std::vector<std::int32_t> target_of;         // per robot, -1: none
+  std::vector<State> states;
+  std::vector<Message, CacheAligned<Message>> messages, next_messages;
+  std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
+  std::vector<Odometry> odometry;
+  Agenda agenda;
+  std::uint64_t silent_until = 0;              // tick; nobody hears anything before
+  std::size_t deaths = 0;
+  std::optional<std::uint64_t> last_death;     // tick
+  std::vector<Flight> flights;                 // ring of latency_ticks - 1
+  Flight arriving;                             // taken out of the ring: heard this tick
+  std::vector<Clocked> clocked;                // one per robot; none if they step together
+  struct Inbox { std::vector<Packet> packets; std::vector<Heard> heard; };
+  std::vector<Inbox> inboxes;                  // one per thread
+  std::vector<std::uint64_t> received_by;      // packets, per thread
+  std::uint64_t received = 0, sent = 0;
+};
+
+// More packets than slots: every one has the same chance to be kept; the order stays.
+template <class P>
+std::size_t World::Impl::keep_slots(std::size_t i, std::span<P> packets, std::size_t count) const noexcept {
+  std::size_t wanted = static_cast<std::size_t>(scenario.radio.slots);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count && wanted > 0; ++k) {
+    const double u = to_uniform(bits(scenario.seed, Purpose::slots, i, k, moment));
+    if (u * static_cast<double>(count - k) >= static_cast<double>(wanted)) continue;  // Knuth's algorithm S
+    packets[kept++] = packets[k];
+    --wanted;
+  }
+  return kept;
+}
+
+}  // namespace banyan::world
