@@ -31,7 +31,7 @@ void release(Robot& robot) noexcept {
 }
 
 // An edge that would need a spare: a robot of the tree may stand nearer.
-constexpr float DANGER = 0.65F;
+constexpr float DANGER = 0.8F, URGENT = 0.7F;
 void take_nearer(Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
@@ -58,7 +58,7 @@ void leave_worker(Robot& robot) noexcept {
 
 // Rule 6: my parent is hidden, or soon will be. The visible robot nearest to the old edge that is
 // ahead of me: one of the tree or, when it is too late, a spare, which joins because it is named.
-void keep_in_sight(Robot& robot, bool hidden) noexcept {
+void keep_in_sight(Robot& robot, bool urgent) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
   const Vec2 parent = table.position(robot.parent);
@@ -68,7 +68,7 @@ void keep_in_sight(Robot& robot, bool hidden) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
     if (k == robot.parent || table.age(k) > 0) continue;
-    const bool spare = hidden && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
+    const bool spare = urgent && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
                        m.tree_hops != unreachable && table.range(k) <= p.parent_range_m() && sees_clearly(robot, k, clearance_m);
     if (!spare && !is_hold(robot, k, p.parent_range_m())) continue;
     const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k))) + (spare ? p.communication_range_m : 0.0F);
@@ -90,7 +90,9 @@ void take_shortcuts(Robot& robot) noexcept {
   constexpr int hidden_ticks = 1;
   const Params& p = robot.params;
   const bool hidden = robot.table().age(robot.parent) > hidden_ticks;
-  if (hidden || !sees_clearly(robot, robot.parent, DANGER * p.clearance * p.communication_range_m)) keep_in_sight(robot, hidden);
+  const float clearance_m = p.clearance * p.communication_range_m;
+  const bool endangered = hidden || !sees_clearly(robot, robot.parent, DANGER * clearance_m);
+  if (endangered) keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, URGENT * clearance_m));
   else if (self.grant != nobody) return;  // the tree changes here already
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (robot.self.need == Need::need) take_nearer(robot);
