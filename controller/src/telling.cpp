@@ -28,15 +28,17 @@ void tell(const Robot& robot, Message& m) noexcept {
   if (!robot.params.heals()) return;
   m.heartbeat = self.heart == self.root ? self.heartbeat : std::uint16_t{0};
   const int size = robot.table().size();
-  // Every pair of a neighbour and a target has its turn.
-  const Task* task = self.task_count > 0 ? &self.tasks[(self.turn + self.turn / std::max(size, 1)) % self.task_count] : nullptr;
+  // Every pair of a neighbour and a target has its turn; not all robots speak of the same at once.
+  const int turn = self.turn + self.id;
+  const int tasks = std::max<int>(self.task_count, 1);
+  const Task* task = self.task_count > 0 ? &self.tasks[turn % tasks] : nullptr;
   if (task != nullptr) {
     m.task_serves = task->serves;
     m.task_holder = task->holder;
     m.task_beat = task->beat;
   }
   if (size == 0) return;
-  const int k = self.turn % size;
+  const int k = turn / tasks % size;
   const Vec2 addressee = robot.table().position(k);
   m.told = robot.table().id(k);
   m.root_told = self.root_known && self.heart == self.root;
