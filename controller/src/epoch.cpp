@@ -63,6 +63,8 @@ void listen(Robot& robot) noexcept {
     }
   }
   if (self.phase_ticks < UINT16_MAX) ++self.phase_ticks;
+  // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
+  if (epoch > self.epoch && robot.is_root() && robot.params.heals()) return enter(robot, static_cast<std::uint16_t>(epoch + 1), Phase::start_tree);
   if (epoch != self.epoch || phase != self.phase) enter(robot, epoch, phase);
 }
 
