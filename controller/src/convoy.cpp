@@ -2,6 +2,7 @@
 // Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
 // springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
 #include "banyan/controller/convoy.hpp"
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policies.hpp"
 #include "banyan/controller/sight.hpp"
@@ -39,14 +40,20 @@ class Convoy final : public Policy {
   [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
 
   [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
-  // Only when the edge is about to hold the workers back.
+  // Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
-    return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.call_distance * robot.params.communication_range_m;
+    const Params& p = robot.params;
+    const float from_m = robot.self.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance * p.communication_range_m;
+    return robot.parent >= 0 && robot.table().range(robot.parent) > from_m;
   }
   [[nodiscard]] bool may_insert(const Robot& robot, int owner, int parent) const noexcept override;
-  void tend_tree(Robot& robot) const noexcept override { take_shortcuts(robot); }
+  void tend_tree(Robot& robot) const noexcept override {
+    take_shortcuts(robot);
+    robot.self.pinned = is_pinned(robot);
+  }
   [[nodiscard]] Vec2 tree_motion(const Robot& robot) const noexcept override { return towed_motion(robot); }
   [[nodiscard]] Vec2 spare_motion(const Robot& robot) const noexcept override { return waiting_motion(robot); }
+  void limit_motion(const Robot& robot, Guard& guard) const noexcept override { keep_sight(robot, guard); }
 };
 
 // Short first edges, then such as need no spare, then the nearest; a blocked one is as good as far.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policy.hpp"
 #include "banyan/controller/spare_management.hpp"
@@ -67,6 +68,10 @@ Guard guard_of(const Robot& robot) noexcept {
   Guard guard;
   if (robot.params.corrected())
     for_each_tree_neighbor(robot, [&](int k) { guard.add(robot.table().position(k), robot.params); });
+  if (robot.params.corrected()) {
+    keep_off(robot, guard);
+    robot.policy.limit_motion(robot, guard);
+  }
   return guard;
 }
 
@@ -124,6 +129,12 @@ void Guard::add(Vec2 neighbor, const Params& params) noexcept {
   if (d <= 0.0F) return;
   away[size] = -neighbor / d;
   limit[size++] = 0.5F * (params.ideal_distance_m - d) * params.guard_rate_per_s;
+}
+
+void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
+  if (size == capacity) return;
+  away[size] = direction;
+  limit[size++] = limit_m_s;
 }
 
 Vec2 Guard::apply(Vec2 v) const noexcept {
