@@ -195,6 +195,17 @@ void note_contact(const Robot& robot) noexcept {
   if (m.epoch == self.epoch && m.pulse > self.pulse) self.seen_from = table.position(nearest);
 }
 
+// A child that has to go on is held back by me.
+bool is_towed(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  const float start_m = robot.params.pull_start * robot.params.communication_range_m;
+  const auto tows = [&](int k) {
+    const Message& m = table.message(k);
+    return m.role != Role::spare && m.want_cm > 0 && (m.pinned || table.range(k) > start_m);
+  };
+  return std::any_of(robot.children.begin(), robot.children.end(), tows);
+}
+
 void forget_wrong(const Robot& robot) noexcept {
   Landmarks& known = robot.self.landmarks;
   float nearest_m = body_m(robot) + near_m;
@@ -291,6 +302,7 @@ Vec2 clear_sight(const Robot& robot) noexcept {
 
 bool is_pinned(const Robot& robot) noexcept {
   if (!robot.parent_alive() || robot.self.want_m <= 0.0F || robot.table().range(robot.parent) < pin_shortest_m) return false;
+  if (!robot.self.is_worker && !is_towed(robot)) return false;
   bool pinned = false;
   for_each_threat(robot, robot.table().position(robot.parent), [&](const Threat& t) { pinned = pinned || t.across_m < pin_width_m; });
   return pinned;

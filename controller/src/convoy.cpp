@@ -44,7 +44,7 @@ class Convoy final : public Policy {
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
     const Params& p = robot.params;
     const float from_m = robot.self.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance * p.communication_range_m;
-    return robot.parent >= 0 && robot.table().range(robot.parent) > from_m;
+    return robot.parent >= 0 && (robot.self.pinned || robot.table().range(robot.parent) > from_m);
   }
   [[nodiscard]] bool may_insert(const Robot& robot, int owner, int parent) const noexcept override;
   void tend_tree(Robot& robot) const noexcept override {
@@ -82,7 +82,7 @@ bool Convoy::needs_spare(const Robot& robot) const noexcept {
   const float d = robot.table().range(robot.parent);
   const bool hidden = robot.table().age(robot.parent) > silence_ticks;
   return (d > robot.params.recruitment_distance_m && robot.self.want_m > 0.0F) ||
-         (hidden && d > robot.params.shortest_split * robot.params.communication_range_m);
+         ((hidden || robot.self.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);
 }
 
 bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcept {

@@ -67,7 +67,10 @@ Vec2 adjust_position(const Robot& robot) noexcept {
 Guard guard_of(const Robot& robot) noexcept {
   Guard guard;
   if (robot.params.corrected())
-    for_each_tree_neighbor(robot, [&](int k) { guard.add(robot.table().position(k), robot.params); });
+    for_each_tree_neighbor(robot, [&](int k) {
+      // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
+      if (robot.table().alive(k) || robot.obstacles.empty()) guard.add(robot.table().position(k), robot.params);
+    });
   if (robot.params.corrected()) {
     keep_off(robot, guard);
     robot.policy.limit_motion(robot, guard);
