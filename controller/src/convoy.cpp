@@ -2,6 +2,7 @@
 // Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
 // springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
 #include "banyan/controller/convoy.hpp"
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policies.hpp"
 #include "banyan/controller/sight.hpp"
@@ -45,14 +46,20 @@ class Convoy final : public Policy {
     constexpr float patience_s = 5.0F;
     return robot.self.stalled_ticks > robot.params.ticks(patience_s);
   }
-  // Only when the edge is about to hold the workers back.
+  // Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
-    return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.call_distance * robot.params.communication_range_m;
+    const Params& p = robot.params;
+    const float from_m = robot.self.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance * p.communication_range_m;
+    return robot.parent >= 0 && (robot.self.pinned || robot.table().range(robot.parent) > from_m);
   }
   [[nodiscard]] bool may_insert(const Robot& robot, int owner, int parent) const noexcept override;
-  void tend_tree(Robot& robot) const noexcept override { take_shortcuts(robot); }
+  void tend_tree(Robot& robot) const noexcept override {
+    take_shortcuts(robot);
+    robot.self.pinned = is_pinned(robot);
+  }
   [[nodiscard]] Vec2 tree_motion(const Robot& robot) const noexcept override { return towed_motion(robot); }
   [[nodiscard]] Vec2 spare_motion(const Robot& robot) const noexcept override { return waiting_motion(robot); }
+  void limit_motion(const Robot& robot, Guard& guard) const noexcept override { keep_sight(robot, guard); }
 };
 
 // Short first edges, then such as need no spare, then the nearest; a blocked one is as good as far.
@@ -82,7 +89,7 @@ bool Convoy::needs_spare(const Robot& robot) const noexcept {
   const float d = robot.table().range(robot.parent);
   const bool hidden = robot.table().age(robot.parent) > silence_ticks;
   return (d > robot.params.recruitment_distance_m && robot.self.want_m > 0.0F) ||
-         (hidden && d > robot.params.shortest_split * robot.params.communication_range_m);
+         ((hidden || robot.self.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);
 }
 
 bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcept {

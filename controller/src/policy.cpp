@@ -20,6 +20,8 @@ bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcep
 
 void Policy::tend_tree(Robot&) const noexcept {}
 
+void Policy::limit_motion(const Robot&, Guard&) const noexcept {}
+
 Vec2 Policy::tree_motion(const Robot& robot) const noexcept { return spring_motion(robot); }
 
 Vec2 Policy::spare_motion(const Robot& robot) const noexcept { return attendance_motion(robot); }

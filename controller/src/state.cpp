@@ -55,6 +55,15 @@ std::uint64_t hash(const State& s) noexcept {
   d.add(s.missed_packets);
   d.add(s.root_at);
   for (int k = 0; k < s.task_count; ++k) add(d, s.tasks[k]);
+  d.add(static_cast<int>(s.detour.side));
+  d.add(s.detour.contact);
+  d.add(s.detour.origin);
+  d.add(s.detour.goal);
+  d.add(s.detour.leave_m);
+  d.add(s.detour.span_m);
+  d.add(static_cast<int>(s.pinned));
+  d.add(s.seen_from);
+  for (int k = 0; k < s.landmarks.size; ++k) d.add(s.landmarks.points[static_cast<std::size_t>(k)]);
   d.add(s.tally.insertions);
   d.add(s.tally.handovers);
   d.add(s.tally.repairs);

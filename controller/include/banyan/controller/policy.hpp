@@ -10,6 +10,8 @@
 
 namespace banyan {
 
+struct Guard;  // motion.hpp
+
 class Policy {
  public:
   Policy(const Policy&) = delete;
@@ -51,6 +53,8 @@ class Policy {
   // What robots of the tree and spares want to do, in units of speed_gain (paper Sec. III-G).
   [[nodiscard]] virtual Vec2 tree_motion(const Robot& robot) const noexcept;
   [[nodiscard]] virtual Vec2 spare_motion(const Robot& robot) const noexcept;
+  // What else limits how they may move (corrected). Nothing.
+  virtual void limit_motion(const Robot& robot, Guard& guard) const noexcept;
 
  protected:
   constexpr Policy() = default;
