@@ -2,6 +2,8 @@
 // Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
 // springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
 #include "banyan/controller/convoy.hpp"
+#include <algorithm>
+
 #include "banyan/controller/bypass.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policies.hpp"
@@ -87,7 +89,7 @@ bool Convoy::prefers(const Robot& robot, int a, int b) const noexcept {
 bool Convoy::needs_spare(const Robot& robot) const noexcept {
   if (robot.parent < 0) return false;
   const float d = robot.table().range(robot.parent);
-  const bool hidden = robot.table().age(robot.parent) > silence_ticks;
+  const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   return (d > robot.params.recruitment_distance_m && robot.self.want_m > 0.0F) ||
          ((hidden || robot.self.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);
 }

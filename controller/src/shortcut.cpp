@@ -89,7 +89,7 @@ void take_shortcuts(Robot& robot) noexcept {
   if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.inserted_child != nobody) return;
   constexpr int hidden_ticks = 1;
   const Params& p = robot.params;
-  const bool hidden = robot.table().age(robot.parent) > hidden_ticks;
+  const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
   const float clearance_m = p.clearance * p.communication_range_m;
   const bool endangered = hidden || !sees_clearly(robot, robot.parent, DANGER * clearance_m);
   if (endangered) keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, URGENT * clearance_m));
