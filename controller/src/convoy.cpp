@@ -2,6 +2,7 @@
 // Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
 // springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
 #include "banyan/controller/convoy.hpp"
+
 #include <algorithm>
 
 #include "banyan/controller/bypass.hpp"
@@ -21,9 +22,9 @@ class Convoy final : public Policy {
   [[nodiscard]] std::string_view summary() const noexcept override {
     return "a sparse tree that its workers tow; spares join near the root, without travelling";
   }
-  // Lengths for C = 2 m.
-  [[nodiscard]] Params defaults(Reading reading) const noexcept override {
-    Params p = inwards().defaults(reading);
+  // Lengths for C = 2 m. There is nothing printed to be read in two ways.
+  [[nodiscard]] Params defaults(Reading) const noexcept override {
+    Params p = inwards().defaults(Reading::corrected);
     p.ideal_distance_m = 1.90F;        // G: no edge outgrows it
     p.safe_range_m = 1.80F;            // a spare follows its reference beyond it
     p.recruitment_distance_m = 1.65F;  // a longer edge asks for a spare
