@@ -107,12 +107,12 @@ TEST_F(ConvoyChain, OnlyAnEdgeNearItsLimitCallsSparesFromAfar) {
 }
 
 TEST_F(ConvoyChain, AConnectorThatIsNotNeededAnyMoreIsReleased) {
-  put_root({-1.4F, 0.6F});
+  put_root({-1.3F, 0.6F});
   EXPECT_EQ(parent_after_shortcuts(), 9);
 }
 
 TEST_F(ConvoyChain, AConnectorIsKeptThatServesAnotherOrIsFarFromItsParent) {
-  put_root({-1.4F, 0.6F});
+  put_root({-1.3F, 0.6F});
   bench.say(2).child_count = 2;
   EXPECT_EQ(parent_after_shortcuts(), 2);
   bench.say(2).child_count = 1;
