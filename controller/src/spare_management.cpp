@@ -2,6 +2,7 @@
 #include "banyan/controller/spare_management.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "banyan/controller/label.hpp"
 #include "banyan/controller/parent_selection.hpp"
@@ -106,13 +107,18 @@ RobotId nearest_edge_in_need(const Robot& robot) noexcept {
   return best;
 }
 
-// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest.
+// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest. It
+// keeps the one it has while that is as good: who turns to another every tick gets nowhere.
 RobotId nearest_reference(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   int best = -1;
-  const auto key = [&](int k) {
+  const auto hops = [&](int k) {
     const Message& m = table.message(k);
-    return std::pair(m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops), table.range(k));
+    return m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops);
+  };
+  const auto key = [&](int k) {
+    const bool other = table.id(k) != robot.self.reference;
+    return std::tuple(hops(k), hops(k) >= 0 && other, table.range(k));
   };
   for (int k = 0; k < table.size(); ++k)
     if (table.alive(k) && (best < 0 || key(k) < key(best))) best = k;
@@ -130,13 +136,17 @@ RobotId nearest_caller(const Robot& robot) noexcept {
 
 // Corrected reading: a spare that stands still may be far from where it is needed. Needs that nobody
 // answers spread hop by hop, and spares without an edge in sight follow the gradient.
-void spread_call(Robot& robot) noexcept {
+// True if a call is about: when it is over, the hops that the robots tell each other count up, which
+// is no gradient to follow.
+bool spread_call(Robot& robot) noexcept {
   State& self = robot.self;
+  const bool steady = robot.call_hops < self.call_hops;
   const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
   self.unserved_ticks = unserved && self.unserved_ticks < UINT16_MAX ? static_cast<std::uint16_t>(self.unserved_ticks + 1) : std::uint16_t{0};
   const bool in_vain = self.unserved_ticks > robot.params.ticks(call_after_s);
   if (robot.params.corrected() && in_vain && robot.policy.may_call(robot)) self.call_hops = 0;
   else self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
+  return steady;
 }
 
 void give_up(State& self) noexcept {
@@ -179,11 +189,11 @@ void follow_request(Robot& robot) noexcept {
   if (granted && robot.policy.may_insert(robot, owner, table.find(m.parent))) join_edge(robot, owner);
 }
 
-void look_for_edge(Robot& robot) noexcept {
+void look_for_edge(Robot& robot, bool call) noexcept {
   State& self = robot.self;
   self.reference = nearest_reference(robot);
   self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
-  self.called = self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
+  self.called = call && self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
   if (self.called) self.reference = nearest_caller(robot);
   self.request_ticks = self.ungranted_ticks = 0;
   self.spare_state = self.request != nobody ? SpareState::wait : SpareState::adjust_position;
@@ -223,7 +233,7 @@ bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept {
 
 void manage_spares(Robot& robot) noexcept {
   State& self = robot.self;
-  spread_call(robot);
+  const bool call = spread_call(robot);
   self.called = false;  // look_for_edge() finds out anew
   if (self.inserted_child != nobody) watch_inserted_child(robot);
   if (self.role != Role::spare) {
@@ -235,7 +245,7 @@ void manage_spares(Robot& robot) noexcept {
   end_grant(self);
   if (self.parent != nobody || robot.children.size > 0) give_up(self);  // still part of a branch
   else if (self.request != nobody) follow_request(robot);
-  else look_for_edge(robot);
+  else look_for_edge(robot, call);
 }
 
 }  // namespace banyan
