@@ -173,8 +173,11 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   // On its way along a chain it may come nearer to the line of sight than while it waits.
   if (d > reach_m || (self.called && d > p.avoidance_range_m))
     return bypass(robot, reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
-  // There, but an obstacle or its distance hides the edge that calls: round the robot that passed the call on.
-  if (self.called && self.landmarks.size > 0 && d > 0.0F) return bypass(robot, Vec2{-reference.y, reference.x}) + elbow_room(robot);
+  // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
+  // Where many edges meet, others wait on its far side, and it would only cross their sight.
+  const bool roomy = self.landmarks.size > 0 || (k >= 0 && robot.table().message(k).child_count <= 3);
+  if (self.called && roomy && d > 0.0F) 
+    return bypass(robot, Vec2{-reference.y, reference.x}) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   return elbow_room(robot) + make_way(robot, p.corridor_width * c);
 }
 
