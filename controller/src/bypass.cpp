@@ -25,7 +25,7 @@ constexpr float spacing_m = 0.06F;        // of remembered points
 constexpr float forget = 1.0F;            // of C: an edge is no longer
 constexpr float same_obstacle_m = 0.20F;  // the contact point moves on by less in a tick
 constexpr float progress_m = 0.05F;
-constexpr float first_span = 1.5F;        // of C
+constexpr float first_span = 0.35F;        // of C
 constexpr float goal_moved_m = 0.30F;
 
 float body_m(const Robot& robot) noexcept { return body_per_axle * robot.params.wheel_distance_m; }
@@ -81,7 +81,7 @@ void begin(const Robot& robot, Vec2 goal, Vec2 contact) noexcept {
   const Vec2 to_goal = unit(goal);
   const float left = dot(sweep(robot, contact, 1).direction, to_goal);
   const float right = dot(sweep(robot, contact, -1).direction, to_goal);
-  const bool equal = std::abs(left - right) < 0.05F;
+  const bool equal = std::abs(left - right) < 0.01F;
   detour.side = (equal ? robot.self.id % 2 == 0 : left > right) ? std::int8_t{1} : std::int8_t{-1};
   detour.contact = contact;
   detour.origin = {};
