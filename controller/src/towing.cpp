@@ -158,6 +158,10 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
     return bypass(robot, midpoint) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   // Nobody around has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.seen_from) > p.arrival_distance_m) return bypass(robot, self.seen_from) + elbow_room(robot);
+  // The root is about to go round a corner, and waits for spares.
+  const int root = robot.table().find(self.root.id);
+  if (root >= 0 && robot.table().message(root).pinned && robot.table().range(root) > p.avoidance_range_m)
+    return bypass(robot, robot.table().position(root)) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
