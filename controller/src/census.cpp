@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/edge_frame.hpp"
+#include "banyan/controller/policy.hpp"
 
 namespace banyan {
 namespace {
@@ -43,7 +44,7 @@ void add_own_target(const Robot& robot, Sums& sums) noexcept {
   const float distance_m = norm(*robot.target);
   sums.pull = unit(*robot.target) * (p.target_gain * std::min(1.0F, distance_m / p.arrival_distance_m));
   sums.pulling = 1;
-  sums.want_m = distance_m > p.arrival_distance_m ? distance_m : 0.0F;
+  sums.want_m = distance_m > robot.policy.rest_distance(p) ? distance_m : 0.0F;
 }
 
 std::uint16_t saturate(std::uint32_t v) noexcept { return static_cast<std::uint16_t>(std::min<std::uint32_t>(v, UINT16_MAX)); }

@@ -39,6 +39,8 @@ class Convoy final : public Policy {
   [[nodiscard]] bool tree_complete(const Robot& robot) const noexcept override { return inwards().tree_complete(robot); }
   [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
 
+  // Behind a target that drives a worker lags: its tree must come along before it has lost it.
+  [[nodiscard]] float rest_distance(const Params& params) const noexcept override { return 0.4F * params.arrival_distance_m; }
   [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
   // Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
