@@ -8,6 +8,7 @@
 #include "banyan/controller/census.hpp"
 #include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/epoch.hpp"
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/label.hpp"
 #include "banyan/controller/motion.hpp"
 #include "banyan/controller/parent_selection.hpp"
@@ -22,6 +23,9 @@ namespace {
 // What is remembered as a vector moves with the robot's own frame.
 void carry_memory(State& self, const Carry& carry) noexcept {
   if (self.centroid_known) self.centroid = carry.point(self.centroid);
+  self.root_at = carry.point(self.root_at);
+  for (int k = 0; k < self.task_count; ++k) self.tasks[k].target = carry.point(self.tasks[k].target);
+  ++self.turn;
   if (self.detour.side != 0)
     for (Vec2* v : {&self.detour.contact, &self.detour.origin, &self.detour.goal}) *v = carry.point(*v);
   self.seen_from = carry.point(self.seen_from);
@@ -93,6 +97,7 @@ Message compose(const Robot& robot) noexcept {
     m.centroid_x_cm = fixed<std::int16_t>(centroid.x, 100.0F);
     m.centroid_y_cm = fixed<std::int16_t>(centroid.y, 100.0F);
   }
+  tell(robot, m);
   return m;
 }
 
@@ -115,8 +120,12 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   carry_memory(state, carry);
   state.neighbors.update(heard, carry, robot.liveness_ticks(), state.id, {state.parent, state.old_parent});
 
+  estimate_loss(robot);   // how long neighbours may be silent
   listen(robot);          // the largest epoch, phase and root token heard
   accept_offer(robot);    // Select Root, the heir's side
+  follow_heartbeat(robot);  // is there a root at all,
+  claim_root(robot);        // and if not, am I the one to be it?
+  mind_tasks(robot);        // does every target have its worker?
   survey(robot);          // who are my parent and children
   remember_obstacles(robot);
   update_role(robot);

@@ -2,6 +2,8 @@
 // Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
 // springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
 #include "banyan/controller/convoy.hpp"
+#include <algorithm>
+
 #include "banyan/controller/bypass.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policies.hpp"
@@ -42,6 +44,12 @@ class Convoy final : public Policy {
   // Behind a target that drives a worker lags: its tree must come along before it has lost it.
   [[nodiscard]] float rest_distance(const Params& params) const noexcept override { return 0.4F * params.arrival_distance_m; }
   [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
+  [[nodiscard]] bool workers_relay() const noexcept override { return true; }
+  // Not while the workers get on: the tree mends itself meanwhile, and a new one is not free.
+  [[nodiscard]] bool reconstructs(const Robot& robot) const noexcept override {
+    constexpr float patience_s = 5.0F;
+    return robot.self.stalled_ticks > robot.params.ticks(patience_s);
+  }
   // Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
     const Params& p = robot.params;
@@ -67,7 +75,8 @@ struct Preference {
     const float c = p.communication_range_m;
     float range_m = robot.table().range(k);
     if (!sees_clearly(robot, k, p.clearance * c)) range_m += 5.0F * c;
-    rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
+    if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
+  rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
   }
 };
@@ -82,7 +91,7 @@ bool Convoy::prefers(const Robot& robot, int a, int b) const noexcept {
 bool Convoy::needs_spare(const Robot& robot) const noexcept {
   if (robot.parent < 0) return false;
   const float d = robot.table().range(robot.parent);
-  const bool hidden = robot.table().age(robot.parent) > silence_ticks;
+  const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
   const Message& parent = robot.table().message(robot.parent);
   const bool wanted = robot.self.want_m > 0.0F || (parent.role == Role::worker && parent.want_cm > 0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/bypass.hpp"
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policy.hpp"
 #include "banyan/controller/spare_management.hpp"
@@ -66,15 +67,14 @@ Vec2 adjust_position(const Robot& robot) noexcept {
 
 Guard guard_of(const Robot& robot) noexcept {
   Guard guard;
-  if (robot.params.corrected())
-    for_each_tree_neighbor(robot, [&](int k) {
-      // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-      if (robot.table().alive(k) || robot.obstacles.empty()) guard.add(robot.table().position(k), robot.params);
-    });
-  if (robot.params.corrected()) {
-    keep_off(robot, guard);
-    robot.policy.limit_motion(robot, guard);
-  }
+  if (!robot.params.corrected()) return guard;
+  const bool retreating = is_retreating(robot);  // from where the silent may have been lost for good
+  for_each_tree_neighbor(robot, [&](int k) {
+    // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
+    if (robot.table().alive(k) || (!retreating && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params);
+  });
+  keep_off(robot, guard);
+  robot.policy.limit_motion(robot, guard);
   return guard;
 }
 
@@ -183,7 +183,8 @@ Velocity drive(Vec2 v, const Guard& guard, const Params& params) noexcept {
 
 Velocity move(const Robot& robot) noexcept {
   const Params& p = robot.params;
-  const Vec2 u = robot.self.role == Role::spare ? robot.policy.spare_motion(robot) : robot.policy.tree_motion(robot);
+  const Vec2 u = is_retreating(robot) ? retreat_motion(robot) :
+                 robot.self.role == Role::spare ? robot.policy.spare_motion(robot) : robot.policy.tree_motion(robot);
   const Guard guard = guard_of(robot);
   const Vec2 v = guard.apply(clamped(u, 1.0F) * p.speed_gain_m_s);
   return drive(clamped(v, p.wheel_limit_m_s), guard, p);

@@ -11,6 +11,8 @@ float Policy::rest_distance(const Params& params) const noexcept { return params
 
 bool Policy::needs_spare(const Robot& robot) const noexcept { return is_stretched(robot) || child_in_need(robot); }
 
+bool Policy::reconstructs(const Robot&) const noexcept { return true; }
+
 bool Policy::may_call(const Robot&) const noexcept { return true; }
 
 bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcept {

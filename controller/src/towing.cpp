@@ -12,6 +12,7 @@
 namespace banyan {
 namespace {
 
+constexpr float FOLLOW_S = 0.25F, FOLLOW_T = 0.5F;
 constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
@@ -24,19 +25,24 @@ bool is_tree_neighbor(const Robot& robot, int k) noexcept {
   return m.parent == robot.self.id || m.old_parent == robot.self.id;
 }
 
-// Children that still have to go on tow: in proportion to how far the edge is stretched. The root
-// stays with the spares as long as it can: they are needed where its edges grow.
+// Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
+// junctions stay with the spares as long as they can: there their edges grow and are split.
 Vec2 tow(const Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
   const float c = p.communication_range_m;
-  const float start_m = robot.is_root() ? p.safe_range_m : p.pull_start * c;
+  const auto tows = [&](int k) {
+    const Message& m = table.message(k);
+    return m.role != Role::spare && m.want_cm > 0 && up_of(m) == robot.self.id;
+  };
+  const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
+                     std::count_if(robot.old_children.begin(), robot.old_children.end(), tows);
+  const float start_m = robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start * c;
   Vec2 u;
   const auto add = [&](int k) {
-    const Message& m = table.message(k);
-    if (m.role == Role::spare || m.want_cm == 0 || up_of(m) != robot.self.id) return;
+    if (!tows(k)) return;
     // A child at a corner needs its parent there before it can go round.
-    const float weight = m.pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width * c);
+    const float weight = table.message(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width * c);
     u += unit(table.position(k)) * weight;
   };
   for (const int k : robot.children) add(k);
@@ -167,8 +173,11 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
+  // Sight can be lost at any distance: it follows in good time, and a spare that leads it even earlier.
+  const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
+  const float reach_m = (led ? FOLLOW_S : FOLLOW_T) * c;
   // On its way along a chain it may come nearer to the line of sight than while it waits.
-  if (d > p.safe_range_m || (self.called && d > p.avoidance_range_m))
+  if (d > reach_m || (self.called && d > p.avoidance_range_m))
     return bypass(robot, reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   // There, but an obstacle or its distance hides the edge that calls: round the robot that passed the call on.
   if (self.called && self.landmarks.size > 0 && d > 0.0F) return bypass(robot, Vec2{-reference.y, reference.x}) + elbow_room(robot);

@@ -42,6 +42,10 @@ class Policy {
   [[nodiscard]] virtual float rest_distance(const Params& params) const noexcept;
   // The edge to my parent, or one below it, wants a spare (paper Fig. 5).
   [[nodiscard]] virtual bool needs_spare(const Robot& robot) const noexcept;
+  // A worker may be somebody's parent (protocol 5: not in the paper's algorithms).
+  [[nodiscard]] virtual bool workers_relay() const noexcept { return false; }
+  // The root's view, once R is over: it is time to reconstruct the tree.
+  [[nodiscard]] virtual bool reconstructs(const Robot& robot) const noexcept;
   // An edge whose need nobody answers calls spares from afar (protocol 7).
   [[nodiscard]] virtual bool may_call(const Robot& robot) const noexcept;
   // A spare whose edge is granted joins it from where it is: `owner` and `parent` are the edge's ends.
