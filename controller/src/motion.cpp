@@ -89,6 +89,11 @@ Vec2 avoidance(const Robot& robot) noexcept {
     if (d >= a || d <= 0.0F || !table.alive(k) || is_tree_neighbor(robot, k)) continue;
     u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
   }
+  if (!robot.params.corrected()) return u;
+  for (const Vec2 o : robot.obstacles) {
+    const float d = norm(o);
+    if (d < a && d > 0.0F) u += o * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
+  }
   return u;
 }
 

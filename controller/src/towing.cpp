@@ -151,6 +151,8 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (up >= 0 && !robot.table().alive(up)) return bypass(robot, robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
+  // A target may be added in mid-mission: not without the tree.
+  if (robot.self.is_worker && up < 0 && robot.self.phase == Phase::grow_tree) return elbow_room(robot);
   if (robot.self.is_worker) return pull_past_obstacles(robot) + elbow_room(robot);
   return clamped(tow(robot), 1.0F) + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
@@ -164,6 +166,10 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
     return bypass(robot, midpoint) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   // Nobody around has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.seen_from) > p.arrival_distance_m) return bypass(robot, self.seen_from) + elbow_room(robot);
+  // The root is about to go round a corner, and waits for spares.
+  const int root = robot.table().find(self.root.id);
+  if (root >= 0 && robot.table().message(root).pinned && robot.table().range(root) > p.avoidance_range_m)
+    return bypass(robot, robot.table().position(root)) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);

@@ -127,7 +127,7 @@ struct State {
   // Obstacles (bypass.hpp)
   Detour detour;
   Landmarks landmarks;
-  Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent
+  Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent; a spare: where the tree was
   bool pinned = false;                   // a corner is about to cut the edge to my parent
 
   Tally tally;
