@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/healing.hpp"
 #include "banyan/controller/parent_selection.hpp"
 
@@ -63,11 +62,13 @@ void hear_of_task(Robot& robot, RobotId serves, RobotId holder, std::uint16_t be
     task = add_task(self, serves);
     if (task == nullptr) return;
     task->beat = static_cast<std::uint16_t>(beat - 1);
+    task->target = *target;
   }
   if (self.is_worker && self.serves == serves && holder != self.id) return settle_rivalry(robot, *task, holder, beat);
   const int ahead = ahead_by(beat, task->beat);
+  // From somebody about as near to the worker; the worker silent, copies of copies would only drift.
   constexpr int stale_ticks = 3;
-  if (target != nullptr && ahead >= -stale_ticks && !(self.is_worker && self.serves == serves)) task->target = *target;
+  if (target != nullptr && ahead >= -stale_ticks && task->age_ticks <= 2 * robot.liveness_ticks() + task_capacity) task->target = *target;
   if (ahead <= 0) return;
   task->beat = beat;
   task->holder = holder;
@@ -78,8 +79,10 @@ void hear_of_tasks(Robot& robot) noexcept {
   for (const Heard& h : robot.heard) {
     const Message& m = *h.message;
     if (m.task_serves == nobody) continue;
-    const Vec2 target = from_edge_frame({static_cast<float>(m.task_x_cm) * 0.01F, static_cast<float>(m.task_y_cm) * 0.01F}, h.position);
-    hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, m.told == robot.self.id ? &target : nullptr);
+    const int k = m.told == robot.self.id ? robot.table().find(m.id) : -1;
+    Vec2 target;
+    const bool told = k >= 0 && robot.table().read_point(k, m.task_x_cm, m.task_y_cm, target);
+    hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, told ? &target : nullptr);
   }
 }
 
