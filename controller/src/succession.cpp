@@ -50,7 +50,7 @@ void settle_rivalry(Robot& robot, Task& task, RobotId rival, std::uint16_t beat)
     task.holder = rival;
     task.beat = beat;
   } else {
-    task.beat = static_cast<std::uint16_t>(beat + 1);  // so that it hears of me
+    task.beat = static_cast<std::uint16_t>(beat + takeover_beats);  // so that it hears of me
   }
 }
 

@@ -119,7 +119,9 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (up >= 0 && !robot.table().alive(up)) return unit(robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
-  if (robot.self.is_worker) return robot.self.pull + elbow_room(robot);
+  // It may stand off its target a little, if that lets another reach its own.
+  constexpr float leeway = 0.7F;
+  if (robot.self.is_worker) return robot.self.pull + clamped(shared_slack(robot), leeway) + elbow_room(robot);
   return clamped(tow(robot), 1.0F) + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m);
 }
 
