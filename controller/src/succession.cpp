@@ -7,7 +7,8 @@
 namespace banyan {
 namespace {
 
-constexpr int takeover_beats = 10;  // a successor's count starts so far ahead of all that is under way
+constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
+constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
 
 int ahead_by(std::uint16_t a, std::uint16_t b) noexcept { return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)); }
 
@@ -41,10 +42,10 @@ void resign(Robot& robot) noexcept {
   robot.target = nullptr;
 }
 
-// Somebody else is said to serve what I serve. Older counts may be a dead worker's; a living rival
-// hears of mine, then.
+// Somebody else is said to serve what I serve. Counts far behind may be a dead worker's; a living
+// rival hears of mine, then.
 void settle_rivalry(Robot& robot, Task& task, RobotId rival, std::uint16_t beat) noexcept {
-  if (rival == nobody || ahead_by(beat, task.beat) < 0) return;
+  if (rival == nobody || ahead_by(beat, task.beat) < -rival_beats) return;
   if (has_precedence(rival, robot.self.id, task.serves)) {
     resign(robot);
     task.holder = rival;
