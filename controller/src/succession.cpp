@@ -65,7 +65,10 @@ void hear_of_task(Robot& robot, RobotId serves, RobotId holder, std::uint16_t be
     task->beat = static_cast<std::uint16_t>(beat - 1);
     task->target = *target;
   }
-  if (self.is_worker && self.serves == serves && holder != self.id) return settle_rivalry(robot, *task, holder, beat);
+  if (self.is_worker && self.serves == serves) {  // nobody knows better than I where it is
+    if (holder != self.id) settle_rivalry(robot, *task, holder, beat);
+    return;
+  }
   const int ahead = ahead_by(beat, task->beat);
   // From somebody about as near to the worker; the worker silent, copies of copies would only drift.
   constexpr int stale_ticks = 3;
