@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/census.hpp"
 #include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/epoch.hpp"
@@ -25,6 +26,13 @@ void carry_memory(State& self, const Carry& carry) noexcept {
   self.root_at = carry.point(self.root_at);
   for (int k = 0; k < self.task_count; ++k) self.tasks[k].target = carry.point(self.tasks[k].target);
   ++self.turn;
+  if (self.detour.side != 0)
+    for (Vec2* v : {&self.detour.contact, &self.detour.origin, &self.detour.goal}) *v = carry.point(*v);
+  self.seen_from = carry.point(self.seen_from);
+  for (int k = 0; k < self.landmarks.size; ++k) {
+    Vec2& point = self.landmarks.points[static_cast<std::size_t>(k)];
+    point = carry.point(point);
+  }
 }
 
 template <class Int>
@@ -45,6 +53,7 @@ Message compose(const Robot& robot) noexcept {
   m.serves = self.serves;
   m.flood_done = self.flood_done;
   m.committed = self.committed;
+  m.pinned = self.pinned;
   m.parent_silent = self.parent != nobody && !robot.parent_alive();
   m.epoch = self.epoch;
   m.root = self.root;
@@ -73,6 +82,12 @@ Message compose(const Robot& robot) noexcept {
     m.q = to_edge_frame(self.q, addressee);
     m.pull_x = fixed<std::int16_t>(pull.x, pull_unit);
     m.pull_y = fixed<std::int16_t>(pull.y, pull_unit);
+    Vec2 hinge;
+    if (find_hinge(robot, hinge)) {
+      hinge = to_edge_frame(hinge - addressee, addressee);
+      m.hinge_x_cm = fixed<std::int16_t>(hinge.x, 100.0F);
+      m.hinge_y_cm = fixed<std::int16_t>(hinge.y, 100.0F);
+    }
   }
   const int heir = self.new_root == nobody ? -1 : robot.table().find(self.new_root);
   if (heir >= 0) {
@@ -112,6 +127,7 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   claim_root(robot);        // and if not, am I the one to be it?
   mind_tasks(robot);        // does every target have its worker?
   survey(robot);          // who are my parent and children
+  remember_obstacles(robot);
   update_role(robot);
   advance(robot);         // the root's barriers
   update_label(robot);    // Start Tree
@@ -120,6 +136,7 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   take_census(robot);     // Alg. 1 and 2
   select_root(robot);     // Select Root, the root's side
   manage_spares(robot);   // Grow Tree
+  man_posts(robot);       // the mission done, spares stand by
   const Velocity velocity = move(robot);
   return {compose(robot), velocity};
 }

@@ -94,7 +94,8 @@ void advance(Robot& robot) noexcept {
       if ((self.done_ticks > 0 && self.phase_ticks >= settle_ticks) || timeout) enter(robot, self.epoch, Phase::grow_tree);
       break;
     case Phase::grow_tree:
-      if (self.phase_ticks >= p.ticks(p.reconfiguration_period_s)) enter(robot, self.epoch, Phase::select_root);
+      if (self.phase_ticks >= p.ticks(p.reconfiguration_period_s) && robot.policy.reconstructs(robot))
+        enter(robot, self.epoch, Phase::select_root);
       break;
     default: break;  // SELECT ROOT ends with the root's next epoch (root_selection.hpp)
   }

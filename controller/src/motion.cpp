@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/healing.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policy.hpp"
@@ -69,8 +70,11 @@ Guard guard_of(const Robot& robot) noexcept {
   if (!robot.params.corrected()) return guard;
   const bool retreating = is_retreating(robot);  // from where the silent may have been lost for good
   for_each_tree_neighbor(robot, [&](int k) {
-    if (!retreating || robot.table().alive(k)) guard.add(robot.table().position(k), robot.params);
+    // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
+    if (robot.table().alive(k) || (!retreating && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params);
   });
+  keep_off(robot, guard);
+  robot.policy.limit_motion(robot, guard);
   return guard;
 }
 
@@ -128,6 +132,12 @@ void Guard::add(Vec2 neighbor, const Params& params) noexcept {
   if (d <= 0.0F) return;
   away[size] = -neighbor / d;
   limit[size++] = 0.5F * (params.ideal_distance_m - d) * params.guard_rate_per_s;
+}
+
+void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
+  if (size == capacity) return;
+  away[size] = direction;
+  limit[size++] = limit_m_s;
 }
 
 Vec2 Guard::apply(Vec2 v) const noexcept {

@@ -9,6 +9,8 @@ namespace banyan {
 
 bool Policy::needs_spare(const Robot& robot) const noexcept { return is_stretched(robot) || child_in_need(robot); }
 
+bool Policy::reconstructs(const Robot&) const noexcept { return true; }
+
 bool Policy::may_call(const Robot&) const noexcept { return true; }
 
 bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcept {
@@ -17,6 +19,8 @@ bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcep
 }
 
 void Policy::tend_tree(Robot&) const noexcept {}
+
+void Policy::limit_motion(const Robot&, Guard&) const noexcept {}
 
 Vec2 Policy::tree_motion(const Robot& robot) const noexcept { return spring_motion(robot); }
 

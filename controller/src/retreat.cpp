@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/healing.hpp"
 #include "banyan/controller/motion.hpp"
+#include "banyan/controller/policy.hpp"
 
 namespace banyan {
 namespace {
@@ -19,7 +21,7 @@ int way_home(const Robot& robot) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
-    if (!table.alive(k) || m.role == Role::worker || m.tree_hops == unreachable || m.parent == robot.self.id) continue;
+    if (!table.alive(k) || (m.role == Role::worker && !robot.policy.workers_relay()) || m.tree_hops == unreachable || m.parent == robot.self.id) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
   return best;
@@ -38,7 +40,7 @@ Vec2 retreat_motion(const Robot& robot) noexcept {
   const int k = is_cut_off(robot) ? -1 : way_home(robot);
   const Vec2 goal = k >= 0 ? robot.table().position(k) : robot.self.root_at;
   if (norm(goal) < near_enough * robot.params.communication_range_m) return avoidance(robot);
-  return unit(goal) + avoidance(robot);
+  return bypass(robot, goal) + avoidance(robot);
 }
 
 }  // namespace banyan

@@ -36,6 +36,8 @@ void tell(const Robot& robot, Message& m) noexcept {
   const State& self = robot.self;
   if (!robot.params.heals()) return;
   m.heartbeat = self.heart == self.root ? self.heartbeat : std::uint16_t{0};
+  m.settled = self.settled;
+  m.post_hops = self.post_hops;
   // Every pair of a neighbour and a target has its turn; not all robots speak of the same at once.
   const int turn = self.turn + self.id;
   const int tasks = std::max<int>(self.task_count, 1);

@@ -173,7 +173,7 @@ TEST(Telling, EveryPairOfNeighbourAndTargetHasItsTurn) {
 
 TEST(Election, WhoIsNearClaimsAfterItsTurnAndOpensAnEpoch) {
   Watch watch;
-  watch.hear_root(3);
+  watch.hear_root(200);
   watch.bench.silence(root_id);
   State& state = watch.bench.state;
   watch.bench.steps(claim_ticks(watch.bench, 0.5F));

@@ -38,7 +38,8 @@ std::vector<State> make_room(std::size_t n) {
   return states;
 }
 
-std::unique_ptr<Bodies> make_bodies(const Scenario& scenario, const Poses& poses) {
+std::unique_ptr<Bodies> make_bodies(Scenario scenario, const Poses& poses) {
+  if (scenario.clocks.asynchronous) scenario.tick_s /= scenario.clocks.substeps;  // clocks.cpp moves them so often
   switch (scenario.robot.body) {
     case BodyModel::box2d: return make_box2d(scenario, poses);
     case BodyModel::linear: return make_linear(scenario, poses.position.size());
@@ -86,7 +87,8 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
   commands.resize(n);
   moving.resize(n);
   odometry.resize(n);
-  flights.resize(static_cast<std::size_t>(std::max(1, s.radio.latency_ticks) - 1));
+  if (s.clocks.asynchronous) set_clocks();
+  else flights.resize(static_cast<std::size_t>(std::max(1, s.radio.latency_ticks) - 1));
   Executor alone(1);
   radio.update(poses.position, alive, alone);
 }
@@ -103,7 +105,7 @@ World::Impl::Impl(const Impl& o)
       bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
       target_of(o.target_of), states(make_room(o.states.size())), messages(o.messages), next_messages(o.next_messages), commands(o.commands),
       moving(o.moving), odometry(o.odometry), agenda(o.agenda), silent_until(o.silent_until), deaths(o.deaths),
-      last_death(o.last_death), flights(o.flights), arriving(o.arriving),
+      last_death(o.last_death), flights(o.flights), arriving(o.arriving), clocked(o.clocked),
       received(o.received), sent(o.sent) {
   states.assign(o.states.begin(), o.states.end());
 }
@@ -111,10 +113,15 @@ World::Impl::Impl(const Impl& o)
 // ---- One tick ----
 
 void World::step(Executor& executor) {
-  impl_->happen();             // events of the scenario
-  impl_->act();                // commands of the last tick become motion
-  impl_->broadcast(executor);  // messages of the last tick travel: links, losses, delays
-  impl_->think(executor);      // what is sensed and heard goes through each robot's controller
+  impl_->happen();               // events of the scenario
+  if (impl_->scenario.clocks.asynchronous) {
+    impl_->step_by_clocks(executor);
+  } else {
+    impl_->moment = impl_->tick;
+    impl_->act();                // commands of the last tick become motion
+    impl_->broadcast(executor);  // messages of the last tick travel: links, losses, delays
+    impl_->think(executor);      // what is sensed and heard goes through each robot's controller
+  }
   ++impl_->tick;
 }
 
@@ -131,10 +138,30 @@ void World::Impl::broadcast(Executor& executor) {
   if (tick > 0) sent += living;
 }
 
-void World::Impl::think(Executor& executor) {
-  const std::size_t n = states.size();
+void World::Impl::make_inboxes(const Executor& executor) {
   inboxes.resize(std::max<std::size_t>(inboxes.size(), static_cast<std::size_t>(executor.threads())));
   received_by.assign(inboxes.size(), 0);
+}
+
+// A packet's range and bearing were measured when it was sent; while it waits, the receiver's own
+// odometry carries them along. Those of `fresh` were measured just now.
+void World::Impl::carry_waiting(std::size_t i, const Flight& fresh) noexcept {
+  const Carry carry(odometry[i]);
+  const auto take_along = [&](Flight& flight) {
+    if (i >= flight.count.size()) return;
+    for (std::uint32_t k = 0; k < flight.count[i]; ++k) {
+      Packet& packet = flight.packets[flight.offsets[i] + k];
+      packet.position = carry.point(packet.position);
+    }
+  };
+  take_along(arriving);
+  for (Flight& flight : flights)
+    if (&flight != &fresh) take_along(flight);
+}
+
+void World::Impl::think(Executor& executor) {
+  const std::size_t n = states.size();
+  make_inboxes(executor);
   Flight* flight = flights.empty() ? nullptr : &flights[tick % flights.size()];
   if (flight != nullptr) {
     // This slot's packets were sent latency - 1 ticks ago: they are heard now, and the slot is free
@@ -159,6 +186,7 @@ void World::Impl::think(Executor& executor) {
       std::span<const Packet> packets(inbox.packets.data(), silence ? 0 : receive(i, inbox.packets));
       const Message* content = messages.data();
       if (flight != nullptr) {
+        carry_waiting(i, *flight);
         std::copy(packets.begin(), packets.end(), flight->packets.begin() + flight->offsets[i]);
         flight->count[i] = static_cast<std::uint32_t>(packets.size());
         content = arriving.messages.data();
@@ -208,28 +236,19 @@ void World::Impl::fetch(std::size_t i) const noexcept {
 
 // ---- The way of a packet ----
 
+bool World::Impl::lost(std::size_t i, std::uint32_t sender) const noexcept {
+  return loss > 0.0 && to_uniform(bits(scenario.seed, Purpose::loss, i, sender, moment)) < loss;
+}
+
 // Draws at transmission which packets reach robot i, and what its sensor makes of their origin.
 std::size_t World::Impl::receive(std::size_t i, std::span<Packet> packets) const noexcept {
   std::size_t count = 0;
   for (const std::uint32_t sender : radio.links(i)) {
-    if (loss > 0.0 && to_uniform(bits(scenario.seed, Purpose::loss, i, sender, tick)) < loss) continue;
+    if (lost(i, sender)) continue;
     packets[count++] = {sender, measure(i, sender)};
   }
   const auto slots = static_cast<std::size_t>(scenario.radio.slots);
   return slots > 0 && count > slots ? keep_slots(i, packets, count) : count;
-}
-
-// More packets than slots: every one has the same chance to be kept; the order stays.
-std::size_t World::Impl::keep_slots(std::size_t i, std::span<Packet> packets, std::size_t count) const noexcept {
-  std::size_t wanted = static_cast<std::size_t>(scenario.radio.slots);
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < count && wanted > 0; ++k) {
-    const double u = to_uniform(bits(scenario.seed, Purpose::slots, i, k, tick));
-    if (u * static_cast<double>(count - k) >= static_cast<double>(wanted)) continue;  // Knuth's algorithm S
-    packets[kept++] = packets[k];
-    --wanted;
-  }
-  return kept;
 }
 
 // Range and bearing of the sender in the receiver's body frame, with the sensor's noise.
@@ -238,11 +257,11 @@ banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noe
   const RadioModel& model = scenario.radio;
   if (model.range_noise_m > 0.0) {
     const double range = norm(d);
-    const double noisy = std::max(0.01, range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, tick)));
+    const double noisy = std::max(0.01, range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, moment)));
     d *= range > 0.0 ? noisy / range : 0.0;
   }
   if (model.bearing_noise_rad > 0.0)
-    d = rotate(unit_vector(model.bearing_noise_rad * to_normal(bits(scenario.seed, Purpose::bearing_noise, i, sender, tick))), d);
+    d = rotate(unit_vector(model.bearing_noise_rad * to_normal(bits(scenario.seed, Purpose::bearing_noise, i, sender, moment))), d);
   return {static_cast<float>(d.x), static_cast<float>(d.y)};
 }
 
@@ -314,6 +333,7 @@ std::uint64_t World::hash() const noexcept {
         d.add(flight.packets[flight.offsets[i] + k].position);
         for (const std::uint8_t byte : encode(flight.messages[flight.packets[flight.offsets[i] + k].sender])) d.add(byte);
       }
+  w.add_clocks(d);
   return w.bodies->hash(d.value());
 }
 
@@ -325,6 +345,7 @@ std::size_t World::memory_bytes() const noexcept {
   for (const Flight& flight : w.flights)
     total += flight.packets.capacity() * sizeof(Packet) + flight.messages.capacity() * sizeof(Message) +
              (flight.offsets.capacity() + flight.count.capacity()) * sizeof(std::uint32_t);
+  for (const Clocked& robot : w.clocked) total += sizeof(Clocked) + robot.waiting.capacity() * sizeof(Waiting);
   for (const auto& inbox : w.inboxes)
     total += inbox.packets.capacity() * sizeof(Packet) + inbox.heard.capacity() * sizeof(Heard);
   return total;

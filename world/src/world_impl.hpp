@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a world is made of, shared by the files that make it tick: world.cpp, events.cpp.
+// What a world is made of, shared by the files that make it tick: world.cpp, events.cpp, clocks.cpp.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +13,7 @@
 #include "agenda.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/radio.hpp"
+#include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"
 #include "proximity.hpp"
 
@@ -51,6 +52,21 @@ struct Course {
   double speed_m_s = 0.0;   // 0: it stands
 };
 
+// Robots with clocks of their own (clocks.cpp).
+struct Waiting {              // a packet that has been sent to a robot and waits for its next step
+  Message message;
+  Vec2 position{};            // of the sender, in the receiver's frame at its last step before the measurement, m
+  std::uint64_t heard = 0;    // the substep in which it arrives
+};
+struct Clocked {
+  double phase = 0.0;         // of its clock at the start, in periods
+  double rate = 1.0;
+  bool told = false;          // it stepped in the last substep: its message travels in this one
+  Vec2 shift{};               // odometry since its last step, in the frame of that step, m
+  double turn = 0.0;          // rad
+  std::vector<Waiting> waiting;   // ascending by `heard`
+};
+
 struct World::Impl {
   Impl(const Scenario& s, const Policy* own);   // own: null for the one that s names
   Impl(const Impl& o);
@@ -60,13 +76,27 @@ struct World::Impl {
   void act();
   void broadcast(Executor& executor);
   void think(Executor& executor);
+  void carry_waiting(std::size_t i, const Flight& fresh) noexcept;
 
   void fetch(std::size_t i) const noexcept;
   std::size_t receive(std::size_t i, std::span<Packet> packets) const noexcept;
-  std::size_t keep_slots(std::size_t i, std::span<Packet> packets, std::size_t count) const noexcept;
+  template <class P>
+  std::size_t keep_slots(std::size_t i, std::span<P> packets, std::size_t count) const noexcept;
+  [[nodiscard]] bool lost(std::size_t i, std::uint32_t sender) const noexcept;
+  void make_inboxes(const Executor& executor);
   [[nodiscard]] banyan::Vec2 measure(std::size_t i, std::uint32_t sender) const noexcept;
   Output consult(std::size_t i, std::span<const Heard> heard, const Odometry& moved) noexcept;
   void adopt(const Policy& own);
+
+  // A tick of robots with clocks of their own (clocks.cpp)
+  void set_clocks();
+  void step_by_clocks(Executor& executor);
+  void count_wheel_turns();
+  void deliver(Executor& executor);
+  void wake(Executor& executor);
+  void step_one(std::size_t i, std::vector<Heard>& heard, std::uint64_t& received_here);
+  [[nodiscard]] bool strikes(std::size_t i) const noexcept;
+  void add_clocks(Digest& digest) const noexcept;
 
   // Events (events.cpp)
   void drive_targets();
@@ -96,6 +126,7 @@ struct World::Impl {
   Params params;
   double loss;
   std::uint64_t tick = 0;
+  std::uint64_t moment = 0;                    // what is drawn now is drawn for: the tick, or the substep
 
   Poses poses;
   std::unique_ptr<Bodies> bodies;
@@ -116,10 +147,25 @@ struct World::Impl {
   std::optional<std::uint64_t> last_death;     // tick
   std::vector<Flight> flights;                 // ring of latency_ticks - 1
   Flight arriving;                             // taken out of the ring: heard this tick
+  std::vector<Clocked> clocked;                // one per robot; none if they step together
   struct Inbox { std::vector<Packet> packets; std::vector<Heard> heard; };
   std::vector<Inbox> inboxes;                  // one per thread
   std::vector<std::uint64_t> received_by;      // packets, per thread
   std::uint64_t received = 0, sent = 0;
 };
+
+// More packets than slots: every one has the same chance to be kept; the order stays.
+template <class P>
+std::size_t World::Impl::keep_slots(std::size_t i, std::span<P> packets, std::size_t count) const noexcept {
+  std::size_t wanted = static_cast<std::size_t>(scenario.radio.slots);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count && wanted > 0; ++k) {
+    const double u = to_uniform(bits(scenario.seed, Purpose::slots, i, k, moment));
+    if (u * static_cast<double>(count - k) >= static_cast<double>(wanted)) continue;  // Knuth's algorithm S
+    packets[kept++] = packets[k];
+    --wanted;
+  }
+  return kept;
+}
 
 }  // namespace banyan::world

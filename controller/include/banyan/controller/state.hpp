@@ -32,6 +32,23 @@ struct Task {
   Vec2 target;                   // m, own frame
 };
 
+// A way round an obstacle (bypass.hpp); vectors in the own frame, m.
+struct Detour {
+  std::int8_t side = 0;  // +1: the obstacle is to the right, -1: to the left, 0: no detour
+  Vec2 contact;          // where the obstacle was touched last
+  Vec2 origin;           // where the detour began
+  Vec2 goal;             // as it was then
+  float leave_m = 0.0F;  // over when the goal is nearer than it was then
+  float span_m = 0.0F;   // the other side is tried so far from the origin
+};
+
+// Points of obstacles that were sensed a while ago, in the own frame, m.
+inline constexpr int landmark_capacity = 8;
+struct Landmarks {
+  std::array<Vec2, landmark_capacity> points{};  // the first `size` are valid
+  std::uint8_t size = 0;
+};
+
 struct State {
   RobotId id = nobody;
   bool is_worker = false;
@@ -71,6 +88,8 @@ struct State {
   Vec2 q;                                // m, own frame; at the root Alg. 1's centroid
   float want_m = 0.0F;                   // largest remaining worker distance below me
   Vec2 pull;                             // target pull, own frame
+  float least_want_m = 0.0F;             // the least want_m since it last grew
+  std::uint16_t stalled_ticks = 0;       // since least_want_m last shrank by a hand's breadth
 
   // Root selection (root_selection.hpp)
   Vec2 centroid;                         // m, own frame
@@ -102,9 +121,16 @@ struct State {
   RootToken heart;                       // the root whose heartbeat it is
   Vec2 root_at;                          // m, own frame: where that root is or was
   bool root_known = false;
+  bool settled = false;                  // the root says that all workers have arrived
+  std::uint8_t post_hops = nobody_calls;
   std::uint16_t turn = 0;                // whom I tell next
   std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
+  // Obstacles (bypass.hpp)
+  Detour detour;
+  Landmarks landmarks;
+  Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent
+  bool pinned = false;                   // a corner is about to cut the edge to my parent
 
   Tally tally;
   Neighborhood neighbors;
