@@ -153,7 +153,9 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   // A target may be added in mid-mission: not without the tree.
   if (robot.self.is_worker && up < 0 && robot.self.phase == Phase::grow_tree) return elbow_room(robot);
-  if (robot.self.is_worker) return pull_past_obstacles(robot) + elbow_room(robot);
+  // It may stand off its target a little, if that lets another reach its own.
+  constexpr float leeway = 0.7F;
+  if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), leeway) + elbow_room(robot);
   return clamped(tow(robot), 1.0F) + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
 

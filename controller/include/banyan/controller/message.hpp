@@ -47,6 +47,7 @@ struct Message {
   bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
   bool committed = false;       // I am in this epoch's tree
   bool parent_silent = false;   // my parent has not been heard for longer than I
+  bool settled = false;         // all workers below the root have arrived, as it comes down the tree
   bool pinned = false;          // a corner is about to cut the edge to my parent, and I have to go on
   std::uint16_t epoch = 0;
   RootToken root;               // gossip: the newest root token I know
@@ -55,6 +56,7 @@ struct Message {
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
   std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need nobody has answered
+  std::uint8_t post_hops = nobody_calls;   // hops to a robot of the settled tree that has no spare by it
   RobotId parent = nobody;
   RobotId old_parent = nobody;
   RobotId flood_parent = nobody;
@@ -102,7 +104,7 @@ inline constexpr float q_limit_m = 1.0e9F;
 // while there is none, the old parent.
 constexpr RobotId up_of(const Message& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 86;  // bytes, little-endian, no padding
+inline constexpr std::size_t wire_size = 87;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 2;
 using Wire = std::array<std::uint8_t, wire_size>;
 

@@ -121,6 +121,8 @@ struct State {
   RootToken heart;                       // the root whose heartbeat it is
   Vec2 root_at;                          // m, own frame: where that root is or was
   bool root_known = false;
+  bool settled = false;                  // the root says that all workers have arrived
+  std::uint8_t post_hops = nobody_calls;
   std::uint16_t turn = 0;                // whom I tell next
   std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
