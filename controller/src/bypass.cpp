@@ -168,7 +168,7 @@ void file(const Robot& robot, Vec2 o) noexcept {
 void hear_of_corners(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   const auto hear = [&](int k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (table.age(k) > 0 || up_of(m) != robot.self.id || (m.hinge_x_cm == 0 && m.hinge_y_cm == 0)) return;
     file(robot, from_edge_frame({static_cast<float>(m.hinge_x_cm) * 0.01F, static_cast<float>(m.hinge_y_cm) * 0.01F}, table.position(k)));
   };
@@ -191,7 +191,7 @@ void note_contact(const Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k)
     if (table.age(k) == 0 && (nearest < 0 || key(k) < key(nearest))) nearest = k;
   if (nearest < 0) return;
-  const Message& m = table.message(nearest);
+  const Standing& m = table.message(nearest);
   if (m.epoch == self.epoch && m.pulse > self.pulse) self.seen_from = table.position(nearest);
 }
 
@@ -225,7 +225,7 @@ bool is_towed(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   const float start_m = robot.params.pull_start * robot.params.communication_range_m;
   const auto tows = [&](int k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     return m.role != Role::spare && m.want_cm > 0 && (m.pinned || table.range(k) > start_m);
   };
   return std::any_of(robot.children.begin(), robot.children.end(), tows);

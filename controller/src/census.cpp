@@ -22,7 +22,7 @@ struct Sums {
 
 // `counts`: whether the child belongs to the tree that is being counted; its pull counts always.
 void add_child(const Robot& robot, int k, bool counts, Sums& sums) noexcept {
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   if (up_of(m) != robot.self.id) return;  // its vectors are addressed to somebody else
   const Vec2 sender = robot.table().position(k);
   if (counts) {

@@ -94,7 +94,7 @@ bool Convoy::needs_spare(const Robot& robot) const noexcept {
   const float d = robot.table().range(robot.parent);
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
-  const Message& parent = robot.table().message(robot.parent);
+  const Standing& parent = robot.table().message(robot.parent);
   const bool wanted = robot.self.want_m > 0.0F || (parent.role == Role::worker && parent.want_cm > 0);
   return (d > robot.params.recruitment_distance_m && wanted) ||
          ((hidden || robot.self.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);

@@ -23,7 +23,7 @@ int nearest_up(const Robot& robot) noexcept { return robot.parent >= 0 ? robot.p
 
 bool is_tree_neighbor(const Robot& robot, int k) noexcept {
   if (k == robot.parent || k == robot.old_parent) return true;
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   return m.parent == robot.self.id || m.old_parent == robot.self.id;
 }
 

@@ -80,8 +80,8 @@ void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<
     write(size_++, heard);
     return;
   }
-  const auto names_me = [&](const Message& m) { return m.parent == self || m.old_parent == self; };
-  const auto kept = [&](const Message& m) { return m.id == keep[0] || m.id == keep[1] || names_me(m); };
+  const auto names_me = [&](const Standing& m) { return m.parent == self || m.old_parent == self; };
+  const auto kept = [&](const Standing& m) { return m.id == keep[0] || m.id == keep[1] || names_me(m); };
   int farthest = -1;
   for (int j = 0; j < size_; ++j)
     if (!kept(messages_[j]) && (farthest < 0 || range(j) > range(farthest))) farthest = j;

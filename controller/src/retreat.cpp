@@ -20,7 +20,7 @@ int way_home(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (!table.alive(k) || (m.role == Role::worker && !robot.policy.workers_relay()) || m.tree_hops == unreachable || m.parent == robot.self.id) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }

@@ -12,7 +12,7 @@ namespace {
 // A robot of the tree that I may hang on: heard this tick or the last, ahead of me, in sight.
 bool is_hold(const Robot& robot, int k, float range_m) noexcept {
   const Neighborhood& table = robot.table();
-  const Message& m = table.message(k);
+  const Standing& m = table.message(k);
   return table.age(k) <= 1 && table.range(k) <= range_m && m.role != Role::spare && m.parent != robot.self.id &&
          m.old_parent != robot.self.id && m.depth != invalid_depth && is_ahead(robot, k) &&
          sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
@@ -21,7 +21,7 @@ bool is_hold(const Robot& robot, int k, float range_m) noexcept {
 // Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
 void release(Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
-  const Message& parent = table.message(robot.parent);
+  const Standing& parent = table.message(robot.parent);
   if (parent.role != Role::connector || parent.child_count != 1 || parent.parent == nobody || parent.need == Need::await ||
       parent.inserted_child != nobody)
     return;
@@ -66,7 +66,7 @@ void keep_in_sight(Robot& robot, bool urgent) noexcept {
   int best = -1;
   float best_m = 1e9F;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (k == robot.parent || table.age(k) > 0) continue;
     const bool spare = urgent && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
                        m.tree_hops != unreachable && table.range(k) <= p.parent_range_m() && sees_clearly(robot, k, clearance_m);

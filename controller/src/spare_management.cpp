@@ -29,7 +29,7 @@ void follow_grant(Robot& robot) noexcept {
   const int k = robot.table().find(self.grant);
   ++self.grant_ticks;
   if (k < 0 || !robot.table().alive(k)) return end_grant(self);
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   if (m.inserted_child == self.id && m.parent != nobody && m.parent != self.id && is_ahead(robot, k)) {
     take_parent(robot, k);
     return end_grant(self);
@@ -46,7 +46,7 @@ RobotId best_request(const Robot& robot) noexcept {
   RobotId best = nobody;
   float best_m = infinite_m;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (m.request != robot.self.id || !table.alive(k) || m.role != Role::spare) continue;
     const float d = distance(table.position(k), midpoint);
     if (d < best_m) {
@@ -61,7 +61,7 @@ void own_edge(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.grant != nobody) follow_grant(robot);
   if (!robot.parent_alive()) return end_grant(self);
-  const Message& parent = robot.table().message(robot.parent);
+  const Standing& parent = robot.table().message(robot.parent);
   const bool parent_awaits = parent.need == Need::await && parent.grant != nobody;
   switch (self.need) {
     case Need::no_need:
@@ -85,7 +85,7 @@ void own_edge(Robot& robot) noexcept {
 
 // ---- The spare: WAIT -> EXTEND EDGE -> connector, or ADJUST POSITION ----
 
-bool in_need(const Message& m, const State& self) noexcept {
+bool in_need(const Standing& m, const State& self) noexcept {
   return m.need == Need::need && m.role != Role::spare && m.grant == nobody && m.parent != nobody && m.parent != self.id && m.epoch == self.epoch;
 }
 
@@ -113,7 +113,7 @@ RobotId nearest_reference(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   int best = -1;
   const auto hops = [&](int k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     return m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops);
   };
   const auto key = [&](int k) {
@@ -159,7 +159,7 @@ void join_edge(Robot& robot, int owner) noexcept {
   const Neighborhood& table = robot.table();
   const int parent = table.find(table.message(owner).parent);
   if (!is_ahead(robot, parent)) return;  // its pulse will overtake mine
-  const Message& above = table.message(parent);
+  const Standing& above = table.message(parent);
   auto label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + above.label_cm) / 2);
   if (label_cm <= above.label_cm) label_cm = label_below(above.label_cm, 0.0F);
   self.label_cm = above.pulse > self.pulse ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
@@ -181,7 +181,7 @@ void follow_request(Robot& robot) noexcept {
   Vec2 midpoint;
   if (owner < 0 || !table.alive(owner) || !edge_midpoint(robot, self.request, midpoint)) return give_up(self);
   if (++self.request_ticks > robot.params.ticks(robot.params.insertion_timeout_s)) return give_up(self);
-  const Message& m = table.message(owner);
+  const Standing& m = table.message(owner);
   const bool granted = m.grant == self.id;
   self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
   if (self.ungranted_ticks > ungranted_limit_ticks || (m.grant != nobody && !granted)) return give_up(self);
@@ -216,7 +216,7 @@ bool is_stretched(const Robot& robot) noexcept {
 
 bool child_in_need(const Robot& robot) noexcept {
   return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) {
-    const Message& m = robot.table().message(k);
+    const Standing& m = robot.table().message(k);
     return m.role != Role::spare && m.need == Need::need;
   });
 }

@@ -12,7 +12,7 @@ void add(Digest& d, const Neighborhood& table) noexcept {
     d.add(table.id(k));
     d.add(table.age(k));
     d.add(table.position(k));
-    for (const std::uint8_t byte : encode(table.message(k))) d.add(byte);
+    for (const std::uint8_t byte : encode(Message{table.message(k), {}})) d.add(byte);
   }
 }
 

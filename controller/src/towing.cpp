@@ -21,7 +21,7 @@ float ramp(float d, float start, float width) noexcept { return std::clamp((d - 
 
 bool is_tree_neighbor(const Robot& robot, int k) noexcept {
   if (k == robot.parent || k == robot.old_parent) return true;
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   return m.parent == robot.self.id || m.old_parent == robot.self.id;
 }
 
@@ -32,7 +32,7 @@ Vec2 tow(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   const float c = p.communication_range_m;
   const auto tows = [&](int k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     return m.role != Role::spare && m.want_cm > 0 && up_of(m) == robot.self.id;
   };
   const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
@@ -103,7 +103,7 @@ Vec2 make_way(const Robot& robot, float width_m) noexcept {
   const Neighborhood& table = robot.table();
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (m.parent == nobody || m.parent == robot.self.id || m.role == Role::spare || table.age(k) > 0 || k == robot.parent) continue;
     const int up = table.find(m.parent);
     if (up < 0) continue;
@@ -153,9 +153,10 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   // A target may be added in mid-mission: not without the tree.
   if (robot.self.is_worker && up < 0 && robot.self.phase == Phase::grow_tree) return elbow_room(robot);
-  // It may stand off its target a little, if that lets another reach its own.
+  // At its target it may stand off a little, if that lets another reach its own; the pull grows with it.
   constexpr float leeway = 0.7F;
-  if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), leeway) + elbow_room(robot);
+  const float give = leeway * std::max(0.0F, 1.0F - norm(robot.self.pull));
+  if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + elbow_room(robot);
   return clamped(tow(robot), 1.0F) + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
 

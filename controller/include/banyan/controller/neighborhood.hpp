@@ -53,7 +53,7 @@ class Neighborhood {
   // Index of `id` in [0, size), or -1. O(size), a linear scan of 16-bit ids.
   [[nodiscard]] int find(RobotId id) const noexcept;
   [[nodiscard]] RobotId id(int k) const noexcept { return entries_[k].id; }
-  [[nodiscard]] const Message& message(int k) const noexcept { return messages_[k]; }
+  [[nodiscard]] const Standing& message(int k) const noexcept { return messages_[k]; }
   [[nodiscard]] Vec2 position(int k) const noexcept { return entries_[k].position; }  // m, body frame
   [[nodiscard]] float range(int k) const noexcept { return entries_[k].range_m; }      // m
   [[nodiscard]] int age(int k) const noexcept { return entries_[k].age; }            // ticks, 0: heard now
@@ -85,8 +85,7 @@ class Neighborhood {
   std::int16_t expected_ = 0;
   std::int16_t missed_ = 0;
   std::array<Entry, neighbor_capacity> entries_{};
-  // A message is one cache line long; aligned, it also is in one.
-  alignas(64) std::array<Message, neighbor_capacity> messages_{};
+  alignas(64) std::array<Standing, neighbor_capacity> messages_{};
 };
 
 }  // namespace banyan
