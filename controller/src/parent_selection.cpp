@@ -129,11 +129,12 @@ bool awaits_inserted(const Robot& robot) noexcept {
   return k >= 0 && robot.table().alive(k) && robot.table().message(k).inserted_child == robot.self.id;
 }
 
+// While I wish for another parent my pulse rests: the other's overtakes it, unless it hangs on me.
 void update_pulse(Robot& robot) noexcept {
   State& self = robot.self;
   if (robot.is_root()) {
     if (self.pulse < UINT16_MAX) ++self.pulse;
-  } else if (robot.parent_alive() && !awaits_inserted(robot)) {
+  } else if (robot.parent_alive() && !awaits_inserted(robot) && self.wish == nobody) {
     follow(robot, robot.parent);
   }
 }
@@ -177,7 +178,7 @@ bool is_candidate(const Robot& robot, int k) noexcept {
   // An edge that exists may be as long as the guard lets it grow.
   const float range_m =
       std::max(robot.params.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
-  return robot.table().alive(k) && m.role != Role::worker && m.epoch == robot.self.epoch &&
+  return robot.table().alive(k) && (m.role != Role::worker || robot.policy.may_relay(robot, k)) && m.epoch == robot.self.epoch &&
          m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
 }
 
@@ -199,6 +200,7 @@ void take_parent(Robot& robot, int k) noexcept {
   robot.parent = k;
   self.committed = true;
   self.search_ticks = 0;
+  self.wish = nobody;
   follow(robot, k);
   if (self.phase >= Phase::grow_tree) {
     self.old_parent = nobody;
@@ -214,6 +216,7 @@ void leave_tree(Robot& robot) noexcept {
   self.need = Need::no_need;
   self.grant = nobody;
   self.request = nobody;
+  self.wish = nobody;
   self.spare_state = SpareState::wait;
 }
 

@@ -16,6 +16,10 @@ bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcep
   return norm((table.position(owner) + table.position(parent)) * 0.5F) <= robot.params.insertion_distance_m;
 }
 
+bool Policy::may_relay(const Robot&, int) const noexcept { return false; }
+
+bool Policy::may_inherit(const Robot&, int) const noexcept { return true; }
+
 void Policy::tend_tree(Robot&) const noexcept {}
 
 Vec2 Policy::tree_motion(const Robot& robot) const noexcept { return spring_motion(robot); }

@@ -11,6 +11,9 @@
 namespace banyan {
 namespace {
 
+constexpr float compact_gain = 0.8F;   // a branch that has arrived slides together with this strength
+constexpr float compact_width = 0.05F; // of C: with full strength so far from compact_distance
+
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
 bool is_tree_neighbor(const Robot& robot, int k) noexcept {
@@ -111,7 +114,45 @@ Vec2 clamped(Vec2 u, float limit) noexcept {
   return n > limit ? u * (limit / n) : u;
 }
 
+// The way along which I can save a robot: towards my parent; the root's is towards the nearest child
+// that does nothing but pass it on.
+int thrift_way(const Robot& robot) noexcept {
+  if (!robot.is_root()) return robot.parent;
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  for (const int k : robot.children)
+    if (table.message(k).role == Role::connector && (best < 0 || table.range(k) < table.range(best))) best = k;
+  return best;
+}
+
+// Rule 9: a connector whose workers have arrived slides until its longest other edge is stretched. So
+// the slack of a branch gathers at one end, where a robot becomes superfluous.
+Vec2 compaction(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  const float c = p.communication_range_m;
+  const int way = thrift_way(robot);
+  if (way < 0) return {};
+  int longest = -1;
+  for (const int k : robot.children)
+    if (k != way && table.message(k).role != Role::spare && (longest < 0 || table.range(k) > table.range(longest))) longest = k;
+  if (longest < 0) return robot.is_root() ? unit(table.position(way)) * compact_gain : Vec2{};
+  const float slack = std::clamp((p.compact_distance - table.range(longest) / c) / compact_width, -1.0F, 1.0F);
+  return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
+}
+
 }  // namespace
+
+bool saves_robots(const Params& params) noexcept { return params.corrected() && params.merge_distance > 0.0F; }
+
+bool has_arrived(const Robot& robot) noexcept {
+  return saves_robots(robot.params) && robot.self.want_m == 0.0F && robot.self.subtree_workers > 0;
+}
+
+bool is_relay(const Robot& robot, int k) noexcept {
+  const Message& m = robot.table().message(k);
+  return saves_robots(robot.params) && m.role == Role::worker && m.want_cm == 0 && robot.self.want_m == 0.0F;
+}
 
 Vec2 towed_motion(const Robot& robot) noexcept {
   const Params& p = robot.params;
@@ -120,7 +161,8 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   if (robot.self.is_worker) return robot.self.pull + elbow_room(robot);
-  return clamped(tow(robot), 1.0F) + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m);
+  const Vec2 along = has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
+  return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m);
 }
 
 Vec2 waiting_motion(const Robot& robot) noexcept {
