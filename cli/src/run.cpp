@@ -77,8 +77,8 @@ class Keeper {
 
 std::string progress_text(const world::World& world, const measure::Observer& observer) {
   const auto& tick = observer.last();
-  return format("%.1f s of at most %s s, %u of %zu targets reached, farthest worker %.2f m off", world.time_s(),
-                number_text(observer.run().time_limit_s).c_str(), tick.targets_reached, world.targets().size(),
+  return format("%.1f s of at most %s s, %u of %u targets reached, farthest worker %.2f m off", world.time_s(),
+                number_text(observer.run().time_limit_s).c_str(), tick.targets_reached, tick.active_targets,
                 tick.worst_target_distance_m);
 }
 
@@ -124,7 +124,7 @@ int run_command(const RunOptions& options) {
     extras.threads = thread_count(options.threads, world.size());
     simulate(world, observer, keeper, extras.threads, configuration.output.series, progress);
     extras.wall_s = progress.elapsed_s();
-    extras.targets = world.targets().size();
+    extras.targets = observer.last().active_targets;
     extras.targets_reached = observer.last().targets_reached;
     row = {record::identify(configuration.scenario, version, git_id()), observer.result(world),
            stop_signal() != 0 && !observer.finished()};

@@ -5,6 +5,7 @@
 #include <cinttypes>
 #include <cmath>
 
+#include "banyan/measure/recovery.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -60,6 +61,23 @@ std::string robots_text(const measure::Run& run) {
   return text;
 }
 
+std::string deaths_text(const measure::Run& run) {
+  std::string text = format("%u of %s died, the last at %.1f s; ", run.deaths, plural(run.robots, "robot").c_str(),
+                            run.last_death_s);
+  if (run.recovered) return text + format("whole again %.1f s later", run.recovery_time_s);
+  const double watched_s = std::min(run.time_s - run.last_death_s, measure::recovery_limit_s);
+  text += format("not whole again in the %.1f s after it", watched_s);
+  return run.survivors_suffice ? text : text + format("; the %u left are too few for the targets", run.survivors);
+}
+
+std::string work_text(const measure::Run& run) {
+  std::string text = plural(run.insertions, "insertion") + ", " + plural(run.handovers, "hand-over") + " of the root, " +
+                     plural(run.repairs, "repair") + ", " + plural(run.epochs, "tree") + " grown";
+  if (run.elections > 0) text += ", " + plural(run.elections, "root") + " elected";
+  if (run.replacements > 0) text += ", " + plural(run.replacements, "worker") + " replaced";
+  return text;
+}
+
 }  // namespace
 
 std::string summary_text(const record::RunRow& row, const Configuration& configuration, const RunOutputs& outputs,
@@ -73,9 +91,8 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   text += line("tree", tree_text(run));
   text += line("network", network_text(run, scenario.radio.line_of_sight));
   text += line("robots", robots_text(run));
-  text +=
-      line("work", plural(run.insertions, "insertion") + ", " + plural(run.handovers, "hand-over") + " of the root, " +
-                       plural(run.repairs, "repair") + ", " + plural(run.epochs, "tree") + " grown");
+  if (run.deaths > 0) text += line("deaths", deaths_text(run));
+  text += line("work", work_text(run));
   text += line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
   const double steps = static_cast<double>(run.ticks) * run.robots / std::max(extras.wall_s, 1e-9);
   text += line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s,

@@ -46,6 +46,20 @@ TEST_F(Program, ARunLeavesItsThreeFilesAndAShortSummary) {
   EXPECT_EQ(files, (std::vector<std::string>{"run.csv", "run.json", "run.mcap"}));
 }
 
+// Without healing nobody follows a worker that dies.
+TEST_F(Program, ASummaryTellsOfDeathsAndRecovery) {
+  const std::string world = read("small.toml") + "[[events]]\nkind = \"kill\"\nwhen = \"complete\"\ntime_s = 1.0\n";
+  write("widow.toml", world + "of = \"worker\"\n");
+  const auto widow = run({"run", "widow.toml", "--set", "mission.algorithm=outwards"});
+  ASSERT_EQ(widow.code, 0) << widow.err;
+  EXPECT_TRUE(has(widow.out, "deaths     1 of 8 robots died, the last at ")) << widow.out;
+  EXPECT_TRUE(has(widow.out, "not whole again in the 200.0 s after it")) << widow.out;
+  EXPECT_LE(std::count(widow.out.begin(), widow.out.end(), '\n'), 25);
+  const auto small = run({"run", "small.toml"});
+  EXPECT_FALSE(has(small.out, "died")) << small.out;
+  EXPECT_FALSE(has(small.out, "elected")) << small.out;
+}
+
 TEST_F(Program, TheTableAndTheJsonHoldTheSame) {
   ASSERT_EQ(run({"run", "small.toml", "--out", "o"}).code, 0);
 

@@ -62,8 +62,8 @@ constexpr Section section_list[] = {
      "An obstacle each: `[[obstacles]]` as often as needed. They block motion and, with "
      "`radio.line_of_sight`, the radio. Robots see them only within `robot.proximity_m`.",
      "kind"},
-    {"events",
-     "What happens to the world at a given time or moment of the mission: `[[events]]` as often as needed.", "kind"},
+    {"events", "What happens to the world at a given time or moment of the mission: `[[events]]` as often as needed.",
+     "kind"},
     {"output", "What `banyan run` keeps. It never changes what happens."},
 };
 
@@ -312,7 +312,11 @@ constexpr Key<Form> scenario_list[] = {
      {},
      "each robot steps at its own moments, not all of them at the begin of every tick",
      [](Form& f) -> bool& { return f.configuration.scenario.clocks.asynchronous; }},
-    {"clocks", "drift", "", {0.0, 0.5}, "each clock's rate is 1 + uniform(-drift, drift), drawn once",
+    {"clocks",
+     "drift",
+     "",
+     {0.0, 0.5},
+     "each clock's rate is 1 + uniform(-drift, drift), drawn once",
      [](Form& f) -> double& { return f.configuration.scenario.clocks.drift; }},
     {"clocks",
      "substeps",
@@ -404,14 +408,25 @@ constexpr Key<ObstacleForm> obstacle_list[] = {
 };
 
 constexpr Key<EventForm> event_list[] = {
-    {"events", "time_s", "s", {0.0, 1e7}, "when: so long after what `when` says",
-     [](EventForm& e) -> double& { return e.time_s; }, "", true},
-    {"events", "when", "", {},
+    {"events",
+     "time_s",
+     "s",
+     {0.0, 1e7},
+     "when: so long after what `when` says",
+     [](EventForm& e) -> double& { return e.time_s; },
+     "",
+     true},
+    {"events",
+     "when",
+     "",
+     {},
      "what time_s counts from: time, the start; half-way, the workers' remaining distances have fallen to half; "
      "complete, all targets are held at once for the first time. An event whose moment never comes never happens",
      ChoiceAccess<EventForm>{[]() -> Names { return when_names; }, [](const EventForm& e) { return e.when; },
                              [](EventForm& e, std::size_t i) { e.when = i; }},
-     "", false, "time"},
+     "",
+     false,
+     "time"},
     {"events",
      "kind",
      "",
@@ -457,12 +472,17 @@ constexpr Key<EventForm> event_list[] = {
      "move_target",
      false,
      "0"},
-    {"events", "of", "", {},
+    {"events",
+     "of",
+     "",
+     {},
      "whom the dead are drawn from: the living, by the role they broadcast when it acts; worker_and_parent: a worker "
      "and its parent in the tree",
      ChoiceAccess<EventForm>{[]() -> Names { return of_names; }, [](const EventForm& e) { return e.of; },
                              [](EventForm& e, std::size_t i) { e.of = i; }},
-     "kill", false, "robots"},
+     "kill",
+     false,
+     "robots"},
     {"events", "share", "", share, "how many die: so much of those they are drawn from when it begins, rounded",
      [](EventForm& e) -> std::optional<double>& { return e.share; }, "kill", false, "count counts"},
     {"events",
@@ -528,9 +548,8 @@ EventForm to_event_form(const world::Event& e) {
 
 world::Event to_event(const EventForm& form) {
   using Kind = world::Event::Kind;
-  world::Event e{.time_s = form.time_s,
-                 .kind = static_cast<Kind>(form.kind),
-                 .when = static_cast<world::Event::When>(form.when)};
+  world::Event e{
+      .time_s = form.time_s, .kind = static_cast<Kind>(form.kind), .when = static_cast<world::Event::When>(form.when)};
   if (e.kind == Kind::die || e.kind == Kind::freeze) e.index = form.robot;
   if (e.kind == Kind::move_target || e.kind == Kind::remove_target) e.index = form.target;
   if (e.kind == Kind::freeze || e.kind == Kind::blackout) e.value = form.duration_s;

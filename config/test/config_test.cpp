@@ -292,7 +292,8 @@ speed_m_s = -0.1
   EXPECT_TRUE(says(loaded, "w.toml:11: error: events[1].count: is 0; allowed: 1 to 65535"));
   EXPECT_TRUE(says(loaded, "w.toml:12: error: events[1].of: must be \"robots\", \"connectors\""));
   EXPECT_TRUE(says(loaded, "did you mean \"worker_and_parent\"?"));
-  EXPECT_TRUE(says(loaded, "w.toml:17: error: events[2].every_s: has no meaning with kind = \"die\", only with \"kill\""));
+  EXPECT_TRUE(
+      says(loaded, "w.toml:17: error: events[2].every_s: has no meaning with kind = \"die\", only with \"kill\""));
   EXPECT_TRUE(says(loaded, "w.toml:18: error: events[2].when: must be \"time\", \"half-way\" or \"complete\""));
   EXPECT_TRUE(says(loaded, "w.toml:24: error: events[3].speed_m_s: is -0.1; allowed: 0 to 100"));
   EXPECT_EQ(loaded.errors(), 6U) << all_problems(loaded);

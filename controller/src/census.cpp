@@ -43,7 +43,18 @@ void add_own_target(const Robot& robot, Sums& sums) noexcept {
   const float distance_m = norm(*robot.target);
   sums.pull = unit(*robot.target) * (p.target_gain * std::min(1.0F, distance_m / p.arrival_distance_m));
   sums.pulling = 1;
-  sums.want_m = distance_m > p.arrival_distance_m ? distance_m : 0.0F;
+  if (distance_m > p.arrival_distance_m) sums.want_m = std::max(sums.want_m, distance_m);  // of those that hang on it, too
+}
+
+// Whether the workers below get any nearer to their targets.
+void watch_progress(State& self) noexcept {
+  constexpr float hand_m = 0.1F;
+  if (self.want_m > self.least_want_m + hand_m || self.want_m < self.least_want_m - hand_m) {
+    self.least_want_m = self.want_m;
+    self.stalled_ticks = 0;
+  } else if (self.stalled_ticks < UINT16_MAX) {
+    ++self.stalled_ticks;
+  }
 }
 
 std::uint16_t saturate(std::uint32_t v) noexcept { return static_cast<std::uint16_t>(std::min<std::uint32_t>(v, UINT16_MAX)); }
@@ -83,6 +94,7 @@ void take_census(Robot& robot) noexcept {
   self.subtree_workers = saturate(sums.workers);
   self.count = saturate(algorithm2_count(sums.children, sums.counts, self.depth));
   self.want_m = sums.want_m;
+  watch_progress(self);
   self.pull = sums.pulling > 0 ? sums.pull / static_cast<float>(sums.pulling) : Vec2{};
 
   const int up = self.parent != nobody ? robot.parent : robot.old_parent;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/census.hpp"
 #include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/epoch.hpp"
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/label.hpp"
 #include "banyan/controller/motion.hpp"
 #include "banyan/controller/parent_selection.hpp"
@@ -21,6 +23,16 @@ namespace {
 // What is remembered as a vector moves with the robot's own frame.
 void carry_memory(State& self, const Carry& carry) noexcept {
   if (self.centroid_known) self.centroid = carry.point(self.centroid);
+  self.root_at = carry.point(self.root_at);
+  for (int k = 0; k < self.task_count; ++k) self.tasks[k].target = carry.point(self.tasks[k].target);
+  ++self.turn;
+  if (self.detour.side != 0)
+    for (Vec2* v : {&self.detour.contact, &self.detour.origin, &self.detour.goal}) *v = carry.point(*v);
+  self.seen_from = carry.point(self.seen_from);
+  for (int k = 0; k < self.landmarks.size; ++k) {
+    Vec2& point = self.landmarks.points[static_cast<std::size_t>(k)];
+    point = carry.point(point);
+  }
 }
 
 template <class Int>
@@ -41,6 +53,7 @@ Message compose(const Robot& robot) noexcept {
   m.serves = self.serves;
   m.flood_done = self.flood_done;
   m.committed = self.committed;
+  m.pinned = self.pinned;
   m.parent_silent = self.parent != nobody && !robot.parent_alive();
   m.epoch = self.epoch;
   m.root = self.root;
@@ -69,6 +82,12 @@ Message compose(const Robot& robot) noexcept {
     m.q = to_edge_frame(self.q, addressee);
     m.pull_x = fixed<std::int16_t>(pull.x, pull_unit);
     m.pull_y = fixed<std::int16_t>(pull.y, pull_unit);
+    Vec2 hinge;
+    if (find_hinge(robot, hinge)) {
+      hinge = to_edge_frame(hinge - addressee, addressee);
+      m.hinge_x_cm = fixed<std::int16_t>(hinge.x, 100.0F);
+      m.hinge_y_cm = fixed<std::int16_t>(hinge.y, 100.0F);
+    }
   }
   const int heir = self.new_root == nobody ? -1 : robot.table().find(self.new_root);
   if (heir >= 0) {
@@ -78,6 +97,7 @@ Message compose(const Robot& robot) noexcept {
     m.centroid_x_cm = fixed<std::int16_t>(centroid.x, 100.0F);
     m.centroid_y_cm = fixed<std::int16_t>(centroid.y, 100.0F);
   }
+  tell(robot, m);
   return m;
 }
 
@@ -100,9 +120,14 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   carry_memory(state, carry);
   state.neighbors.update(heard, carry, robot.liveness_ticks(), state.id, {state.parent, state.old_parent});
 
+  estimate_loss(robot);   // how long neighbours may be silent
   listen(robot);          // the largest epoch, phase and root token heard
   accept_offer(robot);    // Select Root, the heir's side
+  follow_heartbeat(robot);  // is there a root at all,
+  claim_root(robot);        // and if not, am I the one to be it?
+  mind_tasks(robot);        // does every target have its worker?
   survey(robot);          // who are my parent and children
+  remember_obstacles(robot);
   update_role(robot);
   advance(robot);         // the root's barriers
   update_label(robot);    // Start Tree

@@ -2,6 +2,9 @@
 // Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
 // springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
 #include "banyan/controller/convoy.hpp"
+#include <algorithm>
+
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policies.hpp"
 #include "banyan/controller/sight.hpp"
@@ -39,19 +42,30 @@ class Convoy final : public Policy {
   [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
 
   [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
-  // Only when the edge is about to hold the workers back.
+  [[nodiscard]] bool workers_relay() const noexcept override { return true; }
+  // Not while the workers get on: the tree mends itself meanwhile, and a new one is not free.
+  [[nodiscard]] bool reconstructs(const Robot& robot) const noexcept override {
+    constexpr float patience_s = 5.0F;
+    return robot.self.stalled_ticks > robot.params.ticks(patience_s);
+  }
+  // Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
-    return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.call_distance * robot.params.communication_range_m;
+    const Params& p = robot.params;
+    const float from_m = robot.self.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance * p.communication_range_m;
+    return robot.parent >= 0 && (robot.self.pinned || robot.table().range(robot.parent) > from_m);
   }
   [[nodiscard]] bool may_insert(const Robot& robot, int owner, int parent) const noexcept override;
-  [[nodiscard]] bool may_relay(const Robot& robot, int k) const noexcept override { return is_relay(robot, k); }
   // Once all have arrived, a spare as root would be a robot more.
   [[nodiscard]] bool may_inherit(const Robot& robot, int k) const noexcept override {
     return !saves_robots(robot.params) || robot.self.want_m > 0.0F || robot.table().message(k).role != Role::spare;
   }
-  void tend_tree(Robot& robot) const noexcept override { take_shortcuts(robot); }
+  void tend_tree(Robot& robot) const noexcept override {
+    take_shortcuts(robot);
+    robot.self.pinned = is_pinned(robot);
+  }
   [[nodiscard]] Vec2 tree_motion(const Robot& robot) const noexcept override { return towed_motion(robot); }
   [[nodiscard]] Vec2 spare_motion(const Robot& robot) const noexcept override { return waiting_motion(robot); }
+  void limit_motion(const Robot& robot, Guard& guard) const noexcept override { keep_sight(robot, guard); }
 };
 
 // An edge of the last tree, in either direction.
@@ -59,7 +73,8 @@ bool was_edge(const Robot& robot, int k) noexcept {
   return k == robot.old_parent || robot.table().message(k).old_parent == robot.self.id;
 }
 
-// Once all below have arrived the tree stays what it has become. Else short first edges, then such as need no spare, then the nearest; a blocked one is as good as far.
+// Once all below have arrived the tree stays what it has become. Else short first edges, then such as
+// need no spare, then the nearest; a blocked one is as good as far.
 struct Preference {
   int rank;
   float key;
@@ -73,6 +88,7 @@ struct Preference {
       key = static_cast<float>(robot.table().message(k).label_cm);
       return;
     }
+    if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
     rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
   }
@@ -88,9 +104,9 @@ bool Convoy::prefers(const Robot& robot, int a, int b) const noexcept {
 bool Convoy::needs_spare(const Robot& robot) const noexcept {
   if (robot.parent < 0) return false;
   const float d = robot.table().range(robot.parent);
-  const bool hidden = robot.table().age(robot.parent) > silence_ticks;
+  const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   return (d > robot.params.recruitment_distance_m && robot.self.want_m > 0.0F) ||
-         (hidden && d > robot.params.shortest_split * robot.params.communication_range_m);
+         ((hidden || robot.self.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);
 }
 
 bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcept {

@@ -63,6 +63,8 @@ void listen(Robot& robot) noexcept {
     }
   }
   if (self.phase_ticks < UINT16_MAX) ++self.phase_ticks;
+  // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
+  if (epoch > self.epoch && robot.is_root() && robot.params.heals()) return enter(robot, static_cast<std::uint16_t>(epoch + 1), Phase::start_tree);
   if (epoch != self.epoch || phase != self.phase) enter(robot, epoch, phase);
 }
 
@@ -92,7 +94,8 @@ void advance(Robot& robot) noexcept {
       if ((self.done_ticks > 0 && self.phase_ticks >= settle_ticks) || timeout) enter(robot, self.epoch, Phase::grow_tree);
       break;
     case Phase::grow_tree:
-      if (self.phase_ticks >= p.ticks(p.reconfiguration_period_s)) enter(robot, self.epoch, Phase::select_root);
+      if (self.phase_ticks >= p.ticks(p.reconfiguration_period_s) && robot.policy.reconstructs(robot))
+        enter(robot, self.epoch, Phase::select_root);
       break;
     default: break;  // SELECT ROOT ends with the root's next epoch (root_selection.hpp)
   }

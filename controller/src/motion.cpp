@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "banyan/controller/bypass.hpp"
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policy.hpp"
 #include "banyan/controller/spare_management.hpp"
@@ -65,8 +67,14 @@ Vec2 adjust_position(const Robot& robot) noexcept {
 
 Guard guard_of(const Robot& robot) noexcept {
   Guard guard;
-  if (robot.params.corrected())
-    for_each_tree_neighbor(robot, [&](int k) { guard.add(robot.table().position(k), robot.params); });
+  if (!robot.params.corrected()) return guard;
+  const bool retreating = is_retreating(robot);  // from where the silent may have been lost for good
+  for_each_tree_neighbor(robot, [&](int k) {
+    // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
+    if (robot.table().alive(k) || (!retreating && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params);
+  });
+  keep_off(robot, guard);
+  robot.policy.limit_motion(robot, guard);
   return guard;
 }
 
@@ -126,6 +134,12 @@ void Guard::add(Vec2 neighbor, const Params& params) noexcept {
   limit[size++] = 0.5F * (params.ideal_distance_m - d) * params.guard_rate_per_s;
 }
 
+void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
+  if (size == capacity) return;
+  away[size] = direction;
+  limit[size++] = limit_m_s;
+}
+
 Vec2 Guard::apply(Vec2 v) const noexcept {
   // Projections onto the half-planes in turn; they settle in a few rounds.
   for (int round = 0; round < 4; ++round) {
@@ -164,7 +178,8 @@ Velocity drive(Vec2 v, const Guard& guard, const Params& params) noexcept {
 
 Velocity move(const Robot& robot) noexcept {
   const Params& p = robot.params;
-  const Vec2 u = robot.self.role == Role::spare ? robot.policy.spare_motion(robot) : robot.policy.tree_motion(robot);
+  const Vec2 u = is_retreating(robot) ? retreat_motion(robot) :
+                 robot.self.role == Role::spare ? robot.policy.spare_motion(robot) : robot.policy.tree_motion(robot);
   const Guard guard = guard_of(robot);
   const Vec2 v = guard.apply(clamped(u, 1.0F) * p.speed_gain_m_s);
   return drive(clamped(v, p.wheel_limit_m_s), guard, p);

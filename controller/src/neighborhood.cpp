@@ -30,13 +30,17 @@ int Neighborhood::find(RobotId id) const noexcept {
 void Neighborhood::update(std::span<const Heard> heard, const Carry& carry, int liveness_ticks, RobotId self,
                           std::array<RobotId, 2> keep) noexcept {
   liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
-  for (int k = 0; k < size_; ++k)
+  expected_ = missed_ = 0;
+  for (int k = 0; k < size_; ++k) {
+    if (entries_[k].age == 0) ++expected_;
     if (entries_[k].age < UINT16_MAX) ++entries_[k].age;
+  }
   int hint = 0;
   for (const Heard& h : heard) file(h, hint, self, keep);
   // Only the silent are dead-reckoned: whoever was heard just now has a fresh position.
   for (int k = 0; k < size_;) {
     Entry& entry = entries_[k];
+    if (entry.age == 1) ++missed_;
     if (entry.age > liveness_ticks && entry.id != keep[0] && entry.id != keep[1]) {
       remove(k);
       continue;

@@ -15,6 +15,8 @@ constexpr float last_resort_range = 0.95F;  // of C: beyond, the next step might
 constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
+bool may_relay(const Robot& robot, const Message& m) noexcept { return m.role != Role::worker || robot.policy.workers_relay(); }
+
 constexpr std::uint16_t largest_label = unknown_label - 1;  // where label_below() saturates
 
 // The policy's best candidate, -1 if none. `in_tree`: committed robots that are no spares only.
@@ -38,7 +40,7 @@ int flood_parent(const Robot& robot) noexcept {
   if (k < 0 || !robot.table().alive(k)) return -1;
   const Message& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= last_resort_range * robot.params.communication_range_m;
-  return near && m.role != Role::worker && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
+  return near && may_relay(robot, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
 }
 
 // Still none: nobody hangs on a childless robot, so it may move behind any committed neighbour.
@@ -47,7 +49,7 @@ int nearest_committed(const Robot& robot) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
-    if (!table.alive(k) || m.role == Role::worker || m.epoch != robot.self.epoch || !m.committed) continue;
+    if (!table.alive(k) || !may_relay(robot, m) || m.epoch != robot.self.epoch || !m.committed) continue;
     if (m.label_cm == unknown_label || !is_ahead(robot, k) || table.range(k) > robot.params.parent_range_m()) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
@@ -87,7 +89,7 @@ int way_to_tree(const Robot& robot, float range_m) noexcept {
   const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
-    if (!table.alive(k) || m.role == Role::worker || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
+    if (!table.alive(k) || !may_relay(robot, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
     if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
     if (best < 0 || key(k) < key(best)) best = k;
   }
@@ -160,13 +162,15 @@ void update_tree_hops(Robot& robot) noexcept {
   if (self.depth != invalid_depth || self.role != Role::spare || self.parent != nobody) return;
   const Neighborhood& table = robot.table();
   int nearest = -1;
-  int hops = unreachable - 1;
+  int hops = unreachable - 1;  // the most that is passed on
   for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k) || table.message(k).tree_hops >= hops) continue;
-    hops = table.message(k).tree_hops;
+    const Message& m = table.message(k);
+    if (!table.alive(k) || m.tree_hops > hops || m.tree_hops == unreachable) continue;
+    if (m.tree_hops == hops && nearest >= 0 && m.pulse <= table.message(nearest).pulse) continue;  // the freshest
+    hops = m.tree_hops;
     nearest = k;
   }
-  self.tree_hops = static_cast<std::uint8_t>(hops + 1);
+  self.tree_hops = nearest < 0 ? unreachable : static_cast<std::uint8_t>(hops + 1);
   // Whoever drafts this spare (in GROW TREE) must find it ahead; one about to join an edge stays behind.
   if (nearest >= 0 && self.phase >= Phase::grow_tree && self.request == nobody) follow(robot, nearest);
 }
@@ -178,8 +182,7 @@ bool is_candidate(const Robot& robot, int k) noexcept {
   // An edge that exists may be as long as the guard lets it grow.
   const float range_m =
       std::max(robot.params.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
-  return robot.table().alive(k) && (m.role != Role::worker || robot.policy.may_relay(robot, k)) && m.epoch == robot.self.epoch &&
-         m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
+  return robot.table().alive(k) && may_relay(robot, m) && m.epoch == robot.self.epoch && m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
 }
 
 bool is_ahead(const Robot& robot, int k) noexcept {

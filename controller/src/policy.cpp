@@ -9,6 +9,8 @@ namespace banyan {
 
 bool Policy::needs_spare(const Robot& robot) const noexcept { return is_stretched(robot) || child_in_need(robot); }
 
+bool Policy::reconstructs(const Robot&) const noexcept { return true; }
+
 bool Policy::may_call(const Robot&) const noexcept { return true; }
 
 bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcept {
@@ -16,11 +18,11 @@ bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcep
   return norm((table.position(owner) + table.position(parent)) * 0.5F) <= robot.params.insertion_distance_m;
 }
 
-bool Policy::may_relay(const Robot&, int) const noexcept { return false; }
-
 bool Policy::may_inherit(const Robot&, int) const noexcept { return true; }
 
 void Policy::tend_tree(Robot&) const noexcept {}
+
+void Policy::limit_motion(const Robot&, Guard&) const noexcept {}
 
 Vec2 Policy::tree_motion(const Robot& robot) const noexcept { return spring_motion(robot); }
 

@@ -13,12 +13,10 @@ constexpr float merge_period_s = 2.0F;
 constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
 constexpr int wish_limit_ticks = 15;     // longer than pulses of two branches differ
 
-// A robot of the tree that I may hang on: heard this tick or the last, ahead of me, in sight. A worker
-// only once it stands where it has to.
+// A robot of the tree that I may hang on: heard this tick or the last, ahead of me, in sight.
 bool is_hold(const Robot& robot, int k, float range_m) noexcept {
   const Neighborhood& table = robot.table();
   const Message& m = table.message(k);
-  if (m.role == Role::worker && !is_relay(robot, k)) return false;
   return table.age(k) <= 1 && table.range(k) <= range_m && m.role != Role::spare && m.parent != robot.self.id &&
          m.old_parent != robot.self.id && m.depth != invalid_depth && is_ahead(robot, k) &&
          sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
@@ -32,13 +30,14 @@ void release(Robot& robot) noexcept {
       parent.inserted_child != nobody)
     return;
   const int k = table.find(parent.parent);
-  if (k < 0) return;
+  if (k < 0 || (table.message(k).role == Role::worker && !is_relay(robot, k))) return;
   const Params& p = robot.params;
   const float reach = has_arrived(robot) ? std::max(p.release_distance, p.merge_distance) : p.release_distance;
   if (is_hold(robot, k, reach * p.communication_range_m)) take_parent(robot, k);
 }
 
 // An edge that would need a spare: a robot of the tree may stand nearer.
+constexpr float DANGER = 0.8F, URGENT = 0.7F;
 void take_nearer(Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
@@ -46,8 +45,20 @@ void take_nearer(Robot& robot) noexcept {
   float best_m = p.release_distance * p.communication_range_m;
   for (int k = 0; k < table.size(); ++k) {
     if (k == robot.parent || table.range(k) >= best_m || !is_hold(robot, k, best_m)) continue;
+    if (table.message(k).role == Role::worker && !is_relay(robot, k)) continue;
     best = k;
     best_m = table.range(k);
+  }
+  if (best >= 0) take_parent(robot, best);
+}
+
+// A worker goes its own way and cannot be towed: as long as I have to go on, anybody else will do.
+void leave_worker(Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.message(k).role == Role::worker || !is_hold(robot, k, robot.params.parent_range_m())) continue;
+    if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
   if (best >= 0) take_parent(robot, best);
 }
@@ -124,40 +135,53 @@ void save_robots(Robot& robot) noexcept {
   else if (!merge(robot)) make_wish(robot, p.merge_distance * c, turn);
 }
 
-// Rule 6: my parent is hidden. The visible robot with a smaller label nearest to the old edge.
-void keep_in_sight(Robot& robot) noexcept {
+// Rule 6: my parent is hidden, or soon will be. The visible robot nearest to the old edge that is
+// ahead of me: one of the tree or, when it is too late, a spare, which joins because it is named.
+void keep_in_sight(Robot& robot, bool urgent) noexcept {
+  const Params& p = robot.params;
   const Neighborhood& table = robot.table();
   const Vec2 parent = table.position(robot.parent);
+  const float clearance_m = p.clearance * p.communication_range_m;
   int best = -1;
   float best_m = 1e9F;
   for (int k = 0; k < table.size(); ++k) {
     const Message& m = table.message(k);
-    if (k == robot.parent || m.label_cm >= robot.self.label_cm) continue;
-    if (!is_hold(robot, k, robot.params.parent_range_m())) continue;
-    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k)));  // to the old edge
+    if (k == robot.parent || table.age(k) > 0) continue;
+    const bool spare = urgent && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
+                       m.tree_hops != unreachable && table.range(k) <= p.parent_range_m() && sees_clearly(robot, k, clearance_m);
+    if (!spare && !is_hold(robot, k, p.parent_range_m())) continue;
+    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k))) + (spare ? p.communication_range_m : 0.0F);
     if (d < best_m) {
       best_m = d;
       best = k;
     }
   }
-  if (best >= 0) take_parent(robot, best);
+  if (best < 0) return;
+  robot.self.grant = nobody;  // of the edge that is given up
+  take_parent(robot, best);
 }
 
 }  // namespace
 
 void take_shortcuts(Robot& robot) noexcept {
-  const State& self = robot.self;
-  if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.grant != nobody ||
-      self.inserted_child != nobody) {
-    robot.self.wish = nobody;
+  State& self = robot.self;
+  if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.inserted_child != nobody) {
+    self.wish = nobody;
     return;
   }
   constexpr int hidden_ticks = 1;
-  if (robot.table().age(robot.parent) > hidden_ticks) keep_in_sight(robot);
-  else if (robot.self.need == Need::need) take_nearer(robot);
+  const Params& p = robot.params;
+  const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
+  const float clearance_m = p.clearance * p.communication_range_m;
+  const bool endangered = hidden || !sees_clearly(robot, robot.parent, DANGER * clearance_m);
+  const bool may_save = !endangered && self.grant == nobody && has_arrived(robot);
+  if (!may_save) self.wish = nobody;
+  if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, URGENT * clearance_m));
+  if (self.grant != nobody) return;  // the tree changes here already
+  if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
+  else if (self.need == Need::need) take_nearer(robot);
   else release(robot);
-  if (has_arrived(robot) && robot.table().age(robot.parent) <= hidden_ticks) save_robots(robot);
-  else robot.self.wish = nobody;
+  if (may_save) save_robots(robot);
 }
 
 }  // namespace banyan

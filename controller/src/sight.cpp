@@ -3,8 +3,12 @@
 
 #include <algorithm>
 
+#include "banyan/controller/bypass.hpp"
+
 namespace banyan {
 namespace {
+
+constexpr float obstacle_clearance_m = 0.05F;  // a tree edge may graze a corner, but not by a hair
 
 // `p` is nearer than `clearance_m` to the inside of the segment from `a` along `d`; the ends are
 // the robots that talk: who stands beside them is no obstacle.
@@ -30,6 +34,7 @@ bool is_clear(const Robot& robot, Vec2 a, Vec2 b, int i, int j, float clearance_
   const Vec2 d = b - a;
   const float d2 = squared_norm(d);
   if (blocks(Vec2{}, a, d, d2, clearance_m)) return false;
+  if (!is_free(robot, a, b, obstacle_clearance_m)) return false;
   for (int k = 0; k < table.size(); ++k)
     if (k != i && k != j && blocks(table.position(k), a, d, d2, clearance_m)) return false;
   return true;

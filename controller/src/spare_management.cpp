@@ -10,7 +10,7 @@
 namespace banyan {
 namespace {
 
-constexpr int ungranted_limit_ticks = 6;  // protocol 7
+constexpr int ungranted_limit_ticks = 14;  // protocol 7 has 6: too few for a question and an answer at five ticks of latency
 constexpr float call_after_s = 2.0F;      // a need unanswered for so long calls spares from afar
 constexpr std::uint8_t call_reach_hops = 40;
 constexpr float infinite_m = 1e9F;

@@ -16,6 +16,14 @@ void add(Digest& d, const Neighborhood& table) noexcept {
   }
 }
 
+void add(Digest& d, const Task& task) noexcept {
+  d.add(task.serves);
+  d.add(task.holder);
+  d.add(task.beat);
+  d.add(task.age_ticks);
+  d.add(task.target);
+}
+
 }  // namespace
 
 std::uint64_t hash(const State& s) noexcept {
@@ -34,12 +42,28 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.inserted_child), static_cast<int>(s.inserted_ticks), static_cast<int>(s.spare_state),
                       static_cast<int>(s.request), static_cast<int>(s.request_ticks), static_cast<int>(s.ungranted_ticks),
                       static_cast<int>(s.reference), static_cast<int>(s.called), static_cast<int>(s.unserved_ticks),
-                      static_cast<int>(s.call_hops)})
+                      static_cast<int>(s.call_hops), static_cast<int>(s.stalled_ticks), static_cast<int>(s.liveness_ticks), static_cast<int>(s.heartbeat), static_cast<int>(s.silence_ticks),
+                      static_cast<int>(s.heart.sequence), static_cast<int>(s.heart.id), static_cast<int>(s.root_known),
+                      static_cast<int>(s.turn), static_cast<int>(s.task_count)})
     d.add(v);
   d.add(s.q);
   d.add(s.want_m);
+  d.add(s.least_want_m);
   d.add(s.pull);
   d.add(s.centroid);
+  d.add(s.expected_packets);
+  d.add(s.missed_packets);
+  d.add(s.root_at);
+  for (int k = 0; k < s.task_count; ++k) add(d, s.tasks[k]);
+  d.add(static_cast<int>(s.detour.side));
+  d.add(s.detour.contact);
+  d.add(s.detour.origin);
+  d.add(s.detour.goal);
+  d.add(s.detour.leave_m);
+  d.add(s.detour.span_m);
+  d.add(static_cast<int>(s.pinned));
+  d.add(s.seen_from);
+  for (int k = 0; k < s.landmarks.size; ++k) d.add(s.landmarks.points[static_cast<std::size_t>(k)]);
   d.add(s.tally.insertions);
   d.add(s.tally.handovers);
   d.add(s.tally.repairs);

@@ -2,6 +2,7 @@
 // How convoy moves (docs/convoy.md, rules 2, 6, 7 and 8).
 #include <algorithm>
 
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/convoy.hpp"
 #include "banyan/controller/motion.hpp"
 #include "banyan/controller/parent_selection.hpp"
@@ -13,6 +14,10 @@ namespace {
 
 constexpr float compact_gain = 0.8F;   // a branch that has arrived slides together with this strength
 constexpr float compact_width = 0.05F; // of C: with full strength so far from compact_distance
+constexpr float FOLLOW_S = 0.25F, FOLLOW_T = 0.5F;
+constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
+constexpr float pinned_start_m = 0.25F;
+constexpr float pinned_width_m = 0.10F;
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
@@ -22,18 +27,25 @@ bool is_tree_neighbor(const Robot& robot, int k) noexcept {
   return m.parent == robot.self.id || m.old_parent == robot.self.id;
 }
 
-// Children that still have to go on tow: in proportion to how far the edge is stretched. The root
-// stays with the spares as long as it can: they are needed where its edges grow.
+// Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
+// junctions stay with the spares as long as they can: there their edges grow and are split.
 Vec2 tow(const Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
   const float c = p.communication_range_m;
-  const float start_m = robot.is_root() ? p.safe_range_m : p.pull_start * c;
+  const auto tows = [&](int k) {
+    const Message& m = table.message(k);
+    return m.role != Role::spare && m.want_cm > 0 && up_of(m) == robot.self.id;
+  };
+  const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
+                     std::count_if(robot.old_children.begin(), robot.old_children.end(), tows);
+  const float start_m = robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start * c;
   Vec2 u;
   const auto add = [&](int k) {
-    const Message& m = table.message(k);
-    if (m.role == Role::spare || m.want_cm == 0 || up_of(m) != robot.self.id) return;
-    u += unit(table.position(k)) * ramp(table.range(k), start_m, p.pull_width * c);
+    if (!tows(k)) return;
+    // A child at a corner needs its parent there before it can go round.
+    const float weight = table.message(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width * c);
+    u += unit(table.position(k)) * weight;
   };
   for (const int k : robot.children) add(k);
   for (const int k : robot.old_children) add(k);
@@ -141,6 +153,24 @@ Vec2 compaction(const Robot& robot) noexcept {
   return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
 }
 
+// Among obstacles a tree neighbour that falls silent has gone behind one: its child backs up to where
+// it heard it last, and it waits meanwhile.
+bool lost_sight(const Robot& robot, int up) noexcept {
+  constexpr int silent_ticks = 2;
+  const Neighborhood& table = robot.table();
+  if (robot.self.landmarks.size == 0) return false;
+  if (up >= 0 && table.alive(up) && table.age(up) >= silent_ticks) return true;
+  if (robot.self.childless_ticks > 0) return true;
+  return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
+}
+
+// A worker's pull, or along the obstacle in its way.
+Vec2 pull_past_obstacles(const Robot& robot) noexcept {
+  const Vec2 pull = robot.self.pull;
+  const float goal_m = robot.target != nullptr ? norm(*robot.target) : robot.self.want_m;
+  return bypass(robot, unit(pull) * goal_m) * norm(pull);
+}
+
 }  // namespace
 
 bool saves_robots(const Params& params) noexcept { return params.corrected() && params.merge_distance > 0.0F; }
@@ -157,12 +187,13 @@ bool is_relay(const Robot& robot, int k) noexcept {
 Vec2 towed_motion(const Robot& robot) noexcept {
   const Params& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
-  if (up >= 0 && !robot.table().alive(up)) return unit(robot.table().position(up));
+  if (lost_sight(robot, up)) return norm(robot.self.seen_from) > 0.02F ? unit(robot.self.seen_from) : Vec2{};
+  if (up >= 0 && !robot.table().alive(up)) return bypass(robot, robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
-  if (robot.self.is_worker) return robot.self.pull + elbow_room(robot);
+  if (robot.self.is_worker) return pull_past_obstacles(robot) + elbow_room(robot);
   const Vec2 along = has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
-  return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m);
+  return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
 
 Vec2 waiting_motion(const Robot& robot) noexcept {
@@ -171,13 +202,20 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   const State& self = robot.self;
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
-    return unit(midpoint) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+    return bypass(robot, midpoint) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+  // Nobody around has heard the tree for a while: it has gone behind an obstacle.
+  if (self.tree_hops > lost_hops && norm(self.seen_from) > p.arrival_distance_m) return bypass(robot, self.seen_from) + elbow_room(robot);
   const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
+  // Sight can be lost at any distance: it follows in good time, and a spare that leads it even earlier.
+  const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
+  const float reach_m = (led ? FOLLOW_S : FOLLOW_T) * c;
   // On its way along a chain it may come nearer to the line of sight than while it waits.
-  if (d > p.safe_range_m || (self.called && d > p.avoidance_range_m))
-    return unit(reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+  if (d > reach_m || (self.called && d > p.avoidance_range_m))
+    return bypass(robot, reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+  // There, but an obstacle or its distance hides the edge that calls: round the robot that passed the call on.
+  if (self.called && self.landmarks.size > 0 && d > 0.0F) return bypass(robot, Vec2{-reference.y, reference.x}) + elbow_room(robot);
   return elbow_room(robot) + make_way(robot, p.corridor_width * c);
 }
 

@@ -174,7 +174,7 @@ TEST(Steiner, AFurtherTerminalCostsNoMoreThanItsDistanceAndNeverLessThanNothing)
 // the weighted mean of its neighbours again and again (Weiszfeld's step). Node 0..5: terminals.
 class EveryTopology {
  public:
-  explicit EveryTopology(const std::vector<Vec2>& terminals) : at_(terminals) { grow({{0, 1}}, 2); }
+  explicit EveryTopology(std::vector<Vec2> terminals) : at_(std::move(terminals)) { grow({{0, 1}}, 2); }
   double shortest = 1e9;
   int topologies = 0;
 

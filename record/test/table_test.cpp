@@ -102,6 +102,44 @@ TEST(Table, WhatIsNotThereIsEmptyOrNull) {
   EXPECT_TRUE(json["result"]["completion_time_s"].is_null());
 }
 
+TEST(Table, ColumnsOfHealingAreThereOrEmpty) {
+  RunRow row = sample_row();
+  row.run.elections = 2;
+  row.run.two_roots_ticks = 17;
+  row.run.network_length_m = 12.25;
+  const auto before = nlohmann::json::parse(run_json(row, "{}"))["result"];
+  for (const char* name : {"last_death_s", "recovery_time_s", "time_ratio"}) EXPECT_TRUE(before[name].is_null()) << name;
+  EXPECT_EQ(before["deaths"], 0);
+  EXPECT_EQ(before["recovered"], false);
+  EXPECT_EQ(before["elections"], 2);
+  EXPECT_EQ(before["two_roots_ticks"], 17);
+  EXPECT_EQ(before["network_length_m"], 12.25);
+  row.run.deaths = 3;
+  row.run.last_death_s = 0.0;
+  row.run.recovered = true;
+  row.run.recovery_time_s = 0.0;
+  row.run.time_ratio = 1.125;
+  const auto after = nlohmann::json::parse(run_json(row, "{}"))["result"];
+  EXPECT_EQ(after["last_death_s"], 0.0) << "at the very start is not never";
+  EXPECT_EQ(after["recovery_time_s"], 0.0) << "at once is not never";
+  EXPECT_EQ(after["recovered"], true);
+  EXPECT_EQ(after["time_ratio"], 1.125);
+}
+
+// The page names some by their ends only: `…_by_distance`.
+TEST(Table, EveryColumnIsInTheDocumentation) {
+  const std::string page = contents(BANYAN_SOURCE_DIR "/docs/file-formats.md");
+  ASSERT_FALSE(page.empty());
+  const auto documented = [&](std::string_view name) {
+    if (page.find("`" + std::string(name) + "`") != std::string::npos) return true;
+    const std::size_t by = name.find("_by_");
+    return by != std::string_view::npos && page.find("`…" + std::string(name.substr(by)) + "`") != std::string::npos;
+  };
+  for (const auto& column : run_columns()) EXPECT_TRUE(documented(column.name)) << column.name;
+  for (const auto& column : series_columns()) EXPECT_TRUE(documented(column.name)) << column.name;
+  EXPECT_FALSE(documented("no_such_column"));
+}
+
 TEST(Table, AConfigurationThatIsNoJsonIsKeptAsText) {
   EXPECT_EQ(nlohmann::json::parse(run_json(sample_row(), "not {json"))["config"], "not {json");
   EXPECT_EQ(nlohmann::json::parse(run_json(sample_row(), ""))["config"], "");

@@ -118,10 +118,11 @@ TEST_F(ResultsTest, ARowOfAnotherVersionSaysSo) {
 }
 
 TEST(Columns, AreMetricsOrNot) {
-  for (const char* name : {"complete", "normalized_time", "committed", "bytes_per_robot_s", "loss", "seed"})
+  for (const char* name : {"complete", "normalized_time", "committed", "bytes_per_robot_s", "loss", "seed", "time_ratio",
+                           "recovered", "recovery_time_s", "last_death_s", "network_length_m", "elections"})
     EXPECT_TRUE(is_metric(name)) << name;
   for (const char* name : {"hash", "algorithm", "version", "nothing", ""}) EXPECT_FALSE(is_metric(name)) << name;
-  EXPECT_TRUE(is_boolean("complete"));
+  for (const char* name : {"complete", "recovered", "survivors_suffice"}) EXPECT_TRUE(is_boolean(name)) << name;
   EXPECT_FALSE(is_boolean("committed"));
   EXPECT_TRUE(is_identifying("seed"));
   EXPECT_TRUE(is_identifying("algorithm"));

@@ -20,7 +20,8 @@ Agenda::Agenda(const std::vector<Event>& events) {
   due_.reserve(events.size());
   waiting_.reserve(events.size());
   for (std::size_t i = 0; i < events.size(); ++i)
-    (events[i].when == Event::When::time ? due_ : waiting_).push_back({.event = events[i], .number = i, .due_s = events[i].time_s});
+    (events[i].when == Event::When::time ? due_ : waiting_)
+        .push_back({.event = events[i], .number = i, .due_s = events[i].time_s});
   std::sort(due_.begin(), due_.end(), later);
 }
 
@@ -50,7 +51,9 @@ void Agenda::again(const Entry& entry) {
   --acted_;
 }
 
-void Agenda::insert(const Entry& entry) { due_.insert(std::upper_bound(due_.begin(), due_.end(), entry, later), entry); }
+void Agenda::insert(const Entry& entry) {
+  due_.insert(std::upper_bound(due_.begin(), due_.end(), entry, later), entry);
+}
 
 bool Agenda::deaths_to_come() const noexcept {
   return std::any_of(due_.begin(), due_.end(), deadly) || std::any_of(waiting_.begin(), waiting_.end(), deadly);

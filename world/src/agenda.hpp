@@ -16,13 +16,13 @@ class Agenda {
  public:
   struct Entry {
     Event event;
-    std::uint64_t number = 0;   // in the scenario's list
-    double due_s = 0.0;         // when it acts next
+    std::uint64_t number = 0;  // in the scenario's list
+    double due_s = 0.0;        // when it acts next
     // A kill that is under way
     bool begun = false;
     double begin_s = 0.0;
-    std::uint64_t drawn = 0;    // victims drawn so far
-    std::uint64_t left = 0;     // and still to be drawn
+    std::uint64_t drawn = 0;  // victims drawn so far
+    std::uint64_t left = 0;   // and still to be drawn
   };
 
   explicit Agenda(const std::vector<Event>& events);
@@ -43,9 +43,9 @@ class Agenda {
  private:
   void insert(const Entry& entry);
 
-  std::vector<Entry> due_;       // the next one last
-  std::vector<Entry> waiting_;   // in the order of the file
-  std::uint64_t acted_ = 0;      // events that will not act again
+  std::vector<Entry> due_;      // the next one last
+  std::vector<Entry> waiting_;  // in the order of the file
+  std::uint64_t acted_ = 0;     // events that will not act again
 };
 
 }  // namespace banyan::world

@@ -15,7 +15,8 @@ void World::Impl::set_clocks() {
   clocked.resize(states.size());
   for (std::size_t i = 0; i < clocked.size(); ++i) {
     clocked[i].phase = to_uniform(bits(scenario.seed, Purpose::clock_phase, i));
-    clocked[i].rate = 1.0 + scenario.clocks.drift * (2.0 * to_uniform(bits(scenario.seed, Purpose::clock_rate, i)) - 1.0);
+    clocked[i].rate =
+        1.0 + scenario.clocks.drift * (2.0 * to_uniform(bits(scenario.seed, Purpose::clock_rate, i)) - 1.0);
   }
 }
 
@@ -49,7 +50,8 @@ void World::Impl::count_wheel_turns() {
 void World::Impl::deliver(Executor& executor) {
   for (std::size_t i = 0; i < clocked.size(); ++i) sent += clocked[i].told && alive[i] != 0 ? 1 : 0;
   const bool blackout = tick < silent_until;
-  const std::uint64_t arrival = moment + static_cast<std::uint64_t>(scenario.radio.latency_ticks - 1) * static_cast<std::uint64_t>(scenario.clocks.substeps);
+  const std::uint64_t arrival = moment + static_cast<std::uint64_t>(scenario.radio.latency_ticks - 1) *
+                                             static_cast<std::uint64_t>(scenario.clocks.substeps);
   executor.parallel_for(clocked.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
       Clocked& robot = clocked[i];
@@ -82,14 +84,17 @@ void World::Impl::wake(Executor& executor) {
 // that nothing has to be remembered and nothing adds up.
 bool World::Impl::strikes(std::size_t i) const noexcept {
   const double per_part = clocked[i].rate / static_cast<double>(scenario.clocks.substeps);
-  const auto periods = [&](std::uint64_t parts) { return std::floor(clocked[i].phase + per_part * static_cast<double>(parts)); };
+  const auto periods = [&](std::uint64_t parts) {
+    return std::floor(clocked[i].phase + per_part * static_cast<double>(parts));
+  };
   return periods(moment + 1) > periods(moment);
 }
 
 // What has arrived since its last step is carried along by its odometry to where it is now.
 void World::Impl::step_one(std::size_t i, std::vector<Heard>& heard, std::uint64_t& received_here) {
   Clocked& robot = clocked[i];
-  const auto arrived = std::find_if(robot.waiting.begin(), robot.waiting.end(), [&](const Waiting& w) { return w.heard > moment; });
+  const auto arrived =
+      std::find_if(robot.waiting.begin(), robot.waiting.end(), [&](const Waiting& w) { return w.heard > moment; });
   const Vec2 turned = unit_vector(robot.turn);
   heard.clear();
   for (auto packet = robot.waiting.begin(); packet != arrived; ++packet) {
@@ -100,7 +105,8 @@ void World::Impl::step_one(std::size_t i, std::vector<Heard>& heard, std::uint64
   if (slots > 0 && heard.size() > slots) heard.resize(keep_slots(i, std::span<Heard>(heard), heard.size()));
   received_here += heard.size();
 
-  const Odometry moved{static_cast<float>(robot.shift.x), static_cast<float>(robot.shift.y), static_cast<float>(robot.turn)};
+  const Odometry moved{static_cast<float>(robot.shift.x), static_cast<float>(robot.shift.y),
+                       static_cast<float>(robot.turn)};
   const Output output = consult(i, heard, moved);
   messages[i] = output.message;
   commands[i] = output.velocity;

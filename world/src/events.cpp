@@ -94,14 +94,30 @@ void World::Impl::apply(Agenda::Entry entry) {
   const Event& event = entry.event;
   const auto until = [&] { return tick + static_cast<std::uint64_t>(event.value / scenario.tick_s + 0.5); };
   switch (event.kind) {
-    case Event::Kind::die: die(event.index); break;
-    case Event::Kind::freeze: frozen_until[event.index] = event.value > 0.0 ? until() : forever; break;
-    case Event::Kind::set_loss: loss = event.value; break;
-    case Event::Kind::move_target: move_target(event.index, event.position, event.value); break;
-    case Event::Kind::add_target: assign_target(event.position); break;
-    case Event::Kind::kill: kill(entry); break;
-    case Event::Kind::blackout: silent_until = std::max(silent_until, until()); break;
-    case Event::Kind::remove_target: give_up(event.index); break;
+    case Event::Kind::die:
+      die(event.index);
+      break;
+    case Event::Kind::freeze:
+      frozen_until[event.index] = event.value > 0.0 ? until() : forever;
+      break;
+    case Event::Kind::set_loss:
+      loss = event.value;
+      break;
+    case Event::Kind::move_target:
+      move_target(event.index, event.position, event.value);
+      break;
+    case Event::Kind::add_target:
+      assign_target(event.position);
+      break;
+    case Event::Kind::kill:
+      kill(entry);
+      break;
+    case Event::Kind::blackout:
+      silent_until = std::max(silent_until, until());
+      break;
+    case Event::Kind::remove_target:
+      give_up(event.index);
+      break;
   }
 }
 
@@ -121,8 +137,9 @@ void World::Impl::kill(Agenda::Entry entry) {
   if (!entry.begun) {
     entry.begun = true;
     entry.begin_s = entry.due_s;
-    entry.left = event.share ? static_cast<std::uint64_t>(*event.share * static_cast<double>(count_among(event.of)) + 0.5)
-                             : event.count.value_or(1);
+    entry.left = event.share
+                     ? static_cast<std::uint64_t>(*event.share * static_cast<double>(count_among(event.of)) + 0.5)
+                     : event.count.value_or(1);
   }
   do {
     if (entry.left == 0) return;
@@ -138,10 +155,14 @@ void World::Impl::kill(Agenda::Entry entry) {
 bool World::Impl::among(Event::Of of, std::size_t i) const noexcept {
   if (alive[i] == 0) return false;
   switch (of) {
-    case Event::Of::robots: return true;
-    case Event::Of::connectors: return role_of(i) == Role::connector;
-    case Event::Of::root: return role_of(i) == Role::root;
-    default: return role_of(i) == Role::worker;
+    case Event::Of::robots:
+      return true;
+    case Event::Of::connectors:
+      return role_of(i) == Role::connector;
+    case Event::Of::root:
+      return role_of(i) == Role::root;
+    default:
+      return role_of(i) == Role::worker;
   }
 }
 
@@ -178,7 +199,9 @@ void World::Impl::assign_target(Vec2 position) {
   std::size_t best = states.size();
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (alive[i] == 0 || states[i].is_worker || states[i].role == Role::root || target_of[i] >= 0) continue;
-    if (best == states.size() || squared_norm(poses.position[i] - position) < squared_norm(poses.position[best] - position)) best = i;
+    if (best == states.size() ||
+        squared_norm(poses.position[i] - position) < squared_norm(poses.position[best] - position))
+      best = i;
   }
   if (best == states.size()) return;  // nobody is left to send
   states[best].is_worker = true;

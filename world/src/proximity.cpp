@@ -11,7 +11,9 @@ namespace {
 struct Enclose {
   std::pair<Vec2, double> operator()(const Disc& disc) const { return {disc.center, disc.radius_m}; }
   std::pair<Vec2, double> operator()(const Box& box) const { return {box.center, 0.5 * norm(box.size)}; }
-  std::pair<Vec2, double> operator()(const Wall& wall) const { return {(wall.from + wall.to) * 0.5, 0.5 * distance(wall.from, wall.to)}; }
+  std::pair<Vec2, double> operator()(const Wall& wall) const {
+    return {(wall.from + wall.to) * 0.5, 0.5 * distance(wall.from, wall.to)};
+  }
 };
 
 }  // namespace
@@ -37,15 +39,20 @@ class Proximity::Nearest {
   }
 
  private:
-  struct Sight { double d2; std::uint64_t order; Vec2 d; };
+  struct Sight {
+    double d2;
+    std::uint64_t order;
+    Vec2 d;
+  };
   static bool before(const Sight& a, const Sight& b) noexcept { return a.d2 != b.d2 ? a.d2 < b.d2 : a.order < b.order; }
   double limit_;
   std::size_t size_ = 0;
-  std::array<Sight, capacity> sights_;   // the first `size_` are valid
+  std::array<Sight, capacity> sights_;  // the first `size_` are valid
 };
 
 Proximity::Proximity(const Scenario& scenario)
-    : reach_m_(scenario.robot.proximity_m), radius_m_(scenario.robot.radius_m),
+    : reach_m_(scenario.robot.proximity_m),
+      radius_m_(scenario.robot.radius_m),
       sees_dead_(scenario.robot.dead_bodies && reach_m_ > 0.0) {
   if (reach_m_ == 0.0) return;
   obstacles_ = scenario.obstacles;
@@ -72,10 +79,12 @@ std::size_t Proximity::sense(const Poses& poses, std::size_t i, Seen& seen) cons
   Nearest nearest(reach_m_);
   for (std::size_t k = 0; k < obstacles_.size(); ++k) {
     const double far = around_[k].radius_m + reach_m_;
-    if (squared_norm(around_[k].center - here) <= far * far) nearest.offer(nearest_surface_point(obstacles_[k], here) - here, k);
+    if (squared_norm(around_[k].center - here) <= far * far)
+      nearest.offer(nearest_surface_point(obstacles_[k], here) - here, k);
   }
   const double far = reach_m_ + radius_m_;
-  auto body = std::lower_bound(dead_.begin(), dead_.end(), here.x - far, [](const Body& b, double x) { return b.position.x < x; });
+  auto body = std::lower_bound(dead_.begin(), dead_.end(), here.x - far,
+                               [](const Body& b, double x) { return b.position.x < x; });
   for (; body != dead_.end() && body->position.x <= here.x + far; ++body)
     nearest.offer(nearest_surface_point(Disc{body->position, radius_m_}, here) - here, obstacles_.size() + body->index);
   return nearest.write(poses.heading[i], seen);

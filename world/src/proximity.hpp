@@ -15,7 +15,7 @@ namespace banyan::world {
 
 class Proximity {
  public:
-  static constexpr std::size_t capacity = 8;   // what is farther than the nearest eight goes unseen
+  static constexpr std::size_t capacity = 8;  // what is farther than the nearest eight goes unseen
   using Seen = std::array<banyan::Vec2, capacity>;
 
   // Reach: scenario.robot.proximity_m from the robot's centre to the nearest point of a surface.
@@ -28,16 +28,22 @@ class Proximity {
   std::size_t sense(const Poses& poses, std::size_t i, Seen& seen) const noexcept;
 
  private:
-  struct Around { Vec2 center; double radius_m; };   // a disc that holds the obstacle
-  struct Body { Vec2 position; std::uint32_t index; };
+  struct Around {
+    Vec2 center;
+    double radius_m;
+  };  // a disc that holds the obstacle
+  struct Body {
+    Vec2 position;
+    std::uint32_t index;
+  };
   class Nearest;
 
   double reach_m_;
   double radius_m_;
   bool sees_dead_;
   std::vector<Obstacle> obstacles_;
-  std::vector<Around> around_;   // of each obstacle
-  std::vector<Body> dead_;       // by x
+  std::vector<Around> around_;  // of each obstacle
+  std::vector<Body> dead_;      // by x
 };
 
 }  // namespace banyan::world

@@ -143,6 +143,22 @@ void World::Impl::make_inboxes(const Executor& executor) {
   received_by.assign(inboxes.size(), 0);
 }
 
+// A packet's range and bearing were measured when it was sent; while it waits, the receiver's own
+// odometry carries them along. Those of `fresh` were measured just now.
+void World::Impl::carry_waiting(std::size_t i, const Flight& fresh) noexcept {
+  const Carry carry(odometry[i]);
+  const auto take_along = [&](Flight& flight) {
+    if (i >= flight.count.size()) return;
+    for (std::uint32_t k = 0; k < flight.count[i]; ++k) {
+      Packet& packet = flight.packets[flight.offsets[i] + k];
+      packet.position = carry.point(packet.position);
+    }
+  };
+  take_along(arriving);
+  for (Flight& flight : flights)
+    if (&flight != &fresh) take_along(flight);
+}
+
 void World::Impl::think(Executor& executor) {
   const std::size_t n = states.size();
   make_inboxes(executor);
@@ -170,6 +186,7 @@ void World::Impl::think(Executor& executor) {
       std::span<const Packet> packets(inbox.packets.data(), silence ? 0 : receive(i, inbox.packets));
       const Message* content = messages.data();
       if (flight != nullptr) {
+        carry_waiting(i, *flight);
         std::copy(packets.begin(), packets.end(), flight->packets.begin() + flight->offsets[i]);
         flight->count[i] = static_cast<std::uint32_t>(packets.size());
         content = arriving.messages.data();

@@ -76,6 +76,7 @@ struct World::Impl {
   void act();
   void broadcast(Executor& executor);
   void think(Executor& executor);
+  void carry_waiting(std::size_t i, const Flight& fresh) noexcept;
 
   void fetch(std::size_t i) const noexcept;
   std::size_t receive(std::size_t i, std::span<Packet> packets) const noexcept;

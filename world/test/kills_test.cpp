@@ -45,7 +45,8 @@ bool includes(const std::set<std::size_t>& all, const std::set<std::size_t>& som
 }
 
 TEST(Kills, AShareOfAllIsRoundedAndDrawnAtOnce) {
-  for (const auto& [share, expected] : std::map<double, std::size_t>{{0.0, 0}, {0.09, 1}, {0.33, 5}, {0.5, 8}, {1.0, 16}}) {
+  for (const auto& [share, expected] :
+       std::map<double, std::size_t>{{0.0, 0}, {0.09, 1}, {0.33, 5}, {0.5, 8}, {1.0, 16}}) {
     Scenario s = ring("outwards", 16, 2, 3.0, 1);
     s.events = {kill(1.0)};
     s.events[0].share = share;
@@ -63,7 +64,8 @@ TEST(Kills, AShareOfAllIsRoundedAndDrawnAtOnce) {
 }
 
 TEST(Kills, TakeTheRoleTheyName) {
-  const std::map<Event::Of, Role> roles{{Event::Of::connectors, Role::connector}, {Event::Of::root, Role::root}, {Event::Of::worker, Role::worker}};
+  const std::map<Event::Of, Role> roles{
+      {Event::Of::connectors, Role::connector}, {Event::Of::root, Role::root}, {Event::Of::worker, Role::worker}};
   for (const auto& [of, role] : roles) {
     Scenario s = ring("inwards", 20, 3, 4.0, 2);
     s.events = {kill(12.0, of)};

@@ -28,7 +28,8 @@ std::vector<Vec2> outline(const Obstacle& obstacle) {
     for (int k = 0; k <= n; ++k) points.push_back(a + (b - a) * (static_cast<double>(k) / n));
   };
   if (const auto* disc = std::get_if<Disc>(&obstacle))
-    for (int k = 0; k < 10000; ++k) points.push_back(disc->center + unit_vector(2.0 * pi<double> * k / 10000) * disc->radius_m);
+    for (int k = 0; k < 10000; ++k)
+      points.push_back(disc->center + unit_vector(2.0 * pi<double> * k / 10000) * disc->radius_m);
   if (const auto* wall = std::get_if<Wall>(&obstacle)) line(wall->from, wall->to);
   if (const auto* box = std::get_if<Box>(&obstacle)) {
     const Vec2 x = unit_vector(box->angle_rad) * (0.5 * box->size.x);
@@ -43,7 +44,8 @@ std::vector<Vec2> outline(const Obstacle& obstacle) {
 }
 
 TEST(Surface, NearestPointIsThatOfTheOutlineFromInsideAndOutside) {
-  const std::vector<Obstacle> shapes{Disc{{0.2, -0.1}, 0.7}, Box{{-0.1, 0.3}, {1.2, 0.6}, 0.5}, Wall{{-0.5, -0.4}, {0.6, 0.1}}};
+  const std::vector<Obstacle> shapes{Disc{{0.2, -0.1}, 0.7}, Box{{-0.1, 0.3}, {1.2, 0.6}, 0.5},
+                                     Wall{{-0.5, -0.4}, {0.6, 0.1}}};
   for (const Obstacle& shape : shapes) {
     const auto points = outline(shape);
     for (std::uint64_t k = 0; k < 60; ++k) {
@@ -62,7 +64,8 @@ TEST(Surface, NearestPointIsThatOfTheOutlineFromInsideAndOutside) {
 TEST(ProximitySensor, SeesTheNearestEightWithinReachInOrder) {
   Scenario s;
   s.robot.proximity_m = 0.5;
-  for (std::uint64_t k = 0; k < 60; ++k) s.obstacles.push_back(Disc{{draw(2, 2 * k, -1, 1), draw(2, 2 * k + 1, -1, 1)}, 0.05});
+  for (std::uint64_t k = 0; k < 60; ++k)
+    s.obstacles.push_back(Disc{{draw(2, 2 * k, -1, 1), draw(2, 2 * k + 1, -1, 1)}, 0.05});
   Poses poses;
   std::vector<std::uint8_t> alive;
   std::size_t dead = 0;
@@ -80,9 +83,11 @@ TEST(ProximitySensor, SeesTheNearestEightWithinReachInOrder) {
     std::vector<double> expected;
     for (const Obstacle& o : s.obstacles) expected.push_back(std::abs(clearance(o, poses.position[i])));
     for (std::size_t j = 0; j < alive.size(); ++j)
-      if (alive[j] == 0) expected.push_back(std::abs(distance(poses.position[i], poses.position[j]) - s.robot.radius_m));
+      if (alive[j] == 0)
+        expected.push_back(std::abs(distance(poses.position[i], poses.position[j]) - s.robot.radius_m));
     std::sort(expected.begin(), expected.end());
-    const auto within = static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), [](double d) { return d <= 0.5; }));
+    const auto within =
+        static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), [](double d) { return d <= 0.5; }));
     Proximity::Seen seen;
     const std::size_t size = sensor.sense(poses, i, seen);
     ASSERT_EQ(size, std::min<std::size_t>(8, within)) << i;

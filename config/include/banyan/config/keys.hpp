@@ -77,10 +77,11 @@ template <class Owner> struct ChoiceAccess {
 
 // How to reach the member behind a key; the alternative is the key's type.
 template <class Owner>
-using Access = std::variant<bool& (*)(Owner&), double& (*)(Owner&), int& (*)(Owner&), std::uint32_t& (*)(Owner&),
-                            std::size_t& (*)(Owner&), std::optional<std::size_t>& (*)(Owner&), std::optional<double>& (*)(Owner&),
-                            std::string& (*)(Owner&), world::Vec2& (*)(Owner&), std::vector<world::Vec2>& (*)(Owner&),
-                            std::vector<double>& (*)(Owner&), ChoiceAccess<Owner>>;
+using Access =
+    std::variant<bool& (*)(Owner&), double& (*)(Owner&), int& (*)(Owner&), std::uint32_t& (*)(Owner&),
+                 std::size_t& (*)(Owner&), std::optional<std::size_t>& (*)(Owner&), std::optional<double>& (*)(Owner&),
+                 std::string& (*)(Owner&), world::Vec2& (*)(Owner&), std::vector<world::Vec2>& (*)(Owner&),
+                 std::vector<double>& (*)(Owner&), ChoiceAccess<Owner>>;
 
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();

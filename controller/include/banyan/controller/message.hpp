@@ -47,6 +47,7 @@ struct Message {
   bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
   bool committed = false;       // I am in this epoch's tree
   bool parent_silent = false;   // my parent has not been heard for longer than I
+  bool pinned = false;          // a corner is about to cut the edge to my parent, and I have to go on
   std::uint16_t epoch = 0;
   RootToken root;               // gossip: the newest root token I know
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
@@ -72,16 +73,20 @@ struct Message {
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
   std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
   std::int16_t centroid_y_cm = 0;
-  // Healing (healing.hpp): one addressee a tick in turn is told where the root is, and one robot may
-  // be asked to take over the target of a worker that fell silent.
+  std::int16_t hinge_x_cm = 0;        // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
+  std::int16_t hinge_y_cm = 0;
+  // Healing (healing.hpp): everybody passes on where the root and the targets are, a target and an
+  // addressee a tick in turn. Who is no addressee makes use of the counts alone.
   std::uint16_t heartbeat = 0;        // gossip: the root's count of ticks, compared modulo 2^16
   RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
-  RobotId root_for = nobody;          // addressee of the next two
-  std::int16_t root_x_cm = 0;         // root - addressee, edge frame to `root_for`
+  RobotId told = nobody;              // addressee of the vectors that follow
+  bool root_told = false;             // I know where the root is
+  std::int16_t root_x_cm = 0;         // root - addressee, edge frame to `told`
   std::int16_t root_y_cm = 0;
-  RobotId task_for = nobody;          // addressee of the next three
-  RobotId task_serves = nobody;       // the target's first worker
-  std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `task_for`
+  RobotId task_serves = nobody;       // a target, by its first worker; nobody: I know none
+  RobotId task_holder = nobody;       // gossip: who serves it; nobody: it has been given up
+  std::uint16_t task_beat = 0;        // gossip: the holder's count of ticks, compared modulo 2^16
+  std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `told`
   std::int16_t task_y_cm = 0;
   std::uint8_t child_count = 0;       // living children that are no spares
 
@@ -97,7 +102,7 @@ inline constexpr float q_limit_m = 1.0e9F;
 // while there is none, the old parent.
 constexpr RobotId up_of(const Message& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 80;  // bytes, little-endian, no padding
+inline constexpr std::size_t wire_size = 86;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 2;
 using Wire = std::array<std::uint8_t, wire_size>;
 

@@ -27,10 +27,13 @@ namespace banyan {
 // Corrected: the nearest velocity (m/s) to `v` that lengthens no edge to `neighbors` (positions, own
 // frame) faster than (delta - d)/2 x guard rate. With both ends doing so no edge outgrows delta.
 struct Guard {
-  std::array<Vec2, neighbor_capacity> away;    // unit vectors from the neighbour to me
-  std::array<float, neighbor_capacity> limit;  // m/s along it
+  static constexpr int capacity = neighbor_capacity + 64;  // tree neighbours, then obstacles
+  std::array<Vec2, capacity> away;     // unit vectors from the neighbour to me
+  std::array<float, capacity> limit;  // m/s along it
   int size = 0;
   void add(Vec2 neighbor, const Params& params) noexcept;
+  // Not faster than `limit_m_s` along `direction` (unit). What exceeds the capacity is dropped.
+  void add_limit(Vec2 direction, float limit_m_s) noexcept;
   [[nodiscard]] Vec2 apply(Vec2 v) const noexcept;
 };
 

@@ -57,6 +57,9 @@ class Neighborhood {
   [[nodiscard]] Vec2 position(int k) const noexcept { return entries_[k].position; }  // m, body frame
   [[nodiscard]] float range(int k) const noexcept { return entries_[k].range_m; }      // m
   [[nodiscard]] int age(int k) const noexcept { return entries_[k].age; }            // ticks, 0: heard now
+  // Of those heard in the tick before: how many they were, and how many were not heard in this one.
+  [[nodiscard]] int expected() const noexcept { return expected_; }
+  [[nodiscard]] int missed() const noexcept { return missed_; }
   // Heard within the liveness period; only a kept, silent tree neighbour is not.
   [[nodiscard]] bool alive(int k) const noexcept { return entries_[k].age <= liveness_ticks_; }
 
@@ -73,6 +76,8 @@ class Neighborhood {
   };
   std::int16_t size_ = 0;
   std::int16_t liveness_ticks_ = 0;
+  std::int16_t expected_ = 0;
+  std::int16_t missed_ = 0;
   std::array<Entry, neighbor_capacity> entries_{};
   // A message is one cache line long; aligned, it also is in one.
   alignas(64) std::array<Message, neighbor_capacity> messages_{};

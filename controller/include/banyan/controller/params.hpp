@@ -36,7 +36,19 @@ struct ConvoyParams {
   float compact_distance = 0.91F;   // a chain that has arrived stretches its edges to this
 };
 
-struct Params : ConvoyParams {
+// Healing after deaths (healing.hpp), in the corrected reading only. Lengths are in units of C.
+struct HealingParams {
+  float healing = 1.0F;             // 0: nobody takes the place of the dead
+  float claim_radius = 0.75F;       // who is nearer to where the root fell silent may become root
+  float claim_after_s = 0.5F;       // without heartbeat, beyond 2 I
+  float claim_spread_s_m = 1.0F;    // and so much longer per metre from that place: one claims first
+  float retreat_after_s = 8.0F;     // without heartbeat: all drive to where the root was
+  float succession_after_s = 3.0F;  // without a sign of a target's worker, beyond 2 I
+  float succession_spread_s_m = 0.5F;  // and so much longer per metre from the target
+  float largest_loss = 0.9F;        // liveness adapts to the share of packets lost, up to this
+};
+
+struct Params : ConvoyParams, HealingParams {
   // Motion, Table I
   float safe_range_m = 1.3893F;        // S
   float avoidance_range_m = 0.4316F;   // A
@@ -69,6 +81,7 @@ struct Params : ConvoyParams {
   Reading reading = Reading::corrected;
 
   [[nodiscard]] bool corrected() const noexcept { return reading == Reading::corrected; }
+  [[nodiscard]] bool heals() const noexcept { return corrected() && healing > 0.5F; }
   // The longest edge a robot may choose (protocol 2, row 4).
   [[nodiscard]] float parent_range_m() const noexcept {
     return corrected() ? ideal_distance_m - parent_margin_m : communication_range_m;

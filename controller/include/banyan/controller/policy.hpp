@@ -10,6 +10,8 @@
 
 namespace banyan {
 
+struct Guard;  // motion.hpp
+
 class Policy {
  public:
   Policy(const Policy&) = delete;
@@ -38,18 +40,23 @@ class Policy {
 
   // The edge to my parent, or one below it, wants a spare (paper Fig. 5).
   [[nodiscard]] virtual bool needs_spare(const Robot& robot) const noexcept;
+  // A worker may be somebody's parent (protocol 5: not in the paper's algorithms).
+  [[nodiscard]] virtual bool workers_relay() const noexcept { return false; }
+  // The root's view, once R is over: it is time to reconstruct the tree.
+  [[nodiscard]] virtual bool reconstructs(const Robot& robot) const noexcept;
   // An edge whose need nobody answers calls spares from afar (protocol 7).
   [[nodiscard]] virtual bool may_call(const Robot& robot) const noexcept;
   // A spare whose edge is granted joins it from where it is: `owner` and `parent` are the edge's ends.
   [[nodiscard]] virtual bool may_insert(const Robot& robot, int owner, int parent) const noexcept;
-  // Whether worker neighbour k may be a parent, and neighbour k the next root. Never; always.
-  [[nodiscard]] virtual bool may_relay(const Robot& robot, int k) const noexcept;
+  // Whether neighbour k may become the root.
   [[nodiscard]] virtual bool may_inherit(const Robot& robot, int k) const noexcept;
   // Changes of the tree between reconstructions, once a tick after SELECT PARENT's work. None.
   virtual void tend_tree(Robot& robot) const noexcept;
   // What robots of the tree and spares want to do, in units of speed_gain (paper Sec. III-G).
   [[nodiscard]] virtual Vec2 tree_motion(const Robot& robot) const noexcept;
   [[nodiscard]] virtual Vec2 spare_motion(const Robot& robot) const noexcept;
+  // What else limits how they may move (corrected). Nothing.
+  virtual void limit_motion(const Robot& robot, Guard& guard) const noexcept;
 
  protected:
   constexpr Policy() = default;

@@ -3,6 +3,7 @@
 // neighbour table that is made once per tick so that no room has to search it again.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -46,7 +47,10 @@ struct Robot {
 
   [[nodiscard]] const Neighborhood& table() const noexcept { return self.neighbors; }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
-  [[nodiscard]] int liveness_ticks() const noexcept { return params.ticks(params.liveness_period_s); }
+  // I, and longer where packets are lost (healing.hpp).
+  [[nodiscard]] int liveness_ticks() const noexcept {
+    return std::max(params.ticks(params.liveness_period_s), static_cast<int>(self.liveness_ticks));
+  }
   [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && table().alive(parent); }
   [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && table().alive(old_parent); }
 };

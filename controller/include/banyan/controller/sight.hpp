@@ -17,4 +17,8 @@ namespace banyan {
 // The same for the segment from me to neighbour k.
 [[nodiscard]] bool sees_clearly(const Robot& robot, int k, float clearance_m) noexcept;
 
+// How many ticks of silence a lossy radio makes unlikely (about one in a hundred): longer ones mean
+// that something stands between. 0 without loss.
+[[nodiscard]] inline int usual_silence_ticks(const Robot& robot) noexcept { return robot.self.liveness_ticks * 2 / 5; }
+
 }  // namespace banyan

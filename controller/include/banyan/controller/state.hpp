@@ -2,6 +2,7 @@
 // All that a robot remembers between two steps. A plain value: copy it, compare it, hash it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "banyan/controller/neighborhood.hpp"
@@ -18,6 +19,34 @@ struct Tally {
   std::uint32_t repairs = 0;     // times I replaced a lost parent or re-attached as an orphan
   std::uint32_t elections = 0;   // times I made myself root because the root had fallen silent
   std::uint32_t replacements = 0;  // times I took over the target of a worker that had fallen silent
+};
+
+inline constexpr int task_capacity = 12;  // further targets have no successor for their worker
+
+// A target, as everybody knows it who may have to take it over (succession.cpp).
+struct Task {
+  RobotId serves = nobody;       // the worker first sent there: the target's name
+  RobotId holder = nobody;       // who serves it; nobody: it has been given up
+  std::uint16_t beat = 0;        // the holder's count of ticks, the newest heard of
+  std::uint16_t age_ticks = 0;   // since it grew
+  Vec2 target;                   // m, own frame
+};
+
+// A way round an obstacle (bypass.hpp); vectors in the own frame, m.
+struct Detour {
+  std::int8_t side = 0;  // +1: the obstacle is to the right, -1: to the left, 0: no detour
+  Vec2 contact;          // where the obstacle was touched last
+  Vec2 origin;           // where the detour began
+  Vec2 goal;             // as it was then
+  float leave_m = 0.0F;  // over when the goal is nearer than it was then
+  float span_m = 0.0F;   // the other side is tried so far from the origin
+};
+
+// Points of obstacles that were sensed a while ago, in the own frame, m.
+inline constexpr int landmark_capacity = 8;
+struct Landmarks {
+  std::array<Vec2, landmark_capacity> points{};  // the first `size` are valid
+  std::uint8_t size = 0;
 };
 
 struct State {
@@ -61,6 +90,8 @@ struct State {
   Vec2 q;                                // m, own frame; at the root Alg. 1's centroid
   float want_m = 0.0F;                   // largest remaining worker distance below me
   Vec2 pull;                             // target pull, own frame
+  float least_want_m = 0.0F;             // the least want_m since it last grew
+  std::uint16_t stalled_ticks = 0;       // since least_want_m last shrank by a hand's breadth
 
   // Root selection (root_selection.hpp)
   Vec2 centroid;                         // m, own frame
@@ -82,6 +113,24 @@ struct State {
   std::uint16_t ungranted_ticks = 0;
   RobotId reference = nobody;            // the robot a spare stays with, or follows to a need
   bool called = false;                   // by an edge out of sight
+
+  // Healing (healing.hpp)
+  float expected_packets = 0.0F;         // of the last ticks, fading: to be heard
+  float missed_packets = 0.0F;           // and of these, not heard
+  std::uint16_t liveness_ticks = 0;      // what that loss asks for; 0: I will do
+  std::uint16_t heartbeat = 0;
+  std::uint16_t silence_ticks = 0;       // since the heartbeat grew
+  RootToken heart;                       // the root whose heartbeat it is
+  Vec2 root_at;                          // m, own frame: where that root is or was
+  bool root_known = false;
+  std::uint16_t turn = 0;                // whom I tell next
+  std::uint8_t task_count = 0;
+  std::array<Task, task_capacity> tasks{};  // the first task_count are valid
+  // Obstacles (bypass.hpp)
+  Detour detour;
+  Landmarks landmarks;
+  Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent
+  bool pinned = false;                   // a corner is about to cut the edge to my parent
 
   Tally tally;
   Neighborhood neighbors;

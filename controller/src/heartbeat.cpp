@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "banyan/controller/edge_frame.hpp"
+#include "banyan/controller/epoch.hpp"
+#include "banyan/controller/healing.hpp"
+
+namespace banyan {
+namespace {
+
+// Counts modulo 2^16: how much `a` is ahead of `b`.
+int ahead_by(std::uint16_t a, std::uint16_t b) noexcept { return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)); }
+
+void beat(State& self) noexcept {
+  self.heart = self.root;
+  ++self.heartbeat;
+  self.silence_ticks = 0;
+  self.root_at = {};
+  self.root_known = true;
+}
+
+// The largest count of the newest root; whoever does not know that root yet counts for nothing.
+void hear_heartbeat(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (self.silence_ticks < UINT16_MAX) ++self.silence_ticks;
+  for (const Heard& h : robot.heard) {
+    const Message& m = *h.message;
+    if (m.root != self.root) continue;
+    if (self.heart == self.root && ahead_by(m.heartbeat, self.heartbeat) <= 0) continue;
+    self.heart = self.root;
+    self.heartbeat = m.heartbeat;
+    self.silence_ticks = 0;
+  }
+}
+
+// From the root itself, else from somebody who is at least nearly as near to it: the count says so.
+void locate_root(Robot& robot) noexcept {
+  constexpr int stale_ticks = 1;
+  State& self = robot.self;
+  for (const Heard& h : robot.heard) {
+    const Message& m = *h.message;
+    if (m.root != self.root) continue;
+    if (m.id == m.root.id) {
+      self.root_at = h.position;
+      self.root_known = true;
+      return;
+    }
+    if (m.told != self.id || !m.root_told || ahead_by(m.heartbeat, self.heartbeat) < -stale_ticks) continue;
+    self.root_at = from_edge_frame({static_cast<float>(m.root_x_cm) * 0.01F, static_cast<float>(m.root_y_cm) * 0.01F}, h.position);
+    self.root_known = true;
+  }
+}
+
+}  // namespace
+
+void follow_heartbeat(Robot& robot) noexcept {
+  if (!robot.params.heals()) return;
+  if (robot.is_root()) return beat(robot.self);
+  hear_heartbeat(robot);
+  locate_root(robot);
+}
+
+void claim_root(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Params& p = robot.params;
+  if (!p.heals() || robot.is_root() || self.is_worker || !self.root_known) return;
+  const float away_m = norm(self.root_at);
+  if (away_m > p.claim_radius * p.communication_range_m) return;
+  const int patience_ticks = 2 * robot.liveness_ticks() + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
+  if (self.silence_ticks <= patience_ticks) return;
+  self.root = {static_cast<std::uint16_t>(self.root.sequence + 1), self.id};
+  self.role = Role::root;
+  enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
+  beat(self);
+  ++self.tally.elections;
+}
+
+}  // namespace banyan

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "banyan/controller/edge_frame.hpp"
+#include "banyan/controller/healing.hpp"
+#include "banyan/controller/parent_selection.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr int takeover_beats = 10;  // a successor's count starts so far ahead of all that is under way
+
+int ahead_by(std::uint16_t a, std::uint16_t b) noexcept { return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)); }
+
+Task* find_task(State& self, RobotId serves) noexcept {
+  for (int k = 0; k < self.task_count; ++k)
+    if (self.tasks[k].serves == serves) return &self.tasks[k];
+  return nullptr;
+}
+
+Task* add_task(State& self, RobotId serves) noexcept {
+  if (self.task_count == task_capacity) return nullptr;
+  Task& task = self.tasks[self.task_count++];
+  task = {};
+  task.serves = serves;
+  return &task;
+}
+
+void serve(State& self, Task& task) noexcept {
+  task.holder = self.id;
+  task.age_ticks = 0;
+  ++task.beat;
+}
+
+// The worker first sent there stays, else the one with the smaller id.
+bool has_precedence(RobotId a, RobotId b, RobotId serves) noexcept { return a == serves || (b != serves && a < b); }
+
+void resign(Robot& robot) noexcept {
+  State& self = robot.self;
+  self.is_worker = false;
+  self.serves = nobody;
+  robot.target = nullptr;
+}
+
+// Somebody else is said to serve what I serve. Older counts may be a dead worker's; a living rival
+// hears of mine, then.
+void settle_rivalry(Robot& robot, Task& task, RobotId rival, std::uint16_t beat) noexcept {
+  if (rival == nobody || ahead_by(beat, task.beat) < 0) return;
+  if (has_precedence(rival, robot.self.id, task.serves)) {
+    resign(robot);
+    task.holder = rival;
+    task.beat = beat;
+  } else {
+    task.beat = static_cast<std::uint16_t>(beat + 1);  // so that it hears of me
+  }
+}
+
+void hear_of_task(Robot& robot, RobotId serves, RobotId holder, std::uint16_t beat, const Vec2* target) noexcept {
+  State& self = robot.self;
+  Task* task = find_task(self, serves);
+  if (task == nullptr) {
+    if (target == nullptr) return;
+    task = add_task(self, serves);
+    if (task == nullptr) return;
+    task->beat = static_cast<std::uint16_t>(beat - 1);
+  }
+  if (self.is_worker && self.serves == serves && holder != self.id) return settle_rivalry(robot, *task, holder, beat);
+  const int ahead = ahead_by(beat, task->beat);
+  constexpr int stale_ticks = 3;
+  if (target != nullptr && ahead >= -stale_ticks && !(self.is_worker && self.serves == serves)) task->target = *target;
+  if (ahead <= 0) return;
+  task->beat = beat;
+  task->holder = holder;
+  task->age_ticks = 0;
+}
+
+void hear_of_tasks(Robot& robot) noexcept {
+  for (const Heard& h : robot.heard) {
+    const Message& m = *h.message;
+    if (m.task_serves == nobody) continue;
+    const Vec2 target = from_edge_frame({static_cast<float>(m.task_x_cm) * 0.01F, static_cast<float>(m.task_y_cm) * 0.01F}, h.position);
+    hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, m.told == robot.self.id ? &target : nullptr);
+  }
+}
+
+// My own target. One that was taken from me from outside has been given up; everybody shall know.
+void mind_own(Robot& robot) noexcept {
+  State& self = robot.self;
+  for (int k = 0; k < self.task_count; ++k) {
+    Task& task = self.tasks[k];
+    if (task.holder != self.id || (self.is_worker && self.serves == task.serves)) continue;
+    task.holder = nobody;
+    task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
+  }
+  if (!self.is_worker) return;
+  Task* task = find_task(self, self.serves);
+  if (task == nullptr && robot.target != nullptr) task = add_task(self, self.serves);
+  if (task == nullptr) return;
+  if (robot.target != nullptr) task->target = *robot.target;
+  serve(self, *task);
+}
+
+void take_over(Robot& robot, Task& task) noexcept {
+  State& self = robot.self;
+  self.is_worker = true;
+  self.serves = task.serves;
+  self.role = Role::worker;
+  self.request = self.inserted_child = nobody;
+  self.spare_state = SpareState::wait;
+  task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
+  serve(self, task);
+  ++self.tally.replacements;
+}
+
+// The nearer to the target, the sooner: the first tells the others.
+void succeed(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Params& p = robot.params;
+  if (self.role != Role::spare || self.is_worker || robot.is_root() || self.silence_ticks > 2 * robot.liveness_ticks()) return;
+  for (int k = 0; k < self.task_count; ++k) {
+    Task& task = self.tasks[k];
+    if (task.holder == nobody) continue;
+    const int patience_ticks = 2 * robot.liveness_ticks() + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target));
+    if (task.age_ticks > patience_ticks) return take_over(robot, task);
+  }
+}
+
+}  // namespace
+
+void mind_tasks(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (!robot.params.heals()) return;
+  for (int k = 0; k < self.task_count; ++k)
+    if (self.tasks[k].age_ticks < UINT16_MAX) ++self.tasks[k].age_ticks;
+  mind_own(robot);
+  hear_of_tasks(robot);
+  succeed(robot);
+  // A successor has its target from the table, not from outside.
+  if (!self.is_worker || robot.target != nullptr) return;
+  if (const Task* task = find_task(self, self.serves); task != nullptr) robot.target = &task->target;
+}
+
+}  // namespace banyan

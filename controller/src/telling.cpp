@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <limits>
+
+#include "banyan/controller/edge_frame.hpp"
+#include "banyan/controller/healing.hpp"
+
+namespace banyan {
+namespace {
+
+std::int16_t centimetres(float v) noexcept {
+  constexpr auto low = static_cast<float>(std::numeric_limits<std::int16_t>::min());
+  constexpr auto high = static_cast<float>(std::numeric_limits<std::int16_t>::max());
+  return static_cast<std::int16_t>(std::clamp(v * 100.0F + (v < 0.0F ? -0.5F : 0.5F), low, high));
+}
+
+// A point as the neighbour at `addressee` is told it.
+void write(Vec2 point, Vec2 addressee, std::int16_t& x_cm, std::int16_t& y_cm) noexcept {
+  const Vec2 v = to_edge_frame(point - addressee, addressee);
+  x_cm = centimetres(v.x);
+  y_cm = centimetres(v.y);
+}
+
+}  // namespace
+
+void tell(const Robot& robot, Message& m) noexcept {
+  const State& self = robot.self;
+  if (!robot.params.heals()) return;
+  m.heartbeat = self.heart == self.root ? self.heartbeat : std::uint16_t{0};
+  const int size = robot.table().size();
+  // Every pair of a neighbour and a target has its turn; not all robots speak of the same at once.
+  const int turn = self.turn + self.id;
+  const int tasks = std::max<int>(self.task_count, 1);
+  const Task* task = self.task_count > 0 ? &self.tasks[turn % tasks] : nullptr;
+  if (task != nullptr) {
+    m.task_serves = task->serves;
+    m.task_holder = task->holder;
+    m.task_beat = task->beat;
+  }
+  if (size == 0) return;
+  const int k = turn / tasks % size;
+  const Vec2 addressee = robot.table().position(k);
+  m.told = robot.table().id(k);
+  m.root_told = self.root_known && self.heart == self.root;
+  if (m.root_told) write(self.root_at, addressee, m.root_x_cm, m.root_y_cm);
+  if (task != nullptr) write(task->target, addressee, m.task_x_cm, m.task_y_cm);
+}
+
+}  // namespace banyan
