@@ -58,6 +58,10 @@ class Convoy final : public Policy {
     return robot.parent >= 0 && (robot.self.pinned || robot.table().range(robot.parent) > from_m);
   }
   [[nodiscard]] bool may_insert(const Robot& robot, int owner, int parent) const noexcept override;
+  // Once all have arrived, a spare as root would be a robot more.
+  [[nodiscard]] bool may_inherit(const Robot& robot, int k) const noexcept override {
+    return !saves_robots(robot.params) || robot.self.want_m > 0.0F || robot.table().message(k).role != Role::spare;
+  }
   void tend_tree(Robot& robot) const noexcept override {
     take_shortcuts(robot);
     robot.self.pinned = is_pinned(robot);
@@ -67,7 +71,13 @@ class Convoy final : public Policy {
   void limit_motion(const Robot& robot, Guard& guard) const noexcept override { keep_sight(robot, guard); }
 };
 
-// Short first edges, then such as need no spare, then the nearest; a blocked one is as good as far.
+// An edge of the last tree, in either direction.
+bool was_edge(const Robot& robot, int k) noexcept {
+  return k == robot.old_parent || robot.table().message(k).old_parent == robot.self.id;
+}
+
+// Once all below have arrived the tree stays what it has become. Else short first edges, then such as
+// need no spare, then the nearest; a blocked one is as good as far.
 struct Preference {
   int rank;
   float key;
@@ -76,8 +86,13 @@ struct Preference {
     const float c = p.communication_range_m;
     float range_m = robot.table().range(k);
     if (!sees_clearly(robot, k, p.clearance * c)) range_m += 5.0F * c;
+    if (saves_robots(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k)) {
+      rank = -1;
+      key = static_cast<float>(robot.table().message(k).label_cm);
+      return;
+    }
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
-  rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
+    rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
   }
 };

@@ -24,7 +24,7 @@ void begin_epoch(Robot& robot) noexcept {
   self.flood_robots = self.flood_workers = 0;
   self.search_ticks = self.orphan_ticks = 0;
   self.need = Need::no_need;
-  self.grant = self.request = self.inserted_child = nobody;
+  self.grant = self.request = self.inserted_child = self.wish = nobody;
   self.spare_state = SpareState::wait;
   self.centroid_known = false;
   self.new_root = nobody;

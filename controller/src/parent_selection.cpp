@@ -131,11 +131,12 @@ bool awaits_inserted(const Robot& robot) noexcept {
   return k >= 0 && robot.table().alive(k) && robot.table().message(k).inserted_child == robot.self.id;
 }
 
+// While I wish for another parent my pulse rests: the other's overtakes it, unless it hangs on me.
 void update_pulse(Robot& robot) noexcept {
   State& self = robot.self;
   if (robot.is_root()) {
     if (self.pulse < UINT16_MAX) ++self.pulse;
-  } else if (robot.parent_alive() && !awaits_inserted(robot)) {
+  } else if (robot.parent_alive() && !awaits_inserted(robot) && self.wish == nobody) {
     follow(robot, robot.parent);
   }
 }
@@ -202,6 +203,7 @@ void take_parent(Robot& robot, int k) noexcept {
   robot.parent = k;
   self.committed = true;
   self.search_ticks = 0;
+  self.wish = nobody;
   follow(robot, k);
   if (self.phase >= Phase::grow_tree) {
     self.old_parent = nobody;
@@ -217,6 +219,7 @@ void leave_tree(Robot& robot) noexcept {
   self.need = Need::no_need;
   self.grant = nobody;
   self.request = nobody;
+  self.wish = nobody;
   self.spare_state = SpareState::wait;
 }
 

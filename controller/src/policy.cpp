@@ -20,6 +20,8 @@ bool Policy::may_insert(const Robot& robot, int owner, int parent) const noexcep
   return norm((table.position(owner) + table.position(parent)) * 0.5F) <= robot.params.insertion_distance_m;
 }
 
+bool Policy::may_inherit(const Robot&, int) const noexcept { return true; }
+
 void Policy::tend_tree(Robot&) const noexcept {}
 
 void Policy::limit_motion(const Robot&, Guard&) const noexcept {}

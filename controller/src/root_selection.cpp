@@ -3,6 +3,7 @@
 
 #include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/epoch.hpp"
+#include "banyan/controller/policy.hpp"
 
 namespace banyan {
 namespace {
@@ -15,7 +16,7 @@ int better_root(const Robot& robot) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = table.message(k);
-    if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch) continue;
+    if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || !robot.policy.may_inherit(robot, k)) continue;
     const float d = distance(table.position(k), self.centroid);
     if (d < best_m) {
       best_m = d;

@@ -9,6 +9,10 @@
 namespace banyan {
 namespace {
 
+constexpr float merge_period_s = 2.0F;
+constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
+constexpr int wish_limit_ticks = 15;     // longer than pulses of two branches differ
+
 // A robot of the tree that I may hang on: heard this tick or the last, ahead of me, in sight.
 bool is_hold(const Robot& robot, int k, float range_m) noexcept {
   const Neighborhood& table = robot.table();
@@ -26,8 +30,10 @@ void release(Robot& robot) noexcept {
       parent.inserted_child != nobody)
     return;
   const int k = table.find(parent.parent);
-  if (k < 0 || table.message(k).role == Role::worker) return;
-  if (is_hold(robot, k, robot.params.release_distance * robot.params.communication_range_m)) take_parent(robot, k);
+  if (k < 0 || (table.message(k).role == Role::worker && !is_relay(robot, k))) return;
+  const Params& p = robot.params;
+  const float reach = has_arrived(robot) ? std::max(p.release_distance, p.merge_distance) : p.release_distance;
+  if (is_hold(robot, k, reach * p.communication_range_m)) take_parent(robot, k);
 }
 
 // An edge that would need a spare: a robot of the tree may stand nearer.
@@ -38,7 +44,8 @@ void take_nearer(Robot& robot) noexcept {
   int best = -1;
   float best_m = p.release_distance * p.communication_range_m;
   for (int k = 0; k < table.size(); ++k) {
-    if (k == robot.parent || table.range(k) >= best_m || table.message(k).role == Role::worker || !is_hold(robot, k, best_m)) continue;
+    if (k == robot.parent || table.range(k) >= best_m || !is_hold(robot, k, best_m)) continue;
+    if (table.message(k).role == Role::worker && !is_relay(robot, k)) continue;
     best = k;
     best_m = table.range(k);
   }
@@ -54,6 +61,78 @@ void leave_worker(Robot& robot) noexcept {
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
   if (best >= 0) take_parent(robot, best);
+}
+
+// ---- Rule 9: fewer robots, once all workers below have arrived ----
+
+// Who may carry a branch that has arrived: at rest itself, and not about to leave the tree.
+bool is_berth(const Robot& robot, int k) noexcept {
+  const Neighborhood& table = robot.table();
+  const Message& m = table.message(k);
+  return table.age(k) <= 1 && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
+         m.want_cm == 0 && m.depth != invalid_depth && m.epoch == robot.self.epoch && k != robot.parent &&
+         (m.role != Role::connector || m.child_count > 0) &&
+         sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+}
+
+// My parent serves only me: with another one for me it is not needed, nor are those above it that
+// serve only it.
+bool saves_parent(const Robot& robot) noexcept {
+  const Message& parent = robot.table().message(robot.parent);
+  return parent.role == Role::connector && parent.child_count == 1;
+}
+
+// Whoever is nearest to the root takes me over at once.
+bool merge(Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  const float reach_m = robot.params.merge_distance * robot.params.communication_range_m;
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.range(k) > reach_m || table.message(k).label_cm >= robot.self.label_cm || !is_ahead(robot, k)) continue;
+    if (best >= 0 && table.message(k).label_cm >= table.message(best).label_cm) continue;
+    if (is_berth(robot, k)) best = k;
+  }
+  if (best < 0) return false;
+  take_parent(robot, best);
+  return true;
+}
+
+// Those that are not ahead of me may hang on me, or be of another branch: I cannot tell. I let my
+// pulse rest. Who hangs on me never overtakes it. Each turn another one, or the first that hangs on
+// me would be the only one ever tried.
+void make_wish(Robot& robot, float reach_m, int turn) noexcept {
+  const Neighborhood& table = robot.table();
+  IndexList berths;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.range(k) < reach_m && is_berth(robot, k)) berths.push(k);
+  if (berths.size == 0) return;
+  robot.self.wish = table.id(berths.items[turn % berths.size]);
+  robot.self.wish_ticks = 0;
+}
+
+void follow_wish(Robot& robot) noexcept {
+  State& self = robot.self;
+  const int k = robot.table().find(self.wish);
+  const float reach_m = robot.params.merge_distance * robot.params.communication_range_m;
+  if (k < 0 || ++self.wish_ticks > wish_limit_ticks || robot.table().range(k) > reach_m || !is_berth(robot, k)) {
+    self.wish = nobody;
+  } else if (is_ahead(robot, k)) {
+    take_parent(robot, k);
+  }
+}
+
+// In turns, so that neighbours see what the others have done.
+void save_robots(Robot& robot) noexcept {
+  State& self = robot.self;
+  if (self.wish != nobody) return follow_wish(robot);
+  const Params& p = robot.params;
+  const int period = std::max(1, p.ticks(merge_period_s));
+  const Message& parent = robot.table().message(robot.parent);
+  if ((self.phase_ticks + self.id) % period != 0 || parent.need == Need::await || parent.inserted_child != nobody) return;
+  const int turn = self.phase_ticks / period;
+  const float c = p.communication_range_m;
+  if (!saves_parent(robot)) make_wish(robot, robot.table().range(robot.parent) - shorter_by * c, turn);
+  else if (!merge(robot)) make_wish(robot, p.merge_distance * c, turn);
 }
 
 // Rule 6: my parent is hidden, or soon will be. The visible robot nearest to the old edge that is
@@ -85,18 +164,24 @@ void keep_in_sight(Robot& robot, bool urgent) noexcept {
 }  // namespace
 
 void take_shortcuts(Robot& robot) noexcept {
-  const State& self = robot.self;
-  if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.inserted_child != nobody) return;
+  State& self = robot.self;
+  if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.inserted_child != nobody) {
+    self.wish = nobody;
+    return;
+  }
   constexpr int hidden_ticks = 1;
   const Params& p = robot.params;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
   const float clearance_m = p.clearance * p.communication_range_m;
   const bool endangered = hidden || !sees_clearly(robot, robot.parent, DANGER * clearance_m);
-  if (endangered) keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, URGENT * clearance_m));
-  else if (self.grant != nobody) return;  // the tree changes here already
-  else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
-  else if (robot.self.need == Need::need) take_nearer(robot);
+  const bool may_save = !endangered && self.grant == nobody && has_arrived(robot);
+  if (!may_save) self.wish = nobody;
+  if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, URGENT * clearance_m));
+  if (self.grant != nobody) return;  // the tree changes here already
+  if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
+  else if (self.need == Need::need) take_nearer(robot);
   else release(robot);
+  if (may_save) save_robots(robot);
 }
 
 }  // namespace banyan

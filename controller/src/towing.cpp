@@ -12,6 +12,8 @@
 namespace banyan {
 namespace {
 
+constexpr float compact_gain = 0.8F;   // a branch that has arrived slides together with this strength
+constexpr float compact_width = 0.05F; // of C: with full strength so far from compact_distance
 constexpr float FOLLOW_S = 0.25F, FOLLOW_T = 0.5F;
 constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start_m = 0.25F;
@@ -124,6 +126,33 @@ Vec2 clamped(Vec2 u, float limit) noexcept {
   return n > limit ? u * (limit / n) : u;
 }
 
+// The way along which I can save a robot: towards my parent; the root's is towards the nearest child
+// that does nothing but pass it on.
+int thrift_way(const Robot& robot) noexcept {
+  if (!robot.is_root()) return robot.parent;
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  for (const int k : robot.children)
+    if (table.message(k).role == Role::connector && (best < 0 || table.range(k) < table.range(best))) best = k;
+  return best;
+}
+
+// Rule 9: a connector whose workers have arrived slides until its longest other edge is stretched. So
+// the slack of a branch gathers at one end, where a robot becomes superfluous.
+Vec2 compaction(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  const float c = p.communication_range_m;
+  const int way = thrift_way(robot);
+  if (way < 0) return {};
+  int longest = -1;
+  for (const int k : robot.children)
+    if (k != way && table.message(k).role != Role::spare && (longest < 0 || table.range(k) > table.range(longest))) longest = k;
+  if (longest < 0) return robot.is_root() ? unit(table.position(way)) * compact_gain : Vec2{};
+  const float slack = std::clamp((p.compact_distance - table.range(longest) / c) / compact_width, -1.0F, 1.0F);
+  return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
+}
+
 // Among obstacles a tree neighbour that falls silent has gone behind one: its child backs up to where
 // it heard it last, and it waits meanwhile.
 bool lost_sight(const Robot& robot, int up) noexcept {
@@ -144,6 +173,17 @@ Vec2 pull_past_obstacles(const Robot& robot) noexcept {
 
 }  // namespace
 
+bool saves_robots(const Params& params) noexcept { return params.corrected() && params.merge_distance > 0.0F; }
+
+bool has_arrived(const Robot& robot) noexcept {
+  return saves_robots(robot.params) && robot.self.want_m == 0.0F && robot.self.subtree_workers > 0;
+}
+
+bool is_relay(const Robot& robot, int k) noexcept {
+  const Message& m = robot.table().message(k);
+  return saves_robots(robot.params) && m.role == Role::worker && m.want_cm == 0 && robot.self.want_m == 0.0F;
+}
+
 Vec2 towed_motion(const Robot& robot) noexcept {
   const Params& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
@@ -157,7 +197,8 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   constexpr float leeway = 0.7F;
   const float give = leeway * std::max(0.0F, 1.0F - norm(robot.self.pull));
   if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + elbow_room(robot);
-  return clamped(tow(robot), 1.0F) + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
+  const Vec2 along = has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
+  return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
 
 Vec2 waiting_motion(const Robot& robot) noexcept {

@@ -7,6 +7,13 @@
 
 namespace banyan {
 
+// Whether branches that have arrived save robots (rule 9) at all: merge_distance 0 switches it off.
+[[nodiscard]] bool saves_robots(const Params& params) noexcept;
+// All workers below me stand at their targets, and there is one: my branch may save robots.
+[[nodiscard]] bool has_arrived(const Robot& robot) noexcept;
+// Neighbour k is a worker that has arrived: others whose workers have arrived may hang on it.
+[[nodiscard]] bool is_relay(const Robot& robot, int k) noexcept;
+
 // A robot of the tree: a worker drives to its target, a connector follows the children that tow it;
 // tension straightens chains; nobody stays in another edge's line of sight. In units of speed_gain.
 [[nodiscard]] Vec2 towed_motion(const Robot& robot) noexcept;

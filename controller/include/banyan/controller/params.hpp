@@ -32,8 +32,8 @@ struct ConvoyParams {
   float call_distance = 0.9F;     // a longer edge in need calls spares from afar
   float release_distance = 0.75F;   // a grandparent nearer than this becomes the parent
   float spare_avoidance = 0.14F;    // repulsion from spares begins here
-  float merge_distance = 0.9F;      // longest edge made to save a robot, once all below have arrived
-  float compact_distance = 0.875F;  // a chain that has arrived stretches its edges to this
+  float merge_distance = 0.93F;     // longest edge made to save a robot, once all below have arrived
+  float compact_distance = 0.91F;   // a chain that has arrived stretches its edges to this
 };
 
 // Healing after deaths (healing.hpp), in the corrected reading only. Lengths are in units of C.

@@ -50,6 +50,8 @@ class Policy {
   [[nodiscard]] virtual bool may_call(const Robot& robot) const noexcept;
   // A spare whose edge is granted joins it from where it is: `owner` and `parent` are the edge's ends.
   [[nodiscard]] virtual bool may_insert(const Robot& robot, int owner, int parent) const noexcept;
+  // Whether neighbour k may become the root.
+  [[nodiscard]] virtual bool may_inherit(const Robot& robot, int k) const noexcept;
   // Changes of the tree between reconstructions, once a tick after SELECT PARENT's work. None.
   virtual void tend_tree(Robot& robot) const noexcept;
   // What robots of the tree and spares want to do, in units of speed_gain (paper Sec. III-G).

@@ -78,6 +78,8 @@ struct State {
   std::uint16_t orphan_ticks = 0;        // depth invalid though I matter
   std::uint16_t childless_ticks = 0;     // connector without a child that is no spare
   std::uint16_t pulse = 0;
+  RobotId wish = nobody;                 // the robot I want as parent as soon as it is ahead of me
+  std::uint16_t wish_ticks = 0;
   std::uint16_t depth = invalid_depth;
   std::uint8_t tree_hops = unreachable;
 

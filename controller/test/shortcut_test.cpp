@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Convoy's rules for fewer robots: who re-parents to whom once all workers below have arrived, and
+// how a branch slides together (docs/convoy.md, rule 9).
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <initializer_list>
+
+#include "banyan/controller/convoy.hpp"
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+// A worker at its target; its parent 5, a connector 1.5 m away that serves only it, hangs on 6, which
+// is out of the worker's reach.
+class Arrived : public testing::Test {
+ protected:
+  void SetUp() override {
+    bench.state.is_worker = true;
+    bench.state.serves = 1;
+    bench.state.role = Role::worker;
+    bench.state.label_cm = 900;
+    bench.state.pulse = 50;
+    bench.state.parent = 5;
+    bench.state.committed = true;
+    bench.target = &target;
+    Message& parent = member(5, {1.5F, 0}, 700, 51);
+    parent.parent = 6;
+    parent.child_count = 1;
+  }
+  Message& member(RobotId id, Vec2 position, std::uint16_t label_cm, std::uint16_t pulse) {
+    Message& m = bench.put(id, position);
+    m.role = Role::connector;
+    m.committed = true;
+    m.label_cm = label_cm;
+    m.pulse = pulse;
+    m.depth = 5;
+    m.parent = 9;
+    m.child_count = 2;
+    return m;
+  }
+  // All in the tree get the root's next pulse.
+  void pulse(std::initializer_list<RobotId> ids, int count) {
+    for (int k = 0; k < count; ++k) {
+      for (const RobotId id : ids) ++bench.say(id).pulse;
+      bench.step();
+    }
+  }
+  Bench bench = grown(convoy());
+  Vec2 target{0.05F, 0};
+};
+
+TEST_F(Arrived, MergesWithTheRobotNearestToTheRoot) {
+  member(20, {0, 1.7F}, 600, 55);
+  member(21, {0, -1.8F}, 300, 55);
+  pulse({5, 20, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 21);
+}
+
+TEST_F(Arrived, StaysWhileItTravels) {
+  target = {-3, 0};
+  member(21, {0, -1.8F}, 300, 55);
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 5);
+}
+
+TEST_F(Arrived, StaysWhenTheRulesAreOff) {
+  bench.params.merge_distance = 0.0F;
+  member(21, {0, -1.4F}, 300, 55);
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 5);
+}
+
+TEST_F(Arrived, DoesNotMergeWithABranchThatStillTravels) {
+  member(21, {0, -1.8F}, 300, 55).want_cm = 400;
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 5);
+}
+
+TEST_F(Arrived, DoesNotMergeBeyondMergeDistance) {
+  member(21, {0, -1.87F}, 300, 55);
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 5);
+}
+
+TEST_F(Arrived, DoesNotMergePastARobotInTheWay) {
+  member(21, {0, -1.8F}, 300, 55);
+  bench.put(30, {0.05F, -0.9F}).role = Role::spare;
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 5);
+}
+
+// Tree edges whose parent serves others too save nobody, unless they become shorter.
+TEST_F(Arrived, LeavesABusyParentOnlyForANearerOne) {
+  bench.say(5).child_count = 2;
+  member(21, {0, -1.45F}, 300, 55);
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 5);
+  bench.move(21, {0, -1.2F});
+  pulse({5, 21}, 80);
+  EXPECT_EQ(bench.state.parent, 21);
+}
+
+TEST_F(Arrived, HangsOnAWorkerThatHasArrived) {
+  Message& other = member(21, {0, -1.0F}, 300, 55);
+  other.role = Role::worker;
+  other.child_count = 0;
+  other.want_cm = 100;
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 5);
+  bench.say(21).want_cm = 0;
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 21);
+}
+
+// 21's label is larger and its pulse is as old as mine: it is behind me until my own pulse rests.
+TEST_F(Arrived, WishesForARobotOfAnotherBranchThatIsBehind) {
+  member(21, {0, -1.0F}, 1500, 47);
+  pulse({5, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 21);
+}
+
+// 21 hangs on me over 22: its pulse is mine of two ticks ago. It must never become my parent.
+TEST_F(Arrived, NeverHangsOnItsOwnDescendant) {
+  member(21, {0, -1.0F}, 1500, 40);
+  member(22, {0, 0.5F}, 1400, 40).parent = 1;
+  bench.say(21).parent = 22;
+  std::deque<std::uint16_t> sent{40, 40};
+  for (int k = 0; k < 200; ++k) {
+    ++bench.say(5).pulse;
+    bench.say(21).pulse = sent.front();
+    sent.pop_front();
+    sent.push_back(bench.step().message.pulse);
+    ASSERT_NE(bench.state.parent, 21) << k;
+  }
+  EXPECT_GT(bench.state.pulse, 150);  // and the pulse goes on between two wishes
+}
+
+TEST_F(Arrived, ReleasesItsParentForAGrandparentInReach) {
+  member(6, {1.84F, 0.2F}, 500, 52).child_count = 2;
+  bench.move(5, {1.0F, -0.4F});
+  pulse({5, 6}, 3);
+  EXPECT_EQ(bench.state.parent, 6);
+}
+
+// A connector between parent 5 and worker 7.
+TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
+  Bench bench = grown(convoy());
+  bench.state.label_cm = 500;
+  bench.state.parent = 5;
+  bench.state.committed = true;
+  bench.state.role = Role::connector;
+  for (const RobotId id : {RobotId{5}, RobotId{7}}) {
+    Message& m = bench.put(id, {id == 5 ? 1.2F : -1.2F, 0});
+    m.role = id == 5 ? Role::connector : Role::worker;
+    m.label_cm = id == 5 ? 300 : 800;
+    m.pulse = id == 5 ? 9 : 0;
+    m.depth = id == 5 ? 4 : 6;
+    m.parent = id == 5 ? RobotId{9} : RobotId{1};
+    m.subtree_workers = 1;
+    m.child_count = 2;
+    m.committed = true;
+  }
+  bench.say(7).want_cm = 0;
+  bench.steps(2);
+  Robot robot = bench.tick();
+  ASSERT_TRUE(has_arrived(robot));
+  EXPECT_GT(towed_motion(robot).x, 0.5F);
+  bench.move(7, {-bench.params.compact_distance * 2.0F - 0.04F, 0});
+  Robot stretched = bench.tick();
+  EXPECT_LT(towed_motion(stretched).x, 0.0F);
+}
+
+}  // namespace
+}  // namespace banyan
