@@ -68,7 +68,7 @@ void leave_worker(Robot& robot) noexcept {
 // Who may carry a branch that has arrived: at rest itself, and not about to leave the tree.
 bool is_berth(const Robot& robot, int k) noexcept {
   const Neighborhood& table = robot.table();
-  const Message& m = table.message(k);
+  const Standing& m = table.message(k);
   return table.age(k) <= 1 && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
          m.want_cm == 0 && m.depth != invalid_depth && m.epoch == robot.self.epoch && k != robot.parent &&
          (m.role != Role::connector || m.child_count > 0) &&

@@ -319,7 +319,7 @@ RC_GTEST_PROP(Succession, OfTwoRivalsOneStays, ()) {
 
 TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
   Watch watch({1.9F, 0.0F});
-  watch.hear_root(3);
+  watch.hear_root(200);
   watch.bench.state.root_at = {6.0F, 0.0F};
   watch.bench.silence(root_id);
   const Params& p = watch.bench.params;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Healing (protocol 10): any robot may die at any moment, the root included, and nobody is told. The
+// Healing (protocol 12): any robot may die at any moment, the root included, and nobody is told. The
 // root and the workers count ticks, everybody passes on the largest counts heard, and where the root
 // and the targets are: whoever falls silent is replaced by somebody who knows what to do.
 #pragma once
