@@ -78,7 +78,7 @@ bool is_berth(const Robot& robot, int k) noexcept {
 // My parent serves only me: with another one for me it is not needed, nor are those above it that
 // serve only it.
 bool saves_parent(const Robot& robot) noexcept {
-  const Message& parent = robot.table().message(robot.parent);
+  const Standing& parent = robot.table().message(robot.parent);
   return parent.role == Role::connector && parent.child_count == 1;
 }
 
@@ -127,7 +127,7 @@ void save_robots(Robot& robot) noexcept {
   if (self.wish != nobody) return follow_wish(robot);
   const Params& p = robot.params;
   const int period = std::max(1, p.ticks(merge_period_s));
-  const Message& parent = robot.table().message(robot.parent);
+  const Standing& parent = robot.table().message(robot.parent);
   if ((self.phase_ticks + self.id) % period != 0 || parent.need == Need::await || parent.inserted_child != nobody) return;
   const int turn = self.phase_ticks / period;
   const float c = p.communication_range_m;
