@@ -9,6 +9,10 @@
 namespace banyan {
 namespace {
 
+// Of `clearance`: a robot so near to the line of sight may soon be in it, and very soon.
+constexpr float danger = 0.8F;
+constexpr float urgency = 0.7F;
+
 constexpr float merge_period_s = 2.0F;
 constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
 constexpr int wish_limit_ticks = 15;     // longer than pulses of two branches differ
@@ -37,7 +41,6 @@ void release(Robot& robot) noexcept {
 }
 
 // An edge that would need a spare: a robot of the tree may stand nearer.
-constexpr float DANGER = 0.8F, URGENT = 0.7F;
 void take_nearer(Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
@@ -173,10 +176,10 @@ void take_shortcuts(Robot& robot) noexcept {
   const Params& p = robot.params;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
   const float clearance_m = p.clearance * p.communication_range_m;
-  const bool endangered = hidden || !sees_clearly(robot, robot.parent, DANGER * clearance_m);
+  const bool endangered = hidden || !sees_clearly(robot, robot.parent, danger * clearance_m);
   const bool may_save = !endangered && self.grant == nobody && has_arrived(robot);
   if (!may_save) self.wish = nobody;
-  if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, URGENT * clearance_m));
+  if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, urgency * clearance_m));
   if (self.grant != nobody) return;  // the tree changes here already
   if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);

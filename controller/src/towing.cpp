@@ -14,7 +14,8 @@ namespace {
 
 constexpr float compact_gain = 0.8F;   // a branch that has arrived slides together with this strength
 constexpr float compact_width = 0.05F; // of C: with full strength so far from compact_distance
-constexpr float FOLLOW_S = 0.25F, FOLLOW_T = 0.5F;
+constexpr float follow_spare = 0.25F;  // of C: so far it stays behind a spare that leads it to the tree
+constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
 constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
@@ -222,7 +223,7 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   const float d = norm(reference);
   // Sight can be lost at any distance: it follows in good time, and a spare that leads it even earlier.
   const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
-  const float reach_m = (led ? FOLLOW_S : FOLLOW_T) * c;
+  const float reach_m = (led ? follow_spare : follow_tree) * c;
   // On its way along a chain it may come nearer to the line of sight than while it waits.
   if (d > reach_m || (self.called && d > p.avoidance_range_m))
     return bypass(robot, reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
