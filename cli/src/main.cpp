@@ -57,12 +57,12 @@ constexpr const char* export_footer =
     "Columns: tick, time_s, robot, x_m, y_m, heading_rad, role, phase, parent, old_parent, alive,\n"
     "connected, target.\n\n"
     "Examples:\n"
-    "  banyan export out/three-targets-outwards-1/run.mcap --csv -o robots.csv\n"
+    "  banyan export out/three-targets-convoy-1/run.mcap --csv -o robots.csv\n"
     "  banyan export run.mcap --csv --from 10 --to 20 --every 10 | head";
 
 constexpr const char* draw_footer =
     "Examples:\n"
-    "  banyan draw out/three-targets-outwards-1/run.mcap --at 30 -o frame.svg\n"
+    "  banyan draw out/three-targets-convoy-1/run.mcap --at 30 -o frame.svg\n"
     "  banyan draw run.mcap --ids --trail 0 > end.svg";
 
 constexpr const char* algorithms_footer = "Examples:\n  banyan algorithms\n  banyan algorithms inwards --json";
