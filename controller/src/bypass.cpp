@@ -25,7 +25,7 @@ constexpr float spacing_m = 0.06F;        // of remembered points
 constexpr float forget = 1.0F;            // of C: an edge is no longer
 constexpr float same_obstacle_m = 0.20F;  // the contact point moves on by less in a tick
 constexpr float progress_m = 0.05F;
-constexpr float first_span = 1.5F;        // of C
+constexpr float first_span = 0.35F;        // of C
 constexpr float goal_moved_m = 0.30F;
 
 float body_m(const Robot& robot) noexcept { return body_per_axle * robot.params.wheel_distance_m; }
@@ -81,7 +81,7 @@ void begin(const Robot& robot, Vec2 goal, Vec2 contact) noexcept {
   const Vec2 to_goal = unit(goal);
   const float left = dot(sweep(robot, contact, 1).direction, to_goal);
   const float right = dot(sweep(robot, contact, -1).direction, to_goal);
-  const bool equal = std::abs(left - right) < 0.05F;
+  const bool equal = std::abs(left - right) < 0.01F;
   detour.side = (equal ? robot.self.id % 2 == 0 : left > right) ? std::int8_t{1} : std::int8_t{-1};
   detour.contact = contact;
   detour.origin = {};
@@ -168,7 +168,7 @@ void file(const Robot& robot, Vec2 o) noexcept {
 void hear_of_corners(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   const auto hear = [&](int k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (table.age(k) > 0 || up_of(m) != robot.self.id || (m.hinge_x_cm == 0 && m.hinge_y_cm == 0)) return;
     file(robot, from_edge_frame({static_cast<float>(m.hinge_x_cm) * 0.01F, static_cast<float>(m.hinge_y_cm) * 0.01F}, table.position(k)));
   };
@@ -191,8 +191,33 @@ void note_contact(const Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k)
     if (table.age(k) == 0 && (nearest < 0 || key(k) < key(nearest))) nearest = k;
   if (nearest < 0) return;
-  const Message& m = table.message(nearest);
+  const Standing& m = table.message(nearest);
   if (m.epoch == self.epoch && m.pulse > self.pulse) self.seen_from = table.position(nearest);
+}
+
+// How near obstacles come to the line of sight to a neighbour; sight_width_m if they do not.
+float room_beside(const Robot& robot, Vec2 neighbor) noexcept {
+  float room_m = sight_width_m;
+  for_each_threat(robot, neighbor, [&](const Threat& t) { room_m = std::min(room_m, t.across_m); });
+  return room_m;
+}
+
+// The root is where the spares are: it must not lose the last of them behind a corner. Index of the
+// one that it sees best; -1 if that one is in no danger, or for all other robots.
+int last_in_sight(const Robot& robot) noexcept {
+  if (!robot.is_root() || robot.self.landmarks.size == 0) return -1;
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  float best_m = 0.0F;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || table.message(k).role != Role::spare) continue;
+    const float room_m = room_beside(robot, table.position(k));
+    if (room_m >= sight_width_m) return -1;
+    if (best >= 0 && room_m <= best_m) continue;
+    best = k;
+    best_m = room_m;
+  }
+  return best;
 }
 
 // A child that has to go on is held back by me.
@@ -200,7 +225,7 @@ bool is_towed(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   const float start_m = robot.params.pull_start * robot.params.communication_range_m;
   const auto tows = [&](int k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     return m.role != Role::spare && m.want_cm > 0 && (m.pinned || table.range(k) > start_m);
   };
   return std::any_of(robot.children.begin(), robot.children.end(), tows);
@@ -281,13 +306,15 @@ void keep_off(const Robot& robot, Guard& guard) noexcept {
 }
 
 void keep_sight(const Robot& robot, Guard& guard) noexcept {
-  for_each_edge(robot, [&](int k) {
+  const auto keep = [&](int k) {
     for_each_threat(robot, robot.table().position(k), [&](const Threat& t) {
       if (t.lever < 0.1F) return;
       const float room_m = std::max(0.0F, t.across_m - sight_margin_m);
       guard.add_limit(t.towards, 0.5F * room_m * robot.params.guard_rate_per_s / t.lever);
     });
-  });
+  };
+  for_each_edge(robot, keep);
+  if (const int k = last_in_sight(robot); k >= 0) keep(k);
 }
 
 Vec2 clear_sight(const Robot& robot) noexcept {
@@ -301,11 +328,13 @@ Vec2 clear_sight(const Robot& robot) noexcept {
 }
 
 bool is_pinned(const Robot& robot) noexcept {
-  if (!robot.parent_alive() || robot.self.want_m <= 0.0F || robot.table().range(robot.parent) < pin_shortest_m) return false;
-  if (!robot.self.is_worker && !is_towed(robot)) return false;
-  bool pinned = false;
-  for_each_threat(robot, robot.table().position(robot.parent), [&](const Threat& t) { pinned = pinned || t.across_m < pin_width_m; });
-  return pinned;
+  if (robot.self.want_m <= 0.0F) return false;
+  if (robot.is_root()) {
+    const int k = last_in_sight(robot);
+    return k >= 0 && robot.table().range(k) > pin_shortest_m;
+  }
+  if (!robot.parent_alive() || (!robot.self.is_worker && !is_towed(robot))) return false;
+  return robot.table().range(robot.parent) > pin_shortest_m && room_beside(robot, robot.table().position(robot.parent)) < pin_width_m;
 }
 
 bool is_free(const Robot& robot, Vec2 a, Vec2 b, float clearance_m) noexcept {

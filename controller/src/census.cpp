@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/edge_frame.hpp"
+#include "banyan/controller/policy.hpp"
 
 namespace banyan {
 namespace {
@@ -21,7 +22,7 @@ struct Sums {
 
 // `counts`: whether the child belongs to the tree that is being counted; its pull counts always.
 void add_child(const Robot& robot, int k, bool counts, Sums& sums) noexcept {
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   if (up_of(m) != robot.self.id) return;  // its vectors are addressed to somebody else
   const Vec2 sender = robot.table().position(k);
   if (counts) {
@@ -43,7 +44,7 @@ void add_own_target(const Robot& robot, Sums& sums) noexcept {
   const float distance_m = norm(*robot.target);
   sums.pull = unit(*robot.target) * (p.target_gain * std::min(1.0F, distance_m / p.arrival_distance_m));
   sums.pulling = 1;
-  if (distance_m > p.arrival_distance_m) sums.want_m = std::max(sums.want_m, distance_m);  // of those that hang on it, too
+  if (distance_m > robot.policy.rest_distance(p)) sums.want_m = std::max(sums.want_m, distance_m);  // of those that hang on it, too
 }
 
 // Whether the workers below get any nearer to their targets.

@@ -136,6 +136,7 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   take_census(robot);     // Alg. 1 and 2
   select_root(robot);     // Select Root, the root's side
   manage_spares(robot);   // Grow Tree
+  man_posts(robot);       // the mission done, spares stand by
   const Velocity velocity = move(robot);
   return {compose(robot), velocity};
 }

@@ -2,6 +2,7 @@
 // Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
 // springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
 #include "banyan/controller/convoy.hpp"
+
 #include <algorithm>
 
 #include "banyan/controller/bypass.hpp"
@@ -21,9 +22,9 @@ class Convoy final : public Policy {
   [[nodiscard]] std::string_view summary() const noexcept override {
     return "a sparse tree that its workers tow; spares join near the root, without travelling";
   }
-  // Lengths for C = 2 m.
-  [[nodiscard]] Params defaults(Reading reading) const noexcept override {
-    Params p = inwards().defaults(reading);
+  // Lengths for C = 2 m. There is nothing printed to be read in two ways.
+  [[nodiscard]] Params defaults(Reading) const noexcept override {
+    Params p = inwards().defaults(Reading::corrected);
     p.ideal_distance_m = 1.90F;        // G: no edge outgrows it
     p.safe_range_m = 1.80F;            // a spare follows its reference beyond it
     p.recruitment_distance_m = 1.65F;  // a longer edge asks for a spare
@@ -41,6 +42,8 @@ class Convoy final : public Policy {
   [[nodiscard]] bool tree_complete(const Robot& robot) const noexcept override { return inwards().tree_complete(robot); }
   [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
 
+  // Behind a target that drives a worker lags: its tree must come along before it has lost it.
+  [[nodiscard]] float rest_distance(const Params& params) const noexcept override { return 0.4F * params.arrival_distance_m; }
   [[nodiscard]] bool needs_spare(const Robot& robot) const noexcept override;
   [[nodiscard]] bool workers_relay() const noexcept override { return true; }
   // Not while the workers get on: the tree mends itself meanwhile, and a new one is not free.
@@ -105,7 +108,10 @@ bool Convoy::needs_spare(const Robot& robot) const noexcept {
   if (robot.parent < 0) return false;
   const float d = robot.table().range(robot.parent);
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
-  return (d > robot.params.recruitment_distance_m && robot.self.want_m > 0.0F) ||
+  // A connector may have been made a worker: then it is the parent that has to go on.
+  const Standing& parent = robot.table().message(robot.parent);
+  const bool wanted = robot.self.want_m > 0.0F || (parent.role == Role::worker && parent.want_cm > 0);
+  return (d > robot.params.recruitment_distance_m && wanted) ||
          ((hidden || robot.self.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/epoch.hpp"
 #include "banyan/controller/healing.hpp"
 
@@ -45,8 +44,13 @@ void locate_root(Robot& robot) noexcept {
       self.root_known = true;
       return;
     }
+    // The root silent, copies of copies would only drift.
     if (m.told != self.id || !m.root_told || ahead_by(m.heartbeat, self.heartbeat) < -stale_ticks) continue;
-    self.root_at = from_edge_frame({static_cast<float>(m.root_x_cm) * 0.01F, static_cast<float>(m.root_y_cm) * 0.01F}, h.position);
+    if (self.root_known && self.silence_ticks > robot.liveness_ticks()) continue;
+    const int k = robot.table().find(m.id);
+    Vec2 point;
+    if (k < 0 || !robot.table().read_point(k, m.root_x_cm, m.root_y_cm, point)) continue;
+    self.root_at = point;
     self.root_known = true;
   }
 }

@@ -16,7 +16,7 @@ void take_label(Robot& robot) noexcept {
   std::uint16_t best_label = unknown_label;
   float nearest_m = robot.params.communication_range_m;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (!table.alive(k) || m.epoch != self.epoch || m.label_cm == unknown_label) continue;
     nearest_m = std::min(nearest_m, table.range(k));
     const std::uint16_t label = label_below(m.label_cm, table.range(k));
@@ -44,7 +44,7 @@ void echo(Robot& robot) noexcept {
   int workers = self.is_worker ? 1 : 0;
   for (int k = 0; k < table.size(); ++k) {
     if (table.age(k) > echo_silence_ticks) continue;
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (m.epoch != self.epoch || m.label_cm == unknown_label) {
       done = false;
     } else if (m.flood_parent == self.id) {

@@ -10,7 +10,7 @@ namespace banyan {
 namespace {
 
 // Bits of the two packed bytes.
-enum : std::uint8_t { flag_flood_done = 1, flag_committed = 2, flag_parent_silent = 4, flag_root_told = 8, flag_pinned = 16 };
+enum : std::uint8_t { flag_flood_done = 1, flag_committed = 2, flag_parent_silent = 4, flag_root_told = 8, flag_pinned = 16, flag_settled = 32 };
 
 std::uint8_t packed_states(const Message& m) noexcept {
   return static_cast<std::uint8_t>(static_cast<int>(m.role) | static_cast<int>(m.phase) << 2 | static_cast<int>(m.need) << 5);
@@ -19,7 +19,7 @@ std::uint8_t packed_states(const Message& m) noexcept {
 std::uint8_t packed_flags(const Message& m) noexcept {
   return static_cast<std::uint8_t>((m.flood_done ? flag_flood_done : 0) | (m.committed ? flag_committed : 0) |
                                    (m.parent_silent ? flag_parent_silent : 0) | (m.root_told ? flag_root_told : 0) |
-                                   (m.pinned ? flag_pinned : 0));
+                                   (m.pinned ? flag_pinned : 0) | (m.settled ? flag_settled : 0));
 }
 
 class Writer {
@@ -78,6 +78,7 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.depth);
   visit(m.tree_hops);
   visit(m.call_hops);
+  visit(m.post_hops);
   visit(m.parent);
   visit(m.old_parent);
   visit(m.flood_parent);
@@ -133,7 +134,7 @@ std::optional<Message> decode(std::span<const std::uint8_t> bytes) noexcept {
   const int phase = states >> 2 & 7;
   const int need = states >> 5 & 3;
   if (states >> 7 != 0 || phase > static_cast<int>(Phase::select_root) || need > static_cast<int>(Need::await)) return std::nullopt;
-  if (flags >> 5 != 0) return std::nullopt;
+  if (flags >> 6 != 0) return std::nullopt;
   Message m;
   m.role = static_cast<Role>(states & 3);
   m.phase = static_cast<Phase>(phase);
@@ -141,6 +142,7 @@ std::optional<Message> decode(std::span<const std::uint8_t> bytes) noexcept {
   m.flood_done = (flags & flag_flood_done) != 0;
   m.committed = (flags & flag_committed) != 0;
   m.parent_silent = (flags & flag_parent_silent) != 0;
+  m.settled = (flags & flag_settled) != 0;
   m.root_told = (flags & flag_root_told) != 0;
   m.pinned = (flags & flag_pinned) != 0;
   Reader read(bytes.data() + 3);

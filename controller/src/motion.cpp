@@ -23,7 +23,7 @@ int nearest_up(const Robot& robot) noexcept { return robot.parent >= 0 ? robot.p
 
 bool is_tree_neighbor(const Robot& robot, int k) noexcept {
   if (k == robot.parent || k == robot.old_parent) return true;
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   return m.parent == robot.self.id || m.old_parent == robot.self.id;
 }
 
@@ -88,6 +88,11 @@ Vec2 avoidance(const Robot& robot) noexcept {
     const float d = table.range(k);
     if (d >= a || d <= 0.0F || !table.alive(k) || is_tree_neighbor(robot, k)) continue;
     u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
+  }
+  if (!robot.params.corrected()) return u;
+  for (const Vec2 o : robot.obstacles) {
+    const float d = norm(o);
+    if (d < a && d > 0.0F) u += o * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
   }
   return u;
 }

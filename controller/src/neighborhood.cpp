@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/trig.hpp"
 
 namespace banyan {
@@ -31,7 +32,9 @@ void Neighborhood::update(std::span<const Heard> heard, const Carry& carry, int 
                           std::array<RobotId, 2> keep) noexcept {
   liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
   expected_ = missed_ = 0;
+  origin_ = carry.point({});
   for (int k = 0; k < size_; ++k) {
+    entries_[k].before = entries_[k].age == 0 ? carry.vector(entries_[k].position) : Vec2{};
     if (entries_[k].age == 0) ++expected_;
     if (entries_[k].age < UINT16_MAX) ++entries_[k].age;
   }
@@ -53,6 +56,13 @@ void Neighborhood::update(std::span<const Heard> heard, const Carry& carry, int 
   }
 }
 
+bool Neighborhood::read_point(int k, std::int16_t x_cm, std::int16_t y_cm, Vec2& point) const noexcept {
+  const Vec2 before = entries_[k].before;
+  if (before == Vec2{}) return false;
+  point = origin_ + from_edge_frame({static_cast<float>(x_cm) * 0.01F, static_cast<float>(y_cm) * 0.01F}, before);
+  return true;
+}
+
 void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<RobotId, 2> keep) noexcept {
   const RobotId id = heard.message->id;
   // A position that is not finite is a fault of the sensor: as if nothing had been heard.
@@ -60,7 +70,9 @@ void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<
   // Packets tend to arrive in the order of the last tick: try the slot after the last match first.
   int k = hint < size_ && entries_[hint].id == id ? hint : find(id);
   if (k >= 0) {
+    const Vec2 before = entries_[k].before;
     write(k, heard);
+    entries_[k].before = before;
     hint = k + 1;
     return;
   }
@@ -68,8 +80,8 @@ void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<
     write(size_++, heard);
     return;
   }
-  const auto names_me = [&](const Message& m) { return m.parent == self || m.old_parent == self; };
-  const auto kept = [&](const Message& m) { return m.id == keep[0] || m.id == keep[1] || names_me(m); };
+  const auto names_me = [&](const Standing& m) { return m.parent == self || m.old_parent == self; };
+  const auto kept = [&](const Standing& m) { return m.id == keep[0] || m.id == keep[1] || names_me(m); };
   int farthest = -1;
   for (int j = 0; j < size_; ++j)
     if (!kept(messages_[j]) && (farthest < 0 || range(j) > range(farthest))) farthest = j;
@@ -79,7 +91,7 @@ void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<
 
 void Neighborhood::write(int k, const Heard& heard) noexcept {
   messages_[k] = *heard.message;
-  entries_[k] = {heard.position, norm(heard.position), heard.message->id, 0};
+  entries_[k] = {heard.position, norm(heard.position), heard.message->id, 0, {}};
 }
 
 void Neighborhood::remove(int k) noexcept {

@@ -15,7 +15,7 @@ constexpr float last_resort_range = 0.95F;  // of C: beyond, the next step might
 constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
-bool may_relay(const Robot& robot, const Message& m) noexcept { return m.role != Role::worker || robot.policy.workers_relay(); }
+bool may_relay(const Robot& robot, const Standing& m) noexcept { return m.role != Role::worker || robot.policy.workers_relay(); }
 
 constexpr std::uint16_t largest_label = unknown_label - 1;  // where label_below() saturates
 
@@ -25,7 +25,7 @@ int choose_parent(const Robot& robot, bool in_tree) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     if (!is_candidate(robot, k)) continue;
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (in_tree ? !m.committed || m.role == Role::spare : !robot.policy.accepts(robot, k)) continue;
     if (best < 0 || robot.policy.prefers(robot, k, best)) best = k;
   }
@@ -38,7 +38,7 @@ int flood_parent(const Robot& robot) noexcept {
   const State& self = robot.self;
   const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
   if (k < 0 || !robot.table().alive(k)) return -1;
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= last_resort_range * robot.params.communication_range_m;
   return near && may_relay(robot, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
 }
@@ -48,7 +48,7 @@ int nearest_committed(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (!table.alive(k) || !may_relay(robot, m) || m.epoch != robot.self.epoch || !m.committed) continue;
     if (m.label_cm == unknown_label || !is_ahead(robot, k) || table.range(k) > robot.params.parent_range_m()) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
@@ -88,7 +88,7 @@ int way_to_tree(const Robot& robot, float range_m) noexcept {
   int best = -1;
   const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (!table.alive(k) || !may_relay(robot, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
     if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
     if (best < 0 || key(k) < key(best)) best = k;
@@ -119,7 +119,7 @@ void reattach_orphan(Robot& robot) noexcept {
 // The pair (pulse, label) flows down the tree: as fresh as k's, and behind it.
 void follow(Robot& robot, int k) noexcept {
   State& self = robot.self;
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   if (m.epoch != self.epoch || m.label_cm >= largest_label || m.pulse <= self.pulse) return;
   self.pulse = m.pulse;
   if (self.label_cm == unknown_label || self.label_cm <= m.label_cm) self.label_cm = label_below(m.label_cm, robot.table().range(k));
@@ -164,7 +164,7 @@ void update_tree_hops(Robot& robot) noexcept {
   int nearest = -1;
   int hops = unreachable - 1;  // the most that is passed on
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (!table.alive(k) || m.tree_hops > hops || m.tree_hops == unreachable) continue;
     if (m.tree_hops == hops && nearest >= 0 && m.pulse <= table.message(nearest).pulse) continue;  // the freshest
     hops = m.tree_hops;
@@ -178,7 +178,7 @@ void update_tree_hops(Robot& robot) noexcept {
 }  // namespace
 
 bool is_candidate(const Robot& robot, int k) noexcept {
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   // An edge that exists may be as long as the guard lets it grow.
   const float range_m =
       std::max(robot.params.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
@@ -186,7 +186,7 @@ bool is_candidate(const Robot& robot, int k) noexcept {
 }
 
 bool is_ahead(const Robot& robot, int k) noexcept {
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   const State& self = robot.self;
   if (m.epoch != self.epoch || m.label_cm >= largest_label) return false;  // nothing fits behind the largest label
   return m.pulse != self.pulse ? m.pulse > self.pulse : m.label_cm < self.label_cm;

@@ -7,6 +7,8 @@
 
 namespace banyan {
 
+float Policy::rest_distance(const Params& params) const noexcept { return params.arrival_distance_m; }
+
 bool Policy::needs_spare(const Robot& robot) const noexcept { return is_stretched(robot) || child_in_need(robot); }
 
 bool Policy::reconstructs(const Robot&) const noexcept { return true; }

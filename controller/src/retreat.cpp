@@ -1,21 +1,46 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "banyan/controller/bypass.hpp"
 #include "banyan/controller/healing.hpp"
 #include "banyan/controller/motion.hpp"
+#include "banyan/controller/policy.hpp"
 
 namespace banyan {
+namespace {
+
+constexpr int lost_ticks = 22;  // an orphan that has found no hold for so long has none in reach
+
+bool is_cut_off(const Robot& robot) noexcept {
+  return robot.self.silence_ticks > robot.params.ticks(robot.params.retreat_after_s) + 2 * robot.liveness_ticks();
+}
+
+// The neighbour by which the rooted tree is nearest, none of my own branch; -1 if there is none.
+int way_home(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    const Standing& m = table.message(k);
+    if (!table.alive(k) || (m.role == Role::worker && !robot.policy.workers_relay()) || m.tree_hops == unreachable || m.parent == robot.self.id) continue;
+    if (best < 0 || table.range(k) < table.range(best)) best = k;
+  }
+  return best;
+}
+
+}  // namespace
 
 bool is_retreating(const Robot& robot) noexcept {
   const State& self = robot.self;
-  const Params& p = robot.params;
-  if (!p.heals() || robot.is_root() || !self.root_known) return false;
-  return self.silence_ticks > p.ticks(p.retreat_after_s) + 2 * robot.liveness_ticks();
+  if (!robot.params.heals() || robot.is_root() || !self.root_known) return false;
+  return self.orphan_ticks > lost_ticks || is_cut_off(robot);
 }
 
 Vec2 retreat_motion(const Robot& robot) noexcept {
   constexpr float near_enough = 0.2F;  // of C
-  const float away_m = norm(robot.self.root_at);
-  if (away_m < near_enough * robot.params.communication_range_m) return avoidance(robot);
-  return unit(robot.self.root_at) + avoidance(robot);
+  const int k = is_cut_off(robot) ? -1 : way_home(robot);
+  const Vec2 goal = k >= 0 ? robot.table().position(k) : robot.self.root_at;
+  if (norm(goal) < near_enough * robot.params.communication_range_m) return avoidance(robot);
+  return bypass(robot, goal) + avoidance(robot);
 }
 
 }  // namespace banyan

@@ -15,7 +15,7 @@ int better_root(const Robot& robot) noexcept {
   float best_m = norm(self.centroid) - robot.params.centroid_margin_m;
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || !robot.policy.may_inherit(robot, k)) continue;
     const float d = distance(table.position(k), self.centroid);
     if (d < best_m) {

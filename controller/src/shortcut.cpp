@@ -16,7 +16,7 @@ constexpr int wish_limit_ticks = 15;     // longer than pulses of two branches d
 // A robot of the tree that I may hang on: heard this tick or the last, ahead of me, in sight.
 bool is_hold(const Robot& robot, int k, float range_m) noexcept {
   const Neighborhood& table = robot.table();
-  const Message& m = table.message(k);
+  const Standing& m = table.message(k);
   return table.age(k) <= 1 && table.range(k) <= range_m && m.role != Role::spare && m.parent != robot.self.id &&
          m.old_parent != robot.self.id && m.depth != invalid_depth && is_ahead(robot, k) &&
          sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
@@ -25,7 +25,7 @@ bool is_hold(const Robot& robot, int k, float range_m) noexcept {
 // Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
 void release(Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
-  const Message& parent = table.message(robot.parent);
+  const Standing& parent = table.message(robot.parent);
   if (parent.role != Role::connector || parent.child_count != 1 || parent.parent == nobody || parent.need == Need::await ||
       parent.inserted_child != nobody)
     return;
@@ -68,7 +68,7 @@ void leave_worker(Robot& robot) noexcept {
 // Who may carry a branch that has arrived: at rest itself, and not about to leave the tree.
 bool is_berth(const Robot& robot, int k) noexcept {
   const Neighborhood& table = robot.table();
-  const Message& m = table.message(k);
+  const Standing& m = table.message(k);
   return table.age(k) <= 1 && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
          m.want_cm == 0 && m.depth != invalid_depth && m.epoch == robot.self.epoch && k != robot.parent &&
          (m.role != Role::connector || m.child_count > 0) &&
@@ -78,7 +78,7 @@ bool is_berth(const Robot& robot, int k) noexcept {
 // My parent serves only me: with another one for me it is not needed, nor are those above it that
 // serve only it.
 bool saves_parent(const Robot& robot) noexcept {
-  const Message& parent = robot.table().message(robot.parent);
+  const Standing& parent = robot.table().message(robot.parent);
   return parent.role == Role::connector && parent.child_count == 1;
 }
 
@@ -127,7 +127,7 @@ void save_robots(Robot& robot) noexcept {
   if (self.wish != nobody) return follow_wish(robot);
   const Params& p = robot.params;
   const int period = std::max(1, p.ticks(merge_period_s));
-  const Message& parent = robot.table().message(robot.parent);
+  const Standing& parent = robot.table().message(robot.parent);
   if ((self.phase_ticks + self.id) % period != 0 || parent.need == Need::await || parent.inserted_child != nobody) return;
   const int turn = self.phase_ticks / period;
   const float c = p.communication_range_m;
@@ -145,7 +145,7 @@ void keep_in_sight(Robot& robot, bool urgent) noexcept {
   int best = -1;
   float best_m = 1e9F;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (k == robot.parent || table.age(k) > 0) continue;
     const bool spare = urgent && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
                        m.tree_hops != unreachable && table.range(k) <= p.parent_range_m() && sees_clearly(robot, k, clearance_m);

@@ -2,6 +2,7 @@
 #include "banyan/controller/spare_management.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "banyan/controller/label.hpp"
 #include "banyan/controller/parent_selection.hpp"
@@ -28,7 +29,7 @@ void follow_grant(Robot& robot) noexcept {
   const int k = robot.table().find(self.grant);
   ++self.grant_ticks;
   if (k < 0 || !robot.table().alive(k)) return end_grant(self);
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   if (m.inserted_child == self.id && m.parent != nobody && m.parent != self.id && is_ahead(robot, k)) {
     take_parent(robot, k);
     return end_grant(self);
@@ -45,7 +46,7 @@ RobotId best_request(const Robot& robot) noexcept {
   RobotId best = nobody;
   float best_m = infinite_m;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (m.request != robot.self.id || !table.alive(k) || m.role != Role::spare) continue;
     const float d = distance(table.position(k), midpoint);
     if (d < best_m) {
@@ -60,7 +61,7 @@ void own_edge(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.grant != nobody) follow_grant(robot);
   if (!robot.parent_alive()) return end_grant(self);
-  const Message& parent = robot.table().message(robot.parent);
+  const Standing& parent = robot.table().message(robot.parent);
   const bool parent_awaits = parent.need == Need::await && parent.grant != nobody;
   switch (self.need) {
     case Need::no_need:
@@ -84,7 +85,7 @@ void own_edge(Robot& robot) noexcept {
 
 // ---- The spare: WAIT -> EXTEND EDGE -> connector, or ADJUST POSITION ----
 
-bool in_need(const Message& m, const State& self) noexcept {
+bool in_need(const Standing& m, const State& self) noexcept {
   return m.need == Need::need && m.role != Role::spare && m.grant == nobody && m.parent != nobody && m.parent != self.id && m.epoch == self.epoch;
 }
 
@@ -106,13 +107,18 @@ RobotId nearest_edge_in_need(const Robot& robot) noexcept {
   return best;
 }
 
-// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest.
+// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest. It
+// keeps the one it has while that is as good: who turns to another every tick gets nowhere.
 RobotId nearest_reference(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   int best = -1;
+  const auto hops = [&](int k) {
+    const Standing& m = table.message(k);
+    return m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops);
+  };
   const auto key = [&](int k) {
-    const Message& m = table.message(k);
-    return std::pair(m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops), table.range(k));
+    const bool other = table.id(k) != robot.self.reference;
+    return std::tuple(hops(k), hops(k) >= 0 && other, table.range(k));
   };
   for (int k = 0; k < table.size(); ++k)
     if (table.alive(k) && (best < 0 || key(k) < key(best))) best = k;
@@ -130,13 +136,17 @@ RobotId nearest_caller(const Robot& robot) noexcept {
 
 // Corrected reading: a spare that stands still may be far from where it is needed. Needs that nobody
 // answers spread hop by hop, and spares without an edge in sight follow the gradient.
-void spread_call(Robot& robot) noexcept {
+// True if a call is about: when it is over, the hops that the robots tell each other count up, which
+// is no gradient to follow.
+bool spread_call(Robot& robot) noexcept {
   State& self = robot.self;
+  const bool steady = robot.call_hops < self.call_hops;
   const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
   self.unserved_ticks = unserved && self.unserved_ticks < UINT16_MAX ? static_cast<std::uint16_t>(self.unserved_ticks + 1) : std::uint16_t{0};
   const bool in_vain = self.unserved_ticks > robot.params.ticks(call_after_s);
   if (robot.params.corrected() && in_vain && robot.policy.may_call(robot)) self.call_hops = 0;
   else self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
+  return steady;
 }
 
 void give_up(State& self) noexcept {
@@ -149,7 +159,7 @@ void join_edge(Robot& robot, int owner) noexcept {
   const Neighborhood& table = robot.table();
   const int parent = table.find(table.message(owner).parent);
   if (!is_ahead(robot, parent)) return;  // its pulse will overtake mine
-  const Message& above = table.message(parent);
+  const Standing& above = table.message(parent);
   auto label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + above.label_cm) / 2);
   if (label_cm <= above.label_cm) label_cm = label_below(above.label_cm, 0.0F);
   self.label_cm = above.pulse > self.pulse ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
@@ -171,7 +181,7 @@ void follow_request(Robot& robot) noexcept {
   Vec2 midpoint;
   if (owner < 0 || !table.alive(owner) || !edge_midpoint(robot, self.request, midpoint)) return give_up(self);
   if (++self.request_ticks > robot.params.ticks(robot.params.insertion_timeout_s)) return give_up(self);
-  const Message& m = table.message(owner);
+  const Standing& m = table.message(owner);
   const bool granted = m.grant == self.id;
   self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
   if (self.ungranted_ticks > ungranted_limit_ticks || (m.grant != nobody && !granted)) return give_up(self);
@@ -179,15 +189,12 @@ void follow_request(Robot& robot) noexcept {
   if (granted && robot.policy.may_insert(robot, owner, table.find(m.parent))) join_edge(robot, owner);
 }
 
-void look_for_edge(Robot& robot) noexcept {
+void look_for_edge(Robot& robot, bool call) noexcept {
   State& self = robot.self;
   self.reference = nearest_reference(robot);
   self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
-  self.called = self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
-  // Not at the price of losing the tree: a gradient that fades out may lead anywhere.
-  const int tree = self.reference == nobody ? -1 : robot.table().find(self.reference);
-  const bool left_behind = tree >= 0 && robot.table().message(tree).role != Role::spare && robot.table().range(tree) > robot.params.safe_range_m;
-  if (self.called && !left_behind) self.reference = nearest_caller(robot);
+  self.called = call && self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
+  if (self.called) self.reference = nearest_caller(robot);
   self.request_ticks = self.ungranted_ticks = 0;
   self.spare_state = self.request != nobody ? SpareState::wait : SpareState::adjust_position;
 }
@@ -209,7 +216,7 @@ bool is_stretched(const Robot& robot) noexcept {
 
 bool child_in_need(const Robot& robot) noexcept {
   return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) {
-    const Message& m = robot.table().message(k);
+    const Standing& m = robot.table().message(k);
     return m.role != Role::spare && m.need == Need::need;
   });
 }
@@ -226,7 +233,7 @@ bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept {
 
 void manage_spares(Robot& robot) noexcept {
   State& self = robot.self;
-  spread_call(robot);
+  const bool call = spread_call(robot);
   self.called = false;  // look_for_edge() finds out anew
   if (self.inserted_child != nobody) watch_inserted_child(robot);
   if (self.role != Role::spare) {
@@ -238,7 +245,7 @@ void manage_spares(Robot& robot) noexcept {
   end_grant(self);
   if (self.parent != nobody || robot.children.size > 0) give_up(self);  // still part of a branch
   else if (self.request != nobody) follow_request(robot);
-  else look_for_edge(robot);
+  else look_for_edge(robot, call);
 }
 
 }  // namespace banyan

@@ -12,7 +12,7 @@ void add(Digest& d, const Neighborhood& table) noexcept {
     d.add(table.id(k));
     d.add(table.age(k));
     d.add(table.position(k));
-    for (const std::uint8_t byte : encode(table.message(k))) d.add(byte);
+    for (const std::uint8_t byte : encode(Message{table.message(k), {}})) d.add(byte);
   }
 }
 
@@ -44,7 +44,7 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.reference), static_cast<int>(s.called), static_cast<int>(s.unserved_ticks),
                       static_cast<int>(s.call_hops), static_cast<int>(s.stalled_ticks), static_cast<int>(s.liveness_ticks), static_cast<int>(s.heartbeat), static_cast<int>(s.silence_ticks),
                       static_cast<int>(s.heart.sequence), static_cast<int>(s.heart.id), static_cast<int>(s.root_known),
-                      static_cast<int>(s.turn), static_cast<int>(s.task_count)})
+                      static_cast<int>(s.turn), static_cast<int>(s.settled), static_cast<int>(s.post_hops), static_cast<int>(s.task_count)})
     d.add(v);
   d.add(s.q);
   d.add(s.want_m);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/healing.hpp"
 #include "banyan/controller/parent_selection.hpp"
 
 namespace banyan {
 namespace {
 
-constexpr int takeover_beats = 10;  // a successor's count starts so far ahead of all that is under way
+constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
+constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
 
 int ahead_by(std::uint16_t a, std::uint16_t b) noexcept { return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)); }
 
@@ -42,16 +42,16 @@ void resign(Robot& robot) noexcept {
   robot.target = nullptr;
 }
 
-// Somebody else is said to serve what I serve. Older counts may be a dead worker's; a living rival
-// hears of mine, then.
+// Somebody else is said to serve what I serve. Counts far behind may be a dead worker's; a living
+// rival hears of mine, then.
 void settle_rivalry(Robot& robot, Task& task, RobotId rival, std::uint16_t beat) noexcept {
-  if (rival == nobody || ahead_by(beat, task.beat) < 0) return;
+  if (rival == nobody || ahead_by(beat, task.beat) < -rival_beats) return;
   if (has_precedence(rival, robot.self.id, task.serves)) {
     resign(robot);
     task.holder = rival;
     task.beat = beat;
   } else {
-    task.beat = static_cast<std::uint16_t>(beat + 1);  // so that it hears of me
+    task.beat = static_cast<std::uint16_t>(beat + takeover_beats);  // so that it hears of me
   }
 }
 
@@ -63,11 +63,16 @@ void hear_of_task(Robot& robot, RobotId serves, RobotId holder, std::uint16_t be
     task = add_task(self, serves);
     if (task == nullptr) return;
     task->beat = static_cast<std::uint16_t>(beat - 1);
+    task->target = *target;
   }
-  if (self.is_worker && self.serves == serves && holder != self.id) return settle_rivalry(robot, *task, holder, beat);
+  if (self.is_worker && self.serves == serves) {  // nobody knows better than I where it is
+    if (holder != self.id) settle_rivalry(robot, *task, holder, beat);
+    return;
+  }
   const int ahead = ahead_by(beat, task->beat);
+  // From somebody about as near to the worker; the worker silent, copies of copies would only drift.
   constexpr int stale_ticks = 3;
-  if (target != nullptr && ahead >= -stale_ticks && !(self.is_worker && self.serves == serves)) task->target = *target;
+  if (target != nullptr && ahead >= -stale_ticks && task->age_ticks <= 2 * robot.liveness_ticks() + task_capacity) task->target = *target;
   if (ahead <= 0) return;
   task->beat = beat;
   task->holder = holder;
@@ -78,8 +83,10 @@ void hear_of_tasks(Robot& robot) noexcept {
   for (const Heard& h : robot.heard) {
     const Message& m = *h.message;
     if (m.task_serves == nobody) continue;
-    const Vec2 target = from_edge_frame({static_cast<float>(m.task_x_cm) * 0.01F, static_cast<float>(m.task_y_cm) * 0.01F}, h.position);
-    hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, m.told == robot.self.id ? &target : nullptr);
+    const int k = m.told == robot.self.id ? robot.table().find(m.id) : -1;
+    Vec2 target;
+    const bool told = k >= 0 && robot.table().read_point(k, m.task_x_cm, m.task_y_cm, target);
+    hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, told ? &target : nullptr);
   }
 }
 

@@ -20,7 +20,7 @@ void survey(Robot& robot) noexcept {
     if (id == self.parent) robot.parent = k;
     if (id == self.old_parent) robot.old_parent = k;
     if (!table.alive(k)) continue;
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     robot.call_hops = std::min(robot.call_hops, m.call_hops);
     const bool names_me = m.parent == self.id;
     if (!names_me && m.old_parent != self.id) continue;

@@ -21,13 +21,23 @@ void write(Vec2 point, Vec2 addressee, std::int16_t& x_cm, std::int16_t& y_cm) n
   y_cm = centimetres(v.y);
 }
 
+// Only who was heard this tick can be told a point: it is written relative to where that robot is.
+int next_heard(const Neighborhood& table, int turn) noexcept {
+  for (int k = 0; k < table.size(); ++k) {
+    const int candidate = (turn + k) % table.size();
+    if (table.age(candidate) == 0) return candidate;
+  }
+  return -1;
+}
+
 }  // namespace
 
 void tell(const Robot& robot, Message& m) noexcept {
   const State& self = robot.self;
   if (!robot.params.heals()) return;
   m.heartbeat = self.heart == self.root ? self.heartbeat : std::uint16_t{0};
-  const int size = robot.table().size();
+  m.settled = self.settled;
+  m.post_hops = self.post_hops;
   // Every pair of a neighbour and a target has its turn; not all robots speak of the same at once.
   const int turn = self.turn + self.id;
   const int tasks = std::max<int>(self.task_count, 1);
@@ -37,8 +47,8 @@ void tell(const Robot& robot, Message& m) noexcept {
     m.task_holder = task->holder;
     m.task_beat = task->beat;
   }
-  if (size == 0) return;
-  const int k = turn / tasks % size;
+  const int k = next_heard(robot.table(), turn / tasks);
+  if (k < 0) return;
   const Vec2 addressee = robot.table().position(k);
   m.told = robot.table().id(k);
   m.root_told = self.root_known && self.heart == self.root;

@@ -23,7 +23,7 @@ float ramp(float d, float start, float width) noexcept { return std::clamp((d - 
 
 bool is_tree_neighbor(const Robot& robot, int k) noexcept {
   if (k == robot.parent || k == robot.old_parent) return true;
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   return m.parent == robot.self.id || m.old_parent == robot.self.id;
 }
 
@@ -34,7 +34,7 @@ Vec2 tow(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   const float c = p.communication_range_m;
   const auto tows = [&](int k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     return m.role != Role::spare && m.want_cm > 0 && up_of(m) == robot.self.id;
   };
   const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
@@ -105,7 +105,7 @@ Vec2 make_way(const Robot& robot, float width_m) noexcept {
   const Neighborhood& table = robot.table();
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
-    const Message& m = table.message(k);
+    const Standing& m = table.message(k);
     if (m.parent == nobody || m.parent == robot.self.id || m.role == Role::spare || table.age(k) > 0 || k == robot.parent) continue;
     const int up = table.find(m.parent);
     if (up < 0) continue;
@@ -180,7 +180,7 @@ bool has_arrived(const Robot& robot) noexcept {
 }
 
 bool is_relay(const Robot& robot, int k) noexcept {
-  const Message& m = robot.table().message(k);
+  const Standing& m = robot.table().message(k);
   return saves_robots(robot.params) && m.role == Role::worker && m.want_cm == 0 && robot.self.want_m == 0.0F;
 }
 
@@ -191,7 +191,12 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (up >= 0 && !robot.table().alive(up)) return bypass(robot, robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
-  if (robot.self.is_worker) return pull_past_obstacles(robot) + elbow_room(robot);
+  // A target may be added in mid-mission: not without the tree.
+  if (robot.self.is_worker && up < 0 && robot.self.phase == Phase::grow_tree) return elbow_room(robot);
+  // At its target it may stand off a little, if that lets another reach its own; the pull grows with it.
+  constexpr float leeway = 0.7F;
+  const float give = leeway * std::max(0.0F, 1.0F - norm(robot.self.pull));
+  if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + elbow_room(robot);
   const Vec2 along = has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
   return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
@@ -205,6 +210,10 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
     return bypass(robot, midpoint) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   // Nobody around has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.seen_from) > p.arrival_distance_m) return bypass(robot, self.seen_from) + elbow_room(robot);
+  // The root is about to go round a corner, and waits for spares.
+  const int root = robot.table().find(self.root.id);
+  if (root >= 0 && robot.table().message(root).pinned && robot.table().range(root) > p.avoidance_range_m)
+    return bypass(robot, robot.table().position(root)) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
@@ -214,8 +223,11 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   // On its way along a chain it may come nearer to the line of sight than while it waits.
   if (d > reach_m || (self.called && d > p.avoidance_range_m))
     return bypass(robot, reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
-  // There, but an obstacle or its distance hides the edge that calls: round the robot that passed the call on.
-  if (self.called && self.landmarks.size > 0 && d > 0.0F) return bypass(robot, Vec2{-reference.y, reference.x}) + elbow_room(robot);
+  // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
+  // Where many edges meet, others wait on its far side, and it would only cross their sight.
+  const bool roomy = self.landmarks.size > 0 || (k >= 0 && robot.table().message(k).child_count <= 3);
+  if (self.called && roomy && d > 0.0F) 
+    return bypass(robot, Vec2{-reference.y, reference.x}) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   return elbow_room(robot) + make_way(robot, p.corridor_width * c);
 }
 

@@ -36,14 +36,14 @@ class Bench {
   // Packets of one tick go into the table and the table is surveyed, as step() does it.
   Robot tick(const Odometry& odometry = {}) {
     listen();
-    Robot robot(params, *policy, state, heard_, target);
+    Robot robot(params, *policy, state, heard_, target, obstacles);
     state.neighbors.update(heard_, Carry(odometry), robot.liveness_ticks(), state.id, {state.parent, state.old_parent});
     survey(robot);
     return robot;
   }
   Output step(const Odometry& odometry = {}) {
     listen();
-    return banyan::step(params, *policy, state, heard_, odometry, target);
+    return banyan::step(params, *policy, state, heard_, odometry, target, obstacles);
   }
   Output steps(int count) {
     Output output;
@@ -55,6 +55,7 @@ class Bench {
   Params params;
   State state;
   const Vec2* target = nullptr;
+  std::vector<Vec2> obstacles;  // what the proximity sensor sees
 
  private:
   struct Neighbor { Message message; Vec2 position; };

@@ -121,7 +121,7 @@ TEST_F(Owner, EndsTheGrantWhenTheSpareFallsSilentOrThinksBetter) {
   bench.steps(3);
   ASSERT_EQ(bench.state.grant, 21);
   m.request = 8;
-  bench.steps(8);
+  bench.steps(16);
   EXPECT_EQ(bench.state.grant, nobody);
 }
 
@@ -178,7 +178,7 @@ class Spare : public testing::Test {
 TEST_F(Spare, AsksForTheEdgeInNeed) {
   EXPECT_EQ(bench.step().message.request, 7);
   bench.say(7).need = Need::no_need;
-  bench.steps(9);
+  bench.steps(17);
   EXPECT_EQ(bench.state.request, nobody) << "gives up without grant";
 }
 

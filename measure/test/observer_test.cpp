@@ -363,6 +363,8 @@ TEST(Observer, ASpareIsNotMissed) {
 
 TEST(Observer, AWorkerThatNobodyReplacesIsNeverRecoveredFrom) {
   Scenario s = ring(14, 2, 1.0);
+  s.mission.algorithm = "outwards";
+  s.mission.reading = "literal";  // which does not heal
   const World probe = completed(s);
   s.events = {death(probe.targets()[1].worker, 0.0, Event::When::complete)};
   World world(s);

@@ -3,6 +3,7 @@
 // missions change.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "banyan/world/random.hpp"
 #include "world_impl.hpp"
@@ -193,15 +194,15 @@ void World::Impl::move_target(std::size_t target, Vec2 position, double speed_m_
   courses[target].speed_m_s = speed_m_s;
 }
 
-// A new target goes to the nearest living robot that is neither worker nor root. One that was sent
-// to a target before stays out: its id names that one for as long as somebody may serve it.
+// A new target goes to the nearest living spare, since others hang on a connector; to the nearest
+// connector if there is none. One that was sent to a target before stays out: its id names that one
+// for as long as somebody may serve it.
 void World::Impl::assign_target(Vec2 position) {
   std::size_t best = states.size();
+  const auto key = [&](std::size_t i) { return std::pair(states[i].role != Role::spare, squared_norm(poses.position[i] - position)); };
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (alive[i] == 0 || states[i].is_worker || states[i].role == Role::root || target_of[i] >= 0) continue;
-    if (best == states.size() ||
-        squared_norm(poses.position[i] - position) < squared_norm(poses.position[best] - position))
-      best = i;
+    if (best == states.size() || key(i) < key(best)) best = i;
   }
   if (best == states.size()) return;  // nobody is left to send
   states[best].is_worker = true;

@@ -95,7 +95,7 @@ TEST(Events, ATargetMovesAndItsWorkerFollows) {
   EXPECT_LT(distance(world.positions()[world.targets()[1].worker], world.targets()[1].position), 0.3);
 }
 
-TEST(Events, ANewTargetGoesToTheNearestRobotThatIsNeitherWorkerNorRoot) {
+TEST(Events, ANewTargetGoesToTheNearestSpare) {
   Scenario s = ring("outwards", 20, 2, 2.0, 1);
   const Vec2 where{0.3, 2.4};
   s.events = {event(1.0, Event::Kind::add_target, 0, 0.0, where)};
@@ -104,9 +104,10 @@ TEST(Events, ANewTargetGoesToTheNearestRobotThatIsNeitherWorkerNorRoot) {
   ASSERT_EQ(world.targets().size(), 2U);
   std::size_t expected = world.size();
   for (std::size_t i = 0; i < world.size(); ++i) {
-    if (world.states()[i].is_worker || world.states()[i].role == Role::root) continue;
+    if (world.states()[i].role != Role::spare) continue;
     if (expected == world.size() || distance(world.positions()[i], where) < distance(world.positions()[expected], where)) expected = i;
   }
+  ASSERT_LT(expected, world.size());
   world.step();
   ASSERT_EQ(world.targets().size(), 3U);
   EXPECT_EQ(world.targets()[2].position, where);

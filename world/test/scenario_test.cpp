@@ -66,7 +66,7 @@ const std::vector<Case>& cases() {
       {"mission.parameters.tick_s", "is set by tick_s", [](Scenario& s) { s.mission.parameters = {{"tick_s", 0.1}}; }},
       {"mission.parameters.communication_range_m", "radio.range_m",
        [](Scenario& s) { s.mission.parameters = {{"communication_range_m", 2}}; }},
-      {"mission.parameters", "delta", [](Scenario& s) { s.radio.range_m = 1.0; }},
+      {"mission.parameters", "delta", [](Scenario& s) { s.mission.algorithm = "outwards", s.radio.range_m = 1.0; }},
       {"swarm.redundancy", "not 0", [](Scenario& s) { s.swarm.redundancy = 0; }},
       {"swarm.redundancy", "robots; at most",
        [](Scenario& s) { s.swarm.redundancy = 1000, s.targets = RingTargets{60, 6000, 0, {}}; }},

@@ -134,8 +134,11 @@ TEST(World, LatencyIsExact) {
         const Neighborhood& table = world.states()[i].neighbors;
         const std::size_t sender = table.id(k);
         EXPECT_EQ(table.message(k), said[sent][sender]) << latency << " at " << t;
-        const Vec2 d = rotate_back(headings[sent + 1][i], positions[sent + 1][sender] - positions[sent + 1][i]);
-        EXPECT_NEAR(norm(d), static_cast<double>(table.range(k)), 1e-6);
+        // Where the sender was then, seen from where the receiver is now: its odometry carried it along.
+        const auto now = static_cast<std::size_t>(t);
+        const Vec2 d = rotate_back(headings[now][i], positions[sent + 1][sender] - positions[now][i]);
+        EXPECT_NEAR(d.x, static_cast<double>(table.position(k).x), 1e-5);
+        EXPECT_NEAR(d.y, static_cast<double>(table.position(k).y), 1e-5);
       });
     }
     EXPECT_GT(heard, 1000U);

@@ -39,7 +39,8 @@ inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
 
-struct Message {
+// What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
+struct Standing {
   RobotId id = nobody;
   Role role = Role::spare;
   Phase phase = Phase::init;
@@ -47,14 +48,15 @@ struct Message {
   bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
   bool committed = false;       // I am in this epoch's tree
   bool parent_silent = false;   // my parent has not been heard for longer than I
+  bool settled = false;         // all workers below the root have arrived, as it comes down the tree
   bool pinned = false;          // a corner is about to cut the edge to my parent, and I have to go on
   std::uint16_t epoch = 0;
-  RootToken root;               // gossip: the newest root token I know
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
   std::uint16_t pulse = 0;        // the root's count as it came down the tree: (pulse, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
   std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need nobody has answered
+  std::uint8_t post_hops = nobody_calls;   // hops to a robot of the settled tree that has no spare by it
   RobotId parent = nobody;
   RobotId old_parent = nobody;
   RobotId flood_parent = nobody;
@@ -70,15 +72,23 @@ struct Message {
   RobotId grant = nobody;             // the spare I let into the edge to my parent
   RobotId request = nobody;           // the owner whose edge I want to join
   RobotId inserted_child = nobody;    // I have just been inserted above this robot
+  std::int16_t hinge_x_cm = 0;        // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
+  std::int16_t hinge_y_cm = 0;
+  RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
+  std::uint8_t child_count = 0;       // living children that are no spares
+
+  friend bool operator==(const Standing&, const Standing&) = default;
+};
+
+// What is made use of in the tick in which it is heard, and passed on.
+struct Tidings {
+  RootToken root;               // gossip: the newest root token I know
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
   std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
   std::int16_t centroid_y_cm = 0;
-  std::int16_t hinge_x_cm = 0;        // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
-  std::int16_t hinge_y_cm = 0;
   // Healing (healing.hpp): everybody passes on where the root and the targets are, a target and an
   // addressee a tick in turn. Who is no addressee makes use of the counts alone.
   std::uint16_t heartbeat = 0;        // gossip: the root's count of ticks, compared modulo 2^16
-  RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
   RobotId told = nobody;              // addressee of the vectors that follow
   bool root_told = false;             // I know where the root is
   std::int16_t root_x_cm = 0;         // root - addressee, edge frame to `told`
@@ -88,8 +98,11 @@ struct Message {
   std::uint16_t task_beat = 0;        // gossip: the holder's count of ticks, compared modulo 2^16
   std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `told`
   std::int16_t task_y_cm = 0;
-  std::uint8_t child_count = 0;       // living children that are no spares
 
+  friend bool operator==(const Tidings&, const Tidings&) = default;
+};
+
+struct Message : Standing, Tidings {
   friend bool operator==(const Message&, const Message&) = default;
 };
 
@@ -100,9 +113,9 @@ inline constexpr float q_limit_m = 1.0e9F;
 
 // The tree neighbour that vectors of the census are addressed to: the parent or, during a switch
 // while there is none, the old parent.
-constexpr RobotId up_of(const Message& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
+constexpr RobotId up_of(const Standing& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 86;  // bytes, little-endian, no padding
+inline constexpr std::size_t wire_size = 87;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 2;
 using Wire = std::array<std::uint8_t, wire_size>;
 

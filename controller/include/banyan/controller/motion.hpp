@@ -13,7 +13,7 @@ namespace banyan {
 [[nodiscard]] Vec2 spring_motion(const Robot& robot) noexcept;
 // A spare's: to the midpoint of the edge it was granted, else ADJUST POSITION.
 [[nodiscard]] Vec2 attendance_motion(const Robot& robot) noexcept;
-// u^avoid: repulsion from robots nearer than A that are no tree neighbours.
+// u^avoid: repulsion from robots nearer than A that are no tree neighbours; corrected: from obstacles, too.
 [[nodiscard]] Vec2 avoidance(const Robot& robot) noexcept;
 
 // u_tree's magnitude, (epsilon/d)((delta/d)^2 - (delta/d)^4) with lengths in cm: positive towards

@@ -53,10 +53,14 @@ class Neighborhood {
   // Index of `id` in [0, size), or -1. O(size), a linear scan of 16-bit ids.
   [[nodiscard]] int find(RobotId id) const noexcept;
   [[nodiscard]] RobotId id(int k) const noexcept { return entries_[k].id; }
-  [[nodiscard]] const Message& message(int k) const noexcept { return messages_[k]; }
+  [[nodiscard]] const Standing& message(int k) const noexcept { return messages_[k]; }
   [[nodiscard]] Vec2 position(int k) const noexcept { return entries_[k].position; }  // m, body frame
   [[nodiscard]] float range(int k) const noexcept { return entries_[k].range_m; }      // m
   [[nodiscard]] int age(int k) const noexcept { return entries_[k].age; }            // ticks, 0: heard now
+  // A point, relative to me, that neighbour k has written for me in its edge frame (cm). False if it
+  // was not heard in the tick before: what it wrote then holds for where both were then, and over a
+  // distance a bearing that is a tick old makes an error of decimetres.
+  [[nodiscard]] bool read_point(int k, std::int16_t x_cm, std::int16_t y_cm, Vec2& point) const noexcept;
   // Of those heard in the tick before: how many they were, and how many were not heard in this one.
   [[nodiscard]] int expected() const noexcept { return expected_; }
   [[nodiscard]] int missed() const noexcept { return missed_; }
@@ -73,14 +77,15 @@ class Neighborhood {
     float range_m;
     RobotId id;
     std::uint16_t age;
+    Vec2 before;  // where it was a tick ago, in the present frame but from where I was then; 0: not heard then
   };
+  Vec2 origin_;  // where I was a tick ago
   std::int16_t size_ = 0;
   std::int16_t liveness_ticks_ = 0;
   std::int16_t expected_ = 0;
   std::int16_t missed_ = 0;
   std::array<Entry, neighbor_capacity> entries_{};
-  // A message is one cache line long; aligned, it also is in one.
-  alignas(64) std::array<Message, neighbor_capacity> messages_{};
+  alignas(64) std::array<Standing, neighbor_capacity> messages_{};
 };
 
 }  // namespace banyan

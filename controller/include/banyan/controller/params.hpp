@@ -39,12 +39,13 @@ struct ConvoyParams {
 // Healing after deaths (healing.hpp), in the corrected reading only. Lengths are in units of C.
 struct HealingParams {
   float healing = 1.0F;             // 0: nobody takes the place of the dead
-  float claim_radius = 0.75F;       // who is nearer to where the root fell silent may become root
+  float claim_radius = 0.45F;       // who is nearer to where the root fell silent may become root
   float claim_after_s = 0.5F;       // without heartbeat, beyond 2 I
   float claim_spread_s_m = 1.0F;    // and so much longer per metre from that place: one claims first
-  float retreat_after_s = 8.0F;     // without heartbeat: all drive to where the root was
+  float retreat_after_s = 2.5F;     // without heartbeat: all drive to where the root was
   float succession_after_s = 3.0F;  // without a sign of a target's worker, beyond 2 I
   float succession_spread_s_m = 0.5F;  // and so much longer per metre from the target
+  float picket_range = 0.4F;        // all arrived, a spare this near stands ready beside every robot of the tree; 0: none
   float largest_loss = 0.9F;        // liveness adapts to the share of packets lost, up to this
 };
 

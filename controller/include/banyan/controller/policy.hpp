@@ -38,6 +38,8 @@ class Policy {
 
   // ---- What follows is the paper's own unless a policy says otherwise (policy.cpp). ----
 
+  // m: a worker this near to its target wants nothing more of its tree.
+  [[nodiscard]] virtual float rest_distance(const Params& params) const noexcept;
   // The edge to my parent, or one below it, wants a spare (paper Fig. 5).
   [[nodiscard]] virtual bool needs_spare(const Robot& robot) const noexcept;
   // A worker may be somebody's parent (protocol 5: not in the paper's algorithms).

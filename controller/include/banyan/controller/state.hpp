@@ -123,13 +123,15 @@ struct State {
   RootToken heart;                       // the root whose heartbeat it is
   Vec2 root_at;                          // m, own frame: where that root is or was
   bool root_known = false;
+  bool settled = false;                  // the root says that all workers have arrived
+  std::uint8_t post_hops = nobody_calls;
   std::uint16_t turn = 0;                // whom I tell next
   std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   // Obstacles (bypass.hpp)
   Detour detour;
   Landmarks landmarks;
-  Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent
+  Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent; a spare: where the tree was
   bool pinned = false;                   // a corner is about to cut the edge to my parent
 
   Tally tally;

@@ -21,7 +21,7 @@ namespace banyan::world {
 using Vec2 = BasicVec2<double>;
 
 struct Mission {
-  std::string algorithm = "outwards";   // a name in the policy registry
+  std::string algorithm = "convoy";     // a name in the policy registry
   std::string reading = "corrected";    // or "literal"
   double scale = 1.0;                   // on Table I's lengths (paper Sec. IV-C, "rescaled")
   double target_tolerance_m = 0.20;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Lines of sight past known robots, against sampled points of the segment.
+#include "banyan/controller/sight.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+Vec2 arbitrary_point() {
+  const auto meters = [] { return static_cast<float>(*rc::gen::inRange(-1900, 1901)) * 0.001F; };
+  const float x = meters();
+  return {x, meters()};
+}
+
+// The distance of p to the segment a-b, by sampling it.
+float sampled_distance(Vec2 p, Vec2 a, Vec2 b) {
+  float least = 1e9F;
+  for (int k = 0; k <= 2000; ++k) least = std::min(least, distance(p, a + (b - a) * (static_cast<float>(k) / 2000.0F)));
+  return least;
+}
+
+RC_GTEST_PROP(Sight, NearestPointOfASegmentIsNearest, ()) {
+  const Vec2 a = arbitrary_point();
+  const Vec2 b = arbitrary_point();
+  RC_ASSERT(std::fabs(norm(nearest_on_segment(a, b)) - sampled_distance({}, a, b)) < 0.003F);
+}
+
+RC_GTEST_PROP(Sight, ASegmentIsClearWhenNobodyIsBesideItsInside, ()) {
+  constexpr float clearance_m = 0.16F;
+  Bench bench = grown();
+  const int count = *rc::gen::inRange(2, 9);
+  std::vector<Vec2> at;
+  for (int k = 0; k < count; ++k) {
+    at.push_back(arbitrary_point());
+    bench.put(static_cast<RobotId>(10 + k), at.back());
+  }
+  const Robot robot = bench.tick();
+  const Vec2 a = at[0];
+  const Vec2 b = at[1];
+  float nearest_m = 1e9F;
+  // Whoever is beside an end, not beside the inside, hides nothing.
+  const auto look = [&](Vec2 p) {
+    const float along = dot(p - a, b - a);
+    if (along > 0.0F && along < squared_norm(b - a)) nearest_m = std::min(nearest_m, sampled_distance(p, a, b));
+  };
+  for (std::size_t k = 2; k < at.size(); ++k) look(at[k]);
+  look({});
+  RC_PRE(std::fabs(nearest_m - clearance_m) > 0.005F);
+  const int i = robot.table().find(10);
+  const int j = robot.table().find(11);
+  RC_ASSERT(is_clear(robot, a, b, i, j, clearance_m) == (nearest_m > clearance_m));
+}
+
+TEST(Sight, ARobotBetweenHidesAndOneBehindDoesNot) {
+  Bench bench = grown();
+  bench.put(2, {1.5F, 0.0F});
+  bench.put(3, {0.8F, 0.05F});
+  bench.put(4, {1.8F, 0.0F});
+  bench.put(5, {-1.0F, 0.0F});
+  const Robot robot = bench.tick();
+  EXPECT_FALSE(sees_clearly(robot, robot.table().find(2), 0.1F));
+  EXPECT_TRUE(sees_clearly(robot, robot.table().find(2), 0.04F));
+  EXPECT_TRUE(sees_clearly(robot, robot.table().find(3), 0.1F));
+  EXPECT_TRUE(sees_clearly(robot, robot.table().find(5), 0.1F));
+}
+
+}  // namespace
+}  // namespace banyan
