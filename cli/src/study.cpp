@@ -195,7 +195,7 @@ int dry_run(const Prepared& prepared, const Shard& shard, const std::vector<std:
 }
 
 Watch progress_watch(Progress& progress) {
-  return [&progress](const Standing& now) {
+  return [&progress](const study::Standing& now) {
     if (progress.due() && now.done > 0) {
       const double rate = static_cast<double>(now.done) / progress.elapsed_s();
       progress.show(now.share,
@@ -252,7 +252,7 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
   make_directory(folder.path + "/journal");
   catch_stop_signals();
   ::signal(SIGPIPE, SIG_IGN);
-  Standing standing;
+  study::Standing standing;
   {
     Journal journal(folder.journal(shard), prepared.study.name, std::string(version), std::string(git_id()));
     const auto workers = processes.workers(simulate, threads);

@@ -194,10 +194,7 @@ void look_for_edge(Robot& robot, bool call) noexcept {
   self.reference = nearest_reference(robot);
   self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
   self.called = call && self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
-  // Not at the price of losing the tree.
-  const int tree = self.reference == nobody ? -1 : robot.table().find(self.reference);
-  const bool left_behind = tree >= 0 && robot.table().message(tree).role != Role::spare && robot.table().range(tree) > robot.params.safe_range_m;
-  if (self.called && !left_behind) self.reference = nearest_caller(robot);
+  if (self.called) self.reference = nearest_caller(robot);
   self.request_ticks = self.ungranted_ticks = 0;
   self.spare_state = self.request != nobody ? SpareState::wait : SpareState::adjust_position;
 }
