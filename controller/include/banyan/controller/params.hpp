@@ -45,7 +45,7 @@ struct HealingParams {
   float retreat_after_s = 2.5F;     // without heartbeat: all drive to where the root was
   float succession_after_s = 3.0F;  // without a sign of a target's worker, beyond 2 I
   float succession_spread_s_m = 0.5F;  // and so much longer per metre from the target
-  float picket_range = 0.4F;        // all arrived, a spare this near stands ready beside every robot of the tree; 0: none
+  float picket_range = 0.0F;        // all arrived, a spare this near stands ready beside every robot of the tree; 0: none
   float largest_loss = 0.9F;        // liveness adapts to the share of packets lost, up to this
 };
 
