@@ -38,9 +38,9 @@ TEST_F(Program, ARunLeavesItsThreeFilesAndAShortSummary) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_LE(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 25);
   EXPECT_TRUE(has(outcome.out, "small: COMPLETE after ")) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "Results in out/small-outwards-1/")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "Results in out/small-convoy-1/")) << outcome.out;
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(home_ / "out/small-outwards-1"))
+  for (const auto& entry : fs::directory_iterator(home_ / "out/small-convoy-1"))
     files.push_back(entry.path().filename());
   std::sort(files.begin(), files.end());
   EXPECT_EQ(files, (std::vector<std::string>{"run.csv", "run.json", "run.mcap"}));
@@ -50,7 +50,7 @@ TEST_F(Program, ARunLeavesItsThreeFilesAndAShortSummary) {
 TEST_F(Program, ASummaryTellsOfDeathsAndRecovery) {
   const std::string world = read("small.toml") + "[[events]]\nkind = \"kill\"\nwhen = \"complete\"\ntime_s = 1.0\n";
   write("widow.toml", world + "of = \"worker\"\n");
-  const auto widow = run({"run", "widow.toml", "--set", "mission.algorithm=outwards"});
+  const auto widow = run({"run", "widow.toml", "--set", "mission.algorithm=outwards", "--set", "mission.reading=literal"});
   ASSERT_EQ(widow.code, 0) << widow.err;
   EXPECT_TRUE(has(widow.out, "deaths     1 of 8 robots died, the last at ")) << widow.out;
   EXPECT_TRUE(has(widow.out, "not whole again in the 200.0 s after it")) << widow.out;
@@ -100,7 +100,7 @@ TEST_F(Program, QuietSaysNothing) {
 
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
-  EXPECT_TRUE(exists("out/small-outwards-1/run.json"));
+  EXPECT_TRUE(exists("out/small-convoy-1/run.json"));
 }
 
 TEST_F(Program, OptionsReachTheRunAndItsRecords) {
@@ -146,11 +146,11 @@ TEST_F(Program, AMissionThatDoesNotCompleteIsAResult) {
 
 TEST_F(Program, EveryRunGetsADirectoryOfItsOwn) {
   ASSERT_EQ(run({"run", "small.toml", "-q"}).code, 0);
-  const auto first = read("out/small-outwards-1/run.mcap");
+  const auto first = read("out/small-convoy-1/run.mcap");
   ASSERT_EQ(run({"run", "small.toml", "-q"}).code, 0);
 
-  EXPECT_TRUE(exists("out/small-outwards-1.2/run.json"));
-  EXPECT_EQ(read("out/small-outwards-1/run.mcap"), first);
+  EXPECT_TRUE(exists("out/small-convoy-1.2/run.json"));
+  EXPECT_EQ(read("out/small-convoy-1/run.mcap"), first);
 }
 
 TEST_F(Program, AGivenDirectoryWithResultsIsRefusedUnlessForced) {
@@ -230,7 +230,7 @@ TEST_F(Program, TellsAllFaultsAtOnce) {
         "missing.toml: error: there is no such file", "5 errors"}) {
     EXPECT_TRUE(has(outcome.err, line)) << line << "\n" << outcome.err;
   }
-  EXPECT_TRUE(has(outcome.out, "small.toml: ok: outwards (corrected), 8 robots, 2 targets"));
+  EXPECT_TRUE(has(outcome.out, "small.toml: ok: convoy (corrected), 8 robots, 2 targets"));
 }
 
 TEST_F(Program, ValidateSpeaksJsonAndShowsWhatAScenarioStandsFor) {
@@ -396,7 +396,7 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
   const auto list = json::parse(run({"algorithms", "--json"}).out);
   ASSERT_GE(list.size(), 2U);
   for (const auto& entry : list) {
-    const double tau = entry["name"] == "outwards" ? 0.49 : 0.2539;  // Table I
+    const double tau = entry["name"] == "outwards" ? 0.49 : entry["name"] == "inwards" ? 0.2539 : 1.0;  // Table I, and ours
     for (const auto& row : entry["parameters"]) {
       if (row["key"] == "target_gain") { EXPECT_EQ(row["default"]["literal"], tau); }
     }
@@ -455,7 +455,7 @@ TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});
-  EXPECT_EQ(complete(" run small.toml --set mission.algorithm="), (Words{"inwards", "outwards"}));
+  EXPECT_EQ(complete(" run small.toml --set mission.algorithm="), (Words{"convoy", "inwards", "outwards"}));
   EXPECT_EQ(complete(" run --set mission.parameters.target_"), Words{"mission.parameters.target_gain="});
   EXPECT_EQ(complete(" run sm"), Words{"small.toml"});
   EXPECT_EQ(complete(" algorithms in"), Words{"inwards"});

@@ -125,7 +125,7 @@ class Tune : public ::testing::Test {
     path_ = std::getenv("PATH");
     ::setenv("PATH", home_.c_str(), 1);
     write("world.toml",
-          "name = \"world\"\n[mission]\ntime_limit_s = 10.0\n[swarm]\nrobots = 5\n[targets]\ncount = 2\nradius_m = "
+          "name = \"world\"\n[mission]\nalgorithm = \"outwards\"\ntime_limit_s = 10.0\n[swarm]\nrobots = 5\n[targets]\ncount = 2\nradius_m = "
           "1.0\n");
   }
   void TearDown() override {
