@@ -90,7 +90,7 @@ void Neighborhood::file(const Heard& heard, int& hint, RobotId self, std::array<
 }
 
 void Neighborhood::write(int k, const Heard& heard) noexcept {
-  messages_[k] = *heard.message;
+  messages_[k] = static_cast<const Standing&>(*heard.message);  // tidings are done with in this tick
   entries_[k] = {heard.position, norm(heard.position), heard.message->id, 0, {}};
 }
 
