@@ -26,7 +26,7 @@ class Convoy final : public Policy {
   [[nodiscard]] Params defaults(Reading) const noexcept override {
     Params p = inwards().defaults(Reading::corrected);
     p.ideal_distance_m = 1.90F;        // G: no edge outgrows it
-    p.safe_range_m = 1.80F;            // a spare follows its reference beyond it
+    p.safe_range_m = 1.80F;            // the root and junctions are towed only beyond it
     p.recruitment_distance_m = 1.65F;  // a longer edge asks for a spare
     p.avoidance_range_m = 0.36F;
     p.target_gain = 1.0F;
@@ -84,13 +84,13 @@ struct Preference {
   Preference(const Robot& robot, int k) noexcept {
     const Params& p = robot.params;
     const float c = p.communication_range_m;
-    float range_m = robot.table().range(k);
-    if (!sees_clearly(robot, k, p.clearance * c)) range_m += 5.0F * c;
     if (saves_robots(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k)) {
       rank = -1;
       key = static_cast<float>(robot.table().message(k).label_cm);
       return;
     }
+    float range_m = robot.table().range(k);
+    if (!sees_clearly(robot, k, p.clearance * c)) range_m += 5.0F * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
     rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;

@@ -7,9 +7,6 @@
 namespace banyan {
 namespace {
 
-// Counts modulo 2^16: how much `a` is ahead of `b`.
-int ahead_by(std::uint16_t a, std::uint16_t b) noexcept { return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)); }
-
 void beat(State& self) noexcept {
   self.heart = self.root;
   ++self.heartbeat;

@@ -13,19 +13,8 @@
 namespace banyan {
 namespace {
 
-Vec2 clamped(Vec2 u, float limit) noexcept {
-  const float n = norm(u);
-  return n > limit ? u * (limit / n) : u;
-}
-
 // The tree neighbour whose distance counts as d^parent: the parent, else the old one; -1 if none.
 int nearest_up(const Robot& robot) noexcept { return robot.parent >= 0 ? robot.parent : robot.old_parent; }
-
-bool is_tree_neighbor(const Robot& robot, int k) noexcept {
-  if (k == robot.parent || k == robot.old_parent) return true;
-  const Standing& m = robot.table().message(k);
-  return m.parent == robot.self.id || m.old_parent == robot.self.id;
-}
 
 template <class Visit>
 void for_each_tree_neighbor(const Robot& robot, Visit visit) noexcept {
@@ -86,7 +75,7 @@ Vec2 avoidance(const Robot& robot) noexcept {
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    if (d >= a || d <= 0.0F || !table.alive(k) || is_tree_neighbor(robot, k)) continue;
+    if (d >= a || d <= 0.0F || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
     u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
   }
   if (!robot.params.corrected()) return u;

@@ -17,13 +17,17 @@ constexpr float merge_period_s = 2.0F;
 constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
 constexpr int wish_limit_ticks = 15;     // longer than pulses of two branches differ
 
-// A robot of the tree that I may hang on: heard this tick or the last, ahead of me, in sight.
-bool is_hold(const Robot& robot, int k, float range_m) noexcept {
+// A robot of the rooted tree that does not name me as parent: heard this tick or the last, in sight.
+bool is_rooted_in_sight(const Robot& robot, int k) noexcept {
   const Neighborhood& table = robot.table();
   const Standing& m = table.message(k);
-  return table.age(k) <= 1 && table.range(k) <= range_m && m.role != Role::spare && m.parent != robot.self.id &&
-         m.old_parent != robot.self.id && m.depth != invalid_depth && is_ahead(robot, k) &&
-         sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+  return table.age(k) <= 1 && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
+         m.depth != invalid_depth && sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+}
+
+// That I may hang on now: ahead of me.
+bool is_hold(const Robot& robot, int k, float range_m) noexcept {
+  return robot.table().range(k) <= range_m && is_ahead(robot, k) && is_rooted_in_sight(robot, k);
 }
 
 // Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
@@ -70,12 +74,9 @@ void leave_worker(Robot& robot) noexcept {
 
 // Who may carry a branch that has arrived: at rest itself, and not about to leave the tree.
 bool is_berth(const Robot& robot, int k) noexcept {
-  const Neighborhood& table = robot.table();
-  const Standing& m = table.message(k);
-  return table.age(k) <= 1 && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
-         m.want_cm == 0 && m.depth != invalid_depth && m.epoch == robot.self.epoch && k != robot.parent &&
-         (m.role != Role::connector || m.child_count > 0) &&
-         sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+  const Standing& m = robot.table().message(k);
+  return k != robot.parent && m.want_cm == 0 && m.epoch == robot.self.epoch &&
+         (m.role != Role::connector || m.child_count > 0) && is_rooted_in_sight(robot, k);
 }
 
 // My parent serves only me: with another one for me it is not needed, nor are those above it that

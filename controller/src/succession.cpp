@@ -10,8 +10,6 @@ namespace {
 constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
 constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
 
-int ahead_by(std::uint16_t a, std::uint16_t b) noexcept { return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b)); }
-
 Task* find_task(State& self, RobotId serves) noexcept {
   for (int k = 0; k < self.task_count; ++k)
     if (self.tasks[k].serves == serves) return &self.tasks[k];

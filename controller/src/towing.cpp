@@ -22,12 +22,6 @@ constexpr float pinned_width_m = 0.10F;
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
-bool is_tree_neighbor(const Robot& robot, int k) noexcept {
-  if (k == robot.parent || k == robot.old_parent) return true;
-  const Standing& m = robot.table().message(k);
-  return m.parent == robot.self.id || m.old_parent == robot.self.id;
-}
-
 // Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
 // junctions stay with the spares as long as they can: there their edges grow and are split.
 Vec2 tow(const Robot& robot) noexcept {
@@ -93,7 +87,7 @@ Vec2 elbow_room(const Robot& robot) noexcept {
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    if (d >= p.avoidance_range_m || d <= 0.0F || !table.alive(k) || is_tree_neighbor(robot, k)) continue;
+    if (d >= p.avoidance_range_m || d <= 0.0F || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
     const float a = table.message(k).role == Role::spare ? p.spare_avoidance * p.communication_range_m : p.avoidance_range_m;
     if (d < a) u += table.position(k) * (-p.avoidance_gain * (a / d - 1.0F) / d);
   }
@@ -120,11 +114,6 @@ Vec2 make_way(const Robot& robot, float width_m) noexcept {
     u += side * std::min(width_m / std::max(d, 1e-3F) - 1.0F, 20.0F);
   }
   return u * p.corridor_gain;
-}
-
-Vec2 clamped(Vec2 u, float limit) noexcept {
-  const float n = norm(u);
-  return n > limit ? u * (limit / n) : u;
 }
 
 // The way along which I can save a robot: towards my parent; the root's is towards the nearest child
@@ -230,7 +219,7 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
   // Where many edges meet, others wait on its far side, and it would only cross their sight.
   const bool roomy = self.landmarks.size > 0 || (k >= 0 && robot.table().message(k).child_count <= 3);
-  if (self.called && roomy && d > 0.0F) 
+  if (self.called && roomy && d > 0.0F)
     return bypass(robot, Vec2{-reference.y, reference.x}) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   return elbow_room(robot) + make_way(robot, p.corridor_width * c);
 }

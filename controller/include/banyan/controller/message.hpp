@@ -34,6 +34,11 @@ constexpr bool newer(RootToken a, RootToken b) noexcept {
   return a.sequence != b.sequence ? a.sequence > b.sequence : a.id > b.id;
 }
 
+// Counts modulo 2^16: how much `a` is ahead of `b`.
+constexpr int ahead_by(std::uint16_t a, std::uint16_t b) noexcept {
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
+}
+
 inline constexpr std::uint16_t unknown_label = 0xFFFF;
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;

@@ -51,6 +51,11 @@ struct Robot {
   [[nodiscard]] int liveness_ticks() const noexcept {
     return std::max(params.ticks(params.liveness_period_s), static_cast<int>(self.liveness_ticks));
   }
+  // Neighbour k is at the other end of an edge of mine, old or new.
+  [[nodiscard]] bool is_tree_neighbor(int k) const noexcept {
+    const Standing& m = table().message(k);
+    return k == parent || k == old_parent || m.parent == self.id || m.old_parent == self.id;
+  }
   [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && table().alive(parent); }
   [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && table().alive(old_parent); }
 };

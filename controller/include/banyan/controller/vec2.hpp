@@ -39,6 +39,13 @@ BasicVec2<T> unit(BasicVec2<T> a) noexcept {
   return n > T(0) ? a / n : BasicVec2<T>{};
 }
 
+// a, shortened to `limit` if it is longer.
+template <class T>
+BasicVec2<T> clamped(BasicVec2<T> a, T limit) noexcept {
+  const T n = norm(a);
+  return n > limit ? a * (limit / n) : a;
+}
+
 // A rotation is a unit vector (cos, sin): composing two is complex multiplication, no trigonometry.
 template <class T> constexpr BasicVec2<T> rotate(BasicVec2<T> rotation, BasicVec2<T> v) noexcept {
   return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};
