@@ -120,8 +120,9 @@ TEST_P(Protocol, GossipOnlyGrows) {
   }, 4);
 }
 
-// During a hand-over the old root still believes in itself until it hears its heir; losses and
-// occlusion make that longer, and a refused token makes a third.
+// During a hand-over the old root still believes in itself until it hears its heir. An heir that falls
+// out of the old root's range in that tick, and passes the token on in the next, makes a third; losses
+// and occlusion make more, and for longer.
 TEST_P(Protocol, ThereIsOneRootExceptDuringAHandOver) {
   const bool calm = GetParam().loss == 0.0 && !GetParam().line_of_sight;
   int several = 0;
@@ -130,7 +131,7 @@ TEST_P(Protocol, ThereIsOneRootExceptDuringAHandOver) {
     const auto states = world.states();
     const auto roots = std::count_if(states.begin(), states.end(), [](const State& s) { return s.role == Role::root; });
     ASSERT_GE(roots, 1);
-    ASSERT_LE(roots, calm ? 2 : 5);
+    ASSERT_LE(roots, calm ? 3 : 5);
     several = roots > 1 ? several + 1 : 0;
     ASSERT_LE(several, calm ? 5 : 25) << "ticks with several roots in a row";
     // Nobody believes in a root that does not exist, and the newest token's owner is root.
