@@ -74,6 +74,8 @@ Message compose(const Robot& robot) noexcept {
   m.inserted_child = self.inserted_child;
   m.call_hops = self.call_hops;
   m.child_count = robot.useful_children;
+  m.above = self.above;
+  m.below = self.below;
   m.want_cm = fixed<std::uint16_t>(self.want_m, 100.0F);
   const int up = self.parent != nobody ? robot.parent : robot.old_parent;
   if (up >= 0) {
@@ -136,7 +138,6 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   take_census(robot);     // Alg. 1 and 2
   select_root(robot);     // Select Root, the root's side
   manage_spares(robot);   // Grow Tree
-  man_posts(robot);       // the mission done, spares stand by
   const Velocity velocity = move(robot);
   return {compose(robot), velocity};
 }

@@ -7,6 +7,7 @@
 
 #include "banyan/controller/bypass.hpp"
 #include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/plan.hpp"
 #include "banyan/controller/policies.hpp"
 #include "banyan/controller/sight.hpp"
 
@@ -49,10 +50,11 @@ class Convoy final : public Policy {
   // Not while the workers get on: the tree mends itself meanwhile, and a new one is not free.
   [[nodiscard]] bool reconstructs(const Robot& robot) const noexcept override {
     constexpr float patience_s = 5.0F;
-    return robot.self.stalled_ticks > robot.params.ticks(patience_s);
+    return robot.self.stalled_ticks > robot.params.ticks(patience_s) && !is_planned(robot.self);
   }
   // Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
   [[nodiscard]] bool may_call(const Robot& robot) const noexcept override {
+    if (is_planned(robot.self)) return false;  // they would come along the chains, and in the way
     const Params& p = robot.params;
     const float from_m = robot.self.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance * p.communication_range_m;
     return robot.parent >= 0 && (robot.self.pinned || robot.table().range(robot.parent) > from_m);
@@ -63,6 +65,7 @@ class Convoy final : public Policy {
     return !saves_robots(robot.params) || robot.self.want_m > 0.0F || robot.table().message(k).role != Role::spare;
   }
   void tend_tree(Robot& robot) const noexcept override {
+    take_part_in_plan(robot);
     take_shortcuts(robot);
     robot.self.pinned = is_pinned(robot);
   }
@@ -110,7 +113,7 @@ bool Convoy::needs_spare(const Robot& robot) const noexcept {
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
   const Standing& parent = robot.table().message(robot.parent);
-  const bool wanted = robot.self.want_m > 0.0F || (parent.role == Role::worker && parent.want_cm > 0);
+  const bool wanted = robot.self.want_m > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want_cm > 0);
   return (d > robot.params.recruitment_distance_m && wanted) ||
          ((hidden || robot.self.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);
 }

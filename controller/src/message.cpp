@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wire format, version 2: the fields in the order of the writer below, little-endian, no padding.
+// Wire format, version 3: the fields in the order of the writer below, little-endian, no padding.
 // Encoder and decoder share one list of fields, so they cannot drift apart.
 #include "banyan/controller/message.hpp"
 
@@ -10,7 +10,7 @@ namespace banyan {
 namespace {
 
 // Bits of the two packed bytes.
-enum : std::uint8_t { flag_flood_done = 1, flag_committed = 2, flag_parent_silent = 4, flag_root_told = 8, flag_pinned = 16, flag_settled = 32 };
+enum : std::uint8_t { flag_flood_done = 1, flag_committed = 2, flag_parent_silent = 4, flag_root_told = 8, flag_pinned = 16 };
 
 std::uint8_t packed_states(const Message& m) noexcept {
   return static_cast<std::uint8_t>(static_cast<int>(m.role) | static_cast<int>(m.phase) << 2 | static_cast<int>(m.need) << 5);
@@ -19,7 +19,7 @@ std::uint8_t packed_states(const Message& m) noexcept {
 std::uint8_t packed_flags(const Message& m) noexcept {
   return static_cast<std::uint8_t>((m.flood_done ? flag_flood_done : 0) | (m.committed ? flag_committed : 0) |
                                    (m.parent_silent ? flag_parent_silent : 0) | (m.root_told ? flag_root_told : 0) |
-                                   (m.pinned ? flag_pinned : 0) | (m.settled ? flag_settled : 0));
+                                   (m.pinned ? flag_pinned : 0));
 }
 
 class Writer {
@@ -78,7 +78,6 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.depth);
   visit(m.tree_hops);
   visit(m.call_hops);
-  visit(m.post_hops);
   visit(m.parent);
   visit(m.old_parent);
   visit(m.flood_parent);
@@ -107,10 +106,13 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.root_y_cm);
   visit(m.task_serves);
   visit(m.task_holder);
+  visit(m.task_host);
   visit(m.task_beat);
   visit(m.task_x_cm);
   visit(m.task_y_cm);
   visit(m.child_count);
+  visit(m.above);
+  visit(m.below);
 }
 
 bool bounded(float q) noexcept { return std::fabs(q) <= q_limit_m; }  // false for NaN too
@@ -134,7 +136,7 @@ std::optional<Message> decode(std::span<const std::uint8_t> bytes) noexcept {
   const int phase = states >> 2 & 7;
   const int need = states >> 5 & 3;
   if (states >> 7 != 0 || phase > static_cast<int>(Phase::select_root) || need > static_cast<int>(Need::await)) return std::nullopt;
-  if (flags >> 6 != 0) return std::nullopt;
+  if (flags >> 5 != 0) return std::nullopt;
   Message m;
   m.role = static_cast<Role>(states & 3);
   m.phase = static_cast<Phase>(phase);
@@ -142,7 +144,6 @@ std::optional<Message> decode(std::span<const std::uint8_t> bytes) noexcept {
   m.flood_done = (flags & flag_flood_done) != 0;
   m.committed = (flags & flag_committed) != 0;
   m.parent_silent = (flags & flag_parent_silent) != 0;
-  m.settled = (flags & flag_settled) != 0;
   m.root_told = (flags & flag_root_told) != 0;
   m.pinned = (flags & flag_pinned) != 0;
   Reader read(bytes.data() + 3);

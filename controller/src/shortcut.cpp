@@ -4,6 +4,7 @@
 
 #include "banyan/controller/convoy.hpp"
 #include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/plan.hpp"
 #include "banyan/controller/sight.hpp"
 
 namespace banyan {
@@ -125,10 +126,30 @@ void follow_wish(Robot& robot) noexcept {
   }
 }
 
+// I lead my branch to another target: the robot of the tree next to it that I can reach.
+void wish_for_next_step(Robot& robot) noexcept {
+  Vec2 goal;
+  if (!find_goal(robot, goal)) return;
+  const Neighborhood& table = robot.table();
+  const float c = robot.params.communication_range_m;
+  int best = -1;
+  float best_m = distance(table.position(robot.parent), goal) - shorter_by * c;
+  for (int k = 0; k < table.size(); ++k) {
+    const float d = distance(table.position(k), goal);
+    if (d >= best_m || table.range(k) > robot.params.merge_distance * c || !is_berth(robot, k)) continue;
+    best = k;
+    best_m = d;
+  }
+  if (best < 0) return;
+  robot.self.wish = table.id(best);
+  robot.self.wish_ticks = 0;
+}
+
 // In turns, so that neighbours see what the others have done.
 void save_robots(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.wish != nobody) return follow_wish(robot);
+  if (is_planned(self)) return wish_for_next_step(robot);  // other changes would undo the plan
   const Params& p = robot.params;
   const int period = std::max(1, p.ticks(merge_period_s));
   const Standing& parent = robot.table().message(robot.parent);
@@ -184,7 +205,7 @@ void take_shortcuts(Robot& robot) noexcept {
   if (self.grant != nobody) return;  // the tree changes here already
   if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);
-  else release(robot);
+  else if (self.errand == nobody) release(robot);
   if (may_save) save_robots(robot);
 }
 

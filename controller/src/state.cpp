@@ -21,6 +21,7 @@ void add(Digest& d, const Task& task) noexcept {
   d.add(task.holder);
   d.add(task.beat);
   d.add(task.age_ticks);
+  d.add(task.host);
   d.add(task.target);
 }
 
@@ -44,7 +45,8 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.reference), static_cast<int>(s.called), static_cast<int>(s.unserved_ticks),
                       static_cast<int>(s.call_hops), static_cast<int>(s.stalled_ticks), static_cast<int>(s.liveness_ticks), static_cast<int>(s.heartbeat), static_cast<int>(s.silence_ticks),
                       static_cast<int>(s.heart.sequence), static_cast<int>(s.heart.id), static_cast<int>(s.root_known),
-                      static_cast<int>(s.turn), static_cast<int>(s.settled), static_cast<int>(s.post_hops), static_cast<int>(s.task_count)})
+                      static_cast<int>(s.turn), static_cast<int>(s.above), static_cast<int>(s.below), static_cast<int>(s.errand), static_cast<int>(s.led_from), static_cast<int>(s.errand_ticks),
+                      static_cast<int>(s.settled_ticks), static_cast<int>(s.unsettled_ticks), static_cast<int>(s.plan_ticks), static_cast<int>(s.task_count)})
     d.add(v);
   d.add(s.q);
   d.add(s.want_m);

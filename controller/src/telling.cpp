@@ -36,8 +36,6 @@ void tell(const Robot& robot, Message& m) noexcept {
   const State& self = robot.self;
   if (!robot.params.heals()) return;
   m.heartbeat = self.heart == self.root ? self.heartbeat : std::uint16_t{0};
-  m.settled = self.settled;
-  m.post_hops = self.post_hops;
   // Every pair of a neighbour and a target has its turn; not all robots speak of the same at once.
   const int turn = self.turn + self.id;
   const int tasks = std::max<int>(self.task_count, 1);
@@ -45,6 +43,7 @@ void tell(const Robot& robot, Message& m) noexcept {
   if (task != nullptr) {
     m.task_serves = task->serves;
     m.task_holder = task->holder;
+    m.task_host = task->host;
     m.task_beat = task->beat;
   }
   const int k = next_heard(robot.table(), turn / tasks);

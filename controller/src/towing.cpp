@@ -6,6 +6,7 @@
 #include "banyan/controller/convoy.hpp"
 #include "banyan/controller/motion.hpp"
 #include "banyan/controller/parent_selection.hpp"
+#include "banyan/controller/plan.hpp"
 #include "banyan/controller/sight.hpp"
 #include "banyan/controller/spare_management.hpp"
 
@@ -190,7 +191,7 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   constexpr float leeway = 0.7F;
   const float give = leeway * std::max(0.0F, 1.0F - norm(robot.self.pull));
   if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + elbow_room(robot);
-  const Vec2 along = has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
+  const Vec2 along = robot.self.errand != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
   return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
 

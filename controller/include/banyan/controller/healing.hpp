@@ -34,12 +34,6 @@ void mind_tasks(Robot& robot) noexcept;
 // Towards where the root was, in units of speed_gain.
 [[nodiscard]] Vec2 retreat_motion(const Robot& robot) noexcept;
 
-// ---- pickets.cpp: spares stand ready along the tree ----
-
-// Once all workers have arrived, spares that nobody needs where they are go to robots of the tree that
-// have none beside them, so that whoever dies is replaced at once.
-void man_posts(Robot& robot) noexcept;
-
 // ---- What of it is broadcast ----
 
 // The counts, and in turn what one neighbour is to know of root and targets.

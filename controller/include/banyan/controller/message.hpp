@@ -53,7 +53,6 @@ struct Standing {
   bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
   bool committed = false;       // I am in this epoch's tree
   bool parent_silent = false;   // my parent has not been heard for longer than I
-  bool settled = false;         // all workers below the root have arrived, as it comes down the tree
   bool pinned = false;          // a corner is about to cut the edge to my parent, and I have to go on
   std::uint16_t epoch = 0;
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
@@ -61,7 +60,6 @@ struct Standing {
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
   std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need nobody has answered
-  std::uint8_t post_hops = nobody_calls;   // hops to a robot of the settled tree that has no spare by it
   RobotId parent = nobody;
   RobotId old_parent = nobody;
   RobotId flood_parent = nobody;
@@ -81,6 +79,8 @@ struct Standing {
   std::int16_t hinge_y_cm = 0;
   RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
   std::uint8_t child_count = 0;       // living children that are no spares
+  RobotId above = nobody;             // the next worker above me in the tree, by its target (plan.cpp)
+  RobotId below = nobody;             // the only worker below me, by its target; nobody: there are branches
 
   friend bool operator==(const Standing&, const Standing&) = default;
 };
@@ -100,6 +100,7 @@ struct Tidings {
   std::int16_t root_y_cm = 0;
   RobotId task_serves = nobody;       // a target, by its first worker; nobody: I know none
   RobotId task_holder = nobody;       // gossip: who serves it; nobody: it has been given up
+  RobotId task_host = nobody;         // the root's plan: at which target its branch is to begin; nobody: none
   std::uint16_t task_beat = 0;        // gossip: the holder's count of ticks, compared modulo 2^16
   std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `told`
   std::int16_t task_y_cm = 0;
@@ -120,8 +121,8 @@ inline constexpr float q_limit_m = 1.0e9F;
 // while there is none, the old parent.
 constexpr RobotId up_of(const Standing& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 87;  // bytes, little-endian, no padding
-inline constexpr std::uint8_t wire_version = 2;
+inline constexpr std::size_t wire_size = 92;  // bytes, little-endian, no padding
+inline constexpr std::uint8_t wire_version = 3;
 using Wire = std::array<std::uint8_t, wire_size>;
 
 [[nodiscard]] Wire encode(const Message& message) noexcept;

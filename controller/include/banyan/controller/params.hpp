@@ -34,6 +34,7 @@ struct ConvoyParams {
   float spare_avoidance = 0.14F;    // repulsion from spares begins here
   float merge_distance = 0.93F;     // longest edge made to save a robot, once all below have arrived
   float compact_distance = 0.91F;   // a chain that has arrived stretches its edges to this
+  float plan_after_s = 15.0F;       // all have arrived: the root plans chains from target to target; 0: never
 };
 
 // Healing after deaths (healing.hpp), in the corrected reading only. Lengths are in units of C.
@@ -45,7 +46,6 @@ struct HealingParams {
   float retreat_after_s = 2.5F;     // without heartbeat: all drive to where the root was
   float succession_after_s = 3.0F;  // without a sign of a target's worker, beyond 2 I
   float succession_spread_s_m = 0.5F;  // and so much longer per metre from the target
-  float picket_range = 0.0F;        // all arrived, a spare this near stands ready beside every robot of the tree; 0: none
   float largest_loss = 0.9F;        // liveness adapts to the share of packets lost, up to this
 };
 

@@ -29,6 +29,7 @@ struct Task {
   RobotId holder = nobody;       // who serves it; nobody: it has been given up
   std::uint16_t beat = 0;        // the holder's count of ticks, the newest heard of
   std::uint16_t age_ticks = 0;   // since it grew
+  RobotId host = nobody;         // the root's plan: the branch of this target is to begin at that one (plan.cpp)
   Vec2 target;                   // m, own frame
 };
 
@@ -114,6 +115,16 @@ struct State {
   RobotId reference = nobody;            // the robot a spare stays with, or follows to a need
   bool called = false;                   // by an edge out of sight
 
+  // Chains from target to target (plan.cpp)
+  RobotId above = nobody;                // the next worker above me in the tree, by its target
+  RobotId below = nobody;                // the only worker below me, by its target
+  RobotId errand = nobody;               // I lead my branch to that target
+  RobotId led_from = nobody;             // the parent it had then
+  std::uint16_t errand_ticks = 0;        // since its parent changed
+  std::uint16_t settled_ticks = 0;       // the root: all workers have arrived
+  std::uint16_t unsettled_ticks = 0;     // or have not any more
+  std::uint16_t plan_ticks = 0;          // of the plan that is being carried out
+
   // Healing (healing.hpp)
   float expected_packets = 0.0F;         // of the last ticks, fading: to be heard
   float missed_packets = 0.0F;           // and of these, not heard
@@ -123,8 +134,6 @@ struct State {
   RootToken heart;                       // the root whose heartbeat it is
   Vec2 root_at;                          // m, own frame: where that root is or was
   bool root_known = false;
-  bool settled = false;                  // the root says that all workers have arrived
-  std::uint8_t post_hops = nobody_calls;
   std::uint16_t turn = 0;                // whom I tell next
   std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
