@@ -10,8 +10,8 @@
 namespace banyan {
 namespace {
 
-constexpr float plan_limit_s = 35.0F;     // what has not been built by then is given up
-constexpr float plan_period_s = 50.0F;
+constexpr float plan_limit_s = 30.0F;     // what has not been built by then is given up
+constexpr float plan_period_s = 40.0F;
 constexpr float held_back_after_s = 6.0F;
 constexpr float unsettled_after_s = 3.0F;
 
@@ -38,12 +38,13 @@ void withdraw(State& self) noexcept {
 
 // Prim (1957): the shortest tree through the targets, from the one nearest to me. Writes the plan and
 // returns how many robots it takes, with edges as long as compaction makes them.
-int plan_tree(Robot& robot) noexcept {
+int plan_tree(Robot& robot, int levels) noexcept {
   State& self = robot.self;
   const float edge_m = robot.params.compact_distance * robot.params.communication_range_m;
   std::array<float, task_capacity> gap_m{};  // to the tree so far
   std::array<int, task_capacity> nearest{};  // in it; -1: me
   std::array<bool, task_capacity> done{};
+  std::array<int, task_capacity> level{};    // of the tree
   for (int k = 0; k < self.task_count; ++k) {
     done[k] = self.tasks[k].holder == nobody;
     gap_m[k] = norm(self.tasks[k].target);
@@ -58,7 +59,8 @@ int plan_tree(Robot& robot) noexcept {
     done[next] = true;
     const bool first = robots == 0;
     Task& task = self.tasks[next];
-    task.host = first ? nobody : self.tasks[nearest[next]].serves;
+    level[next] = first ? 0 : level[nearest[next]] + 1;
+    task.host = first || level[next] > levels ? nobody : self.tasks[nearest[next]].serves;
     robots += first ? 1 : static_cast<int>(gap_m[next] / edge_m) + 1;
     for (int k = 0; k < self.task_count; ++k) {
       const float d = distance(self.tasks[k].target, task.target);
@@ -82,7 +84,7 @@ void command(Robot& robot) noexcept {
   }
   if (self.settled_ticks < UINT16_MAX) ++self.settled_ticks;
   if (self.plan_ticks > p.ticks(plan_limit_s)) return withdraw(self);
-  if (p.plan_after_s > 0.0F && self.settled_ticks % p.ticks(plan_period_s) == p.ticks(p.plan_after_s) && plan_tree(robot) >= self.subtree) withdraw(self);
+  if (p.plan_after_s > 0.0F && self.settled_ticks % p.ticks(plan_period_s) == p.ticks(p.plan_after_s) && plan_tree(robot, 1 + self.settled_ticks / p.ticks(plan_period_s)) >= self.subtree) withdraw(self);
 }
 
 // ---- Everybody ----

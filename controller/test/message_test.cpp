@@ -112,7 +112,7 @@ TEST(Message, BadEnumeratorsAndReservedBitsAreRefused) {
   for (int flags = 0; flags < 256; ++flags) {
     Wire wire = good;
     wire[2] = static_cast<std::uint8_t>(flags);
-    EXPECT_EQ(decode(wire).has_value(), flags < 64) << flags;
+    EXPECT_EQ(decode(wire).has_value(), flags < 32) << flags;
   }
 }
 

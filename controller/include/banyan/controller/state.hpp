@@ -29,8 +29,8 @@ struct Task {
   RobotId holder = nobody;       // who serves it; nobody: it has been given up
   std::uint16_t beat = 0;        // the holder's count of ticks, the newest heard of
   std::uint16_t age_ticks = 0;   // since it grew
-  RobotId host = nobody;         // the root's plan: the branch of this target is to begin at that one (plan.cpp)
   Vec2 target;                   // m, own frame
+  RobotId host = nobody;         // the root's plan: the branch of this target is to begin at that one (plan.cpp)
 };
 
 // A way round an obstacle (bypass.hpp); vectors in the own frame, m.
