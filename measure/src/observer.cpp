@@ -156,6 +156,7 @@ Observer::Impl::Impl(const world::World& world)
     run.time_bound_s = std::max(run.time_bound_s, (distance_m - tolerance_m) / world.scenario().robot.wheel_limit_m_s);
   }
   run.steiner_length_m = steiner_length(first_targets).lower_m;
+  run.star_length_m = star_length(first_targets);
   run.robots_bound = robots_bound(first_targets, tolerance_m, range_m);
 }
 

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace banyan::measure {
@@ -353,6 +354,34 @@ SteinerLength steiner_length(const std::vector<Vec2>& terminals) {
   }
   best.exact = best.lower_m >= best.upper_m * (1.0 - 1e-6);
   return best;
+}
+
+double star_length(const std::vector<Vec2>& terminals) {
+  if (terminals.size() < 2) return 0.0;
+  const auto length_from = [&](Vec2 hub) {
+    return std::accumulate(terminals.begin(), terminals.end(), 0.0, [&](double sum, Vec2 t) { return sum + distance(t, hub); });
+  };
+  Vec2 hub;
+  for (const Vec2 t : terminals) hub += t / static_cast<double>(terminals.size());
+  // It creeps where the median is a terminal: those are tried themselves.
+  double best = length_from(hub);
+  for (const Vec2 t : terminals) best = std::min(best, length_from(t));
+  constexpr int rounds = 2000;
+  const double still_m = 1e-9 * best;
+  for (int round = 0; round < rounds; ++round) {
+    Vec2 sum;
+    double weight = 0.0;
+    for (const Vec2 t : terminals) {
+      const double d = std::max(distance(t, hub), 1e-12 * best);
+      sum += t / d;
+      weight += 1.0 / d;
+    }
+    const Vec2 next = sum / weight;
+    const double moved_m = distance(next, hub);
+    hub = next;
+    if (!(moved_m > still_m)) break;
+  }
+  return std::min(best, length_from(hub));
 }
 
 std::uint32_t robots_bound(const std::vector<Vec2>& targets, double tolerance_m, double range_m) {

@@ -272,6 +272,29 @@ TEST(Steiner, ManyTerminalsAreBounded) {
   EXPECT_GT(twenty.lower_m, 0.87 * truth) << "twelve of them tell more than the ratio";
 }
 
+// Closed forms, and a grid search as the judge.
+TEST(Star, RunsFromTheGeometricMedian) {
+  EXPECT_EQ(star_length({}), 0.0);
+  EXPECT_EQ(star_length({{1, 2}}), 0.0);
+  EXPECT_NEAR(star_length({{0, 0}, {3, 4}}), 5.0, 1e-6);
+  EXPECT_NEAR(star_length(ring(6, 2.0)), 12.0, 1e-6);
+  EXPECT_NEAR(star_length({{0, 0}, {10, 0}, {1, 0.1}}), 10.0 + 0.1, 0.1) << "an angle beyond 120 degrees: the hub is that terminal";
+  EXPECT_NEAR(star_length({{-1, 0}, {1, 0}, {0, -1}, {0, 1}}), 4.0, 1e-6);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::vector<Vec2> points = random_points(seed, 7);
+    const double length = star_length(points);
+    double least = 1e9;
+    for (double x = -1.0; x <= 2.0; x += 0.01)
+      for (double y = -1.0; y <= 2.0; y += 0.01) {
+        double sum = 0.0;
+        for (const Vec2 p : points) sum += distance(p, Vec2{x, y});
+        least = std::min(least, sum);
+      }
+    EXPECT_LE(length, least + 1e-9) << seed;
+    EXPECT_GE(length, steiner_length(points).upper_m - 1e-9) << seed;
+  }
+}
+
 TEST(RobotsBound, FollowsTheFormula) {
   EXPECT_EQ(robots_bound({{0, 0}}, 0.2, 2.0), 1U);
   EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.2, 2.0), 10U);  // ceil(17.6 / 2) + 1

@@ -68,6 +68,8 @@ constexpr std::array<Column<Row>, 60> run_table{{
      [](const Row& r) { return natural(r.run.robots_bound); }},
     {"steiner_length_m", "length of a shortest network of the targets, certified from below", 4,
      [](const Row& r) -> Cell { return r.run.steiner_length_m; }},
+    {"star_length_m", "length of the shortest star of the targets, from their geometric median", 4,
+     [](const Row& r) -> Cell { return r.run.star_length_m; }},
     {"committed", "robots in the tree at the end", 0, [](const Row& r) { return natural(r.run.committed); }},
     {"mean_committed", "mean over ticks", 4, [](const Row& r) -> Cell { return r.run.mean_committed; }},
     {"committed_ratio", "committed / robots_bound", 6, [](const Row& r) -> Cell { return r.run.committed_ratio; }},

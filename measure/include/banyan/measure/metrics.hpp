@@ -45,6 +45,7 @@ struct Run {
   std::uint32_t robots = 0;
   std::uint32_t robots_bound = 0;          // lower bound of the committed robots
   double steiner_length_m = 0.0;           // length the bound is computed from
+  double star_length_m = 0.0;              // of the shortest star of the targets, for comparison
   std::uint32_t committed = 0;             // at the end
   double mean_committed = 0.0;
   double committed_ratio = 0.0;            // committed / robots_bound

@@ -22,6 +22,10 @@ struct SteinerLength {
 // minimum spanning tree (Chung & Graham 1985) and what is known of 12, 10 or 8 terminals far apart.
 [[nodiscard]] SteinerLength steiner_length(const std::vector<world::Vec2>& terminals);
 
+// Length of the shortest star, from the targets' geometric median (Weiszfeld 1937, stopped when it moves
+// by less than 1e-9 of the extent), within 1e-6 relative. 0 for less than two targets.
+[[nodiscard]] double star_length(const std::vector<world::Vec2>& terminals);
+
 // ceil((Steiner - T tolerance) / C) + 1 with the certified lower length (protocol 11).
 [[nodiscard]] std::uint32_t robots_bound(const std::vector<world::Vec2>& targets, double tolerance_m, double range_m);
 
