@@ -29,6 +29,11 @@ void mind_tasks(Robot& robot) noexcept;
 
 // ---- retreat.cpp: back to where the others must be ----
 
+// A worker whose edge has waited in vain for a spare: the branch that it hangs on does not reach. It
+// drives home, hangs itself on whoever is nearest to the root, and sets out anew from there.
+[[nodiscard]] bool is_regrouping(const Robot& robot) noexcept;
+// The ticks that its edge has waited, or would have while it is on its way.
+void count_waiting(Robot& robot, bool unserved) noexcept;
 // No root has been heard of for long.
 [[nodiscard]] bool is_retreating(const Robot& robot) noexcept;
 // Towards where the root was, in units of speed_gain.
