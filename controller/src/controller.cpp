@@ -64,6 +64,7 @@ Message compose(const Robot& robot) noexcept {
   m.parent_silent = self.parent != nobody && !robot.parent_alive();
   m.epoch = self.epoch;
   m.root = self.root;
+  m.root_size = self.root_size;
   m.label_cm = self.label_cm;
   m.pulse = self.pulse;
   m.depth = self.depth;

@@ -30,7 +30,7 @@ std::uint64_t hash(const State& s) noexcept {
   Digest d;
   for (const int v : {static_cast<int>(s.id), static_cast<int>(s.is_worker), static_cast<int>(s.serves), static_cast<int>(s.role), static_cast<int>(s.epoch),
                       static_cast<int>(s.phase), static_cast<int>(s.phase_ticks), static_cast<int>(s.root.sequence),
-                      static_cast<int>(s.root.id), static_cast<int>(s.done_ticks), static_cast<int>(s.label_cm),
+                      static_cast<int>(s.root.id), static_cast<int>(s.root_size), static_cast<int>(s.done_ticks), static_cast<int>(s.label_cm),
                       static_cast<int>(s.label_wait_ticks), static_cast<int>(s.flood_parent), static_cast<int>(s.flood_done),
                       static_cast<int>(s.flood_robots), static_cast<int>(s.flood_workers), static_cast<int>(s.parent),
                       static_cast<int>(s.old_parent), static_cast<int>(s.committed),

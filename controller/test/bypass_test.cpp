@@ -76,7 +76,7 @@ TEST(Bypass, LeadsStraightWhereNothingIsInTheWay) {
 TEST(Bypass, TakesTheSideThatIsNearerToTheGoal) {
   for (const float y : {1.0F, -1.0F}) {
     Bench bench = grown(convoy());
-    bench.obstacles = {{0.13F, 0.0F}};
+    bench.obstacles = {{0.11F, 0.0F}};
     const Robot robot = bench.tick();
     const Vec2 u = bypass(robot, {2.0F, y});
     EXPECT_GT(u.y * y, 0.9F);
@@ -135,7 +135,7 @@ TEST(Bypass, DoesNotBreakThroughToAGoalThatIsWalledIn) {
 
 TEST(KeepOff, SlidesAlongAndDoesNotPush) {
   Bench bench = grown(convoy());
-  bench.obstacles = {{body_m + 0.03F, 0.0F}};
+  bench.obstacles = {{body_m + 0.02F, 0.0F}};
   const Robot robot = bench.tick();
   Guard guard;
   keep_off(robot, guard);

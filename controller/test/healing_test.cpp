@@ -351,5 +351,97 @@ TEST(Retreat, TheSilentHoldNobodyBack) {
   EXPECT_GT(move(robot).forward_m_s, 0.15F);
 }
 
+// ---- Two fragments, each with a root, meet ----
+
+struct Swarm {
+  Params params = convoy().defaults(Reading::corrected);
+  std::vector<State> states;
+  std::vector<Vec2> places;
+  std::vector<Message> said;
+  void add(RobotId id, Vec2 place, RootToken root) {
+    states.push_back(initial_state(id, false, root.id == id));
+    if (root.id == id) states.back().root = root;
+    places.push_back(place);
+    said.emplace_back();
+  }
+  void steps(int ticks) {
+    for (int tick = 0; tick < ticks; ++tick) {
+      std::vector<Message> next = said;
+      for (std::size_t k = 0; k < states.size(); ++k) {
+        std::vector<Heard> heard;
+        for (std::size_t j = 0; j < states.size(); ++j)
+          if (j != k && said[j].id != nobody && distance(places[j], places[k]) < params.communication_range_m) heard.push_back({&said[j], places[j] - places[k]});
+        next[k] = step(params, convoy(), states[k], heard, {}, nullptr).message;
+      }
+      said = next;
+    }
+  }
+  [[nodiscard]] std::vector<RobotId> roots() const {
+    std::vector<RobotId> list;
+    for (const State& s : states)
+      if (s.root.id == s.id) list.push_back(s.id);
+    return list;
+  }
+};
+
+RC_GTEST_PROP(Fragments, OfTwoRootsThatMeetTheOneOfTheLargerFragmentStays, ()) {
+  const int left = *rc::gen::inRange(2, 12);
+  const int right = left + *rc::gen::inRange(1, 10);
+  const bool swap = *rc::gen::arbitrary<bool>();
+  const auto sequence = [] { return *rc::gen::inRange<std::uint16_t>(1, 9); };
+  Swarm swarm;
+  const int counts[] = {swap ? right : left, swap ? left : right};
+  RobotId id = 1;
+  RobotId larger = nobody;
+  for (int side = 0; side < 2; ++side) {
+    const auto root = static_cast<RobotId>(id + *rc::gen::inRange(0, counts[side]));
+    const RootToken token{sequence(), root};
+    if (counts[side] == right) larger = root;
+    for (int k = 0; k < counts[side]; ++k) {
+      const float away = 1.5F + 0.8F * static_cast<float>(k);
+      swarm.add(id++, {side == 0 ? -away : away, 0.1F * static_cast<float>(k % 3)}, token);
+    }
+  }
+  swarm.steps(120);
+  RC_ASSERT(swarm.roots().size() == 2U);
+  for (Vec2& place : swarm.places) place.x += place.x < 0.0F ? 1.0F : -1.0F;
+  swarm.steps(50);
+  for (int k = 0; k < 100; ++k) {
+    swarm.steps(1);
+    RC_ASSERT(swarm.roots() == std::vector<RobotId>{larger});
+  }
+}
+
+// ---- A branch that does not reach ----
+
+TEST(Regroup, AWorkerWhoseEdgeWaitsInVainDrivesHomeAndTakesAnInnerHold) {
+  Watch watch({-1.5F, 0.0F});
+  Bench& bench = watch.bench;
+  const Vec2 target{1.0F, 0.0F};
+  bench.state.is_worker = true;
+  bench.state.serves = bench.state.id;
+  bench.state.parent = 5;
+  bench.state.label_cm = 400;
+  bench.target = &target;
+  Message& m = bench.put(5, {-1.85F, 0.0F});
+  m.role = Role::connector;
+  m.parent = root_id;
+  m.depth = 2;
+  m.tree_hops = 0;
+  m.label_cm = 100;
+  m.committed = true;
+  m.child_count = 2;
+  bench.move(root_id, {-1.89F, 0.6F});
+  watch.hear_root(150);
+  EXPECT_FALSE(is_regrouping(bench.tick()));
+  EXPECT_EQ(bench.state.parent, 5);
+  watch.hear_root(150);
+  EXPECT_TRUE(is_regrouping(bench.tick()));
+  bench.move(root_id, {-1.7F, 0.6F});
+  watch.hear_root(2);
+  EXPECT_EQ(bench.state.parent, root_id);
+  EXPECT_FALSE(is_regrouping(bench.tick())) << "it sets out anew";
+}
+
 }  // namespace
 }  // namespace banyan

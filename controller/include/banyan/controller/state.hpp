@@ -60,6 +60,7 @@ struct State {
   Phase phase = Phase::init;
   std::uint16_t phase_ticks = 0;      // since this robot entered the phase
   RootToken root;
+  std::uint16_t root_size = 0;        // robots that this root counted last; 0: none yet
   std::uint16_t done_ticks = 0;       // the root's barrier has held for so long
 
   // Label: distance to the root and the echo (label.hpp)
