@@ -330,7 +330,7 @@ Vec2 clear_sight(const Robot& robot) noexcept {
 }
 
 bool is_pinned(const Robot& robot) noexcept {
-  if (!robot.params.line_of_sight || robot.self.want_m <= 0.0F) return false;
+  if (robot.self.want_m <= 0.0F) return false;
   if (robot.is_root()) {
     const int k = last_in_sight(robot);
     return k >= 0 && robot.table().range(k) > pin_shortest_m;
