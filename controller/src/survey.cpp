@@ -36,8 +36,10 @@ void update_role(Robot& robot) noexcept {
   State& self = robot.self;
   if (robot.is_root()) {
     self.role = Role::root;
+    self.childless_ticks = 0;
   } else if (self.is_worker) {
     self.role = Role::worker;
+    self.childless_ticks = 0;
   } else if (robot.useful_child || self.inserted_child != nobody) {
     self.role = Role::connector;
     self.childless_ticks = 0;
