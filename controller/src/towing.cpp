@@ -155,7 +155,7 @@ Vec2 compaction(const Robot& robot) noexcept {
 bool lost_sight(const Robot& robot, int up) noexcept {
   constexpr int silent_ticks = 2;
   const Neighborhood& table = robot.table();
-  if (robot.self.landmarks.size == 0) return false;
+  if (!robot.params.line_of_sight || robot.self.landmarks.size == 0) return false;
   if (up >= 0 && table.alive(up) && table.age(up) >= silent_ticks) return true;
   if (robot.self.childless_ticks > 0) return true;
   return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
