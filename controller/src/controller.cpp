@@ -32,6 +32,7 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept {
 void carry_memory(State& self, const Carry& carry) noexcept {
   if (self.centroid_known) self.centroid = carry.point(self.centroid);
   self.root_at = carry.point(self.root_at);
+  self.stub = carry.point(self.stub);
   for (int k = 0; k < self.task_count; ++k) self.tasks[k].target = carry.point(self.tasks[k].target);
   ++self.turn;
   if (self.detour.side != 0) carry_detour(self.detour, carry);
@@ -136,6 +137,7 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   mind_tasks(robot);        // does every target have its worker?
   survey(robot);          // who are my parent and children
   remember_obstacles(robot);
+  mind_stub(robot);       // has the last below me died?
   update_role(robot);
   advance(robot);         // the root's barriers
   update_label(robot);    // Start Tree

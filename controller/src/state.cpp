@@ -44,7 +44,7 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.reference), static_cast<int>(s.called), static_cast<int>(s.unserved_ticks),
                       static_cast<int>(s.call_hops), static_cast<int>(s.stalled_ticks), static_cast<int>(s.liveness_ticks), static_cast<int>(s.heartbeat), static_cast<int>(s.silence_ticks),
                       static_cast<int>(s.heart.sequence), static_cast<int>(s.heart.id), static_cast<int>(s.root_known),
-                      static_cast<int>(s.turn), static_cast<int>(s.settled), static_cast<int>(s.post_hops), static_cast<int>(s.task_count)})
+                      static_cast<int>(s.turn), static_cast<int>(s.settled), static_cast<int>(s.stub_ticks), static_cast<int>(s.post_hops), static_cast<int>(s.task_count)})
     d.add(v);
   d.add(s.q);
   d.add(s.want_m);
@@ -54,6 +54,7 @@ std::uint64_t hash(const State& s) noexcept {
   d.add(s.expected_packets);
   d.add(s.missed_packets);
   d.add(s.root_at);
+  d.add(s.stub);
   for (int k = 0; k < s.task_count; ++k) add(d, s.tasks[k]);
   d.add(static_cast<int>(s.detour.side));
   d.add(s.detour.contact);

@@ -4,6 +4,7 @@
 
 #include "banyan/controller/bypass.hpp"
 #include "banyan/controller/convoy.hpp"
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/motion.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/sight.hpp"
@@ -198,6 +199,7 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   constexpr float fading = 0.1F;
   const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
   if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + elbow_room(robot);
+  if (is_stub(robot)) return bypass(robot, robot.self.stub) + elbow_room(robot);
   const Vec2 along = has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
   return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }

@@ -27,6 +27,13 @@ void claim_root(Robot& robot) noexcept;
 // takes over one whose worker has fallen silent.
 void mind_tasks(Robot& robot) noexcept;
 
+// ---- stub.cpp: the end of a torn branch ----
+
+// Notes that the only robot that hung on this connector has fallen silent for good. It stays in the
+// tree and goes where that one was, as a worker would, to meet whoever hung on it.
+void mind_stub(Robot& robot) noexcept;
+[[nodiscard]] bool is_stub(const Robot& robot) noexcept;
+
 // ---- retreat.cpp: back to where the others must be ----
 
 // A worker whose edge has waited in vain for a spare: the branch that it hangs on does not reach. It

@@ -127,6 +127,8 @@ struct State {
   bool settled = false;                  // the root says that all workers have arrived
   std::uint8_t post_hops = nobody_calls;
   std::uint16_t turn = 0;                // whom I tell next
+  std::uint16_t stub_ticks = 0;          // the last robot below me has died: so long I still go after it
+  Vec2 stub;                             // m, own frame: where it was
   std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   // Obstacles (bypass.hpp)
