@@ -127,7 +127,8 @@ void take_over(Robot& robot, Task& task) noexcept {
 void succeed(Robot& robot) noexcept {
   State& self = robot.self;
   const Params& p = robot.params;
-  if (self.role != Role::spare || self.is_worker || robot.is_root() || self.silence_ticks > 2 * robot.liveness_ticks()) return;
+  const bool free = self.role == Role::spare || is_stub(robot);
+  if (!free || self.is_worker || robot.is_root() || self.silence_ticks > 2 * robot.liveness_ticks()) return;
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
     if (task.holder == nobody) continue;
