@@ -133,6 +133,31 @@ TEST(Bypass, DoesNotBreakThroughToAGoalThatIsWalledIn) {
 
 // ---- Guards ----
 
+TEST(Bypass, WhatIsAskedOfADetourShrinksWithTheWayDriven) {
+  Bench bench = grown(convoy());
+  bench.obstacles = {{0.2F, 0.0F}};
+  bench.state.detour.side = 1;
+  bench.state.detour.leave_m = 1.0F;
+  for (int tick = 0; tick < 10; ++tick) bench.step({.forward_m = 0.02F});
+  EXPECT_NEAR(bench.state.detour.leave_m, 1.05F, 1e-4F);
+}
+
+TEST(KeepSight, OnlyWhereTheRadioNeedsIt) {
+  for (const bool needed : {true, false}) {
+    Bench bench = grown(convoy());
+    bench.params.line_of_sight = needed;
+    bench.obstacles = {{0.2F, 0.08F}};
+    bench.put(9, {1.0F, 0.0F}).role = Role::root;
+    bench.state.parent = 9;
+    Robot robot = bench.tick();
+    remember_obstacles(robot);
+    Guard guard;
+    keep_sight(robot, guard);
+    EXPECT_EQ(guard.size > 0, needed);
+    EXPECT_EQ(clear_sight(robot) != Vec2{}, needed);
+  }
+}
+
 TEST(KeepOff, SlidesAlongAndDoesNotPush) {
   Bench bench = grown(convoy());
   bench.obstacles = {{body_m + 0.02F, 0.0F}};

@@ -252,6 +252,21 @@ TEST(Succession, ASpareTakesOverTheTargetOfAWorkerThatFellSilent) {
   EXPECT_GT(state.want_m, 1.5F);  // it knows where to go without being told from outside
 }
 
+TEST(Succession, OfASilentWorkersTargetTheMeanIsRemembered) {
+  Watch watch;
+  watch.hear_root(2);
+  const float patience_s = watch.bench.params.succession_after_s;
+  watch.bench.params.succession_after_s = 1000.0F;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, 50, 10);
+  watch.hear_root(2);
+  EXPECT_NEAR(watch.bench.state.tasks[0].target.x, 2.0F, 0.01F) << "the worker alive, as it is told";
+  watch.hear_root(watch.bench.params.ticks(patience_s) + 40);
+  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, 50, 10);
+  watch.hear_root(1);
+  EXPECT_GT(watch.bench.state.tasks[0].target.x, 2.05F);
+  EXPECT_LT(watch.bench.state.tasks[0].target.x, 2.5F);
+}
+
 TEST(Succession, WhoBeatsIsNotReplaced) {
   Watch watch;
   watch.hear_root(2);
@@ -349,6 +364,54 @@ TEST(Retreat, TheSilentHoldNobodyBack) {
   state.parent = root_id;
   Robot robot = watch.bench.tick();
   EXPECT_GT(move(robot).forward_m_s, 0.15F);
+}
+
+// ---- The end of a torn branch ----
+
+// A connector between the root and the only robot that hangs on it.
+struct Branch : Watch {
+  Branch() : Watch({-1.5F, 0.0F}) {
+    State& state = bench.state;
+    state.role = Role::connector;
+    state.parent = root_id;
+    state.label_cm = 150;
+    Message& below = bench.put(3, {1.6F, 0.0F});
+    below.role = Role::connector;
+    below.parent = state.id;
+    below.label_cm = 300;
+    below.committed = true;
+    hear_root(3);
+  }
+};
+
+TEST(Stub, WhoLosesTheOnlyRobotBelowGoesWhereItWas) {
+  Branch branch;
+  Bench& bench = branch.bench;
+  bench.silence(3);
+  branch.hear_root(2 * bench.params.ticks(bench.params.liveness_period_s));
+  EXPECT_EQ(bench.state.role, Role::connector);
+  EXPECT_EQ(bench.state.parent, root_id);
+  EXPECT_NEAR(bench.state.want_m, 1.6F, 0.05F) << "its chain comes along";
+  EXPECT_GT(bench.step().velocity.forward_m_s, 0.0F);
+  branch.hear_root(bench.params.ticks(20.0F));
+  EXPECT_EQ(bench.state.role, Role::spare) << "nobody came";
+}
+
+TEST(Stub, NotForOneThatLeftOrWhileAnotherHangsOnIt) {
+  Branch left;
+  left.bench.say(3).parent = root_id;
+  left.hear_root(1);
+  left.bench.silence(3);
+  left.hear_root(30);
+  EXPECT_EQ(left.bench.state.role, Role::spare);
+  Branch other;
+  Message& m = other.bench.put(4, {0.0F, 1.0F});
+  m = other.bench.say(3);
+  m.id = 4;
+  other.hear_root(2);
+  other.bench.silence(3);
+  other.hear_root(30);
+  EXPECT_EQ(other.bench.state.stub_ticks, 0);
 }
 
 // ---- Two fragments, each with a root, meet ----
