@@ -31,10 +31,11 @@ int way_home(const Robot& robot) noexcept {
 
 }  // namespace
 
+// Only where the tree is mended between reconstructions does it find another hold (shortcut.cpp).
 bool is_regrouping(const Robot& robot) noexcept {
   const State& self = robot.self;
   const Params& p = robot.params;
-  return p.heals() && self.is_worker && self.root_known && self.parent != nobody && self.parent != self.root.id &&
+  return p.heals() && robot.policy.workers_relay() && self.is_worker && self.root_known && self.parent != nobody && self.parent != self.root.id &&
          self.want_m > p.arrival_distance_m && self.unserved_ticks > p.ticks(regroup_after_s);
 }
 
