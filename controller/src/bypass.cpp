@@ -14,7 +14,7 @@ namespace {
 
 // A body's radius is not among the parameters; the wheels stand on about 1.5 of it.
 constexpr float body_per_axle = 0.67F;
-constexpr float keep_m = 0.06F;           // between body and obstacle, while it slides along
+constexpr float keep_m = 0.04F;           // between body and obstacle, while it slides along
 constexpr float near_m = 0.19F;           // between body and obstacle, when it begins to matter
 constexpr float sight_margin_m = 0.03F;   // no line of sight comes nearer to a corner by own motion
 constexpr float sight_width_m = 0.12F;    // and robots make room within this
@@ -306,6 +306,7 @@ void keep_off(const Robot& robot, Guard& guard) noexcept {
 }
 
 void keep_sight(const Robot& robot, Guard& guard) noexcept {
+  if (!robot.params.line_of_sight) return;
   const auto keep = [&](int k) {
     for_each_threat(robot, robot.table().position(k), [&](const Threat& t) {
       if (t.lever < 0.1F) return;
@@ -319,6 +320,7 @@ void keep_sight(const Robot& robot, Guard& guard) noexcept {
 
 Vec2 clear_sight(const Robot& robot) noexcept {
   Vec2 u;
+  if (!robot.params.line_of_sight) return u;
   for_each_edge(robot, [&](int k) {
     for_each_threat(robot, robot.table().position(k), [&](const Threat& t) {
       u += -t.towards * (t.lever * std::min(sight_width_m / std::max(t.across_m, 1e-3F) - 1.0F, 2.0F));

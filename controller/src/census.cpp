@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/edge_frame.hpp"
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/policy.hpp"
 
 namespace banyan {
@@ -90,6 +91,7 @@ void take_census(Robot& robot) noexcept {
   if (!selecting || robot.children.size == 0)
     for (const int k : robot.old_children) add_child(robot, k, !selecting, sums);
   if (self.is_worker && robot.target != nullptr) add_own_target(robot, sums);
+  if (is_stub(robot)) sums.want_m = std::max(sums.want_m, norm(self.stub));
 
   self.subtree = saturate(sums.robots);
   self.subtree_workers = saturate(sums.workers);

@@ -20,14 +20,22 @@
 namespace banyan {
 namespace {
 
+// Whoever is drawn back on the way round would never get as near to the goal as it was, and circle for
+// ever: what it has to reach to be round grows with the way that it drives.
+void carry_detour(Detour& detour, const Carry& carry) noexcept {
+  constexpr float modesty = 0.25F;
+  for (Vec2* v : {&detour.contact, &detour.origin, &detour.goal}) *v = carry.point(*v);
+  detour.leave_m += modesty * norm(carry.shift);
+}
+
 // What is remembered as a vector moves with the robot's own frame.
 void carry_memory(State& self, const Carry& carry) noexcept {
   if (self.centroid_known) self.centroid = carry.point(self.centroid);
   self.root_at = carry.point(self.root_at);
+  self.stub = carry.point(self.stub);
   for (int k = 0; k < self.task_count; ++k) self.tasks[k].target = carry.point(self.tasks[k].target);
   ++self.turn;
-  if (self.detour.side != 0)
-    for (Vec2* v : {&self.detour.contact, &self.detour.origin, &self.detour.goal}) *v = carry.point(*v);
+  if (self.detour.side != 0) carry_detour(self.detour, carry);
   self.seen_from = carry.point(self.seen_from);
   for (int k = 0; k < self.landmarks.size; ++k) {
     Vec2& point = self.landmarks.points[static_cast<std::size_t>(k)];
@@ -57,6 +65,7 @@ Message compose(const Robot& robot) noexcept {
   m.parent_silent = self.parent != nobody && !robot.parent_alive();
   m.epoch = self.epoch;
   m.root = self.root;
+  m.root_size = self.root_size;
   m.label_cm = self.label_cm;
   m.pulse = self.pulse;
   m.depth = self.depth;
@@ -130,6 +139,7 @@ Output step(const Params& params, const Policy& policy, State& state, std::span<
   mind_tasks(robot);        // does every target have its worker?
   survey(robot);          // who are my parent and children
   remember_obstacles(robot);
+  mind_stub(robot);       // has the last below me died?
   update_role(robot);
   advance(robot);         // the root's barriers
   update_label(robot);    // Start Tree

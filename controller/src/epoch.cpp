@@ -38,6 +38,21 @@ void forget_old_tree(Robot& robot) noexcept {
   robot.old_parent = -1;
 }
 
+// A newer token than mine. Two fragments may each have had a root: when they meet, the larger keeps
+// its own. Each further token is of a larger fragment than the last, so that there is an end to it.
+// True if I remain root and all have to hear of it.
+bool hear_token(Robot& robot, const Message& m) noexcept {
+  State& self = robot.self;
+  const bool rival = robot.is_root() && m.root.id != self.id && m.root.id != self.new_root;
+  if (robot.params.heals() && rival && m.root_size < self.root_size) {
+    self.root.sequence = static_cast<std::uint16_t>(m.root.sequence + 1);
+    return true;
+  }
+  self.root = m.root;
+  self.root_size = m.root_size;
+  return false;
+}
+
 // The barrier of the root's phase: may it open the next one?
 bool barrier_holds(const Robot& robot) noexcept {
   const State& self = robot.self;
@@ -54,9 +69,10 @@ void listen(Robot& robot) noexcept {
   State& self = robot.self;
   std::uint16_t epoch = self.epoch;
   Phase phase = self.phase;
+  bool contested = false;
   for (const Heard& h : robot.heard) {
     const Message& m = *h.message;
-    if (newer(m.root, self.root)) self.root = m.root;
+    if (newer(m.root, self.root)) contested = hear_token(robot, m) || contested;
     if (m.epoch > epoch || (m.epoch == epoch && m.phase > phase)) {
       epoch = m.epoch;
       phase = m.phase;
@@ -64,7 +80,8 @@ void listen(Robot& robot) noexcept {
   }
   if (self.phase_ticks < UINT16_MAX) ++self.phase_ticks;
   // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
-  if (epoch > self.epoch && robot.is_root() && robot.params.heals()) return enter(robot, static_cast<std::uint16_t>(epoch + 1), Phase::start_tree);
+  const bool ahead = epoch > self.epoch && robot.params.heals();
+  if (robot.is_root() && (contested || ahead)) return enter(robot, static_cast<std::uint16_t>(epoch + 1), Phase::start_tree);
   if (epoch != self.epoch || phase != self.phase) enter(robot, epoch, phase);
 }
 
@@ -88,7 +105,9 @@ void advance(Robot& robot) noexcept {
   const bool timeout = self.phase_ticks >= p.ticks(p.barrier_timeout_s);
   switch (self.phase) {
     case Phase::start_tree:
-      if (self.done_ticks >= settle_ticks || timeout) enter(robot, self.epoch, Phase::select_parent);
+      if (self.done_ticks < settle_ticks && !timeout) break;
+      self.root_size = self.flood_robots;
+      enter(robot, self.epoch, Phase::select_parent);
       break;
     case Phase::select_parent:
       if ((self.done_ticks > 0 && self.phase_ticks >= settle_ticks) || timeout) enter(robot, self.epoch, Phase::grow_tree);

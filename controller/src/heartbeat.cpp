@@ -25,6 +25,7 @@ void hear_heartbeat(Robot& robot) noexcept {
     if (self.heart == self.root && ahead_by(m.heartbeat, self.heartbeat) <= 0) continue;
     self.heart = self.root;
     self.heartbeat = m.heartbeat;
+    self.root_size = m.root_size;
     self.silence_ticks = 0;
   }
 }
@@ -70,6 +71,7 @@ void claim_root(Robot& robot) noexcept {
   const int patience_ticks = 2 * robot.liveness_ticks() + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
   if (self.silence_ticks <= patience_ticks) return;
   self.root = {static_cast<std::uint16_t>(self.root.sequence + 1), self.id};
+  self.root_size = 0;  // nobody has been counted: whoever still has a root keeps it
   self.role = Role::root;
   enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
   beat(self);

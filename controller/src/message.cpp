@@ -73,6 +73,7 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.epoch);
   visit(m.root.sequence);
   visit(m.root.id);
+  visit(m.root_size);
   visit(m.label_cm);
   visit(m.pulse);
   visit(m.depth);

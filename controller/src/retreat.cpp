@@ -9,6 +9,8 @@
 namespace banyan {
 namespace {
 
+constexpr float regroup_after_s = 20.0F;
+constexpr float regroup_for_s = 40.0F;  // at most, then it waits again
 constexpr int lost_ticks = 22;  // an orphan that has found no hold for so long has none in reach
 
 bool is_cut_off(const Robot& robot) noexcept {
@@ -29,15 +31,32 @@ int way_home(const Robot& robot) noexcept {
 
 }  // namespace
 
+// Only where the tree is mended between reconstructions does it find another hold (shortcut.cpp).
+bool is_regrouping(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  const Params& p = robot.params;
+  return p.heals() && robot.policy.workers_relay() && self.is_worker && self.root_known && self.parent != nobody && self.parent != self.root.id &&
+         self.want_m > p.arrival_distance_m && self.unserved_ticks > p.ticks(regroup_after_s);
+}
+
+// A worker that still gets on, however slowly, has spares on their way.
+void count_waiting(Robot& robot, bool unserved) noexcept {
+  State& self = robot.self;
+  const int after_ticks = robot.params.ticks(regroup_after_s);
+  const bool regroups = is_regrouping(robot);
+  if (!(unserved || regroups) || self.unserved_ticks >= robot.params.ticks(regroup_after_s + regroup_for_s)) self.unserved_ticks = 0;
+  else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks) ++self.unserved_ticks;
+}
+
 bool is_retreating(const Robot& robot) noexcept {
   const State& self = robot.self;
   if (!robot.params.heals() || robot.is_root() || !self.root_known) return false;
-  return self.orphan_ticks > lost_ticks || is_cut_off(robot);
+  return self.orphan_ticks > lost_ticks || is_cut_off(robot) || is_regrouping(robot);
 }
 
 Vec2 retreat_motion(const Robot& robot) noexcept {
   constexpr float near_enough = 0.2F;  // of C
-  const int k = is_cut_off(robot) ? -1 : way_home(robot);
+  const int k = is_cut_off(robot) || is_regrouping(robot) ? -1 : way_home(robot);
   const Vec2 goal = k >= 0 ? robot.table().position(k) : robot.self.root_at;
   if (norm(goal) < near_enough * robot.params.communication_range_m) return avoidance(robot);
   return bypass(robot, goal) + avoidance(robot);

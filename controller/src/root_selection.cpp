@@ -37,6 +37,7 @@ void accept_offer(Robot& robot) noexcept {
     const RootToken offered{static_cast<std::uint16_t>(m.root.sequence + 1), self.id};
     if (!newer(offered, self.root)) continue;
     self.root = offered;
+    self.root_size = m.root_size;
     self.centroid = from_edge_frame({static_cast<float>(m.centroid_x_cm) * 0.01F, static_cast<float>(m.centroid_y_cm) * 0.01F}, h.position);
     self.centroid_known = true;
     self.new_root = nobody;

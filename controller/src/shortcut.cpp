@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "banyan/controller/convoy.hpp"
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/plan.hpp"
 #include "banyan/controller/sight.hpp"
@@ -67,6 +68,18 @@ void leave_worker(Robot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     if (table.message(k).role == Role::worker || !is_hold(robot, k, robot.params.parent_range_m())) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
+  }
+  if (best >= 0) take_parent(robot, best);
+}
+
+// Who regroups takes whatever hold is nearer to the root.
+void take_inner(Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  const int parent_depth = table.message(robot.parent).depth;
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.message(k).role == Role::worker || table.message(k).depth >= parent_depth || !is_hold(robot, k, robot.params.parent_range_m())) continue;
+    if (best < 0 || table.message(k).depth < table.message(best).depth) best = k;
   }
   if (best >= 0) take_parent(robot, best);
 }
@@ -203,7 +216,8 @@ void take_shortcuts(Robot& robot) noexcept {
   if (!may_save) self.wish = nobody;
   if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, urgency * clearance_m));
   if (self.grant != nobody) return;  // the tree changes here already
-  if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
+  if (is_regrouping(robot)) take_inner(robot);
+  else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);
   else if (self.errand == nobody) release(robot);
   if (may_save) save_robots(robot);

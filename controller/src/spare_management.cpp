@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/label.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/policy.hpp"
@@ -142,7 +143,7 @@ bool spread_call(Robot& robot) noexcept {
   State& self = robot.self;
   const bool steady = robot.call_hops < self.call_hops;
   const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
-  self.unserved_ticks = unserved && self.unserved_ticks < UINT16_MAX ? static_cast<std::uint16_t>(self.unserved_ticks + 1) : std::uint16_t{0};
+  count_waiting(robot, unserved);
   const bool in_vain = self.unserved_ticks > robot.params.ticks(call_after_s);
   if (robot.params.corrected() && in_vain && robot.policy.may_call(robot)) self.call_hops = 0;
   else self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;

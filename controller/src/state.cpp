@@ -31,7 +31,7 @@ std::uint64_t hash(const State& s) noexcept {
   Digest d;
   for (const int v : {static_cast<int>(s.id), static_cast<int>(s.is_worker), static_cast<int>(s.serves), static_cast<int>(s.role), static_cast<int>(s.epoch),
                       static_cast<int>(s.phase), static_cast<int>(s.phase_ticks), static_cast<int>(s.root.sequence),
-                      static_cast<int>(s.root.id), static_cast<int>(s.done_ticks), static_cast<int>(s.label_cm),
+                      static_cast<int>(s.root.id), static_cast<int>(s.root_size), static_cast<int>(s.done_ticks), static_cast<int>(s.label_cm),
                       static_cast<int>(s.label_wait_ticks), static_cast<int>(s.flood_parent), static_cast<int>(s.flood_done),
                       static_cast<int>(s.flood_robots), static_cast<int>(s.flood_workers), static_cast<int>(s.parent),
                       static_cast<int>(s.old_parent), static_cast<int>(s.committed),
@@ -46,7 +46,7 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.call_hops), static_cast<int>(s.stalled_ticks), static_cast<int>(s.liveness_ticks), static_cast<int>(s.heartbeat), static_cast<int>(s.silence_ticks),
                       static_cast<int>(s.heart.sequence), static_cast<int>(s.heart.id), static_cast<int>(s.root_known),
                       static_cast<int>(s.turn), static_cast<int>(s.above), static_cast<int>(s.below), static_cast<int>(s.errand), static_cast<int>(s.led_from), static_cast<int>(s.errand_ticks),
-                      static_cast<int>(s.settled_ticks), static_cast<int>(s.unsettled_ticks), static_cast<int>(s.plan_ticks), static_cast<int>(s.task_count)})
+                      static_cast<int>(s.settled_ticks), static_cast<int>(s.unsettled_ticks), static_cast<int>(s.plan_ticks), static_cast<int>(s.stub_ticks), static_cast<int>(s.task_count)})
     d.add(v);
   d.add(s.q);
   d.add(s.want_m);
@@ -56,6 +56,7 @@ std::uint64_t hash(const State& s) noexcept {
   d.add(s.expected_packets);
   d.add(s.missed_packets);
   d.add(s.root_at);
+  d.add(s.stub);
   for (int k = 0; k < s.task_count; ++k) add(d, s.tasks[k]);
   d.add(static_cast<int>(s.detour.side));
   d.add(s.detour.contact);

@@ -68,9 +68,15 @@ void hear_of_task(Robot& robot, RobotId serves, RobotId holder, std::uint16_t be
     return;
   }
   const int ahead = ahead_by(beat, task->beat);
-  // From somebody about as near to the worker; the worker silent, copies of copies would only drift.
+  // From somebody about as near to the worker. The worker silent, copies of copies would only drift, and
+  // wheels slip in a crowd: the mean of what all around remember is the best there is.
   constexpr int stale_ticks = 3;
-  if (target != nullptr && ahead >= -stale_ticks && task->age_ticks <= 2 * robot.liveness_ticks() + task_capacity) task->target = *target;
+  constexpr float trust = 0.2F;
+  if (target != nullptr) {
+    const bool silent = task->age_ticks > 2 * robot.liveness_ticks() + task_capacity;
+    if (silent) task->target += (*target - task->target) * trust;
+    else if (ahead >= -stale_ticks) task->target = *target;
+  }
   if (ahead <= 0) return;
   task->beat = beat;
   task->holder = holder;
@@ -121,7 +127,8 @@ void take_over(Robot& robot, Task& task) noexcept {
 void succeed(Robot& robot) noexcept {
   State& self = robot.self;
   const Params& p = robot.params;
-  if (self.role != Role::spare || self.is_worker || robot.is_root() || self.silence_ticks > 2 * robot.liveness_ticks()) return;
+  const bool free = self.role == Role::spare || is_stub(robot);
+  if (!free || self.is_worker || robot.is_root() || self.silence_ticks > 2 * robot.liveness_ticks()) return;
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
     if (task.holder == nobody) continue;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/parent_selection.hpp"
 
 namespace banyan {
@@ -36,9 +37,11 @@ void update_role(Robot& robot) noexcept {
   State& self = robot.self;
   if (robot.is_root()) {
     self.role = Role::root;
+    self.childless_ticks = 0;
   } else if (self.is_worker) {
     self.role = Role::worker;
-  } else if (robot.useful_child || self.inserted_child != nobody) {
+    self.childless_ticks = 0;
+  } else if (robot.useful_child || self.inserted_child != nobody || is_stub(robot)) {
     self.role = Role::connector;
     self.childless_ticks = 0;
   } else if (self.role != Role::spare) {

@@ -4,6 +4,7 @@
 
 #include "banyan/controller/bypass.hpp"
 #include "banyan/controller/convoy.hpp"
+#include "banyan/controller/healing.hpp"
 #include "banyan/controller/motion.hpp"
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/plan.hpp"
@@ -21,6 +22,12 @@ constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts 
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
 
+constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
+constexpr int slack_reach_hops = 8;
+
+// Somewhere near an edge waits in vain for a spare.
+bool is_short_of_robots(const Robot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }
+
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
 // Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
@@ -29,9 +36,11 @@ Vec2 tow(const Robot& robot) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
   const float c = p.communication_range_m;
+  // While robots are short, who is as good as there leaves the rest of the way to others.
+  const auto least_cm = is_short_of_robots(robot) ? static_cast<int>(as_good_as_there * p.arrival_distance_m * 100.0F) : 0;
   const auto tows = [&](int k) {
     const Standing& m = table.message(k);
-    return m.role != Role::spare && m.want_cm > 0 && up_of(m) == robot.self.id;
+    return m.role != Role::spare && m.want_cm > least_cm && up_of(m) == robot.self.id;
   };
   const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
                      std::count_if(robot.old_children.begin(), robot.old_children.end(), tows);
@@ -68,11 +77,10 @@ Vec2 tension(const Robot& robot) noexcept {
   return u * p.tension_gain;
 }
 
-// Somewhere near an edge waits in vain for a spare: long edges take slack from short ones.
+// While robots are short, long edges take slack from short ones.
 Vec2 shared_slack(const Robot& robot) noexcept {
-  constexpr int reach_hops = 8;
   const Params& p = robot.params;
-  if (robot.self.call_hops > reach_hops) return {};
+  if (!is_short_of_robots(robot)) return {};
   const float start_m = p.pull_start * p.communication_range_m;
   Vec2 u;
   for_each_edge(robot, [&](int k) {
@@ -149,7 +157,7 @@ Vec2 compaction(const Robot& robot) noexcept {
 bool lost_sight(const Robot& robot, int up) noexcept {
   constexpr int silent_ticks = 2;
   const Neighborhood& table = robot.table();
-  if (robot.self.landmarks.size == 0) return false;
+  if (!robot.params.line_of_sight || robot.self.landmarks.size == 0) return false;
   if (up >= 0 && table.alive(up) && table.age(up) >= silent_ticks) return true;
   if (robot.self.childless_ticks > 0) return true;
   return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
@@ -187,10 +195,12 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   // A target may be added in mid-mission: not without the tree.
   if (robot.self.is_worker && up < 0 && robot.self.phase == Phase::grow_tree) return elbow_room(robot);
-  // At its target it may stand off a little, if that lets another reach its own; the pull grows with it.
-  constexpr float leeway = 0.7F;
-  const float give = leeway * std::max(0.0F, 1.0F - norm(robot.self.pull));
+  // At its target it may stand off a little, if that lets another reach its own; it ends before the
+  // target is out of tolerance.
+  constexpr float fading = 0.1F;
+  const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
   if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + elbow_room(robot);
+  if (is_stub(robot)) return bypass(robot, robot.self.stub) + elbow_room(robot);
   const Vec2 along = robot.self.errand != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
   return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }

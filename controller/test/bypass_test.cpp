@@ -76,7 +76,7 @@ TEST(Bypass, LeadsStraightWhereNothingIsInTheWay) {
 TEST(Bypass, TakesTheSideThatIsNearerToTheGoal) {
   for (const float y : {1.0F, -1.0F}) {
     Bench bench = grown(convoy());
-    bench.obstacles = {{0.13F, 0.0F}};
+    bench.obstacles = {{0.11F, 0.0F}};
     const Robot robot = bench.tick();
     const Vec2 u = bypass(robot, {2.0F, y});
     EXPECT_GT(u.y * y, 0.9F);
@@ -133,9 +133,34 @@ TEST(Bypass, DoesNotBreakThroughToAGoalThatIsWalledIn) {
 
 // ---- Guards ----
 
+TEST(Bypass, WhatIsAskedOfADetourShrinksWithTheWayDriven) {
+  Bench bench = grown(convoy());
+  bench.obstacles = {{0.2F, 0.0F}};
+  bench.state.detour.side = 1;
+  bench.state.detour.leave_m = 1.0F;
+  for (int tick = 0; tick < 10; ++tick) bench.step({.forward_m = 0.02F});
+  EXPECT_NEAR(bench.state.detour.leave_m, 1.05F, 1e-4F);
+}
+
+TEST(KeepSight, OnlyWhereTheRadioNeedsIt) {
+  for (const bool needed : {true, false}) {
+    Bench bench = grown(convoy());
+    bench.params.line_of_sight = needed;
+    bench.obstacles = {{0.2F, 0.08F}};
+    bench.put(9, {1.0F, 0.0F}).role = Role::root;
+    bench.state.parent = 9;
+    Robot robot = bench.tick();
+    remember_obstacles(robot);
+    Guard guard;
+    keep_sight(robot, guard);
+    EXPECT_EQ(guard.size > 0, needed);
+    EXPECT_EQ(clear_sight(robot) != Vec2{}, needed);
+  }
+}
+
 TEST(KeepOff, SlidesAlongAndDoesNotPush) {
   Bench bench = grown(convoy());
-  bench.obstacles = {{body_m + 0.03F, 0.0F}};
+  bench.obstacles = {{body_m + 0.02F, 0.0F}};
   const Robot robot = bench.tick();
   Guard guard;
   keep_off(robot, guard);

@@ -69,6 +69,15 @@ TEST_F(ConvoyChain, AStretchedChildTowsItsParentAlong) {
   EXPECT_LT(motion().x, 0.3F);
 }
 
+TEST_F(ConvoyChain, WhileRobotsAreShortWhoIsAsGoodAsThereDoesNotTow) {
+  bench.say(3).want_cm = 15;
+  EXPECT_GT(motion().x, 0.5F);
+  bench.state.call_hops = 3;  // an edge waits in vain for a spare
+  const float gives_way = motion().x;
+  bench.say(3).want_cm = 400;
+  EXPECT_GT(motion().x, gives_way + 0.5F);
+}
+
 TEST_F(ConvoyChain, AJunctionStaysUntilItsEdgesAreNearTheirLimit) {
   Message& other = bench.put(4, {0.0F, 1.6F});
   other = bench.say(3);

@@ -156,6 +156,45 @@ TEST(RootSelection, TheHeirsGossipEndsTheOldRoot) {
   EXPECT_EQ(bench.state.new_root, nobody);
 }
 
+TEST(RootSelection, TheLargerFragmentKeepsItsRoot) {
+  Bench bench = handing_over();
+  bench.state.phase = Phase::grow_tree;
+  bench.state.root_size = 20;
+  bench.say(5).root = {7, 30};
+  bench.say(5).root_size = 19;
+  bench.step();
+  EXPECT_EQ(bench.state.root, (RootToken{8, 1}));
+  EXPECT_EQ(bench.state.epoch, 2) << "all have to hear of it";
+  bench.say(5).root = {9, 30};
+  bench.say(5).root_size = 20;
+  bench.step();
+  EXPECT_EQ(bench.state.root, (RootToken{9, 30})) << "not smaller";
+}
+
+TEST(RootSelection, NobodyContestsItsOwnHandOver) {
+  Bench bench = handing_over();
+  bench.state.root_size = 20;
+  EXPECT_EQ(bench.step().message.root_size, 20);
+  bench.say(5).root = {2, 5};
+  bench.say(5).root_size = 3;
+  bench.step();
+  EXPECT_EQ(bench.state.root, (RootToken{2, 5}));
+  // The heir, whose acceptance was never heard, inherits the size and so yields to the old root.
+  Bench heir = grown();
+  heir.state.phase = Phase::select_root;
+  Message& m = heir.put(9, {-1.0F, 0});
+  m.root = {4, 9};
+  m.root_size = 20;
+  m.new_root = 1;
+  heir.step();
+  ASSERT_EQ(heir.state.root, (RootToken{5, 1}));
+  EXPECT_EQ(heir.state.root_size, 20);
+  m.root = {6, 9};
+  m.new_root = nobody;
+  heir.step();
+  EXPECT_EQ(heir.state.root, (RootToken{6, 9}));
+}
+
 TEST(RootSelection, AnUnansweredOfferIsTakenBackWithALargerToken) {
   Bench bench = handing_over();
   bench.steps(bench.params.ticks(bench.params.handover_timeout_s) + 1);

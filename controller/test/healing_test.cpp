@@ -252,6 +252,21 @@ TEST(Succession, ASpareTakesOverTheTargetOfAWorkerThatFellSilent) {
   EXPECT_GT(state.want_m, 1.5F);  // it knows where to go without being told from outside
 }
 
+TEST(Succession, OfASilentWorkersTargetTheMeanIsRemembered) {
+  Watch watch;
+  watch.hear_root(2);
+  const float patience_s = watch.bench.params.succession_after_s;
+  watch.bench.params.succession_after_s = 1000.0F;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, 50, 10);
+  watch.hear_root(2);
+  EXPECT_NEAR(watch.bench.state.tasks[0].target.x, 2.0F, 0.01F) << "the worker alive, as it is told";
+  watch.hear_root(watch.bench.params.ticks(patience_s) + 40);
+  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, 50, 10);
+  watch.hear_root(1);
+  EXPECT_GT(watch.bench.state.tasks[0].target.x, 2.05F);
+  EXPECT_LT(watch.bench.state.tasks[0].target.x, 2.5F);
+}
+
 TEST(Succession, WhoBeatsIsNotReplaced) {
   Watch watch;
   watch.hear_root(2);
@@ -349,6 +364,146 @@ TEST(Retreat, TheSilentHoldNobodyBack) {
   state.parent = root_id;
   Robot robot = watch.bench.tick();
   EXPECT_GT(move(robot).forward_m_s, 0.15F);
+}
+
+// ---- The end of a torn branch ----
+
+// A connector between the root and the only robot that hangs on it.
+struct Branch : Watch {
+  Branch() : Watch({-1.5F, 0.0F}) {
+    State& state = bench.state;
+    state.role = Role::connector;
+    state.parent = root_id;
+    state.label_cm = 150;
+    Message& below = bench.put(3, {1.6F, 0.0F});
+    below.role = Role::connector;
+    below.parent = state.id;
+    below.label_cm = 300;
+    below.committed = true;
+    hear_root(3);
+  }
+};
+
+TEST(Stub, WhoLosesTheOnlyRobotBelowGoesWhereItWas) {
+  Branch branch;
+  Bench& bench = branch.bench;
+  bench.silence(3);
+  branch.hear_root(2 * bench.params.ticks(bench.params.liveness_period_s));
+  EXPECT_EQ(bench.state.role, Role::connector);
+  EXPECT_EQ(bench.state.parent, root_id);
+  EXPECT_NEAR(bench.state.want_m, 1.6F, 0.05F) << "its chain comes along";
+  EXPECT_GT(bench.step().velocity.forward_m_s, 0.0F);
+  branch.hear_root(bench.params.ticks(20.0F));
+  EXPECT_EQ(bench.state.role, Role::spare) << "nobody came";
+}
+
+TEST(Stub, NotForOneThatLeftOrWhileAnotherHangsOnIt) {
+  Branch left;
+  left.bench.say(3).parent = root_id;
+  left.hear_root(1);
+  left.bench.silence(3);
+  left.hear_root(30);
+  EXPECT_EQ(left.bench.state.role, Role::spare);
+  Branch other;
+  Message& m = other.bench.put(4, {0.0F, 1.0F});
+  m = other.bench.say(3);
+  m.id = 4;
+  other.hear_root(2);
+  other.bench.silence(3);
+  other.hear_root(30);
+  EXPECT_EQ(other.bench.state.stub_ticks, 0);
+}
+
+// ---- Two fragments, each with a root, meet ----
+
+struct Swarm {
+  Params params = convoy().defaults(Reading::corrected);
+  std::vector<State> states;
+  std::vector<Vec2> places;
+  std::vector<Message> said;
+  void add(RobotId id, Vec2 place, RootToken root) {
+    states.push_back(initial_state(id, false, root.id == id));
+    if (root.id == id) states.back().root = root;
+    places.push_back(place);
+    said.emplace_back();
+  }
+  void steps(int ticks) {
+    for (int tick = 0; tick < ticks; ++tick) {
+      std::vector<Message> next = said;
+      for (std::size_t k = 0; k < states.size(); ++k) {
+        std::vector<Heard> heard;
+        for (std::size_t j = 0; j < states.size(); ++j)
+          if (j != k && said[j].id != nobody && distance(places[j], places[k]) < params.communication_range_m) heard.push_back({&said[j], places[j] - places[k]});
+        next[k] = step(params, convoy(), states[k], heard, {}, nullptr).message;
+      }
+      said = next;
+    }
+  }
+  [[nodiscard]] std::vector<RobotId> roots() const {
+    std::vector<RobotId> list;
+    for (const State& s : states)
+      if (s.root.id == s.id) list.push_back(s.id);
+    return list;
+  }
+};
+
+RC_GTEST_PROP(Fragments, OfTwoRootsThatMeetTheOneOfTheLargerFragmentStays, ()) {
+  const int left = *rc::gen::inRange(2, 12);
+  const int right = left + *rc::gen::inRange(1, 10);
+  const bool swap = *rc::gen::arbitrary<bool>();
+  const auto sequence = [] { return *rc::gen::inRange<std::uint16_t>(1, 9); };
+  Swarm swarm;
+  const int counts[] = {swap ? right : left, swap ? left : right};
+  RobotId id = 1;
+  RobotId larger = nobody;
+  for (int side = 0; side < 2; ++side) {
+    const auto root = static_cast<RobotId>(id + *rc::gen::inRange(0, counts[side]));
+    const RootToken token{sequence(), root};
+    if (counts[side] == right) larger = root;
+    for (int k = 0; k < counts[side]; ++k) {
+      const float away = 1.5F + 0.8F * static_cast<float>(k);
+      swarm.add(id++, {side == 0 ? -away : away, 0.1F * static_cast<float>(k % 3)}, token);
+    }
+  }
+  swarm.steps(120);
+  RC_ASSERT(swarm.roots().size() == 2U);
+  for (Vec2& place : swarm.places) place.x += place.x < 0.0F ? 1.0F : -1.0F;
+  swarm.steps(50);
+  for (int k = 0; k < 100; ++k) {
+    swarm.steps(1);
+    RC_ASSERT(swarm.roots() == std::vector<RobotId>{larger});
+  }
+}
+
+// ---- A branch that does not reach ----
+
+TEST(Regroup, AWorkerWhoseEdgeWaitsInVainDrivesHomeAndTakesAnInnerHold) {
+  Watch watch({-1.5F, 0.0F});
+  Bench& bench = watch.bench;
+  const Vec2 target{1.0F, 0.0F};
+  bench.state.is_worker = true;
+  bench.state.serves = bench.state.id;
+  bench.state.parent = 5;
+  bench.state.label_cm = 400;
+  bench.target = &target;
+  Message& m = bench.put(5, {-1.85F, 0.0F});
+  m.role = Role::connector;
+  m.parent = root_id;
+  m.depth = 2;
+  m.tree_hops = 0;
+  m.label_cm = 100;
+  m.committed = true;
+  m.child_count = 2;
+  bench.move(root_id, {-1.89F, 0.6F});
+  watch.hear_root(150);
+  EXPECT_FALSE(is_regrouping(bench.tick()));
+  EXPECT_EQ(bench.state.parent, 5);
+  watch.hear_root(150);
+  EXPECT_TRUE(is_regrouping(bench.tick()));
+  bench.move(root_id, {-1.7F, 0.6F});
+  watch.hear_root(2);
+  EXPECT_EQ(bench.state.parent, root_id);
+  EXPECT_FALSE(is_regrouping(bench.tick())) << "it sets out anew";
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Message arbitrary_message() {
   m.flood_done = *rc::gen::arbitrary<bool>();
   m.committed = *rc::gen::arbitrary<bool>();
   m.parent_silent = *rc::gen::arbitrary<bool>();
-  for (std::uint16_t* field : {&m.epoch, &m.root.sequence, &m.root.id, &m.label_cm, &m.pulse, &m.depth, &m.parent, &m.old_parent,
+  for (std::uint16_t* field : {&m.epoch, &m.root.sequence, &m.root.id, &m.root_size, &m.label_cm, &m.pulse, &m.depth, &m.parent, &m.old_parent,
                                &m.flood_parent, &m.flood_robots, &m.flood_workers, &m.subtree, &m.subtree_workers, &m.count,
                                &m.grant, &m.request, &m.inserted_child, &m.new_root, &m.want_cm, &m.heartbeat, &m.serves, &m.told,
                                &m.task_serves, &m.task_holder, &m.task_beat})

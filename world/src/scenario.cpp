@@ -553,6 +553,7 @@ Params controller_params(const Scenario& scenario, const Policy& policy) {
   for (const ParameterInfo& info : parameter_table())
     if (info.source == "Table I" && info.unit == "m") params.*info.member *= static_cast<float>(scale);
   params.communication_range_m = static_cast<float>(scenario.radio.range_m);
+  params.line_of_sight = scenario.radio.line_of_sight;
   params.tick_s = static_cast<float>(scenario.tick_s);
   params.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
   params.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);

@@ -28,7 +28,7 @@ TEST(Allocation, ATickTakesNothingFromTheHeap) {
       s.radio.slots = 10;
       World world(s);
       Executor executor(1);
-      for (int t = 0; t < 300; ++t) world.step(executor);
+      for (int t = 0; t < 800; ++t) world.step(executor);
       const long before = allocations;
       constexpr int ticks = 200;
       for (int t = 0; t < ticks; ++t) world.step(executor);

@@ -27,8 +27,20 @@ void claim_root(Robot& robot) noexcept;
 // takes over one whose worker has fallen silent.
 void mind_tasks(Robot& robot) noexcept;
 
+// ---- stub.cpp: the end of a torn branch ----
+
+// Notes that the only robot that hung on this connector has fallen silent for good. It stays in the
+// tree and goes where that one was, as a worker would, to meet whoever hung on it.
+void mind_stub(Robot& robot) noexcept;
+[[nodiscard]] bool is_stub(const Robot& robot) noexcept;
+
 // ---- retreat.cpp: back to where the others must be ----
 
+// A worker whose edge has waited in vain for a spare: the branch that it hangs on does not reach. It
+// drives home, hangs itself on whoever is nearest to the root, and sets out anew from there.
+[[nodiscard]] bool is_regrouping(const Robot& robot) noexcept;
+// The ticks that its edge has waited, or would have while it is on its way.
+void count_waiting(Robot& robot, bool unserved) noexcept;
 // No root has been heard of for long.
 [[nodiscard]] bool is_retreating(const Robot& robot) noexcept;
 // Towards where the root was, in units of speed_gain.

@@ -88,6 +88,7 @@ struct Standing {
 // What is made use of in the tick in which it is heard, and passed on.
 struct Tidings {
   RootToken root;               // gossip: the newest root token I know
+  std::uint16_t root_size = 0;        // robots that this root counted last; 0: none yet
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
   std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
   std::int16_t centroid_y_cm = 0;
@@ -121,7 +122,7 @@ inline constexpr float q_limit_m = 1.0e9F;
 // while there is none, the old parent.
 constexpr RobotId up_of(const Standing& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 92;  // bytes, little-endian, no padding
+inline constexpr std::size_t wire_size = 94;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 3;
 using Wire = std::array<std::uint8_t, wire_size>;
 

@@ -78,6 +78,7 @@ struct Params : ConvoyParams, HealingParams {
   float speed_gain_m_s = 0.2F;         // K: speed per unit of u
   float wheel_limit_m_s = 0.2F;
   float wheel_distance_m = 0.1054F;
+  bool line_of_sight = true;           // the radio does not go through obstacles and bodies
   Drive drive = Drive::differential;
   Reading reading = Reading::corrected;
 

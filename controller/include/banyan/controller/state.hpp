@@ -61,6 +61,7 @@ struct State {
   Phase phase = Phase::init;
   std::uint16_t phase_ticks = 0;      // since this robot entered the phase
   RootToken root;
+  std::uint16_t root_size = 0;        // robots that this root counted last; 0: none yet
   std::uint16_t done_ticks = 0;       // the root's barrier has held for so long
 
   // Label: distance to the root and the echo (label.hpp)
@@ -135,6 +136,8 @@ struct State {
   Vec2 root_at;                          // m, own frame: where that root is or was
   bool root_known = false;
   std::uint16_t turn = 0;                // whom I tell next
+  std::uint16_t stub_ticks = 0;          // the last robot below me has died: so long I still go after it
+  Vec2 stub;                             // m, own frame: where it was
   std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   // Obstacles (bypass.hpp)
