@@ -141,27 +141,39 @@ void save_robots(Robot& robot) noexcept {
 
 // Rule 6: my parent is hidden, or soon will be. The visible robot nearest to the old edge that is
 // ahead of me: one of the tree or, when it is too late, a spare, which joins because it is named.
+// If nobody is, my pulse rests, so that the nearest will be.
 void keep_in_sight(Robot& robot, bool urgent) noexcept {
   const Params& p = robot.params;
+  State& self = robot.self;
   const Neighborhood& table = robot.table();
   const Vec2 parent = table.position(robot.parent);
   const float clearance_m = p.clearance * p.communication_range_m;
   int best = -1;
+  int next = -1;
   float best_m = 1e9F;
+  float next_m = 1e9F;
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = table.message(k);
-    if (k == robot.parent || table.age(k) > 0) continue;
-    const bool spare = urgent && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
-                       m.tree_hops != unreachable && table.range(k) <= p.parent_range_m() && sees_clearly(robot, k, clearance_m);
-    if (!spare && !is_hold(robot, k, p.parent_range_m())) continue;
+    if (k == robot.parent || table.age(k) > 0 || table.range(k) > p.parent_range_m()) continue;
+    const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == self.epoch &&
+                       m.tree_hops != unreachable && sees_clearly(robot, k, clearance_m);
+    if (!spare && !is_rooted_in_sight(robot, k)) continue;
     const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k))) + (spare ? p.communication_range_m : 0.0F);
-    if (d < best_m) {
-      best_m = d;
-      best = k;
+    if (is_ahead(robot, k)) {
+      if ((urgent || !spare) && d < best_m) {
+        best_m = d;
+        best = k;
+      }
+    } else if (d < next_m) {
+      next_m = d;
+      next = k;
     }
   }
-  if (best < 0) return;
-  robot.self.grant = nobody;  // of the edge that is given up
+  if (best < 0) {
+    self.wish = next < 0 || ++self.wish_ticks > wish_limit_ticks ? nobody : table.id(next);
+    return;
+  }
+  self.grant = nobody;  // of the edge that is given up
   take_parent(robot, best);
 }
 
@@ -179,7 +191,8 @@ void take_shortcuts(Robot& robot) noexcept {
   const float clearance_m = p.clearance * p.communication_range_m;
   const bool endangered = hidden || !sees_clearly(robot, robot.parent, danger * clearance_m);
   const bool may_save = !endangered && self.grant == nobody && has_arrived(robot);
-  if (!may_save) self.wish = nobody;
+  if (!endangered && !may_save) self.wish = nobody;
+  if (!endangered && self.wish == nobody) self.wish_ticks = 0;
   if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, urgency * clearance_m));
   if (self.grant != nobody) return;  // the tree changes here already
   if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
