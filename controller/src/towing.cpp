@@ -94,26 +94,29 @@ Vec2 elbow_room(const Robot& robot) noexcept {
   return u;
 }
 
-// Out of the line of sight of tree edges that are not mine, if I hear both ends.
-Vec2 make_way(const Robot& robot, float width_m) noexcept {
-  const Params& p = robot.params;
+// Tree edges that are not mine and both whose ends I have just heard: visit(a, b).
+template <class Visit>
+void for_each_other_edge(const Robot& robot, Visit visit) noexcept {
   const Neighborhood& table = robot.table();
-  Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = table.message(k);
-    if (m.parent == nobody || m.parent == robot.self.id || m.role == Role::spare || table.age(k) > 0 || k == robot.parent) continue;
-    const int up = table.find(m.parent);
-    if (up < 0) continue;
-    const Vec2 a = table.position(k);
-    const Vec2 b = table.position(up);
+    if (m.parent == nobody || m.parent == robot.self.id || m.role == Role::spare || !table.alive(k) || k == robot.parent) continue;
+    if (const int up = table.find(m.parent); up >= 0) visit(table.position(k), table.position(up));
+  }
+}
+
+// Out of their lines of sight.
+Vec2 make_way(const Robot& robot, float width_m) noexcept {
+  Vec2 u;
+  for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
     const Vec2 near = nearest_on_segment(a, b);
     const float d = norm(near);
-    if (d >= width_m) continue;
+    if (d >= width_m) return;
     const Vec2 along = unit(b - a);
     const Vec2 side = d > 1e-3F ? -near / d : Vec2{-along.y, along.x};
     u += side * std::min(width_m / std::max(d, 1e-3F) - 1.0F, 20.0F);
-  }
-  return u * p.corridor_gain;
+  });
+  return u * robot.params.corridor_gain;
 }
 
 // The way along which I can save a robot: towards my parent; the root's is towards the nearest child
@@ -222,6 +225,17 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   if (self.called && roomy && d > 0.0F)
     return bypass(robot, Vec2{-reference.y, reference.x}) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
   return elbow_room(robot) + make_way(robot, p.corridor_width * c);
+}
+
+void keep_off_edges(const Robot& robot, Guard& guard) noexcept {
+  if (robot.self.role != Role::spare) return;
+  const Params& p = robot.params;
+  const float margin_m = 0.055F * p.communication_range_m;
+  for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
+    const Vec2 near = nearest_on_segment(a, b);
+    const float d = norm(near);
+    if (d > 0.0F && d < 0.5F) guard.add_limit(near / d, std::max(0.0F, 0.5F * (d - margin_m) * p.guard_rate_per_s));
+  });
 }
 
 }  // namespace banyan
