@@ -125,7 +125,8 @@ bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcep
   const float clearance_m = p.clearance * p.communication_range_m;
   if (table.range(owner) >= reach_m || table.range(parent) >= reach_m) return false;
   const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
-  return in_the_way || (sees_clearly(robot, owner, clearance_m) && sees_clearly(robot, parent, clearance_m));
+  const float room_m = in_the_way ? 0.6F * clearance_m : clearance_m;
+  return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
 }
 
 constexpr Convoy instance;

@@ -177,6 +177,18 @@ void keep_in_sight(Robot& robot, bool urgent) noexcept {
   take_parent(robot, best);
 }
 
+// I stand where I hide my parent from its own parent: that one takes me, and my parent can hang on me.
+bool step_before_parent(Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  const int k = table.find(table.message(robot.parent).parent);
+  if (k < 0 || table.age(k) > 0) return false;
+  const float d = norm(nearest_on_segment(table.position(robot.parent), table.position(k)));
+  if (d > danger * p.clearance * p.communication_range_m || !is_hold(robot, k, p.parent_range_m())) return false;
+  take_parent(robot, k);
+  return true;
+}
+
 }  // namespace
 
 void take_shortcuts(Robot& robot) noexcept {
@@ -195,6 +207,7 @@ void take_shortcuts(Robot& robot) noexcept {
   if (!endangered && self.wish == nobody) self.wish_ticks = 0;
   if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, urgency * clearance_m));
   if (self.grant != nobody) return;  // the tree changes here already
+  if (step_before_parent(robot)) return;
   if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);
   else release(robot);

@@ -94,14 +94,19 @@ Vec2 elbow_room(const Robot& robot) noexcept {
   return u;
 }
 
-// Tree edges that are not mine and both whose ends I have just heard: visit(a, b).
+// Tree edges, old ones during a reconstruction, that are not mine and whose ends I know: visit(a, b).
 template <class Visit>
 void for_each_other_edge(const Robot& robot, Visit visit) noexcept {
   const Neighborhood& table = robot.table();
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = table.message(k);
-    if (m.parent == nobody || m.parent == robot.self.id || m.role == Role::spare || !table.alive(k) || k == robot.parent) continue;
-    if (const int up = table.find(m.parent); up >= 0) visit(table.position(k), table.position(up));
+    if (m.role == Role::spare || !table.alive(k)) continue;
+    const auto visit_edge = [&](RobotId parent) {
+      if (parent == nobody || parent == robot.self.id) return;
+      if (const int up = table.find(parent); up >= 0) visit(table.position(k), table.position(up));
+    };
+    if (k != robot.parent) visit_edge(m.parent);
+    if (k != robot.old_parent && m.old_parent != m.parent) visit_edge(m.old_parent);
   }
 }
 
