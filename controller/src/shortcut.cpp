@@ -18,11 +18,15 @@ constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is wor
 constexpr int wish_limit_ticks = 15;     // longer than pulses of two branches differ
 
 // A robot of the rooted tree that does not name me as parent: heard this tick or the last, in sight.
-bool is_rooted_in_sight(const Robot& robot, int k) noexcept {
+bool is_rooted(const Robot& robot, int k) noexcept {
   const Neighborhood& table = robot.table();
   const Standing& m = table.message(k);
   return table.age(k) <= 1 && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
-         m.depth != invalid_depth && sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+         m.depth != invalid_depth;
+}
+
+bool is_rooted_in_sight(const Robot& robot, int k) noexcept {
+  return is_rooted(robot, k) && sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
 }
 
 // That I may hang on now: ahead of me.
@@ -155,10 +159,12 @@ void keep_in_sight(Robot& robot, bool urgent) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = table.message(k);
     if (k == robot.parent || table.age(k) > 0 || table.range(k) > p.parent_range_m()) continue;
-    const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == self.epoch &&
-                       m.tree_hops != unreachable && sees_clearly(robot, k, clearance_m);
-    if (!spare && !is_rooted_in_sight(robot, k)) continue;
-    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k))) + (spare ? p.communication_range_m : 0.0F);
+    const bool spare = m.role == Role::spare && m.parent == nobody && (m.request == nobody || m.request == self.id) &&
+                       m.epoch == self.epoch && m.tree_hops != unreachable;
+    if (!spare && !is_rooted(robot, k)) continue;
+    const bool clear = sees_clearly(robot, k, clearance_m);
+    if (!clear && (!urgent || !sees_clearly(robot, k, 0.5F * clearance_m))) continue;
+    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k))) + (spare ? p.communication_range_m : 0.0F) + (clear ? 0.0F : 2.0F * p.communication_range_m);
     if (is_ahead(robot, k)) {
       if ((urgent || !spare) && d < best_m) {
         best_m = d;
