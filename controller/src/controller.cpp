@@ -72,6 +72,7 @@ Message compose(const Robot& robot) noexcept {
   m.grant = self.grant;
   m.request = self.request;
   m.inserted_child = self.inserted_child;
+  m.warned = self.warned;
   m.call_hops = self.call_hops;
   m.child_count = robot.useful_children;
   m.want_cm = fixed<std::uint16_t>(self.want_m, 100.0F);

@@ -195,10 +195,21 @@ bool step_before_parent(Robot& robot) noexcept {
   return true;
 }
 
+// Of the robots around an edge its lower end may see less than the upper: others hide them.
+RobotId child_to_warn(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  for (const int k : robot.children)
+    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance * p.communication_range_m))
+      return table.id(k);
+  return nobody;
+}
+
 }  // namespace
 
 void take_shortcuts(Robot& robot) noexcept {
   State& self = robot.self;
+  self.warned = child_to_warn(robot);
   if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.inserted_child != nobody) {
     self.wish = nobody;
     return;
@@ -207,11 +218,12 @@ void take_shortcuts(Robot& robot) noexcept {
   const Params& p = robot.params;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
   const float clearance_m = p.clearance * p.communication_range_m;
-  const bool endangered = hidden || !sees_clearly(robot, robot.parent, danger * clearance_m);
+  const bool warned = robot.table().message(robot.parent).warned == self.id;
+  const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance_m);
   const bool may_save = !endangered && self.grant == nobody && has_arrived(robot);
   if (!endangered && !may_save) self.wish = nobody;
   if (!endangered && self.wish == nobody) self.wish_ticks = 0;
-  if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, urgency * clearance_m));
+  if (endangered) return keep_in_sight(robot, hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance_m));
   if (self.grant != nobody) return;  // the tree changes here already
   if (step_before_parent(robot)) return;
   if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
