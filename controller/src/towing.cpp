@@ -224,6 +224,11 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   // On its way along a chain it may come nearer to the line of sight than while it waits.
   if (d > reach_m || (self.called && d > p.avoidance_range_m))
     return bypass(robot, reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+  // There, in a crowd that waits for others to move: the tree must not go away meanwhile.
+  if (const int home = self.called ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
+    const float home_m = (robot.table().message(home).role == Role::spare ? follow_spare : follow_tree) * c;
+    if (robot.table().range(home) > home_m) return bypass(robot, robot.table().position(home)) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+  }
   // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
   // Where many edges meet, others wait on its far side, and it would only cross their sight.
   const bool roomy = self.landmarks.size > 0 || (k >= 0 && robot.table().message(k).child_count <= 3);
