@@ -215,7 +215,13 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   const int root = robot.table().find(self.root.id);
   if (root >= 0 && robot.table().message(root).pinned && robot.table().range(root) > p.avoidance_range_m)
     return bypass(robot, robot.table().position(root)) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
-  const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
+  int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
+  // Called in a crowd, it might wait for others to move while the tree goes away.
+  if (const int home = self.called ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
+    const bool arrived = k < 0 || robot.table().range(k) <= p.avoidance_range_m;
+    const float home_c = robot.table().message(home).role == Role::spare ? (arrived ? follow_spare : 0.6F) : (arrived ? follow_tree : 0.75F);
+    if (robot.table().range(home) > home_c * c) k = home;
+  }
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
   // Sight can be lost at any distance: it follows in good time, and a spare that leads it even earlier.
@@ -224,11 +230,6 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   // On its way along a chain it may come nearer to the line of sight than while it waits.
   if (d > reach_m || (self.called && d > p.avoidance_range_m))
     return bypass(robot, reference) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
-  // There, in a crowd that waits for others to move: the tree must not go away meanwhile.
-  if (const int home = self.called ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
-    const float home_m = (robot.table().message(home).role == Role::spare ? follow_spare : follow_tree) * c;
-    if (robot.table().range(home) > home_m) return bypass(robot, robot.table().position(home)) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
-  }
   // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
   // Where many edges meet, others wait on its far side, and it would only cross their sight.
   const bool roomy = self.landmarks.size > 0 || (k >= 0 && robot.table().message(k).child_count <= 3);
