@@ -68,10 +68,7 @@ class Convoy final : public Policy {
   }
   [[nodiscard]] Vec2 tree_motion(const Robot& robot) const noexcept override { return towed_motion(robot); }
   [[nodiscard]] Vec2 spare_motion(const Robot& robot) const noexcept override { return waiting_motion(robot); }
-  void limit_motion(const Robot& robot, Guard& guard) const noexcept override {
-    keep_sight(robot, guard);
-    keep_off_edges(robot, guard);
-  }
+  void limit_motion(const Robot& robot, Guard& guard) const noexcept override { keep_sight(robot, guard); }
 };
 
 // An edge of the last tree, in either direction.

@@ -238,15 +238,4 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   return elbow_room(robot) + make_way(robot, p.corridor_width * c);
 }
 
-void keep_off_edges(const Robot& robot, Guard& guard) noexcept {
-  if (robot.self.role != Role::spare) return;
-  const Params& p = robot.params;
-  const float margin_m = 0.055F * p.communication_range_m;
-  for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
-    const Vec2 near = nearest_on_segment(a, b);
-    const float d = norm(near);
-    if (d > 0.0F && d < 0.5F) guard.add_limit(near / d, std::max(0.0F, 0.5F * (d - margin_m) * p.guard_rate_per_s));
-  });
-}
-
 }  // namespace banyan

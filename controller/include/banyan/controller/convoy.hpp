@@ -3,7 +3,6 @@
 // its tree small and in sight between two reconstructions.
 #pragma once
 
-#include "banyan/controller/motion.hpp"
 #include "banyan/controller/robot.hpp"
 
 namespace banyan {
@@ -21,9 +20,6 @@ namespace banyan {
 
 // A spare: where it is, unless it is called, in the way, or left behind.
 [[nodiscard]] Vec2 waiting_motion(const Robot& robot) noexcept;
-
-// A spare does not drive into the line of sight of a tree edge.
-void keep_off_edges(const Robot& robot, Guard& guard) noexcept;
 
 // Release, sight and merge: takes another parent than the present one where that saves a robot or
 // keeps the edge in sight. Each keeps the order of parent_selection.hpp, so no cycle can close.
