@@ -90,7 +90,7 @@ struct Preference {
       return;
     }
     float range_m = robot.table().range(k);
-    if (!sees_clearly(robot, k, p.clearance * c)) range_m += 5.0F * c;
+    if (!sees_clearly(robot, k, p.clearance * c)) range_m += sees_clearly(robot, k, 0.5F * p.clearance * c) ? 5.0F * c : 10.0F * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
     rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
