@@ -12,6 +12,8 @@ namespace {
 // Of `clearance`: a robot so near to the line of sight may soon be in it, and very soon.
 constexpr float danger = 0.8F;
 constexpr float urgency = 0.7F;
+constexpr float narrow = 0.5F;   // just past a body: better than nothing
+constexpr float impossible = 1e9F;
 
 constexpr float merge_period_s = 2.0F;
 constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
@@ -143,40 +145,42 @@ void save_robots(Robot& robot) noexcept {
   else if (!merge(robot)) make_wish(robot, p.merge_distance * c, turn);
 }
 
-// Rule 6: my parent is hidden, or soon will be. The visible robot nearest to the old edge that is
-// ahead of me: one of the tree or, when it is too late, a spare, which joins because it is named.
-// If nobody is, my pulse rests, so that the nearest will be.
-void keep_in_sight(Robot& robot, bool urgent) noexcept {
+// How bad neighbour k would be as parent in place of one that is hidden, or soon will be: the nearer it
+// is to the old edge the better; rather one of the tree than a spare, which joins because it is named.
+float stopgap_cost(const Robot& robot, int k, bool urgent) noexcept {
   const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  const Standing& m = table.message(k);
+  const float c = p.communication_range_m;
+  if (k == robot.parent || table.age(k) > 0 || table.range(k) > p.parent_range_m()) return impossible;
+  const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == robot.self.epoch &&
+                     m.tree_hops != unreachable;
+  if (!spare && !is_rooted(robot, k)) return impossible;
+  const bool clear = sees_clearly(robot, k, p.clearance * c);
+  if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance * c))) return impossible;
+  const Vec2 at = table.position(k);
+  return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare ? c : 0.0F) + (clear ? 0.0F : 2.0F * c);
+}
+
+// Rule 6: the best stopgap that is ahead of me, a spare only when it is urgent. If there is none, my
+// pulse rests, so that the others get ahead; not for long, for they may all hang on me.
+void keep_in_sight(Robot& robot, bool urgent) noexcept {
   State& self = robot.self;
   const Neighborhood& table = robot.table();
-  const Vec2 parent = table.position(robot.parent);
-  const float clearance_m = p.clearance * p.communication_range_m;
   int best = -1;
-  int next = -1;
-  float best_m = 1e9F;
-  float next_m = 1e9F;
+  int behind = -1;
+  float best_cost = impossible;
+  float behind_cost = impossible;
   for (int k = 0; k < table.size(); ++k) {
-    const Standing& m = table.message(k);
-    if (k == robot.parent || table.age(k) > 0 || table.range(k) > p.parent_range_m()) continue;
-    const bool spare = m.role == Role::spare && m.parent == nobody && (m.request == nobody || m.request == self.id) &&
-                       m.epoch == self.epoch && m.tree_hops != unreachable;
-    if (!spare && !is_rooted(robot, k)) continue;
-    const bool clear = sees_clearly(robot, k, clearance_m);
-    if (!clear && (!urgent || !sees_clearly(robot, k, 0.5F * clearance_m))) continue;
-    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k))) + (spare ? p.communication_range_m : 0.0F) + (clear ? 0.0F : 2.0F * p.communication_range_m);
-    if (is_ahead(robot, k)) {
-      if ((urgent || !spare) && d < best_m) {
-        best_m = d;
-        best = k;
-      }
-    } else if (d < next_m) {
-      next_m = d;
-      next = k;
+    const float cost = stopgap_cost(robot, k, urgent);
+    if (!is_ahead(robot, k)) {
+      if (cost < behind_cost) behind_cost = cost, behind = k;
+    } else if ((urgent || table.message(k).role != Role::spare) && cost < best_cost) {
+      best_cost = cost, best = k;
     }
   }
   if (best < 0) {
-    self.wish = next < 0 || ++self.wish_ticks > wish_limit_ticks ? nobody : table.id(next);
+    self.wish = behind < 0 || ++self.wish_ticks > wish_limit_ticks ? nobody : table.id(behind);
     return;
   }
   self.grant = nobody;  // of the edge that is given up
