@@ -16,6 +16,8 @@ constexpr float compact_gain = 0.8F;   // a branch that has arrived slides toget
 constexpr float compact_width = 0.05F; // of C: with full strength so far from compact_distance
 constexpr float follow_spare = 0.25F;  // of C: so far it stays behind a spare that leads it to the tree
 constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
+constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
+constexpr float called_follow_tree = 0.75F;
 constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
@@ -218,8 +220,7 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   // Called in a crowd, it might wait for others to move while the tree goes away.
   if (const int home = self.called ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
-    const bool arrived = k < 0 || robot.table().range(k) <= p.avoidance_range_m;
-    const float home_c = robot.table().message(home).role == Role::spare ? (arrived ? follow_spare : 0.6F) : (arrived ? follow_tree : 0.75F);
+    const float home_c = robot.table().message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
     if (robot.table().range(home) > home_c * c) k = home;
   }
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};

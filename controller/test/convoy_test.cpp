@@ -282,7 +282,7 @@ TEST_F(SpareBesideAnEdge, MakesWayForAnEdgeOfTheOldTree) {
 TEST(Convoy, ACalledSpareKeepsUpWithTheTree) {
   Bench bench = grown(convoy());
   bench.put(5, {-0.3F, 0.0F}).role = Role::spare;
-  bench.put(2, {0.9F, 0.0F}).role = Role::connector;
+  bench.put(2, {1.4F, 0.0F}).role = Role::connector;
   bench.state.called = true;
   bench.state.reference = 5;
   const auto towards_tree = [&] {
@@ -290,7 +290,7 @@ TEST(Convoy, ACalledSpareKeepsUpWithTheTree) {
     return convoy().spare_motion(robot).x;
   };
   EXPECT_LT(towards_tree(), 0.5F);
-  bench.move(2, {1.1F, 0.0F});
+  bench.move(2, {1.6F, 0.0F});
   EXPECT_GT(towards_tree(), 0.5F);
 }
 
