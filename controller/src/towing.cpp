@@ -174,6 +174,17 @@ Vec2 pull_past_obstacles(const Robot& robot) noexcept {
   return bypass(robot, unit(pull) * goal_m) * norm(pull);
 }
 
+// While the tree is reconstructed nobody can mend a line of sight. When all have arrived there is no
+// hurry either: best nobody moves.
+bool holds_still(const Robot& robot) noexcept {
+  if (robot.self.phase != Phase::start_tree && robot.self.phase != Phase::select_parent) return false;
+  if (robot.self.want_m > 0.0F) return false;
+  const Neighborhood& table = robot.table();
+  for (int k = 0; k < table.size(); ++k)
+    if (table.message(k).want_cm > 0) return false;
+  return true;
+}
+
 }  // namespace
 
 bool saves_robots(const Params& params) noexcept { return params.corrected() && params.merge_distance > 0.0F; }
@@ -200,6 +211,7 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   constexpr float leeway = 0.7F;
   const float give = leeway * std::max(0.0F, 1.0F - norm(robot.self.pull));
   if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + elbow_room(robot);
+  if (holds_still(robot)) return {};
   const Vec2 along = has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
   return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
@@ -217,6 +229,7 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   const int root = robot.table().find(self.root.id);
   if (root >= 0 && robot.table().message(root).pinned && robot.table().range(root) > p.avoidance_range_m)
     return bypass(robot, robot.table().position(root)) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
+  if (holds_still(robot)) return {};
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   // Called in a crowd, it might wait for others to move while the tree goes away.
   if (const int home = self.called ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {

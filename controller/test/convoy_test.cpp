@@ -146,6 +146,15 @@ TEST_F(ConvoyChain, AParentAboutToBeHiddenIsReplacedInTime) {
   EXPECT_EQ(parent_after_shortcuts(), 5);
 }
 
+TEST_F(ConvoyChain, HoldsStillInAReconstructionWhenAllHaveArrived) {
+  bench.state.phase = Phase::start_tree;
+  EXPECT_GT(norm(motion()), 0.0F);
+  bench.say(3).want_cm = 0;
+  EXPECT_EQ(norm(motion()), 0.0F);
+  bench.state.phase = Phase::grow_tree;
+  EXPECT_GT(norm(motion()), 0.0F);
+}
+
 // Robot 5 is as fresh as I am and has the larger label: it is behind me, or may hang on me.
 class EndangeredEdge : public ConvoyChain {
  protected:
@@ -275,6 +284,15 @@ TEST_F(SpareBesideAnEdge, MakesWayForItAlsoWhenOneEndIsHiddenFromIt) {
 
 TEST_F(SpareBesideAnEdge, MakesWayForAnEdgeOfTheOldTree) {
   bench.say(2).old_parent = 3;
+  EXPECT_LT(motion().y, 0.0F);
+}
+
+// While the tree is reconstructed nobody can mend a line of sight.
+TEST_F(SpareBesideAnEdge, HoldsStillInAReconstructionWhenAllHaveArrived) {
+  bench.say(2).old_parent = 3;
+  bench.state.phase = Phase::start_tree;
+  EXPECT_EQ(norm(motion()), 0.0F);
+  bench.say(2).want_cm = 100;
   EXPECT_LT(motion().y, 0.0F);
 }
 
