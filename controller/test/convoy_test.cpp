@@ -147,6 +147,7 @@ TEST_F(ConvoyChain, AParentAboutToBeHiddenIsReplacedInTime) {
 }
 
 TEST_F(ConvoyChain, HoldsStillInAReconstructionWhenAllHaveArrived) {
+  bench.move(3, {0.8F, 1.0F});  // not in line with the parent: tension
   bench.state.phase = Phase::start_tree;
   EXPECT_GT(norm(motion()), 0.0F);
   bench.say(3).want_cm = 0;
