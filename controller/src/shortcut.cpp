@@ -12,7 +12,7 @@ namespace {
 // Of `clearance`: a robot so near to the line of sight may soon be in it, and very soon.
 constexpr float danger = 0.8F;
 constexpr float urgency = 0.7F;
-constexpr float narrow = 0.5F;   // just past a body: better than nothing
+constexpr float narrow = 0.5F;           // just past a body: better than nothing
 constexpr float impossible = 1e9F;
 
 constexpr float merge_period_s = 2.0F;
@@ -173,10 +173,13 @@ void keep_in_sight(Robot& robot, bool urgent) noexcept {
   float behind_cost = impossible;
   for (int k = 0; k < table.size(); ++k) {
     const float cost = stopgap_cost(robot, k, urgent);
-    if (!is_ahead(robot, k)) {
-      if (cost < behind_cost) behind_cost = cost, behind = k;
-    } else if ((urgent || table.message(k).role != Role::spare) && cost < best_cost) {
-      best_cost = cost, best = k;
+    const bool ahead = is_ahead(robot, k);
+    if (!ahead && cost < behind_cost) {
+      behind_cost = cost;
+      behind = k;
+    } else if (ahead && cost < best_cost && (urgent || table.message(k).role != Role::spare)) {
+      best_cost = cost;
+      best = k;
     }
   }
   if (best < 0) {
