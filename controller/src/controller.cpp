@@ -81,6 +81,7 @@ Message compose(const Robot& robot) noexcept {
   m.grant = self.grant;
   m.request = self.request;
   m.inserted_child = self.inserted_child;
+  m.warned = self.warned;
   m.call_hops = self.call_hops;
   m.child_count = robot.useful_children;
   m.above = self.above;

@@ -15,6 +15,8 @@ namespace banyan {
 namespace {
 
 constexpr int silence_ticks = 2;      // a parent silent for so long counts as hidden
+constexpr float narrow = 0.5F;        // of `clearance`: just past a body
+constexpr float tight = 0.6F;         // enough for who stands in the way and clears it by joining
 
 class Convoy final : public Policy {
  public:
@@ -80,7 +82,7 @@ bool was_edge(const Robot& robot, int k) noexcept {
 }
 
 // Once all below have arrived the tree stays what it has become. Else short first edges, then such as
-// need no spare, then the nearest; a blocked one is as good as far.
+// need no spare, then the nearest; one that soon may be blocked is as good as far, one that is farther still.
 struct Preference {
   int rank;
   float key;
@@ -93,7 +95,7 @@ struct Preference {
       return;
     }
     float range_m = robot.table().range(k);
-    if (!sees_clearly(robot, k, p.clearance * c)) range_m += 5.0F * c;
+    if (!sees_clearly(robot, k, p.clearance * c)) range_m += sees_clearly(robot, k, narrow * p.clearance * c) ? 5.0F * c : 10.0F * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
     rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
@@ -125,7 +127,8 @@ bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcep
   const float clearance_m = p.clearance * p.communication_range_m;
   if (table.range(owner) >= reach_m || table.range(parent) >= reach_m) return false;
   const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
-  return in_the_way || (sees_clearly(robot, owner, clearance_m) && sees_clearly(robot, parent, clearance_m));
+  const float room_m = in_the_way ? tight * clearance_m : clearance_m;
+  return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
 }
 
 constexpr Convoy instance;

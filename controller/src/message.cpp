@@ -95,6 +95,7 @@ void visit_fields(Visitor& visit, M& m) noexcept {
   visit(m.grant);
   visit(m.request);
   visit(m.inserted_child);
+  visit(m.warned);
   visit(m.new_root);
   visit(m.centroid_x_cm);
   visit(m.centroid_y_cm);

@@ -14,17 +14,23 @@ namespace {
 // Of `clearance`: a robot so near to the line of sight may soon be in it, and very soon.
 constexpr float danger = 0.8F;
 constexpr float urgency = 0.7F;
+constexpr float narrow = 0.5F;           // just past a body: better than nothing
+constexpr float impossible = 1e9F;
 
 constexpr float merge_period_s = 2.0F;
 constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
 constexpr int wish_limit_ticks = 15;     // longer than pulses of two branches differ
 
 // A robot of the rooted tree that does not name me as parent: heard this tick or the last, in sight.
-bool is_rooted_in_sight(const Robot& robot, int k) noexcept {
+bool is_rooted(const Robot& robot, int k) noexcept {
   const Neighborhood& table = robot.table();
   const Standing& m = table.message(k);
   return table.age(k) <= 1 && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
-         m.depth != invalid_depth && sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+         m.depth != invalid_depth;
+}
+
+bool is_rooted_in_sight(const Robot& robot, int k) noexcept {
+  return is_rooted(robot, k) && sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
 }
 
 // That I may hang on now: ahead of me.
@@ -173,36 +179,78 @@ void save_robots(Robot& robot) noexcept {
   else if (!merge(robot)) make_wish(robot, p.merge_distance * c, turn);
 }
 
-// Rule 6: my parent is hidden, or soon will be. The visible robot nearest to the old edge that is
-// ahead of me: one of the tree or, when it is too late, a spare, which joins because it is named.
-void keep_in_sight(Robot& robot, bool urgent) noexcept {
+// How bad neighbour k would be as parent in place of one that is hidden, or soon will be: the nearer it
+// is to the old edge the better; rather one of the tree than a spare, which joins because it is named.
+float stopgap_cost(const Robot& robot, int k, bool urgent) noexcept {
   const Params& p = robot.params;
   const Neighborhood& table = robot.table();
-  const Vec2 parent = table.position(robot.parent);
-  const float clearance_m = p.clearance * p.communication_range_m;
+  const Standing& m = table.message(k);
+  const float c = p.communication_range_m;
+  if (k == robot.parent || table.age(k) > 0 || table.range(k) > p.parent_range_m()) return impossible;
+  const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == robot.self.epoch &&
+                     m.tree_hops != unreachable;
+  if (!spare && !is_rooted(robot, k)) return impossible;
+  const bool clear = sees_clearly(robot, k, p.clearance * c);
+  if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance * c))) return impossible;
+  const Vec2 at = table.position(k);
+  return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare ? c : 0.0F) + (clear ? 0.0F : 2.0F * c);
+}
+
+// Rule 6: the best stopgap that is ahead of me, a spare only when it is urgent. If there is none, my
+// pulse rests, so that the others get ahead; not for long, for they may all hang on me.
+void keep_in_sight(Robot& robot, bool urgent) noexcept {
+  State& self = robot.self;
+  const Neighborhood& table = robot.table();
   int best = -1;
-  float best_m = 1e9F;
+  int behind = -1;
+  float best_cost = impossible;
+  float behind_cost = impossible;
   for (int k = 0; k < table.size(); ++k) {
-    const Standing& m = table.message(k);
-    if (k == robot.parent || table.age(k) > 0) continue;
-    const bool spare = urgent && m.role == Role::spare && m.parent == nobody && m.request == nobody && is_ahead(robot, k) &&
-                       m.tree_hops != unreachable && table.range(k) <= p.parent_range_m() && sees_clearly(robot, k, clearance_m);
-    if (!spare && !is_hold(robot, k, p.parent_range_m())) continue;
-    const float d = norm(nearest_on_segment(-table.position(k), parent - table.position(k))) + (spare ? p.communication_range_m : 0.0F);
-    if (d < best_m) {
-      best_m = d;
+    const float cost = stopgap_cost(robot, k, urgent);
+    const bool ahead = is_ahead(robot, k);
+    if (!ahead && cost < behind_cost) {
+      behind_cost = cost;
+      behind = k;
+    } else if (ahead && cost < best_cost && (urgent || table.message(k).role != Role::spare)) {
+      best_cost = cost;
       best = k;
     }
   }
-  if (best < 0) return;
-  robot.self.grant = nobody;  // of the edge that is given up
+  if (best < 0) {
+    self.wish = behind < 0 || ++self.wish_ticks > wish_limit_ticks ? nobody : table.id(behind);
+    return;
+  }
+  self.grant = nobody;  // of the edge that is given up
   take_parent(robot, best);
+}
+
+// I stand where I hide my parent from its own parent: that one takes me, and my parent can hang on me.
+bool step_before_parent(Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  const int k = table.find(table.message(robot.parent).parent);
+  if (k < 0 || table.age(k) > 0) return false;
+  const float d = norm(nearest_on_segment(table.position(robot.parent), table.position(k)));
+  if (d > danger * p.clearance * p.communication_range_m || !is_hold(robot, k, p.parent_range_m())) return false;
+  take_parent(robot, k);
+  return true;
+}
+
+// Of the robots around an edge its lower end may see less than the upper: others hide them.
+RobotId child_to_warn(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const Neighborhood& table = robot.table();
+  for (const int k : robot.children)
+    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance * p.communication_range_m))
+      return table.id(k);
+  return nobody;
 }
 
 }  // namespace
 
 void take_shortcuts(Robot& robot) noexcept {
   State& self = robot.self;
+  self.warned = child_to_warn(robot);
   if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.inserted_child != nobody) {
     self.wish = nobody;
     return;
@@ -211,11 +259,14 @@ void take_shortcuts(Robot& robot) noexcept {
   const Params& p = robot.params;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
   const float clearance_m = p.clearance * p.communication_range_m;
-  const bool endangered = hidden || !sees_clearly(robot, robot.parent, danger * clearance_m);
+  const bool warned = robot.table().message(robot.parent).warned == self.id;
+  const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance_m);
   const bool may_save = !endangered && self.grant == nobody && has_arrived(robot);
-  if (!may_save) self.wish = nobody;
-  if (endangered) return keep_in_sight(robot, hidden || !sees_clearly(robot, robot.parent, urgency * clearance_m));
+  if (!endangered && !may_save) self.wish = nobody;
+  if (!endangered && self.wish == nobody) self.wish_ticks = 0;
+  if (endangered) return keep_in_sight(robot, hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance_m));
   if (self.grant != nobody) return;  // the tree changes here already
+  if (step_before_parent(robot)) return;
   if (is_regrouping(robot)) take_inner(robot);
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);

@@ -108,24 +108,6 @@ RobotId nearest_edge_in_need(const Robot& robot) noexcept {
   return best;
 }
 
-// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest. It
-// keeps the one it has while that is as good: who turns to another every tick gets nowhere.
-RobotId nearest_reference(const Robot& robot) noexcept {
-  const Neighborhood& table = robot.table();
-  int best = -1;
-  const auto hops = [&](int k) {
-    const Standing& m = table.message(k);
-    return m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops);
-  };
-  const auto key = [&](int k) {
-    const bool other = table.id(k) != robot.self.reference;
-    return std::tuple(hops(k), hops(k) >= 0 && other, table.range(k));
-  };
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && (best < 0 || key(k) < key(best))) best = k;
-  return best < 0 ? nobody : table.id(best);
-}
-
 // The neighbour by which an unanswered need is nearest.
 RobotId nearest_caller(const Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
@@ -208,6 +190,22 @@ void watch_inserted_child(Robot& robot) noexcept {
 }
 
 }  // namespace
+
+RobotId nearest_reference(const Robot& robot) noexcept {
+  const Neighborhood& table = robot.table();
+  int best = -1;
+  const auto hops = [&](int k) {
+    const Standing& m = table.message(k);
+    return m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops);
+  };
+  const auto key = [&](int k) {
+    const bool other = table.id(k) != robot.self.reference;
+    return std::tuple(hops(k), hops(k) >= 0 && other, table.range(k));
+  };
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k) && (best < 0 || key(k) < key(best))) best = k;
+  return best < 0 ? nobody : table.id(best);
+}
 
 bool is_stretched(const Robot& robot) noexcept {
   const State& self = robot.self;

@@ -36,7 +36,7 @@ std::uint64_t hash(const State& s) noexcept {
                       static_cast<int>(s.flood_robots), static_cast<int>(s.flood_workers), static_cast<int>(s.parent),
                       static_cast<int>(s.old_parent), static_cast<int>(s.committed),
                       static_cast<int>(s.search_ticks), static_cast<int>(s.orphan_ticks), static_cast<int>(s.childless_ticks),
-                      static_cast<int>(s.pulse), static_cast<int>(s.wish), static_cast<int>(s.wish_ticks), static_cast<int>(s.depth), static_cast<int>(s.tree_hops), static_cast<int>(s.subtree),
+                      static_cast<int>(s.pulse), static_cast<int>(s.wish), static_cast<int>(s.wish_ticks), static_cast<int>(s.warned), static_cast<int>(s.depth), static_cast<int>(s.tree_hops), static_cast<int>(s.subtree),
                       static_cast<int>(s.subtree_workers), static_cast<int>(s.count), static_cast<int>(s.centroid_known),
                       static_cast<int>(s.new_root), static_cast<int>(s.offer_ticks), static_cast<int>(s.need),
                       static_cast<int>(s.grant), static_cast<int>(s.grant_ticks),

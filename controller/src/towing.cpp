@@ -18,6 +18,8 @@ constexpr float compact_gain = 0.8F;   // a branch that has arrived slides toget
 constexpr float compact_width = 0.05F; // of C: with full strength so far from compact_distance
 constexpr float follow_spare = 0.25F;  // of C: so far it stays behind a spare that leads it to the tree
 constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
+constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
+constexpr float called_follow_tree = 0.75F;
 constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
@@ -103,26 +105,34 @@ Vec2 elbow_room(const Robot& robot) noexcept {
   return u;
 }
 
-// Out of the line of sight of tree edges that are not mine, if I hear both ends.
-Vec2 make_way(const Robot& robot, float width_m) noexcept {
-  const Params& p = robot.params;
+// Tree edges, old ones during a reconstruction, that are not mine and whose ends I know: visit(a, b).
+template <class Visit>
+void for_each_other_edge(const Robot& robot, Visit visit) noexcept {
   const Neighborhood& table = robot.table();
-  Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const Standing& m = table.message(k);
-    if (m.parent == nobody || m.parent == robot.self.id || m.role == Role::spare || table.age(k) > 0 || k == robot.parent) continue;
-    const int up = table.find(m.parent);
-    if (up < 0) continue;
-    const Vec2 a = table.position(k);
-    const Vec2 b = table.position(up);
+    if (m.role == Role::spare || !table.alive(k)) continue;
+    const auto visit_edge = [&](RobotId parent) {
+      if (parent == nobody || parent == robot.self.id) return;
+      if (const int up = table.find(parent); up >= 0) visit(table.position(k), table.position(up));
+    };
+    if (k != robot.parent) visit_edge(m.parent);
+    if (k != robot.old_parent && m.old_parent != m.parent) visit_edge(m.old_parent);
+  }
+}
+
+// Out of their lines of sight.
+Vec2 make_way(const Robot& robot, float width_m) noexcept {
+  Vec2 u;
+  for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
     const Vec2 near = nearest_on_segment(a, b);
     const float d = norm(near);
-    if (d >= width_m) continue;
+    if (d >= width_m) return;
     const Vec2 along = unit(b - a);
     const Vec2 side = d > 1e-3F ? -near / d : Vec2{-along.y, along.x};
     u += side * std::min(width_m / std::max(d, 1e-3F) - 1.0F, 20.0F);
-  }
-  return u * p.corridor_gain;
+  });
+  return u * robot.params.corridor_gain;
 }
 
 // The way along which I can save a robot: towards my parent; the root's is towards the nearest child
@@ -173,6 +183,17 @@ Vec2 pull_past_obstacles(const Robot& robot) noexcept {
   return bypass(robot, unit(pull) * goal_m) * norm(pull);
 }
 
+// While the tree is reconstructed nobody can mend a line of sight. When all have arrived there is no
+// hurry either: best nobody moves.
+bool holds_still(const Robot& robot) noexcept {
+  if (robot.self.phase != Phase::start_tree && robot.self.phase != Phase::select_parent) return false;
+  if (robot.self.want_m > 0.0F) return false;
+  const Neighborhood& table = robot.table();
+  for (int k = 0; k < table.size(); ++k)
+    if (table.message(k).want_cm > 0) return false;
+  return true;
+}
+
 }  // namespace
 
 bool saves_robots(const Params& params) noexcept { return params.corrected() && params.merge_distance > 0.0F; }
@@ -201,6 +222,7 @@ Vec2 towed_motion(const Robot& robot) noexcept {
   const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
   if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + elbow_room(robot);
   if (is_stub(robot)) return bypass(robot, robot.self.stub) + elbow_room(robot);
+  if (holds_still(robot)) return {};
   const Vec2 along = robot.self.errand != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
   return along + tension(robot) + shared_slack(robot) + elbow_room(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot);
 }
@@ -218,7 +240,13 @@ Vec2 waiting_motion(const Robot& robot) noexcept {
   const int root = robot.table().find(self.root.id);
   if (root >= 0 && robot.table().message(root).pinned && robot.table().range(root) > p.avoidance_range_m)
     return bypass(robot, robot.table().position(root)) + elbow_room(robot) + make_way(robot, 2.0F * p.clearance * c);
-  const int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
+  if (holds_still(robot)) return {};
+  int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
+  // Called in a crowd, it might wait for others to move while the tree goes away.
+  if (const int home = self.called ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
+    const float home_c = robot.table().message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
+    if (robot.table().range(home) > home_c * c) k = home;
+  }
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
   // Sight can be lost at any distance: it follows in good time, and a spare that leads it even earlier.

@@ -49,7 +49,7 @@ Message babble(Noise& noise, std::uint32_t robots) {
   m.depth = noise.word(8);
   m.tree_hops = static_cast<std::uint8_t>(noise.word(256));
   m.call_hops = static_cast<std::uint8_t>(noise.word(256));
-  for (RobotId* id : {&m.parent, &m.old_parent, &m.flood_parent, &m.grant, &m.request, &m.inserted_child, &m.new_root}) *id = anybody();
+  for (RobotId* id : {&m.parent, &m.old_parent, &m.flood_parent, &m.grant, &m.request, &m.inserted_child, &m.warned, &m.new_root}) *id = anybody();
   m.flood_robots = noise.word(65535);
   m.subtree = noise.word(65535);
   m.count = noise.word(65535);

@@ -155,6 +155,76 @@ TEST_F(ConvoyChain, AParentAboutToBeHiddenIsReplacedInTime) {
   EXPECT_EQ(parent_after_shortcuts(), 5);
 }
 
+TEST_F(ConvoyChain, HoldsStillInAReconstructionWhenAllHaveArrived) {
+  bench.move(3, {0.8F, 1.0F});  // not in line with the parent: tension
+  bench.state.phase = Phase::start_tree;
+  EXPECT_GT(norm(motion()), 0.0F);
+  bench.say(3).want_cm = 0;
+  EXPECT_EQ(norm(motion()), 0.0F);
+  bench.state.phase = Phase::grow_tree;
+  EXPECT_GT(norm(motion()), 0.0F);
+}
+
+// Robot 5 is as fresh as I am and has the larger label: it is behind me, or may hang on me.
+class EndangeredEdge : public ConvoyChain {
+ protected:
+  EndangeredEdge() {
+    Message& beside = bench.put(5, {-0.5F, 0.3F});
+    beside.role = Role::connector;
+    beside.parent = 9;
+    beside.depth = 2;
+    beside.pulse = 50;
+    beside.label_cm = 400;
+    bench.say(2).child_count = 2;
+    bench.put(6, {-0.7F, -0.09F}).role = Role::spare;
+  }
+};
+
+TEST_F(EndangeredEdge, LetsItsPulseRestUntilAStopgapIsAhead) {
+  bench.step();
+  EXPECT_EQ(bench.state.parent, 2);
+  EXPECT_EQ(bench.state.wish, 5);
+  for (int t = 0; t < 3; ++t) {
+    ++bench.say(2).pulse;
+    ++bench.say(5).pulse;
+    bench.step();
+  }
+  EXPECT_EQ(bench.state.parent, 5);
+}
+
+TEST_F(EndangeredEdge, NeverHangsOnItsOwnDescendant) {
+  for (int t = 0; t < 100; ++t) {
+    ++bench.say(2).pulse;
+    bench.say(5).pulse = bench.step().message.pulse;
+    ASSERT_EQ(bench.state.parent, 2) << t;
+  }
+  EXPECT_GT(bench.state.pulse, 100);  // and the pulse does not rest for ever
+}
+
+// What is about to cut the edge is hidden from me, but not from my parent.
+TEST_F(EndangeredEdge, IsGivenUpWhenTheParentWarns) {
+  bench.move(6, {0.0F, 1.5F});
+  bench.say(5).pulse = 52;
+  EXPECT_EQ(parent_after_shortcuts(), 2);
+  bench.say(2).warned = 1;
+  EXPECT_EQ(parent_after_shortcuts(), 5);
+}
+
+TEST_F(ConvoyChain, WarnsAChildWhoseSightIsAboutToBeCut) {
+  bench.put(6, {0.8F, 0.2F}).role = Role::spare;
+  EXPECT_EQ(bench.step().message.warned, nobody);
+  bench.move(6, {0.8F, 0.1F});
+  EXPECT_EQ(bench.step().message.warned, 3);
+}
+
+TEST_F(ConvoyChain, StepsBeforeItsParentWhenItHidesItFromTheGrandparent) {
+  bench.say(2).child_count = 2;  // or it would be released
+  put_root({0.8F, 0.6F});
+  EXPECT_EQ(parent_after_shortcuts(), 2);
+  bench.move(9, {0.8F, 0.05F});
+  EXPECT_EQ(parent_after_shortcuts(), 9);
+}
+
 TEST(Convoy, ASpareJoinsWhereItStandsIfItSeesBothEnds) {
   Bench bench = grown(convoy());
   bench.put(2, {-1.0F, 0.2F});
@@ -170,6 +240,86 @@ TEST(Convoy, ASpareJoinsWhereItStandsIfItSeesBothEnds) {
   for (int t = 0; t < 10; ++t) bench.tick();
   bench.move(3, {1.81F, 0.2F});
   EXPECT_FALSE(joins());
+}
+
+TEST(Convoy, ASpareInTheWayJoinsIfNobodyHidesAnEndFromIt) {
+  Bench bench = grown(convoy());
+  bench.put(2, {-1.0F, 0.0F});
+  bench.put(3, {1.0F, 0.0F});
+  bench.put(4, {0.5F, 0.12F}).role = Role::spare;
+  const auto joins = [&] {
+    const Robot robot = bench.tick();
+    return convoy().may_insert(robot, robot.table().find(2), robot.table().find(3));
+  };
+  EXPECT_TRUE(joins());
+  bench.move(4, {0.5F, 0.06F});
+  EXPECT_FALSE(joins());
+}
+
+// Both are blocked, but 3 can be heard past 5; 4 hides 2.
+TEST(Convoy, PrefersABlockedParentThatItStillSees) {
+  Bench bench = grown(convoy());
+  bench.put(2, {1.0F, 0.0F});
+  bench.put(3, {0.0F, 1.2F});
+  bench.put(4, {0.5F, 0.02F}).role = Role::spare;
+  bench.put(5, {0.12F, 0.6F}).role = Role::spare;
+  const Robot robot = bench.tick();
+  const int hidden = robot.table().find(2);
+  const int seen = robot.table().find(3);
+  EXPECT_TRUE(convoy().prefers(robot, seen, hidden));
+  EXPECT_FALSE(convoy().prefers(robot, hidden, seen));
+}
+
+// A spare 0.2 m beside the middle of the edge 2-3.
+class SpareBesideAnEdge : public ::testing::Test {
+ protected:
+  SpareBesideAnEdge() {
+    bench.put(2, {-0.8F, 0.2F}).role = Role::connector;
+    bench.put(3, {0.8F, 0.2F}).role = Role::root;
+  }
+  Vec2 motion() {
+    const Robot robot = bench.tick();
+    return convoy().spare_motion(robot);
+  }
+  Bench bench = grown(convoy());
+};
+
+TEST_F(SpareBesideAnEdge, MakesWayForItAlsoWhenOneEndIsHiddenFromIt) {
+  EXPECT_EQ(norm(motion()), 0.0F);
+  bench.say(2).parent = 3;
+  EXPECT_LT(motion().y, 0.0F);
+  bench.silence(2);
+  EXPECT_LT(motion().y, 0.0F);
+}
+
+TEST_F(SpareBesideAnEdge, MakesWayForAnEdgeOfTheOldTree) {
+  bench.say(2).old_parent = 3;
+  EXPECT_LT(motion().y, 0.0F);
+}
+
+// While the tree is reconstructed nobody can mend a line of sight.
+TEST_F(SpareBesideAnEdge, HoldsStillInAReconstructionWhenAllHaveArrived) {
+  bench.say(2).old_parent = 3;
+  bench.state.phase = Phase::start_tree;
+  EXPECT_EQ(norm(motion()), 0.0F);
+  bench.say(2).want_cm = 100;
+  EXPECT_LT(motion().y, 0.0F);
+}
+
+// Spare 5 has passed the call on and stands next to me; the tree's nearest robot 2 drives away.
+TEST(Convoy, ACalledSpareKeepsUpWithTheTree) {
+  Bench bench = grown(convoy());
+  bench.put(5, {-0.3F, 0.0F}).role = Role::spare;
+  bench.put(2, {1.4F, 0.0F}).role = Role::connector;
+  bench.state.called = true;
+  bench.state.reference = 5;
+  const auto towards_tree = [&] {
+    const Robot robot = bench.tick();
+    return convoy().spare_motion(robot).x;
+  };
+  EXPECT_LT(towards_tree(), 0.5F);
+  bench.move(2, {1.6F, 0.0F});
+  EXPECT_GT(towards_tree(), 0.5F);
 }
 
 TEST(Convoy, LengthsGrowWithTheRadioAndThereIsOneReading) {

@@ -26,7 +26,7 @@ Message arbitrary_message() {
   m.parent_silent = *rc::gen::arbitrary<bool>();
   for (std::uint16_t* field : {&m.epoch, &m.root.sequence, &m.root.id, &m.root_size, &m.label_cm, &m.pulse, &m.depth, &m.parent, &m.old_parent,
                                &m.flood_parent, &m.flood_robots, &m.flood_workers, &m.subtree, &m.subtree_workers, &m.count,
-                               &m.grant, &m.request, &m.inserted_child, &m.new_root, &m.want_cm, &m.heartbeat, &m.serves, &m.told,
+                               &m.grant, &m.request, &m.inserted_child, &m.warned, &m.new_root, &m.want_cm, &m.heartbeat, &m.serves, &m.told,
                                &m.task_serves, &m.task_holder, &m.task_beat})
     *field = word();
   for (std::int16_t* field : {&m.pull_x, &m.pull_y, &m.centroid_x_cm, &m.centroid_y_cm, &m.root_x_cm, &m.root_y_cm, &m.task_x_cm, &m.task_y_cm}) *field = static_cast<std::int16_t>(word());

@@ -145,7 +145,7 @@ TEST_P(Protocol, MessagesNameRobotsThatExist) {
     for (std::size_t i = 0; i < n; ++i) {
       const Message& m = world.messages()[i];
       ASSERT_EQ(m.id, i);
-      for (const RobotId id : {m.parent, m.old_parent, m.flood_parent, m.grant, m.request, m.inserted_child, m.new_root, m.root.id})
+      for (const RobotId id : {m.parent, m.old_parent, m.flood_parent, m.grant, m.request, m.inserted_child, m.warned, m.new_root, m.root.id})
         ASSERT_TRUE(id == nobody || (id < n && (id != i || m.root.id == i))) << i;
       ASSERT_NE(m.parent, m.id);
       ASSERT_NE(m.old_parent, m.id);

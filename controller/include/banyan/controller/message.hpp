@@ -75,6 +75,7 @@ struct Standing {
   RobotId grant = nobody;             // the spare I let into the edge to my parent
   RobotId request = nobody;           // the owner whose edge I want to join
   RobotId inserted_child = nobody;    // I have just been inserted above this robot
+  RobotId warned = nobody;            // the child whose line of sight to me is about to be cut, for all it can see
   std::int16_t hinge_x_cm = 0;        // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
   std::int16_t hinge_y_cm = 0;
   RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
@@ -122,7 +123,7 @@ inline constexpr float q_limit_m = 1.0e9F;
 // while there is none, the old parent.
 constexpr RobotId up_of(const Standing& m) noexcept { return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent; }
 
-inline constexpr std::size_t wire_size = 94;  // bytes, little-endian, no padding
+inline constexpr std::size_t wire_size = 96;  // bytes, little-endian, no padding
 inline constexpr std::uint8_t wire_version = 3;
 using Wire = std::array<std::uint8_t, wire_size>;
 

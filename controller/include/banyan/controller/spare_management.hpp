@@ -19,4 +19,8 @@ void manage_spares(Robot& robot) noexcept;
 // False if it does not know both ends.
 [[nodiscard]] bool edge_midpoint(const Robot& robot, RobotId owner, Vec2& midpoint) noexcept;
 
+// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest. It
+// keeps the one it has while that is as good: who turns to another every tick gets nowhere.
+[[nodiscard]] RobotId nearest_reference(const Robot& robot) noexcept;
+
 }  // namespace banyan

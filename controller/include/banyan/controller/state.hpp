@@ -82,6 +82,7 @@ struct State {
   std::uint16_t pulse = 0;
   RobotId wish = nobody;                 // the robot I want as parent as soon as it is ahead of me
   std::uint16_t wish_ticks = 0;
+  RobotId warned = nobody;               // the child that I am about to lose sight of
   std::uint16_t depth = invalid_depth;
   std::uint8_t tree_hops = unreachable;
 
