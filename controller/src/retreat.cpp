@@ -9,7 +9,7 @@
 namespace banyan {
 namespace {
 
-constexpr float regroup_after_s = 20.0F;
+constexpr float regroup_after_s = 40.0F;
 constexpr float regroup_for_s = 40.0F;  // at most, then it waits again
 constexpr int lost_ticks = 22;  // an orphan that has found no hold for so long has none in reach
 
