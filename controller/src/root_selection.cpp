@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/root_selection.hpp"
 
+#include <algorithm>
+
 #include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/epoch.hpp"
 #include "banyan/controller/policy.hpp"
@@ -64,7 +66,7 @@ void select_root(Robot& robot) noexcept {
     self.centroid_known = true;
   }
   if (self.new_root != nobody) {
-    if (++self.offer_ticks <= robot.params.ticks(robot.params.handover_timeout_s)) return;
+    if (++self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks())) return;
     self.root.sequence = static_cast<std::uint16_t>(self.root.sequence + 2);  // beats an acceptance that I never heard of
     self.new_root = nobody;
     return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);

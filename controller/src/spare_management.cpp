@@ -12,7 +12,9 @@
 namespace banyan {
 namespace {
 
-constexpr int ungranted_limit_ticks = 14;  // protocol 7 has 6: too few for a question and an answer at five ticks of latency
+// Protocol 7 has 6: too few for a question and an answer at five ticks of latency, or where packets are lost.
+int ungranted_limit_ticks(const Robot& robot) noexcept { return std::max(14, static_cast<int>(robot.self.liveness_ticks)); }
+
 constexpr float call_after_s = 2.0F;      // a need unanswered for so long calls spares from afar
 constexpr std::uint8_t call_reach_hops = 40;
 constexpr float infinite_m = 1e9F;
@@ -35,8 +37,8 @@ void follow_grant(Robot& robot) noexcept {
     take_parent(robot, k);
     return end_grant(self);
   }
-  const bool gone = self.grant_ticks > ungranted_limit_ticks && m.request != self.id && m.inserted_child != self.id;
-  const bool timeout = self.grant_ticks > robot.params.ticks(robot.params.insertion_timeout_s) + ungranted_limit_ticks;
+  const bool gone = self.grant_ticks > ungranted_limit_ticks(robot) && m.request != self.id && m.inserted_child != self.id;
+  const bool timeout = self.grant_ticks > robot.params.ticks(robot.params.insertion_timeout_s) + ungranted_limit_ticks(robot);
   if (gone || timeout) end_grant(self);
 }
 
@@ -167,7 +169,7 @@ void follow_request(Robot& robot) noexcept {
   const Standing& m = table.message(owner);
   const bool granted = m.grant == self.id;
   self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
-  if (self.ungranted_ticks > ungranted_limit_ticks || (m.grant != nobody && !granted)) return give_up(self);
+  if (self.ungranted_ticks > ungranted_limit_ticks(robot) || (m.grant != nobody && !granted)) return give_up(self);
   if (granted) self.spare_state = SpareState::extend_edge;
   if (granted && robot.policy.may_insert(robot, owner, table.find(m.parent))) join_edge(robot, owner);
 }
@@ -186,7 +188,7 @@ void watch_inserted_child(Robot& robot) noexcept {
   State& self = robot.self;
   const int k = robot.table().find(self.inserted_child);
   const bool done = k >= 0 && robot.table().message(k).parent == self.id;
-  if (done || ++self.inserted_ticks > robot.params.ticks(robot.params.connector_patience_s)) self.inserted_child = nobody;
+  if (done || ++self.inserted_ticks > robot.patience_ticks()) self.inserted_child = nobody;
 }
 
 }  // namespace

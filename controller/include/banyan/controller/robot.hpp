@@ -51,6 +51,10 @@ struct Robot {
   [[nodiscard]] int liveness_ticks() const noexcept {
     return std::max(params.ticks(params.liveness_period_s), static_cast<int>(self.liveness_ticks));
   }
+  // How long a connector waits for a child; one that has just chosen it may not have been heard yet.
+  [[nodiscard]] int patience_ticks() const noexcept {
+    return std::max(params.ticks(params.connector_patience_s), static_cast<int>(self.liveness_ticks));
+  }
   // Neighbour k is at the other end of an edge of mine, old or new.
   [[nodiscard]] bool is_tree_neighbor(int k) const noexcept {
     const Standing& m = table().message(k);
