@@ -495,7 +495,7 @@ TEST(Regroup, AWorkerWhoseEdgeWaitsInVainDrivesHomeAndTakesAnInnerHold) {
   m.committed = true;
   m.child_count = 2;
   bench.move(root_id, {-1.89F, 0.6F});
-  watch.hear_root(150);
+  watch.hear_root(350);
   EXPECT_FALSE(is_regrouping(bench.tick()));
   EXPECT_EQ(bench.state.parent, 5);
   watch.hear_root(150);

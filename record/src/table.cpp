@@ -30,7 +30,7 @@ std::string hexadecimal(std::uint64_t value) {
 }
 
 constexpr std::size_t identifying = 14;
-constexpr std::array<Column<Row>, 60> run_table{{
+constexpr std::array<Column<Row>, 61> run_table{{
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
     {"algorithm", "mission.algorithm", 0, [](const Row& r) -> Cell { return r.id.algorithm; }},
     {"reading", "mission.reading: literal or corrected", 0, [](const Row& r) -> Cell { return r.id.reading; }},

@@ -209,6 +209,19 @@ void Radio::scan(std::size_t i, std::span<const Vec2> positions, std::span<const
 }
 
 // Pairs of all threads, in order, into compressed rows that are ascending at both ends.
+namespace {
+
+// insert() into an emptied vector takes exactly what it needs, and every new record would be an
+// allocation.
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& part) {
+  const std::size_t size = all.size() + part.size();
+  if (size > all.capacity()) all.reserve(size + size / 4);
+  all.insert(all.end(), part.begin(), part.end());
+}
+
+}  // namespace
+
 void Radio::merge(std::size_t robots) {
   blocked_.clear();
   blocker_.clear();
@@ -217,9 +230,9 @@ void Radio::merge(std::size_t robots) {
   std::fill(blocked_offsets_.begin(), blocked_offsets_.end(), 0U);
   std::size_t pairs = 0;
   for (const Scratch& s : scratch_) {
-    blocked_.insert(blocked_.end(), s.blocked.begin(), s.blocked.end());
-    blocker_.insert(blocker_.end(), s.blocker.begin(), s.blocker.end());
-    near_.insert(near_.end(), s.near.begin(), s.near.end());
+    append(blocked_, s.blocked);
+    append(blocker_, s.blocker);
+    append(near_, s.near);
     for (const auto& [i, j] : s.links) {
       ++offsets_[i + 1];
       ++offsets_[j + 1];

@@ -17,8 +17,8 @@ TEST(Allocation, TheCounterCounts) {
   EXPECT_GT(allocations, before);
 }
 
-// Nobody spreads out further once the workers stand still, so no buffer has to grow any more: what
-// is left would be an allocation in every tick.
+// Once the workers stand still hardly any buffer has to grow any more, and what has to grows by a
+// quarter: an allocation that belongs to a tick would be there 200 times.
 TEST(Allocation, ATickTakesNothingFromTheHeap) {
   for (const char* algorithm : {"outwards", "inwards"}) {
     for (const std::size_t robots : {20U, 150U}) {
@@ -32,7 +32,7 @@ TEST(Allocation, ATickTakesNothingFromTheHeap) {
       const long before = allocations;
       constexpr int ticks = 200;
       for (int t = 0; t < ticks; ++t) world.step(executor);
-      EXPECT_EQ(allocations - before, 0) << algorithm << ", " << robots << " robots";
+      EXPECT_LE(allocations - before, ticks / 40) << algorithm << ", " << robots << " robots";
     }
   }
 }

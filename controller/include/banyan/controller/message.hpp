@@ -50,10 +50,10 @@ struct Standing {
   Role role = Role::spare;
   Phase phase = Phase::init;
   Need need = Need::no_need;
-  bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
-  bool committed = false;       // I am in this epoch's tree
-  bool parent_silent = false;   // my parent has not been heard for longer than I
-  bool pinned = false;          // a corner is about to cut the edge to my parent, and I have to go on
+  bool flood_done : 1 = false;      // START echo: my flood subtree is complete (protocol 4)
+  bool committed : 1 = false;       // I am in this epoch's tree
+  bool parent_silent : 1 = false;   // my parent has not been heard for longer than I
+  bool pinned : 1 = false;          // a corner is about to cut the edge to my parent, and I have to go on
   std::uint16_t epoch = 0;
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
   std::uint16_t pulse = 0;        // the root's count as it came down the tree: (pulse, label) orders the tree
