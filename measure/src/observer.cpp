@@ -109,6 +109,8 @@ struct Observer::Impl {
   std::uint64_t sample_ticks;
   LivingGraph graph;
   Spectrum with_occlusion, by_distance;
+  std::uint64_t ticks_since_complete = 0;
+  double held_sum = 0.0;
   std::uint64_t committed_sum = 0, low_ticks = 0, low_ticks_by_distance = 0;
   std::uint64_t start_ticks = 0, select_ticks = 0;
   std::uint64_t two_roots_streak = 0, longest_two_roots = 0;
@@ -275,6 +277,10 @@ void Observer::Impl::add_up() {
   run.split_ticks_by_distance += tick.components_by_distance > 1 ? 1 : 0;
   low_ticks += tick.fiedler_low ? 1 : 0;
   low_ticks_by_distance += tick.fiedler_low_by_distance ? 1 : 0;
+  if (run.complete) {
+    ++ticks_since_complete;
+    held_sum += tick.active_targets > 0 ? static_cast<double>(tick.targets_reached) / static_cast<double>(tick.active_targets) : 1.0;
+  }
   two_roots_streak = tick.roots > 1 ? two_roots_streak + 1 : 0;
   run.two_roots_ticks += tick.roots > 1 ? 1 : 0;
   longest_two_roots = std::max(longest_two_roots, two_roots_streak);
@@ -350,6 +356,7 @@ Run Observer::result(const world::World& world) const {
   }
   if (run.time_s > 0.0)
     run.bytes_per_robot_s = static_cast<double>(world.packets_sent() * wire_size) / (static_cast<double>(world.size()) * run.time_s);
+  if (impl_->ticks_since_complete > 0) run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
   run.network_length_m = network_length_m(world);

@@ -246,6 +246,35 @@ TEST(Observer, RatiosAreToTheBounds) {
   EXPECT_EQ(soon.result(at_home).time_ratio, -1.0) << "nothing to be a ratio of";
 }
 
+TEST(Observer, HeldTimeCountsFromCompletionOn) {
+  Scenario s = ring(16, 2, 2.0);
+  s.mission.stop_when_complete = false;
+  s.mission.time_limit_s = 60.0;
+  Event away;  // out of everybody's reach
+  away.kind = Event::Kind::move_target;
+  away.time_s = 40.0;
+  away.index = 1;
+  away.position = {0.0, 50.0};
+  s.events.push_back(away);
+  World world(s);
+  Observer observer(world);
+  double held = 0.0;
+  int ticks = 0;
+  while (!observer.finished()) {
+    after(world, observer, 1);
+    if (!observer.run().complete) continue;
+    held += observer.last().targets_reached / 2.0;
+    ++ticks;
+  }
+  const measure::Run run = observer.result(world);
+  ASSERT_TRUE(run.complete);
+  EXPECT_NEAR(run.held_time_ratio, held / ticks, 1e-12);
+  EXPECT_LT(run.held_time_ratio, 0.9);
+  EXPECT_GT(run.held_time_ratio, 0.5);
+  World started(s);
+  EXPECT_EQ(Observer(started).result(started).held_time_ratio, -1.0) << "not complete";
+}
+
 // outwards, but robot 2 calls itself root now and then, and counts what nobody does here.
 class Pretender final : public Policy {
  public:

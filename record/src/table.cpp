@@ -30,7 +30,7 @@ std::string hexadecimal(std::uint64_t value) {
 }
 
 constexpr std::size_t identifying = 14;
-constexpr std::array<Column<Row>, 61> run_table{{
+constexpr std::array<Column<Row>, 62> run_table{{
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
     {"algorithm", "mission.algorithm", 0, [](const Row& r) -> Cell { return r.id.algorithm; }},
     {"reading", "mission.reading: literal or corrected", 0, [](const Row& r) -> Cell { return r.id.reading; }},
@@ -64,6 +64,8 @@ constexpr std::array<Column<Row>, 61> run_table{{
     {"time_bound_s", "no completion can be earlier", 4, [](const Row& r) -> Cell { return r.run.time_bound_s; }},
     {"time_ratio", "completion time / time_bound_s; empty if never complete", 6,
      [](const Row& r) { return if_known(r.run.time_ratio); }},
+    {"held_time_ratio", "from completion on, mean share of the targets that are held; empty if never complete", 6,
+     [](const Row& r) { return if_known(r.run.held_time_ratio); }},
     {"robots_bound", "no fewer committed robots can connect the targets", 0,
      [](const Row& r) { return natural(r.run.robots_bound); }},
     {"steiner_length_m", "length of a shortest network of the targets, certified from below", 4,
