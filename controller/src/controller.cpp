@@ -2,7 +2,6 @@
 #include "banyan/controller/controller.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "banyan/controller/bypass.hpp"
 #include "banyan/controller/census.hpp"
@@ -43,14 +42,6 @@ void carry_memory(State& self, const Carry& carry) noexcept {
   }
 }
 
-template <class Int>
-Int fixed(float v, float unit_value) noexcept {
-  const float scaled = v * unit_value + (v < 0.0F ? -0.5F : 0.5F);
-  constexpr auto low = static_cast<float>(std::numeric_limits<Int>::min());
-  constexpr auto high = static_cast<float>(std::numeric_limits<Int>::max());
-  return static_cast<Int>(std::clamp(scaled, low, high));
-}
-
 Message compose(const Robot& robot) noexcept {
   const State& self = robot.self;
   Message m;
@@ -86,19 +77,19 @@ Message compose(const Robot& robot) noexcept {
   m.child_count = robot.useful_children;
   m.above = self.above;
   m.below = self.below;
-  m.want_cm = fixed<std::uint16_t>(self.want_m, 100.0F);
+  m.want_cm = to_fixed<std::uint16_t>(self.want_m, per_cm);
   const int up = self.parent != nobody ? robot.parent : robot.old_parent;
   if (up >= 0) {
     const Vec2 addressee = robot.table().position(up);
     const Vec2 pull = to_edge_frame(self.pull, addressee);
     m.q = to_edge_frame(self.q, addressee);
-    m.pull_x = fixed<std::int16_t>(pull.x, pull_unit);
-    m.pull_y = fixed<std::int16_t>(pull.y, pull_unit);
+    m.pull_x = to_fixed<std::int16_t>(pull.x, pull_unit);
+    m.pull_y = to_fixed<std::int16_t>(pull.y, pull_unit);
     Vec2 hinge;
     if (find_hinge(robot, hinge)) {
       hinge = to_edge_frame(hinge - addressee, addressee);
-      m.hinge_x_cm = fixed<std::int16_t>(hinge.x, 100.0F);
-      m.hinge_y_cm = fixed<std::int16_t>(hinge.y, 100.0F);
+      m.hinge_x_cm = to_fixed<std::int16_t>(hinge.x, per_cm);
+      m.hinge_y_cm = to_fixed<std::int16_t>(hinge.y, per_cm);
     }
   }
   const int heir = self.new_root == nobody ? -1 : robot.table().find(self.new_root);
@@ -106,8 +97,8 @@ Message compose(const Robot& robot) noexcept {
     const Vec2 addressee = robot.table().position(heir);
     const Vec2 centroid = to_edge_frame(self.centroid - addressee, addressee);
     m.new_root = self.new_root;
-    m.centroid_x_cm = fixed<std::int16_t>(centroid.x, 100.0F);
-    m.centroid_y_cm = fixed<std::int16_t>(centroid.y, 100.0F);
+    m.centroid_x_cm = to_fixed<std::int16_t>(centroid.x, per_cm);
+    m.centroid_y_cm = to_fixed<std::int16_t>(centroid.y, per_cm);
   }
   tell(robot, m);
   return m;

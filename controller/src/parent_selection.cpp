@@ -98,7 +98,7 @@ int way_to_tree(const Robot& robot, float range_m) noexcept {
 
 void reattach_orphan(Robot& robot) noexcept {
   State& self = robot.self;
-  const bool matters = !robot.is_root() && (self.is_worker || robot.useful_child);
+  const bool matters = !robot.is_root() && (self.is_worker || robot.useful_children > 0);
   const bool settled = self.phase >= Phase::grow_tree;
   if (!matters || !settled || self.depth != invalid_depth) {
     self.orphan_ticks = 0;

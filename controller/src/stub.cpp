@@ -33,6 +33,6 @@ void mind_stub(Robot& robot) noexcept {
   }
 }
 
-bool is_stub(const Robot& robot) noexcept { return robot.self.stub_ticks > 0 && !robot.useful_child; }
+bool is_stub(const Robot& robot) noexcept { return robot.self.stub_ticks > 0 && robot.useful_children == 0; }
 
 }  // namespace banyan

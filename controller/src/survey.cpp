@@ -13,7 +13,6 @@ void survey(Robot& robot) noexcept {
   const Neighborhood& table = robot.table();
   robot.parent = robot.old_parent = -1;
   robot.children.size = robot.old_children.size = 0;
-  robot.useful_child = false;
   robot.useful_children = 0;
   robot.call_hops = nobody_calls;
   for (int k = 0; k < table.size(); ++k) {
@@ -28,7 +27,6 @@ void survey(Robot& robot) noexcept {
     // Whoever has not entered this epoch yet names the parent of the last one.
     (names_me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
     if (m.role == Role::spare) continue;
-    robot.useful_child = true;
     ++robot.useful_children;
   }
 }
@@ -41,7 +39,7 @@ void update_role(Robot& robot) noexcept {
   } else if (self.is_worker) {
     self.role = Role::worker;
     self.childless_ticks = 0;
-  } else if (robot.useful_child || self.inserted_child != nobody || is_stub(robot)) {
+  } else if (robot.useful_children > 0 || self.inserted_child != nobody || is_stub(robot)) {
     self.role = Role::connector;
     self.childless_ticks = 0;
   } else if (self.role != Role::spare) {

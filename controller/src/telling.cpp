@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <limits>
 
 #include "banyan/controller/edge_frame.hpp"
 #include "banyan/controller/healing.hpp"
@@ -8,17 +7,11 @@
 namespace banyan {
 namespace {
 
-std::int16_t centimetres(float v) noexcept {
-  constexpr auto low = static_cast<float>(std::numeric_limits<std::int16_t>::min());
-  constexpr auto high = static_cast<float>(std::numeric_limits<std::int16_t>::max());
-  return static_cast<std::int16_t>(std::clamp(v * 100.0F + (v < 0.0F ? -0.5F : 0.5F), low, high));
-}
-
 // A point as the neighbour at `addressee` is told it.
 void write(Vec2 point, Vec2 addressee, std::int16_t& x_cm, std::int16_t& y_cm) noexcept {
   const Vec2 v = to_edge_frame(point - addressee, addressee);
-  x_cm = centimetres(v.x);
-  y_cm = centimetres(v.y);
+  x_cm = to_fixed<std::int16_t>(v.x, per_cm);
+  y_cm = to_fixed<std::int16_t>(v.y, per_cm);
 }
 
 // Only who was heard this tick can be told a point: it is written relative to where that robot is.

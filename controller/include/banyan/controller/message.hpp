@@ -3,8 +3,10 @@
 // their wire types, so what a receiver computes with is exactly what travelled.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -115,6 +117,16 @@ struct Message : Standing, Tidings {
 };
 
 inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: +-2
+inline constexpr float per_cm = 100.0F;        // fixed point of lengths
+
+// `v` as it travels: in units of 1 / unit, rounded, saturated.
+template <class Int>
+constexpr Int to_fixed(float v, float unit) noexcept {
+  const float scaled = v * unit + (v < 0.0F ? -0.5F : 0.5F);
+  constexpr auto low = static_cast<float>(std::numeric_limits<Int>::min());
+  constexpr auto high = static_cast<float>(std::numeric_limits<Int>::max());
+  return static_cast<Int>(std::clamp(scaled, low, high));
+}
 // Largest |component| of q. A sender keeps within it and decode() rejects what exceeds it, or one
 // robot's nonsense would overflow the sums of all above it.
 inline constexpr float q_limit_m = 1.0e9F;

@@ -5,8 +5,8 @@
 // tree has: for each target a host, the target where its branch is to begin. The plan travels down the
 // tree. The topmost robot of a branch that serves one target alone leads it there: from robot to robot
 // of the other branch, with its own in tow. The distance from a point on one side of a triangle to the
-// opposite corner is longest at one of the ends, so the branch, which was long enough at first, is so
-// all the way.
+// opposite corner is longest at one of the ends, so a branch that is to be no longer in the end than it
+// was at first is long enough all the way.
 #pragma once
 
 #include "banyan/controller/robot.hpp"

@@ -42,8 +42,7 @@ struct Robot {
   IndexList children;          // living neighbours that name me as parent
   IndexList old_children;      // living neighbours that name me as old parent and not as parent
   std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours
-  bool useful_child = false;   // a living child (by parent or old parent) that is no spare
-  std::uint8_t useful_children = 0;  // how many
+  std::uint8_t useful_children = 0;  // living children (by parent or old parent) that are no spares
 
   [[nodiscard]] const Neighborhood& table() const noexcept { return self.neighbors; }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
