@@ -9,6 +9,7 @@
 #include "banyan/controller/parent_selection.hpp"
 #include "banyan/controller/plan.hpp"
 #include "banyan/controller/policies.hpp"
+#include "banyan/controller/shortcut.hpp"
 #include "banyan/controller/sight.hpp"
 
 namespace banyan {

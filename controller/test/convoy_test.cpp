@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Convoy's rules (docs/convoy.md), one by one, on a robot among neighbours that a test puts in place.
 #include "banyan/controller/convoy.hpp"
+#include "banyan/controller/shortcut.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rules of convoy (docs/convoy.md) that need more than a line: how it moves, and how it keeps
-// its tree small and in sight between two reconstructions.
+// The rules of convoy (docs/convoy.md) that need more than a line: how it moves, and what
+// has arrived. shortcut.hpp has what changes its tree between two reconstructions.
 #pragma once
 
 #include "banyan/controller/robot.hpp"
@@ -20,9 +20,5 @@ namespace banyan {
 
 // A spare: where it is, unless it is called, in the way, or left behind.
 [[nodiscard]] Vec2 waiting_motion(const Robot& robot) noexcept;
-
-// Release, sight and merge: takes another parent than the present one where that saves a robot or
-// keeps the edge in sight. Each keeps the order of parent_selection.hpp, so no cycle can close.
-void take_shortcuts(Robot& robot) noexcept;
 
 }  // namespace banyan
