@@ -129,13 +129,14 @@ std::vector<world::Vec2> active_positions(const world::World& world) {
   return positions;
 }
 
-// Edges from the living robots of the tree to their living parents.
+// Edges from the living robots of the tree to their living parents; in a reconstruction, to the old ones.
 double network_length_m(const world::World& world) {
   double length_m = 0.0;
   for (std::size_t i = 0; i < world.size(); ++i) {
     const Message& m = world.messages()[i];
-    if (world.alive()[i] == 0 || m.role == Role::spare || m.parent >= world.size()) continue;
-    if (world.alive()[m.parent] != 0) length_m += distance(world.positions()[i], world.positions()[m.parent]);
+    const RobotId up = up_of(m);
+    if (world.alive()[i] == 0 || m.role == Role::spare || up >= world.size()) continue;
+    if (world.alive()[up] != 0) length_m += distance(world.positions()[i], world.positions()[up]);
   }
   return length_m;
 }
