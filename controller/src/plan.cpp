@@ -89,24 +89,17 @@ void command(Robot& robot) noexcept {
 
 // ---- Everybody ----
 
-void pass_on_plan(Robot& robot) noexcept {
+void hear_parent(Robot& robot) noexcept {
   State& self = robot.self;
-  for (const Heard& h : robot.heard) {
-    const Message& m = *h.message;
-    if (m.id != self.parent || self.parent == nobody || m.task_serves == nobody) continue;
-    for (Task& task : tasks(self))
-      if (task.serves == m.task_serves) task.host = m.task_host;
-  }
+  const Message* m = robot.parent_message();
+  if (m == nullptr) return;
+  self.above = m->role == Role::worker ? m->serves : m->above;
+  for (Task& task : tasks(self))
+    if (task.serves == m->task_serves) task.host = m->task_host;
 }
 
-void look_up_and_down(Robot& robot) noexcept {
+void look_down(Robot& robot) noexcept {
   State& self = robot.self;
-  if (robot.is_root()) {
-    self.above = nobody;
-  } else if (robot.parent_alive()) {
-    const Standing& m = robot.table().message(robot.parent);
-    self.above = m.role == Role::worker ? m.serves : m.above;
-  }
   self.below = nobody;
   if (self.role != Role::connector || robot.useful_children != 1) return;
   for (const int k : robot.children) {
@@ -150,9 +143,13 @@ Vec2 lead(const Robot& robot) noexcept {
 
 void take_part_in_plan(Robot& robot) noexcept {
   State& self = robot.self;
-  look_up_and_down(robot);
-  if (robot.is_root()) command(robot);
-  else pass_on_plan(robot);
+  look_down(robot);
+  if (robot.is_root()) {
+    self.above = nobody;
+    command(robot);
+  } else {
+    hear_parent(robot);
+  }
   self.plan_ticks = is_planned(self) ? static_cast<std::uint16_t>(std::min(self.plan_ticks + 1, UINT16_MAX)) : std::uint16_t{0};
   const RobotId errand = errand_of(robot);
   const bool stays = errand != nobody && errand == self.errand && self.led_from == self.parent;

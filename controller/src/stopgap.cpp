@@ -39,7 +39,8 @@ Outlook outlook(const Robot& robot) noexcept {
   constexpr int hidden_ticks = 1;
   const float clearance_m = robot.params.clearance * robot.params.communication_range_m;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
-  const bool warned = robot.table().message(robot.parent).warned == robot.self.id;
+  const Message* parent = robot.parent_message();
+  const bool warned = parent != nullptr && parent->warned == robot.self.id;
   const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance_m);
   return {endangered, endangered && (hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance_m))};
 }

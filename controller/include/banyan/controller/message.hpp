@@ -47,6 +47,7 @@ inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
 
 // What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
+// A cache line: 96 of them are most of what a robot remembers.
 struct Standing {
   RobotId id = nobody;
   Role role = Role::spare;
@@ -77,12 +78,10 @@ struct Standing {
   RobotId grant = nobody;             // the spare I let into the edge to my parent
   RobotId request = nobody;           // the owner whose edge I want to join
   RobotId inserted_child = nobody;    // I have just been inserted above this robot
-  RobotId warned = nobody;            // the child whose line of sight to me is about to be cut, for all it can see
   std::int16_t hinge_x_cm = 0;        // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
   std::int16_t hinge_y_cm = 0;
   RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
   std::uint8_t child_count = 0;       // living children that are no spares
-  RobotId above = nobody;             // the next worker above me in the tree, by its target (plan.cpp)
   RobotId below = nobody;             // the only worker below me, by its target; nobody: there are branches
 
   friend bool operator==(const Standing&, const Standing&) = default;
@@ -95,6 +94,8 @@ struct Tidings {
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
   std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
   std::int16_t centroid_y_cm = 0;
+  RobotId warned = nobody;            // the child whose line of sight to me is about to be cut, for all it can see
+  RobotId above = nobody;             // the next worker above me in the tree, by its target (plan.cpp)
   // Healing (healing.hpp): everybody passes on where the root and the targets are, a target and an
   // addressee a tick in turn. Who is no addressee makes use of the counts alone.
   std::uint16_t heartbeat = 0;        // gossip: the root's count of ticks, compared modulo 2^16
@@ -111,6 +112,8 @@ struct Tidings {
 
   friend bool operator==(const Tidings&, const Tidings&) = default;
 };
+
+static_assert(sizeof(Standing) == 64);
 
 struct Message : Standing, Tidings {
   friend bool operator==(const Message&, const Message&) = default;

@@ -59,6 +59,12 @@ struct Robot {
     const Standing& m = table().message(k);
     return k == parent || k == old_parent || m.parent == self.id || m.old_parent == self.id;
   }
+  // What my parent has said this tick; null if I did not hear it.
+  [[nodiscard]] const Message* parent_message() const noexcept {
+    if (self.parent == nobody) return nullptr;
+    const auto it = std::find_if(heard.begin(), heard.end(), [&](const Heard& h) { return h.message->id == self.parent; });
+    return it == heard.end() ? nullptr : it->message;
+  }
   [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && table().alive(parent); }
   [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && table().alive(old_parent); }
 };
