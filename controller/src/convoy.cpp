@@ -16,8 +16,7 @@ namespace banyan {
 namespace {
 
 constexpr int silence_ticks = 2;      // a parent silent for so long counts as hidden
-constexpr float narrow = 0.5F;        // of `clearance`: just past a body
-constexpr float tight = 0.6F;         // enough for who stands in the way and clears it by joining
+constexpr float tight = 0.6F;         // of `clearance`: enough for who stands in the way and clears it by joining
 
 class Convoy final : public Policy {
  public:

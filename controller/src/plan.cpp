@@ -6,6 +6,7 @@
 
 #include "banyan/controller/bypass.hpp"
 #include "banyan/controller/convoy.hpp"
+#include "banyan/controller/healing.hpp"
 
 namespace banyan {
 namespace {
@@ -16,12 +17,10 @@ constexpr float held_back_after_s = 6.0F;
 constexpr float unsettled_after_s = 3.0F;
 
 std::span<Task> tasks(State& self) noexcept { return {self.tasks.data(), self.task_count}; }
-std::span<const Task> tasks(const State& self) noexcept { return {self.tasks.data(), self.task_count}; }
 
-const Task* find_task(const State& self, RobotId serves) noexcept {
-  const auto all = tasks(self);
-  const auto it = std::find_if(all.begin(), all.end(), [&](const Task& t) { return t.serves == serves && t.holder != nobody; });
-  return it == all.end() ? nullptr : &*it;
+const Task* find_active(const Robot& robot, RobotId serves) noexcept {
+  const Task* task = find_task(robot.self, serves);
+  return task == nullptr || task->holder == nobody ? nullptr : task;
 }
 
 // ---- The root ----
@@ -71,7 +70,7 @@ int plan_tree(Robot& robot, int levels) noexcept {
   }
 }
 
-// A plan is made once each time all have arrived.
+// Once all have arrived, a level more each period.
 void command(Robot& robot) noexcept {
   State& self = robot.self;
   const Params& p = robot.params;
@@ -84,7 +83,10 @@ void command(Robot& robot) noexcept {
   }
   if (self.settled_ticks < UINT16_MAX) ++self.settled_ticks;
   if (self.plan_ticks > p.ticks(plan_limit_s)) return withdraw(self);
-  if (p.plan_after_s > 0.0F && self.settled_ticks % p.ticks(plan_period_s) == p.ticks(p.plan_after_s) && plan_tree(robot, 1 + self.settled_ticks / p.ticks(plan_period_s)) >= self.subtree) withdraw(self);
+  const int since = self.settled_ticks - p.ticks(p.plan_after_s);
+  const int period = p.ticks(plan_period_s);
+  const bool due = p.plan_after_s > 0.0F && since >= 0 && since % period == 0 && self.settled_ticks < UINT16_MAX;
+  if (due && plan_tree(robot, 1 + since / period) >= self.subtree) withdraw(self);
 }
 
 // ---- Everybody ----
@@ -113,21 +115,16 @@ RobotId errand_of(const Robot& robot) noexcept {
   const State& self = robot.self;
   if (self.phase != Phase::grow_tree || self.role != Role::connector || self.below == nobody || !robot.parent_alive() || !has_arrived(robot)) return nobody;
   if (robot.table().message(robot.parent).below == self.below) return nobody;  // it leads
-  const Task* served = find_task(self, self.below);
-  const Task* host = served == nullptr ? nullptr : find_task(self, served->host);
+  const Task* served = find_active(robot, self.below);
+  const Task* host = served == nullptr ? nullptr : find_active(robot, served->host);
   if (host == nullptr || self.above == host->serves) return nobody;
   return host->serves;
 }
 
 }  // namespace
 
-bool is_planned(const State& self) noexcept {
-  const auto all = tasks(self);
-  return std::any_of(all.begin(), all.end(), [](const Task& t) { return t.host != nobody; });
-}
-
 bool find_goal(const Robot& robot, Vec2& goal) noexcept {
-  const Task* host = find_task(robot.self, robot.self.errand);
+  const Task* host = find_active(robot, robot.self.errand);
   if (host != nullptr) goal = host->target;
   return host != nullptr;
 }
@@ -150,7 +147,9 @@ void take_part_in_plan(Robot& robot) noexcept {
   } else {
     hear_parent(robot);
   }
-  self.plan_ticks = is_planned(self) ? static_cast<std::uint16_t>(std::min(self.plan_ticks + 1, UINT16_MAX)) : std::uint16_t{0};
+  const auto all = tasks(self);
+  const bool planned = std::any_of(all.begin(), all.end(), [](const Task& t) { return t.host != nobody; });
+  self.plan_ticks = planned ? static_cast<std::uint16_t>(std::min(self.plan_ticks + 1, UINT16_MAX)) : std::uint16_t{0};
   const RobotId errand = errand_of(robot);
   const bool stays = errand != nobody && errand == self.errand && self.led_from == self.parent;
   self.errand_ticks = stays && self.errand_ticks < UINT16_MAX ? static_cast<std::uint16_t>(self.errand_ticks + 1) : std::uint16_t{0};

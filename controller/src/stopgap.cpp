@@ -13,7 +13,6 @@ namespace {
 // Of `clearance`: a robot so near to the line of sight may soon be in it, and very soon.
 constexpr float danger = 0.8F;
 constexpr float urgency = 0.7F;
-constexpr float narrow = 0.5F;           // just past a body: better than nothing
 constexpr float impossible = 1e9F;
 
 // How bad neighbour k would be as parent in place of one that is hidden, or soon will be: the nearer it

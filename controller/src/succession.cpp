@@ -5,16 +5,17 @@
 #include "banyan/controller/parent_selection.hpp"
 
 namespace banyan {
-namespace {
-
-constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
-constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
 
 Task* find_task(State& self, RobotId serves) noexcept {
   for (int k = 0; k < self.task_count; ++k)
     if (self.tasks[k].serves == serves) return &self.tasks[k];
   return nullptr;
 }
+
+namespace {
+
+constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
+constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
 
 Task* add_task(State& self, RobotId serves) noexcept {
   if (self.task_count == task_capacity) return nullptr;

@@ -26,6 +26,8 @@ void claim_root(Robot& robot) noexcept;
 // Learns of targets and their workers, gives up a target that is served by somebody with precedence,
 // takes over one whose worker has fallen silent.
 void mind_tasks(Robot& robot) noexcept;
+// By its first worker; null if I know of no such target.
+[[nodiscard]] Task* find_task(State& self, RobotId serves) noexcept;
 
 // ---- stub.cpp: the end of a torn branch ----
 

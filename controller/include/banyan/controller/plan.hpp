@@ -14,7 +14,7 @@
 namespace banyan {
 
 // A plan is being carried out, as far as I know.
-[[nodiscard]] bool is_planned(const State& self) noexcept;
+[[nodiscard]] inline bool is_planned(const State& self) noexcept { return self.plan_ticks > 0; }
 
 // I lead my branch: where to, own frame, m.
 [[nodiscard]] bool find_goal(const Robot& robot, Vec2& goal) noexcept;
