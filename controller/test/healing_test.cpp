@@ -83,6 +83,22 @@ TEST(Loss, NobodyWaitsLongerWhereNothingIsLost) {
 
 // ---- Heartbeat ----
 
+TEST(Loss, AConnectorWaitsForItsChildAsLongAsAPacketMayBeLost) {
+  const auto ticks_as_connector = [](std::uint16_t liveness_ticks) {
+    Bench bench = grown(convoy());
+    bench.state.role = Role::connector;
+    bench.state.liveness_ticks = liveness_ticks;
+    int ticks = 0;
+    for (; bench.state.role == Role::connector && ticks < 1000; ++ticks) {
+      Robot robot = bench.tick();
+      update_role(robot);
+    }
+    return ticks;
+  };
+  EXPECT_EQ(ticks_as_connector(0), 11);  // connector_patience_s, and the tick in which it is over
+  EXPECT_EQ(ticks_as_connector(66), 67);
+}
+
 TEST(Heartbeat, OnlyALargerCountIsASignOfLife) {
   Watch watch;
   watch.hear_root(5);

@@ -115,6 +115,15 @@ TEST(Plan, NeverWhenSwitchedOff) {
   EXPECT_FALSE(is_planned(bench.state));
 }
 
+TEST(Plan, MayBeAskedForLaterThanItsPeriod) {
+  Bench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
+  bench.params.plan_after_s = 100.0F;
+  run(bench, ticks_until_plan(bench) - 1);
+  EXPECT_FALSE(is_planned(bench.state));
+  run(bench, 1);
+  EXPECT_TRUE(is_planned(bench.state));
+}
+
 TEST(Plan, GrowsLevelByLevel) {
   Bench bench = commander({{2, 0}, {4, 0}, {6, 0}, {8, 0}}, 60);
   run(bench, ticks_until_plan(bench));
