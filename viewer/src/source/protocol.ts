@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// What the page and a source of frames say to each other. A source is a worker: one reads a recording,
+// the other runs the simulation. Both answer the same requests; a live run is a recording whose end
+// moves when somebody wants to see what comes next.
+import type { Frame, RunEvent, Series, Setting } from '../frame';
+
+/** Sent once, when a source is open, and again whenever something in it has changed (a live run that was
+ *  rewound, an obstacle that was moved). */
+export interface Header {
+  kind: 'recording' | 'live';
+  name: string; // of the file or the scenario
+  /** In order of time; the one that holds at t is the last with timeS <= t. Never empty. */
+  settings: { timeS: number; setting: Setting }[];
+  startS: number; // of the first and the last frame there is now
+  endS: number;
+  /** Live: there is more to come. A recording ends where it ends. */
+  growing: boolean;
+  version: string; // of the program that made it
+  git: string;
+  seed: number;
+  config: string; // the whole configuration as JSON, "" if unknown
+  /** Columns of the run table, as text; empty for a run that has not ended or was cut short. */
+  result: Record<string, string>;
+  warnings: string[]; // damage that was skipped, in words
+}
+
+/** In the terms of a scenario's [[events]] (docs/scenario-keys.md), without `time_s`: it happens now. */
+export type Intervention =
+  | { kind: 'die'; robot: number }
+  | { kind: 'move_target'; target: number; position_m: [number, number]; speed_m_s?: number }
+  | { kind: 'add_target'; position_m: [number, number] }
+  | { kind: 'remove_target'; target: number }
+  | { kind: 'set_loss'; loss: number }
+  | { kind: 'blackout'; duration_s: number }
+  | { kind: 'set_line_of_sight'; line_of_sight: boolean }
+  | { kind: 'move_obstacle'; obstacle: number; position_m: [number, number] };
+
+/** A live run: text of a scenario (TOML or JSON) and "key=value" changes, as with --set. */
+export interface LiveRequest {
+  name: string;
+  text: string;
+  overrides: string[];
+}
+
+export type Request =
+  | { type: 'open'; file: Blob; name: string }
+  | { type: 'open_live'; run: LiveRequest }
+  /** Frames with fromS <= time <= toS and the one before fromS, every `stride`th tick. A live run goes on
+   *  as far as toS. */
+  | { type: 'frames'; id: number; fromS: number; toS: number; stride: number }
+  /** What this robot broadcast last, at that tick. */
+  | { type: 'message'; id: number; robot: number; tick: number }
+  // Live only. An intervention acts at the begin of the step after `tick`; what was simulated
+  // beyond it is forgotten and a new header is sent.
+  | { type: 'intervene'; id: number; tick: number; events: Intervention[] }
+  | { type: 'save_recording'; id: number }
+  | { type: 'save_scenario'; id: number };
+
+export type Reply =
+  | { type: 'header'; header: Header }
+  /** All of it for a recording (once, as soon as it is read); for a live run what is new, or all
+   *  of it (`whole`) after a rewind. */
+  | { type: 'series'; series: Series; events: RunEvent[]; whole: boolean }
+  | { type: 'frames'; id: number; frames: Frame[] }
+  /** null: not kept. */
+  | { type: 'message'; id: number; fields: Record<string, number | string | boolean> | null }
+  | { type: 'done'; id: number }
+  | { type: 'file'; id: number; name: string; blob: Blob }
+  /** A request that could not be met, in words for the visitor; id 0: the source could not be opened
+   *  or is lost. */
+  | { type: 'failed'; id: number; text: string; problems?: string[] };
