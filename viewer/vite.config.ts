@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The page as plain static files: relative addresses, so that any web server, in any folder, can
+// serve them. BANYAN_LIVE is the folder with the compiled simulation, BANYAN_PAGE where to build.
+import { fileURLToPath } from 'node:url';
+import { defineConfig } from 'vite';
+
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+
+export default defineConfig({
+  base: './',
+  root: here('.'),
+  publicDir: here('public'),
+  cacheDir: here('../build/viewer/cache'),
+  resolve: { alias: { '@live': process.env.BANYAN_LIVE ?? here('../build/wasm/viewer') } },
+  worker: { format: 'es' },
+  build: { outDir: process.env.BANYAN_PAGE ?? here('../build/viewer/page'), emptyOutDir: true, target: 'es2022' },
+  test: { include: ['test/**/*.test.ts'], exclude: ['test/browser/**'] },
+} as Parameters<typeof defineConfig>[0]);
