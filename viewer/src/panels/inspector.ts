@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// One robot, whole: what it believes, who its neighbours are, what it said last.
+import { button, h, setText } from '../dom';
+import { column, type Column, type Frame, needs, phases, roles, spareStates } from '../frame';
+
+/** A row of the state: its name, and its value in words. */
+export interface Fact {
+  name: string;
+  value: string;
+  robot?: number; // the value is this robot
+  help?: string;
+}
+
+const nobody = '–';
+
+/** What the frame says of a robot, in the order of the inspector. */
+export function facts(frame: Frame, robot: number): Fact[] {
+  const get = (name: Column) => column(frame, name)[robot];
+  const who = (name: Column, help: string): Fact => {
+    const other = get(name);
+    return other < 0 ? { name, value: nobody, help } : { name, value: `robot ${other}`, robot: other, help };
+  };
+  const role = roles[get('role')] ?? 'unknown';
+  const target = get('target');
+  const children: number[] = [];
+  const parents = column(frame, 'parent');
+  const allRoles = column(frame, 'role');
+  for (let i = 0; i < frame.robots; ++i) if (parents[i] === robot && allRoles[i] !== 0) children.push(i);
+  return [
+    { name: 'position', value: `${get('x_m').toFixed(4)}, ${get('y_m').toFixed(4)} m`, help: 'The truth; the robot does not know it' },
+    { name: 'heading', value: `${get('heading_rad').toFixed(4)} rad`, help: 'The truth' },
+    { name: 'role', value: role },
+    { name: 'phase', value: phases[get('phase')] ?? 'unknown', help: 'Of the reconstruction of the tree, as this robot knows it' },
+    { name: 'epoch', value: String(get('epoch')), help: 'Counts the trees' },
+    { name: 'label', value: get('label_cm') < 0 ? nobody : `${(get('label_cm') / 100).toFixed(2)} m`, help: 'Distance to the root along hops when the epoch began' },
+    { name: 'depth', value: get('depth') === 0 ? nobody : String(get('depth')), help: 'In the tree; the root has 1' },
+    who('parent', 'In the tree'),
+    who('old_parent', 'In the old tree, while trees are switched'),
+    { name: 'children', value: children.length === 0 ? nobody : children.join(', '), help: 'Robots of the tree whose parent it is' },
+    { name: 'need', value: needs[get('need')] ?? 'unknown', help: 'Of the edge to the parent: does it want a robot inserted' },
+    who('grant', 'The spare that may join the edge to the parent'),
+    { name: 'spare_state', value: role === 'spare' ? (spareStates[get('spare_state')] ?? 'unknown') : nobody },
+    who('request', 'The owner of the edge that this spare wants to join'),
+    { name: 'want', value: `${get('want_m').toFixed(2)} m`, help: 'Largest remaining distance of a worker below' },
+    { name: 'target', value: target < 0 ? nobody : `T${target}`, help: 'That it was sent to' },
+    { name: 'alive', value: get('alive') === 1 ? 'yes' : 'no' },
+    { name: 'connected', value: get('connected') === 1 ? 'yes' : 'no', help: 'Alive and in one radio component with the root' },
+  ];
+}
+
+export interface InspectorActions {
+  select(robot: number | null): void;
+  follow(robot: number | null): void;
+  kill(robot: number): void;
+}
+
+export interface Inspected {
+  frame: Frame;
+  robot: number;
+  neighbours: number[]; // robots it can hear
+  /** Its last message; null: not kept; undefined: not there yet. */
+  message: Record<string, number | string | boolean> | null | undefined;
+  messageTick: number;
+  followed: boolean;
+  live: boolean;
+}
+
+export class Inspector {
+  readonly element = h('section', { class: 'inspector', 'aria-label': 'Robot' });
+  private readonly title = h('h2');
+  private readonly follow = button('Follow', 'Keep this robot in the middle (F)', () => this.actions.follow(this.shown?.followed ? null : (this.shown?.robot ?? null)));
+  private readonly kill = button('Kill', 'This robot dies now (Delete)', () => { if (this.shown) this.actions.kill(this.shown.robot); }, { class: 'danger' });
+  private readonly state = h('table', { class: 'facts' });
+  private readonly neighbours = h('div', { class: 'neighbours' });
+  private readonly message = h('table', { class: 'facts message' });
+  private readonly messageTitle = h('h3');
+  private readonly body = h(
+    'div', {},
+    h('header', { class: 'robot-head' }, this.title, this.follow, this.kill, button('×', 'Close (Escape)', () => this.actions.select(null))),
+    this.state, h('h3', {}, 'Neighbours in radio contact'), this.neighbours, this.messageTitle, this.message,
+  );
+  private readonly empty = h('p', { class: 'hint' }, 'Click a robot, or type its number and press Enter, to see what it knows, whom it hears and what it says.');
+  private shown: Inspected | null = null;
+
+  constructor(private readonly actions: InspectorActions) {
+    this.element.append(this.empty);
+  }
+
+  update(shown: Inspected | null): void {
+    this.shown = shown;
+    const content = shown === null ? this.empty : this.body;
+    if (this.element.firstChild !== content) this.element.replaceChildren(content);
+    if (shown === null) return;
+    const roleName = roles[column(shown.frame, 'role')[shown.robot]] ?? '';
+    setText(this.title, `Robot ${shown.robot}`);
+    this.title.dataset.role = roleName;
+    setText(this.follow, shown.followed ? 'Unfollow' : 'Follow');
+    this.follow.setAttribute('aria-pressed', String(shown.followed));
+    this.kill.hidden = !shown.live || column(shown.frame, 'alive')[shown.robot] === 0;
+    this.fill(this.state, facts(shown.frame, shown.robot));
+    this.fillNeighbours(shown.neighbours);
+    this.fillMessage(shown);
+  }
+
+  private fill(table: HTMLTableElement, rows: Fact[]): void {
+    while (table.rows.length > rows.length) table.deleteRow(-1);
+    rows.forEach((fact, k) => {
+      const row = table.rows[k] ?? this.addRow(table);
+      setText(row.cells[0], fact.name.replaceAll('_', ' '));
+      row.title = fact.help ?? '';
+      const cell = row.cells[1];
+      if (cell.textContent === fact.value && cell.dataset.robot === (fact.robot === undefined ? undefined : String(fact.robot))) return;
+      if (fact.robot === undefined) {
+        delete cell.dataset.robot;
+        cell.textContent = fact.value;
+      } else {
+        cell.dataset.robot = String(fact.robot);
+        cell.replaceChildren(this.robotButton(fact.robot, fact.value));
+      }
+    });
+  }
+
+  private addRow(table: HTMLTableElement): HTMLTableRowElement {
+    const row = table.insertRow();
+    row.append(h('th', { scope: 'row' }));
+    row.insertCell();
+    return row;
+  }
+
+  private robotButton(robot: number, text: string): HTMLElement {
+    return h('button', { type: 'button', class: 'link', title: `Show robot ${robot}`, onclick: () => this.actions.select(robot) }, text);
+  }
+
+  private fillNeighbours(neighbours: number[]): void {
+    const key = neighbours.join(' ');
+    if (this.neighbours.dataset.key === key) return;
+    this.neighbours.dataset.key = key;
+    this.neighbours.replaceChildren(...(neighbours.length === 0 ? ['none'] : neighbours.map((n) => this.robotButton(n, String(n)))));
+  }
+
+  private fillMessage(shown: Inspected): void {
+    const { message } = shown;
+    setText(this.messageTitle, message ? `Last message (tick ${shown.messageTick})` : 'Last message');
+    if (message === undefined) return;
+    const rows: Fact[] = message === null
+      ? [{ name: 'not kept', value: 'this recording has no messages' }]
+      : Object.entries(message).map(([name, value]) => ({ name, value: String(value) }));
+    this.fill(this.message, rows);
+  }
+}

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// The handles of a live run: what to run, and what to do to it. Everything here becomes either a start
+// or an intervention; the panel keeps only what has been typed in.
+import { button, h, setText } from '../dom';
+import type { Setting } from '../frame';
+import { scenarios } from '../scenarios';
+import type { Intervention } from '../source/protocol';
+
+export const algorithms = ['convoy', 'outwards', 'inwards'] as const;
+
+/** What the pointer does in the picture, beside looking. */
+export type Tool = 'look' | 'add_target' | 'kill_area';
+
+export interface LiveChoice {
+  name: string;
+  text: string; // of the scenario
+  /** One or two algorithms, side by side; "": the scenario's own. */
+  algorithms: string[];
+  overrides: string[]; // "key=value", beside the algorithm
+}
+
+export interface LiveActions {
+  start(choice: LiveChoice): void;
+  setTool(tool: Tool): void;
+  intervene(events: Intervention[]): void;
+  saveRecording(): void;
+  saveScenario(): void;
+}
+
+const ownName = 'own';
+
+export class LivePanel {
+  readonly element: HTMLElement;
+  private own: { name: string; text: string } | null = null;
+  private readonly scenario = h('select', { id: 'live-scenario', onchange: () => this.describe() });
+  private readonly about = h('p', { class: 'hint' });
+  private readonly first = this.algorithmSelect('live-algorithm', 'as the scenario says');
+  private readonly second = this.algorithmSelect('live-versus', 'nothing');
+  private readonly seed = h('input', { id: 'live-seed', type: 'number', min: 0, step: 1, placeholder: 'as the scenario says' });
+  private readonly keys = h('textarea', {
+    id: 'live-keys', rows: 3, spellcheck: false, placeholder: 'radio.loss = 0.3\nswarm.redundancy = 3', 'aria-describedby': 'live-keys-help',
+  });
+  private readonly problems = h('ul', { class: 'problems', role: 'alert' });
+  private readonly loss = h('input', { id: 'live-loss', type: 'range', min: 0, max: 0.95, step: 0.05, value: 0 });
+  private readonly lossText = h('output', { for: 'live-loss' }, '0 %');
+  private readonly sight = h('input', { id: 'live-sight', type: 'checkbox' });
+  private readonly tools: Record<Exclude<Tool, 'look'>, HTMLButtonElement>;
+  private readonly now: HTMLFieldSetElement;
+  private tool: Tool = 'look';
+
+  constructor(private readonly actions: LiveActions) {
+    this.tools = {
+      add_target: button('Add target', 'Then click where it is to be (T)', () => this.choose('add_target'), { 'aria-pressed': 'false' }),
+      kill_area: button('Kill area', 'Then draw a rectangle: all robots in it die (K)', () => this.choose('kill_area'), { 'aria-pressed': 'false' }),
+    };
+    this.loss.addEventListener('input', () => setText(this.lossText, percent(this.loss.value)));
+    this.loss.addEventListener('change', () => actions.intervene([{ kind: 'set_loss', loss: Number(this.loss.value) }]));
+    this.sight.addEventListener('change', () => actions.intervene([{ kind: 'set_line_of_sight', line_of_sight: this.sight.checked }]));
+    this.now = this.interventions();
+    this.element = h('section', { class: 'live', 'aria-label': 'Live' }, this.startForm(), this.now);
+    this.offer();
+    this.setLive(null);
+  }
+
+  /** A scenario that is not one of ours: from the program or dropped on the page. */
+  setOwn(name: string, text: string, overrides: string[]): void {
+    this.own = { name, text };
+    this.offer();
+    this.scenario.value = ownName;
+    this.keys.value = overrides.join('\n');
+    this.describe();
+  }
+
+  setProblems(problems: string[]): void {
+    this.problems.replaceChildren(...problems.map((p) => h('li', {}, p)));
+  }
+
+  /** The setting of the live run that is shown; null: none is. */
+  setLive(setting: Setting | null): void {
+    this.now.disabled = setting === null;
+    if (setting) this.sight.checked = setting.line_of_sight;
+  }
+
+  /** Packet loss as the run begins with it. */
+  setLoss(loss: number): void {
+    this.loss.value = String(loss);
+    setText(this.lossText, percent(this.loss.value));
+  }
+
+  setTool(tool: Tool): void {
+    this.tool = tool;
+    for (const [name, element] of Object.entries(this.tools)) element.setAttribute('aria-pressed', String(name === tool));
+  }
+
+  choice(): LiveChoice {
+    const picked = scenarios.find((s) => s.name === this.scenario.value);
+    const { name, text } = this.own && this.scenario.value === ownName ? this.own : (picked ?? scenarios[0]);
+    const overrides = this.keys.value.split('\n').map(assignment).filter((line) => line !== '');
+    if (this.seed.value !== '') overrides.push(`seed=${this.seed.value}`);
+    return { name, text, algorithms: [this.first.value, ...(this.second.value === '' ? [] : [this.second.value])], overrides };
+  }
+
+  /** Picks one of the built-in scenarios by its name. */
+  pick(name: string): boolean {
+    if (!scenarios.some((s) => s.name === name)) return false;
+    this.scenario.value = name;
+    this.describe();
+    return true;
+  }
+
+  private choose(tool: Tool): void {
+    this.actions.setTool(this.tool === tool ? 'look' : tool);
+  }
+
+  private algorithmSelect(id: string, none: string): HTMLSelectElement {
+    return h('select', { id }, h('option', { value: '' }, none), ...algorithms.map((a) => h('option', { value: a }, a)));
+  }
+
+  private offer(): void {
+    const before = this.scenario.value;
+    this.scenario.replaceChildren(
+      ...(this.own ? [h('option', { value: ownName }, this.own.name)] : []),
+      ...scenarios.map((s) => h('option', { value: s.name }, s.name)),
+    );
+    this.scenario.value = before || 'three-targets';
+    this.describe();
+  }
+
+  private describe(): void {
+    setText(this.about, scenarios.find((s) => s.name === this.scenario.value)?.about ?? '');
+  }
+
+  private startForm(): HTMLElement {
+    const form = h(
+      'form',
+      { onsubmit: (event: SubmitEvent) => { event.preventDefault(); this.actions.start(this.choice()); } },
+      field('Scenario', 'live-scenario', this.scenario),
+      this.about,
+      field('Algorithm', 'live-algorithm', this.first),
+      field('Beside it', 'live-versus', this.second),
+      field('Seed', 'live-seed', this.seed),
+      h('details', {}, h('summary', {}, 'Change other keys'),
+        h('label', { for: 'live-keys', class: 'hint', id: 'live-keys-help' }, 'One “key = value” a line, as with banyan run --set.'), this.keys),
+      h('button', { type: 'submit', class: 'primary' }, 'Start'),
+      this.problems,
+    );
+    return form;
+  }
+
+  private interventions(): HTMLFieldSetElement {
+    return h(
+      'fieldset',
+      { class: 'now' },
+      h('legend', {}, 'While it runs'),
+      h('p', { class: 'hint' }, 'Drag a target or an obstacle. Go back in time and do something else: the run is simulated anew from there.'),
+      h('div', { class: 'buttons' }, this.tools.add_target, this.tools.kill_area,
+        button('Blackout', 'Nobody hears anything for a second', () => this.actions.intervene([{ kind: 'blackout', duration_s: 1 }]))),
+      h('div', { class: 'field' }, h('label', { for: 'live-loss' }, 'Packet loss'), this.loss, this.lossText),
+      h('label', { class: 'switch' }, this.sight, 'Line of sight: bodies and obstacles block the radio'),
+      h('div', { class: 'buttons' },
+        button('Save .mcap', 'The run so far as a recording', this.actions.saveRecording),
+        button('Save .toml', 'The scenario with all you have done to it; banyan run repeats it', this.actions.saveScenario)),
+    );
+  }
+}
+
+const percent = (value: string) => `${Math.round(Number(value) * 100)} %`;
+
+/** "radio.loss = 0.3  # much" as --set wants it; "" for an empty line or a remark. */
+export function assignment(line: string): string {
+  const text = line.replace(/^\s*#.*$/, '').trim();
+  const equals = text.indexOf('=');
+  return equals < 0 ? text : `${text.slice(0, equals).trim()}=${text.slice(equals + 1).trim()}`;
+}
+
+function field(label: string, id: string, control: HTMLElement): HTMLElement {
+  return h('div', { class: 'field' }, h('label', { for: id }, label), control);
+}

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// Four curves in step with the clock. The numbers are those of the series table; runs side by side
+// share the axes. A click or a drag in a plot moves the clock.
+import uPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
+import type { Series } from '../frame';
+import { h } from '../dom';
+
+interface Curve {
+  title: string;
+  unit: string;
+  help: string;
+  /** From the columns of the series table; NaN where there is no value. */
+  value(series: Series, tick: number): number;
+  digits: number;
+  whole: boolean;
+}
+
+export const curves: Curve[] = [
+  {
+    title: 'Broken tree edges', unit: '', digits: 0, whole: true,
+    help: 'Edges of the tree whose ends are out of range or hidden from each other',
+    value: (s, k) => s.broken_by_distance[k] + s.broken_by_occlusion[k],
+  },
+  {
+    title: 'λ₂ of the radio network', unit: '', digits: 4, whole: false,
+    help: 'Algebraic connectivity: 0 when the network is in several parts',
+    value: (s, k) => (s.components[k] > 1 ? 0 : s.fiedler[k]),
+  },
+  {
+    title: 'Farthest worker', unit: 'm', digits: 2, whole: false,
+    help: 'Largest remaining distance of a worker to its target',
+    value: (s, k) => s.worst_target_distance_m[k],
+  },
+  {
+    title: 'Committed robots', unit: '', digits: 0, whole: true,
+    help: 'Robots in the tree: alive and no spare',
+    value: (s, k) => s.committed[k],
+  },
+];
+
+type Table = [number[], ...(number | null)[][]];
+
+/** One curve of all runs as uPlot wants it: their times joined, null where a run has no value. */
+export function tabulate(curve: Curve, runs: Series[]): Table {
+  if (runs.length === 1) {
+    const times = Array.from(runs[0].time_s);
+    return [times, times.map((_, k) => known(curve.value(runs[0], k)))];
+  }
+  const joined = uPlot.join(
+    runs.map((s) => {
+      const times = Array.from(s.time_s);
+      return [times, times.map((_, k) => known(curve.value(s, k)))] as uPlot.AlignedData;
+    }),
+  );
+  return joined as unknown as Table;
+}
+
+const known = (v: number) => (Number.isFinite(v) ? v : null);
+
+/** The last value at or before a time; null if there is none. */
+export function valueAt(curve: Curve, series: Series, timeS: number): number | null {
+  const times = series.time_s;
+  if (times === undefined) return null;
+  let low = 0;
+  let high = times.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= timeS + 1e-9) low = middle + 1;
+    else high = middle;
+  }
+  for (let k = low - 1; k >= 0; --k) {
+    const v = curve.value(series, k);
+    if (Number.isFinite(v)) return v;
+  }
+  return null;
+}
+
+const runColors = ['--run-1', '--run-2'];
+
+class Plot {
+  readonly element: HTMLElement;
+  private chart: uPlot | null = null;
+  private readonly readout = h('output', { class: 'plot-value' });
+  private readonly canvas = h('div', { class: 'plot-canvas' });
+  private readonly cursor = h('div', { class: 'plot-cursor' });
+  private runs: Series[] = [];
+
+  constructor(private readonly curve: Curve, private readonly seek: (timeS: number) => void) {
+    this.element = h(
+      'figure',
+      { class: 'plot', title: curve.help },
+      h('figcaption', {}, h('span', {}, curve.title), this.readout),
+      this.canvas,
+    );
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+  }
+
+  setRuns(runs: Series[]): void {
+    const remake = this.chart === null || runs.length !== this.runs.length;
+    this.runs = runs;
+    if (runs.length === 0) return;
+    if (remake) this.make();
+    else this.chart?.setData(tabulate(this.curve, runs) as unknown as uPlot.AlignedData);
+  }
+
+  setTime(timeS: number): void {
+    const values = this.runs.map((s) => valueAt(this.curve, s, timeS));
+    const text = values.map((v) => (v === null ? '–' : v.toFixed(this.curve.digits))).join(' | ');
+    this.readout.textContent = this.curve.unit && text !== '–' ? `${text} ${this.curve.unit}` : text;
+    if (this.chart === null) return;
+    const left = this.chart.valToPos(timeS, 'x');
+    this.cursor.style.transform = `translateX(${left.toFixed(1)}px)`;
+  }
+
+  remake(): void {
+    if (this.chart !== null) this.make();
+  }
+
+  private make(): void {
+    this.chart?.destroy();
+    const style = getComputedStyle(document.documentElement);
+    const color = (name: string) => style.getPropertyValue(name).trim();
+    const axis = { stroke: color('--quiet'), grid: { stroke: color('--grid'), width: 1 }, ticks: { show: false }, font: '11px system-ui, sans-serif' };
+    const whole = this.curve.whole;
+    this.chart = new uPlot(
+      {
+        ...this.size(),
+        legend: { show: false },
+        cursor: { show: false },
+        padding: [6, 8, 0, 0],
+        scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(whole ? 1 : 1e-3, (Number.isFinite(high) ? high : 0) * 1.08)] } },
+        axes: [
+          { ...axis, size: 20, gap: 3, space: 60, values: (_, ticks) => ticks.map((t) => `${t} s`) },
+          { ...axis, size: 38, gap: 4, space: 22, incrs: whole ? [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000] : undefined },
+        ],
+        series: [
+          {},
+          ...this.runs.map((_, k) => ({
+            stroke: color(runColors[k]), width: 1.5, dash: k === 0 ? undefined : [5, 3], spanGaps: true, points: { show: false },
+          })),
+        ],
+      },
+      tabulate(this.curve, this.runs) as unknown as uPlot.AlignedData,
+      this.canvas,
+    );
+    this.chart.over.append(this.cursor);
+    this.listen(this.chart);
+  }
+
+  private listen(chart: uPlot): void {
+    const to = (event: PointerEvent) => this.seek(chart.posToVal(event.clientX - chart.over.getBoundingClientRect().left, 'x'));
+    chart.over.addEventListener('pointerdown', (event) => {
+      chart.over.setPointerCapture(event.pointerId);
+      to(event);
+    });
+    chart.over.addEventListener('pointermove', (event) => {
+      if (chart.over.hasPointerCapture(event.pointerId)) to(event);
+    });
+  }
+
+  private size(): { width: number; height: number } {
+    return { width: Math.max(80, this.canvas.clientWidth), height: Math.max(50, this.canvas.clientHeight) };
+  }
+
+  private resize(): void {
+    const { width, height } = this.size();
+    if (this.chart && (this.chart.width !== width || this.chart.height !== height)) this.chart.setSize({ width, height });
+  }
+}
+
+export class Plots {
+  readonly element: HTMLElement;
+  private readonly plots: Plot[];
+
+  constructor(seek: (timeS: number) => void) {
+    this.plots = curves.map((curve) => new Plot(curve, seek));
+    this.element = h('section', { class: 'plots', 'aria-label': 'Plots' }, ...this.plots.map((p) => p.element));
+  }
+
+  /** The series of each run shown; called again whenever one has grown. */
+  setRuns(runs: Series[]): void {
+    for (const plot of this.plots) plot.setRuns(runs);
+  }
+
+  setTime(timeS: number): void {
+    for (const plot of this.plots) plot.setTime(timeS);
+  }
+
+  /** The colours have changed. */
+  restyle(): void {
+    for (const plot of this.plots) plot.remake();
+  }
+}

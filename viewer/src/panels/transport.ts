@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The clock's handles: play, speed, a timeline with the run's events on it. Shows what it is told and
+// reports what the visitor wants; it keeps no time of its own.
+import type { RunEvent } from '../frame';
+import { button, h, setText } from '../dom';
+import { eventMark } from './event_marks';
+
+export interface Clock {
+  playing: boolean;
+  waiting: boolean; // for frames that are not there yet
+  speed: number; // simulated seconds per second
+  timeS: number;
+  startS: number;
+  endS: number;
+  growing: boolean; // a live run: the end moves
+}
+
+export interface TransportActions {
+  toggle(): void;
+  seek(timeS: number): void;
+  step(ticks: number): void;
+  setSpeed(speed: number): void;
+  jump(direction: 1 | -1): void; // to the next or the last notable event
+}
+
+export const speeds = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64];
+
+/** "1:07.3": minutes and seconds with one decimal. */
+export function clockText(timeS: number): string {
+  const tenths = Math.round(Math.max(0, timeS) * 10);
+  const minutes = Math.floor(tenths / 600);
+  const rest = tenths - minutes * 600;
+  return `${minutes}:${String(Math.floor(rest / 10)).padStart(2, '0')}.${rest % 10}`;
+}
+
+export class Transport {
+  readonly element: HTMLElement;
+  private readonly play: HTMLButtonElement;
+  private readonly timeline: HTMLInputElement;
+  private readonly marks = h('canvas', { class: 'marks', 'aria-hidden': 'true' });
+  private readonly time = h('output', { class: 'time', 'aria-live': 'off' });
+  private readonly end = h('span', { class: 'time end' });
+  private readonly speed: HTMLSelectElement;
+  private events: RunEvent[] = [];
+  private clock: Clock | null = null;
+  private drawn = '';
+
+  constructor(actions: TransportActions) {
+    this.play = button('▶', 'Play (space)', actions.toggle, { class: 'play' });
+    this.timeline = h('input', {
+      type: 'range', min: 0, max: 1, step: 'any', value: 0, 'aria-label': 'Time',
+      oninput: () => actions.seek(Number(this.timeline.value)),
+      // The page's keys move the clock, the same wherever the focus is.
+      onkeydown: (event: KeyboardEvent) => { if (/^(Arrow|Home|End|Page)/.test(event.key)) event.preventDefault(); },
+    });
+    this.speed = h(
+      'select',
+      { title: 'Speed: simulated seconds per second (- and +)', 'aria-label': 'Speed', onchange: () => actions.setSpeed(Number(this.speed.value)) },
+      ...speeds.map((s) => h('option', { value: s }, `${s}×`)),
+    );
+    this.element = h(
+      'section',
+      { class: 'transport', 'aria-label': 'Time' },
+      button('⇤', 'Last event ([)', () => actions.jump(-1)),
+      button('‹', 'One tick back (←)', () => actions.step(-1)),
+      this.play,
+      button('›', 'One tick on (→)', () => actions.step(1)),
+      button('⇥', 'Next event (])', () => actions.jump(1)),
+      this.time,
+      h('div', { class: 'timeline' }, this.marks, this.timeline),
+      this.end,
+      this.speed,
+    );
+    new ResizeObserver(() => this.drawMarks(true)).observe(this.marks);
+  }
+
+  setEvents(events: RunEvent[]): void {
+    this.events = events;
+    this.drawMarks(true);
+  }
+
+  update(clock: Clock): void {
+    this.clock = clock;
+    setText(this.play, clock.playing ? '⏸' : '▶');
+    const title = clock.playing ? 'Pause (space)' : 'Play (space)';
+    if (this.play.title !== title) {
+      this.play.title = title;
+      this.play.setAttribute('aria-label', title);
+    }
+    this.play.classList.toggle('waiting', clock.playing && clock.waiting);
+    setText(this.time, clockText(clock.timeS));
+    setText(this.end, clock.growing ? `${clockText(clock.endS)} +` : clockText(clock.endS));
+    this.timeline.min = String(clock.startS);
+    this.timeline.max = String(Math.max(clock.endS, clock.startS + 1e-3));
+    this.timeline.value = String(clock.timeS);
+    this.timeline.setAttribute('aria-valuetext', `${clock.timeS.toFixed(1)} seconds`);
+    const speed = String(clock.speed);
+    if (this.speed.value !== speed) this.speed.value = speed;
+    this.drawMarks(false);
+  }
+
+  /** The colours have changed. */
+  restyle(): void {
+    this.drawMarks(true);
+  }
+
+  private drawMarks(always: boolean): void {
+    if (this.clock === null) return;
+    const width = this.marks.clientWidth;
+    const height = this.marks.clientHeight;
+    const { startS, endS } = this.clock;
+    const now = `${width} ${height} ${startS} ${endS} ${this.events.length}`;
+    if (!always && now === this.drawn) return;
+    this.drawn = now;
+    const ratio = window.devicePixelRatio;
+    this.marks.width = Math.round(width * ratio);
+    this.marks.height = Math.round(height * ratio);
+    const context = this.marks.getContext('2d');
+    if (context === null || endS <= startS) return;
+    context.scale(ratio, ratio);
+    const style = getComputedStyle(this.marks);
+    const thumb = 7; // px: half of the handle's width, beyond which it does not go
+    for (const event of this.events) {
+      const mark = eventMark(event.kind);
+      if (mark === null) continue;
+      const x = thumb + ((event.time_s - startS) / (endS - startS)) * (width - 2 * thumb);
+      context.fillStyle = style.getPropertyValue(mark.color);
+      context.fillRect(x - 0.75, height * (1 - mark.height), 1.5, height * mark.height);
+    }
+  }
+}

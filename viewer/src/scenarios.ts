@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The scenarios that come with Banyan, built into the page: it needs no server to offer them.
+
+export interface Scenario {
+  name: string; // of its file, without the ending
+  text: string; // TOML
+  about: string; // its description, "" without one
+}
+
+const files = import.meta.glob<string>('../../scenarios/*.toml', { query: '?raw', import: 'default', eager: true });
+
+const nameOf = (path: string) => path.replace(/^.*\//, '').replace(/\.toml$/, '');
+const aboutOf = (text: string) => /^description\s*=\s*"((?:[^"\\]|\\.)*)"/m.exec(text)?.[1].replaceAll('\\"', '"') ?? '';
+
+export const scenarios: Scenario[] = Object.entries(files)
+  .map(([path, text]) => ({ name: nameOf(path), text, about: aboutOf(text) }))
+  .sort((a, b) => a.name.localeCompare(b.name, 'en'));

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The page as a visitor meets it: served by `banyan view`, shown by Chromium. Everything is real: the
+// program that CMake built ($BANYAN), the page that viewer/build made ($BANYAN_PAGE), Debian's browser.
+import { spawn, execFileSync, type ChildProcess } from 'node:child_process';
+import { mkdtempSync, rmSync, existsSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium, type Browser, type Page } from 'playwright-core';
+
+export const root = fileURLToPath(new URL('../../..', import.meta.url));
+export const program = process.env.BANYAN ?? join(root, 'build/check/bin/banyan');
+export const page = process.env.BANYAN_PAGE ?? join(root, 'build/viewer/page');
+export const scenario = (name: string) => join(root, 'scenarios', `${name}.toml`);
+
+/** What the program prints; throws with its stderr if it fails. */
+export function banyan(...args: string[]): string {
+  return execFileSync(program, args, { encoding: 'utf8', maxBuffer: 1 << 28 });
+}
+
+export class Folder {
+  readonly path = mkdtempSync(join(tmpdir(), 'banyan-page-'));
+  /** A recording of a run; the arguments follow `banyan run`. */
+  record(name: string, ...args: string[]): string {
+    banyan('run', ...args, '--out', join(this.path, name), '--quiet');
+    return join(this.path, name, 'run.mcap');
+  }
+  remove(): void {
+    rmSync(this.path, { recursive: true, force: true });
+  }
+}
+
+export class Server {
+  private constructor(private readonly child: ChildProcess, readonly url: string) {}
+
+  static async start(...args: string[]): Promise<Server> {
+    const child = spawn(program, ['view', ...args, '--no-open', '--page', page], { stdio: ['ignore', 'pipe', 'pipe'] });
+    let said = '';
+    const url = await new Promise<string>((resolve, reject) => {
+      const listen = (data: Buffer) => {
+        said += String(data);
+        const found = /http:\/\/[0-9.]+:[0-9]+\/?/.exec(said);
+        if (found) resolve(found[0]);
+      };
+      child.stdout.on('data', listen);
+      child.stderr.on('data', listen);
+      child.on('exit', (code) => reject(new Error(`banyan view ended with ${code}: ${said}`)));
+    });
+    return new Server(child, url);
+  }
+
+  stop(): Promise<number | null> {
+    return new Promise((resolve) => {
+      this.child.on('exit', (code) => resolve(code));
+      this.child.kill('SIGTERM');
+    });
+  }
+}
+
+export async function launch(): Promise<Browser> {
+  const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+  if (!existsSync(executablePath)) throw new Error('the package chromium is not installed');
+  return chromium.launch({
+    executablePath,
+    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+  });
+}
+
+/** A page on which any error that nobody caught fails the test that asks for `errors`. */
+export async function open(browser: Browser, url: string, size = { width: 1280, height: 720 }): Promise<{ tab: Page; errors: string[] }> {
+  const context = await browser.newContext({ viewport: size });
+  const tab = await context.newPage();
+  const errors: string[] = [];
+  tab.on('pageerror', (error) => errors.push(String(error)));
+  tab.on('console', (message) => { if (message.type() === 'error') errors.push(message.text()); });
+  await tab.goto(url);
+  return { tab, errors };
+}

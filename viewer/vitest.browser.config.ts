@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// The tests that play the page in a browser; one after the other, for they share two cores with it.
+import { defineConfig } from 'vitest/config';
+
+export default defineConfig({
+  test: {
+    include: ['test/browser/**/*.test.ts'],
+    fileParallelism: false,
+    testTimeout: 60_000,
+    hookTimeout: 60_000,
+  },
+});
