@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+// The page: which runs are open, and the way from what a visitor does to what is shown. Sources bring
+// frames, the player says which moment, stages and panels show it; nothing here draws or computes.
+import { button, download, h } from './dom';
+import { acceptDrops, askServer, chooseFile, judge } from './files';
+import { Keyboard } from './keyboard';
+import { EventsList } from './panels/events_list';
+import { helpDialog } from './panels/help';
+import { Inspector } from './panels/inspector';
+import { LivePanel, type LiveChoice, type Tool } from './panels/live';
+import { logo } from './panels/logo';
+import { Notice } from './panels/notice';
+import { Plots } from './panels/plots';
+import { RunFacts } from './panels/run_facts';
+import { SwitchPanel } from './panels/switches';
+import { Tabs } from './panels/tabs';
+import { Transport, speeds } from './panels/transport';
+import type { Spot, Bounds } from './scene/camera';
+import { themes } from './scene/themes';
+import type { Item } from './scene/view';
+import type { Source } from './source/client';
+import { openFile, openLive, openUrl } from './source/open';
+import { Problem } from './source/problem';
+import type { Intervention } from './source/protocol';
+import { Player } from './state/player';
+import { nextEvent } from './state/events';
+import { Store } from './state/store';
+import { RobotWatch } from './robot_watch';
+import { Stage, type Shared, type StageActions } from './stage';
+
+const panelEveryMs = 80; // panels are read, not watched: twelve times a second is enough
+
+export class App {
+  private readonly store = new Store();
+  private readonly player = new Player();
+  private stages: Stage[] = [];
+  private dirty = true;
+  private panelsAt = 0;
+  private opening = 0; // counts attempts: a later one makes an earlier one void
+
+  private readonly notice = new Notice();
+  private readonly help = helpDialog();
+  private readonly what = h('span', { class: 'what-runs' });
+  private readonly stagesElement = h('main', { class: 'stages' });
+  private readonly plots = new Plots((timeS) => this.seek(timeS));
+  private readonly transport = new Transport({
+    toggle: () => this.toggle(), seek: (timeS) => this.seek(timeS), step: (ticks) => this.step(ticks),
+    setSpeed: (speed) => this.setSpeed(speed), jump: (direction) => this.jump(direction),
+  });
+  private readonly inspector = new Inspector({
+    select: (robot) => this.select(robot === null ? null : { kind: 'robot', index: robot }),
+    follow: (robot) => this.follow(robot),
+    kill: (robot) => this.intervene([{ kind: 'die', robot }]),
+  });
+  private readonly watch = new RobotWatch(this.inspector);
+  private readonly events = new EventsList((event) => {
+    this.seek(event.time_s);
+    if (event.robot >= 0) this.select({ kind: 'robot', index: event.robot });
+  });
+  private readonly facts = new RunFacts();
+  private readonly live = new LivePanel({
+    start: (choice) => void this.startLive(choice), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
+    saveRecording: () => void this.save((source) => source.saveRecording()),
+    saveScenario: () => void this.save((source) => source.saveScenario()),
+  });
+  private readonly switches = new SwitchPanel(this.store, () => this.fit());
+  private readonly tabs = new Tabs([
+    { name: 'live', title: 'Live', content: this.live.element },
+    { name: 'robot', title: 'Robot', content: this.inspector.element },
+    { name: 'events', title: 'Events', content: this.events.element, className: 'events-tab' },
+    { name: 'run', title: 'Run', content: this.facts.element },
+    { name: 'view', title: 'View', content: this.switches.element },
+  ], 'Panels');
+
+  constructor(root: HTMLElement) {
+    root.append(h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element), this.help);
+    this.stagesElement.append(this.notice.element);
+    acceptDrops((file) => void this.openFile(file));
+    new Keyboard(this.keys());
+    this.store.subscribe(() => this.onStore());
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.onStore());
+    this.onStore();
+    requestAnimationFrame((now) => this.loop(now));
+  }
+
+  /** Opens what `banyan view` was given; else shows a first run, so that the first thing seen moves. */
+  async begin(): Promise<void> {
+    const start = await askServer();
+    if (start.recording) return this.open([openUrl(start.recording.url, start.recording.name, start.recording.size)], false);
+    if (start.scenario) {
+      this.live.setOwn(start.scenario.name, start.scenario.text, start.scenario.overrides);
+      return this.startLive(this.live.choice());
+    }
+    this.live.pick(decodeURIComponent(location.hash.slice(1)));
+    await this.startLive(this.live.choice());
+  }
+
+  // ---- What is open ----
+
+  private async openFile(file: File): Promise<void> {
+    try {
+      const opened = await judge(file);
+      if ('recording' in opened) return await this.open([openFile(opened.recording)], false);
+      this.live.setOwn(opened.scenario.name, opened.scenario.text, []);
+      this.tabs.show('live');
+      await this.startLive(this.live.choice());
+    } catch (problem) {
+      this.notice.bad(textOf(problem));
+    }
+  }
+
+  private async startLive(choice: LiveChoice): Promise<void> {
+    this.live.setProblems([]);
+    const sources = choice.algorithms.map((algorithm) => openLive({
+      name: choice.name, text: choice.text,
+      overrides: algorithm === '' ? choice.overrides : [...choice.overrides, `mission.algorithm=${algorithm}`],
+    }));
+    await this.open(sources, true);
+  }
+
+  /** Shows the sources once all of them are open; until then, and if one fails, what was there stays. */
+  private async open(sources: Source[], live: boolean): Promise<void> {
+    const attempt = ++this.opening;
+    try {
+      await Promise.all(sources.map(opened));
+    } catch (problem) {
+      for (const source of sources) source.close();
+      if (attempt !== this.opening) return;
+      const problems = problem instanceof Problem ? problem.problems : [];
+      if (live) this.live.setProblems(problems.length > 0 ? [...problems] : [textOf(problem)]);
+      if (live) this.tabs.show('live');
+      this.notice.bad([textOf(problem), ...(live ? [] : problems)].join('\n'));
+      return;
+    }
+    if (attempt !== this.opening) for (const source of sources) source.close();
+    else this.show(sources, live);
+  }
+
+  private show(sources: Source[], live: boolean): void {
+    for (const stage of this.stages) stage.dispose();
+    this.notice.hide();
+    this.setTool('look');
+    this.select(null);
+    this.stages = sources.map((source) => new Stage(source, this.theme, this.stageActions));
+    this.stagesElement.prepend(...this.stages.map((stage) => stage.element));
+    for (const source of sources) this.listen(source);
+    this.player.open(sources);
+    this.player.play();
+    this.showHeaders();
+    this.showSeries();
+    this.showEvents();
+    if (live) this.live.setLoss(lossOf(sources[0]));
+    if (!live) this.tabs.show('robot');
+  }
+
+  private listen(source: Source): void {
+    source.header.subscribe(() => this.showHeaders());
+    source.series.subscribe(() => this.showSeries());
+    source.events.subscribe(() => this.showEvents());
+    source.failure.subscribe((problem) => { if (problem && this.sources.includes(source)) this.notice.bad(problem.message); });
+    source.arrived.subscribe(() => this.draw());
+    source.rewound.subscribe(() => this.draw());
+  }
+
+  private get sources(): Source[] { return this.stages.map((stage) => stage.source); }
+  private get isLive(): boolean { return this.sources[0]?.header.value?.kind === 'live'; }
+
+  // ---- What is shown ----
+
+  private loop(nowMs: number): void {
+    requestAnimationFrame((now) => this.loop(now));
+    this.player.advance(nowMs);
+    if (!this.dirty && !this.player.playing) return;
+    this.dirty = false;
+    const shared = this.shared();
+    for (const stage of this.stages) if (!stage.draw(shared, nowMs)) this.dirty = this.dirty || this.player.playing;
+    this.transport.update(this.player.clock());
+    if (nowMs - this.panelsAt >= panelEveryMs || !this.player.playing) this.showPanels(nowMs);
+  }
+
+  private showPanels(nowMs: number): void {
+    this.panelsAt = nowMs;
+    this.plots.setTime(this.player.timeS);
+    this.events.setTime(this.player.timeS);
+    const { selection, followed } = this.store.state;
+    const stage = this.stages[0];
+    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive);
+    const setting = stage?.source.settingAt(this.player.timeS) ?? null;
+    this.live.setLive(this.isLive ? setting : null);
+  }
+
+  private shared(): Shared {
+    const { selection, followed, switches, trailS } = this.store.state;
+    return { timeS: this.player.timeS, stride: this.player.stride, selection, followed, switches, theme: this.theme, trailS };
+  }
+
+  private draw(): void { this.dirty = true; }
+
+  private showHeaders(): void {
+    const headers = this.sources.flatMap((source) => source.header.value ?? []);
+    this.what.textContent = headers.length === 0 ? '' : `${headers[0].name} · seed ${headers[0].seed}`;
+    document.title = headers.length === 0 ? 'Banyan' : `${headers[0].name} – Banyan`;
+    this.facts.update(headers, headers.map((header) => header.hash ?? null));
+    const warnings = headers.flatMap((header) => header.warnings);
+    if (warnings.length > 0) this.notice.bad(warnings.join('\n'));
+    this.draw();
+  }
+
+  private showSeries(): void {
+    this.plots.setRuns(this.sources.map((source) => source.series.value).filter((s) => s.time_s !== undefined));
+    this.draw();
+  }
+
+  private showEvents(): void {
+    const events = this.sources.flatMap((source) => source.events.value);
+    if (this.sources.length > 1) events.sort((a, b) => a.time_s - b.time_s);
+    this.transport.setEvents(events);
+    this.events.setEvents(events);
+  }
+
+  // ---- What a visitor does ----
+
+  private toggle(): void { this.player.toggle(); this.draw(); }
+  private seek(timeS: number): void { this.player.seek(timeS); this.draw(); }
+  private step(ticks: number): void { this.player.step(ticks); this.draw(); }
+  private setSpeed(speed: number): void { this.player.setSpeed(speed); this.draw(); }
+  private fit(): void { for (const stage of this.stages) stage.fit(); }
+
+  private changeSpeed(direction: 1 | -1): void {
+    const at = speeds.indexOf(this.player.speed) + direction;
+    if (at >= 0 && at < speeds.length) this.setSpeed(speeds[at]);
+  }
+
+  private jump(direction: 1 | -1): void {
+    const event = nextEvent(this.sources.flatMap((source) => source.events.value), this.player.timeS, direction);
+    if (event === null) return;
+    this.player.pause();
+    this.seek(event.time_s);
+    this.notice.good(event.text);
+    if (event.robot >= 0) this.select({ kind: 'robot', index: event.robot });
+  }
+
+  private select(item: Item | null): void {
+    const robots = this.stages[0]?.shown?.robots ?? 0;
+    if (item?.kind === 'robot' && item.index >= robots) return this.notice.bad(`There is no robot ${item.index}: they are numbered from 0 to ${robots - 1}.`);
+    this.store.set({ selection: item, followed: item?.kind === 'robot' && item.index === this.store.state.followed ? item.index : null });
+    if (item?.kind === 'robot') this.tabs.show('robot');
+  }
+
+  private selectNext(direction: 1 | -1): void {
+    const robots = this.stages[0]?.shown?.robots ?? 0;
+    if (robots === 0) return;
+    const { selection } = this.store.state;
+    const now = selection?.kind === 'robot' ? selection.index : direction > 0 ? -1 : 0;
+    this.select({ kind: 'robot', index: (now + direction + robots) % robots });
+  }
+
+  private follow(robot: number | null): void { this.store.set({ followed: robot }); }
+
+  private setTool(tool: Tool): void {
+    const wanted = this.isLive ? tool : 'look';
+    this.live.setTool(wanted);
+    for (const stage of this.stages) stage.setMode(wanted === 'look' ? 'look' : wanted === 'add_target' ? 'add' : 'area');
+    if (wanted !== 'look') this.notice.good(wanted === 'add_target' ? 'Click where the new target is to be.' : 'Draw a rectangle around the robots that are to die.');
+  }
+
+  // ---- What is done to a live run ----
+
+  private intervene(events: Intervention[], stages: Stage[] = this.stages): void {
+    if (!this.isLive || events.length === 0) return;
+    for (const stage of stages) {
+      stage.source.intervene(stage.tick, events).catch((problem: unknown) => {
+        this.notice.bad([textOf(problem), ...(problem instanceof Problem ? problem.problems : [])].join('\n'));
+      });
+    }
+    this.draw();
+  }
+
+  private async save(ask: (source: Source) => Promise<{ name: string; blob: Blob }>): Promise<void> {
+    try {
+      for (const source of this.sources) {
+        const { name, blob } = await ask(source);
+        download(name, blob);
+      }
+    } catch (problem) {
+      this.notice.bad(textOf(problem));
+    }
+  }
+
+  private readonly stageActions: StageActions = {
+    select: (item) => this.select(item),
+    moveTarget: (target, toM) => this.intervene([{ kind: 'move_target', target, position_m: place(toM) }]),
+    moveObstacle: (obstacle, toM) => this.intervene([{ kind: 'move_obstacle', obstacle, position_m: place(toM) }]),
+    addTarget: (atM) => { this.setTool('look'); this.intervene([{ kind: 'add_target', position_m: place(atM) }]); },
+    killArea: (area) => this.killArea(area),
+    moved: () => { if (this.store.state.followed !== null) this.follow(null); },
+    changed: () => this.draw(),
+  };
+
+  private killArea(area: Bounds): void {
+    this.setTool('look');
+    for (const stage of this.stages) this.intervene(stage.robotsIn(area).map((robot) => ({ kind: 'die', robot })), [stage]);
+  }
+
+  private release(): void {
+    if (this.stages.filter((stage) => stage.cancel()).length > 0) return;
+    this.setTool('look');
+    this.notice.hide();
+    this.select(null);
+  }
+
+  private killSelected(): void {
+    const { selection } = this.store.state;
+    if (selection?.kind === 'robot') this.intervene([{ kind: 'die', robot: selection.index }]);
+    if (selection?.kind === 'target') this.intervene([{ kind: 'remove_target', target: selection.index }]);
+  }
+
+  private keys(): ConstructorParameters<typeof Keyboard>[0] {
+    return {
+      toggle: () => this.toggle(), step: (ticks) => this.step(ticks),
+      toStart: () => this.seek(this.player.startS), toEnd: () => this.seek(this.player.endS),
+      jump: (direction) => this.jump(direction), speed: (direction) => this.changeSpeed(direction),
+      pan: (dx, dy) => { for (const stage of this.stages) stage.pan(dx, dy); },
+      zoom: (factor) => { for (const stage of this.stages) stage.zoom(factor); },
+      fit: () => this.fit(),
+      selectNumber: (robot) => this.select({ kind: 'robot', index: robot }), selectNext: (direction) => this.selectNext(direction),
+      follow: () => {
+        const { selection, followed } = this.store.state;
+        if (selection?.kind === 'robot') this.follow(followed === selection.index ? null : selection.index);
+      },
+      kill: () => this.killSelected(), switchOn: (name) => this.store.toggle(name),
+      tool: (name) => this.setTool(name), theme: () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' }),
+      release: () => this.release(), help: () => this.help.showModal(),
+    };
+  }
+
+  // ---- How it looks ----
+
+  private get theme() {
+    const { theme } = this.store.state;
+    return theme === 'auto' ? themes[matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'] : themes[theme];
+  }
+
+  private onStore(): void {
+    const { name } = this.theme;
+    if (document.documentElement.dataset.theme !== name) {
+      document.documentElement.dataset.theme = name;
+      this.plots.restyle();
+      this.transport.restyle();
+    }
+    this.draw();
+  }
+
+  private bar(): HTMLElement {
+    return h(
+      'header', { class: 'bar' },
+      h('h1', {}, logo(), 'Banyan'),
+      this.what,
+      button('Open …', 'A recording (.mcap) or a scenario (.toml); or drop it on the page', () => chooseFile((file) => void this.openFile(file))),
+      button('◐', 'Light or dark (M)', () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' })),
+      button('?', 'Keys and signs (?)', () => this.help.showModal()),
+    );
+  }
+}
+
+/** Millimetres are enough, and read well in a saved scenario. */
+const place = (at: Spot): [number, number] => [Math.round(at.x * 1000) / 1000, Math.round(at.y * 1000) / 1000];
+
+const textOf = (problem: unknown) => (problem instanceof Error ? problem.message : String(problem));
+
+function lossOf(source: Source): number {
+  try {
+    const config = JSON.parse(source.header.value?.config ?? '') as { radio?: { loss?: number } };
+    return config.radio?.loss ?? 0;
+  } catch {
+    return 0;
+  }
+}
+
+/** Resolves when a source has told what it holds, rejects with its problem. */
+function opened(source: Source): Promise<void> {
+  return new Promise((resolve, reject) => {
+    if (source.failure.value) return reject(source.failure.value);
+    if (source.header.value) return resolve();
+    source.header.subscribe(() => resolve());
+    source.failure.subscribe((problem) => { if (problem) reject(problem); });
+  });
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// How a file gets into the page: dropped on it, chosen, or named by the program that serves it.
+import { h } from './dom';
+
+export type Opened = { recording: File } | { scenario: { name: string; text: string } };
+
+const largestScenario = 1 << 20; // bytes: beyond, it is no scenario
+
+/** What a file is, by its name and its first bytes; throws an Error in words if it is neither. */
+export async function judge(file: File): Promise<Opened> {
+  const name = file.name.toLowerCase();
+  if (/\.(toml|json)$/.test(name)) {
+    if (file.size > largestScenario) throw new Error(`${file.name} is too large for a scenario (${Math.round(file.size / 1e6)} MB)`);
+    return { scenario: { name: file.name, text: await file.text() } };
+  }
+  return { recording: file }; // its reader says what is wrong with it
+}
+
+export function acceptDrops(open: (file: File) => void): void {
+  const root = document.documentElement;
+  let inside = 0; // dragenter and dragleave come for every element
+  const show = () => root.classList.toggle('dragging', inside > 0);
+  const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
+  root.addEventListener('dragenter', (event) => { if (hasFiles(event)) { ++inside; show(); } });
+  root.addEventListener('dragleave', (event) => { if (hasFiles(event)) { inside = Math.max(0, inside - 1); show(); } });
+  root.addEventListener('dragover', (event) => { if (hasFiles(event)) event.preventDefault(); });
+  root.addEventListener('drop', (event) => {
+    event.preventDefault();
+    inside = 0;
+    show();
+    const file = event.dataTransfer?.files[0];
+    if (file) open(file);
+  });
+}
+
+export function chooseFile(open: (file: File) => void): void {
+  const input = h('input', { type: 'file', accept: '.mcap,.part,.toml,.json' });
+  input.addEventListener('change', () => { if (input.files?.[0]) open(input.files[0]); });
+  input.click();
+}
+
+/** What `banyan view` was given. */
+export interface Start {
+  recording?: { name: string; size: number; url: string };
+  scenario?: { name: string; text: string; overrides: string[] };
+}
+
+/** {} from any other server, which has no such file. */
+export async function askServer(): Promise<Start> {
+  try {
+    const answer = await fetch('./start.json', { cache: 'no-store' });
+    return answer.ok && (answer.headers.get('content-type') ?? '').includes('json') ? ((await answer.json()) as Start) : {};
+  } catch {
+    return {}; // opened from the disk, or the server is gone
+  }
+}

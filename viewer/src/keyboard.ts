@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Every key of the page, once. Keys belong to the page unless something is being typed or chosen.
+
+export interface KeyActions {
+  toggle(): void;
+  step(ticks: number): void;
+  toStart(): void;
+  toEnd(): void;
+  jump(direction: 1 | -1): void;
+  speed(direction: 1 | -1): void;
+  pan(dx: number, dy: number): void; // share of the picture
+  zoom(factor: number): void;
+  fit(): void;
+  selectNumber(robot: number): void;
+  selectNext(direction: 1 | -1): void;
+  follow(): void;
+  kill(): void;
+  switchOn(name: 'links' | 'blocked' | 'oldTree' | 'trails' | 'ids'): void;
+  tool(name: 'add_target' | 'kill_area'): void;
+  theme(): void;
+  release(): void; // Escape
+  help(): void;
+}
+
+const zoomStep = 1.25;
+const panStep = 0.12;
+
+/** Whether the key is meant for a control and not for the page. */
+function isTyping(target: EventTarget | null): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target instanceof HTMLInputElement) return target.type !== 'range' && target.type !== 'checkbox';
+  return target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
+}
+
+/** Space and Enter press what has the focus. */
+function presses(target: EventTarget | null, key: string): boolean {
+  if (key !== ' ' && key !== 'Enter') return false;
+  return target instanceof HTMLElement && target.closest('button, summary, a, input[type=checkbox]') !== null;
+}
+
+export class Keyboard {
+  private digits = '';
+
+  constructor(private readonly actions: KeyActions) {
+    document.addEventListener('keydown', (event) => this.onKey(event));
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.defaultPrevented && !isTimeline(event.target)) return;
+    if (document.querySelector('dialog[open]') !== null) return;
+    if (event.key === 'Escape' && event.target instanceof HTMLElement) event.target.blur();
+    if (event.key !== 'Escape' && isTyping(event.target)) return;
+    if (presses(event.target, event.key)) return;
+    const action = this.digit(event.key) ?? this.find(event);
+    if (action === null) return;
+    event.preventDefault();
+    action();
+  }
+
+  /** A number and Enter select a robot. */
+  private digit(key: string): (() => void) | null {
+    if (/^[0-9]$/.test(key) && (this.digits !== '' || key !== '0')) {
+      return () => { this.digits = (this.digits + key).slice(-6); };
+    }
+    const digits = this.digits;
+    this.digits = '';
+    return key === 'Enter' && digits !== '' ? () => this.actions.selectNumber(Number(digits)) : null;
+  }
+
+  private find(event: KeyboardEvent): (() => void) | null {
+    const a = this.actions;
+    const ticks = event.shiftKey ? 10 : 1;
+    const alt: Record<string, () => void> = {
+      ArrowLeft: () => a.pan(-panStep, 0), ArrowRight: () => a.pan(panStep, 0),
+      ArrowUp: () => a.pan(0, -panStep), ArrowDown: () => a.pan(0, panStep),
+    };
+    if (event.altKey) return alt[event.key] ?? null;
+    const plain: Record<string, () => void> = {
+      ' ': a.toggle, ArrowLeft: () => a.step(-ticks), ArrowRight: () => a.step(ticks), Home: a.toStart, End: a.toEnd,
+      '[': () => a.jump(-1), ']': () => a.jump(1), '-': () => a.speed(-1), '+': () => a.speed(1), '=': () => a.speed(1),
+      PageUp: () => a.zoom(zoomStep), PageDown: () => a.zoom(1 / zoomStep), '0': a.fit,
+      n: () => a.selectNext(1), p: () => a.selectNext(-1), f: a.follow, Delete: a.kill,
+      l: () => a.switchOn('links'), b: () => a.switchOn('blocked'), o: () => a.switchOn('oldTree'),
+      r: () => a.switchOn('trails'), i: () => a.switchOn('ids'),
+      t: () => a.tool('add_target'), k: () => a.tool('kill_area'), m: a.theme, Escape: a.release, '?': a.help,
+    };
+    return plain[event.key.length === 1 ? event.key.toLowerCase() : event.key] ?? null;
+  }
+}
+
+function isTimeline(target: EventTarget | null): boolean {
+  return target instanceof HTMLInputElement && target.type === 'range';
+}
