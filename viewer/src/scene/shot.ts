@@ -13,7 +13,7 @@ export const roleCount = roles.length;
 
 /** Radii in px below which a robot of this role could not be told apart, by role; many robots get smaller ones. */
 const smallestPx = [2.6, 4.2, 5, 6] as const;
-const smallestOfManyPx = [1.3, 2.6, 3.6, 5] as const;
+const smallestOfManyPx = [1.6, 2.8, 3.8, 5] as const;
 export const many = 500;
 
 /** Bounds for the tree's lines, px: the outermost edge, the one that carries everybody. */

@@ -12,6 +12,10 @@ export interface Theme {
   roles: readonly [string, string, string, string];
   /** Around every robot; it is what makes a yellow spare seen on white. */
   outline: string;
+  /** Where a robot looks. */
+  heading: string;
+  /** Of spares that are dots without an outline. */
+  dot: string;
   dead: string;
   target: string;
   targetText: string;
@@ -38,6 +42,8 @@ export const light: Theme = {
   quietText: '#5f5f5c',
   roles,
   outline: '#1a1a1a',
+  heading: '#1a1a1a',
+  dot: '#8a7d00',
   dead: '#595959',
   target: '#cc79a7',
   targetText: '#8f3f6d',
@@ -59,7 +65,9 @@ export const dark: Theme = {
   text: '#eceae6',
   quietText: '#a3a7ab',
   roles,
-  outline: '#eceae6',
+  outline: '#0b0d0f',
+  heading: '#b9bcbf',
+  dot: '#d8cc3a',
   dead: '#8c8f93',
   target: '#cc79a7',
   targetText: '#e8b3d0',

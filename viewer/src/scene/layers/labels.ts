@@ -4,6 +4,7 @@
 import { column } from '../../frame';
 import { toPxX, toPxY } from '../camera';
 import type { LabelSprite, LabelStyle } from '../label_sprites';
+import { sameItem, type Item } from '../view';
 import { connector, root, spare, worker, type Shot } from '../shot';
 import { targetRadiusPx } from './targets';
 
@@ -11,6 +12,8 @@ const cellPx = 8;
 /** Sides of a robot where its label may stand: dx, dy in -1..1, in the order of preference. */
 const sides = [[1, 1], [1, -1], [-1, 1], [-1, -1]] as const;
 const mostLabels = 400;
+
+const isRobot = (item: Item | null, i: number) => item?.kind === 'robot' && item.index === i;
 
 /** Which parts of the picture are taken, in cells of 8 px. */
 class Taken {
@@ -55,24 +58,25 @@ export class Labels {
       const sprite = labels.get(`T${k}`, 'target', theme, ratio);
       const x = toPxX(view.camera, targets.x[k]!), y = toPxY(view.camera, targets.y[k]!);
       if (!shot.inSight(x, y, away)) continue;
-      // Towards the inside of the picture, so that it never leaves it.
-      const left = x + away + sprite.widthPx > view.camera.widthPx ? x - away - sprite.widthPx : x + away;
-      const above = y - away - sprite.heightPx < 0 ? y + away : y - away - sprite.heightPx;
-      this.taken.take(left, above, sprite.widthPx, sprite.heightPx);
-      labels.put(pen, sprite, left, above, ratio);
+      const side = freestSide(shot, x, y, away, sprite);
+      const at = corner(x, y, away, side, sprite);
+      this.taken.take(at.x, at.y, sprite.widthPx, sprite.heightPx);
+      labels.put(pen, sprite, at.x, at.y, ratio);
     }
   }
 
   private robots(shot: Shot, ratio: number): void {
     const { switches, selection, hovered } = shot.view;
-    for (const item of [selection, hovered]) {
+    const strong = sameItem(selection, hovered) ? [selection] : [selection, hovered];
+    for (const item of strong) {
       if (item?.kind === 'robot' && item.index < shot.robots) this.robot(shot, item.index, ratio, true);
     }
     if (!switches.ids && !switches.labels) return;
     let written = 0;
     for (const role of [root, worker, connector, spare]) {
       for (let i = 0; i < shot.robots && written < mostLabels; ++i) {
-        if (shot.role(i) === role && shot.isAlive(i) && this.robot(shot, i, ratio, false)) ++written;
+        const done = isRobot(selection, i) || isRobot(hovered, i);
+        if (!done && shot.role(i) === role && shot.isAlive(i) && this.robot(shot, i, ratio, false)) ++written;
       }
     }
   }
@@ -96,6 +100,32 @@ export class Labels {
     }
     return false;
   }
+}
+
+/** Upper right first, as in the still pictures. */
+const targetSides = [1, 3, 0, 2] as const;
+
+/** The first side of a target where it would cover no part of the tree. */
+function freestSide(shot: Shot, x: number, y: number, away: number, sprite: LabelSprite): number {
+  const { camera } = shot.view;
+  for (const side of targetSides) {
+    const at = corner(x, y, away, side, sprite);
+    const right = at.x + sprite.widthPx, bottom = at.y + sprite.heightPx;
+    if (at.x < 0 || at.y < 0 || right > camera.widthPx || bottom > camera.heightPx) continue;
+    const covers = (px: number, py: number) => px > at.x - 6 && px < right + 6 && py > at.y - 6 && py < bottom + 6;
+    if (!shot.facts.edges.some(({ from, to }) => passesThrough(shot, from, to, covers))) return side;
+  }
+  return targetSides[0];
+}
+
+const steps = 8; // points of an edge that are looked at
+
+function passesThrough(shot: Shot, from: number, to: number, covers: (x: number, y: number) => boolean): boolean {
+  for (let k = 0; k <= steps; ++k) {
+    const t = k / steps;
+    if (covers((1 - t) * shot.x[from]! + t * shot.x[to]!, (1 - t) * shot.y[from]! + t * shot.y[to]!)) return true;
+  }
+  return false;
 }
 
 const place = { x: 0, y: 0 };

@@ -48,7 +48,7 @@ function strokePairs(shot: Shot, pairs: Int32Array): number {
 /** 1 for a sparse net, down to a fifth where each has dozens of links. */
 function faintness(pairs: Int32Array, robots: number): number {
   const perRobot = Math.min(pairs.length / 2, mostLinks) / Math.max(1, robots);
-  return Math.min(1, Math.max(0.22, 5 / Math.max(1, perRobot)));
+  return Math.min(1, Math.max(0.22, 3.5 / Math.max(1, perRobot)));
 }
 
 export interface RadioCount { drawn: number; all: number }

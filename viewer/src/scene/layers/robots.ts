@@ -49,7 +49,7 @@ export function drawHeadings(shot: Shot): void {
     pen.moveTo(x[i]!, y[i]!);
     pen.lineTo(x[i]! + 1.65 * radius * Math.cos(heading[i]!), y[i]! - 1.65 * radius * Math.sin(heading[i]!));
   }
-  pen.strokeStyle = theme.outline;
+  pen.strokeStyle = theme.heading;
   pen.lineCap = 'round';
   pen.lineWidth = Math.min(2.5, Math.max(1, 0.28 * shot.bodyPx));
   pen.stroke();
@@ -62,7 +62,7 @@ export function drawSparesAndDead(shot: Shot): void {
   const radius = shot.radiusPx[spare]!;
   if (shot.dots) {
     traceDots(shot, isSpare, radius);
-    shot.pen.fillStyle = theme.name === 'light' ? theme.spareTrail : theme.roles[spare];
+    shot.pen.fillStyle = theme.dot;
     shot.pen.fill();
   } else {
     traceCircles(shot, isSpare, radius);

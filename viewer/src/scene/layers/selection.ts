@@ -41,8 +41,8 @@ function drawNeighbours(shot: Shot, i: number): void {
   const neighbours = facts.radio.neighbours(i);
   pen.beginPath();
   for (const j of neighbours) if (j < shot.robots) shot.line(i, j);
-  pen.lineWidth = 1.25;
-  pen.globalAlpha = 0.5;
+  pen.lineWidth = 1;
+  pen.globalAlpha = 0.4;
   pen.stroke();
   pen.beginPath();
   for (const j of neighbours) {
@@ -51,7 +51,7 @@ function drawNeighbours(shot: Shot, i: number): void {
     pen.moveTo(shot.x[j]! + radius, shot.y[j]!);
     pen.arc(shot.x[j]!, shot.y[j]!, radius, 0, circle);
   }
-  pen.globalAlpha = 0.75;
+  pen.globalAlpha = 0.5;
   pen.stroke();
   pen.globalAlpha = 1;
 }

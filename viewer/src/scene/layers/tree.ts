@@ -47,14 +47,15 @@ function drawOldTree(shot: Shot): void {
   }
   pen.lineCap = 'butt';
   pen.strokeStyle = theme.oldTree;
-  pen.lineWidth = Math.max(6.5, 1.4 * thickestPx(shot));
-  pen.setLineDash([7, 5]);
+  pen.lineWidth = Math.max(4.5, 0.9 * thickestPx(shot));
+  pen.setLineDash([6, 5]);
   pen.stroke();
   pen.setLineDash([]);
   pen.lineCap = 'round';
 }
 
-const markPx = 7;
+/** Half the length of a break mark, px. */
+const markOf = (shot: Shot) => Math.min(7, Math.max(4, 1.1 * shot.bodyPx));
 
 function drawBroken(shot: Shot, edges: readonly Edge[]): void {
   const { pen, theme } = shot;
@@ -75,15 +76,17 @@ function drawBroken(shot: Shot, edges: readonly Edge[]): void {
 /** Two strokes across the middle, as engineers mark a break. */
 function drawBreakMarks(shot: Shot, edges: readonly Edge[]): void {
   const { pen, theme, x, y } = shot;
-  const trace = (reach: number) => {
+  const reach = markOf(shot);
+  const gap = 0.36 * reach;
+  const trace = () => {
     pen.beginPath();
     for (const { from, to } of edges) {
       const dx = x[to]! - x[from]!, dy = y[to]! - y[from]!;
       const length = Math.hypot(dx, dy);
-      if (length < 2 * markPx) continue;
+      if (length < 4 * reach) continue; // the dots must do
       const ux = dx / length, uy = dy / length;
       const mx = (x[from]! + x[to]!) / 2, my = (y[from]! + y[to]!) / 2;
-      for (const side of [-2.6, 2.6]) {
+      for (const side of [-gap, gap]) {
         const cx = mx + side * ux, cy = my + side * uy;
         // Slanted by a third against the edge.
         const ax = reach * (-uy + 0.45 * ux), ay = reach * (ux + 0.45 * uy);
@@ -93,11 +96,11 @@ function drawBreakMarks(shot: Shot, edges: readonly Edge[]): void {
     }
   };
   pen.lineCap = 'round';
-  trace(markPx);
+  trace();
   pen.strokeStyle = theme.background;
-  pen.lineWidth = 6;
+  pen.lineWidth = 2 * gap + 1.5;
   pen.stroke();
   pen.strokeStyle = theme.broken;
-  pen.lineWidth = 2.4;
+  pen.lineWidth = 0.32 * reach;
   pen.stroke();
 }
