@@ -69,5 +69,8 @@ if (process.argv.includes('--compare')) {
     await run('plain picture, PixiJS 8, as the browser comes', 'pixi', [], [library, code]);
     await run('plain picture, PixiJS 8, with --enable-unsafe-swiftshader', 'pixi', ['--enable-unsafe-swiftshader'], [library, code]);
   }
-} else await run('Scene', 'scene', [], [code]);
+} else {
+  await run('Scene', 'scene', [], [code]);
+  await run('Scene, line of sight, blocked links shown', 'sight', [], [code]);
+}
 console.log(`load ${loadavg()[0].toFixed(1)} at the end`);

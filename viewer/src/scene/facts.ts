@@ -13,6 +13,7 @@ export class Facts {
   private linksMade: Links | null = null;
   private sizesMade: Int32Array | null = null;
   private edgesMade: Edge[] | null = null;
+  private brokenMade: Edge[] | null = null;
 
   constructor(readonly frame: Frame, readonly setting: Setting) {
     this.role = column(frame, 'role');
@@ -24,6 +25,10 @@ export class Facts {
   get radio(): Radio { return (this.radioMade ??= new Radio(this.setting, this.frame)); }
   get links(): Links { return (this.linksMade ??= this.radio.links()); }
   get edges(): Edge[] { return (this.edgesMade ??= [...this.edgesTo(this.parent, false), ...this.edgesTo(this.oldParent, true)]); }
+  /** Edges that do not hold; one that is in both trees only once. */
+  get broken(): Edge[] {
+    return (this.brokenMade ??= this.edges.filter((e) => e.link !== 'open' && !(e.old && this.parent[e.from] === e.to)));
+  }
   /** Robots that have this one on their way to the root, itself included. */
   get subtreeSizes(): Int32Array { return (this.sizesMade ??= subtreeSizes(this)); }
 

@@ -26,6 +26,8 @@ export interface Theme {
   link: string;
   blocked: string;
   spareTrail: string;
+  /** Opacity of the newest part of a trail. */
+  trailAlpha: number;
   obstacle: string;
   obstacleEdge: string;
   /** Selection, hovering, the path to the root. */
@@ -53,6 +55,7 @@ export const light: Theme = {
   link: '#b8b8b8',
   blocked: '#56b4e9',
   spareTrail: '#b0a010',
+  trailAlpha: 0.5,
   obstacle: '#a6a098',
   obstacleEdge: '#8b857d',
   accent: '#5a3fd6',
@@ -77,6 +80,7 @@ export const dark: Theme = {
   link: '#5a6168',
   blocked: '#56b4e9',
   spareTrail: '#b0a010',
+  trailAlpha: 0.8,
   obstacle: '#56534e',
   obstacleEdge: '#77736c',
   accent: '#b3a2ff',

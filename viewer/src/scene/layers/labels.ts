@@ -41,6 +41,7 @@ class Taken {
 export class Labels {
   private readonly taken = new Taken();
   private side = new Int8Array(0); // by robot
+  private readonly targetSide = new Map<number, number>();
 
   draw(shot: Shot, ratio: number): void {
     const { camera } = shot.view;
@@ -58,7 +59,8 @@ export class Labels {
       const sprite = labels.get(`T${k}`, 'target', theme, ratio);
       const x = toPxX(view.camera, targets.x[k]!), y = toPxY(view.camera, targets.y[k]!);
       if (!shot.inSight(x, y, away)) continue;
-      const side = freestSide(shot, x, y, away, sprite);
+      const side = freestSide(shot, x, y, away, sprite, this.targetSide.get(k));
+      this.targetSide.set(k, side);
       const at = corner(x, y, away, side, sprite);
       this.taken.take(at.x, at.y, sprite.widthPx, sprite.heightPx);
       labels.put(pen, sprite, at.x, at.y, ratio);
@@ -105,10 +107,12 @@ export class Labels {
 /** Upper right first, as in the still pictures. */
 const targetSides = [1, 3, 0, 2] as const;
 
-/** The first side of a target where it would cover no part of the tree. */
-function freestSide(shot: Shot, x: number, y: number, away: number, sprite: LabelSprite): number {
+/** The side it was on, or else the first, where it would cover no part of the tree. */
+function freestSide(
+  shot: Shot, x: number, y: number, away: number, sprite: LabelSprite, last: number | undefined,
+): number {
   const { camera } = shot.view;
-  for (const side of targetSides) {
+  for (const side of last === undefined ? targetSides : [last, ...targetSides]) {
     const at = corner(x, y, away, side, sprite);
     const right = at.x + sprite.widthPx, bottom = at.y + sprite.heightPx;
     if (at.x < 0 || at.y < 0 || right > camera.widthPx || bottom > camera.heightPx) continue;

@@ -4,6 +4,8 @@
 import { connector, root, spare, worker, type Shot } from '../shot';
 
 const circle = 2 * Math.PI;
+/** Radius of the root's ring in radii of the root. */
+export const rootRing = 1.65;
 const headingFromPx = 4; // smaller robots have no room for a heading
 
 type Which = (i: number) => boolean;
@@ -98,10 +100,9 @@ export function drawCommitted(shot: Shot): void {
     const radius = shot.radiusPx[role]!;
     const which = (i: number) => shot.role(i) === role && shot.isAlive(i);
     if (role === root) {
-      traceCircles(shot, which, 1.75 * radius);
-      pen.strokeStyle = theme.background;
-      pen.lineWidth = Math.max(4, 0.6 * radius);
-      pen.stroke();
+      traceCircles(shot, which, rootRing * radius);
+      pen.fillStyle = theme.background; // what shines through between disc and ring would blur both
+      pen.fill();
       pen.strokeStyle = theme.roles[root];
       pen.lineWidth = Math.max(2, 0.28 * radius);
       pen.stroke();

@@ -2,8 +2,9 @@
 // What is selected, hovered, dragged: below the robots the reach of its radio, its neighbours and its way to the
 // root; above them the ring.
 import { toPxX, toPxY } from '../camera';
-import type { Shot } from '../shot';
+import { root, type Shot } from '../shot';
 import type { Item } from '../view';
+import { rootRing } from './robots';
 import { targetRadiusPx, traceTarget } from './targets';
 import { traceObstacle, wallPx } from './obstacles';
 
@@ -82,7 +83,7 @@ function traceItem(shot: Shot, item: Item, gapPx: number, dx = 0, dy = 0): void 
   const { camera, frame } = view;
   if (item.kind === 'robot' && item.index < shot.robots) {
     const x = shot.x[item.index]! + dx * camera.scale, y = shot.y[item.index]! - dy * camera.scale;
-    traceTarget(pen, x, y, (shot.role(item.index) === 3 ? 2 : 1) * shot.radiusOf(item.index) + gapPx);
+    traceTarget(pen, x, y, (shot.isAlive(item.index) && shot.role(item.index) === root ? rootRing : 1) * shot.radiusOf(item.index) + gapPx);
   } else if (item.kind === 'target' && item.index < frame.targets.x.length) {
     const x = toPxX(camera, frame.targets.x[item.index]! + dx), y = toPxY(camera, frame.targets.y[item.index]! + dy);
     traceTarget(pen, x, y, targetRadiusPx(shot) + gapPx);

@@ -6,8 +6,7 @@ import { toPxX, toPxY } from '../camera';
 import { many, roleCount, spare, type Shot } from '../shot';
 
 const ages = 3; // steps of fading
-const newestAlpha = 0.5;
-const oldestAlpha = 0.14;
+const oldestShare = 0.28; // of the newest part's opacity
 
 export function drawTrails(shot: Shot): void {
   const { pen, view, theme } = shot;
@@ -19,7 +18,7 @@ export function drawTrails(shot: Shot): void {
   for (let age = 0; age < ages; ++age) {
     const from = Math.floor(((points.length - 1) * age) / ages);
     const to = Math.floor(((points.length - 1) * (age + 1)) / ages);
-    pen.globalAlpha = oldestAlpha + ((newestAlpha - oldestAlpha) * age) / (ages - 1);
+    pen.globalAlpha = theme.trailAlpha * (oldestShare + ((1 - oldestShare) * age) / (ages - 1));
     for (let role = shot.robots >= many ? spare + 1 : spare; role < roleCount; ++role) {
       pen.strokeStyle = role === spare ? theme.spareTrail : theme.roles[role]!;
       pen.lineWidth = Math.max(1.25, 0.35 * shot.radiusPx[role]!);

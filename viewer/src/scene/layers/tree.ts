@@ -34,7 +34,7 @@ export function drawTree(shot: Shot): void {
     pen.lineWidth = thinnestEdgePx + ((thickest - thinnestEdgePx) * w) / (widths - 1);
     pen.stroke();
   }
-  drawBroken(shot, facts.edges.filter((e) => e.link !== 'open' && (!e.old || view.switches.oldTree)));
+  drawBroken(shot, facts.broken.filter((e) => !e.old || view.switches.oldTree));
 }
 
 function drawOldTree(shot: Shot): void {
