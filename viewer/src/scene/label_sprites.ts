@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Words as small bitmaps. Writing text with a halo costs some 50 times as much as copying it, and ids do not change.
+import type { Theme } from './themes';
+
+export interface LabelSprite { image: HTMLCanvasElement; widthPx: number; heightPx: number }
+export type LabelStyle = 'id' | 'strong' | 'target' | 'scale';
+
+const family = 'system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif';
+const sizesPx: Record<LabelStyle, number> = { id: 11, strong: 13, target: 14, scale: 12 };
+const most = 4000;
+const haloPx = 3;
+
+export class LabelSprites {
+  private readonly made = new Map<string, LabelSprite>();
+  private key = '';
+
+  /** Bitmaps are for one theme and one pixel ratio. */
+  use(theme: Theme, ratio: number): void {
+    const key = `${theme.name} ${theme.background} ${ratio}`;
+    if (key !== this.key) this.made.clear();
+    this.key = key;
+  }
+
+  get(text: string, style: LabelStyle, theme: Theme, ratio: number): LabelSprite {
+    const key = style + text;
+    let sprite = this.made.get(key);
+    if (!sprite) {
+      if (this.made.size >= most) this.made.clear();
+      sprite = write(text, style, theme, ratio);
+      this.made.set(key, sprite);
+    }
+    return sprite;
+  }
+
+  /** Upper left corner at (x, y), px; on whole pixels, so that it stays sharp. */
+  put(pen: CanvasRenderingContext2D, sprite: LabelSprite, x: number, y: number, ratio: number): void {
+    const left = Math.round(x * ratio) / ratio;
+    const top = Math.round(y * ratio) / ratio;
+    pen.drawImage(sprite.image, left, top, sprite.widthPx, sprite.heightPx);
+  }
+}
+
+function write(text: string, style: LabelStyle, theme: Theme, ratio: number): LabelSprite {
+  const image = document.createElement('canvas');
+  const pen = image.getContext('2d')!;
+  const size = sizesPx[style];
+  const font = `${style === 'target' || style === 'strong' ? '600 ' : ''}${size}px ${family}`;
+  pen.font = font;
+  const device = (px: number) => Math.max(1, Math.ceil(px * ratio));
+  image.width = device(pen.measureText(text).width + 2 * haloPx);
+  image.height = device(size * 1.1 + 2 * haloPx);
+  pen.scale(ratio, ratio);
+  pen.font = font; // setting the size has reset it
+  pen.textBaseline = 'middle';
+  pen.lineJoin = 'round';
+  pen.lineWidth = haloPx;
+  pen.strokeStyle = theme.background;
+  pen.globalAlpha = 0.85;
+  pen.strokeText(text, haloPx, image.height / ratio / 2);
+  pen.globalAlpha = 1;
+  pen.fillStyle = style === 'target' ? theme.targetText : style === 'scale' ? theme.quietText : theme.text;
+  pen.fillText(text, haloPx, image.height / ratio / 2);
+  return { image, widthPx: image.width / ratio, heightPx: image.height / ratio };
+}

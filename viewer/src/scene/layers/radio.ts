@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Radio links: the fine mesh behind everything else. Where everybody hears everybody it would cover all else, and
+// drawing it is what takes the time: the more links, the fainter, and beyond a number only the shortest.
+import type { Shot } from '../shot';
+
+/** Links that can be told apart in a window, and be drawn in some 10 ms without a GPU. */
+export const mostLinks = 6000;
+const lengthClasses = 64;
+
+/** The length, px, up to which links are drawn: Infinity, or so that about `mostLinks` are. */
+function longestPx(shot: Shot, pairs: Int32Array): number {
+  if (pairs.length / 2 <= mostLinks) return Infinity;
+  const rangePx = shot.view.setting.range_m * shot.view.camera.scale * 1.1; // they may have moved since the tick
+  const counts = new Int32Array(lengthClasses);
+  let inSight = 0;
+  for (let k = 0; k < pairs.length; k += 2) {
+    const i = pairs[k]!, j = pairs[k + 1]!;
+    if (!shot.lineInSight(i, j)) continue;
+    ++inSight;
+    const length = Math.hypot(shot.x[i]! - shot.x[j]!, shot.y[i]! - shot.y[j]!);
+    ++counts[Math.min(lengthClasses - 1, Math.floor((lengthClasses * length) / rangePx))]!;
+  }
+  if (inSight <= mostLinks) return Infinity;
+  let sum = 0;
+  let c = 0;
+  while (c < lengthClasses - 1 && sum + counts[c]! <= mostLinks) sum += counts[c++]!;
+  return (rangePx * Math.max(1, c)) / lengthClasses;
+}
+
+/** Draws the pairs as one path; returns how many. */
+function strokePairs(shot: Shot, pairs: Int32Array): number {
+  const { pen, x, y } = shot;
+  const longest2 = Math.pow(longestPx(shot, pairs), 2);
+  let drawn = 0;
+  pen.beginPath();
+  for (let k = 0; k < pairs.length; k += 2) {
+    const i = pairs[k]!, j = pairs[k + 1]!;
+    if (i >= shot.robots || j >= shot.robots || !shot.lineInSight(i, j)) continue;
+    const dx = x[i]! - x[j]!, dy = y[i]! - y[j]!;
+    if (dx * dx + dy * dy > longest2) continue;
+    shot.line(i, j);
+    ++drawn;
+  }
+  pen.stroke();
+  return drawn;
+}
+
+/** 1 for a sparse net, down to a fifth where each has dozens of links. */
+function faintness(pairs: Int32Array, robots: number): number {
+  const perRobot = Math.min(pairs.length / 2, mostLinks) / Math.max(1, robots);
+  return Math.min(1, Math.max(0.22, 3.5 / Math.max(1, perRobot)));
+}
+
+export interface RadioCount { drawn: number; all: number }
+
+export function drawRadio(shot: Shot): RadioCount {
+  const { pen, view, theme, facts } = shot;
+  const { links, blocked } = view.switches;
+  const count = { drawn: 0, all: 0 };
+  if (!links && !blocked) return count;
+  const found = facts.links;
+  pen.lineCap = 'butt';
+  pen.lineWidth = 1;
+  if (links) {
+    pen.strokeStyle = theme.link;
+    pen.globalAlpha = faintness(found.open, shot.robots);
+    count.drawn += strokePairs(shot, found.open);
+    count.all += found.open.length / 2;
+  }
+  if (blocked && found.blocked.length > 0) {
+    pen.strokeStyle = theme.blocked;
+    pen.globalAlpha = Math.max(0.35, faintness(found.blocked, shot.robots));
+    // Dashes cost several times a plain line: only while there are few.
+    if (found.blocked.length / 2 < mostLinks / 4) pen.setLineDash([3, 4]);
+    count.drawn += strokePairs(shot, found.blocked);
+    count.all += found.blocked.length / 2;
+    pen.setLineDash([]);
+  }
+  pen.globalAlpha = 1;
+  return count;
+}

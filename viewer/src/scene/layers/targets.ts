@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Targets: the circle of their tolerance and a cross; filled once a worker holds the target. Their numbers are
+// written with the other labels.
+import { column } from '../../frame';
+import { toPxX, toPxY } from '../camera';
+import { worker, type Shot } from '../shot';
+
+/** The circle's radius, px; large enough to stand around a robot. */
+export function targetRadiusPx(shot: Shot): number {
+  return Math.max(shot.view.setting.target_tolerance_m * shot.view.camera.scale, shot.radiusPx[worker]! + 4);
+}
+
+/** Is a living worker that serves target k within the tolerance? (docs/model.md, events) */
+function isHeld({ view, facts, robots }: Shot, k: number): boolean {
+  const { targets } = view.frame;
+  const x = column(view.frame, 'x_m'), y = column(view.frame, 'y_m'), target = column(facts.frame, 'target');
+  const tolerance = view.setting.target_tolerance_m;
+  for (let i = 0; i < robots; ++i) {
+    if (target[i] !== k || facts.alive[i] === 0 || facts.role[i] !== worker) continue;
+    if (Math.hypot(x[i]! - targets.x[k]!, y[i]! - targets.y[k]!) < tolerance) return true;
+  }
+  return false;
+}
+
+export function traceTarget(pen: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
+  pen.moveTo(x + radius, y);
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+export function drawTargets(shot: Shot): void {
+  const { pen, view, theme } = shot;
+  const { targets } = view.frame;
+  const radius = targetRadiusPx(shot);
+  pen.lineCap = 'butt';
+  for (let k = 0; k < targets.x.length; ++k) {
+    const x = toPxX(view.camera, targets.x[k]!);
+    const y = toPxY(view.camera, targets.y[k]!);
+    if (!shot.inSight(x, y, radius + 4)) continue;
+    const held = isHeld(shot, k);
+    pen.beginPath();
+    traceTarget(pen, x, y, radius);
+    pen.globalAlpha = held ? 0.42 : 0.16;
+    pen.fillStyle = theme.target;
+    pen.fill();
+    pen.globalAlpha = 1;
+    const arm = Math.min(radius * 0.55, 7);
+    pen.moveTo(x - arm, y); pen.lineTo(x + arm, y);
+    pen.moveTo(x, y - arm); pen.lineTo(x, y + arm);
+    pen.strokeStyle = theme.target;
+    pen.lineWidth = held ? 2.5 : 1.75;
+    pen.stroke();
+  }
+}

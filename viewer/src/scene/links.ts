@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Radio links from positions alone: in range, both alive and, with line of sight, nobody and nothing in between.
+// Says the same as record/src/links.cpp, which the tests compare it with.
+import { column, type Frame, type Setting } from '../frame';
+import { Cells } from './cells';
+import { blocks, discBlocks } from './sight';
+
+/** Pairs of robots, i < j, one after the other: [i, j, i, j, ...]. */
+export interface Links {
+  open: Int32Array;
+  /** In range, but without line of sight. */
+  blocked: Int32Array;
+}
+
+/** Why two robots do not hear each other. */
+export type Link = 'open' | 'out of range' | 'blocked' | 'dead';
+
+class Pairs {
+  private data = new Int32Array(1024);
+  private length = 0;
+  add(i: number, j: number): void {
+    if (this.length + 2 > this.data.length) {
+      const more = new Int32Array(2 * this.data.length);
+      more.set(this.data);
+      this.data = more;
+    }
+    this.data[this.length++] = i;
+    this.data[this.length++] = j;
+  }
+  taken(): Int32Array { return this.data.slice(0, this.length); }
+}
+
+export class Radio {
+  private readonly x: Float64Array;
+  private readonly y: Float64Array;
+  private readonly alive: Float64Array;
+  private readonly cells: Cells;
+
+  constructor(private readonly setting: Setting, frame: Frame) {
+    this.x = column(frame, 'x_m');
+    this.y = column(frame, 'y_m');
+    this.alive = column(frame, 'alive');
+    this.cells = new Cells(this.x, this.y, Math.max(setting.range_m / 4, 2 * setting.radius_m, 1e-3));
+  }
+
+  link(i: number, j: number): Link {
+    if (this.alive[i] === 0 || this.alive[j] === 0) return 'dead';
+    if (!this.inRange(i, j)) return 'out of range';
+    return this.setting.line_of_sight && this.isBlocked(i, j) ? 'blocked' : 'open';
+  }
+
+  /** Whom robot i hears. */
+  neighbours(i: number): number[] {
+    const found: number[] = [];
+    this.forEachNear(i, (j) => { if (this.link(i, j) === 'open') found.push(j); });
+    return found.sort((a, b) => a - b);
+  }
+
+  links(): Links {
+    const open = new Pairs();
+    const blocked = new Pairs();
+    for (let i = 0; i < this.x.length; ++i) {
+      if (this.alive[i] === 0) continue;
+      this.forEachNear(i, (j) => {
+        if (j < i) return;
+        const link = this.link(i, j);
+        if (link === 'open') open.add(i, j);
+        else if (link === 'blocked') blocked.add(i, j);
+      });
+    }
+    return { open: open.taken(), blocked: blocked.taken() };
+  }
+
+  private inRange(i: number, j: number): boolean {
+    const dx = this.x[j]! - this.x[i]!;
+    const dy = this.y[j]! - this.y[i]!;
+    return Math.sqrt(dx * dx + dy * dy) < this.setting.range_m;
+  }
+
+  /** All others in the cells that `range_m` reaches. */
+  private forEachNear(i: number, visit: (j: number) => void): void {
+    const { cells } = this;
+    const range = this.setting.range_m;
+    const right = cells.column(this.x[i]! + range);
+    const top = cells.row(this.y[i]! + range);
+    for (let row = cells.row(this.y[i]! - range); row <= top; ++row) {
+      const from = cells.first[row * cells.columns + cells.column(this.x[i]! - range)]!;
+      const to = cells.first[row * cells.columns + right + 1]!;
+      for (let k = from; k < to; ++k) if (cells.members[k] !== i) visit(cells.members[k]!);
+    }
+  }
+
+  /** Bodies, those of the dead too, and obstacles. */
+  private isBlocked(i: number, j: number): boolean {
+    const swap = this.x[j]! < this.x[i]! || (this.x[j] === this.x[i] && this.y[j]! < this.y[i]!);
+    const ax = this.x[swap ? j : i]!, ay = this.y[swap ? j : i]!;
+    const bx = this.x[swap ? i : j]!, by = this.y[swap ? i : j]!;
+    if (this.bodyBlocks(i, j, ax, ay, bx, by)) return true;
+    for (const obstacle of this.setting.obstacles) if (blocks(obstacle, ax, ay, bx, by)) return true;
+    return false;
+  }
+
+  private bodyBlocks(i: number, j: number, ax: number, ay: number, bx: number, by: number): boolean {
+    const { cells } = this;
+    const radius = this.setting.radius_m;
+    const left = cells.column(ax - radius);
+    const right = cells.column(bx + radius);
+    const top = cells.row(Math.max(ay, by) + radius);
+    for (let row = cells.row(Math.min(ay, by) - radius); row <= top; ++row) {
+      const to = cells.first[row * cells.columns + right + 1]!;
+      for (let m = cells.first[row * cells.columns + left]!; m < to; ++m) {
+        const k = cells.members[m]!;
+        if (k !== i && k !== j && discBlocks(this.x[k]!, this.y[k]!, radius, ax, ay, bx, by)) return true;
+      }
+    }
+    return false;
+  }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The picture of a run: a canvas and its layers, drawn anew whenever the page says that something has changed. Why
+// Canvas 2D: it is several times as fast as WebGL where there is no GPU (docs/viewer.md).
+import { FactsCache, type Facts } from './facts';
+import { LabelSprites } from './label_sprites';
+import { drawGround, drawScaleBar } from './layers/ground';
+import { drawJoining } from './layers/joining';
+import { Labels } from './layers/labels';
+import { drawObstacles } from './layers/obstacles';
+import { drawRadio, type RadioCount } from './layers/radio';
+import { drawCommitted, drawHeadings, drawSparesAndDead } from './layers/robots';
+import { drawOverSelection, drawUnderSelection } from './layers/selection';
+import { drawTargets } from './layers/targets';
+import { drawTrails } from './layers/trails';
+import { drawTree } from './layers/tree';
+import { Shot } from './shot';
+import { Surface } from './surface';
+import type { Theme } from './themes';
+import type { SceneView } from './view';
+
+export class Scene {
+  private readonly surface: Surface;
+  private readonly factsCache = new FactsCache();
+  private readonly sprites = new LabelSprites();
+  private readonly labels = new Labels();
+  private readonly shot = new Shot();
+  private count: RadioCount = { drawn: 0, all: 0 };
+
+  /** `changed` is called when the picture has to be drawn again for reasons of its own: it was resized, moved to a
+   *  screen with other pixels, or its tab is shown again. */
+  constructor(host: HTMLElement, theme: Theme, changed: () => void = () => {}) {
+    this.surface = new Surface(host, theme.background, changed);
+  }
+
+  get canvas(): HTMLCanvasElement { return this.surface.canvas; }
+  get widthPx(): number { return this.surface.widthPx; }
+  get heightPx(): number { return this.surface.heightPx; }
+
+  /** Of the last picture: radio links that are in it and that there were; fewer are drawn than there are when they
+   *  would only make a grey area. */
+  get radioLinks(): RadioCount { return this.count; }
+
+  /** Links, edges and neighbours of the instant that is shown, for panels; as computed for the picture. */
+  facts(view: SceneView): Facts { return this.factsCache.of(view.frame, view.recorded, view.setting); }
+
+  draw(view: SceneView): void {
+    if (document.hidden) return; // nobody looks; `changed` comes when somebody does
+    const pen = this.surface.begin();
+    const { shot } = this;
+    const ratio = this.surface.ratio;
+    this.sprites.use(view.theme, ratio);
+    shot.labels = this.sprites;
+    shot.take(pen, view, this.facts(view));
+    drawGround(shot);
+    drawObstacles(shot);
+    this.count = drawRadio(shot);
+    drawTrails(shot);
+    drawTargets(shot);
+    drawUnderSelection(shot);
+    drawHeadings(shot);
+    drawSparesAndDead(shot);
+    drawTree(shot);
+    drawJoining(shot);
+    drawCommitted(shot);
+    drawOverSelection(shot);
+    this.labels.draw(shot, ratio);
+    drawScaleBar(shot, ratio);
+  }
+
+  dispose(): void { this.surface.dispose(); }
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What the layers share while one picture is drawn: where everybody is in pixels, how large, and what to draw with.
+// One object lives as long as the scene; its arrays are filled anew for each picture.
+import { column, roles } from '../frame';
+import { toPxX, toPxY } from './camera';
+import type { Facts } from './facts';
+import type { LabelSprites } from './label_sprites';
+import type { Theme } from './themes';
+import type { SceneView } from './view';
+
+export const spare = 0, connector = 1, worker = 2, root = 3;
+export const roleCount = roles.length;
+
+/** Radii in px below which a robot of this role could not be told apart, by role; many robots get smaller ones. */
+const smallestPx = [2.6, 4.2, 5, 6] as const;
+const smallestOfManyPx = [1.6, 2.8, 3.8, 5] as const;
+export const many = 500;
+
+/** Bounds for the tree's lines, px: the outermost edge, the one that carries everybody. */
+export const thinnestEdgePx = 1.8;
+
+export class Shot {
+  pen!: CanvasRenderingContext2D;
+  view!: SceneView;
+  facts!: Facts;
+  theme!: Theme;
+  labels!: LabelSprites;
+  robots = 0;
+  /** Pixels. */
+  x = new Float64Array(0);
+  y = new Float64Array(0);
+  heading!: Float64Array;
+  /** Of a robot's body on the screen, px. */
+  bodyPx = 0;
+  /** Of the mark of a robot of each role, px. */
+  readonly radiusPx = [0, 0, 0, 0];
+  /** So many and so small that robots are dots: no outline, no heading. */
+  dots = false;
+
+  take(pen: CanvasRenderingContext2D, view: SceneView, facts: Facts): void {
+    this.pen = pen;
+    this.view = view;
+    this.facts = facts;
+    this.theme = view.theme;
+    this.robots = Math.min(view.frame.robots, facts.frame.robots);
+    this.place();
+    this.bodyPx = view.setting.radius_m * view.camera.scale;
+    const smallest = this.robots >= many ? smallestOfManyPx : smallestPx;
+    for (let r = 0; r < roleCount; ++r) this.radiusPx[r] = Math.max(smallest[r]!, this.bodyPx);
+    this.dots = this.robots >= many && this.bodyPx < 3.5;
+  }
+
+  private place(): void {
+    const { frame, camera } = this.view;
+    if (this.x.length < this.robots) {
+      this.x = new Float64Array(this.robots);
+      this.y = new Float64Array(this.robots);
+    }
+    const xM = column(frame, 'x_m');
+    const yM = column(frame, 'y_m');
+    for (let i = 0; i < this.robots; ++i) {
+      this.x[i] = toPxX(camera, xM[i]!);
+      this.y[i] = toPxY(camera, yM[i]!);
+    }
+    this.heading = column(frame, 'heading_rad');
+  }
+
+  role(i: number): number { return this.facts.role[i]!; }
+  isAlive(i: number): boolean { return this.facts.alive[i] === 1; }
+  radiusOf(i: number): number { return this.radiusPx[this.isAlive(i) ? this.role(i) : connector]!; }
+
+  /** Is any part of a mark at this place, so large, in the picture? */
+  inSight(x: number, y: number, reachPx: number): boolean {
+    const { widthPx, heightPx } = this.view.camera;
+    return x > -reachPx && y > -reachPx && x < widthPx + reachPx && y < heightPx + reachPx;
+  }
+
+  /** Could a line between two robots be seen? */
+  lineInSight(i: number, j: number): boolean {
+    const { widthPx, heightPx } = this.view.camera;
+    const x = this.x, y = this.y;
+    return !((x[i]! < 0 && x[j]! < 0) || (y[i]! < 0 && y[j]! < 0) ||
+      (x[i]! > widthPx && x[j]! > widthPx) || (y[i]! > heightPx && y[j]! > heightPx));
+  }
+
+  line(i: number, j: number): void {
+    this.pen.moveTo(this.x[i]!, this.y[i]!);
+    this.pen.lineTo(this.x[j]!, this.y[j]!);
+  }
+}
