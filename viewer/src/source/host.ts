@@ -25,7 +25,7 @@ export function idOf(request: Request): number {
 
 export abstract class Host {
   private readonly queue: Request[] = [];
-  private running = false;
+  private working = false;
   private idle: (() => void)[] = [];
 
   constructor(private readonly post: Post) {}
@@ -33,7 +33,7 @@ export abstract class Host {
   /** Whatever a page sends. Never throws. */
   receive(request: Request): void {
     this.queue.push(request);
-    if (!this.running) void this.run();
+    if (!this.working) void this.work();
   }
 
   protected abstract answer(request: Request): Promise<void>;
@@ -49,11 +49,11 @@ export abstract class Host {
   /** For work in the background: after all requests that are there, and those that come meanwhile. */
   protected async pause(): Promise<void> {
     await nextTurn();
-    while (this.running) await new Promise<void>((resolve) => this.idle.push(resolve));
+    while (this.working) await new Promise<void>((resolve) => this.idle.push(resolve));
   }
 
-  private async run(): Promise<void> {
-    this.running = true;
+  private async work(): Promise<void> {
+    this.working = true;
     for (let request; (request = this.queue.shift()) !== undefined; ) {
       try {
         await this.answer(request);
@@ -61,7 +61,7 @@ export abstract class Host {
         this.fail(idOf(request), error);
       }
     }
-    this.running = false;
+    this.working = false;
     for (const wake of this.idle.splice(0)) wake();
   }
 

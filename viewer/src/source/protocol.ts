@@ -11,6 +11,7 @@ export interface Header {
   name: string; // of the file or the scenario
   /** In order of time; the one that holds at t is the last with timeS <= t. Never empty. */
   settings: { timeS: number; setting: Setting }[];
+  robots: number; // in the first frame
   startS: number; // of the first and the last frame there is now
   endS: number;
   /** Live: there is more to come. A recording ends where it ends. */

@@ -155,7 +155,7 @@ export class Recording {
     const regular = [this.first, this.last].every((f) => Math.abs(f.tick * tickS - f.timeS) < 0.1 * tickS);
     this.tickNs = regular ? tickS * 1e9 : 0;
     this.header = {
-      kind: 'recording', name, settings, startS: this.first.timeS, endS: this.last.timeS, growing: false,
+      kind: 'recording', name, settings, robots: this.first.robots, startS: this.first.timeS, endS: this.last.timeS, growing: false,
       ...provenance, result: readResult(metadata), warnings: [],
     };
   }
