@@ -11,6 +11,7 @@ export interface Header {
   name: string; // of the file or the scenario
   /** In order of time; the one that holds at t is the last with timeS <= t. Never empty. */
   settings: { timeS: number; setting: Setting }[];
+  robots: number; // in the first frame
   startS: number; // of the first and the last frame there is now
   endS: number;
   /** Live: there is more to come. A recording ends where it ends. */
@@ -42,11 +43,26 @@ export interface LiveRequest {
   overrides: string[];
 }
 
+export type MessageFields = Record<string, number | string | boolean>;
+
+/** What answers a request for frames; see `frames` below. */
+export interface FramesReply {
+  /** By time. */
+  frames: Frame[];
+  /** A source may stop early so that others get their turn: nothing is missing up to here. */
+  untilS: number;
+  /** Of the last frame that there is now. */
+  endS: number;
+}
+
 export type Request =
   | { type: 'open'; file: Blob; name: string }
+  /** A server's file, read by ranges; `size` in bytes, 0: not known. */
+  | { type: 'open_url'; url: string; name: string; size: number }
   | { type: 'open_live'; run: LiveRequest }
-  /** Frames with fromS <= time <= toS and the one before fromS, every `stride`th tick. A live run goes on
-   *  as far as toS. */
+  /** Frames with fromS <= time <= toS and the nearest ones on either side, so that a picture of any time
+   *  between them can be made. With a stride only those whose tick is a multiple of it, and the first and
+   *  the last of a recording. A live run goes on until it is beyond toS. */
   | { type: 'frames'; id: number; fromS: number; toS: number; stride: number }
   /** What this robot broadcast last, at that tick. */
   | { type: 'message'; id: number; robot: number; tick: number }
@@ -61,9 +77,9 @@ export type Reply =
   /** All of it for a recording (once, as soon as it is read); for a live run what is new, or all
    *  of it (`whole`) after a rewind. */
   | { type: 'series'; series: Series; events: RunEvent[]; whole: boolean }
-  | { type: 'frames'; id: number; frames: Frame[] }
+  | ({ type: 'frames'; id: number } & FramesReply)
   /** null: not kept. */
-  | { type: 'message'; id: number; fields: Record<string, number | string | boolean> | null }
+  | { type: 'message'; id: number; fields: MessageFields | null }
   | { type: 'done'; id: number }
   | { type: 'file'; id: number; name: string; blob: Blob }
   /** A request that could not be met, in words for the visitor; id 0: the source could not be opened

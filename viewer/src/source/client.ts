@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+// A source as the page sees it: a worker behind promises, what it told so far, and the frames around what
+// is shown, fetched ahead of need.
+import type { Frame, RunEvent, Series, Setting } from '../frame';
+import { FrameCache, type Pair, type Span } from './cache';
+import { Observable } from './emitter';
+import { Problem } from './problem';
+import type { Header, Intervention, MessageFields, Reply, Request } from './protocol';
+import { SeriesTable } from './table';
+
+/** The part of Worker that is used. */
+export interface WorkerLike {
+  postMessage(request: Request): void;
+  terminate(): void;
+  onmessage: ((event: MessageEvent<Reply>) => void) | null;
+  onerror: ((event: ErrorEvent) => void) | null;
+  onmessageerror: ((event: MessageEvent) => void) | null;
+}
+
+export type OpenRequest = Extract<Request, { type: 'open' | 'open_url' | 'open_live' }>;
+export interface SavedFile {
+  name: string;
+  blob: Blob;
+}
+
+interface Waiting {
+  resolve: (reply: Reply) => void;
+  reject: (problem: Problem) => void;
+}
+
+const mostInFlight = 2; // requests for frames: a jump elsewhere must not wait for a long queue
+const mostAttempts = 3;
+const aheadWallS = 1.5; // of playing that should always be there
+
+export class Source {
+  readonly header = new Observable<Header | null>(null);
+  readonly series = new Observable<Series>({});
+  readonly events = new Observable<RunEvent[]>([]);
+  /** Not null: the source is lost, or could not be opened; in words. */
+  readonly failure = new Observable<Problem | null>(null);
+  /** Called with the time (s) after which nothing is as it was: somebody interfered with a live run. */
+  readonly rewound = new Observable<number>(Infinity);
+  /** Called when frames have come. */
+  readonly arrived = new Observable<number>(0);
+
+  private cache: FrameCache | null = null;
+  private readonly table = new SeriesTable();
+  private readonly waiting = new Map<number, Waiting>();
+  private readonly inFlight = new Set<string>();
+  private readonly attempts = new Map<string, number>();
+  private nextId = 1;
+  private generation = 0; // of the cache: what was asked for before a rewind is not taken
+  private lastS = 0; // of the last frame that there is
+
+  constructor(private readonly worker: WorkerLike, open: OpenRequest, private readonly cacheBytes?: number) {
+    worker.onmessage = ({ data }) => this.receive(data);
+    worker.onerror = (event) => this.lose(`this part of the page has crashed: ${event.message || 'it could not be loaded'}`);
+    worker.onmessageerror = () => this.lose('this part of the page has crashed: a message could not be read');
+    worker.postMessage(open);
+  }
+
+  get ready(): boolean { return this.cache !== null; }
+  get startS(): number { return this.header.value?.startS ?? 0; }
+  /** Of the last frame; a live run can go beyond it. */
+  get endS(): number { return this.lastS; }
+  get growing(): boolean { return this.header.value?.growing ?? false; }
+  get tickS(): number { return this.header.value?.settings[0].setting.tick_s ?? 0.1; }
+
+  /** The setting that holds at a time; null before the source is open. */
+  settingAt(timeS: number): Setting | null {
+    const settings = this.header.value?.settings ?? [];
+    let low = 0;
+    for (let high = settings.length; low < high; ) {
+      const middle = (low + high) >> 1;
+      if (settings[middle].timeS <= timeS + 1e-9) low = middle + 1;
+      else high = middle;
+    }
+    return settings[Math.max(0, low - 1)]?.setting ?? null;
+  }
+
+  /** The frames around a time, if they are here; never waits. A coarser stride serves in need. */
+  pair(timeS: number, stride = 1): Pair | null {
+    return this.cache?.pair(this.clamped(timeS), stride, this.growing) ?? null;
+  }
+
+  /** Cached frames in a stretch of time, for trails. */
+  framesBetween(fromS: number, toS: number, stride = 1): Frame[] {
+    return this.cache?.framesBetween(fromS, toS, stride) ?? [];
+  }
+
+  /** How far from one time to a later one frames are here, without a gap. */
+  limit(fromS: number, toS: number, stride: number): number {
+    const { cache } = this;
+    if (cache === null) return fromS;
+    let timeS = fromS;
+    while (timeS < toS) {
+      if (!this.growing && timeS >= this.endS) return toS;
+      const pair = cache.pair(this.clamped(timeS), stride, this.growing, false);
+      if (pair === null) break;
+      if (pair.after === null) return !this.growing && pair.before.timeS >= this.endS - 1e-9 ? toS : timeS;
+      timeS = Math.max(pair.after.timeS, timeS + 1e-6);
+    }
+    return Math.min(timeS, toS);
+  }
+
+  /** Sees to it that what is shown now and soon is here. `speed`: s of the run per s; 0 standing still,
+   *  negative when the visitor drags backwards. */
+  prefetch(timeS: number, speed: number, stride: number): void {
+    const { cache } = this;
+    if (cache === null || this.failure.value !== null) return;
+    const block = cache.durationS(stride);
+    const count = Math.max(1, Math.min(6, Math.ceil((Math.abs(speed) * aheadWallS) / block)));
+    const now = cache.spanAt(this.clamped(timeS), stride);
+    for (let k = 0; k <= count; ++k) {
+      const span = { stride, index: now.index + (speed < 0 ? -k : k) };
+      if (span.index >= 0 && this.reaches(span, cache)) this.fetch(span, cache);
+    }
+  }
+
+  async message(robot: number, tick: number): Promise<MessageFields | null> {
+    const reply = await this.ask((id) => ({ type: 'message', id, robot, tick }));
+    return reply.type === 'message' ? reply.fields : null;
+  }
+
+  /** Acts at the begin of the step after `tick`; what was simulated beyond is forgotten. */
+  async intervene(tick: number, events: Intervention[]): Promise<void> {
+    await this.ask((id) => ({ type: 'intervene', id, tick, events }));
+    this.forgetAfter(tick * this.tickS);
+  }
+
+  async saveRecording(): Promise<SavedFile> {
+    return fileOf(await this.ask((id) => ({ type: 'save_recording', id })));
+  }
+  async saveScenario(): Promise<SavedFile> {
+    return fileOf(await this.ask((id) => ({ type: 'save_scenario', id })));
+  }
+
+  close(): void {
+    if (this.failure.value === null) this.lose('it was closed');
+  }
+
+  private clamped(timeS: number): number {
+    return this.growing ? Math.max(timeS, this.startS) : Math.min(Math.max(timeS, this.startS), this.endS);
+  }
+
+  // Behind the end of a recording there is nothing; a live run goes on.
+  private reaches(span: Span, cache: FrameCache): boolean {
+    return this.growing || cache.startOf(span) <= this.endS;
+  }
+
+  private fetch(span: Span, cache: FrameCache): void {
+    const key = `${span.stride}:${span.index}`;
+    const fromS = cache.missingFrom(span);
+    const tried = this.attempts.get(key) ?? 0;
+    if (fromS === null || this.inFlight.has(key) || this.inFlight.size >= mostInFlight || tried >= mostAttempts) return;
+    const { generation } = this;
+    this.inFlight.add(key);
+    this.ask((id) => ({ type: 'frames', id, fromS, toS: cache.endOf(span), stride: span.stride }))
+      .then((reply) => {
+        if (generation !== this.generation || reply.type !== 'frames') return;
+        this.inFlight.delete(key);
+        this.attempts.delete(key);
+        this.lastS = Math.max(this.lastS, reply.endS);
+        cache.put(span, reply);
+        this.arrived.set(this.arrived.value + 1);
+      })
+      .catch(() => {
+        if (generation !== this.generation) return;
+        this.inFlight.delete(key);
+        this.attempts.set(key, tried + 1);
+      });
+  }
+
+  private forgetAfter(timeS: number): void {
+    this.cache?.dropAfter(timeS);
+    ++this.generation;
+    this.inFlight.clear();
+    this.attempts.clear();
+    this.lastS = Math.min(this.lastS, timeS);
+    this.rewound.set(timeS);
+  }
+
+  private ask(make: (id: number) => Request): Promise<Reply> {
+    if (this.failure.value !== null) return Promise.reject(this.failure.value);
+    const id = this.nextId++;
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject });
+      this.worker.postMessage(make(id));
+    });
+  }
+
+  private receive(reply: Reply): void {
+    if (reply.type === 'header') return this.takeHeader(reply.header);
+    if (reply.type === 'series') return this.takeSeries(reply);
+    if (reply.type === 'failed' && reply.id === 0) return this.lose(reply.text, reply.problems);
+    const waiting = this.waiting.get(reply.id);
+    this.waiting.delete(reply.id);
+    if (reply.type === 'failed') waiting?.reject(new Problem(reply.text, reply.problems));
+    else waiting?.resolve(reply);
+  }
+
+  private takeHeader(header: Header): void {
+    this.lastS = header.endS;
+    this.cache ??= new FrameCache(header.settings[0].setting.tick_s, header.robots, this.cacheBytes);
+    this.header.set(header);
+  }
+
+  private takeSeries({ series, events, whole }: Extract<Reply, { type: 'series' }>): void {
+    if (whole) this.table.replace(series);
+    else this.table.append(series);
+    this.series.set(this.table.value);
+    this.events.set(whole ? events : this.events.value.concat(events));
+  }
+
+  private lose(text: string, problems?: string[]): void {
+    const problem = new Problem(text, problems);
+    this.worker.terminate();
+    for (const { reject } of this.waiting.values()) reject(problem);
+    this.waiting.clear();
+    this.failure.set(problem);
+  }
+}
+
+function fileOf(reply: Reply): SavedFile {
+  if (reply.type !== 'file') throw new Problem('there is no file');
+  return { name: reply.name, blob: reply.blob };
+}

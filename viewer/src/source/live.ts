@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// The simulation as a source of frames: the compiled class (viewer/live/) with a memory of what has been.
+// Nothing here waits; live_host.ts decides how long it may simulate at a time.
+import { columns, type Frame, type RunEvent, type Series } from '../frame';
+import { History, type Kept } from './history';
+import { isObject, type JsonObject, parseObject } from './json';
+import type { LiveClass, LiveModule } from './live_module';
+import { pack, type Packed, unpack } from './packed';
+import { noTargets, parseEvent, parseTargets } from './parse';
+import { Problem } from './problem';
+import type { FramesReply, Header, Intervention, LiveRequest, MessageFields } from './protocol';
+import type { TimedSetting } from './provenance';
+import { SeriesBuilder } from './series';
+import { parseSetting } from './setting';
+
+const framesBytes = 192 << 20;
+const messagesBytes = 64 << 20;
+/** Up to here everybody's messages are kept; in larger swarms only those of robots asked for, from then on. */
+const mostListened = 40;
+
+interface Spoken extends Kept {
+  json: Map<number, string>; // by robot
+}
+
+export class LiveRun {
+  private frames = new History<Packed>(framesBytes);
+  private messages = new History<Spoken>(messagesBytes);
+  private builder = new SeriesBuilder();
+  private rowsSent = 0;
+  private events: RunEvent[] = [];
+  private eventsSent = 0;
+  private whole = true; // the page knows nothing of the series yet, or something else
+  private settings: TimedSetting[] = [];
+  private settingVersion = NaN;
+  private readonly listened = new Set<number>();
+  private result: Record<string, string> = {};
+  private warnings: string[] = [];
+  private tickS = 0.1;
+  /** What the page knows of the header is no longer true. */
+  headerChanged = true;
+
+  private constructor(private readonly live: LiveClass, private readonly module: LiveModule, private readonly request: LiveRequest) {}
+
+  /** Throws a Problem with a line for each thing that is wrong with the scenario. */
+  static load(module: LiveModule, request: LiveRequest): LiveRun {
+    const run = new LiveRun(new module.Live(), module, request);
+    const lines = run.live.load(request.name, request.text, request.overrides);
+    if (!run.live.loaded()) {
+      run.close();
+      throw new Problem(`${request.name} cannot be run`, lines);
+    }
+    run.warnings = lines;
+    const own = module.columns();
+    if (own.join() !== columns.join()) throw new Error('the simulation speaks of other columns than this page');
+    run.listenToAll();
+    run.capture();
+    return run;
+  }
+
+  close(): void {
+    this.live.delete();
+  }
+
+  get head(): number { return this.live.tick(); }
+  get robots(): number { return this.live.robots(); }
+  get tickLengthS(): number { return this.tickS; }
+  hash(): string { return this.live.hash(); }
+
+  step(): void {
+    this.live.step(1);
+    this.capture();
+  }
+
+  /** Everything in [fromS, toS] that there is, as `frames` in protocol.ts says. */
+  framesReply(fromS: number, toS: number, stride: number): FramesReply {
+    const from = Math.ceil(fromS / this.tickS - 1e-6);
+    const found = this.frames.around(from, Math.floor(toS / this.tickS + 1e-6), stride);
+    const endS = this.head * this.tickS;
+    const all = this.head >= this.tickAfter(toS, stride);
+    return { frames: found.map(unpack), untilS: all ? toS : Math.min(toS, endS), endS };
+  }
+
+  /** The head that a request for frames up to `toS` needs. */
+  tickAfter(toS: number, stride: number): number {
+    return (Math.floor(toS / this.tickS / stride + 1e-6) + 1) * stride;
+  }
+
+  /** Null if it was not kept. */
+  message(robot: number, tick: number): MessageFields | null {
+    this.listened.add(robot);
+    const json = tick >= this.head ? this.live.messageJson(robot) : this.messages.at(tick)?.json.get(robot);
+    if (json === undefined || json === 'null') return null;
+    return fieldsOf(parseObject(json));
+  }
+
+  /** Acts at the begin of the step after `tick`. What is later is forgotten. Throws a Problem. */
+  intervene(tick: number, events: Intervention[]): void {
+    if (!Number.isInteger(tick) || tick < 0 || tick > this.head) throw new Problem('that moment has not been simulated yet');
+    if (tick < this.head) this.rewind(tick);
+    for (const event of events) {
+      const lines = this.live.intervene(JSON.stringify(event));
+      if (lines.length > 0) throw new Problem(lines.join('; '), lines);
+    }
+  }
+
+  rewind(tick: number): void {
+    this.live.rewind(tick);
+    this.frames.cut(tick);
+    this.messages.cut(tick);
+    this.builder.cut(tick + 1); // a row per tick
+    this.events = this.events.filter((event) => event.tick <= tick);
+    this.settings = this.settings.filter(({ timeS }) => timeS <= (tick + 0.5) * this.tickS);
+    this.settingVersion = this.live.settingVersion();
+    if (!this.live.finished()) this.result = {};
+    this.whole = true;
+    this.headerChanged = true;
+  }
+
+  /** The rows and events that were not taken yet; null if there are none. */
+  takeTable(): { series: Series; events: RunEvent[]; whole: boolean } | null {
+    const { whole } = this;
+    const firstRow = whole ? 0 : this.rowsSent;
+    if (!whole && firstRow === this.builder.rows && this.eventsSent === this.events.length) return null;
+    const table = { series: this.builder.take(firstRow), events: this.events.slice(whole ? 0 : this.eventsSent), whole };
+    this.rowsSent = this.builder.rows;
+    this.eventsSent = this.events.length;
+    this.whole = false;
+    return table;
+  }
+
+  header(): Header {
+    this.headerChanged = false;
+    const { live } = this;
+    return {
+      kind: 'live', name: this.request.name, settings: this.settings, robots: live.robots(), startS: 0,
+      endS: this.head * this.tickS, growing: true, version: this.module.version(), git: this.module.git(),
+      seed: live.seed(), config: live.configJson(), result: this.result, warnings: this.warnings,
+    };
+  }
+
+  recording(): Uint8Array { return this.live.recording(); }
+  scenario(): string { return this.live.scenarioToml(); }
+  get name(): string { return this.live.name(); }
+
+  private listenToAll(): void {
+    const robots = this.live.robots();
+    if (robots <= mostListened) for (let robot = 0; robot < robots; ++robot) this.listened.add(robot);
+  }
+
+  /** Keeps what the head looks like. */
+  private capture(): void {
+    const { live } = this;
+    const tick = live.tick();
+    if (live.settingVersion() !== this.settingVersion) this.captureSetting(live.timeS());
+    const frame: Frame = { tick, timeS: live.timeS(), robots: live.robots(), data: live.frame(), targets: noTargets };
+    this.frames.push(pack(frame, parseTargets(live.targetsJson())));
+    this.builder.add(live.metricsJson());
+    this.captureEvents();
+    this.captureMessages(tick);
+    if (live.finished() && Object.keys(this.result).length === 0) this.captureResult();
+  }
+
+  private captureSetting(timeS: number): void {
+    this.settingVersion = this.live.settingVersion();
+    const setting = parseSetting(this.live.settingJson(), (text) => this.warnings.push(text));
+    this.settings.push({ timeS, setting });
+    this.tickS = setting.tick_s;
+    this.headerChanged = true;
+  }
+
+  private captureEvents(): void {
+    const json = this.live.takeEventsJson();
+    if (json === '[]') return;
+    for (const event of JSON.parse(json) as unknown[]) this.events.push(parseEvent(JSON.stringify(event)));
+  }
+
+  private captureMessages(tick: number): void {
+    if (this.listened.size === 0) return;
+    const json = new Map([...this.listened].map((robot) => [robot, this.live.messageJson(robot)]));
+    let bytes = 100;
+    for (const text of json.values()) bytes += text.length + 60;
+    this.messages.push({ tick, bytes, json });
+  }
+
+  private captureResult(): void {
+    const result = parseObject(this.live.resultJson());
+    this.result = Object.fromEntries(Object.entries(result).map(([key, value]) => [key, value === null ? '' : String(value)]));
+    this.headerChanged = true;
+  }
+}
+
+function fieldsOf(object: JsonObject): MessageFields {
+  const fields = Object.entries(object).filter(([, value]) => value !== null && !isObject(value) && !Array.isArray(value));
+  return Object.fromEntries(fields) as MessageFields;
+}
