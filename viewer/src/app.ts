@@ -14,20 +14,23 @@ import { Plots } from './panels/plots';
 import { RunFacts } from './panels/run_facts';
 import { SwitchPanel } from './panels/switches';
 import { Tabs } from './panels/tabs';
-import { Transport, speeds } from './panels/transport';
+import { Transport, speeds, type Clock } from './panels/transport';
 import type { Spot, Bounds } from './scene/camera';
 import { themes } from './scene/themes';
 import type { Item } from './scene/view';
 import type { Source } from './source/client';
 import { openFile, openLive, openUrl } from './source/open';
+import type { RunEvent, Series } from './frame';
 import { Problem } from './source/problem';
 import type { Intervention } from './source/protocol';
 import { Player } from './state/player';
-import { nextEvent } from './state/events';
+import { eventAfter } from './state/events';
 import { Store } from './state/store';
 import { RobotWatch } from './robot_watch';
 import { Stage, type Shared, type StageActions } from './stage';
 
+const trailS = 10; // how far back trails go
+const tellEveryS = 0.5; // plots and lists of a live run grow so often
 const panelEveryMs = 80; // panels are read, not watched: twelve times a second is enough
 
 export class App {
@@ -36,6 +39,8 @@ export class App {
   private stages: Stage[] = [];
   private dirty = true;
   private panelsAt = 0;
+  private seenS = 0; // of a live run: how far it was shown
+  private toldS = 0; // what plots and lists know of that
   private opening = 0; // counts attempts: a later one makes an earlier one void
 
   private readonly notice = new Notice();
@@ -144,7 +149,9 @@ export class App {
     this.stages = sources.map((source) => new Stage(source, this.theme, this.stageActions));
     this.stagesElement.prepend(...this.stages.map((stage) => stage.element));
     for (const source of sources) this.listen(source);
-    this.player.open(sources);
+    this.seenS = this.toldS = 0;
+    this.player.attach(sources);
+    this.player.home();
     this.player.play();
     this.showHeaders();
     this.showSeries();
@@ -159,7 +166,7 @@ export class App {
     source.events.subscribe(() => this.showEvents());
     source.failure.subscribe((problem) => { if (problem && this.sources.includes(source)) this.notice.bad(problem.message); });
     source.arrived.subscribe(() => this.draw());
-    source.rewound.subscribe(() => this.draw());
+    source.rewound.subscribe((timeS) => { this.seenS = Math.min(this.seenS, timeS); this.draw(); });
   }
 
   private get sources(): Source[] { return this.stages.map((stage) => stage.source); }
@@ -169,12 +176,13 @@ export class App {
 
   private loop(nowMs: number): void {
     requestAnimationFrame((now) => this.loop(now));
-    this.player.advance(nowMs);
-    if (!this.dirty && !this.player.playing) return;
+    if (this.player.frame(nowMs)) this.dirty = true;
+    if (!this.dirty) return;
     this.dirty = false;
     const shared = this.shared();
-    for (const stage of this.stages) if (!stage.draw(shared, nowMs)) this.dirty = this.dirty || this.player.playing;
-    this.transport.update(this.player.clock());
+    for (const stage of this.stages) stage.draw(shared, nowMs); // what is not there yet will arrive and be drawn
+    this.see(this.player.timeS);
+    this.transport.update(this.clock());
     if (nowMs - this.panelsAt >= panelEveryMs || !this.player.playing) this.showPanels(nowMs);
   }
 
@@ -189,9 +197,26 @@ export class App {
     this.live.setLive(this.isLive ? setting : null);
   }
 
+  /** A live run is simulated ahead of what is shown; the page tells only of what has been seen. */
+  private see(timeS: number): void {
+    if (!this.isLive || timeS <= this.seenS) return;
+    this.seenS = timeS;
+    if (timeS < this.toldS + tellEveryS) return;
+    this.showSeries();
+    this.showEvents();
+  }
+
+  private get horizonS(): number { return this.isLive ? this.seenS : Infinity; }
+
+  private clock(): Clock {
+    const { playing, waiting, speed, timeS, startS, growing } = this.player;
+    return { playing, waiting, speed, timeS, startS, growing, endS: this.isLive ? this.seenS : this.player.endS };
+  }
+
   private shared(): Shared {
-    const { selection, followed, switches, trailS } = this.store.state;
-    return { timeS: this.player.timeS, stride: this.player.stride, selection, followed, switches, theme: this.theme, trailS };
+    const { timeS, stride } = this.player;
+    const { selection, followed, switches } = this.store.state;
+    return { timeS, stride, selection, followed, switches, theme: this.theme, trailS };
   }
 
   private draw(): void { this.dirty = true; }
@@ -200,20 +225,26 @@ export class App {
     const headers = this.sources.flatMap((source) => source.header.value ?? []);
     this.what.textContent = headers.length === 0 ? '' : `${headers[0].name} · seed ${headers[0].seed}`;
     document.title = headers.length === 0 ? 'Banyan' : `${headers[0].name} – Banyan`;
-    this.facts.update(headers, headers.map((header) => header.hash ?? null));
+    this.facts.update(headers, []);
     const warnings = headers.flatMap((header) => header.warnings);
     if (warnings.length > 0) this.notice.bad(warnings.join('\n'));
     this.draw();
   }
 
   private showSeries(): void {
-    this.plots.setRuns(this.sources.map((source) => source.series.value).filter((s) => s.time_s !== undefined));
+    this.toldS = this.seenS;
+    const runs = this.sources.map((source) => source.series.value).filter((s) => s.time_s !== undefined);
+    this.plots.setRuns(runs.map((series) => until(series, this.horizonS)));
     this.draw();
   }
 
+  private shownEvents(): RunEvent[] {
+    const events = this.sources.flatMap((source) => source.events.value.filter((event) => event.time_s <= this.horizonS));
+    return this.sources.length > 1 ? events.sort((a, b) => a.time_s - b.time_s) : events;
+  }
+
   private showEvents(): void {
-    const events = this.sources.flatMap((source) => source.events.value);
-    if (this.sources.length > 1) events.sort((a, b) => a.time_s - b.time_s);
+    const events = this.shownEvents();
     this.transport.setEvents(events);
     this.events.setEvents(events);
   }
@@ -223,6 +254,11 @@ export class App {
   private toggle(): void { this.player.toggle(); this.draw(); }
   private seek(timeS: number): void { this.player.seek(timeS); this.draw(); }
   private step(ticks: number): void { this.player.step(ticks); this.draw(); }
+  private toEnd(): void {
+    if (this.isLive) this.player.seek(this.seenS);
+    else this.player.end();
+    this.draw();
+  }
   private setSpeed(speed: number): void { this.player.setSpeed(speed); this.draw(); }
   private fit(): void { for (const stage of this.stages) stage.fit(); }
 
@@ -232,7 +268,7 @@ export class App {
   }
 
   private jump(direction: 1 | -1): void {
-    const event = nextEvent(this.sources.flatMap((source) => source.events.value), this.player.timeS, direction);
+    const event = eventAfter(this.shownEvents(), this.player.timeS, direction);
     if (event === null) return;
     this.player.pause();
     this.seek(event.time_s);
@@ -318,7 +354,7 @@ export class App {
   private keys(): ConstructorParameters<typeof Keyboard>[0] {
     return {
       toggle: () => this.toggle(), step: (ticks) => this.step(ticks),
-      toStart: () => this.seek(this.player.startS), toEnd: () => this.seek(this.player.endS),
+      toStart: () => { this.player.home(); this.draw(); }, toEnd: () => this.toEnd(),
       jump: (direction) => this.jump(direction), speed: (direction) => this.changeSpeed(direction),
       pan: (dx, dy) => { for (const stage of this.stages) stage.pan(dx, dy); },
       zoom: (factor) => { for (const stage of this.stages) stage.zoom(factor); },
@@ -361,6 +397,14 @@ export class App {
       button('?', 'Keys and signs (?)', () => this.help.showModal()),
     );
   }
+}
+
+/** The rows up to a time, without copying them. */
+function until(series: Series, timeS: number): Series {
+  const times = series.time_s;
+  let rows = times.length;
+  while (rows > 0 && times[rows - 1] > timeS + 1e-9) --rows;
+  return rows === times.length ? series : Object.fromEntries(Object.entries(series).map(([name, values]) => [name, values.subarray(0, rows)]));
 }
 
 /** Millimetres are enough, and read well in a saved scenario. */

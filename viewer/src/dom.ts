@@ -21,8 +21,31 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 }
 
 /** A button with a text for those who cannot see its sign. */
-export function button(sign: string, title: string, onclick: () => void, attributes: Attributes = {}): HTMLButtonElement {
+export function button(sign: string | Node, title: string, onclick: () => void, attributes: Attributes = {}): HTMLButtonElement {
   return h('button', { type: 'button', title, 'aria-label': title, onclick, ...attributes }, sign);
+}
+
+const icons = {
+  play: 'M7 4.5v15l12.5-7.5z',
+  pause: 'M6.5 4.5h4v15h-4zM13.5 4.5h4v15h-4z',
+  back: 'M15.5 5v14L6 12z',
+  on: 'M8.5 5v14l9.5-7z',
+  last: 'M5 5h2.5v14H5zM18.5 5v14L9 12z',
+  next: 'M16.5 5H19v14h-2.5zM5.5 5v14L15 12z',
+};
+export type Icon = keyof typeof icons;
+
+/** Drawn, not written: fonts differ in what signs they have. */
+export function icon(name: Icon): SVGSVGElement {
+  const space = 'http://www.w3.org/2000/svg';
+  const svg = document.createElementNS(space, 'svg');
+  svg.setAttribute('viewBox', '0 0 24 24');
+  svg.setAttribute('class', 'icon');
+  svg.setAttribute('aria-hidden', 'true');
+  const path = document.createElementNS(space, 'path');
+  path.setAttribute('d', icons[name]);
+  svg.append(path);
+  return svg;
 }
 
 /** Sets a text only if it differs: a text that is set is laid out again. */

@@ -45,8 +45,10 @@ export interface Start {
   scenario?: { name: string; text: string; overrides: string[] };
 }
 
-/** {} from any other server, which has no such file. */
+/** {} from any other server. The program names its own addresses with `?start`, so that no other is asked for a
+ *  file that it does not have. */
 export async function askServer(): Promise<Start> {
+  if (!new URLSearchParams(location.search).has('start')) return {};
   try {
     const answer = await fetch('./start.json', { cache: 'no-store' });
     return answer.ok && (answer.headers.get('content-type') ?? '').includes('json') ? ((await answer.json()) as Start) : {};

@@ -52,6 +52,7 @@ export class Stage {
   private dragged: { item: Item; toM: Spot } | null = null;
   private area: Bounds | null = null;
   private frame: Frame | null = null; // interpolated
+  private own: Frame | undefined; // its memory, used again
   private recorded: Frame | null = null;
   private setting: Setting | null = null;
   private view: SceneView | null = null;
@@ -107,7 +108,7 @@ export class Stage {
     const there = pair !== null;
     if (pair) {
       this.recorded = pair.before;
-      this.frame = pair.after === null ? pair.before : interpolate(pair.before, pair.after, shared.timeS, this.frame);
+      this.frame = this.own = interpolate(pair.before, pair.after, shared.timeS, this.own);
       this.setting = this.source.settingAt(pair.before.timeS);
     }
     const { frame, setting } = this;

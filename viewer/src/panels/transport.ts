@@ -2,7 +2,7 @@
 // The clock's handles: play, speed, a timeline with the run's events on it. Shows what it is told and
 // reports what the visitor wants; it keeps no time of its own.
 import type { RunEvent } from '../frame';
-import { button, h, setText } from '../dom';
+import { button, h, icon, setText } from '../dom';
 import { eventMark } from './event_marks';
 
 export interface Clock {
@@ -46,7 +46,7 @@ export class Transport {
   private drawn = '';
 
   constructor(actions: TransportActions) {
-    this.play = button('▶', 'Play (space)', actions.toggle, { class: 'play' });
+    this.play = button(icon('play'), 'Play', actions.toggle, { class: 'play' });
     this.timeline = h('input', {
       type: 'range', min: 0, max: 1, step: 'any', value: 0, 'aria-label': 'Time',
       oninput: () => actions.seek(Number(this.timeline.value)),
@@ -61,11 +61,11 @@ export class Transport {
     this.element = h(
       'section',
       { class: 'transport', 'aria-label': 'Time' },
-      button('⇤', 'Last event ([)', () => actions.jump(-1)),
-      button('‹', 'One tick back (←)', () => actions.step(-1)),
+      button(icon('last'), 'Last event ([)', () => actions.jump(-1)),
+      button(icon('back'), 'One tick back (←)', () => actions.step(-1)),
       this.play,
-      button('›', 'One tick on (→)', () => actions.step(1)),
-      button('⇥', 'Next event (])', () => actions.jump(1)),
+      button(icon('on'), 'One tick on (→)', () => actions.step(1)),
+      button(icon('next'), 'Next event (])', () => actions.jump(1)),
       this.time,
       h('div', { class: 'timeline' }, this.marks, this.timeline),
       this.end,
@@ -81,15 +81,15 @@ export class Transport {
 
   update(clock: Clock): void {
     this.clock = clock;
-    setText(this.play, clock.playing ? '⏸' : '▶');
     const title = clock.playing ? 'Pause (space)' : 'Play (space)';
     if (this.play.title !== title) {
+      this.play.replaceChildren(icon(clock.playing ? 'pause' : 'play'));
       this.play.title = title;
       this.play.setAttribute('aria-label', title);
     }
     this.play.classList.toggle('waiting', clock.playing && clock.waiting);
     setText(this.time, clockText(clock.timeS));
-    setText(this.end, clock.growing ? `${clockText(clock.endS)} +` : clockText(clock.endS));
+    setText(this.end, clock.growing ? 'live' : clockText(clock.endS));
     this.timeline.min = String(clock.startS);
     this.timeline.max = String(Math.max(clock.endS, clock.startS + 1e-3));
     this.timeline.value = String(clock.timeS);
