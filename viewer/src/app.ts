@@ -88,6 +88,11 @@ export class App {
     requestAnimationFrame((now) => this.loop(now));
   }
 
+  /** Where something is on the screen: for who scripts the page, and its tests. */
+  place(kind: Item['kind'], index: number, stage = 0): Spot | null {
+    return this.stages[stage]?.placeOf({ kind, index }) ?? null;
+  }
+
   /** Opens what `banyan view` was given; else shows a first run, so that the first thing seen moves. */
   async begin(): Promise<void> {
     const start = await askServer();

@@ -3,4 +3,8 @@ import './style.css';
 import { App } from './app';
 
 const root = document.getElementById('app');
-if (root) void new App(root).begin();
+if (root) {
+  const app = new App(root);
+  Object.assign(window, { banyan: app }); // to script the page from the browser's console
+  void app.begin();
+}

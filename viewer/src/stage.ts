@@ -5,7 +5,7 @@ import { h, setText } from './dom';
 import type { Frame, Setting } from './frame';
 import { legend } from './panels/legend';
 import { boundsOf } from './scene/bounds';
-import { fitted, following, followShare, panned, resized, toWorld, zoomedAt, type Bounds, type Camera, type Spot } from './scene/camera';
+import { fitted, following, followShare, panned, resized, toPx, toWorld, zoomedAt, type Bounds, type Camera, type Spot } from './scene/camera';
 import type { Facts } from './scene/facts';
 import { Input, type Mode } from './scene/input';
 import { itemAt, pointerReachPx, robotsIn, touchReachPx } from './scene/picking';
@@ -72,6 +72,16 @@ export class Stage {
   get tick(): number { return this.recorded?.tick ?? 0; }
   redraw(): void { this.actions.changed(); }
   get recordedFrame(): Frame | null { return this.recorded; }
+
+  /** Where something is on the screen; null if there is no such thing. */
+  placeOf(item: Item): Spot | null {
+    const { frame, setting, camera } = this;
+    const at = frame && setting ? positionOf(item, frame, setting) : null;
+    if (at === null || camera === null) return null;
+    const box = this.scene.canvas.getBoundingClientRect();
+    const px = toPx(camera, at);
+    return { x: box.left + px.x, y: box.top + px.y };
+  }
 
   /** The living robots in a rectangle. */
   robotsIn(area: Bounds): number[] { return this.frame === null ? [] : robotsIn(this.frame, area); }
@@ -240,4 +250,13 @@ export class Stage {
     this.area = area;
     this.actions.changed();
   }
+}
+
+function positionOf({ kind, index }: Item, frame: Frame, setting: Setting): Spot | null {
+  if (kind === 'robot') return index < frame.robots ? { x: column(frame, 'x_m')[index], y: column(frame, 'y_m')[index] } : null;
+  if (kind === 'target') return index < frame.targets.x.length ? { x: frame.targets.x[index], y: frame.targets.y[index] } : null;
+  const obstacle = setting.obstacles[index];
+  if (obstacle === undefined) return null;
+  if (!('wall' in obstacle)) return { x: obstacle.center_m[0], y: obstacle.center_m[1] };
+  return { x: (obstacle.from_m[0] + obstacle.to_m[0]) / 2, y: (obstacle.from_m[1] + obstacle.to_m[1]) / 2 };
 }

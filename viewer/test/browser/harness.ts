@@ -46,7 +46,7 @@ export class Server {
       child.stderr.on('data', listen);
       child.on('exit', (code) => reject(new Error(`banyan view ended with ${code}: ${said}`)));
     });
-    return new Server(child, url);
+    return new Server(child, url.includes('?') ? url : `${url.replace(/\/?$/, '/')}?start`);
   }
 
   stop(): Promise<number | null> {

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// A recording in the page, as a visitor uses it. What is shown is compared with `banyan export` and the
+// series table of the same run.
+import { readFileSync, statSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { banyan, Folder, launch, open, scenario, Server } from './harness';
+import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, timeShown, waitForRun } from './visitor';
+
+const folder = new Folder();
+let browser: Browser;
+let recording: string;
+let server: Server;
+let rows: Record<string, string>[]; // of the exported table
+
+function table(csv: string): Record<string, string>[] {
+  const [head, ...lines] = csv.trim().split('\n');
+  const names = head.split(',');
+  return lines.map((line) => Object.fromEntries(line.split(',').map((cell, k) => [names[k], cell])));
+}
+
+beforeAll(async () => {
+  recording = folder.record('run', scenario('three-targets'), '--series');
+  rows = table(banyan('export', recording, '--csv'));
+  server = await Server.start(recording);
+  browser = await launch();
+}, 120_000);
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+  folder.remove();
+});
+
+const visit = async (): Promise<{ tab: Page; errors: string[] }> => {
+  const visitor = await open(browser, server.url);
+  await waitForRun(visitor.tab);
+  return visitor;
+};
+
+describe('a recording', () => {
+  it('is scrubbed to a moment, and a robot that is clicked shows what the export says', async () => {
+    const { tab, errors } = await visit();
+    for (const timeS of [0, 5, 12.3]) {
+      await seekTo(tab, timeS);
+      const now = rows.filter((row) => Math.abs(Number(row.time_s) - timeS) < 1e-6);
+      expect(now.length).toBeGreaterThan(0);
+      for (const row of [now[0], now[now.length >> 1], now[now.length - 1]]) {
+        await clickRobot(tab, Number(row.robot));
+        const facts = await factsShown(tab);
+        expect(facts.position).toBe(`${Number(row.x_m).toFixed(4)}, ${Number(row.y_m).toFixed(4)} m`);
+        expect(facts.heading).toBe(`${Number(row.heading_rad).toFixed(4)} rad`);
+        expect(facts.role).toBe(row.role);
+        expect(facts.phase).toBe(row.phase);
+        expect(facts.parent).toBe(row.parent === '' ? '–' : `robot ${row.parent}`);
+        expect(facts.alive).toBe(row.alive === '1' ? 'yes' : 'no');
+        expect(facts.target).toBe(row.target === '' ? '–' : `T${row.target}`);
+      }
+    }
+    expect(errors).toEqual([]);
+  });
+
+  it('shows what the selected robot said last, in fields', async () => {
+    const { tab } = await visit();
+    await seekTo(tab, 6);
+    await tab.keyboard.press('3');
+    await tab.keyboard.press('Enter');
+    await tab.waitForSelector('.message th:text-is("id")');
+    const fields = await factsShown(tab, '.message');
+    expect(fields.id).toBe('3');
+    expect(Object.keys(fields).length).toBeGreaterThan(30);
+  });
+
+  it('has the numbers of the series table under its plots', async () => {
+    const { tab } = await visit();
+    const series = table(readFileSync(join(folder.path, 'run', 'series.csv'), 'utf8'));
+    for (const timeS of [1, 7.5]) {
+      await seekTo(tab, timeS);
+      const row = series.find((r) => Math.abs(Number(r.time_s) - timeS) < 1e-6)!;
+      const [broken, fiedler, farthest, committed] = await plotValues(tab);
+      expect(Number(broken)).toBe(Number(row.broken_by_distance) + Number(row.broken_by_occlusion));
+      expect(Number(fiedler)).toBeCloseTo(Number(row.fiedler), 3);
+      expect(Number.parseFloat(farthest)).toBeCloseTo(Number(row.worst_target_distance_m), 2);
+      expect(Number(committed)).toBe(Number(row.committed));
+    }
+  });
+
+  it('plays, pauses at the end, and changes speed', async () => {
+    const { tab } = await visit();
+    await tab.keyboard.press('Home');
+    await tab.selectOption('select[aria-label=Speed]', '64');
+    await tab.keyboard.press(' ');
+    const endS = Number(rows[rows.length - 1].time_s);
+    await tab.waitForFunction((end) => Math.abs(Number(document.querySelector<HTMLInputElement>('.timeline input')!.value) - end) < 1e-6, endS);
+    await tab.waitForSelector('button[aria-label^="Play"]');
+  });
+
+  it('is used with the keyboard alone', async () => {
+    const { tab, errors } = await visit();
+    await tab.keyboard.press('Home');
+    expect(await timeShown(tab)).toBeCloseTo(0);
+    for (let k = 0; k < 3; ++k) await tab.keyboard.press('ArrowRight');
+    expect(await timeShown(tab)).toBeCloseTo(0.3);
+    await tab.keyboard.press('Shift+ArrowRight');
+    expect(await timeShown(tab)).toBeCloseTo(1.3);
+    await tab.keyboard.press('ArrowLeft');
+    expect(await timeShown(tab)).toBeCloseTo(1.2);
+    await tab.keyboard.press('End');
+    expect(await timeShown(tab)).toBeCloseTo(Number(rows[rows.length - 1].time_s));
+    await tab.keyboard.press('[');
+    const complete = await timeShown(tab);
+    await tab.keyboard.press('[');
+    expect(await timeShown(tab)).toBeLessThan(complete);
+    await tab.keyboard.press(']');
+    expect(await timeShown(tab)).toBeCloseTo(complete);
+    await tab.keyboard.type('11');
+    await tab.keyboard.press('Enter');
+    expect(await tab.textContent('.robot-head h2')).toBe('Robot 11');
+    await tab.keyboard.press('n');
+    expect(await tab.textContent('.robot-head h2')).toBe('Robot 12');
+    await tab.keyboard.press('f');
+    expect(await tab.textContent('.robot-head button')).toBe('Unfollow');
+    await tab.keyboard.press('Escape');
+    expect(await tab.isVisible('.robot-head')).toBe(false);
+    await tab.keyboard.press('?');
+    expect(await tab.isVisible('dialog')).toBe(true);
+    await tab.keyboard.press('Escape');
+    expect(await tab.isVisible('dialog')).toBe(false);
+    // Every control is reached by Tab.
+    const reached = new Set<string>();
+    for (let k = 0; k < 40; ++k) {
+      await tab.keyboard.press('Tab');
+      reached.add(await tab.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? document.activeElement?.textContent ?? ''));
+    }
+    for (const name of ['Time', 'Speed', 'Play (space)', 'Robot']) expect(reached, name).toContain(name);
+    expect(errors).toEqual([]);
+  });
+
+  it('is drawn in the colours of the roles, dark and light', async () => {
+    const { tab } = await visit();
+    await seekTo(tab, 8);
+    for (const theme of ['light', 'dark']) {
+      await tab.evaluate((name) => { if (document.documentElement.dataset.theme !== name) (document.querySelector('[aria-label^="Light or dark"]') as HTMLElement).click(); }, theme);
+      await tab.waitForTimeout(150);
+      const pixels = await canvasPixels(tab);
+      for (const color of ['213,94,0', '0,114,178', '0,158,115', '240,228,66']) expect(pixels[color] ?? 0, `${theme} ${color}`).toBeGreaterThan(20);
+    }
+  });
+});
+
+describe('a file that cannot be shown', () => {
+  const drop = async (tab: Page, name: string, bytes: Buffer) => {
+    const path = join(folder.path, name);
+    writeFileSync(path, bytes);
+    const chooser = tab.waitForEvent('filechooser');
+    await tab.click('text=Open …');
+    await (await chooser).setFiles(path);
+  };
+
+  it.each([
+    ['empty.mcap', () => Buffer.alloc(0), /empty/i],
+    ['text.mcap', () => Buffer.from('no recording at all, but some text'), /MCAP/],
+    ['foreign.mcap', () => foreignRecording(), /Banyan|\/banyan\/frame/],
+  ])('%s gets a message, and the run that was there stays', async (name, bytes, message) => {
+    const { tab, errors } = await visit();
+    await drop(tab, name, bytes());
+    await tab.waitForSelector('.notice.bad:visible');
+    expect(await tab.textContent('.notice')).toMatch(message);
+    await seekTo(tab, 3);
+    expect(await timeShown(tab)).toBeCloseTo(3);
+    expect(errors).toEqual([]);
+  });
+
+  it('a truncated recording is shown as far as it goes, with a warning', async () => {
+    const { tab } = await visit();
+    const whole = readFileSync(recording);
+    await drop(tab, 'cut.mcap', whole.subarray(0, Math.round(statSync(recording).size * 0.7)));
+    await tab.waitForSelector('.notice.bad:visible');
+    await tab.waitForFunction(() => document.title.startsWith('cut.mcap'));
+    expect(Number(await tab.getAttribute('.timeline input', 'max'))).toBeGreaterThan(0);
+    await clickRobot(tab, 0);
+    expect((await factsShown(tab)).role).not.toBe('');
+  });
+
+  it('and a whole one opens after all that', async () => {
+    const { tab } = await visit();
+    await drop(tab, 'empty.mcap', Buffer.alloc(0));
+    await tab.waitForSelector('.notice.bad:visible');
+    await drop(tab, 'whole.mcap', readFileSync(recording));
+    await tab.waitForFunction(() => document.title.startsWith('whole.mcap'));
+    await seekTo(tab, 4);
+    expect(await timeShown(tab)).toBeCloseTo(4);
+  });
+});
+
+/** MCAP of another program: the magic, an empty header, data end, footer, all as the specification says. */
+function foreignRecording(): Buffer {
+  const magic = Buffer.from([0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a]);
+  const record = (opcode: number, content: Buffer) => {
+    const head = Buffer.alloc(9);
+    head[0] = opcode;
+    head.writeBigUInt64LE(BigInt(content.length), 1);
+    return Buffer.concat([head, content]);
+  };
+  const text = (s: string) => Buffer.concat([Buffer.from(Uint32Array.of(s.length).buffer), Buffer.from(s)]);
+  return Buffer.concat([magic, record(0x01, Buffer.concat([text('ros2'), text('another program')])), record(0x0f, Buffer.alloc(4)), record(0x02, Buffer.alloc(20)), magic]);
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What a visitor does and sees, in words of the page: used by the tests that play it.
+import type { Page } from 'playwright-core';
+
+export async function waitForRun(tab: Page): Promise<void> {
+  await tab.waitForFunction(() => document.title.includes('– Banyan'));
+  await tab.waitForSelector('.stage canvas');
+}
+
+export const timeShown = (tab: Page) => tab.$eval('.timeline input', (e) => Number((e as HTMLInputElement).value));
+
+/** Moves the timeline's handle and waits for the picture of that moment. */
+export async function seekTo(tab: Page, timeS: number): Promise<void> {
+  const play = await tab.$('button.play[aria-label^="Pause"]');
+  if (play) await play.click();
+  await tab.$eval('.timeline input', (element, t) => {
+    const input = element as HTMLInputElement;
+    input.value = String(t);
+    input.dispatchEvent(new Event('input', { bubbles: true }));
+  }, timeS);
+  await tab.waitForTimeout(350);
+}
+
+/** Where robots and targets are on the screen: the page tells tests what it has drawn. */
+export async function placeOf(tab: Page, kind: 'robot' | 'target' | 'obstacle', index: number, stage = 0): Promise<{ x: number; y: number }> {
+  const place = await tab.evaluate(([k, i, s]) => {
+    const page = (window as unknown as { banyan: { place(kind: string, index: number, stage: number): { x: number; y: number } } }).banyan;
+    return page.place(k as string, i as number, s as number);
+  }, [kind, index, stage] as const);
+  return place;
+}
+
+export async function clickRobot(tab: Page, robot: number): Promise<void> {
+  const { x, y } = await placeOf(tab, 'robot', robot);
+  await tab.mouse.click(x, y);
+  await tab.waitForFunction((name) => document.querySelector('.robot-head h2')?.textContent === name, `Robot ${robot}`);
+  await tab.waitForTimeout(150);
+}
+
+/** The rows of a table of facts, by name. */
+export async function factsShown(tab: Page, table = '.facts:not(.message)'): Promise<Record<string, string>> {
+  return await tab.$eval(`.inspector ${table}`, (element) =>
+    Object.fromEntries([...(element as HTMLTableElement).rows].map((row) => [row.cells[0].textContent ?? '', row.cells[1].textContent ?? ''])));
+}
+
+export const plotValues = (tab: Page) => tab.$$eval('.plot-value', (elements) => elements.map((e) => e.textContent ?? ''));
+
+/** How many pixels of each colour ("r,g,b") the picture has. */
+export async function canvasPixels(tab: Page): Promise<Record<string, number>> {
+  return await tab.$eval('.stage canvas', (element) => {
+    const canvas = element as HTMLCanvasElement;
+    const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+    const counts: Record<string, number> = {};
+    for (let k = 0; k < data.length; k += 4) {
+      const key = `${data[k]},${data[k + 1]},${data[k + 2]}`;
+      counts[key] = (counts[key] ?? 0) + 1;
+    }
+    return counts;
+  });
+}
