@@ -26,6 +26,8 @@ export class Shot {
   theme!: Theme;
   labels!: LabelSprites;
   robots = 0;
+  /** Device pixels per CSS pixel. */
+  ratio = 1;
   /** Pixels. */
   x = new Float64Array(0);
   y = new Float64Array(0);
@@ -37,8 +39,9 @@ export class Shot {
   /** So many and so small that robots are dots: no outline, no heading. */
   dots = false;
 
-  take(pen: CanvasRenderingContext2D, view: SceneView, facts: Facts): void {
+  take(pen: CanvasRenderingContext2D, ratio: number, view: SceneView, facts: Facts): void {
     this.pen = pen;
+    this.ratio = ratio;
     this.view = view;
     this.facts = facts;
     this.theme = view.theme;

@@ -46,9 +46,10 @@ function strokePairs(shot: Shot, pairs: Int32Array): number {
 }
 
 /** 1 for a sparse net, down to a fifth where each has dozens of links. */
-function faintness(pairs: Int32Array, robots: number): number {
-  const perRobot = Math.min(pairs.length / 2, mostLinks) / Math.max(1, robots);
-  return Math.min(1, Math.max(0.22, 3.5 / Math.max(1, perRobot)));
+function faintness(pairs: Int32Array, shot: Shot): number {
+  const perRobot = Math.min(pairs.length / 2, mostLinks) / Math.max(1, shot.robots);
+  const faint = Math.max(0.22, 3.5 / Math.max(1, perRobot));
+  return Math.min(1, Math.sqrt(shot.ratio) * faint); // finer pixels need more ink
 }
 
 export interface RadioCount { drawn: number; all: number }
@@ -60,16 +61,17 @@ export function drawRadio(shot: Shot): RadioCount {
   if (!links && !blocked) return count;
   const found = facts.links;
   pen.lineCap = 'butt';
-  pen.lineWidth = 1;
+  // One device pixel: lines up to that width are drawn one by one, wider ones as a single huge area, ten times slower.
+  pen.lineWidth = 1 / shot.ratio;
   if (links) {
     pen.strokeStyle = theme.link;
-    pen.globalAlpha = faintness(found.open, shot.robots);
+    pen.globalAlpha = faintness(found.open, shot);
     count.drawn += strokePairs(shot, found.open);
     count.all += found.open.length / 2;
   }
   if (blocked && found.blocked.length > 0) {
     pen.strokeStyle = theme.blocked;
-    pen.globalAlpha = Math.max(0.35, faintness(found.blocked, shot.robots));
+    pen.globalAlpha = Math.max(0.35, faintness(found.blocked, shot));
     // Dashes cost several times a plain line: only while there are few.
     if (found.blocked.length / 2 < mostLinks / 4) pen.setLineDash([3, 4]);
     count.drawn += strokePairs(shot, found.blocked);

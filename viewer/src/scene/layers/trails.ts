@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where robots have been lately, fading with age. Spares' trails are left out where there are hundreds of them: they
 // would cover the ground.
-import { column, type Frame } from '../../frame';
+import type { Frame } from '../../frame';
 import { toPxX, toPxY } from '../camera';
 import { many, roleCount, spare, type Shot } from '../shot';
 
@@ -34,10 +34,11 @@ function trace(shot: Shot, points: readonly Frame[], from: number, to: number, r
   pen.beginPath();
   for (let i = 0; i < shot.robots; ++i) {
     if (shot.role(i) !== role || !shot.isAlive(i)) continue;
+    // x_m and y_m are the first columns; a view of them for each robot and point would be thousands of objects.
     let lastX = Infinity, lastY = Infinity;
     for (let k = from; k <= to; ++k) {
-      const x = toPxX(camera, column(points[k]!, 'x_m')[i]!);
-      const y = toPxY(camera, column(points[k]!, 'y_m')[i]!);
+      const x = toPxX(camera, points[k]!.data[i]!);
+      const y = toPxY(camera, points[k]!.data[points[k]!.robots + i]!);
       if (k === from) pen.moveTo(x, y);
       else if (Math.abs(x - lastX) + Math.abs(y - lastY) < 0.5) continue; // stood still
       else pen.lineTo(x, y);
