@@ -2,6 +2,7 @@
 // Radio links: the fine mesh behind everything else. Where everybody hears everybody it would cover all else, and
 // drawing it is what takes the time: the more links, the fainter, and beyond a number only the shortest.
 import type { Shot } from '../shot';
+import { mixed } from '../themes';
 
 /** Links that can be told apart in a window, and be drawn in some 10 ms without a GPU. */
 export const mostLinks = 6000;
@@ -28,7 +29,7 @@ function longestPx(shot: Shot, pairs: Int32Array): number {
 }
 
 /** Draws the pairs as one path; returns how many. */
-function strokePairs(shot: Shot, pairs: Int32Array): number {
+function strokePairs(shot: Shot, pairs: Int32Array, dashed: boolean): number {
   const { pen, x, y } = shot;
   const longest2 = Math.pow(longestPx(shot, pairs), 2);
   let drawn = 0;
@@ -38,7 +39,8 @@ function strokePairs(shot: Shot, pairs: Int32Array): number {
     if (i >= shot.robots || j >= shot.robots || !shot.lineInSight(i, j)) continue;
     const dx = x[i]! - x[j]!, dy = y[i]! - y[j]!;
     if (dx * dx + dy * dy > longest2) continue;
-    shot.line(i, j);
+    if (dashed) shot.shortLine(i, j);
+    else shot.line(i, j);
     ++drawn;
   }
   pen.stroke();
@@ -64,20 +66,18 @@ export function drawRadio(shot: Shot): RadioCount {
   // One device pixel: lines up to that width are drawn one by one, wider ones as a single huge area, ten times slower.
   pen.lineWidth = 1 / shot.ratio;
   if (links) {
-    pen.strokeStyle = theme.link;
-    pen.globalAlpha = faintness(found.open, shot);
-    count.drawn += strokePairs(shot, found.open);
+    pen.strokeStyle = mixed(theme.link, theme.background, faintness(found.open, shot));
+    count.drawn += strokePairs(shot, found.open, false);
     count.all += found.open.length / 2;
   }
   if (blocked && found.blocked.length > 0) {
-    pen.strokeStyle = theme.blocked;
-    pen.globalAlpha = Math.max(0.35, faintness(found.blocked, shot));
+    pen.strokeStyle = mixed(theme.blocked, theme.background, Math.max(0.5, faintness(found.blocked, shot)));
     // Dashes cost several times a plain line: only while there are few.
-    if (found.blocked.length / 2 < mostLinks / 4) pen.setLineDash([3, 4]);
-    count.drawn += strokePairs(shot, found.blocked);
+    const dashed = found.blocked.length / 2 < mostLinks / 4;
+    if (dashed) pen.setLineDash([3, 4]);
+    count.drawn += strokePairs(shot, found.blocked, dashed);
     count.all += found.blocked.length / 2;
     pen.setLineDash([]);
   }
-  pen.globalAlpha = 1;
   return count;
 }

@@ -21,11 +21,22 @@ export function drawTrails(shot: Shot): void {
     pen.globalAlpha = theme.trailAlpha * (oldestShare + ((1 - oldestShare) * age) / (ages - 1));
     for (let role = shot.robots >= many ? spare + 1 : spare; role < roleCount; ++role) {
       pen.strokeStyle = role === spare ? theme.spareTrail : theme.roles[role]!;
-      pen.lineWidth = Math.max(1.25, 0.35 * shot.radiusPx[role]!);
+      // Lines of one device pixel are ten times as fast as wider ones, and spares are many.
+      pen.lineWidth = role === spare ? 1 / shot.ratio : Math.max(1.25, 0.35 * shot.radiusPx[role]!);
       trace(shot, points, from, to, role);
     }
   }
   pen.globalAlpha = 1;
+}
+
+/** Has the robot stayed where its body covers the trail? */
+function isHidden(shot: Shot, points: readonly Frame[], i: number): boolean {
+  const { view: { camera } } = shot;
+  const reach = shot.radiusOf(i);
+  for (const { data, robots } of points) {
+    if (Math.abs(toPxX(camera, data[i]!) - shot.x[i]!) > reach || Math.abs(toPxY(camera, data[robots + i]!) - shot.y[i]!) > reach) return false;
+  }
+  return true;
 }
 
 /** The pieces from the `from`th to the `to`th point, of all robots that have this role now, in one path. */
@@ -33,7 +44,7 @@ function trace(shot: Shot, points: readonly Frame[], from: number, to: number, r
   const { pen, view: { camera } } = shot;
   pen.beginPath();
   for (let i = 0; i < shot.robots; ++i) {
-    if (shot.role(i) !== role || !shot.isAlive(i)) continue;
+    if (shot.role(i) !== role || !shot.isAlive(i) || isHidden(shot, points, i)) continue;
     // x_m and y_m are the first columns; a view of them for each robot and point would be thousands of objects.
     let lastX = Infinity, lastY = Infinity;
     for (let k = from; k <= to; ++k) {
