@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Ground, obstacles and radio links as one bitmap that is kept until the next tick or until the camera moves. Between
 // two ticks a robot moves by less than its own radius, so the ends of links stay hidden below the bodies; and thousands
-// of links are what takes most of the time.
+// of links are what takes most of the time. Where even that is too slow, fewer are drawn while the camera moves.
 import type { Facts } from './facts';
 import { drawGround } from './layers/ground';
 import { drawObstacles } from './layers/obstacles';
-import { drawRadio, type RadioCount } from './layers/radio';
+import { drawRadio, mostLinks, type RadioCount } from './layers/radio';
 import type { Shot } from './shot';
 import type { SceneView } from './view';
 
 const keepFromLinks = 1500; // fewer are drawn with every frame, and follow the robots to the pixel
+const linksInMotion = 1200;
+const slowMs = 6; // of the 16 of a frame
 
 export class Backdrop {
   private canvas: HTMLCanvasElement | null = null;
@@ -17,19 +19,35 @@ export class Backdrop {
   private view: SceneView | null = null;
   private ratio = 0;
   private count: RadioCount = { drawn: 0, all: 0 };
+  private fullMs = 0; // what all links took the last time
+  private isCoarse = false;
+
+  /** Links are missing because the camera moved: draw again when it stands still. */
+  get coarse(): boolean { return this.isCoarse; }
 
   draw(shot: Shot): RadioCount {
-    if (!isWorthKeeping(shot)) return drawAll(shot);
+    shot.linkBudget = mostLinks;
+    if (!isWorthKeeping(shot)) {
+      this.isCoarse = false;
+      return drawAll(shot);
+    }
     const { pen, view } = shot;
     const { widthPx, heightPx } = view.camera;
-    if (!this.holds(shot)) this.make(shot);
-    pen.drawImage(this.canvas!, 0, 0, widthPx, heightPx);
+    const start = performance.now();
+    const isNew = !this.holds(shot);
+    if (isNew) {
+      this.isCoarse = this.fullMs > slowMs && this.view !== null && !sameCamera(this.view, view);
+      if (this.isCoarse) shot.linkBudget = linksInMotion;
+      this.make(shot);
+    }
+    pen.drawImage(this.canvas!, 0, 0, widthPx, heightPx); // without a GPU this waits for the bitmap
+    if (isNew && !this.isCoarse) this.fullMs = performance.now() - start;
     return this.count;
   }
 
   private holds({ view, facts, ratio }: Shot): boolean {
     const last = this.view;
-    return last !== null && this.facts === facts && this.ratio === ratio && last.theme === view.theme &&
+    return last !== null && !this.isCoarse && this.facts === facts && this.ratio === ratio && last.theme === view.theme &&
       sameCamera(last, view) && last.switches.links === view.switches.links && last.switches.blocked === view.switches.blocked;
   }
 

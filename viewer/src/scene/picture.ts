@@ -18,18 +18,21 @@ import { Surface } from './surface';
 import type { Theme } from './themes';
 import type { SceneView } from './view';
 
+const stillMs = 150; // a camera that has not moved for so long stands still
+
 export class Scene {
   private readonly surface: Surface;
   private readonly factsCache = new FactsCache();
   private readonly sprites = new LabelSprites();
   private readonly labels = new Labels();
   private readonly backdrop = new Backdrop();
+  private later: ReturnType<typeof setTimeout> | undefined;
   private readonly shot = new Shot();
   private count: RadioCount = { drawn: 0, all: 0 };
 
   /** `changed` is called when the picture has to be drawn again for reasons of its own: it was resized, moved to a
-   *  screen with other pixels, or its tab is shown again. */
-  constructor(host: HTMLElement, theme: Theme, changed: () => void = () => {}) {
+   *  screen with other pixels, its tab is shown again, or the camera stands still and what was left out is due. */
+  constructor(host: HTMLElement, theme: Theme, private readonly changed: () => void = () => {}) {
     this.surface = new Surface(host, theme.background, changed);
   }
 
@@ -64,7 +67,16 @@ export class Scene {
     drawOverSelection(shot);
     this.labels.draw(shot);
     drawScaleBar(shot);
+    this.drawAgainLater();
   }
 
-  dispose(): void { this.surface.dispose(); }
+  dispose(): void {
+    clearTimeout(this.later);
+    this.surface.dispose();
+  }
+
+  private drawAgainLater(): void {
+    clearTimeout(this.later);
+    if (this.backdrop.coarse) this.later = setTimeout(this.changed, stillMs);
+  }
 }

@@ -36,6 +36,8 @@ export class Shot {
   bodyPx = 0;
   /** Of the mark of a robot of each role, px. */
   readonly radiusPx = [0, 0, 0, 0];
+  /** Radio links that may be drawn. */
+  linkBudget = Infinity;
   /** So many and so small that robots are dots: no outline, no heading. */
   dots = false;
 

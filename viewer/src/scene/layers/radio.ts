@@ -8,9 +8,9 @@ import { mixed } from '../themes';
 export const mostLinks = 6000;
 const lengthClasses = 64;
 
-/** The length, px, up to which links are drawn: Infinity, or so that about `mostLinks` are. */
+/** The length, px, up to which links are drawn: Infinity, or so that about `linkBudget` are. */
 function longestPx(shot: Shot, pairs: Int32Array): number {
-  if (pairs.length / 2 <= mostLinks) return Infinity;
+  if (pairs.length / 2 <= shot.linkBudget) return Infinity;
   const rangePx = shot.view.setting.range_m * shot.view.camera.scale * 1.1; // they may have moved since the tick
   const counts = new Int32Array(lengthClasses);
   let inSight = 0;
@@ -21,10 +21,10 @@ function longestPx(shot: Shot, pairs: Int32Array): number {
     const length = Math.hypot(shot.x[i]! - shot.x[j]!, shot.y[i]! - shot.y[j]!);
     ++counts[Math.min(lengthClasses - 1, Math.floor((lengthClasses * length) / rangePx))]!;
   }
-  if (inSight <= mostLinks) return Infinity;
+  if (inSight <= shot.linkBudget) return Infinity;
   let sum = 0;
   let c = 0;
-  while (c < lengthClasses - 1 && sum + counts[c]! <= mostLinks) sum += counts[c++]!;
+  while (c < lengthClasses - 1 && sum + counts[c]! <= shot.linkBudget) sum += counts[c++]!;
   return (rangePx * Math.max(1, c)) / lengthClasses;
 }
 
