@@ -47,10 +47,10 @@ function strokePairs(shot: Shot, pairs: Int32Array, dashed: boolean): number {
   return drawn;
 }
 
-/** 1 for a sparse net, down to a fifth where each has dozens of links. */
+/** 1 for a sparse net, down to a third where each has dozens of links. */
 function faintness(pairs: Int32Array, shot: Shot): number {
   const perRobot = Math.min(pairs.length / 2, mostLinks) / Math.max(1, shot.robots);
-  const faint = Math.max(0.22, 3.5 / Math.max(1, perRobot));
+  const faint = Math.max(0.3, 5 / Math.max(1, perRobot));
   return Math.min(1, Math.sqrt(shot.ratio) * faint); // finer pixels need more ink
 }
 
