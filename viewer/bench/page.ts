@@ -73,9 +73,9 @@ async function plainDrawing(name: 'canvas' | 'pixi', layout: Layout, still: Fram
   return { about: renderer.about, links: links.length / 2, draw, finish: renderer.finish };
 }
 
-/** The page's scene with everything on, ten ticks a second (so links and edges anew ten times a second), a trail of
- *  ten points each, while the camera moves a little. */
-function sceneDrawing(still: Frame, lineOfSight: boolean): Drawing {
+/** The page's scene as a recording is played: ten ticks a second, each with links and edges anew; trails of ten points,
+ *  a selection, ids up to 500 robots. `panning`: the camera moves with every picture. */
+function sceneDrawing(still: Frame, lineOfSight: boolean, panning: boolean): Drawing {
   document.body.innerHTML = '<div style="position:fixed;inset:0"></div>';
   const scene = new Scene(document.querySelector('div')!, themes.light);
   const frame = { ...still, data: still.data.slice() };
@@ -87,17 +87,17 @@ function sceneDrawing(still: Frame, lineOfSight: boolean): Drawing {
   const pen = scene.canvas.getContext('2d')!;
   const draw = (timeS: number) => {
     moved(still, timeS, frame);
-    scene.draw({ frame, setting, trails, selection, hovered: null, switches, camera: panned(fit, 5 * Math.sin(timeS), 0), theme: themes.light });
+    scene.draw({ frame, setting, trails, selection, hovered: null, switches, camera: panning ? panned(fit, 5 * Math.sin(timeS), 0) : fit, theme: themes.light });
   };
   draw(0);
   const { drawn, all } = scene.radioLinks;
   return { about: `${drawn} of the links drawn${lineOfSight ? ', line of sight' : ''}`, links: all, draw, finish: () => void pen.getImageData(0, 0, 1, 1) };
 }
 
-async function measure(name: 'canvas' | 'pixi' | 'scene' | 'sight', index: number, seconds: number): Promise<Count> {
+async function measure(name: 'canvas' | 'pixi' | 'scene' | 'panning' | 'sight', index: number, seconds: number): Promise<Count> {
   const layout = layouts[index]!;
   const still = madeUpFrame(layout.robots, layout.pitchM);
-  const drawing = name === 'canvas' || name === 'pixi' ? await plainDrawing(name, layout, still) : sceneDrawing(still, name === 'sight');
+  const drawing = name === 'canvas' || name === 'pixi' ? await plainDrawing(name, layout, still) : sceneDrawing(still, name === 'sight', name === 'panning');
   const fps = await shownPerSecond(seconds, drawing.draw);
   const ms = await times(drawing.draw, drawing.finish);
   return { about: drawing.about, links: drawing.links, fps, medianMs: ms[20]!, p95Ms: ms[38]! };

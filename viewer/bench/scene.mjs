@@ -70,7 +70,8 @@ if (process.argv.includes('--compare')) {
     await run('plain picture, PixiJS 8, with --enable-unsafe-swiftshader', 'pixi', ['--enable-unsafe-swiftshader'], [library, code]);
   }
 } else {
-  await run('Scene', 'scene', [], [code]);
-  await run('Scene, line of sight, blocked links shown', 'sight', [], [code]);
+  await run('Scene, playing', 'scene', [], [code]);
+  await run('Scene, playing while the camera moves', 'panning', [], [code]);
+  await run('Scene, playing with line of sight, blocked links shown', 'sight', [], [code]);
 }
 console.log(`load ${loadavg()[0].toFixed(1)} at the end`);

@@ -48,5 +48,7 @@ export class Cells {
   row(yM: number): number {
     return Math.min(this.rows - 1, Math.max(0, Math.floor((yM - this.minY) / this.sizeM)));
   }
+  /** The lowest y of a row, m. */
+  bottom(row: number): number { return this.minY + row * this.sizeM; }
   private cell(xM: number, yM: number): number { return this.row(yM) * this.columns + this.column(xM); }
 }

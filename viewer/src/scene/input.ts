@@ -48,6 +48,7 @@ const doubleMs = 350;
 const wheelStep = 0.0016; // per pixel of the wheel: a notch of 100 is 17 %
 const pinchWheelStep = 0.01; // a touchpad's pinch comes as a wheel with ctrl, in small steps
 const lineHeightPx = 16;
+const inLines = 1, inPages = 2; // WheelEvent.deltaMode
 
 export class Input {
   mode: Mode = 'look';
@@ -195,8 +196,8 @@ export class Input {
 
   private wheel(event: WheelEvent): void {
     event.preventDefault(); // or the page scrolls, or the browser zooms
-    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? lineHeightPx
-      : event.deltaMode === WheelEvent.DOM_DELTA_PAGE ? this.element.clientHeight : 1;
+    const unit = event.deltaMode === inLines ? lineHeightPx
+      : event.deltaMode === inPages ? this.element.clientHeight : 1;
     const deltaPx = Math.max(-300, Math.min(300, event.deltaY * unit));
     this.to.zoom(Math.exp(-deltaPx * (event.ctrlKey ? pinchWheelStep : wheelStep)), this.at(event));
   }

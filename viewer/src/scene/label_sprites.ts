@@ -2,7 +2,7 @@
 // Words as small bitmaps. Writing text with a halo costs some 50 times as much as copying it, and ids do not change.
 import type { Theme } from './themes';
 
-export interface LabelSprite { image: HTMLCanvasElement; widthPx: number; heightPx: number }
+export interface LabelSprite { image: ImageBitmap | HTMLCanvasElement; widthPx: number; heightPx: number }
 export type LabelStyle = 'id' | 'strong' | 'target' | 'scale';
 
 const family = 'system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif';
@@ -40,15 +40,20 @@ export class LabelSprites {
   }
 }
 
+function blank(): OffscreenCanvas | HTMLCanvasElement {
+  return typeof OffscreenCanvas === 'undefined' ? document.createElement('canvas') : new OffscreenCanvas(1, 1);
+}
+
 function write(text: string, style: LabelStyle, theme: Theme, ratio: number): LabelSprite {
-  const image = document.createElement('canvas');
-  const pen = image.getContext('2d')!;
+  const canvas = blank();
+  const pen = canvas.getContext('2d') as CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
   const size = sizesPx[style];
   const font = `${style === 'target' || style === 'strong' ? '600 ' : ''}${size}px ${family}`;
   pen.font = font;
   const device = (px: number) => Math.max(1, Math.ceil(px * ratio));
-  image.width = device(pen.measureText(text).width + 2 * haloPx);
-  image.height = device(size * 1.1 + 2 * haloPx);
+  canvas.width = device(pen.measureText(text).width + 2 * haloPx);
+  canvas.height = device(size * 1.1 + 2 * haloPx);
+  const [widthPx, heightPx] = [canvas.width / ratio, canvas.height / ratio];
   pen.scale(ratio, ratio);
   pen.font = font; // setting the size has reset it
   pen.textBaseline = 'middle';
@@ -56,9 +61,11 @@ function write(text: string, style: LabelStyle, theme: Theme, ratio: number): La
   pen.lineWidth = haloPx;
   pen.strokeStyle = theme.background;
   pen.globalAlpha = 0.85;
-  pen.strokeText(text, haloPx, image.height / ratio / 2);
+  pen.strokeText(text, haloPx, heightPx / 2);
   pen.globalAlpha = 1;
   pen.fillStyle = style === 'target' ? theme.targetText : style === 'scale' ? theme.quietText : theme.text;
-  pen.fillText(text, haloPx, image.height / ratio / 2);
-  return { image, widthPx: image.width / ratio, heightPx: image.height / ratio };
+  pen.fillText(text, haloPx, heightPx / 2);
+  // A bitmap that cannot change any more is copied faster than a canvas.
+  const image = 'transferToImageBitmap' in canvas ? canvas.transferToImageBitmap() : canvas;
+  return { image, widthPx, heightPx };
 }

@@ -15,6 +15,9 @@ export interface Links {
 /** Why two robots do not hear each other. */
 export type Link = 'open' | 'out of range' | 'blocked' | 'dead';
 
+const slack = 1e-6; // m, against rounding when cells are chosen
+const flat = 1e-6; // m: nearly along a row
+
 class Pairs {
   private data = new Int32Array(1024);
   private length = 0;
@@ -40,7 +43,7 @@ export class Radio {
     this.x = column(frame, 'x_m');
     this.y = column(frame, 'y_m');
     this.alive = column(frame, 'alive');
-    this.cells = new Cells(this.x, this.y, Math.max(setting.range_m / 4, 2 * setting.radius_m, 1e-3));
+    this.cells = new Cells(this.x, this.y, Math.max(setting.range_m / 8, 2 * setting.radius_m, 1e-3));
   }
 
   link(i: number, j: number): Link {
@@ -100,15 +103,23 @@ export class Radio {
     return false;
   }
 
+  /** a has the smaller x. In each row of cells only those are looked at that the segment, widened by a radius, passes. */
   private bodyBlocks(i: number, j: number, ax: number, ay: number, bx: number, by: number): boolean {
     const { cells } = this;
     const radius = this.setting.radius_m;
-    const left = cells.column(ax - radius);
-    const right = cells.column(bx + radius);
+    const dx = bx - ax;
+    const dy = by - ay;
     const top = cells.row(Math.max(ay, by) + radius);
     for (let row = cells.row(Math.min(ay, by) - radius); row <= top; ++row) {
-      const to = cells.first[row * cells.columns + right + 1]!;
-      for (let m = cells.first[row * cells.columns + left]!; m < to; ++m) {
+      let enter = 0, leave = 1; // where the segment is in this row's band, as shares of its length
+      if (Math.abs(dy) > flat) {
+        const low = (cells.bottom(row) - radius - slack - ay) / dy;
+        const high = (cells.bottom(row + 1) + radius + slack - ay) / dy;
+        enter = Math.max(0, Math.min(low, high));
+        leave = Math.min(1, Math.max(low, high));
+      }
+      const to = cells.first[row * cells.columns + cells.column(ax + leave * dx + radius + slack) + 1]!;
+      for (let m = cells.first[row * cells.columns + cells.column(ax + enter * dx - radius - slack)]!; m < to; ++m) {
         const k = cells.members[m]!;
         if (k !== i && k !== j && discBlocks(this.x[k]!, this.y[k]!, radius, ax, ay, bx, by)) return true;
       }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The picture of a run: a canvas and its layers, drawn anew whenever the page says that something has changed. Why
 // Canvas 2D: it is several times as fast as WebGL where there is no GPU (docs/viewer.md).
+import { Backdrop } from './backdrop';
 import { FactsCache, type Facts } from './facts';
 import { LabelSprites } from './label_sprites';
-import { drawGround, drawScaleBar } from './layers/ground';
+import { drawScaleBar } from './layers/ground';
 import { drawJoining } from './layers/joining';
 import { Labels } from './layers/labels';
-import { drawObstacles } from './layers/obstacles';
-import { drawRadio, type RadioCount } from './layers/radio';
+import type { RadioCount } from './layers/radio';
 import { drawCommitted, drawHeadings, drawSparesAndDead } from './layers/robots';
 import { drawOverSelection, drawUnderSelection } from './layers/selection';
 import { drawTargets } from './layers/targets';
@@ -18,17 +18,21 @@ import { Surface } from './surface';
 import type { Theme } from './themes';
 import type { SceneView } from './view';
 
+const stillMs = 150; // a camera that has not moved for so long stands still
+
 export class Scene {
   private readonly surface: Surface;
   private readonly factsCache = new FactsCache();
   private readonly sprites = new LabelSprites();
   private readonly labels = new Labels();
+  private readonly backdrop = new Backdrop();
+  private later: ReturnType<typeof setTimeout> | undefined;
   private readonly shot = new Shot();
   private count: RadioCount = { drawn: 0, all: 0 };
 
   /** `changed` is called when the picture has to be drawn again for reasons of its own: it was resized, moved to a
-   *  screen with other pixels, or its tab is shown again. */
-  constructor(host: HTMLElement, theme: Theme, changed: () => void = () => {}) {
+   *  screen with other pixels, its tab is shown again, or the camera stands still and what was left out is due. */
+  constructor(host: HTMLElement, theme: Theme, private readonly changed: () => void = () => {}) {
     this.surface = new Surface(host, theme.background, changed);
   }
 
@@ -50,10 +54,8 @@ export class Scene {
     const ratio = this.surface.ratio;
     this.sprites.use(view.theme, ratio);
     shot.labels = this.sprites;
-    shot.take(pen, view, this.facts(view));
-    drawGround(shot);
-    drawObstacles(shot);
-    this.count = drawRadio(shot);
+    shot.take(pen, ratio, view, this.facts(view));
+    this.count = this.backdrop.draw(shot);
     drawTrails(shot);
     drawTargets(shot);
     drawUnderSelection(shot);
@@ -63,9 +65,18 @@ export class Scene {
     drawJoining(shot);
     drawCommitted(shot);
     drawOverSelection(shot);
-    this.labels.draw(shot, ratio);
-    drawScaleBar(shot, ratio);
+    this.labels.draw(shot);
+    drawScaleBar(shot);
+    this.drawAgainLater();
   }
 
-  dispose(): void { this.surface.dispose(); }
+  dispose(): void {
+    clearTimeout(this.later);
+    this.surface.dispose();
+  }
+
+  private drawAgainLater(): void {
+    clearTimeout(this.later);
+    if (this.backdrop.coarse) this.later = setTimeout(this.changed, stillMs);
+  }
 }

@@ -26,6 +26,8 @@ export class Shot {
   theme!: Theme;
   labels!: LabelSprites;
   robots = 0;
+  /** Device pixels per CSS pixel. */
+  ratio = 1;
   /** Pixels. */
   x = new Float64Array(0);
   y = new Float64Array(0);
@@ -34,11 +36,14 @@ export class Shot {
   bodyPx = 0;
   /** Of the mark of a robot of each role, px. */
   readonly radiusPx = [0, 0, 0, 0];
+  /** Radio links that may be drawn. */
+  linkBudget = Infinity;
   /** So many and so small that robots are dots: no outline, no heading. */
   dots = false;
 
-  take(pen: CanvasRenderingContext2D, view: SceneView, facts: Facts): void {
+  take(pen: CanvasRenderingContext2D, ratio: number, view: SceneView, facts: Facts): void {
     this.pen = pen;
+    this.ratio = ratio;
     this.view = view;
     this.facts = facts;
     this.theme = view.theme;
@@ -79,8 +84,27 @@ export class Shot {
   lineInSight(i: number, j: number): boolean {
     const { widthPx, heightPx } = this.view.camera;
     const x = this.x, y = this.y;
+    if (i >= this.robots || j >= this.robots) return false;
     return !((x[i]! < 0 && x[j]! < 0) || (y[i]! < 0 && y[j]! < 0) ||
       (x[i]! > widthPx && x[j]! > widthPx) || (y[i]! > heightPx && y[j]! > heightPx));
+  }
+
+  /** The part of a line that may be seen: a dashed line that goes far beyond the picture would take seconds. The
+   *  dashes stay where they are, as it is cut by whole periods from the end of i. */
+  shortLine(i: number, j: number): void {
+    if (!this.lineInSight(i, j)) return;
+    const { widthPx, heightPx } = this.view.camera;
+    const ax = this.x[i]!, ay = this.y[i]!, dx = this.x[j]! - ax, dy = this.y[j]! - ay;
+    const length = Math.hypot(dx, dy);
+    const reach = widthPx + heightPx;
+    if (!(length > reach)) return this.line(i, j);
+    // From the point nearest to the middle of the picture, as far as the picture can reach.
+    const middle = ((widthPx / 2 - ax) * dx + (heightPx / 2 - ay) * dy) / length;
+    const period = 42; // a multiple of all dashes in use, px
+    const from = Math.max(0, Math.floor((middle - reach) / period) * period);
+    const to = Math.min(length, middle + reach);
+    this.pen.moveTo(ax + (dx * from) / length, ay + (dy * from) / length);
+    this.pen.lineTo(ax + (dx * to) / length, ay + (dy * to) / length);
   }
 
   line(i: number, j: number): void {

@@ -38,7 +38,7 @@ function inWords(lengthM: number): string {
 }
 
 /** Lower left corner, above everything. */
-export function drawScaleBar({ pen, view, theme, labels }: Shot, ratio: number): void {
+export function drawScaleBar({ pen, view, theme, labels, ratio }: Shot): void {
   const insets = view.insets ?? noInsets;
   const lengthM = niceLength(barPx / view.camera.scale);
   const left = insets.left + barInsetPx + 0.5;

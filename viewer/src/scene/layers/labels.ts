@@ -11,7 +11,7 @@ import { targetRadiusPx } from './targets';
 const cellPx = 8;
 /** Sides of a robot where its label may stand: dx, dy in -1..1, in the order of preference. */
 const sides = [[1, 1], [1, -1], [-1, 1], [-1, -1]] as const;
-const mostLabels = 400;
+const mostLabels = 300;
 
 const isRobot = (item: Item | null, i: number) => item?.kind === 'robot' && item.index === i;
 
@@ -43,16 +43,16 @@ export class Labels {
   private side = new Int8Array(0); // by robot
   private readonly targetSide = new Map<number, number>();
 
-  draw(shot: Shot, ratio: number): void {
+  draw(shot: Shot): void {
     const { camera } = shot.view;
     this.taken.clear(camera.widthPx, camera.heightPx);
     if (this.side.length < shot.robots) this.side = new Int8Array(shot.robots);
-    this.targets(shot, ratio);
-    this.robots(shot, ratio);
+    this.targets(shot);
+    this.robots(shot);
   }
 
-  private targets(shot: Shot, ratio: number): void {
-    const { view, labels, theme, pen } = shot;
+  private targets(shot: Shot): void {
+    const { view, labels, theme, pen, ratio } = shot;
     const { targets } = view.frame;
     const away = 0.72 * targetRadiusPx(shot) + 1;
     for (let k = 0; k < targets.x.length; ++k) {
@@ -67,25 +67,25 @@ export class Labels {
     }
   }
 
-  private robots(shot: Shot, ratio: number): void {
+  private robots(shot: Shot): void {
     const { switches, selection, hovered } = shot.view;
     const strong = sameItem(selection, hovered) ? [selection] : [selection, hovered];
     for (const item of strong) {
-      if (item?.kind === 'robot' && item.index < shot.robots) this.robot(shot, item.index, ratio, true);
+      if (item?.kind === 'robot' && item.index < shot.robots) this.robot(shot, item.index, true);
     }
     if (!switches.ids && !switches.labels) return;
     let written = 0;
     for (const role of [root, worker, connector, spare]) {
       for (let i = 0; i < shot.robots && written < mostLabels; ++i) {
         const done = isRobot(selection, i) || isRobot(hovered, i);
-        if (!done && shot.role(i) === role && shot.isAlive(i) && this.robot(shot, i, ratio, false)) ++written;
+        if (!done && shot.role(i) === role && shot.isAlive(i) && this.robot(shot, i, false)) ++written;
       }
     }
   }
 
   /** `always`: at the first side even if it covers another, and with everything there is to say. */
-  private robot(shot: Shot, i: number, ratio: number, always: boolean): boolean {
-    const { x, y, labels, theme, pen, view } = shot;
+  private robot(shot: Shot, i: number, always: boolean): boolean {
+    const { x, y, labels, theme, pen, view, ratio } = shot;
     if (!shot.inSight(x[i]!, y[i]!, 0)) return false;
     const text = words(shot, i, view.switches.ids || always, view.switches.labels);
     if (text === '') return false;

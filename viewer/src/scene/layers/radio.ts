@@ -2,14 +2,15 @@
 // Radio links: the fine mesh behind everything else. Where everybody hears everybody it would cover all else, and
 // drawing it is what takes the time: the more links, the fainter, and beyond a number only the shortest.
 import type { Shot } from '../shot';
+import { mixed } from '../themes';
 
 /** Links that can be told apart in a window, and be drawn in some 10 ms without a GPU. */
 export const mostLinks = 6000;
 const lengthClasses = 64;
 
-/** The length, px, up to which links are drawn: Infinity, or so that about `mostLinks` are. */
+/** The length, px, up to which links are drawn: Infinity, or so that about `linkBudget` are. */
 function longestPx(shot: Shot, pairs: Int32Array): number {
-  if (pairs.length / 2 <= mostLinks) return Infinity;
+  if (pairs.length / 2 <= shot.linkBudget) return Infinity;
   const rangePx = shot.view.setting.range_m * shot.view.camera.scale * 1.1; // they may have moved since the tick
   const counts = new Int32Array(lengthClasses);
   let inSight = 0;
@@ -20,15 +21,15 @@ function longestPx(shot: Shot, pairs: Int32Array): number {
     const length = Math.hypot(shot.x[i]! - shot.x[j]!, shot.y[i]! - shot.y[j]!);
     ++counts[Math.min(lengthClasses - 1, Math.floor((lengthClasses * length) / rangePx))]!;
   }
-  if (inSight <= mostLinks) return Infinity;
+  if (inSight <= shot.linkBudget) return Infinity;
   let sum = 0;
   let c = 0;
-  while (c < lengthClasses - 1 && sum + counts[c]! <= mostLinks) sum += counts[c++]!;
+  while (c < lengthClasses - 1 && sum + counts[c]! <= shot.linkBudget) sum += counts[c++]!;
   return (rangePx * Math.max(1, c)) / lengthClasses;
 }
 
 /** Draws the pairs as one path; returns how many. */
-function strokePairs(shot: Shot, pairs: Int32Array): number {
+function strokePairs(shot: Shot, pairs: Int32Array, dashed: boolean): number {
   const { pen, x, y } = shot;
   const longest2 = Math.pow(longestPx(shot, pairs), 2);
   let drawn = 0;
@@ -38,17 +39,19 @@ function strokePairs(shot: Shot, pairs: Int32Array): number {
     if (i >= shot.robots || j >= shot.robots || !shot.lineInSight(i, j)) continue;
     const dx = x[i]! - x[j]!, dy = y[i]! - y[j]!;
     if (dx * dx + dy * dy > longest2) continue;
-    shot.line(i, j);
+    if (dashed) shot.shortLine(i, j);
+    else shot.line(i, j);
     ++drawn;
   }
   pen.stroke();
   return drawn;
 }
 
-/** 1 for a sparse net, down to a fifth where each has dozens of links. */
-function faintness(pairs: Int32Array, robots: number): number {
-  const perRobot = Math.min(pairs.length / 2, mostLinks) / Math.max(1, robots);
-  return Math.min(1, Math.max(0.22, 3.5 / Math.max(1, perRobot)));
+/** 1 for a sparse net, down to a third where each has dozens of links. */
+function faintness(pairs: Int32Array, shot: Shot): number {
+  const perRobot = Math.min(pairs.length / 2, mostLinks) / Math.max(1, shot.robots);
+  const faint = Math.max(0.3, 5 / Math.max(1, perRobot));
+  return Math.min(1, Math.sqrt(shot.ratio) * faint); // finer pixels need more ink
 }
 
 export interface RadioCount { drawn: number; all: number }
@@ -60,22 +63,21 @@ export function drawRadio(shot: Shot): RadioCount {
   if (!links && !blocked) return count;
   const found = facts.links;
   pen.lineCap = 'butt';
-  pen.lineWidth = 1;
+  // One device pixel: lines up to that width are drawn one by one, wider ones as a single huge area, ten times slower.
+  pen.lineWidth = 1 / shot.ratio;
   if (links) {
-    pen.strokeStyle = theme.link;
-    pen.globalAlpha = faintness(found.open, shot.robots);
-    count.drawn += strokePairs(shot, found.open);
+    pen.strokeStyle = mixed(theme.link, theme.background, faintness(found.open, shot));
+    count.drawn += strokePairs(shot, found.open, false);
     count.all += found.open.length / 2;
   }
   if (blocked && found.blocked.length > 0) {
-    pen.strokeStyle = theme.blocked;
-    pen.globalAlpha = Math.max(0.35, faintness(found.blocked, shot.robots));
+    pen.strokeStyle = mixed(theme.blocked, theme.background, Math.max(0.5, faintness(found.blocked, shot)));
     // Dashes cost several times a plain line: only while there are few.
-    if (found.blocked.length / 2 < mostLinks / 4) pen.setLineDash([3, 4]);
-    count.drawn += strokePairs(shot, found.blocked);
+    const dashed = found.blocked.length / 2 < mostLinks / 4;
+    if (dashed) pen.setLineDash([3, 4]);
+    count.drawn += strokePairs(shot, found.blocked, dashed);
     count.all += found.blocked.length / 2;
     pen.setLineDash([]);
   }
-  pen.globalAlpha = 1;
   return count;
 }

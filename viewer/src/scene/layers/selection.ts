@@ -42,8 +42,8 @@ function drawNeighbours(shot: Shot, i: number): void {
   const neighbours = facts.radio.neighbours(i);
   pen.beginPath();
   for (const j of neighbours) if (j < shot.robots) shot.line(i, j);
-  pen.lineWidth = 1;
-  pen.globalAlpha = 0.4;
+  pen.lineWidth = 1 / shot.ratio;
+  pen.globalAlpha = 0.5;
   pen.stroke();
   pen.beginPath();
   for (const j of neighbours) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where robots have been lately, fading with age. Spares' trails are left out where there are hundreds of them: they
 // would cover the ground.
-import { column, type Frame } from '../../frame';
+import type { Frame } from '../../frame';
 import { toPxX, toPxY } from '../camera';
 import { many, roleCount, spare, type Shot } from '../shot';
 
@@ -21,11 +21,22 @@ export function drawTrails(shot: Shot): void {
     pen.globalAlpha = theme.trailAlpha * (oldestShare + ((1 - oldestShare) * age) / (ages - 1));
     for (let role = shot.robots >= many ? spare + 1 : spare; role < roleCount; ++role) {
       pen.strokeStyle = role === spare ? theme.spareTrail : theme.roles[role]!;
-      pen.lineWidth = Math.max(1.25, 0.35 * shot.radiusPx[role]!);
+      // Lines of one device pixel are ten times as fast as wider ones, and spares are many.
+      pen.lineWidth = role === spare ? 1 / shot.ratio : Math.max(1.25, 0.35 * shot.radiusPx[role]!);
       trace(shot, points, from, to, role);
     }
   }
   pen.globalAlpha = 1;
+}
+
+/** Has the robot stayed where its body covers the trail? */
+function isHidden(shot: Shot, points: readonly Frame[], i: number): boolean {
+  const { view: { camera } } = shot;
+  const reach = shot.radiusOf(i);
+  for (const { data, robots } of points) {
+    if (Math.abs(toPxX(camera, data[i]!) - shot.x[i]!) > reach || Math.abs(toPxY(camera, data[robots + i]!) - shot.y[i]!) > reach) return false;
+  }
+  return true;
 }
 
 /** The pieces from the `from`th to the `to`th point, of all robots that have this role now, in one path. */
@@ -33,11 +44,12 @@ function trace(shot: Shot, points: readonly Frame[], from: number, to: number, r
   const { pen, view: { camera } } = shot;
   pen.beginPath();
   for (let i = 0; i < shot.robots; ++i) {
-    if (shot.role(i) !== role || !shot.isAlive(i)) continue;
+    if (shot.role(i) !== role || !shot.isAlive(i) || isHidden(shot, points, i)) continue;
+    // x_m and y_m are the first columns; a view of them for each robot and point would be thousands of objects.
     let lastX = Infinity, lastY = Infinity;
     for (let k = from; k <= to; ++k) {
-      const x = toPxX(camera, column(points[k]!, 'x_m')[i]!);
-      const y = toPxY(camera, column(points[k]!, 'y_m')[i]!);
+      const x = toPxX(camera, points[k]!.data[i]!);
+      const y = toPxY(camera, points[k]!.data[points[k]!.robots + i]!);
       if (k === from) pen.moveTo(x, y);
       else if (Math.abs(x - lastX) + Math.abs(y - lastY) < 0.5) continue; // stood still
       else pen.lineTo(x, y);

@@ -43,12 +43,12 @@ function drawOldTree(shot: Shot): void {
   for (const edge of facts.edges) {
     if (!edge.old || edge.link !== 'open' || !shot.lineInSight(edge.from, edge.to)) continue;
     // Where old and new edge are one, the old one is seen as a dashed seam to both sides.
-    shot.line(edge.from, edge.to);
+    shot.shortLine(edge.from, edge.to);
   }
   pen.lineCap = 'butt';
   pen.strokeStyle = theme.oldTree;
   pen.lineWidth = Math.max(4.5, 0.9 * thickestPx(shot));
-  pen.setLineDash([6, 5]);
+  pen.setLineDash([8, 6]);
   pen.stroke();
   pen.setLineDash([]);
   pen.lineCap = 'round';
@@ -61,13 +61,13 @@ function drawBroken(shot: Shot, edges: readonly Edge[]): void {
   const { pen, theme } = shot;
   if (edges.length === 0) return;
   pen.beginPath();
-  for (const { from, to } of edges) shot.line(from, to);
+  for (const { from, to } of edges) shot.shortLine(from, to);
   pen.strokeStyle = theme.background;
   pen.lineWidth = 6;
   pen.stroke();
   pen.strokeStyle = theme.broken;
   pen.lineWidth = 3;
-  pen.setLineDash([0.1, 6]);
+  pen.setLineDash([0, 6]);
   pen.stroke();
   pen.setLineDash([]);
   drawBreakMarks(shot, edges);
