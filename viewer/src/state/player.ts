@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// The clock of what is shown. It is driven by requestAnimationFrame's time, handed in, and never runs ahead
+// of frames that are not there yet. Several sources side by side share one.
+
+/** What the clock needs of a source (source/client.ts). */
+export interface Playable {
+  readonly ready: boolean;
+  readonly startS: number;
+  readonly endS: number;
+  readonly growing: boolean;
+  readonly tickS: number;
+  limit(fromS: number, toS: number, stride: number): number;
+  prefetch(timeS: number, speed: number, stride: number): void;
+}
+
+export const slowest = 1 / 4;
+export const fastest = 64;
+const longestStepMs = 250; // a page in the background gets no frames; it does not leap afterwards
+const shownPerS = 20; // frames of the run that are worth showing, per second
+const slack = 1e-9;
+
+export class Player {
+  /** s since the start of the run; what is to be shown now. */
+  timeS = 0;
+  playing = false;
+  speed = 1;
+  /** The frames for `timeS`, or for going on, are not there yet. */
+  waiting = false;
+  private lastMs: number | null = null;
+  private backwards = false; // the last jump: what is fetched ahead lies there
+  private sources: readonly Playable[] = [];
+
+  /** The first call sets the clock to the start. */
+  attach(sources: readonly Playable[]): void {
+    const first = this.sources.length === 0;
+    this.sources = sources;
+    if (first) this.timeS = this.startS;
+    else this.timeS = this.clamped(this.timeS);
+  }
+
+  get startS(): number {
+    return this.open.length === 0 ? 0 : Math.min(...this.open.map((s) => s.startS));
+  }
+  get endS(): number {
+    return Math.max(0, ...this.open.map((s) => s.endS));
+  }
+  get growing(): boolean {
+    return this.open.some((s) => s.growing);
+  }
+  get tickS(): number {
+    return this.open.length === 0 ? 0.1 : Math.min(...this.open.map((s) => s.tickS));
+  }
+  /** Every how manieth tick is shown at this speed: a power of two. */
+  get stride(): number {
+    if (!this.playing) return 1;
+    const most = this.speed / (shownPerS * this.tickS);
+    return most < 2 ? 1 : 2 ** Math.floor(Math.log2(most));
+  }
+  get atEnd(): boolean {
+    return !this.growing && this.timeS >= this.endS - slack;
+  }
+
+  /** At the end it begins anew. */
+  play(): void {
+    if (this.atEnd) this.jump(this.startS);
+    this.playing = true;
+  }
+  pause(): void {
+    this.playing = false;
+  }
+  toggle(): void {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  /** To the nearest power of two there is. */
+  setSpeed(speed: number): void {
+    if (!(speed > 0)) return;
+    this.speed = Math.min(fastest, Math.max(slowest, 2 ** Math.round(Math.log2(speed))));
+  }
+  faster(): void {
+    this.setSpeed(2 * this.speed);
+  }
+  slower(): void {
+    this.setSpeed(this.speed / 2);
+  }
+
+  seek(timeS: number): void {
+    if (Number.isFinite(timeS)) this.jump(this.clamped(timeS));
+  }
+  home(): void {
+    this.jump(this.startS);
+  }
+  end(): void {
+    this.jump(this.endS);
+    if (!this.growing) this.playing = false;
+  }
+  /** To another tick, and stand still. A live run is simulated for it. */
+  step(ticks: number): void {
+    this.playing = false;
+    const tick = ticks > 0 ? Math.floor(this.timeS / this.tickS + 1e-6) : Math.ceil(this.timeS / this.tickS - 1e-6);
+    const timeS = (tick + Math.round(ticks)) * this.tickS;
+    this.jump(this.growing ? Math.max(this.startS, timeS) : this.clamped(timeS));
+  }
+
+  /** Once per picture; `nowMs` as requestAnimationFrame says it. True: something has changed. */
+  frame(nowMs: number): boolean {
+    const before = { timeS: this.timeS, playing: this.playing, waiting: this.waiting };
+    const elapsedMs = this.lastMs === null ? 0 : Math.min(Math.max(nowMs - this.lastMs, 0), longestStepMs);
+    this.lastMs = nowMs;
+    if (this.open.length > 0) this.advance(elapsedMs / 1000);
+    return this.timeS !== before.timeS || this.playing !== before.playing || this.waiting !== before.waiting;
+  }
+
+  private get open(): readonly Playable[] {
+    return this.sources.filter((source) => source.ready);
+  }
+
+  private advance(elapsedS: number): void {
+    const { stride } = this;
+    let goal = this.timeS + (this.playing ? elapsedS * this.speed : 0);
+    if (!this.growing) goal = Math.min(goal, Math.max(this.endS, this.timeS));
+    const here = this.reach(this.timeS, this.timeS + slack, stride) >= this.timeS + slack / 2;
+    const reached = here && goal > this.timeS ? this.reach(this.timeS, goal, stride) : this.timeS;
+    this.waiting = !here || (this.playing && reached < goal - slack);
+    if (this.playing) this.backwards = false;
+    this.timeS = reached;
+    if (this.playing && this.atEnd) this.playing = false;
+    const speed = this.playing ? this.speed : 0;
+    for (const source of this.open) source.prefetch(this.timeS, this.backwards ? -1 : speed, stride);
+  }
+
+  /** How far all sources can be shown. */
+  private reach(fromS: number, toS: number, stride: number): number {
+    return Math.min(...this.open.map((source) => source.limit(fromS, toS, stride)));
+  }
+
+  private jump(timeS: number): void {
+    this.backwards = timeS < this.timeS;
+    this.timeS = timeS;
+    this.waiting = true; // until the next frame() says otherwise
+  }
+
+  private clamped(timeS: number): number {
+    return Math.min(Math.max(timeS, this.startS), this.endS);
+  }
+}
