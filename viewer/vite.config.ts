@@ -14,5 +14,5 @@ export default defineConfig({
   resolve: { alias: { '@live': process.env.BANYAN_LIVE ?? here('../build/wasm/viewer') } },
   worker: { format: 'es' },
   build: { outDir: process.env.BANYAN_PAGE ?? here('../build/viewer/page'), emptyOutDir: true, target: 'es2022' },
-  test: { include: ['test/**/*.test.ts'], exclude: ['test/browser/**'] },
+  test: { include: ['test/**/*.test.ts'], exclude: ['test/browser/**'], globalSetup: 'test/recordings.setup.ts' },
 } as Parameters<typeof defineConfig>[0]);

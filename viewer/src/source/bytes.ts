@@ -56,7 +56,7 @@ export class UrlBytes implements Bytes {
   private constructor(private readonly url: string, private readonly get: typeof fetch) {}
 
   /** `size` in bytes, if the page knows it; else the server is asked. */
-  static async open(url: string, size = 0, get: typeof fetch = fetch): Promise<UrlBytes> {
+  static async open(url: string, size = 0, get: typeof fetch = (at, init) => fetch(at, init)): Promise<UrlBytes> {
     const bytes = new UrlBytes(url, get);
     if (size > 0) bytes.size = size;
     else await bytes.askSize();

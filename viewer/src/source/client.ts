@@ -31,6 +31,7 @@ interface Waiting {
 const mostInFlight = 2; // requests for frames: a jump elsewhere must not wait for a long queue
 const mostAttempts = 3;
 const aheadWallS = 1.5; // of playing that should always be there
+const liveAheadWallS = 0.5;
 
 export class Source {
   readonly header = new Observable<Header | null>(null);
@@ -113,8 +114,17 @@ export class Source {
     const now = cache.spanAt(this.clamped(timeS), stride);
     for (let k = 0; k <= count; ++k) {
       const span = { stride, index: now.index + (speed < 0 ? -k : k) };
-      if (span.index >= 0 && this.reaches(span, cache)) this.fetch(span, cache);
+      if (span.index < 0 || !this.reaches(span, cache)) continue;
+      if (this.growing) this.fetchLive(span, cache, timeS, Math.abs(speed));
+      else this.fetch(span, cache, cache.endOf(span));
     }
+  }
+
+  // What is simulated ahead is lost when the visitor interferes, so a live run keeps just ahead of the clock.
+  private fetchLive(span: Span, cache: FrameCache, timeS: number, speed: number): void {
+    const aheadS = Math.max(speed * liveAheadWallS, 4 * span.stride * this.tickS);
+    const missing = cache.missingFrom(span);
+    if (missing !== null && missing < timeS + 0.5 * aheadS) this.fetch(span, cache, Math.min(cache.endOf(span), timeS + aheadS));
   }
 
   async message(robot: number, tick: number): Promise<MessageFields | null> {
@@ -124,8 +134,11 @@ export class Source {
 
   /** Acts at the begin of the step after `tick`; what was simulated beyond is forgotten. */
   async intervene(tick: number, events: Intervention[]): Promise<void> {
-    await this.ask((id) => ({ type: 'intervene', id, tick, events }));
-    this.forgetAfter(tick * this.tickS);
+    try {
+      await this.ask((id) => ({ type: 'intervene', id, tick, events }));
+    } finally {
+      this.forgetAfter(tick * this.tickS); // one that could not be may have gone back, too
+    }
   }
 
   async saveRecording(): Promise<SavedFile> {
@@ -148,14 +161,14 @@ export class Source {
     return this.growing || cache.startOf(span) <= this.endS;
   }
 
-  private fetch(span: Span, cache: FrameCache): void {
+  private fetch(span: Span, cache: FrameCache, toS: number): void {
     const key = `${span.stride}:${span.index}`;
     const fromS = cache.missingFrom(span);
     const tried = this.attempts.get(key) ?? 0;
     if (fromS === null || this.inFlight.has(key) || this.inFlight.size >= mostInFlight || tried >= mostAttempts) return;
     const { generation } = this;
     this.inFlight.add(key);
-    this.ask((id) => ({ type: 'frames', id, fromS, toS: cache.endOf(span), stride: span.stride }))
+    this.ask((id) => ({ type: 'frames', id, fromS, toS, stride: span.stride }))
       .then((reply) => {
         if (generation !== this.generation || reply.type !== 'frames') return;
         this.inFlight.delete(key);

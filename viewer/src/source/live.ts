@@ -22,6 +22,12 @@ interface Spoken extends Kept {
   json: Map<number, string>; // by robot
 }
 
+/** What a visitor did, at the begin of the step after `tick`. */
+interface Act {
+  tick: number;
+  json: string;
+}
+
 export class LiveRun {
   private frames = new History<Packed>(framesBytes);
   private messages = new History<Spoken>(messagesBytes);
@@ -33,6 +39,9 @@ export class LiveRun {
   private settings: TimedSetting[] = [];
   private settingVersion = NaN;
   private readonly listened = new Set<number>();
+  private done: Act[] = [];
+  /** To be done again once their tick comes. */
+  private due: Act[] = [];
   private result: Record<string, string> = {};
   private warnings: string[] = [];
   private tickS = 0.1;
@@ -67,6 +76,8 @@ export class LiveRun {
   hash(): string { return this.live.hash(); }
 
   step(): void {
+    const now = this.due.filter((act) => act.tick === this.head);
+    for (const act of now) this.act(act.json);
     this.live.step(1);
     this.capture();
   }
@@ -93,18 +104,29 @@ export class LiveRun {
     return fieldsOf(parseObject(json));
   }
 
-  /** Acts at the begin of the step after `tick`. What is later is forgotten. Throws a Problem. */
+  /** Acts at the begin of the step after `tick`, beside what was done there before. What is later is forgotten.
+   *  Throws a Problem if it cannot be; then what was done later will happen again. */
   intervene(tick: number, events: Intervention[]): void {
     if (!Number.isInteger(tick) || tick < 0 || tick > this.head) throw new Problem('that moment has not been simulated yet');
+    const before = [...this.done, ...this.due];
     if (tick < this.head) this.rewind(tick);
-    for (const event of events) {
-      const lines = this.live.intervene(JSON.stringify(event));
-      if (lines.length > 0) throw new Problem(lines.join('; '), lines);
-    }
+    this.due = before.filter((act) => act.tick > tick);
+    for (const event of events) this.act(JSON.stringify(event));
+    this.due = [];
   }
 
-  rewind(tick: number): void {
-    this.live.rewind(tick);
+  /** Now. */
+  private act(json: string): void {
+    const lines = this.live.intervene(json);
+    if (lines.length > 0) throw new Problem(lines.join('; '), lines);
+    this.done.push({ tick: this.head, json });
+  }
+
+  private rewind(tick: number): void {
+    const here = this.done.filter((act) => act.tick === tick);
+    this.done = this.done.filter((act) => act.tick < tick);
+    this.live.rewind(tick); // forgets what was done at `tick` itself, too
+    for (const act of here) this.act(act.json);
     this.frames.cut(tick);
     this.messages.cut(tick);
     this.builder.cut(tick + 1); // a row per tick

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Answers the page's requests from a live run, simulating as far as somebody wants to see.
-import { Host, idOf, nextTurn, type Post } from './host';
+import { Host, nextTurn, type Post } from './host';
 import { LiveRun } from './live';
 import type { LiveModule } from './live_module';
 import { Problem } from './problem';
@@ -67,11 +67,10 @@ export class LiveHost extends Host {
   private intervene(run: LiveRun, { id, tick, events }: Of<'intervene'>): void {
     try {
       run.intervene(tick, events);
-      this.send({ type: 'done', id });
-    } catch (error) {
-      this.fail(idOf({ type: 'intervene', id, tick, events }), error);
+    } finally {
+      this.tell(run); // it may have gone back in any case
     }
-    this.tell(run);
+    this.send({ type: 'done', id });
   }
 
   private saveRecording(run: LiveRun, id: number): void {
