@@ -22,7 +22,6 @@
 
 namespace banyan::cli {
 
-using namespace config;
 namespace {
 
 constexpr double hold_s = 1.0;           // the last frame stays, so that the end can be seen
@@ -57,10 +56,8 @@ Cut make_cut(const record::Recording& recording, const FilmOptions& options, boo
   cut.from_s = std::max(options.from_s, recording.start_s());
   cut.to_s = std::min(options.to_s, recording.end_s());
   if (cut.from_s > cut.to_s) {
-    throw CommandError(exit_usage, format("nothing to show from %s s to %s s: the recording has %s s to %s s",
-                                          number_text(options.from_s).c_str(), number_text(options.to_s).c_str(),
-                                          number_text(recording.start_s()).c_str(),
-                                          number_text(recording.end_s()).c_str()));
+    throw CommandError(exit_usage, format("nothing to show from %.6g s to %.6g s: the recording has %.6g s to %.6g s",
+                                          options.from_s, options.to_s, recording.start_s(), recording.end_s()));
   }
   cut.fps = options.fps > 0 ? options.fps : gif ? 15 : 30;
   cut.speed = options.speed > 0.0 ? options.speed
@@ -202,9 +199,8 @@ int film_command(const FilmOptions& options) {
   const std::size_t frames = cut.moving() + cut.held();
   const double length_s = static_cast<double>(frames) / cut.fps;
   if (!options.quiet) {
-    complain(format("%s s to %s s at %sx: %.1f s of film, %zu frames of %.0f x %.0f", number_text(cut.from_s).c_str(),
-                    number_text(cut.to_s).c_str(), number_text(cut.speed).c_str(), length_s, frames, look.width_px,
-                    look.height_px));
+    complain(format("%.6g s to %.6g s at %.3gx: %.1f s of film, %zu frames of %.0f x %.0f", cut.from_s, cut.to_s, cut.speed,
+                    length_s, frames, look.width_px, look.height_px));
   }
   look.view = whole_view(recording, cut);
   if (stop_signal() != 0) return stopped();

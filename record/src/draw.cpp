@@ -23,7 +23,7 @@ namespace {
 constexpr double margin_px = 24.0;
 constexpr double title_px = 62.0;
 constexpr double panel_px = 232.0;          // beside a map in a picture of given size, where that suits it better
-constexpr double em_per_letter = 0.58;      // of DejaVu Sans, the widest of the fonts to be expected
+constexpr double em_per_letter = 0.54;      // of DejaVu Sans, the widest of the fonts to be expected
 constexpr double legend_row_px = 22.0;
 constexpr double smallest_robot_px = 3.4;   // radius; smaller ones could not be told apart in print
 constexpr double smallest_spare_px = 2.2;   // of hundreds, which must not hide the tree
@@ -72,10 +72,12 @@ struct ExtentOfObstacle {
 struct Theme {
   std::string_view paper, ink, faint_ink, target_ink, outline;
   Color tree, link, obstacle;
+  std::string_view trail_opacity;
 };
-constexpr Theme light{"#ffffff", "#000000", "#444444", "#8f3f6d", "#1a1a1a", palette::tree, palette::link, palette::obstacle};
+constexpr Theme light{"#ffffff", "#000000", "#444444", "#8f3f6d", "#1a1a1a", palette::tree, palette::link, palette::obstacle,
+                      " stroke-opacity=\"0.45\""};
 constexpr Theme dark{"#12161c", "#f2f2f2", "#aab2bd", "#e7a9cd", "#05070a", {0xE8, 0xE8, 0xE8, "#e8e8e8"},
-                     {0x47, 0x50, 0x5C, "#47505c"}, {0x6E, 0x69, 0x62, "#6e6962"}};
+                     {0x47, 0x50, 0x5C, "#47505c"}, {0x6E, 0x69, 0x62, "#6e6962"}, " stroke-opacity=\"0.65\""};
 
 // Where what goes: the map fills its box as far as its shape allows.
 struct Layout {
@@ -113,7 +115,7 @@ class Picture {
       extent_.high = options.view->high;
       extent_.at_least(smallest_view_m);
     }
-    width_ = std::clamp(options.width_px, 200.0, 20000.0);
+    width_ = std::round(std::clamp(options.width_px, 200.0, 20000.0));   // whole pixels, or its edges blur
     links_ = radio_links(setting, frame);
     old_edges_ = std::any_of(frame.robots.begin(), frame.robots.end(), [this](const RobotFrame& r) {
       return r.alive && r.role != Role::spare && valid(r.old_parent);
@@ -208,8 +210,9 @@ class Picture {
   void robot_symbol(Vec2 at, Role role, bool alive, double radius_px);
   void ids();
   void add_roles();
-  void add_edges();
-  void add_rest();
+  void add_line(const Color& color, double width_px, std::string_view more, std::string words, bool shown = true);
+  void add_lines();
+  void add_what_may_come();
   [[nodiscard]] double width_of(const LegendEntry& entry) const;
   [[nodiscard]] std::size_t legend_rows() const;
   void legend();
@@ -268,7 +271,7 @@ Layout Picture::strips() const {
   } else {
     layout.scale = std::min(inner / size.x, tallest * inner / size.y);
     layout.high.y = layout.low.y + size.y * layout.scale;
-    layout.height = layout.high.y + margin_px + (options_.legend ? legend_px + 6.0 : 0.0);
+    layout.height = std::ceil(layout.high.y + margin_px + (options_.legend ? legend_px + 6.0 : 0.0));
   }
   return layout;
 }
@@ -278,8 +281,8 @@ Layout Picture::panel() const {
   Layout layout;
   layout.panel = true;
   layout.height = std::clamp(options_.height_px, 150.0, 20000.0);
-  layout.low = {panel_px, 16.0};
-  layout.high = {std::max(panel_px + 10.0, width_ - 16.0), layout.height - 16.0};
+  layout.low = {panel_px, 26.0};
+  layout.high = {std::max(panel_px + 10.0, width_ - 26.0), layout.height - 26.0};
   layout.scale = std::min((layout.high.x - layout.low.x) / size.x, (layout.high.y - layout.low.y) / size.y);
   return layout;
 }
@@ -288,8 +291,8 @@ constexpr double panel_legend_px = 176.0;   // where it begins
 
 void Picture::arrange() {
   add_roles();
-  add_edges();
-  add_rest();
+  add_lines();
+  add_what_may_come();
   layout_ = strips();
   // A square world in a wide picture is larger beside its title than under it.
   const double column_px = panel_legend_px + legend_row_px * static_cast<double>(legend_.size()) + 50.0;
@@ -314,11 +317,12 @@ std::vector<std::string> Picture::facts() const {
 void Picture::title() {
   const std::string name = setting_.name.empty() ? "Banyan" : setting_.name;
   constexpr double size_px = 14.0;
-  constexpr std::string_view gap = "  ·  ";
+  constexpr std::string_view gap = "\u2002·\u2002";   // spaces that XML does not run together
+  constexpr std::size_t gap_letters = 3;
   double left = width_ - 2.0 * margin_px - 0.22 * (width_ - 2.0 * margin_px) - 12.0;
   std::string words;
   for (const std::string& fact : facts()) {
-    left -= em_per_letter * size_px * static_cast<double>(fact.size() + (words.empty() ? 0 : gap.size()));
+    left -= em_per_letter * size_px * static_cast<double>(fact.size() + (words.empty() ? 0 : gap_letters));
     if (left < 0.0 && !words.empty()) break;
     words += (words.empty() ? "" : std::string(gap)) + fact;
   }
@@ -344,8 +348,8 @@ void Picture::panel_title() {
   const double letters = static_cast<double>(std::max<std::size_t>(name.size(), 1));
   text({margin_px, 42.0}, std::clamp(room / (1.15 * em_per_letter * letters), 10.0, 20.0), name, theme_.ink, " font-weight=\"bold\"");
   const auto all = facts();
-  const std::string seed = "  ·  seed " + std::to_string(setting_.seed);
-  text({margin_px, 64.0}, 13.0, all[0] + (seed.size() < 18 ? seed : ""), theme_.faint_ink, {});
+  const std::string seed = " · seed " + std::to_string(setting_.seed);
+  text({margin_px, 64.0}, 13.0, all[0] + (seed.size() < 16 ? seed : ""), theme_.faint_ink, {});
   text({margin_px, 106.0}, 26.0, in_decimals(frame_.time_s, 1) + " s", theme_.ink, {});
   text({margin_px, 130.0}, 13.0, all[2], theme_.faint_ink, {});
   text({margin_px, 148.0}, 13.0, all[3], theme_.faint_ink, {});
@@ -378,19 +382,23 @@ void Picture::obstacles() {
 }
 
 void Picture::radio() {
-  const auto pairs = [&](const auto& list) {
-    return [&, this] {
-      for (const auto& [i, j] : list) segment(frame_.robots[i].position, frame_.robots[j].position);
-    };
+  // In pieces: what crosses within one path costs a renderer far more than what lies on top of another.
+  constexpr std::size_t piece = 50;
+  const auto draw = [this](const Color& color, double width_px, const auto& list, std::string_view more) {
+    for (std::size_t first = 0; first < list.size(); first += piece) {
+      path(color, width_px, [&] {
+        for (std::size_t k = first; k < std::min(first + piece, list.size()); ++k) {
+          segment(frame_.robots[list[k].first].position, frame_.robots[list[k].second].position);
+        }
+      }, more);
+    }
   };
   // Where everybody hears everybody, links would cover all else: the more there are, the finer.
   const double robots = std::max(1.0, static_cast<double>(frame_.robots.size()));
   const double per_robot = static_cast<double>(links_.open.size()) / robots;
   const double width = per_robot > 20.0 ? 0.25 : per_robot > 8.0 ? 0.5 : 0.8;
-  if (options_.links && !links_.open.empty()) path(theme_.link, width, pairs(links_.open));
-  if (options_.blocked_links && !links_.blocked.empty()) {
-    path(palette::blocked, width, pairs(links_.blocked), " stroke-dasharray=\"2 3\"");
-  }
+  if (options_.links) draw(theme_.link, width, links_.open, {});
+  if (options_.blocked_links) draw(palette::blocked, width, links_.blocked, " stroke-dasharray=\"2 3\"");
 }
 
 void Picture::trails() {
@@ -404,7 +412,7 @@ void Picture::trails() {
         move_to(screen(p), command);
         command = 'L';
       }
-    }, " stroke-opacity=\"0.45\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
+    }, std::string(theme_.trail_opacity) + " stroke-linejoin=\"round\" stroke-linecap=\"round\"");
   }
 }
 
@@ -528,45 +536,32 @@ void Picture::ids() {
 
 void Picture::add_roles() {
   std::array<std::size_t, 4> count{};
-  std::size_t dead = 0;
   for (const RobotFrame& robot : frame_.robots) {
-    robot.alive ? ++count[static_cast<std::size_t>(robot.role)] : ++dead;
+    if (robot.alive) ++count[static_cast<std::size_t>(robot.role)];
   }
   for (const Role role : {Role::root, Role::worker, Role::connector, Role::spare}) {
     legend_.push_back({[this, role](Vec2 at) { robot_symbol(at, role, true, 5.5); },
                        std::string(name_of(role)) + " " + std::to_string(count[static_cast<std::size_t>(role)])});
   }
-  if (dead > 0 || options_.steady) {
-    legend_.push_back({[this](Vec2 at) { robot_symbol(at, Role::spare, false, 5.5); }, "dead " + std::to_string(dead),
-                       dead > 0});
-  }
 }
 
-void Picture::add_edges() {
-  const auto add = [this](const Color& color, double width_px, std::string_view more, std::string words, bool shown) {
-    if (!shown && !options_.steady) return;
-    legend_.push_back({[this, color, width_px, more](Vec2 at) {
-                         path(color, width_px, [&] {
-                           move_to(at - Vec2{12.0, 0.0}, 'M');
-                           move_to(at + Vec2{12.0, 0.0}, 'L');
-                         }, more);
-                       },
-                       std::move(words), shown});
-  };
-  add(theme_.tree, 3.0, "", "tree", true);
-  add(palette::old_tree, 2.5, " stroke-dasharray=\"6 4\"", "old tree", old_edges_);
-  add(palette::root, 3.0, " stroke-dasharray=\"2 3\"", "broken edge", broken_edges_);
-  if (options_.links) add(theme_.link, 1.2, "", "radio link", !links_.open.empty());
-  if (options_.blocked_links) {
-    add(palette::blocked, 1.2, " stroke-dasharray=\"2 3\"", "no line of sight", !links_.blocked.empty());
-  }
+void Picture::add_line(const Color& color, double width_px, std::string_view more, std::string words, bool shown) {
+  legend_.push_back({[this, color, width_px, more](Vec2 at) {
+                       path(color, width_px, [&] {
+                         move_to(at - Vec2{12.0, 0.0}, 'M');
+                         move_to(at + Vec2{12.0, 0.0}, 'L');
+                       }, more);
+                     },
+                     std::move(words), shown});
+}
+
+void Picture::add_lines() {
+  add_line(theme_.tree, 3.0, "", "tree");
+  if (options_.links && (options_.steady || !links_.open.empty())) add_line(theme_.link, 1.2, "", "radio link");
   const bool trails = std::any_of(trails_.begin(), trails_.end(), [](const auto& t) { return t.size() > 1; });
   if (trails || (options_.steady && options_.trail_s > 0.0)) {
-    add(palette::connector, 2.5, " stroke-opacity=\"0.45\"", "trail, " + in_decimals(options_.trail_s, 0) + " s", true);
+    add_line(palette::connector, 2.5, theme_.trail_opacity, "trail, " + in_decimals(options_.trail_s, 0) + " s");
   }
-}
-
-void Picture::add_rest() {
   if (frame_.targets.empty()) return;
   legend_.push_back({[this](Vec2 at) {
                        out_.put("<circle");
@@ -580,6 +575,20 @@ void Picture::add_rest() {
                        out_.put("/>");
                      },
                      "target, tolerance"});
+}
+
+// At the end, so that places which are still empty are no gaps.
+void Picture::add_what_may_come() {
+  const auto wanted = [this](bool shown) { return shown || options_.steady; };
+  if (wanted(old_edges_)) add_line(palette::old_tree, 2.5, " stroke-dasharray=\"6 4\"", "old tree", old_edges_);
+  if (wanted(broken_edges_)) add_line(palette::root, 3.0, " stroke-dasharray=\"2 3\"", "broken edge", broken_edges_);
+  const bool blocked = !links_.blocked.empty();
+  if (options_.blocked_links && wanted(blocked)) {
+    add_line(palette::blocked, 1.2, " stroke-dasharray=\"2 3\"", "no line of sight", blocked);
+  }
+  const auto dead = std::count_if(frame_.robots.begin(), frame_.robots.end(), [](const RobotFrame& r) { return !r.alive; });
+  if (!wanted(dead > 0)) return;
+  legend_.push_back({[this](Vec2 at) { robot_symbol(at, Role::spare, false, 5.5); }, "dead " + std::to_string(dead), dead > 0});
 }
 
 // In a film a count may get a digit more: nothing may jump then.

@@ -198,8 +198,14 @@ void EventWatcher::watch_recruit(const Frame& frame, std::size_t i) {
       add("inserted", robot, -1,
           robot_name(robot) + " is inserted between " + robot_name(before.request) + " and " + robot_name(now.parent));
     } else {
-      add("recruited", robot, -1, robot_name(robot) + " is a connector: somebody hangs on it");
+      const auto child = std::find_if(frame.robots.begin(), frame.robots.end(), [&](const RobotFrame& r) {
+        return r.alive && r.role != Role::spare && r.parent == robot;
+      });
+      const std::string who = child == frame.robots.end() ? "somebody" : robot_name(child - frame.robots.begin());
+      add("recruited", robot, -1, robot_name(robot) + " is a connector: " + who + " hangs on it");
     }
+  } else if (before.role != Role::worker && now.role == Role::worker && now.target < 0) {
+    add("worker", robot, -1, robot_name(robot) + " takes over the target of a worker that is lost");
   } else if (before.role == Role::connector && now.role == Role::spare) {
     add("released", robot, -1, robot_name(robot) + " is spare again");
   }
