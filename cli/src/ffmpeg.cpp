@@ -33,7 +33,7 @@ std::vector<std::string> encoder(FilmKind kind) {
   std::vector<std::string> list;
   switch (kind) {
     case FilmKind::mp4:
-      list = {"-vf", video, "-c:v", "libx264", "-preset", "medium", "-tune", "animation", "-crf", "20",
+      list = {"-vf", video, "-c:v", "libx264", "-preset", "fast", "-tune", "animation", "-crf", "20",
               "-movflags", "+faststart"};
       break;
     case FilmKind::webm:
