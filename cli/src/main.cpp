@@ -63,7 +63,25 @@ constexpr const char* export_footer =
 constexpr const char* draw_footer =
     "Examples:\n"
     "  banyan draw out/three-targets-convoy-1/run.mcap --at 30 -o frame.svg\n"
+    "  banyan draw run.mcap --at 30 --width 1600 --dark -o frame.png\n"
     "  banyan draw run.mcap --ids --trail 0 > end.svg";
+
+constexpr const char* film_footer =
+    "Made by ffmpeg. MP4 plays everywhere, WebM in browsers, GIF in a README. Without --speed the film\n"
+    "is at most 20 s long (a GIF 12 s), 1 to 64 times as fast as the run; the last frame stays for a\n"
+    "second. The view is the same over the whole film.\n\n"
+    "Examples:\n"
+    "  banyan film out/three-targets-convoy-1/run.mcap -o three.mp4\n"
+    "  banyan film run.mcap -o slow.mp4 --from 10 --to 20 --speed 1 --ids\n"
+    "  banyan film run.mcap -o readme.gif --width 640 --height 400 --dark";
+
+constexpr const char* view_footer =
+    "Serves the page at an address of this machine, prints it and opens the browser if there is a\n"
+    "desktop. Nobody else can reach it. Ctrl-C ends it.\n\n"
+    "Examples:\n"
+    "  banyan view out/three-targets-convoy-1/run.mcap\n"
+    "  banyan view scenarios/three-targets.toml --set radio.loss=0.3\n"
+    "  banyan view";
 
 constexpr const char* algorithms_footer = "Examples:\n  banyan algorithms\n  banyan algorithms inwards --json";
 
@@ -224,25 +242,95 @@ void add_export(CLI::App& app, std::function<int()>& action) {
   command->callback([options, &action] { action = [options] { return export_command(*options); }; });
 }
 
+// What `draw` and `film` have in common.
+template <class Options>
+void add_look(CLI::App& command, Options& options) {
+  command.add_flag("--links,!--no-links", options.links, "show or leave out radio links; default: show");
+  command.add_flag("--blocked", options.blocked, "show pairs in range without a line of sight");
+  command.add_flag("--ids", options.ids, "number the robots");
+  command.add_flag("!--no-legend", options.legend, "leave out the legend");
+  command.add_flag("--dark", options.dark, "light on dark");
+}
+
 void add_draw(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<DrawOptions>();
-  auto* command = app.add_subcommand("draw", "draw a moment of a recording as SVG")->group(command_group);
+  auto* command = app.add_subcommand("draw", "draw a moment of a recording as SVG or PNG")->group(command_group);
   command->footer(draw_footer);
   command->add_option("recording", options->recording, "a run.mcap")->required()->type_name("FILE");
   command->add_option("--at", options->at_s, "the moment, s; default the end")->type_name("S")->check(moment);
-  command->add_option("-o,--output", options->output, "file to write, default standard output")->type_name("FILE");
+  command->add_option("-o,--output", options->output, "file to write (.svg or .png), default standard output")
+      ->type_name("FILE");
+  command->add_option("--format", options->format, "instead of what the ending of the file says; default svg")
+      ->type_name("svg|png")
+      ->check(CLI::IsMember({"svg", "png"}).description(""));
   command->add_option("--trail", options->trail_s, "how far back trails go, s; default 10")
       ->type_name("S")
       ->check(moment);
   command->add_option("--width", options->width_px, "width in pixels, default 1000")
       ->type_name("PX")
       ->check(CLI::Range(100.0, 20000.0).description(""));
-  command->add_flag("!--no-links", options->links, "leave out radio links");
-  command->add_flag("--blocked", options->blocked, "show pairs in range without a line of sight");
-  command->add_flag("--ids", options->ids, "number the robots");
-  command->add_flag("!--no-legend", options->legend, "leave out the legend");
+  add_look(*command, *options);
   command->add_flag("-f,--force", options->force, "replace the file if it exists");
   command->callback([options, &action] { action = [options] { return draw_command(*options); }; });
+}
+
+// Pixels of a film: its encoders take pairs of them.
+CLI::Validator even_size(int least, int most) {
+  return {[=](const std::string& text) {
+            int value = 0;
+            const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most && value % 2 == 0;
+            return fits ? std::string()
+                        : "must be an even number of " + std::to_string(least) + " to " + std::to_string(most) + ", not \"" +
+                              text + "\"";
+          },
+          ""};
+}
+
+void add_film(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<FilmOptions>();
+  auto* command = app.add_subcommand("film", "turn a recording into a film: MP4, WebM or GIF")->group(command_group);
+  command->footer(film_footer);
+  command->add_option("recording", options->recording, "a run.mcap")->required()->type_name("FILE");
+  command->add_option("-o,--output", options->output, "file to write: .mp4, .webm or .gif")->required()->type_name("FILE");
+  command->add_option("--fps", options->fps, "frames a second, default 30, of a GIF 15")
+      ->type_name("N")
+      ->check(CLI::Range(1, 120).description(""));
+  command->add_option("--speed", options->speed, "seconds of the run in a second of the film, 0.1 to 64")
+      ->type_name("X")
+      ->check(CLI::Range(0.1, 64.0).description(""));
+  command->add_option("--from", options->from_s, "first moment, s")->type_name("S")->check(moment);
+  command->add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment);
+  command->add_option("--width", options->width, "in pixels, default 1280, of a GIF 720")
+      ->type_name("PX")
+      ->check(even_size(200, 7680));
+  command->add_option("--height", options->height, "in pixels, default 720, of a GIF 450")
+      ->type_name("PX")
+      ->check(even_size(150, 4320));
+  command->add_option("--trail", options->trail_s, "how far back trails go, s; default 5")->type_name("S")->check(moment);
+  add_look(*command, *options);
+  command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
+  command->add_flag("-f,--force", options->force, "replace the file if it exists");
+  command->callback([options, &action] { action = [options] { return film_command(*options); }; });
+}
+
+void add_view(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<ViewOptions>();
+  auto* command = app.add_subcommand("view", "show a recording or a scenario in the browser")->group(command_group);
+  command->footer(view_footer);
+  command
+      ->add_option("file", options->file,
+                   "a run.mcap, also one that is being written (.part), or a scenario, to be run in the page; none: a choice "
+                   "of scenarios")
+      ->type_name("FILE");
+  add_overrides(*command, options->overrides);
+  add_seed(*command, options->overrides);
+  command->add_option("--port", options->port, "of this machine; default any that is free")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535).description(""));
+  command->add_flag("!--no-open", options->open, "only print the address");
+  command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or as it was installed")->type_name("DIR");
+  command->add_option("--scenarios", options->scenarios, "what the page offers to run; default Banyan's own")->type_name("DIR");
+  command->callback([options, &action] { action = [options] { return view_command(*options); }; });
 }
 
 void add_algorithms(CLI::App& app, std::function<int()>& action) {
@@ -401,6 +489,8 @@ int run_program(int argc, char** argv) {
   add_validate(app, action);
   add_export(app, action);
   add_draw(app, action);
+  add_film(app, action);
+  add_view(app, action);
   add_algorithms(app, action);
   add_keys(app, action);
   add_tune(app, action);

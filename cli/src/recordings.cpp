@@ -10,12 +10,13 @@
 #include "banyan/record/export.hpp"
 #include "banyan/record/recording.hpp"
 #include "commands.hpp"
+#include "raster.hpp"
+#include "recordings.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
 
 using namespace config;
-namespace {
 
 record::Recording open_recording(const std::string& path) {
   record::Recording recording(path);
@@ -30,7 +31,32 @@ void refuse_to_overwrite(const std::string& output, bool force) {
   throw CommandError(exit_usage, output + " exists; add --force to replace it");
 }
 
+namespace {
+
 record::Existing existing(bool force) { return force ? record::Existing::replace : record::Existing::keep; }
+
+// "svg" or "png": what was asked for, else by the ending of the file.
+std::string picture_format(const DrawOptions& options) {
+  if (!options.format.empty()) return options.format;
+  const std::string ending = std::filesystem::path(options.output).extension();
+  if (options.output == "-" || ending == ".svg" || ending.empty()) return "svg";
+  if (ending == ".png") return "png";
+  throw CommandError(exit_usage, options.output + ": \"" + ending +
+                                     "\" is no picture that banyan draws; use .svg or .png, or --format");
+}
+
+record::DrawOptions chosen_look(const DrawOptions& options, bool png) {
+  record::DrawOptions chosen;
+  chosen.width_px = options.width_px;
+  chosen.trail_s = options.trail_s;
+  chosen.links = options.links;
+  chosen.blocked_links = options.blocked;
+  chosen.ids = options.ids;
+  chosen.legend = options.legend;
+  chosen.dark = options.dark;
+  if (png) chosen.font = raster_font;
+  return chosen;
+}
 
 }  // namespace
 
@@ -50,24 +76,22 @@ int export_command(const ExportOptions& options) {
 }
 
 int draw_command(const DrawOptions& options) {
+  const bool png = picture_format(options) == "png";
   refuse_to_overwrite(options.output, options.force);
   auto recording = open_recording(options.recording);
   const double at_s = std::min(options.at_s, recording.end_s());
   if (std::isfinite(options.at_s) && options.at_s > recording.end_s() + 1e-9) {
     complain(format("the recording ends at %s s; drawing that moment", number_text(recording.end_s()).c_str()));
   }
-  record::DrawOptions chosen;
-  chosen.width_px = options.width_px;
-  chosen.trail_s = options.trail_s;
-  chosen.links = options.links;
-  chosen.blocked_links = options.blocked;
-  chosen.ids = options.ids;
-  chosen.legend = options.legend;
-  const std::string svg = record::draw_svg(recording, at_s, chosen);
+  std::string picture = record::draw_svg(recording, at_s, chosen_look(options, png));
+  if (png) {
+    const PixelSize size = size_of(picture);
+    picture = png_of(rasterize(picture, size.width, size.height));
+  }
   if (options.output == "-")
-    record::write_all(STDOUT_FILENO, svg, "standard output");
+    record::write_all(STDOUT_FILENO, picture, "standard output");
   else
-    record::write_file(options.output, svg, existing(options.force));
+    record::write_file(options.output, picture, existing(options.force));
   return exit_done;
 }
 

@@ -41,6 +41,7 @@ class Keeper {
     if (configuration.output.record) {
       record::RecorderOptions options;
       options.every_ticks = configuration.output.record_every;
+      options.messages = configuration.output.messages;
       options.existing = outputs.existing();
       recorder_.emplace(outputs.recording(),
                         record::Provenance{json_, std::string(version), std::string(git_id()), scenario.seed}, options);

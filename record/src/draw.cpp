@@ -22,6 +22,8 @@ namespace {
 
 constexpr double margin_px = 24.0;
 constexpr double title_px = 62.0;
+constexpr double panel_px = 232.0;          // beside a map in a picture of given size, where that suits it better
+constexpr double em_per_letter = 0.54;      // of DejaVu Sans, the widest of the fonts to be expected
 constexpr double legend_row_px = 22.0;
 constexpr double smallest_robot_px = 3.4;   // radius; smaller ones could not be told apart in print
 constexpr double smallest_spare_px = 2.2;   // of hundreds, which must not hide the tree
@@ -66,6 +68,31 @@ struct ExtentOfObstacle {
   }
 };
 
+// The colours that are not those of roles: what they are drawn on, and what must be told from it.
+struct Theme {
+  std::string_view paper, ink, faint_ink, target_ink, outline;
+  Color tree, link, obstacle;
+  std::string_view trail_opacity;
+};
+constexpr Theme light{"#ffffff", "#000000", "#444444", "#8f3f6d", "#1a1a1a", palette::tree, palette::link, palette::obstacle,
+                      " stroke-opacity=\"0.45\""};
+constexpr Theme dark{"#12161c", "#f2f2f2", "#aab2bd", "#e7a9cd", "#05070a", {0xE8, 0xE8, 0xE8, "#e8e8e8"},
+                     {0x47, 0x50, 0x5C, "#47505c"}, {0x6E, 0x69, 0x62, "#6e6962"}, " stroke-opacity=\"0.65\""};
+
+// Where what goes: the map fills its box as far as its shape allows.
+struct Layout {
+  bool panel = false;                       // title and legend in a column at the left, else above and below
+  Vec2 low, high;                           // the box of the map, px, y downwards
+  double height = 0.0;                      // of the picture
+  double scale = 0.0;                       // px / m
+};
+
+struct LegendEntry {
+  std::function<void(Vec2)> symbol;
+  std::string words;
+  bool shown = true;                        // else its place stays empty
+};
+
 Extent extent_of(const Setting& setting, const Frame& frame, const Trails& trails) {
   Extent extent;
   for (const RobotFrame& robot : frame.robots) extent.add(robot.position, setting.radius_m);
@@ -82,15 +109,20 @@ class Picture {
  public:
   Picture(const Setting& setting, const Frame& frame, const Trails& trails, const DrawOptions& options)
       : setting_(setting), frame_(frame), trails_(trails), options_(options),
-        extent_(extent_of(setting, frame, trails)) {
-    const Vec2 size = extent_.high - extent_.low;
-    width_ = std::clamp(options.width_px, 200.0, 20000.0);
-    const double inner = width_ - 2.0 * margin_px;
-    scale_ = std::min(inner / size.x, tallest * inner / size.y);
-    map_height_ = size.y * scale_;
-    left_ = (width_ - size.x * scale_) / 2.0;
-    robot_px_ = std::max(setting.radius_m * scale_, smallest_robot_px);
+        extent_(extent_of(setting, frame, trails)), theme_(options.dark ? dark : light) {
+    if (options.view) {
+      extent_.low = options.view->low;
+      extent_.high = options.view->high;
+      extent_.at_least(smallest_view_m);
+    }
+    width_ = std::round(std::clamp(options.width_px, 200.0, 20000.0));   // whole pixels, or its edges blur
     links_ = radio_links(setting, frame);
+    old_edges_ = std::any_of(frame.robots.begin(), frame.robots.end(), [this](const RobotFrame& r) {
+      return r.alive && r.role != Role::spare && valid(r.old_parent);
+    });
+    broken_edges_ = any_broken_edge();
+    arrange();
+    robot_px_ = std::max(setting.radius_m * layout_.scale, smallest_robot_px);
   }
 
   std::string svg();
@@ -98,12 +130,11 @@ class Picture {
  private:
   // Screen coordinates: y points down.
   [[nodiscard]] Vec2 screen(Vec2 p) const {
-    return {left_ + (p.x - extent_.low.x) * scale_, title_px + margin_px + (extent_.high.y - p.y) * scale_};
+    return {origin_.x + (p.x - extent_.low.x) * layout_.scale, origin_.y + (extent_.high.y - p.y) * layout_.scale};
   }
   [[nodiscard]] double symbol_px(Role role) const {
-    return role == Role::spare ? std::max(setting_.radius_m * scale_, smallest_spare_px) : robot_px_;
+    return role == Role::spare ? std::max(setting_.radius_m * layout_.scale, smallest_spare_px) : robot_px_;
   }
-  [[nodiscard]] double map_bottom() const { return title_px + 2.0 * margin_px + map_height_; }
   [[nodiscard]] bool valid(std::int32_t i) const {
     return i >= 0 && static_cast<std::size_t>(i) < frame_.robots.size();
   }
@@ -148,18 +179,25 @@ class Picture {
     fill();
     out_.put("\"/>\n");
   }
-  void text(Vec2 at, double size_px, std::string_view words, std::string_view more = {}) {
+  void text(Vec2 at, double size_px, std::string_view words, std::string_view color, std::string_view more) {
     out_.put("<text");
     attribute("x", at.x);
     attribute("y", at.y);
     attribute("font-size", size_px);
+    attribute("fill", color);
     out_.put(more);
     out_.put('>');
     out_.xml(words);
     out_.put("</text>\n");
   }
 
+  [[nodiscard]] bool any_broken_edge() const;
+  [[nodiscard]] Layout strips() const;
+  [[nodiscard]] Layout panel() const;
+  void arrange();
+  [[nodiscard]] std::vector<std::string> facts() const;
   void title();
+  void panel_title();
   void obstacles();
   void radio();
   void trails();
@@ -171,9 +209,13 @@ class Picture {
   void robots(std::initializer_list<Role> roles);
   void robot_symbol(Vec2 at, Role role, bool alive, double radius_px);
   void ids();
+  void add_roles();
+  void add_line(const Color& color, double width_px, std::string_view more, std::string words, bool shown = true);
+  void add_lines();
+  void add_what_may_come();
+  [[nodiscard]] double width_of(const LegendEntry& entry) const;
+  [[nodiscard]] std::size_t legend_rows() const;
   void legend();
-  void legend_entries();
-  void legend_symbol(const std::function<void(Vec2)>& symbol, const std::string& words);
   void scale_bar();
 
   const Setting& setting_;
@@ -181,10 +223,13 @@ class Picture {
   const Trails& trails_;
   const DrawOptions& options_;
   Extent extent_;
-  double width_ = 0.0, scale_ = 0.0, map_height_ = 0.0, left_ = 0.0, robot_px_ = 0.0;
+  const Theme& theme_;
+  Layout layout_;
+  Vec2 origin_{};                           // px, of the map's upper left corner
+  double width_ = 0.0, robot_px_ = 0.0;
   Links links_;
   bool old_edges_ = false, broken_edges_ = false;
-  Vec2 legend_at_{};
+  std::vector<LegendEntry> legend_;
   Text out_;
 };
 
@@ -201,15 +246,113 @@ double nice_length(double most) {
   return most >= 5.0 * unit ? 5.0 * unit : most >= 2.0 * unit ? 2.0 * unit : unit;
 }
 
+bool Picture::any_broken_edge() const {
+  for (std::size_t i = 0; i < frame_.robots.size(); ++i) {
+    const RobotFrame& robot = frame_.robots[i];
+    if (!robot.alive || robot.role == Role::spare) continue;
+    if (valid(robot.parent) && !linked(i, robot.parent)) return true;
+    if (valid(robot.old_parent) && !linked(i, robot.old_parent)) return true;
+  }
+  return false;
+}
+
+Layout Picture::strips() const {
+  const Vec2 size = extent_.high - extent_.low;
+  const double legend_px = options_.legend ? legend_row_px * static_cast<double>(legend_rows()) : 0.0;
+  Layout layout;
+  layout.low = {margin_px, title_px + margin_px};
+  layout.high.x = width_ - margin_px;
+  const double inner = layout.high.x - layout.low.x;
+  if (options_.height_px > 0.0) {
+    layout.height = std::clamp(options_.height_px, 150.0, 20000.0);
+    layout.low.y = title_px + 10.0;
+    layout.high.y = std::max(layout.low.y + 10.0, layout.height - legend_px - 16.0);
+    layout.scale = std::min(inner / size.x, (layout.high.y - layout.low.y) / size.y);
+  } else {
+    layout.scale = std::min(inner / size.x, tallest * inner / size.y);
+    layout.high.y = layout.low.y + size.y * layout.scale;
+    layout.height = std::ceil(layout.high.y + margin_px + (options_.legend ? legend_px + 6.0 : 0.0));
+  }
+  return layout;
+}
+
+Layout Picture::panel() const {
+  const Vec2 size = extent_.high - extent_.low;
+  Layout layout;
+  layout.panel = true;
+  layout.height = std::clamp(options_.height_px, 150.0, 20000.0);
+  layout.low = {panel_px, 26.0};
+  layout.high = {std::max(panel_px + 10.0, width_ - 26.0), layout.height - 26.0};
+  layout.scale = std::min((layout.high.x - layout.low.x) / size.x, (layout.high.y - layout.low.y) / size.y);
+  return layout;
+}
+
+constexpr double panel_legend_px = 176.0;   // where it begins
+
+void Picture::arrange() {
+  add_roles();
+  add_lines();
+  add_what_may_come();
+  layout_ = strips();
+  // A square world in a wide picture is larger beside its title than under it.
+  const double column_px = panel_legend_px + legend_row_px * static_cast<double>(legend_.size()) + 50.0;
+  if (options_.height_px > 0.0 && options_.legend) {
+    const Layout beside = panel();
+    if (beside.scale > layout_.scale && column_px <= beside.height) layout_ = beside;
+  }
+  const Vec2 room = layout_.high - layout_.low - layout_.scale * (extent_.high - extent_.low);
+  origin_ = layout_.low + 0.5 * room;
+}
+
+std::vector<std::string> Picture::facts() const {
+  const auto committed = std::count_if(frame_.robots.begin(), frame_.robots.end(),
+                                       [](const RobotFrame& r) { return r.alive && r.role != Role::spare; });
+  return {setting_.algorithm + (setting_.reading.empty() ? "" : ", " + setting_.reading),
+          "t = " + in_decimals(frame_.time_s, 1) + " s",
+          std::to_string(committed) + " of " + std::to_string(frame_.robots.size()) + " committed",
+          "range " + in_decimals(setting_.range_m, 2) + " m" + (setting_.line_of_sight ? ", line of sight" : "")};
+}
+
+// What does not fit beside the scale is left out, from the end.
 void Picture::title() {
   const std::string name = setting_.name.empty() ? "Banyan" : setting_.name;
-  text({margin_px, 28.0}, 19.0, name, " font-weight=\"bold\"");
-  std::string words = setting_.algorithm + (setting_.reading.empty() ? "" : ", " + setting_.reading);
-  words += "   ·   t = " + in_decimals(frame_.time_s, 1) + " s   ·   " + std::to_string(frame_.robots.size()) +
-           " robots   ·   range " + in_decimals(setting_.range_m, 2) + " m";
-  words += setting_.line_of_sight ? ", line of sight" : "";
-  words += "   ·   seed " + std::to_string(setting_.seed);
-  text({margin_px, 50.0}, 14.0, words, " fill=\"#444444\"");
+  constexpr double size_px = 14.0;
+  constexpr std::string_view gap = "\u2002·\u2002";   // spaces that XML does not run together
+  constexpr std::size_t gap_letters = 3;
+  double left = width_ - 2.0 * margin_px - 0.22 * (width_ - 2.0 * margin_px) - 12.0;
+  std::string words;
+  for (const std::string& fact : facts()) {
+    left -= em_per_letter * size_px * static_cast<double>(fact.size() + (words.empty() ? 0 : gap_letters));
+    if (left < 0.0 && !words.empty()) break;
+    words += (words.empty() ? "" : std::string(gap)) + fact;
+  }
+  out_.put("<text");
+  attribute("x", margin_px);
+  attribute("y", 28.0);
+  attribute("font-size", 19.0);
+  attribute("fill", theme_.ink);
+  out_.put(" font-weight=\"bold\">");
+  out_.xml(name);
+  out_.put("<tspan dx=\"12\" font-weight=\"normal\"");
+  attribute("font-size", size_px);
+  attribute("fill", theme_.faint_ink);
+  out_.put(">seed ");
+  out_.natural(setting_.seed);
+  out_.put("</tspan></text>\n");
+  text({margin_px, 50.0}, size_px, words, theme_.faint_ink, {});
+}
+
+void Picture::panel_title() {
+  const std::string name = setting_.name.empty() ? "Banyan" : setting_.name;
+  const double room = panel_px - margin_px;
+  const double letters = static_cast<double>(std::max<std::size_t>(name.size(), 1));
+  text({margin_px, 42.0}, std::clamp(room / (1.15 * em_per_letter * letters), 10.0, 20.0), name, theme_.ink, " font-weight=\"bold\"");
+  const auto all = facts();
+  const std::string seed = " · seed " + std::to_string(setting_.seed);
+  text({margin_px, 64.0}, 13.0, all[0] + (seed.size() < 16 ? seed : ""), theme_.faint_ink, {});
+  text({margin_px, 106.0}, 26.0, in_decimals(frame_.time_s, 1) + " s", theme_.ink, {});
+  text({margin_px, 130.0}, 13.0, all[2], theme_.faint_ink, {});
+  text({margin_px, 148.0}, 13.0, all[3], theme_.faint_ink, {});
 }
 
 void Picture::obstacles() {
@@ -219,12 +362,12 @@ void Picture::obstacles() {
       out_.put("<circle");
       attribute("cx", at.x);
       attribute("cy", at.y);
-      attribute("r", disc->radius_m * scale_);
-      attribute("fill", palette::obstacle.hex);
+      attribute("r", disc->radius_m * layout_.scale);
+      attribute("fill", theme_.obstacle.hex);
       out_.put("/>\n");
     } else if (const auto* box = std::get_if<world::Box>(&obstacle)) {
       out_.put("<path");
-      attribute("fill", palette::obstacle.hex);
+      attribute("fill", theme_.obstacle.hex);
       out_.put(" d=\"");
       char command = 'M';
       for (const Vec2 corner : corners(*box)) {
@@ -233,25 +376,29 @@ void Picture::obstacles() {
       }
       out_.put("Z\"/>\n");
     } else if (const auto* wall = std::get_if<world::Wall>(&obstacle)) {
-      path(palette::obstacle, 4.0, [&] { segment(wall->from, wall->to); }, " stroke-linecap=\"round\"");
+      path(theme_.obstacle, 4.0, [&] { segment(wall->from, wall->to); }, " stroke-linecap=\"round\"");
     }
   }
 }
 
 void Picture::radio() {
-  const auto pairs = [&](const auto& list) {
-    return [&, this] {
-      for (const auto& [i, j] : list) segment(frame_.robots[i].position, frame_.robots[j].position);
-    };
+  // In pieces: what crosses within one path costs a renderer far more than what lies on top of another.
+  constexpr std::size_t piece = 50;
+  const auto draw = [this](const Color& color, double width_px, const auto& list, std::string_view more) {
+    for (std::size_t first = 0; first < list.size(); first += piece) {
+      path(color, width_px, [&] {
+        for (std::size_t k = first; k < std::min(first + piece, list.size()); ++k) {
+          segment(frame_.robots[list[k].first].position, frame_.robots[list[k].second].position);
+        }
+      }, more);
+    }
   };
   // Where everybody hears everybody, links would cover all else: the more there are, the finer.
   const double robots = std::max(1.0, static_cast<double>(frame_.robots.size()));
   const double per_robot = static_cast<double>(links_.open.size()) / robots;
   const double width = per_robot > 20.0 ? 0.25 : per_robot > 8.0 ? 0.5 : 0.8;
-  if (options_.links && !links_.open.empty()) path(palette::link, width, pairs(links_.open));
-  if (options_.blocked_links && !links_.blocked.empty()) {
-    path(palette::blocked, width, pairs(links_.blocked), " stroke-dasharray=\"2 3\"");
-  }
+  if (options_.links) draw(theme_.link, width, links_.open, {});
+  if (options_.blocked_links) draw(palette::blocked, width, links_.blocked, " stroke-dasharray=\"2 3\"");
 }
 
 void Picture::trails() {
@@ -265,14 +412,14 @@ void Picture::trails() {
         move_to(screen(p), command);
         command = 'L';
       }
-    }, " stroke-opacity=\"0.45\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
+    }, std::string(theme_.trail_opacity) + " stroke-linejoin=\"round\" stroke-linecap=\"round\"");
   }
 }
 
 void Picture::targets() {
   for (const TargetFrame& target : frame_.targets) {
     const Vec2 at = screen(target.position);
-    const double radius = std::max(setting_.target_tolerance_m * scale_, robot_px_ + 3.0);
+    const double radius = std::max(setting_.target_tolerance_m * layout_.scale, robot_px_ + 3.0);
     out_.put("<circle");
     attribute("cx", at.x);
     attribute("cy", at.y);
@@ -305,14 +452,8 @@ void Picture::edges(std::int32_t RobotFrame::*to, const Which& which) {
 void Picture::trees() {
   const double width = std::clamp(0.5 * robot_px_, 1.4, 3.2);
   const auto open = [](bool is_linked) { return is_linked; };
-  const auto broken = [this](bool is_linked) {
-    broken_edges_ = broken_edges_ || !is_linked;
-    return !is_linked;
-  };
-  old_edges_ = std::any_of(frame_.robots.begin(), frame_.robots.end(), [this](const RobotFrame& r) {
-    return r.alive && r.role != Role::spare && valid(r.old_parent);
-  });
-  path(palette::tree, width, [&] { edges(&RobotFrame::parent, open); }, " stroke-linecap=\"round\"");
+  const auto broken = [](bool is_linked) { return !is_linked; };
+  path(theme_.tree, width, [&] { edges(&RobotFrame::parent, open); }, " stroke-linecap=\"round\"");
   path(palette::old_tree, 0.8 * width, [&] { edges(&RobotFrame::old_parent, open); }, " stroke-dasharray=\"6 4\"");
   path(palette::root, width, [&] {
     edges(&RobotFrame::parent, broken);
@@ -337,7 +478,7 @@ void Picture::robot_symbol(Vec2 at, Role role, bool alive, double radius_px) {
     out_.put("/>");
   };
   if (alive && role == Role::root) circle(1.6 * radius_px, "none", color.hex, std::max(1.2, 0.25 * radius_px));
-  circle(radius_px, color.hex, "#1a1a1a", std::min(1.0, 0.18 * radius_px));
+  circle(radius_px, color.hex, theme_.outline, std::min(1.0, 0.18 * radius_px));
   if (alive && role == Role::worker) circle(0.38 * radius_px, "#ffffff", "", 0.0);
   if (!alive) {
     const double arm = 0.6 * radius_px;
@@ -351,7 +492,7 @@ void Picture::robot_symbol(Vec2 at, Role role, bool alive, double radius_px) {
 }
 
 void Picture::headings() {
-  path(palette::tree, std::clamp(0.3 * robot_px_, 0.8, 2.0), [&] {
+  path(theme_.tree, std::clamp(0.3 * robot_px_, 0.8, 2.0), [&] {
     for (const RobotFrame& robot : frame_.robots) {
       if (!robot.alive) continue;
       const Vec2 at = screen(robot.position);
@@ -372,93 +513,132 @@ void Picture::robots(std::initializer_list<Role> roles) {
   }
 }
 
-constexpr std::string_view halo =
-    " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
-
 void Picture::ids() {
   const double size = std::clamp(1.6 * robot_px_, 8.0, 13.0);
+  const std::string halo = " stroke=\"" + std::string(theme_.paper) +
+                           "\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
   for (std::size_t k = 0; k < frame_.targets.size(); ++k) {
     const Vec2 at = screen(frame_.targets[k].position);
-    const double away = std::max(setting_.target_tolerance_m * scale_, robot_px_ + 3.0) * 0.75 + 3.0;
+    const double away = std::max(setting_.target_tolerance_m * layout_.scale, robot_px_ + 3.0) * 0.75 + 3.0;
     // Towards the inside of the picture, so that a label never leaves it.
     const bool right = at.x < width_ - 4.0 * margin_px;
     std::string label("T");
     label += std::to_string(k);
-    text(at + Vec2{right ? away : -away, -away}, 15.0, label,
-         std::string(" fill=\"#8f3f6d\" font-weight=\"bold\"") + std::string(halo) +
-             (right ? "" : " text-anchor=\"end\""));
+    text(at + Vec2{right ? away : -away, -away}, 15.0, label, theme_.target_ink,
+         " font-weight=\"bold\"" + halo + (right ? "" : " text-anchor=\"end\""));
   }
   if (!options_.ids) return;
   for (std::size_t i = 0; i < frame_.robots.size(); ++i) {
     text(screen(frame_.robots[i].position) + Vec2{1.2 * robot_px_, 1.2 * robot_px_ + 0.5 * size}, size,
-         std::to_string(i), halo);
+         std::to_string(i), theme_.ink, halo);
   }
 }
 
-void Picture::legend_symbol(const std::function<void(Vec2)>& symbol, const std::string& words) {
-  const double width = 46.0 + 7.3 * static_cast<double>(words.size());
-  if (legend_at_.x > margin_px && legend_at_.x + width > width_ - margin_px) {
-    legend_at_ = {margin_px, legend_at_.y + legend_row_px};
-  }
-  symbol(legend_at_ + Vec2{12.0, 0.0});
-  text(legend_at_ + Vec2{30.0, 4.5}, 13.0, words);
-  legend_at_.x += width;
-}
-
-void Picture::legend_entries() {
+void Picture::add_roles() {
   std::array<std::size_t, 4> count{};
-  std::size_t dead = 0;
   for (const RobotFrame& robot : frame_.robots) {
-    robot.alive ? ++count[static_cast<std::size_t>(robot.role)] : ++dead;
+    if (robot.alive) ++count[static_cast<std::size_t>(robot.role)];
   }
   for (const Role role : {Role::root, Role::worker, Role::connector, Role::spare}) {
-    legend_symbol([&](Vec2 at) { robot_symbol(at, role, true, 5.5); },
-                  std::string(name_of(role)) + " " + std::to_string(count[static_cast<std::size_t>(role)]));
+    legend_.push_back({[this, role](Vec2 at) { robot_symbol(at, role, true, 5.5); },
+                       std::string(name_of(role)) + " " + std::to_string(count[static_cast<std::size_t>(role)])});
   }
-  if (dead > 0) {
-    legend_symbol([&](Vec2 at) { robot_symbol(at, Role::spare, false, 5.5); }, "dead " + std::to_string(dead));
-  }
-  const auto stroke = [&](const Color& color, double width_px, std::string_view more) {
-    return [this, &color, width_px, more](Vec2 at) {
-      path(color, width_px, [&] {
-        move_to(at - Vec2{12.0, 0.0}, 'M');
-        move_to(at + Vec2{12.0, 0.0}, 'L');
-      }, more);
-    };
-  };
-  legend_symbol(stroke(palette::tree, 3.0, ""), "tree");
-  if (old_edges_) legend_symbol(stroke(palette::old_tree, 2.5, " stroke-dasharray=\"6 4\""), "old tree");
-  if (broken_edges_) legend_symbol(stroke(palette::root, 3.0, " stroke-dasharray=\"2 3\""), "broken edge");
-  if (options_.links && !links_.open.empty()) legend_symbol(stroke(palette::link, 1.2, ""), "radio link");
-  if (options_.blocked_links && !links_.blocked.empty()) {
-    legend_symbol(stroke(palette::blocked, 1.2, " stroke-dasharray=\"2 3\""), "no line of sight");
-  }
-  if (!frame_.targets.empty()) {
-    legend_symbol([&](Vec2 at) {
-      out_.put("<circle");
-      attribute("cx", at.x);
-      attribute("cy", at.y);
-      attribute("r", 7.0);
-      attribute("fill", palette::target.hex);
-      attribute("fill-opacity", 0.18);
-      attribute("stroke", palette::target.hex);
-      attribute("stroke-width", 2.0);
-      out_.put("/>");
-    }, "target, tolerance");
-  }
+}
+
+void Picture::add_line(const Color& color, double width_px, std::string_view more, std::string words, bool shown) {
+  legend_.push_back({[this, color, width_px, more](Vec2 at) {
+                       path(color, width_px, [&] {
+                         move_to(at - Vec2{12.0, 0.0}, 'M');
+                         move_to(at + Vec2{12.0, 0.0}, 'L');
+                       }, more);
+                     },
+                     std::move(words), shown});
+}
+
+void Picture::add_lines() {
+  add_line(theme_.tree, 3.0, "", "tree");
+  if (options_.links && (options_.steady || !links_.open.empty())) add_line(theme_.link, 1.2, "", "radio link");
   const bool trails = std::any_of(trails_.begin(), trails_.end(), [](const auto& t) { return t.size() > 1; });
-  if (trails) {
-    legend_symbol(stroke(palette::connector, 2.5, " stroke-opacity=\"0.45\""),
-                  "trail, " + in_decimals(options_.trail_s, 0) + " s");
+  if (trails || (options_.steady && options_.trail_s > 0.0)) {
+    add_line(palette::connector, 2.5, theme_.trail_opacity, "trail, " + in_decimals(options_.trail_s, 0) + " s");
+  }
+  if (frame_.targets.empty()) return;
+  legend_.push_back({[this](Vec2 at) {
+                       out_.put("<circle");
+                       attribute("cx", at.x);
+                       attribute("cy", at.y);
+                       attribute("r", 7.0);
+                       attribute("fill", palette::target.hex);
+                       attribute("fill-opacity", 0.18);
+                       attribute("stroke", palette::target.hex);
+                       attribute("stroke-width", 2.0);
+                       out_.put("/>");
+                     },
+                     "target, tolerance"});
+}
+
+// At the end, so that places which are still empty are no gaps.
+void Picture::add_what_may_come() {
+  const auto wanted = [this](bool shown) { return shown || options_.steady; };
+  if (wanted(old_edges_)) add_line(palette::old_tree, 2.5, " stroke-dasharray=\"6 4\"", "old tree", old_edges_);
+  if (wanted(broken_edges_)) add_line(palette::root, 3.0, " stroke-dasharray=\"2 3\"", "broken edge", broken_edges_);
+  const bool blocked = !links_.blocked.empty();
+  if (options_.blocked_links && wanted(blocked)) {
+    add_line(palette::blocked, 1.2, " stroke-dasharray=\"2 3\"", "no line of sight", blocked);
+  }
+  const auto dead = std::count_if(frame_.robots.begin(), frame_.robots.end(), [](const RobotFrame& r) { return !r.alive; });
+  if (!wanted(dead > 0)) return;
+  legend_.push_back({[this](Vec2 at) { robot_symbol(at, Role::spare, false, 5.5); }, "dead " + std::to_string(dead), dead > 0});
+}
+
+// In a film a count may get a digit more: nothing may jump then.
+double Picture::width_of(const LegendEntry& entry) const {
+  std::size_t letters = entry.words.size();
+  const std::size_t digits = std::to_string(frame_.robots.size()).size();
+  const std::size_t space = entry.words.find_last_not_of("0123456789");
+  if (options_.steady && space != std::string::npos && space + 1 < letters) letters = space + 1 + digits;
+  return 44.0 + 13.0 * em_per_letter * static_cast<double>(letters);
+}
+
+std::size_t Picture::legend_rows() const {
+  std::size_t rows = 1;
+  double x = margin_px;
+  for (const LegendEntry& entry : legend_) {
+    const double width = width_of(entry);
+    if (x > margin_px && x + width > width_ - margin_px + 14.0) {
+      x = margin_px;
+      ++rows;
+    }
+    x += width;
+  }
+  return rows;
+}
+
+void Picture::legend() {
+  if (!options_.legend) return;
+  const double rows_px = legend_row_px * static_cast<double>(legend_rows());
+  Vec2 at{margin_px, layout_.panel ? panel_legend_px + 11.0 : layout_.height - rows_px - 6.0 + 11.0};
+  for (const LegendEntry& entry : legend_) {
+    const double width = width_of(entry);
+    if (!layout_.panel && at.x > margin_px && at.x + width > width_ - margin_px + 14.0) {
+      at = {margin_px, at.y + legend_row_px};
+    }
+    if (entry.shown) {
+      entry.symbol(at + Vec2{12.0, 0.0});
+      text(at + Vec2{30.0, 4.5}, 13.0, entry.words, theme_.ink, {});
+    }
+    if (layout_.panel) at.y += legend_row_px;
+    else at.x += width;
   }
 }
 
 void Picture::scale_bar() {
-  const double length_m = nice_length(0.22 * (width_ - 2.0 * margin_px) / scale_);
-  const double right = width_ - margin_px;
-  const double y = title_px - 12.0;
-  const double length_px = length_m * scale_;
-  path(palette::tree, 1.6, [&] {
+  const double room_px = layout_.panel ? panel_px - 3.0 * margin_px : 0.22 * (width_ - 2.0 * margin_px);
+  const double length_m = nice_length(room_px / layout_.scale);
+  const double length_px = length_m * layout_.scale;
+  const double right = layout_.panel ? margin_px + length_px : width_ - margin_px;
+  const double y = layout_.panel ? layout_.height - margin_px : title_px - 12.0;
+  path(theme_.tree, 1.6, [&] {
     move_to({right - length_px, y - 4.0}, 'M');
     move_to({right - length_px, y + 4.0}, 'L');
     move_to({right - length_px, y}, 'M');
@@ -469,13 +649,23 @@ void Picture::scale_bar() {
   Text words;
   words.shortest(length_m);
   words.put(" m");
-  text({right - length_px / 2.0, y - 8.0}, 13.0, words.view(), " text-anchor=\"middle\"");
+  text({right - length_px / 2.0, y - 8.0}, 13.0, words.view(), theme_.ink, " text-anchor=\"middle\"");
 }
 
 std::string Picture::svg() {
-  Text body;
-  std::swap(body, out_);
-  title();
+  out_.put("<svg xmlns=\"http://www.w3.org/2000/svg\"");
+  attribute("width", width_);
+  attribute("height", layout_.height);
+  out_.put(" viewBox=\"0 0 ");
+  number(width_);
+  out_.put(' ');
+  number(layout_.height);
+  out_.put('"');
+  attribute("font-family", options_.font);
+  out_.put(">\n<rect width=\"100%\" height=\"100%\"");
+  attribute("fill", theme_.paper);
+  out_.put("/>\n");
+  layout_.panel ? panel_title() : title();
   scale_bar();
   obstacles();
   radio();
@@ -488,28 +678,56 @@ std::string Picture::svg() {
   trees();
   robots({Role::connector, Role::worker, Role::root});
   ids();
-  legend_at_ = {margin_px, map_bottom() + 4.0};
-  double height = map_bottom();
-  if (options_.legend) {
-    legend_entries();
-    height = legend_at_.y + 20.0;
-  }
-  std::swap(body, out_);
-  out_.put("<svg xmlns=\"http://www.w3.org/2000/svg\"");
-  attribute("width", width_);
-  attribute("height", height);
-  out_.put(" viewBox=\"0 0 ");
-  number(width_);
-  out_.put(' ');
-  number(height);
-  out_.put("\" font-family=\"Helvetica, Arial, sans-serif\">\n");
-  out_.put("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
-  out_.put(body.view());
+  legend();
   out_.put("</svg>\n");
   return std::string(out_.view());
 }
 
 }  // namespace
+
+View view_of(const Setting& setting, const Frame& frame) {
+  const Extent extent = extent_of(setting, frame, {});
+  return {extent.low, extent.high};
+}
+
+View joined(const View& a, const View& b) noexcept {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+void TrailLog::add(const Frame& frame) {
+  if (!(length_s_ > 0.0)) return;
+  if (!samples_.empty() && frame.time_s + 1e-9 < samples_.back().time_s + trail_step_s) return;
+  Sample sample{frame.time_s, {}};
+  for (const RobotFrame& robot : frame.robots) sample.positions.push_back(robot.position);
+  samples_.push_back(std::move(sample));
+  // One that is too old stays: the oldest end of a trail lies between it and the next.
+  while (samples_.size() > 2 && samples_[1].time_s < frame.time_s - length_s_) samples_.pop_front();
+}
+
+Trails TrailLog::trails(const Frame& end) const {
+  Trails trails(end.robots.size());
+  const auto add = [&](std::size_t i, Vec2 p) {
+    if (trails[i].empty() || !(trails[i].back() == p)) trails[i].push_back(p);
+  };
+  const double begin_s = end.time_s - length_s_;
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    const Sample& sample = samples_[k];
+    if (sample.time_s < begin_s && (k + 1 == samples_.size() || samples_[k + 1].time_s <= begin_s)) continue;
+    for (std::size_t i = 0; i < std::min(sample.positions.size(), trails.size()); ++i) {
+      Vec2 p = sample.positions[i];
+      if (sample.time_s < begin_s && i < samples_[k + 1].positions.size()) {
+        const double share = (begin_s - sample.time_s) / (samples_[k + 1].time_s - sample.time_s);
+        p += share * (samples_[k + 1].positions[i] - p);
+      }
+      add(i, p);
+    }
+  }
+  for (std::size_t i = 0; i < trails.size(); ++i) {
+    if (!trails[i].empty()) add(i, end.robots[i].position);
+  }
+  return trails;
+}
 
 std::string draw_svg(const Setting& setting, const Frame& frame, const Trails& trails, const DrawOptions& options) {
   return Picture(setting, frame, trails, options).svg();
@@ -517,23 +735,16 @@ std::string draw_svg(const Setting& setting, const Frame& frame, const Trails& t
 
 std::string draw_svg(Recording& recording, double time_s, const DrawOptions& options) {
   const Frame frame = recording.frame_at(time_s);
-  Trails trails(frame.robots.size());
-  double next_s = 0.0;
+  TrailLog log(options.trail_s);
   if (options.trail_s > 0.0) {
     recording.for_each(
         [&](const Frame& earlier) {
-          if (earlier.time_s + 1e-9 < next_s && earlier.tick != frame.tick) return true;
-          next_s = earlier.time_s + trail_step_s;
-          const std::size_t n = std::min(earlier.robots.size(), trails.size());
-          for (std::size_t i = 0; i < n; ++i) {
-            const Vec2 p = earlier.robots[i].position;
-            if (trails[i].empty() || !(trails[i].back() == p)) trails[i].push_back(p);
-          }
+          log.add(earlier);
           return true;
         },
         std::max(0.0, frame.time_s - options.trail_s), frame.time_s);
   }
-  return draw_svg(recording.setting(), frame, trails, options);
+  return draw_svg(recording.setting_at(frame.time_s), frame, log.trails(frame), options);
 }
 
 }  // namespace banyan::record

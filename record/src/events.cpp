@@ -3,6 +3,10 @@
 #include "events.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "banyan/world/obstacles.hpp"
+#include "text.hpp"
 
 namespace banyan::record {
 
@@ -10,6 +14,93 @@ namespace {
 
 std::string robot_name(std::int64_t robot) { return "robot " + std::to_string(robot); }
 std::string target_name(std::size_t target) { return "target T" + std::to_string(target); }
+
+std::string metres(double value) {
+  Text text;
+  text.fixed(value, 2);
+  text.put(" m");
+  return std::string(text.view());
+}
+
+std::string place(Vec2 p) {
+  Text text;
+  text.put('(');
+  text.fixed(p.x, 2);
+  text.put(", ");
+  text.fixed(p.y, 2);
+  text.put(") m");
+  return std::string(text.view());
+}
+
+Vec2 center_of(const world::Obstacle& obstacle) {
+  if (const auto* disc = std::get_if<world::Disc>(&obstacle)) return disc->center;
+  if (const auto* box = std::get_if<world::Box>(&obstacle)) return box->center;
+  const auto& wall = std::get<world::Wall>(obstacle);
+  return 0.5 * (wall.from + wall.to);
+}
+
+bool has_robot(const Frame& frame, std::int32_t i) {
+  return i >= 0 && static_cast<std::size_t>(i) < frame.robots.size();
+}
+
+// "a", "a and b", "a, b and 5 more".
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 4;
+  std::string text;
+  const std::size_t shown = names.size() > most ? most - 1 : names.size();
+  for (std::size_t k = 0; k < shown; ++k) {
+    text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
+  }
+  return shown == names.size() ? text : text + " and " + std::to_string(names.size() - shown) + " more";
+}
+
+// An edge of the tree without a radio link, and why; the observer counts the same.
+struct BrokenEdge {
+  std::int32_t robot = -1, to = -1;
+  bool old = false;
+  std::string why;
+};
+
+// Why robots in range of each other have no line of sight; "" if they have one.
+std::string hidden_by(const Setting& setting, const Frame& frame, std::int32_t i, std::int32_t j) {
+  const Vec2 a = frame.robots[static_cast<std::size_t>(i)].position;
+  const Vec2 b = frame.robots[static_cast<std::size_t>(j)].position;
+  const Vec2 middle = 0.5 * (a + b);
+  const double reach = 0.5 * distance(a, b) + setting.radius_m;
+  for (std::size_t k = 0; k < frame.robots.size(); ++k) {
+    const Vec2 p = frame.robots[k].position;
+    if (std::fabs(p.x - middle.x) > reach || std::fabs(p.y - middle.y) > reach) continue;
+    if (static_cast<std::int32_t>(k) == i || static_cast<std::int32_t>(k) == j) continue;
+    if (world::blocks(world::Disc{p, setting.radius_m}, a, b)) return "hidden by " + robot_name(static_cast<std::int64_t>(k));
+  }
+  for (std::size_t k = 0; k < setting.obstacles.size(); ++k) {
+    if (world::blocks(setting.obstacles[k], a, b)) return "hidden by obstacle " + std::to_string(k);
+  }
+  return "";
+}
+
+void judge_edge(const Setting& setting, const Frame& frame, std::size_t i, bool old, std::vector<BrokenEdge>& broken) {
+  const RobotFrame& robot = frame.robots[i];
+  const std::int32_t to = old ? robot.old_parent : robot.parent;
+  if (!has_robot(frame, to) || !frame.robots[static_cast<std::size_t>(to)].alive) return;
+  const double length = distance(robot.position, frame.robots[static_cast<std::size_t>(to)].position);
+  BrokenEdge edge{static_cast<std::int32_t>(i), to, old, ""};
+  if (!(length < setting.range_m)) edge.why = metres(length) + " apart, out of range";
+  else if (setting.line_of_sight) edge.why = hidden_by(setting, frame, edge.robot, to);
+  if (!edge.why.empty()) broken.push_back(std::move(edge));
+}
+
+// O(edges x robots): for the moments at which something has broken.
+std::vector<BrokenEdge> broken_edges(const Setting& setting, const Frame& frame) {
+  std::vector<BrokenEdge> broken;
+  for (std::size_t i = 0; i < frame.robots.size(); ++i) {
+    const RobotFrame& robot = frame.robots[i];
+    if (!robot.alive || robot.role == Role::spare) continue;
+    judge_edge(setting, frame, i, false, broken);
+    if (robot.old_parent != robot.parent) judge_edge(setting, frame, i, true, broken);
+  }
+  return broken;
+}
 
 }  // namespace
 
@@ -23,55 +114,148 @@ const std::vector<RecordedEvent>& EventWatcher::watch(const Setting& setting, co
   tick_ = frame.tick;
   time_s_ = frame.time_s;
   if (started_) {
+    watch_setting(setting);
     watch_robots(frame);
     watch_radio(tick);
+    watch_edges(setting, frame, tick);
   }
   watch_targets(setting, frame);
   started_ = true;
+  setting_ = setting;
   last_ = frame;
   last_tick_ = tick;
   return events_;
 }
 
+// What moves on and on is said once, when it begins.
+void EventWatcher::watch_setting(const Setting& setting) {
+  if (setting.line_of_sight != setting_.line_of_sight) {
+    add("line_of_sight", -1, -1, setting.line_of_sight ? "links need a line of sight from now on"
+                                                       : "links need no line of sight from now on");
+  }
+  drifting_.resize(setting.obstacles.size(), 0);
+  for (std::size_t k = 0; k < std::min(setting.obstacles.size(), setting_.obstacles.size()); ++k) {
+    const bool moved = !(setting.obstacles[k] == setting_.obstacles[k]);
+    if (moved && drifting_[k] == 0) {
+      add("obstacle_moved", -1, -1,
+          "obstacle " + std::to_string(k) + " has moved to " + place(center_of(setting.obstacles[k])));
+    }
+    drifting_[k] = moved ? 1 : 0;
+  }
+}
+
+void EventWatcher::watch_death(const Frame& frame, std::size_t i) {
+  const RobotFrame& before = last_.robots[i];
+  if (!before.alive || frame.robots[i].alive) return;
+  const auto robot = static_cast<std::int64_t>(i);
+  const auto children = std::count_if(last_.robots.begin(), last_.robots.end(), [&](const RobotFrame& r) {
+    return r.alive && r.role != Role::spare && r.parent == robot;
+  });
+  std::string text = robot_name(robot) + " died, " + (before.role == Role::root ? "the " : "a ") + std::string(name_of(before.role));
+  if (before.target >= 0) text += " of " + target_name(static_cast<std::size_t>(before.target));
+  if (children > 0) text += "; " + std::to_string(children) + (children == 1 ? " child hangs" : " children hang") + " on it";
+  add("death", robot, before.target, std::move(text));
+}
+
+// The token is offered to a neighbour in the tree; who takes it from elsewhere has elected itself.
+void EventWatcher::watch_root(const Frame& frame, std::size_t i) {
+  const RobotFrame& before = last_.robots[i];
+  const auto robot = static_cast<std::int64_t>(i);
+  if (frame.robots[i].role == Role::root && before.role != Role::root) {
+    std::int64_t earlier = -1;
+    for (std::size_t k = 0; k < last_.robots.size(); ++k) {
+      if (last_.robots[k].role != Role::root) continue;
+      const auto candidate = static_cast<std::int64_t>(k);
+      const bool neighbour = before.parent == candidate || before.old_parent == candidate;
+      if (earlier < 0 || neighbour) earlier = candidate;
+    }
+    std::string text = robot_name(robot);
+    if (earlier < 0) {
+      text += " is root; there was none";
+    } else if (!last_.robots[static_cast<std::size_t>(earlier)].alive) {
+      text += " is root in place of " + robot_name(earlier) + ", which is dead";
+    } else {
+      const bool handed = before.parent == earlier || before.old_parent == earlier;
+      text += handed ? " takes over the root from " + robot_name(earlier) : " is root beside " + robot_name(earlier);
+    }
+    add("root", robot, -1, std::move(text));
+  }
+  if (frame.robots[i].role != Role::root) return;
+  // Phases are gossip; the root enters them first.
+  const RobotFrame& now = frame.robots[i];
+  if (now.epoch != before.epoch) add("epoch", robot, -1, "epoch " + std::to_string(now.epoch) + " begins");
+  if (now.phase != before.phase) add("phase", robot, -1, "phase " + std::string(name_of(now.phase)));
+}
+
+// A spare that was let into an edge goes between the owner that it asked and the owner's parent.
+void EventWatcher::watch_recruit(const Frame& frame, std::size_t i) {
+  const RobotFrame& before = last_.robots[i];
+  const RobotFrame& now = frame.robots[i];
+  const auto robot = static_cast<std::int64_t>(i);
+  if (before.role == Role::spare && now.role == Role::connector) {
+    const bool asked = has_robot(frame, before.request) && now.request < 0 && has_robot(frame, now.parent);
+    if (asked && now.parent != before.request) {
+      add("inserted", robot, -1,
+          robot_name(robot) + " is inserted between " + robot_name(before.request) + " and " + robot_name(now.parent));
+    } else {
+      const auto child = std::find_if(frame.robots.begin(), frame.robots.end(), [&](const RobotFrame& r) {
+        return r.alive && r.role != Role::spare && r.parent == robot;
+      });
+      const std::string who = child == frame.robots.end() ? "somebody" : robot_name(child - frame.robots.begin());
+      add("recruited", robot, -1, robot_name(robot) + " is a connector: " + who + " hangs on it");
+    }
+  } else if (before.role != Role::worker && now.role == Role::worker && now.target < 0) {
+    add("worker", robot, -1, robot_name(robot) + " takes over the target of a worker that is lost");
+  } else if (before.role == Role::connector && now.role == Role::spare) {
+    add("released", robot, -1, robot_name(robot) + " is spare again");
+  }
+}
+
 void EventWatcher::watch_robots(const Frame& frame) {
   const std::size_t n = std::min(frame.robots.size(), last_.robots.size());
   for (std::size_t i = 0; i < n; ++i) {
-    const RobotFrame& before = last_.robots[i];
-    const RobotFrame& now = frame.robots[i];
-    const auto robot = static_cast<std::int64_t>(i);
-    if (before.alive && !now.alive) add("death", robot, -1, robot_name(robot) + " died");
-    if (!now.alive) continue;
-    if (now.role == Role::root && before.role != Role::root) add("root", robot, -1, robot_name(robot) + " is root");
-    if (now.role != Role::root) {
-      if (before.role == Role::spare && now.role == Role::connector) {
-        add("recruited", robot, -1, robot_name(robot) + " is a connector");
-      } else if (before.role == Role::connector && now.role == Role::spare) {
-        add("released", robot, -1, robot_name(robot) + " is spare");
-      }
-      continue;
-    }
-    // Phases are gossip; the root enters them first.
-    if (now.epoch != before.epoch) add("epoch", robot, -1, "epoch " + std::to_string(now.epoch) + " begins");
-    if (now.phase != before.phase) add("phase", robot, -1, "phase " + std::string(name_of(now.phase)));
+    watch_death(frame, i);
+    if (!frame.robots[i].alive) continue;
+    watch_root(frame, i);
+    watch_recruit(frame, i);
+  }
+}
+
+// Of a target that has moved: a new arrival is worth telling only once its worker had really lost it.
+void EventWatcher::watch_target(const Setting& setting, const Frame& frame, std::size_t k) {
+  constexpr double lost = 1.5;  // tolerances
+  const TargetFrame& target = frame.targets[k];
+  const bool moved = !(target.position == last_.targets[k].position);
+  if (moved && moving_[k] == 0) {
+    add("target_moved", target.worker, static_cast<std::int64_t>(k), target_name(k) + " has moved to " + place(target.position));
+  }
+  moving_[k] = moved ? 1 : 0;
+  if (!moved) return;
+  const bool far = !has_robot(frame, target.worker) ||
+                   !(distance(frame.robots[static_cast<std::size_t>(target.worker)].position, target.position) <=
+                     lost * setting.target_tolerance_m);
+  if (far) {
+    reached_[k] = 0;
+    complete_ = false;
   }
 }
 
 void EventWatcher::watch_targets(const Setting& setting, const Frame& frame) {
+  reached_.resize(frame.targets.size(), 0);
+  moving_.resize(frame.targets.size(), 0);
   for (std::size_t k = 0; k < frame.targets.size() && started_; ++k) {
-    const auto target = static_cast<std::int64_t>(k);
-    if (k >= last_.targets.size()) {
-      add("target_added", frame.targets[k].worker, target, target_name(k) + " is new");
-    } else if (!(frame.targets[k].position == last_.targets[k].position)) {
-      add("target_moved", frame.targets[k].worker, target, target_name(k) + " has moved");
-      reached_[k] = 0;
+    if (k < last_.targets.size()) {
+      watch_target(setting, frame, k);
+    } else {
+      add("target_added", frame.targets[k].worker, static_cast<std::int64_t>(k),
+          target_name(k) + " is new at " + place(frame.targets[k].position));
       complete_ = false;
     }
   }
-  reached_.resize(frame.targets.size(), 0);
   std::size_t held = 0;
   for (std::size_t k = 0; k < frame.targets.size(); ++k) {
     const TargetFrame& target = frame.targets[k];
-    if (target.worker < 0 || static_cast<std::size_t>(target.worker) >= frame.robots.size()) continue;
+    if (!has_robot(frame, target.worker)) continue;
     const RobotFrame& worker = frame.robots[static_cast<std::size_t>(target.worker)];
     if (!worker.alive || !(distance(worker.position, target.position) <= setting.target_tolerance_m)) continue;
     ++held;
@@ -88,15 +272,30 @@ void EventWatcher::watch_targets(const Setting& setting, const Frame& frame) {
 }
 
 void EventWatcher::watch_radio(const measure::Tick& tick) {
-  const auto broken = [](const measure::Tick& t) { return t.broken_by_distance + t.broken_by_occlusion; };
   if (tick.components > 1 && last_tick_.components <= 1) {
     add("split", -1, -1, "the radio graph is in " + std::to_string(tick.components) + " parts");
   }
   if (tick.components <= 1 && last_tick_.components > 1) add("joined", -1, -1, "the radio graph is in one piece");
-  if (broken(tick) > 0 && broken(last_tick_) == 0) {
-    add("edges_broken", -1, -1, std::to_string(broken(tick)) + " tree edges are broken");
+}
+
+void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const measure::Tick& tick) {
+  const auto broken = [](const measure::Tick& t) { return t.broken_by_distance + t.broken_by_occlusion; };
+  if (broken(tick) == 0 && broken(last_tick_) > 0) add("edges_whole", -1, -1, "no tree edge is broken any more");
+  if (broken(tick) == 0 || broken(last_tick_) > 0) return;
+  const auto edges = broken_edges(setting, frame);
+  if (edges.size() == 1) {
+    const BrokenEdge& edge = edges.front();
+    add("edges_broken", edge.robot, -1,
+        "the edge from " + robot_name(edge.robot) + " to its " + (edge.old ? "old parent, " : "parent, ") + robot_name(edge.to) + ", is broken: " + edge.why);
+    return;
   }
-  if (broken(tick) == 0 && broken(last_tick_) > 0) add("edges_whole", -1, -1, "no tree edge is broken");
+  std::string text = std::to_string(broken(tick)) + (broken(tick) == 1 ? " tree edge is broken" : " tree edges are broken");
+  if (tick.broken_by_distance > 0) text += ", " + std::to_string(tick.broken_by_distance) + " out of range";
+  if (tick.broken_by_occlusion > 0) text += ", " + std::to_string(tick.broken_by_occlusion) + " hidden";
+  std::vector<std::string> names;
+  for (const BrokenEdge& edge : edges) names.push_back(std::to_string(edge.robot));
+  if (!names.empty()) text += ": of the robots " + listed(names);
+  add("edges_broken", edges.empty() ? -1 : edges.front().robot, -1, std::move(text));
 }
 
 }  // namespace banyan::record

@@ -17,15 +17,24 @@ class EventWatcher {
   const std::vector<RecordedEvent>& watch(const Setting& setting, const Frame& frame, const measure::Tick& tick);
 
  private:
+  void watch_setting(const Setting& setting);
   void watch_robots(const Frame& frame);
+  void watch_death(const Frame& frame, std::size_t i);
+  void watch_root(const Frame& frame, std::size_t i);
+  void watch_recruit(const Frame& frame, std::size_t i);
   void watch_targets(const Setting& setting, const Frame& frame);
+  void watch_target(const Setting& setting, const Frame& frame, std::size_t k);
   void watch_radio(const measure::Tick& tick);
+  void watch_edges(const Setting& setting, const Frame& frame, const measure::Tick& tick);
   void add(std::string_view kind, std::int64_t robot, std::int64_t target, std::string text);
 
   bool started_ = false;
+  Setting setting_;
   Frame last_;
   measure::Tick last_tick_;
   std::vector<std::uint8_t> reached_;   // per target
+  std::vector<std::uint8_t> moving_;    // per target: it has moved since the last frame
+  std::vector<std::uint8_t> drifting_;  // the same per obstacle
   bool complete_ = false;
   std::vector<RecordedEvent> events_;
   double time_s_ = 0.0;

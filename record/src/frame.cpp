@@ -3,6 +3,8 @@
 #include "banyan/record/frame.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "banyan/controller/trig.hpp"
@@ -77,6 +79,25 @@ void capture(const world::World& world, Frame& frame) {
     if (worker >= 0) frame.robots[target.worker].target = static_cast<std::int32_t>(frame.targets.size());
     frame.targets.push_back({target.position, worker});
   }
+}
+
+Frame between(const Frame& a, const Frame& b, double time_s) {
+  if (!(time_s > a.time_s)) return a;
+  if (!(time_s < b.time_s)) return b;
+  const double share = (time_s - a.time_s) / (b.time_s - a.time_s);
+  const auto on_line = [share](Vec2 from, Vec2 to) { return from + share * (to - from); };
+  Frame frame = a;
+  frame.time_s = time_s;
+  for (std::size_t i = 0; i < std::min(a.robots.size(), b.robots.size()); ++i) {
+    RobotFrame& robot = frame.robots[i];
+    robot.position = on_line(a.robots[i].position, b.robots[i].position);
+    const double turn = std::remainder(b.robots[i].heading_rad - robot.heading_rad, 2.0 * std::numbers::pi);
+    robot.heading_rad = std::remainder(robot.heading_rad + share * turn, 2.0 * std::numbers::pi);
+  }
+  for (std::size_t k = 0; k < std::min(a.targets.size(), b.targets.size()); ++k) {
+    frame.targets[k].position = on_line(a.targets[k].position, b.targets[k].position);
+  }
+  return frame;
 }
 
 Setting setting_of(const world::World& world) {

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "cell.hpp"
+#include "message_json.hpp"
 
 namespace banyan::record {
 
@@ -259,6 +260,18 @@ void write_frame(Text& out, const Frame& frame) {
   out.put('}');
 }
 
+void write_messages(Text& out, std::uint64_t tick, double time_s, std::span<const Message> messages) {
+  write_stamp(out, tick, time_s);
+  for (const MessageField& field : message_fields()) {
+    if (field.kept != MessageField::Kept::in_messages) continue;
+    array(out, field.name, messages, [&](const Message& message) {
+      const double value = field.get(message);
+      field.decimals == 0 ? write_whole(out, value) : out.fixed(value, field.decimals);
+    });
+  }
+  out.put('}');
+}
+
 void read_frame(std::string_view text, Frame& frame) {
   const json object = parse_object(text);
   frame.tick = count_of(object, "tick");
@@ -441,6 +454,19 @@ std::string frame_schema() {
   return std::string(out.view());
 }
 
+std::string messages_schema() {
+  Text out;
+  schema_head(out, "banyan.Messages",
+              "What each robot broadcast last: arrays with one number per robot, in the order of their indices. "
+              "What /banyan/frame says at the same time is not repeated");
+  for (const MessageField& field : message_fields()) {
+    if (field.kept != MessageField::Kept::in_messages) continue;
+    schema_array(out, field.name, field.decimals == 0 ? "integer" : "number", field.meaning);
+  }
+  out.put("}}");
+  return std::string(out.view());
+}
+
 std::string targets_schema() {
   Text out;
   schema_head(out, "banyan.Targets", "All targets; written at the start and whenever one changes");
@@ -478,10 +504,28 @@ std::string metrics_schema() {
   return std::string(out.view());
 }
 
+std::string setting_schema() {
+  Text out;
+  out.put("{\"title\":\"banyan.Setting\",\"description\":\"What a picture needs beside a frame; written at the start "
+          "and whenever it changes\",\"type\":\"object\",\"properties\":{\"name\":{\"type\":\"string\"}");
+  schema_property(out, "algorithm", "string", "by its name in `banyan algorithms`");
+  schema_property(out, "reading", "string", "literal or corrected");
+  schema_property(out, "seed", "integer", "of the run");
+  schema_property(out, "tick_s", "number", "length of a tick");
+  schema_property(out, "radius_m", "number", "of a robot");
+  schema_property(out, "range_m", "number", "of the radio");
+  schema_property(out, "line_of_sight", "boolean", "whether a link needs one");
+  schema_property(out, "target_tolerance_m", "number", "distance at which a target is reached");
+  schema_property(out, "time_limit_s", "number", "of the mission");
+  schema_array(out, "obstacles", "object", "discs, boxes and walls");
+  out.put("}}");
+  return std::string(out.view());
+}
+
 std::string event_schema() {
   Text out;
   schema_head(out, "banyan.Event", "Something that happened between two ticks");
-  schema_property(out, "kind", "string", "death, root, epoch, phase, arrival, complete, split, joined, ...");
+  schema_property(out, "kind", "string", "death, root, inserted, edges_broken, arrival, complete, ...");
   schema_property(out, "robot", "integer", "the robot it is about, -1: none");
   schema_property(out, "target", "integer", "the target it is about, -1: none");
   schema_property(out, "text", "string", "in words");

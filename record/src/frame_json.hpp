@@ -3,6 +3,7 @@
 // every kind of broken input. One table of fields serves writing, reading and the schema.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,8 @@
 namespace banyan::record {
 
 void write_frame(Text& out, const Frame& frame);            // without the targets
+// An array per field of message_fields() that is kept in messages, a number per robot.
+void write_messages(Text& out, std::uint64_t tick, double time_s, std::span<const Message> messages);
 void write_targets(Text& out, const Frame& frame);
 void write_metrics(Text& out, const measure::Tick& tick);
 void write_event(Text& out, const RecordedEvent& event);
@@ -29,9 +32,11 @@ void read_frame(std::string_view text, Frame& frame);
 
 // JSON Schemas of the above.
 [[nodiscard]] std::string frame_schema();
+[[nodiscard]] std::string messages_schema();
 [[nodiscard]] std::string targets_schema();
 [[nodiscard]] std::string metrics_schema();
 [[nodiscard]] std::string event_schema();
+[[nodiscard]] std::string setting_schema();
 
 // "sec" and "nsec" of a moment, as Foxglove writes times.
 void write_time(Text& out, double time_s);

@@ -39,6 +39,13 @@ struct ChunkEntry {
   std::uint64_t compressed = 0, uncompressed = 0;
 };
 
+// A chunk that is being filled.
+struct OpenChunk {
+  std::string records;
+  Nanoseconds start = 0, end = 0;
+  std::map<std::uint16_t, std::vector<std::pair<Nanoseconds, std::uint64_t>>> index;  // per channel: time, offset
+};
+
 struct MetadataEntry {
   std::uint64_t offset = 0, length = 0;
   std::string name;
@@ -110,9 +117,8 @@ struct Writer::Impl {
   bool any_message = false;
   Nanoseconds first = 0, last = 0;
 
-  std::string chunk;                      // records of the open chunk
-  Nanoseconds chunk_start = 0, chunk_end = 0;
-  std::vector<std::vector<std::pair<Nanoseconds, std::uint64_t>>> index;  // per channel, of the open chunk
+  std::map<ChunkGroup, OpenChunk> open;
+  std::vector<OpenChunk*> chunk_of;       // per channel; nodes of a map stay where they are
   std::string compressed, scratch;
 
   Impl(OutputFile& output, WriterOptions wanted) : file(output), options(std::move(wanted)), zstd(ZSTD_createCCtx()) {
@@ -126,8 +132,9 @@ struct Writer::Impl {
     data_crc = crc32(bytes, data_crc);
     file.write(bytes);
   }
-  std::string_view compress();
-  void write_index(ChunkEntry& entry);
+  std::string_view compress(std::string_view records);
+  void end(OpenChunk& chunk);
+  void write_index(OpenChunk& chunk, ChunkEntry& entry);
   [[nodiscard]] std::string summary(std::uint64_t start) const;
 };
 
@@ -155,12 +162,12 @@ std::uint16_t Writer::add_schema(std::string name, std::string encoding, std::st
 }
 
 std::uint16_t Writer::add_channel(std::uint16_t schema_id, std::string topic, std::string message_encoding,
-                                  Map metadata) {
+                                  Map metadata, ChunkGroup group) {
   Impl& w = *impl_;
   const auto id = static_cast<std::uint16_t>(w.channels.size());
   w.channels.push_back({id, schema_id, std::move(topic), std::move(message_encoding), std::move(metadata)});
   w.sequences.push_back(0);
-  w.index.emplace_back();
+  w.chunk_of.push_back(&w.open[group]);
   w.scratch.clear();
   put_channel(w.scratch, w.channels.back());
   w.data(w.scratch);
@@ -169,81 +176,84 @@ std::uint16_t Writer::add_channel(std::uint16_t schema_id, std::string topic, st
 
 void Writer::message(std::uint16_t channel_id, Nanoseconds time, std::string_view data) {
   Impl& w = *impl_;
-  if (w.chunk.empty()) w.chunk_start = w.chunk_end = time;
-  w.chunk_start = std::min(w.chunk_start, time);
-  w.chunk_end = std::max(w.chunk_end, time);
+  OpenChunk& chunk = *w.chunk_of.at(channel_id);
+  if (chunk.records.empty()) chunk.start = chunk.end = time;
+  chunk.start = std::min(chunk.start, time);
+  chunk.end = std::max(chunk.end, time);
   w.first = w.any_message ? std::min(w.first, time) : time;
   w.last = w.any_message ? std::max(w.last, time) : time;
   w.any_message = true;
-  w.index.at(channel_id).emplace_back(time, w.chunk.size());
+  chunk.index[channel_id].emplace_back(time, chunk.records.size());
   {
-    const RecordScope record(w.chunk, Op::message);
-    put(w.chunk, channel_id);
-    put(w.chunk, w.sequences[channel_id]++);
-    put(w.chunk, time);
-    put(w.chunk, time);
-    w.chunk.append(data);
+    const RecordScope record(chunk.records, Op::message);
+    put(chunk.records, channel_id);
+    put(chunk.records, w.sequences[channel_id]++);
+    put(chunk.records, time);
+    put(chunk.records, time);
+    chunk.records.append(data);
   }
-  if (w.chunk.size() >= w.options.chunk_bytes) end_chunk();
+  if (chunk.records.size() >= w.options.chunk_bytes) w.end(chunk);
 }
 
-std::string_view Writer::Impl::compress() {
-  if (options.compression_level == 0) return chunk;
-  compressed.resize(ZSTD_compressBound(chunk.size()));
-  const std::size_t size = ZSTD_compressCCtx(zstd, compressed.data(), compressed.size(), chunk.data(), chunk.size(),
-                                             options.compression_level);
+std::string_view Writer::Impl::compress(std::string_view records) {
+  if (options.compression_level == 0) return records;
+  compressed.resize(ZSTD_compressBound(records.size()));
+  const std::size_t size = ZSTD_compressCCtx(zstd, compressed.data(), compressed.size(), records.data(),
+                                             records.size(), options.compression_level);
   if (ZSTD_isError(size) != 0) throw FileError(file.path(), std::string("cannot compress: ") + ZSTD_getErrorName(size));
   return {compressed.data(), size};
 }
 
-void Writer::end_chunk() {
-  Impl& w = *impl_;
-  if (w.chunk.empty()) return;
-  const std::string_view stored = w.compress();
-  ChunkEntry entry;
-  entry.start = w.chunk_start;
-  entry.end = w.chunk_end;
-  entry.offset = w.file.position();
-  entry.compressed = stored.size();
-  entry.uncompressed = w.chunk.size();
-  w.scratch.clear();
-  {
-    const RecordScope record(w.scratch, Op::chunk);
-    put(w.scratch, entry.start);
-    put(w.scratch, entry.end);
-    put(w.scratch, entry.uncompressed);
-    put(w.scratch, crc32(w.chunk));
-    put_string(w.scratch, w.options.compression_level == 0 ? "" : "zstd");
-    put(w.scratch, entry.compressed);
-    w.scratch.append(stored);
-  }
-  entry.length = w.scratch.size();
-  w.chunk.clear();
-  w.data(w.scratch);
-  w.write_index(entry);
-  w.chunks.push_back(std::move(entry));
-  w.file.flush();
+void Writer::end_chunks() {
+  for (auto& [group, chunk] : impl_->open) impl_->end(chunk);
 }
 
-void Writer::Impl::write_index(ChunkEntry& entry) {
+void Writer::Impl::end(OpenChunk& chunk) {
+  if (chunk.records.empty()) return;
+  const std::string_view stored = compress(chunk.records);
+  ChunkEntry entry;
+  entry.start = chunk.start;
+  entry.end = chunk.end;
+  entry.offset = file.position();
+  entry.compressed = stored.size();
+  entry.uncompressed = chunk.records.size();
+  scratch.clear();
+  {
+    const RecordScope record(scratch, Op::chunk);
+    put(scratch, entry.start);
+    put(scratch, entry.end);
+    put(scratch, entry.uncompressed);
+    put(scratch, crc32(chunk.records));
+    put_string(scratch, options.compression_level == 0 ? "" : "zstd");
+    put(scratch, entry.compressed);
+    scratch.append(stored);
+  }
+  entry.length = scratch.size();
+  chunk.records.clear();
+  data(scratch);
+  write_index(chunk, entry);
+  chunks.push_back(std::move(entry));
+  file.flush();
+}
+
+void Writer::Impl::write_index(OpenChunk& chunk, ChunkEntry& entry) {
   const std::uint64_t begin = file.position();
-  for (std::size_t id = 0; id < index.size(); ++id) {
-    if (index[id].empty()) continue;
-    std::stable_sort(index[id].begin(), index[id].end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    entry.index_offsets.emplace(static_cast<std::uint16_t>(id), file.position());
+  for (auto& [id, places] : chunk.index) {
+    if (places.empty()) continue;
+    std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    entry.index_offsets.emplace(id, file.position());
     scratch.clear();
     {
       const RecordScope record(scratch, Op::message_index);
-      put(scratch, static_cast<std::uint16_t>(id));
+      put(scratch, id);
       const LengthScope length(scratch);
-      for (const auto& [time, offset] : index[id]) {
+      for (const auto& [time, offset] : places) {
         put(scratch, time);
         put(scratch, offset);
       }
     }
     data(scratch);
-    index[id].clear();
+    places.clear();
   }
   entry.index_length = file.position() - begin;
 }
@@ -363,7 +373,7 @@ std::string Writer::Impl::summary(std::uint64_t start) const {
 
 void Writer::finish() {
   Impl& w = *impl_;
-  end_chunk();
+  end_chunks();
   w.scratch.clear();
   {
     const RecordScope record(w.scratch, Op::data_end);

@@ -17,6 +17,8 @@ namespace banyan::record {
 namespace {
 
 constexpr double chunk_span_s = 10.0;      // what a crash may cost at most
+// Plots and lists are to be read without unpacking what every robot did at every tick.
+constexpr mcap::ChunkGroup large = 0, small = 1;
 constexpr double scene_full_rate = 1000;   // robots; above, scenes come in proportion less often
 
 mcap::WriterOptions writer_options(const Provenance& provenance, const RecorderOptions& options) {
@@ -34,22 +36,24 @@ struct Recorder::Impl {
   Provenance provenance;
   OutputFile file;
   mcap::Writer mcap;
-  std::uint16_t frames = 0, targets = 0, metrics = 0, events = 0, scene = 0, log = 0;  // channels
+  std::uint16_t frames = 0, messages = 0, scene = 0;                          // channels: large ones,
+  std::uint16_t targets = 0, metrics = 0, events = 0, log = 0, settings = 0;  // small ones
   Text text;
   EventWatcher watcher;
   Setting setting;
   Frame now;
   bool started = false, frame_written = false, finished = false;
   double last_chunk_s = 0.0, next_scene_s = 0.0;
+  std::vector<Message> last_messages;        // of now's world; empty: none
   std::vector<TargetFrame> last_targets;
 
   void add_channels();
-  void begin(const Setting& from);
+  void look_at(const Setting& current);
   void put(std::uint16_t channel) {
     mcap.message(channel, nanoseconds(now.time_s), text.view());
     text.clear();
   }
-  void record(const measure::Tick& tick);
+  void record(const Setting& current, const measure::Tick& tick);
   void put_frame();
   void put_event(const RecordedEvent& event);
   void put_scene();
@@ -57,30 +61,37 @@ struct Recorder::Impl {
 };
 
 void Recorder::Impl::add_channels() {
-  const auto add = [&](std::string topic, std::string schema, std::string_view schema_data) {
+  const auto add = [&](std::string topic, std::string schema, std::string_view schema_data, mcap::ChunkGroup group) {
     const auto id = mcap.add_schema(std::move(schema), "jsonschema", std::string(schema_data));
-    return mcap.add_channel(id, std::move(topic), "json");
+    return mcap.add_channel(id, std::move(topic), "json", {}, group);
   };
-  frames = add("/banyan/frame", "banyan.Frame", frame_schema());
-  targets = add("/banyan/targets", "banyan.Targets", targets_schema());
-  metrics = add("/banyan/metrics", "banyan.Metrics", metrics_schema());
-  events = add("/banyan/events", "banyan.Event", event_schema());
-  log = add("/log", "foxglove.Log", log_schema);
-  if (options.scene_period_s > 0.0) scene = add("/scene", "foxglove.SceneUpdate", scene_update_schema);
+  frames = add("/banyan/frame", "banyan.Frame", frame_schema(), large);
+  if (options.messages) messages = add("/banyan/messages", "banyan.Messages", messages_schema(), large);
+  settings = add("/banyan/setting", "banyan.Setting", setting_schema(), small);
+  targets = add("/banyan/targets", "banyan.Targets", targets_schema(), small);
+  metrics = add("/banyan/metrics", "banyan.Metrics", metrics_schema(), small);
+  events = add("/banyan/events", "banyan.Event", event_schema(), small);
+  log = add("/log", "foxglove.Log", log_schema, small);
+  if (options.scene_period_s > 0.0) scene = add("/scene", "foxglove.SceneUpdate", scene_update_schema, large);
 }
 
-void Recorder::Impl::begin(const Setting& from) {
-  setting = from;
+void Recorder::Impl::look_at(const Setting& current) {
+  if (started && current == setting) return;
+  setting = current;
   text.clear();
   write_setting(text, setting);
-  mcap.metadata({"banyan.setting", {{"json", std::string(text.view())}}});
-  text.clear();
+  if (!started) mcap.metadata({"banyan.setting", {{"json", std::string(text.view())}}});
+  put(settings);
   started = true;
 }
 
 void Recorder::Impl::put_frame() {
   write_frame(text, now);
   put(frames);
+  if (!last_messages.empty()) {
+    write_messages(text, now.tick, now.time_s, last_messages);
+    put(messages);
+  }
   frame_written = true;
 }
 
@@ -98,11 +109,12 @@ void Recorder::Impl::put_scene() {
   next_scene_s = now.time_s + options.scene_period_s * stretch - 0.5 * setting.tick_s;
 }
 
-void Recorder::Impl::record(const measure::Tick& tick) {
+void Recorder::Impl::record(const Setting& current, const measure::Tick& tick) {
   if (now.time_s >= last_chunk_s + chunk_span_s) {
-    mcap.end_chunk();
+    mcap.end_chunks();
     last_chunk_s = now.time_s;
   }
+  look_at(current);
   const bool first = !frame_written && last_targets.empty();
   if (first || now.targets != last_targets) {
     write_targets(text, now);
@@ -148,7 +160,7 @@ Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 Recorder::~Recorder() {
   if (!impl_ || impl_->finished) return;
   try {
-    impl_->mcap.end_chunk();   // what there is can be read back by scanning
+    impl_->mcap.end_chunks();   // what there is can be read back by scanning
     impl_->file.flush();
   } catch (const std::exception&) {
     // Whoever threw away an unfinished recorder has been told by another exception.
@@ -157,16 +169,16 @@ Recorder::~Recorder() {
 
 void Recorder::frame(const world::World& world, const measure::Tick& tick) {
   Impl& r = *impl_;
-  if (!r.started) r.begin(setting_of(world));
   capture(world, r.now);
-  r.record(tick);
+  if (r.options.messages) r.last_messages.assign(world.messages().begin(), world.messages().end());
+  r.record(setting_of(world), tick);
 }
 
 void Recorder::frame(const Setting& setting, const Frame& frame, const measure::Tick& tick) {
   Impl& r = *impl_;
-  if (!r.started) r.begin(setting);
   r.now = frame;
-  r.record(tick);
+  r.last_messages.clear();
+  r.record(setting, tick);
 }
 
 void Recorder::event(std::string_view kind, std::string_view text) {

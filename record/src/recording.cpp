@@ -21,6 +21,7 @@ struct Recording::Impl {
   std::map<std::string, std::string> result;
   double start_s = 0.0, end_s = 0.0;
   std::vector<std::pair<mcap::Nanoseconds, std::vector<TargetFrame>>> targets;  // by time
+  std::vector<std::pair<mcap::Nanoseconds, Setting>> settings;                  // by time
   std::vector<std::string> own_warnings;
   mutable std::vector<std::string> warnings; // the reader's and ours
 
@@ -30,6 +31,7 @@ struct Recording::Impl {
   }
   void read_provenance(const mcap::Map& entries);
   void read_all_metadata();
+  void read_all_settings();
   void read_all_targets();
   void read_time_range();
   [[nodiscard]] std::vector<TargetFrame> targets_at(mcap::Nanoseconds time) const;
@@ -69,6 +71,20 @@ void Recording::Impl::read_all_metadata() {
   }
   if (!provenance_found) warn("it does not say where it comes from (no banyan.provenance)");
   if (!setting_found) warn("it does not say robot radius and radio range (no banyan.setting); defaults are assumed");
+}
+
+// Recordings made before there was such a channel have the one of the metadata.
+void Recording::Impl::read_all_settings() {
+  const mcap::Channel* channel = reader.find_channel("/banyan/setting");
+  if (channel == nullptr) return;
+  reader.messages(channel->id, [&](const mcap::Message& message) {
+    try {
+      settings.emplace_back(message.log_time, read_setting(message.data));
+    } catch (const std::runtime_error& problem) {
+      warn(std::string("setting: ") + problem.what());
+    }
+    return true;
+  });
 }
 
 void Recording::Impl::read_all_targets() {
@@ -126,6 +142,7 @@ Recording::Recording(const std::string& path) : impl_(std::make_unique<Impl>(pat
   }
   r.frames = channel->id;
   r.read_all_metadata();
+  r.read_all_settings();
   r.read_all_targets();
   r.read_time_range();
 }
@@ -137,6 +154,13 @@ Recording::~Recording() = default;
 const std::string& Recording::path() const noexcept { return impl_->reader.path(); }
 const Provenance& Recording::provenance() const noexcept { return impl_->provenance; }
 const Setting& Recording::setting() const noexcept { return impl_->setting; }
+const Setting& Recording::setting_at(double time_s) const noexcept {
+  const auto& settings = impl_->settings;
+  const auto after = std::upper_bound(settings.begin(), settings.end(), nanoseconds(time_s),
+                                      [](mcap::Nanoseconds t, const auto& entry) { return t < entry.first; });
+  return after == settings.begin() ? impl_->setting : std::prev(after)->second;
+}
+
 const std::map<std::string, std::string>& Recording::result() const noexcept { return impl_->result; }
 std::size_t Recording::frames() const noexcept { return impl_->reader.message_count(impl_->frames); }
 double Recording::start_s() const noexcept { return impl_->start_s; }

@@ -76,6 +76,97 @@ TEST(Draw, EmptyExtremeAndBrokenFramesGiveAPicture) {
   EXPECT_TRUE(well_formed(draw_svg(setting, frame)));
 }
 
+// The number after `name="` in an SVG.
+double attribute(std::string_view svg, const std::string& name) {
+  const std::size_t at = svg.find(" " + name + "=\"");
+  return at == std::string_view::npos ? -1.0 : std::stod(std::string(svg.substr(at + name.size() + 3, 20)));
+}
+
+TEST(Draw, APictureOfGivenSizeIsThatSizeWhateverItsShape) {
+  const Setting setting = test::sample_setting();
+  const Frame frame = test::sample_frame(94, 3.0, 300);
+  DrawOptions options;
+  options.steady = true;
+  for (const auto& [width, height] : {std::pair{1280.0, 720.0}, {640.0, 400.0}, {300.0, 900.0}, {200.0, 150.0}}) {
+    options.width_px = width;
+    options.height_px = height;
+    const std::string svg = draw_svg(setting, frame, {}, options);
+    EXPECT_TRUE(well_formed(svg));
+    EXPECT_EQ(attribute(svg, "width"), width);
+    EXPECT_EQ(attribute(svg, "height"), height);
+  }
+}
+
+// In a film only the world moves: the same view puts a target at the same place, whoever has gone where.
+TEST(Draw, AGivenViewStandsStill) {
+  const Setting setting = test::sample_setting();
+  Frame frame = test::sample_frame(30, 3.0, 300);
+  DrawOptions options;
+  options.height_px = 720.0;
+  options.steady = true;
+  options.view = View{{-6.0, -6.0}, {6.0, 6.0}};
+  const auto place = [](const std::string& svg, const std::string& what) {
+    const std::size_t end = svg.find(what);
+    return svg.substr(svg.rfind("<text", end), end - svg.rfind("<text", end));
+  };
+  const std::string before = draw_svg(setting, frame, {}, options);
+  for (RobotFrame& robot : frame.robots) robot.position = 1.5 * robot.position;
+  frame.robots[4].alive = false;
+  frame.robots[5].old_parent = 2;
+  const std::string after = draw_svg(setting, frame, {}, options);
+  for (const char* what : {">T0<", ">T1<", ">radio link<", ">target, tolerance<"}) EXPECT_EQ(place(before, what), place(after, what)) << what;
+  EXPECT_NE(after.find(">dead 2<"), std::string::npos);
+  options.view.reset();
+  EXPECT_NE(place(draw_svg(setting, frame, {}, options), ">T0<"), place(after, ">T0<"));
+}
+
+TEST(Draw, ViewsHoldEverythingAndJoin) {
+  Setting setting = test::sample_setting();
+  setting.obstacles.clear();
+  Frame frame;
+  const View nothing = view_of(setting, frame);
+  EXPECT_EQ(nothing.high - nothing.low, (Vec2{2.0, 2.0}));
+  frame.robots.resize(2);
+  frame.robots[1].position = {5.0, -3.0};
+  const View two = view_of(setting, frame);
+  EXPECT_DOUBLE_EQ(two.high.x, 5.0 + setting.radius_m);
+  EXPECT_DOUBLE_EQ(two.low.y, -3.0 - setting.radius_m);
+  const View all = joined({{0.0, 0.0}, {1.0, 1.0}}, {{-1.0, 0.5}, {0.5, 4.0}});
+  EXPECT_EQ(all.low, (Vec2{-1.0, 0.0}));
+  EXPECT_EQ(all.high, (Vec2{1.0, 4.0}));
+}
+
+TEST(Draw, DarkHasNoWhitePaperAndNoBlackInk) {
+  DrawOptions options;
+  options.dark = true;
+  const std::string svg = draw_svg(test::sample_setting(), test::sample_frame(30, 3.0, 300), {}, options);
+  EXPECT_TRUE(well_formed(svg));
+  EXPECT_EQ(svg.find("height=\"100%\" fill=\"#ffffff\""), std::string::npos);
+  EXPECT_EQ(svg.find("fill=\"#000000\""), std::string::npos);
+  EXPECT_NE(svg.find(color_of(Role::worker).hex), std::string::npos);   // roles keep their colours
+}
+
+TEST(TrailLog, EndsAtTheRobotAndIsAsLongAsWanted) {
+  TrailLog log(2.0);
+  Frame frame;
+  frame.robots.resize(2);
+  for (int t = 0; t <= 100; ++t) {
+    frame.time_s = 0.1 * t;
+    frame.robots[0].position = {frame.time_s, 0.0};   // 1 m/s; robot 1 stands
+    log.add(frame);
+  }
+  const Trails trails = log.trails(frame);
+  ASSERT_EQ(trails.size(), 2U);
+  EXPECT_NEAR(trails[0].front().x, 8.0, 1e-9);
+  EXPECT_EQ(trails[0].back(), frame.robots[0].position);
+  EXPECT_LE(trails[0].size(), 6U);
+  EXPECT_EQ(trails[1].size(), 1U);
+  frame.time_s = 10.25;                               // between samples: the old end moves on too
+  frame.robots[0].position = {10.25, 0.0};
+  EXPECT_NEAR(log.trails(frame)[0].front().x, 8.25, 1e-9);
+  EXPECT_TRUE(TrailLog(0.0).trails(frame)[0].empty());
+}
+
 TEST(Draw, LinksAgreeWithBruteForce) {
   Setting setting = test::sample_setting();
   for (std::uint64_t round = 0; round < 20; ++round) {

@@ -26,6 +26,36 @@ world::Scenario scenario(std::size_t robots, bool line_of_sight) {
   return s;
 }
 
+TEST(Between, PositionsOnALineAndHeadingsByTheShorterWay) {
+  Frame a = test::sample_frame(3, 1.0, 10);
+  Frame b = a;
+  b.time_s += 0.4;
+  ++b.tick;
+  a.robots[0].position = {1.0, -1.0};
+  b.robots[0].position = {2.0, 1.0};
+  a.robots[0].heading_rad = 3.0;
+  b.robots[0].heading_rad = -3.0;
+  a.robots[1].heading_rad = 0.2;
+  b.robots[1].heading_rad = -0.2;
+  b.robots[1].role = Role::root;
+  b.targets[0].position = a.targets[0].position + Vec2{0.4, 0.0};
+  b.targets.push_back({});
+  const Frame middle = between(a, b, a.time_s + 0.1);
+  EXPECT_EQ(middle.tick, a.tick);
+  EXPECT_DOUBLE_EQ(middle.time_s, a.time_s + 0.1);
+  EXPECT_LT(distance(middle.robots[0].position, {1.25, -0.5}), 1e-12);
+  EXPECT_NEAR(middle.robots[0].heading_rad, 3.0 + 0.25 * (2.0 * 3.14159265358979 - 6.0), 1e-9);
+  EXPECT_NEAR(middle.robots[1].heading_rad, 0.1, 1e-12);
+  EXPECT_EQ(middle.robots[1].role, a.robots[1].role);
+  EXPECT_EQ(middle.targets.size(), a.targets.size());
+  EXPECT_LT(distance(middle.targets[0].position, a.targets[0].position + Vec2{0.1, 0.0}), 1e-12);
+  EXPECT_NEAR(between(a, b, a.time_s + 0.3).robots[0].heading_rad, -3.0 - 0.25 * (2.0 * 3.14159265358979 - 6.0), 1e-9);
+  EXPECT_TRUE(between(a, b, a.time_s) == a);
+  EXPECT_TRUE(between(a, b, 0.0) == a);
+  EXPECT_TRUE(between(a, b, b.time_s) == b);
+  EXPECT_TRUE(between(a, a, a.time_s) == a);
+}
+
 TEST(Capture, ShowsTheWorldAsItIs) {
   world::World world(scenario(30, true));
   Frame frame;

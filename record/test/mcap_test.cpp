@@ -160,6 +160,39 @@ TEST(McapReader, ADamagedChunkCostsOnlyItself) {
   EXPECT_NE(reader.warnings()[0].find("checksum"), std::string::npos);
 }
 
+// Every chunk of the large group is damaged: whoever reads the small one does not even notice.
+TEST(McapWriter, GroupsShareNoChunk) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  {
+    OutputFile file(path);
+    Writer writer(file, {"", "", 0, 2000});
+    const auto frame = writer.add_channel(0, "/frame", "text", {}, 0);
+    const auto plot = writer.add_channel(0, "/plot", "text", {}, 1);
+    const auto event = writer.add_channel(0, "/event", "text", {}, 1);
+    for (Nanoseconds t = 0; t < 400; ++t) {
+      writer.message(frame, t, "LARGE" + std::string(100, '.'));
+      writer.message(plot, t, "small");
+      if (t % 100 == 50) writer.message(event, t, "event");
+      if (t == 200) writer.end_chunks();
+    }
+    EXPECT_THROW(writer.message(7, 0, ""), std::out_of_range);
+    writer.finish();
+    file.commit();
+  }
+  std::string bytes = contents(path);
+  for (std::size_t at = 0; (at = bytes.find("LARGE", at)) != std::string::npos; ++at) bytes[at] = 'l';
+  spill(path, bytes);
+  Reader reader(path);
+  EXPECT_EQ(texts(reader, "/plot"), std::vector<std::string>(400, "small"));
+  EXPECT_EQ(texts(reader, "/event", 100, 300), std::vector<std::string>(2, "event"));
+  EXPECT_EQ(last_text(reader, "/event", 149), "event");
+  EXPECT_TRUE(reader.indexed());
+  EXPECT_TRUE(reader.warnings().empty());
+  EXPECT_TRUE(texts(reader, "/frame").empty());
+  EXPECT_GT(reader.warnings().size(), 10U);
+}
+
 TEST(McapReader, AnUnknownCompressionIsSaidSo) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.mcap");

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "banyan/record/draw.hpp"
@@ -211,6 +213,204 @@ TEST(Recording, EventsTellWhatChanged) {
   EXPECT_EQ(recording.frame_at(0.3).targets.size(), 1U);
   EXPECT_EQ(recording.frame_at(0.4).targets.size(), 2U);
   EXPECT_EQ(recording.frame_at(0.4).targets[0].position, (Vec2{2.0, 0.0}));
+}
+
+// What a crash costs: of every channel at most ten simulated seconds.
+TEST(Recording, AtEveryMomentThePartHoldsAllButTheLastTenSeconds) {
+  const test::TemporaryDirectory directory;
+  Recorder recorder(directory.file("a.mcap"), test::sample_provenance());
+  for (std::uint64_t t = 0; t < 390; ++t) {
+    const Frame frame = test::sample_frame(3, 3.0, t);
+    recorder.frame(test::sample_setting(), frame, test::sample_tick(frame));
+    if (t % 97 != 0) continue;
+    Recording crashed(directory.file("a.mcap.part"));
+    const std::size_t safe = t > 100 ? t - 100 : 0;
+    EXPECT_GE(crashed.frames(), safe);
+    EXPECT_GE(crashed.metrics().size(), safe);
+    const auto is_safe = [&](const RecordedEvent& e) { return e.tick < safe; };
+    if (t > 200) { EXPECT_TRUE(std::ranges::any_of(crashed.events(), is_safe)); }
+  }
+}
+
+measure::Tick calm() {
+  measure::Tick tick;
+  tick.components = 1;
+  return tick;
+}
+
+// Frames are handed in one by one; the texts of the events that come of them, with kind and robot.
+class Told {
+ public:
+  explicit Told(const std::string& path) : path_(path), recorder_(std::in_place, path, Provenance{}) {}
+  void next(const Setting& setting, const Frame& frame, const measure::Tick& tick = calm()) {
+    Frame now = frame;
+    now.tick = tick_;
+    now.time_s = 0.1 * static_cast<double>(tick_++);
+    recorder_->frame(setting, now, tick);
+  }
+  std::vector<std::string> events() {
+    recorder_->finish(test::sample_run(tick_));
+    recorder_.reset();
+    std::vector<std::string> all;
+    for (const RecordedEvent& e : Recording(path_).events()) {
+      all.push_back(e.kind + " " + std::to_string(e.robot) + ": " + e.text);
+    }
+    return all;
+  }
+
+ private:
+  std::string path_;
+  std::optional<Recorder> recorder_;
+  std::uint64_t tick_ = 0;
+};
+
+// Robot 0 is root at the origin, 1 a connector, 2 a worker, 3 a spare; a chain along x.
+Frame chain() {
+  Frame frame;
+  frame.robots.resize(4);
+  for (std::size_t i = 0; i < 4; ++i) frame.robots[i].position = {static_cast<double>(i), 0.5};
+  frame.robots[0].role = Role::root;
+  frame.robots[1].role = Role::connector;
+  frame.robots[2].role = Role::worker;
+  frame.robots[1].parent = 0;
+  frame.robots[2].parent = 1;
+  return frame;
+}
+
+TEST(Events, SayWhatHappenedToWhom) {
+  const test::TemporaryDirectory directory;
+  Told told(directory.file("a.mcap"));
+  Setting setting;
+  Frame frame = chain();
+  frame.robots[3].request = 2;
+  told.next(setting, frame);
+  frame.robots[3].role = Role::connector;   // let into the edge of 2
+  frame.robots[3].request = -1;
+  frame.robots[3].parent = 1;
+  told.next(setting, frame);
+  frame.robots[3].role = Role::spare;
+  told.next(setting, frame);
+  frame.robots[3].role = Role::connector;   // without having asked: 2 has chosen it
+  frame.robots[2].parent = 3;
+  told.next(setting, frame);
+  frame.robots[1].role = Role::root;        // hand-over along the tree
+  told.next(setting, frame);
+  frame.robots[0].role = Role::connector;
+  told.next(setting, frame);
+  frame.robots[1].alive = false;
+  told.next(setting, frame);
+  frame.robots[3].role = Role::root;
+  told.next(setting, frame);
+  frame.robots[2].alive = false;
+  frame.robots[0].role = Role::worker;
+  told.next(setting, frame);
+  EXPECT_EQ(told.events(),
+            (std::vector<std::string>{"inserted 3: robot 3 is inserted between robot 2 and robot 1",
+                                      "released 3: robot 3 is spare again",
+                                      "recruited 3: robot 3 is a connector: robot 2 hangs on it",
+                                      "root 1: robot 1 takes over the root from robot 0",
+                                      "death 1: robot 1 died, the root; 1 child hangs on it",
+                                      "root 3: robot 3 is root in place of robot 1, which is dead",
+                                      "worker 0: robot 0 takes over the target of a worker that is lost",
+                                      "death 2: robot 2 died, a worker"}));
+}
+
+TEST(Events, ABrokenEdgeIsNamedWithItsReason) {
+  const test::TemporaryDirectory directory;
+  Setting setting;
+  setting.line_of_sight = true;
+  const auto text = [&](const Frame& frame, std::uint32_t far, std::uint32_t hidden) {
+    const std::string path = directory.file(std::to_string(far) + std::to_string(hidden) + ".mcap");
+    Told told(path);
+    told.next(setting, chain());
+    measure::Tick tick = calm();
+    tick.broken_by_distance = far;
+    tick.broken_by_occlusion = hidden;
+    told.next(setting, frame, tick);
+    told.next(setting, frame, tick);   // still the same: said once
+    told.next(setting, chain());
+    const auto all = told.events();
+    EXPECT_EQ(all.size(), 2U);
+    EXPECT_EQ(all.back(), "edges_whole -1: no tree edge is broken any more");
+    return all.empty() ? std::string() : all.front();
+  };
+  Frame away = chain();
+  away.robots[2].position = {3.25, 0.5};
+  EXPECT_EQ(text(away, 1, 0),
+            "edges_broken 2: the edge from robot 2 to its parent, robot 1, is broken: 2.25 m apart, out of range");
+  Frame hidden = chain();
+  hidden.robots[3].position = {0.5, 0.52};
+  hidden.robots[1].old_parent = 0;     // the same edge, not another one
+  EXPECT_EQ(text(hidden, 0, 1), "edges_broken 1: the edge from robot 1 to its parent, robot 0, is broken: hidden by robot 3");
+  Frame both = hidden;
+  both.robots[2].position = {9.0, 0.5};
+  EXPECT_EQ(text(both, 1, 1), "edges_broken 1: 2 tree edges are broken, 1 out of range, 1 hidden: of the robots 1 and 2");
+  setting.obstacles = {world::Wall{{-1.0, 0.0}, {-1.0, 1.0}}, world::Wall{{0.5, 0.0}, {0.5, 1.0}}};
+  Frame old = chain();
+  old.robots[1].parent = -1;
+  old.robots[1].old_parent = 0;
+  EXPECT_EQ(text(old, 0, 2), "edges_broken 1: the edge from robot 1 to its old parent, robot 0, is broken: hidden by obstacle 1");
+}
+
+TEST(Events, WhatMovesOnAndOnIsSaidOnce) {
+  const test::TemporaryDirectory directory;
+  Told told(directory.file("a.mcap"));
+  Setting setting;
+  Frame frame = chain();
+  frame.targets = {{{2.0, 0.5}, 2}};
+  for (int t = 0; t < 40; ++t) {
+    if (t >= 5 && t < 30) {              // the worker keeps up, 0.1 m behind
+      frame.targets[0].position.x += 0.1;
+      frame.robots[2].position.x = frame.targets[0].position.x - 0.1;
+    }
+    if (t == 35) frame.targets[0].position = {0.0, 0.0};
+    told.next(setting, frame);
+  }
+  EXPECT_EQ(told.events(), (std::vector<std::string>{"arrival 2: robot 2 has reached target T0",
+                                                     "complete -1: all targets are reached",
+                                                     "target_moved 2: target T0 has moved to (2.10, 0.50) m",
+                                                     "target_moved 2: target T0 has moved to (0.00, 0.00) m"}));
+}
+
+TEST(Recording, ASettingThatChangesIsKept) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  Told told(path);
+  const Setting first = test::sample_setting();
+  Setting second = first;
+  second.obstacles[0] = world::Disc{{-1.0, 0.5}, 0.25};
+  second.line_of_sight = false;
+  for (int t = 0; t < 10; ++t) told.next(t < 6 ? first : second, chain());
+  EXPECT_EQ(told.events(), (std::vector<std::string>{"line_of_sight -1: links need no line of sight from now on",
+                                                     "obstacle_moved -1: obstacle 0 has moved to (-1.00, 0.50) m"}));
+  Recording recording(path);
+  EXPECT_TRUE(recording.setting() == first);
+  EXPECT_TRUE(recording.setting_at(-1.0) == first);
+  EXPECT_TRUE(recording.setting_at(0.55) == first);
+  EXPECT_TRUE(recording.setting_at(0.6) == second);
+  EXPECT_TRUE(recording.setting_at(1e9) == second);
+  DrawOptions options;
+  options.legend = false;
+  EXPECT_NE(draw_svg(recording, 0.5, options).find("line of sight"), std::string::npos);
+  EXPECT_EQ(draw_svg(recording, 0.6, options).find("line of sight"), std::string::npos);
+  mcap::Reader reader(path);
+  EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/setting")->id), 2U);
+}
+
+// Recordings of before there were such channels, made by renaming these to something unknown.
+TEST(Recording, OlderRecordingsAreRead) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  test::record_sample(path, 5, 30);
+  std::string bytes = without_checksums(contents(path));
+  for (const std::string name : {"/banyan/setting", "/banyan/messages"}) {
+    for (std::size_t at = 0; (at = bytes.find(name, at)) != std::string::npos; ++at) bytes[at + 1] = 'X';
+  }
+  { std::ofstream(path, std::ios::binary) << bytes; }
+  Recording recording(path);
+  EXPECT_TRUE(recording.warnings().empty()) << recording.warnings()[0];
+  EXPECT_TRUE(recording.setting_at(2.0) == test::sample_setting());
+  EXPECT_EQ(recording.frames(), 30U);
 }
 
 TEST(Recording, AnUnfinishedRecorderLeavesAReadablePart) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Writes the sample recordings that record/test/mcap/ reads with the official MCAP library:
 //   sample_files DIRECTORY
-// gives sample.mcap (all channels), sample.csv (its export), plain.mcap (uncompressed, every 5th
+// gives sample.mcap (all channels but messages), world.mcap (of a simulated world, with messages), sample.csv (its export), plain.mcap (uncompressed, every 5th
 // tick), cut.mcap.part (a recorder that never finished) and empty.mcap (no tick).
 #include <cstdio>
 #include <exception>
 
+#include "banyan/measure/observer.hpp"
 #include "banyan/record/export.hpp"
+#include "banyan/world/world.hpp"
 #include "sample.hpp"
 
 namespace {
@@ -21,6 +23,17 @@ void write_samples(const std::string& directory) {
   test::record_sample(file("sample.mcap"), 30, 300, options);
   Recording recording(file("sample.mcap"));
   export_csv(recording, file("sample.csv"), Existing::replace);
+
+  banyan::world::Scenario scenario;
+  scenario.swarm.robots = 12;
+  banyan::world::World world(scenario);
+  banyan::measure::Observer observer(world);
+  Recorder simulated(file("world.mcap"), test::sample_provenance(), options);
+  for (int t = 0; t < 150; ++t) {
+    world.step();
+    simulated.frame(world, observer.observe(world));
+  }
+  simulated.finish(observer.result(world));
 
   Recorder(file("empty.mcap"), test::sample_provenance(), options).finish(test::sample_run(0), true);
 

@@ -35,6 +35,7 @@ class Keeper {
     if (output.record) {
       record::RecorderOptions options;
       options.every_ticks = output.record_every;
+      options.messages = output.messages;
       options.existing = record::Existing::replace;
       recorder_.emplace(task.directory + "/run.mcap",
                         record::Provenance{task.config_json, std::string(version), std::string(git_id()),

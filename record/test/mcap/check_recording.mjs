@@ -163,6 +163,18 @@ async function checkSamples(directory) {
   assert.ok(reader.chunkIndexes.every((c) => c.compression === "zstd"));
   await checkExport(frames, file("sample.csv"));
 
+  const world = await checkRecording(file("world.mcap"));
+  const messages = world.reader.statistics.channelMessageCounts;
+  const channel = (topic) => [...world.reader.channelsById.values()].find((c) => c.topic === topic).id;
+  assert.equal(messages.get(channel("/banyan/messages")), BigInt(world.frames.length));
+  // Plots and events can be read without what is large: no chunk holds both.
+  const large = ["/banyan/frame", "/banyan/messages", "/scene"].map(channel);
+  for (const chunk of world.reader.chunkIndexes) {
+    const inside = [...chunk.messageIndexOffsets.keys()];
+    const count = inside.filter((id) => large.includes(id)).length;
+    assert.ok(count === 0 || count === inside.length, `chunk with ${inside}`);
+  }
+
   const plain = await checkRecording(file("plain.mcap"));
   assert.deepEqual(plain.frames.map((f) => f.tick), Array.from({ length: 21 }, (_, k) => 5 * k));
 

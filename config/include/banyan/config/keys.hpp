@@ -22,6 +22,7 @@ namespace banyan::config {
 struct Output {
   bool record = true;              // run.mcap
   std::uint32_t record_every = 1;  // ticks
+  bool messages = true;            // in run.mcap: what each robot broadcast
   bool series = false;             // series.csv
 };
 

@@ -53,7 +53,8 @@ struct Frame {
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-// What stays the same during a run and a picture needs.
+// What a picture needs beside a frame: mostly the same during a run, but an obstacle can be moved and
+// line of sight switched.
 struct Setting {
   std::string name;
   std::string algorithm;
@@ -66,7 +67,12 @@ struct Setting {
   double target_tolerance_m = 0.2;
   double time_limit_s = 0.0;
   std::vector<world::Obstacle> obstacles;
+  friend bool operator==(const Setting&, const Setting&) = default;
 };
+
+// The world at `time_s` between two frames of it, `a` the earlier: positions of robots and targets on a
+// line, headings by the shorter way, everything else as in `a`. At or outside their times, `a` or `b` itself.
+[[nodiscard]] Frame between(const Frame& a, const Frame& b, double time_s);
 
 // Reuses the memory of `frame`. O(robots + links).
 void capture(const world::World& world, Frame& frame);

@@ -57,6 +57,10 @@ struct WriterOptions {
   std::size_t chunk_bytes = 1 << 20;     // a chunk is closed when it exceeds this
 };
 
+// Channels of one group share chunks, and no chunk holds channels of two groups: who wants the small
+// channels of a large file need not unpack the large ones. A group is any number; 0 is as good as another.
+using ChunkGroup = std::uint8_t;
+
 // Writes a whole MCAP file into `file`, which must outlive it. Times may come in any order.
 class Writer {
  public:
@@ -67,11 +71,12 @@ class Writer {
 
   [[nodiscard]] std::uint16_t add_schema(std::string name, std::string encoding, std::string data);
   [[nodiscard]] std::uint16_t add_channel(std::uint16_t schema_id, std::string topic, std::string message_encoding,
-                                          Map metadata = {});
+                                          Map metadata = {}, ChunkGroup group = 0);
+  // Ends the group's chunk once that exceeds chunk_bytes. std::out_of_range for an unknown channel.
   void message(std::uint16_t channel_id, Nanoseconds time, std::string_view data);
-  void metadata(const Metadata& metadata);   // ends the current chunk
+  void metadata(const Metadata& metadata);   // in the file at once, before what the open chunks hold
   void attachment(std::string_view name, std::string_view media_type, Nanoseconds time, std::string_view data);
-  void end_chunk();                          // what came so far survives a crash
+  void end_chunks();                         // of all groups: what came so far survives a crash
   void finish();                             // data end, summary, footer; once, nothing may follow
 
  private:

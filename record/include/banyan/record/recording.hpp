@@ -28,7 +28,8 @@ struct Provenance {
 };
 
 struct RecorderOptions {
-  std::uint32_t every_ticks = 1;    // frames; metrics and events are kept at every tick
+  std::uint32_t every_ticks = 1;    // frames and messages; metrics and events are kept at every tick
+  bool messages = true;             // what each robot broadcast, at every recorded frame of a world
   double scene_period_s = 0.5;      // 0: no /scene; stretched in proportion above 1000 robots
   int compression_level = 1;        // zstd
   std::size_t chunk_bytes = 1 << 20;
@@ -44,7 +45,8 @@ class Recorder {
   Recorder& operator=(Recorder&&) noexcept;
   ~Recorder();
 
-  // Once per tick, in order; also once before the first step if the start is to be seen.
+  // Once per tick, in order; also once before the first step if the start is to be seen. The setting
+  // is looked at every time: what changes in it is kept. Without a world there are no messages.
   void frame(const world::World& world, const measure::Tick& tick);
   void frame(const Setting& setting, const Frame& frame, const measure::Tick& tick);
   // A remark in /banyan/events at the time of the last frame ("interrupt", "stopped by the user").
@@ -82,7 +84,9 @@ class Recording {
   [[nodiscard]] const std::string& path() const noexcept;
   [[nodiscard]] const std::vector<std::string>& warnings() const;
   [[nodiscard]] const Provenance& provenance() const noexcept;
-  [[nodiscard]] const Setting& setting() const noexcept;
+  [[nodiscard]] const Setting& setting() const noexcept;   // at the start
+  // The one that holds at `time_s`. Valid as long as this recording, as is setting().
+  [[nodiscard]] const Setting& setting_at(double time_s) const noexcept;
   // The run's result by column name (table.hpp), plus "interrupted"; empty if it was cut short.
   [[nodiscard]] const std::map<std::string, std::string>& result() const noexcept;
 

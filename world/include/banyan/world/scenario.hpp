@@ -82,9 +82,22 @@ struct RingTargets { std::size_t count = 3; double radius_m = 3.0; double phase_
 struct RandomTargets { std::size_t count = 4; double radius_m = 9.0; Vec2 center{}; };
 using Targets = std::variant<std::vector<Vec2>, RingTargets, RandomTargets>;
 
-struct Disc { Vec2 center; double radius_m = 0.0; };
-struct Box { Vec2 center; Vec2 size; double angle_rad = 0.0; };
-struct Wall { Vec2 from; Vec2 to; };    // a segment without thickness
+struct Disc {
+  Vec2 center;
+  double radius_m = 0.0;
+  friend bool operator==(const Disc&, const Disc&) = default;
+};
+struct Box {
+  Vec2 center;
+  Vec2 size;
+  double angle_rad = 0.0;
+  friend bool operator==(const Box&, const Box&) = default;
+};
+struct Wall {                            // a segment without thickness
+  Vec2 from;
+  Vec2 to;
+  friend bool operator==(const Wall&, const Wall&) = default;
+};
 using Obstacle = std::variant<Disc, Box, Wall>;
 
 struct Event {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// A web server for one visitor: the page that shows recordings, and the file it is to show. It listens on
+// this machine's loopback interface only.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace banyan::cli {
+
+struct PageContent {
+  std::string page;         // folder with index.html: /
+  std::string recording;    // file: /file, by ranges; "": none
+  std::string scenario;     // JSON object for /start.json if there is no recording; "": nothing to start with
+  std::string scenarios;    // folder with *.toml: /scenarios.json
+};
+
+class PageServer {
+ public:
+  // Answers from now on. `port` 0: any that is free. Throws CommandError (exit_lost) if the port is taken
+  // or cannot be used.
+  PageServer(PageContent content, int port);
+  PageServer(const PageServer&) = delete;
+  PageServer& operator=(const PageServer&) = delete;
+  ~PageServer();   // ends all answers that are being given
+
+  [[nodiscard]] int port() const noexcept;
+  [[nodiscard]] std::string address() const;   // "http://127.0.0.1:8000/"
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace banyan::cli

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// `banyan view`: the page in the browser, with a recording or a scenario.
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "banyan/record/recording.hpp"
+#include "commands.hpp"
+#include "page_server.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+
+using namespace config;
+namespace {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+// "share/banyan/NAME" of the installation that this program belongs to.
+fs::path installed(const char* name) {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "share" / "banyan" / name;
+}
+
+std::string page_folder(const ViewOptions& options) {
+  const char* given = std::getenv("BANYAN_PAGE");
+  const fs::path folder = !options.page.empty() ? fs::path(options.page)
+                          : given != nullptr && *given != '\0' ? fs::path(given)
+                                                               : installed("viewer");
+  std::error_code ignored;
+  if (fs::is_regular_file(folder / "index.html", ignored)) return folder;
+  throw CommandError(exit_lost, folder.string() +
+                                    ": the page is not there (no index.html). In a clone of Banyan, `./banyan view` builds it; "
+                                    "or build it with viewer/build and say where it is with --page DIR or BANYAN_PAGE");
+}
+
+std::string scenarios_folder(const ViewOptions& options) {
+  std::error_code ignored;
+  if (!options.scenarios.empty()) {
+    if (fs::is_directory(options.scenarios, ignored)) return options.scenarios;
+    throw CommandError(exit_usage, options.scenarios + ": there is no such folder");
+  }
+  const fs::path beside = installed("scenarios");
+  return fs::is_directory(beside, ignored) ? beside.string() : BANYAN_SCENARIOS_FOLDER;
+}
+
+bool is_recording(const std::string& file) {
+  std::array<char, 5> start{};
+  std::ifstream(file, std::ios::binary).read(start.data(), start.size());
+  return std::string_view(start.data(), start.size()) == "\x89MCAP" || file.ends_with(".mcap") || file.ends_with(".mcap.part");
+}
+
+// Says now what would not work later. A part is being written and may be large: its begin must do.
+void check_recording(const std::string& file) {
+  const record::InputFile input(file);
+  std::string start;
+  if (!input.read(0, 5, start) || start != "\x89MCAP") throw record::FileError(file, "is not an MCAP file");
+  if (file.ends_with(".part")) return;
+  const record::Recording recording(file);
+  for (const auto& warning : recording.warnings()) complain(file + ": warning: " + warning);
+}
+
+// The scenario for /start.json: its text as it is and what the command line changes. Files that the
+// command line lays over it cannot be read by the page: then the text is what all comes to.
+json scenario_start(const ViewOptions& options, const Configuration& configuration) {
+  json overrides = json::array();
+  bool files = false;
+  for (const Override& change : options.overrides) {
+    files = files || change.assignment.empty();
+    overrides.push_back(change.assignment);
+  }
+  std::string text = config_toml(configuration);
+  std::string name = fs::path(options.file).filename();
+  if (files) {
+    overrides = json::array();
+    name = fs::path(name).replace_extension(".toml");
+  } else {
+    std::ifstream in(options.file, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  }
+  return {{"scenario", {{"name", name}, {"text", text}, {"overrides", overrides}}}};
+}
+
+void open_browser(const std::string& address) {
+  const auto is_set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0';
+  };
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) return;
+  // Neither waited for nor heard: some browsers stay in the foreground and talk.
+  posix_spawn_file_actions_t files;
+  ::posix_spawn_file_actions_init(&files);
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    ::posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_RDWR, 0);
+  }
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  std::array<std::string, 2> words{"xdg-open", address};
+  std::array<char*, 3> argv{words[0].data(), words[1].data(), nullptr};
+  pid_t child = 0;
+  (void)::posix_spawnp(&child, "xdg-open", &files, &attributes, argv.data(), environ);  // none: the address is printed
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&files);
+}
+
+}  // namespace
+
+int view_command(const ViewOptions& options) {
+  PageContent content;
+  content.page = page_folder(options);
+  content.scenarios = scenarios_folder(options);
+  if (!options.file.empty() && is_recording(options.file)) {
+    if (!options.overrides.empty()) throw CommandError(exit_usage, "a recording is what it is: --set, --seed and --with change scenarios");
+    check_recording(options.file);
+    content.recording = options.file;
+  } else if (!options.file.empty()) {
+    const auto loaded = load_configuration(options.file, options.overrides);
+    print_problems(loaded.problems);
+    if (!loaded.ok()) return exit_usage;
+    content.scenario = scenario_start(options, loaded.configuration).dump(-1, ' ', false, json::error_handler_t::replace);
+  }
+  catch_stop_signals();
+  ::signal(SIGCHLD, SIG_IGN);  // nobody waits for the browser
+  ::signal(SIGPIPE, SIG_IGN);  // a browser that is closed must not end us
+  const PageServer server(content, options.port);
+  print(server.address() + "\n");
+  complain("the page is at this address as long as this runs; Ctrl-C ends it");
+  if (options.open) open_browser(server.address());
+  while (stop_signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  return exit_signal + stop_signal();
+}
+
+}  // namespace banyan::cli
