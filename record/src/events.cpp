@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What happened between two frames (events.hpp).
-#include "events.hpp"
+#include "banyan/record/events.hpp"
 
 #include <algorithm>
 

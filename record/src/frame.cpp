@@ -89,10 +89,10 @@ Setting setting_of(const world::World& world) {
   setting.tick_s = scenario.tick_s;
   setting.radius_m = scenario.robot.radius_m;
   setting.range_m = scenario.radio.range_m;
-  setting.line_of_sight = scenario.radio.line_of_sight;
+  setting.line_of_sight = world.line_of_sight();
   setting.target_tolerance_m = scenario.mission.target_tolerance_m;
   setting.time_limit_s = world::time_limit_s(scenario);
-  setting.obstacles = scenario.obstacles;
+  setting.obstacles.assign(world.obstacles().begin(), world.obstacles().end());
   return setting;
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Writing MCAP (mcap.hpp). Schemas, channels and metadata stand outside the chunks, so a damaged
 // chunk takes only its own messages with it.
-#include <zstd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 #include <utility>
 
 #include "bytes.hpp"
+#include "compression.hpp"
 
 namespace banyan::record::mcap {
 
@@ -99,7 +99,7 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t seed) noexcept {
 struct Writer::Impl {
   OutputFile& file;
   WriterOptions options;
-  ZSTD_CCtx* zstd = nullptr;
+  Compressor compressor;
   std::uint32_t data_crc = 0;
   std::vector<Schema> schemas;
   std::vector<Channel> channels;
@@ -113,14 +113,11 @@ struct Writer::Impl {
   std::string chunk;                      // records of the open chunk
   Nanoseconds chunk_start = 0, chunk_end = 0;
   std::vector<std::vector<std::pair<Nanoseconds, std::uint64_t>>> index;  // per channel, of the open chunk
-  std::string compressed, scratch;
+  std::string scratch;
 
-  Impl(OutputFile& output, WriterOptions wanted) : file(output), options(std::move(wanted)), zstd(ZSTD_createCCtx()) {
-    if (zstd == nullptr) throw std::bad_alloc();
+  Impl(OutputFile& output, WriterOptions wanted) : file(output), options(std::move(wanted)) {
+    options.compression_level = possible_level(options.compression_level);
   }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() { ZSTD_freeCCtx(zstd); }
 
   void data(std::string_view bytes) {     // of the data section
     data_crc = crc32(bytes, data_crc);
@@ -189,11 +186,9 @@ void Writer::message(std::uint16_t channel_id, Nanoseconds time, std::string_vie
 
 std::string_view Writer::Impl::compress() {
   if (options.compression_level == 0) return chunk;
-  compressed.resize(ZSTD_compressBound(chunk.size()));
-  const std::size_t size = ZSTD_compressCCtx(zstd, compressed.data(), compressed.size(), chunk.data(), chunk.size(),
-                                             options.compression_level);
-  if (ZSTD_isError(size) != 0) throw FileError(file.path(), std::string("cannot compress: ") + ZSTD_getErrorName(size));
-  return {compressed.data(), size};
+  try {
+    return compressor.compress(chunk, options.compression_level);
+  } catch (const std::runtime_error& e) { throw FileError(file.path(), std::string("cannot compress: ") + e.what()); }
 }
 
 void Writer::end_chunk() {

@@ -7,7 +7,7 @@
 #include "banyan/record/mcap.hpp"
 #include "banyan/record/recording.hpp"
 #include "cell.hpp"
-#include "events.hpp"
+#include "banyan/record/events.hpp"
 #include "frame_json.hpp"
 #include "scene.hpp"
 #include "schemas.hpp"

@@ -27,6 +27,8 @@ class Agenda {
 
   explicit Agenda(const std::vector<Event>& events);
 
+  // One more event of the scenario's list, the last one so far, due at its time_s. Allocates.
+  void add(const Event& event);
   // Whether an event waits for this moment of the mission.
   [[nodiscard]] bool waits_for(Event::When moment) const noexcept;
   // The moment has come: what waits for it is due event.time_s after `now_s`.
@@ -45,6 +47,7 @@ class Agenda {
 
   std::vector<Entry> due_;      // the next one last
   std::vector<Entry> waiting_;  // in the order of the file
+  std::uint64_t size_ = 0;      // of the scenario's list
   std::uint64_t acted_ = 0;     // events that will not act again
 };
 

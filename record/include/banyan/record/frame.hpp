@@ -53,7 +53,8 @@ struct Frame {
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-// What stays the same during a run and a picture needs.
+// What a picture needs beside the frames. Obstacles and line of sight change by events only; the rest
+// stays the same during a run.
 struct Setting {
   std::string name;
   std::string algorithm;
@@ -70,7 +71,7 @@ struct Setting {
 
 // Reuses the memory of `frame`. O(robots + links).
 void capture(const world::World& world, Frame& frame);
-[[nodiscard]] Setting setting_of(const world::World& world);
+[[nodiscard]] Setting setting_of(const world::World& world);   // as it is now
 
 // Names as they appear in exports ("connector", "grow_tree", "no_need", "extend_edge").
 [[nodiscard]] std::string_view name_of(Role role) noexcept;
