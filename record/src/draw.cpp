@@ -533,7 +533,7 @@ std::string draw_svg(Recording& recording, double time_s, const DrawOptions& opt
         },
         std::max(0.0, frame.time_s - options.trail_s), frame.time_s);
   }
-  return draw_svg(recording.setting(), frame, trails, options);
+  return draw_svg(recording.setting_at(frame.time_s), frame, trails, options);
 }
 
 }  // namespace banyan::record

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "banyan/world/obstacles.hpp"
+
 namespace banyan::record {
 
 namespace {
@@ -27,6 +29,7 @@ const std::vector<RecordedEvent>& EventWatcher::watch(const Setting& setting, co
     watch_radio(tick);
   }
   watch_targets(setting, frame);
+  watch_setting(setting);
   started_ = true;
   last_ = frame;
   last_tick_ = tick;
@@ -85,6 +88,20 @@ void EventWatcher::watch_targets(const Setting& setting, const Frame& frame) {
     complete_ = true;
     add("complete", -1, -1, "all targets are reached");
   }
+}
+
+void EventWatcher::watch_setting(const Setting& setting) {
+  obstacles_.resize(setting.obstacles.size());
+  for (std::size_t k = 0; k < obstacles_.size(); ++k) {
+    const Vec2 center = world::center_of(setting.obstacles[k]);
+    if (started_ && center != obstacles_[k])
+      add("obstacle_moved", -1, -1, "obstacle " + std::to_string(k) + " has moved");
+    obstacles_[k] = center;
+  }
+  if (started_ && setting.line_of_sight != line_of_sight_)
+    add("line_of_sight", -1, -1,
+        setting.line_of_sight ? "bodies and obstacles block the radio now" : "nothing blocks the radio any more");
+  line_of_sight_ = setting.line_of_sight;
 }
 
 void EventWatcher::watch_radio(const measure::Tick& tick) {

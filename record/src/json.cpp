@@ -8,8 +8,7 @@
 namespace banyan::record {
 namespace {
 
-template <class Write>
-std::string written(const Write& write) {
+template <class Write> std::string written(const Write& write) {
   Text text;
   write(text);
   return std::string(text.view());

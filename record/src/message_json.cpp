@@ -10,8 +10,7 @@ namespace {
 
 using M = Message;
 
-template <class T>
-constexpr double whole(T value) { return static_cast<double>(value); }
+template <class T> constexpr double whole(T value) { return static_cast<double>(value); }
 constexpr double id(RobotId robot) { return robot == nobody ? -1.0 : static_cast<double>(robot); }
 constexpr double pull(std::int16_t value) { return static_cast<double>(value) / static_cast<double>(pull_unit); }
 
@@ -52,7 +51,8 @@ constexpr std::array<MessageField, 54> fields{{
     {"count", "c of the paper's Alg. 2", [](const M& m) { return whole(m.count); }},
     {"want_cm", "cm; the largest remaining way of a worker below, 0: all have arrived",
      [](const M& m) { return whole(m.want_cm); }},
-    {"q_x_m", "m; Alg. 1's contribution, edge frame to the parent", [](const M& m) { return static_cast<double>(m.q.x); }},
+    {"q_x_m", "m; Alg. 1's contribution, edge frame to the parent",
+     [](const M& m) { return static_cast<double>(m.q.x); }},
     {"q_y_m", "m; Alg. 1's contribution, edge frame to the parent (y)",
      [](const M& m) { return static_cast<double>(m.q.y); }},
     {"pull_x", "attraction to the targets below, edge frame to the parent", [](const M& m) { return pull(m.pull_x); }},
@@ -67,11 +67,14 @@ constexpr std::array<MessageField, 54> fields{{
      [](const M& m) { return id(m.warned); }},
     {"new_root", "to whom the root token with the next sequence is offered, -1: nobody",
      [](const M& m) { return id(m.new_root); }},
-    {"centroid_x_cm", "cm; relative to the new root, edge frame to it", [](const M& m) { return whole(m.centroid_x_cm); }},
-    {"centroid_y_cm", "cm; relative to the new root, edge frame to it (y)", [](const M& m) { return whole(m.centroid_y_cm); }},
+    {"centroid_x_cm", "cm; relative to the new root, edge frame to it",
+     [](const M& m) { return whole(m.centroid_x_cm); }},
+    {"centroid_y_cm", "cm; relative to the new root, edge frame to it (y)",
+     [](const M& m) { return whole(m.centroid_y_cm); }},
     {"hinge_x_cm", "cm; the obstacle point nearest to the edge to the parent, relative to it, edge frame; 0, 0: none",
      [](const M& m) { return whole(m.hinge_x_cm); }},
-    {"hinge_y_cm", "cm; the obstacle point nearest to the edge to the parent, relative to it, edge frame; 0, 0: none (y)",
+    {"hinge_y_cm",
+     "cm; the obstacle point nearest to the edge to the parent, relative to it, edge frame; 0, 0: none (y)",
      [](const M& m) { return whole(m.hinge_y_cm); }},
     {"heartbeat", "the root's count of ticks, modulo 2^16", [](const M& m) { return whole(m.heartbeat); }},
     {"serves", "of a worker: its target, named by the worker first sent there, -1: none",
@@ -87,8 +90,10 @@ constexpr std::array<MessageField, 54> fields{{
     {"task_host", "the plan: at which target its branch is to begin, -1: no plan",
      [](const M& m) { return id(m.task_host); }},
     {"task_beat", "the holder's count of ticks, modulo 2^16", [](const M& m) { return whole(m.task_beat); }},
-    {"task_x_cm", "cm; where it is, relative to the addressee, edge frame", [](const M& m) { return whole(m.task_x_cm); }},
-    {"task_y_cm", "cm; where it is, relative to the addressee, edge frame (y)", [](const M& m) { return whole(m.task_y_cm); }},
+    {"task_x_cm", "cm; where it is, relative to the addressee, edge frame",
+     [](const M& m) { return whole(m.task_x_cm); }},
+    {"task_y_cm", "cm; where it is, relative to the addressee, edge frame (y)",
+     [](const M& m) { return whole(m.task_y_cm); }},
     {"child_count", "living children that are no spares", [](const M& m) { return whole(m.child_count); }},
     {"above", "the next worker above in the tree, by its target, -1: none", [](const M& m) { return id(m.above); }},
     {"below", "the only worker below, -1: none, or there are branches", [](const M& m) { return id(m.below); }},

@@ -11,7 +11,7 @@
 namespace banyan::record {
 
 struct MessageField {
-  std::string_view name;          // as in Message, with its unit: "want_cm"
+  std::string_view name;  // as in Message, with its unit: "want_cm"
   std::string_view meaning;
   double (*get)(const Message&);  // enumerators by number, truth as 0 and 1; nobody and unknown are -1
 };

@@ -45,6 +45,7 @@ struct Recorder::Impl {
 
   void add_channels();
   void begin(const Setting& from);
+  void put_setting(const Setting& from);
   void put(std::uint16_t channel) {
     mcap.message(channel, nanoseconds(now.time_s), text.view());
     text.clear();
@@ -70,12 +71,24 @@ void Recorder::Impl::add_channels() {
 }
 
 void Recorder::Impl::begin(const Setting& from) {
-  setting = from;
-  text.clear();
-  write_setting(text, setting);
-  mcap.metadata({"banyan.setting", {{"json", std::string(text.view())}}});
-  text.clear();
+  put_setting(from);
   started = true;
+}
+
+// The first holds from the start, a later one from the frame on that is about to be written.
+void Recorder::Impl::put_setting(const Setting& from) {
+  setting = from;
+  mcap::Map entries;
+  text.clear();
+  if (started) {
+    text.shortest(now.time_s);
+    entries.emplace("time_s", text.view());
+    text.clear();
+  }
+  write_setting(text, setting);
+  entries.emplace("json", text.view());
+  mcap.metadata({"banyan.setting", std::move(entries)});
+  text.clear();
 }
 
 void Recorder::Impl::put_frame() {
@@ -159,6 +172,7 @@ void Recorder::frame(const world::World& world, const measure::Tick& tick) {
   Impl& r = *impl_;
   if (!r.started) r.begin(setting_of(world));
   capture(world, r.now);
+  if (!still_holds(r.setting, world)) r.put_setting(setting_of(world));
   r.record(tick);
 }
 

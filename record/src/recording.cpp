@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
+#include <iterator>
 #include <optional>
 
 #include "banyan/record/mcap.hpp"
@@ -17,7 +19,7 @@ struct Recording::Impl {
   mcap::Reader reader;
   std::uint16_t frames = 0;                  // channel
   Provenance provenance;
-  Setting setting;
+  std::vector<std::pair<double, Setting>> settings;   // by the time from which they hold; never empty
   std::map<std::string, std::string> result;
   double start_s = 0.0, end_s = 0.0;
   std::vector<std::pair<mcap::Nanoseconds, std::vector<TargetFrame>>> targets;  // by time
@@ -51,7 +53,6 @@ void Recording::Impl::read_provenance(const mcap::Map& entries) {
 
 void Recording::Impl::read_all_metadata() {
   bool provenance_found = false;
-  bool setting_found = false;
   for (const mcap::Metadata& record : reader.metadata()) {
     if (record.name == "banyan.provenance") {
       read_provenance(record.entries);
@@ -60,14 +61,18 @@ void Recording::Impl::read_all_metadata() {
       result = record.entries;
     } else if (record.name == "banyan.setting" && record.entries.contains("json")) {
       try {
-        setting = read_setting(record.entries.at("json"));
-        setting_found = true;
+        const auto time = record.entries.find("time_s");
+        const double from_s = time == record.entries.end() ? 0.0 : std::strtod(time->second.c_str(), nullptr);
+        settings.emplace_back(from_s >= 0.0 ? from_s : 0.0, read_setting(record.entries.at("json")));
       } catch (const std::runtime_error& problem) {
         warn(std::string("the setting cannot be read: ") + problem.what());
       }
     }
   }
   if (!provenance_found) warn("it does not say where it comes from (no banyan.provenance)");
+  std::stable_sort(settings.begin(), settings.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const bool setting_found = !settings.empty();
+  if (!setting_found) settings.emplace_back();
   if (!setting_found) warn("it does not say robot radius and radio range (no banyan.setting); defaults are assumed");
 }
 
@@ -136,7 +141,12 @@ Recording::~Recording() = default;
 
 const std::string& Recording::path() const noexcept { return impl_->reader.path(); }
 const Provenance& Recording::provenance() const noexcept { return impl_->provenance; }
-const Setting& Recording::setting() const noexcept { return impl_->setting; }
+const Setting& Recording::setting() const noexcept { return impl_->settings.front().second; }
+const Setting& Recording::setting_at(double time_s) const noexcept {
+  const auto later = std::find_if(impl_->settings.begin() + 1, impl_->settings.end(),
+                                  [time_s](const auto& entry) { return entry.first > time_s; });
+  return std::prev(later)->second;
+}
 const std::map<std::string, std::string>& Recording::result() const noexcept { return impl_->result; }
 std::size_t Recording::frames() const noexcept { return impl_->reader.message_count(impl_->frames); }
 double Recording::start_s() const noexcept { return impl_->start_s; }

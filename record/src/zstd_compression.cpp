@@ -57,7 +57,7 @@ bool Decompressor::decompress(std::string_view data, std::uint64_t size, std::st
       if (filled >= size) return false;
       into.resize(std::min<std::uint64_t>(size, 2 * into.size()));
     } else if (!progress || in.pos == in.size) {
-      return false;                        // the compressed data end too early
+      return false;  // the compressed data end too early
     }
   }
   return filled == size && in.pos == in.size;

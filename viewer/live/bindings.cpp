@@ -19,8 +19,7 @@ using banyan::viewer::Live;
 using emscripten::val;
 
 // A C++ exception would reach JavaScript as a number, or as an object without words.
-template <class Call>
-auto in_words(const Call& call) -> decltype(call()) {
+template <class Call> auto in_words(const Call& call) -> decltype(call()) {
   std::string words;
   try {
     return call();
@@ -30,23 +29,19 @@ auto in_words(const Call& call) -> decltype(call()) {
 }
 
 // The same for a member function.
-template <auto function>
-struct Door;
-template <class Result, class... Arguments, Result (Live::*function)(Arguments...)>
-struct Door<function> {
+template <auto function> struct Door;
+template <class Result, class... Arguments, Result (Live::*function)(Arguments...)> struct Door<function> {
   static Result call(Live& live, Arguments... arguments) {
     return in_words([&] { return (live.*function)(std::move(arguments)...); });
   }
 };
-template <class Result, class... Arguments, Result (Live::*function)(Arguments...) const>
-struct Door<function> {
+template <class Result, class... Arguments, Result (Live::*function)(Arguments...) const> struct Door<function> {
   static Result call(const Live& live, Arguments... arguments) {
     return in_words([&] { return (live.*function)(std::move(arguments)...); });
   }
 };
 // 64 bits: JavaScript counts ticks in numbers.
-template <std::uint64_t (Live::*function)() const>
-double number(const Live& live) {
+template <std::uint64_t (Live::*function)() const> double number(const Live& live) {
   return in_words([&] { return static_cast<double>((live.*function)()); });
 }
 

@@ -53,11 +53,6 @@ struct Intervention {
   world::Event event;
 };
 
-// Whether a picture looks different from then on, beside what a frame shows.
-bool changes_setting(const world::Event& event) noexcept {
-  return event.kind == world::Event::Kind::set_line_of_sight || event.kind == world::Event::Kind::move_obstacle;
-}
-
 // Steps up to `tick`, each intervention at its own.
 template <class EachTick>
 void replay(Play& play, const std::vector<Intervention>& interventions, std::uint64_t tick, const EachTick& each_tick) {
@@ -119,11 +114,8 @@ struct Live::Run {
     for (const record::RecordedEvent& event : watcher.watch(setting, frame, play->last)) events.push_back(event);
   }
   void watch_setting() {
-    const std::vector<world::Event>& all = play->world.scenario().events;
-    if (std::none_of(all.begin(), all.end(), changes_setting)) return;
-    record::Setting now = record::setting_of(play->world);
-    if (record::setting_json(now) == record::setting_json(setting)) return;
-    setting = std::move(now);
+    if (still_holds(setting, play->world)) return;
+    setting = record::setting_of(play->world);
     ++setting_version;
   }
   // As loaded, with what the visitor did as events.
@@ -133,16 +125,16 @@ struct Live::Run {
     return result;
   }
 
-  config::Configuration configuration;        // as loaded, without interventions
+  config::Configuration configuration;  // as loaded, without interventions
   std::optional<Play> play;
   std::vector<Intervention> interventions;
   record::EventWatcher watcher;
   std::vector<record::RecordedEvent> events;  // not taken yet
   record::Setting setting;
   std::uint64_t setting_version = 0;
-  record::Frame frame;                        // of the head
-  std::vector<double> packed;                 // the same; empty until somebody asks
-  std::optional<std::uint64_t> finished_at;   // tick
+  record::Frame frame;                       // of the head
+  std::vector<double> packed;                // the same; empty until somebody asks
+  std::optional<std::uint64_t> finished_at;  // tick
 };
 
 Live::Live() = default;
@@ -205,8 +197,17 @@ config::Loaded with_event(const config::Configuration& current, double now_s, co
 // "loss: is 3; allowed: 0 to 1" instead of "intervention:1: error: events[4].loss: is 3; ...".
 std::string about_event(const std::string& key, const std::string& text, std::size_t index) {
   const std::string path = "events[" + std::to_string(index) + "]";
-  if (key.empty() || key == path) return text;
-  return (key.starts_with(path + ".") ? key.substr(path.size() + 1) : key) + ": " + text;
+  std::string line = key.empty() || key == path ? text : key + ": " + text;
+  for (auto at = line.find(path + "."); at != std::string::npos; at = line.find(path + ".", at))
+    line.erase(at, path.size() + 1);
+  return line;
+}
+
+// What is wrong with a text that is no table at all.
+std::string about_text(std::string text) {
+  constexpr std::string_view scenario = "a scenario is";
+  if (text.starts_with(scenario)) text.replace(0, scenario.size(), "an intervention is");
+  return text;
 }
 
 }  // namespace
@@ -226,11 +227,12 @@ std::vector<std::string> Live::intervene(std::string_view event_json) {
       if (!problem.warning) lines.push_back(about_event(problem.key, problem.text, index));
     if (!lines.empty()) return lines;
     const world::Event& happens = loaded.configuration.scenario.events.back();
-    for (const world::Fault& fault : world.faults_now(happens)) lines.push_back(about_event(fault.key, fault.text, index));
+    for (const world::Fault& fault : world.faults_now(happens))
+      lines.push_back(about_event(fault.key, fault.text, index));
     if (!lines.empty()) return lines;
     world.intervene(happens);
     r.interventions.push_back({world.tick(), happens});
-  } catch (const config::DocumentError& e) { lines.push_back(e.problem.text); }
+  } catch (const config::DocumentError& e) { lines.push_back(about_text(e.problem.text)); }
   return lines;
 }
 
@@ -255,7 +257,8 @@ std::string Live::metrics_json() const { return record::metrics_json(run().play-
 
 std::string Live::take_events_json() {
   std::string text = "[";
-  for (const record::RecordedEvent& event : run().events) text += (text.size() > 1 ? "," : "") + record::event_json(event);
+  for (const record::RecordedEvent& event : run().events)
+    text += (text.size() > 1 ? "," : "") + record::event_json(event);
   run().events.clear();
   return text + "]";
 }

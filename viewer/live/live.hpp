@@ -31,11 +31,11 @@ class Live {
 
   // Everything below needs a run and throws std::logic_error without one.
 
-  void step(std::size_t ticks = 1);              // also beyond the end of the mission
-  [[nodiscard]] std::uint64_t tick() const;      // the head: the last tick there is, 0 at the start
-  [[nodiscard]] double time_s() const;           // tick() x tick_s
-  [[nodiscard]] bool finished() const;           // `banyan run` would have stopped here or earlier
-  [[nodiscard]] bool complete() const;           // all targets have been held at once
+  void step(std::size_t ticks = 1);          // also beyond the end of the mission
+  [[nodiscard]] std::uint64_t tick() const;  // the head: the last tick there is, 0 at the start
+  [[nodiscard]] double time_s() const;       // tick() x tick_s
+  [[nodiscard]] bool finished() const;       // `banyan run` would have stopped here or earlier
+  [[nodiscard]] bool complete() const;       // all targets have been held at once
 
   // Goes back to `tick` <= tick(): the run begins anew with the interventions that acted before, and
   // what was done from then on is forgotten, interventions at `tick` itself included. Going back to
@@ -62,12 +62,12 @@ class Live {
   [[nodiscard]] std::string take_events_json();
   // What this robot broadcast last, as an object; "null" if there is no such robot or it has not spoken.
   [[nodiscard]] std::string message_json(std::size_t robot) const;
-  [[nodiscard]] std::string hash() const;          // 16 hexadecimal digits: the world's state
-  [[nodiscard]] std::string result_json() const;   // columns of the run table as text, of the run so far
+  [[nodiscard]] std::string hash() const;         // 16 hexadecimal digits: the world's state
+  [[nodiscard]] std::string result_json() const;  // columns of the run table as text, of the run so far
 
   [[nodiscard]] std::uint64_t seed() const;
   [[nodiscard]] std::string name() const;
-  [[nodiscard]] std::string config_json() const;   // the whole configuration, interventions included
+  [[nodiscard]] std::string config_json() const;  // the whole configuration, interventions included
   // The same as a file: run by `banyan run`, it has the same hash() at the same tick. A run that went on
   // where the mission had ended is given its head as the end.
   [[nodiscard]] std::string scenario_toml() const;

@@ -35,6 +35,11 @@ class Agenda {
   void come(Event::When moment, double now_s);
   // Takes out the next event that is due at `now_s`; none if there is none yet.
   [[nodiscard]] std::optional<Entry> take(double now_s);
+  // What take(now_s) is going to give, in its order.
+  template <class Visit>
+  void each_due(double now_s, const Visit& visit) const {
+    for (auto entry = due_.rbegin(); entry != due_.rend() && entry->due_s <= now_s; ++entry) visit(entry->event);
+  }
   // Puts back one that was taken and acts again at its due_s. No allocation: there is room for all.
   void again(const Entry& entry);
   // Whether a robot is still to die by an event, drawn or named.

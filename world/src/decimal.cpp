@@ -15,10 +15,11 @@ namespace banyan::world {
 namespace without_to_chars {
 namespace {
 
-template <class Float>
-Float read(const char* text) noexcept {
-  if constexpr (sizeof(Float) == sizeof(double)) return std::strtod(text, nullptr);
-  else return std::strtof(text, nullptr);
+template <class Float> Float read(const char* text) noexcept {
+  if constexpr (sizeof(Float) == sizeof(double))
+    return std::strtod(text, nullptr);
+  else
+    return std::strtof(text, nullptr);
 }
 
 // 0.d1d2d3... x 10^point
@@ -47,8 +48,7 @@ struct Digits {
     while (size > 1 && text[static_cast<std::size_t>(size - 1)] == '0') --size;
   }
   [[nodiscard]] std::string_view view() const noexcept { return {text.data(), static_cast<std::size_t>(size)}; }
-  template <class Float>
-  [[nodiscard]] Float value() const noexcept {
+  template <class Float> [[nodiscard]] Float value() const noexcept {
     std::array<char, 40> all;
     static_cast<void>(std::snprintf(all.data(), all.size(), "0.%.*se%d", size, text.data(), point));
     return read<Float>(all.data());
@@ -58,8 +58,7 @@ struct Digits {
 // The fewest digits that read back as `value` > 0, and of those the nearest. Rounded to so many digits
 // it is the nearest there is, but above a power of two more reads back than below it: the next one up
 // may, where the nearest does not.
-template <class Float>
-Digits shortest_digits(Float value) noexcept {
+template <class Float> Digits shortest_digits(Float value) noexcept {
   std::array<char, 40> text;
   for (int size = 1;; ++size) {
     static_cast<void>(std::snprintf(text.data(), text.size(), "%.*e", size - 1, static_cast<double>(value)));
@@ -109,8 +108,7 @@ char* write_plain(char* at, const Digits& digits, double value) noexcept {
   return copy(at, digits.view().substr(whole));
 }
 
-template <class Float>
-char* shortest(char* at, Float value) noexcept {
+template <class Float> char* shortest(char* at, Float value) noexcept {
   if (std::signbit(value)) *at++ = '-';
   value = std::fabs(value);
   if (!std::isfinite(value)) return copy(at, std::isnan(value) ? "nan" : "inf");
@@ -118,7 +116,7 @@ char* shortest(char* at, Float value) noexcept {
   const Digits digits = shortest_digits(value);
   const int exponent = std::abs(digits.point - 1);
   const int scientific = digits.size + (digits.size > 1 ? 1 : 0) + (exponent >= 100 ? 5 : 4);
-  const int plain = digits.point <= 0             ? 2 - digits.point + digits.size
+  const int plain = digits.point <= 0            ? 2 - digits.point + digits.size
                     : digits.point < digits.size ? digits.size + 1
                                                  : digits.point;
   return plain <= scientific ? write_plain(at, digits, static_cast<double>(value)) : write_scientific(at, digits);

@@ -248,10 +248,14 @@ void check_event(Report& report, const std::string& key, const Event& event) {
     case Event::Kind::move_target: report.number_in(key + ".speed_m_s", event.value, up_to(100.0)); [[fallthrough]];
     case Event::Kind::add_target:
     case Event::Kind::move_obstacle: report.point(key + ".position", event.position); break;
-    case Event::Kind::set_line_of_sight: report.number_in(key + ".line_of_sight", event.value, up_to(1.0)); break;
+    case Event::Kind::set_line_of_sight:
+      if (event.value != 0.0 && event.value != 1.0)
+        report.fail(key + ".line_of_sight", "must be 0 or 1, not " + number(event.value));
+      break;
     case Event::Kind::kill: check_kill(report, key, event); break;
     case Event::Kind::die:
     case Event::Kind::remove_target: break;
+    default: report.fail(key + ".kind", "there is no such kind");
   }
 }
 
@@ -546,8 +550,11 @@ std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
     check_event(report, element("events", i), scenario.events[i]);
   const std::size_t robots = robot_count(scenario);
   if (!report.failed()) check_events_fit(report, scenario, target_positions(scenario).size(), robots);
-  if (!report.failed() && now != nullptr && !scenario.events.empty())
-    check_event_fits(report, scenario, scenario.events.size() - 1, robots, {now->targets, 0, 0, {}, now->obstacles});
+  if (report.failed() || now == nullptr || scenario.events.empty()) return report.take();
+  const std::size_t last = scenario.events.size() - 1;
+  if (scenario.events[last].when != Event::When::time)
+    report.fail(element("events", last) + ".when", "what somebody does happens now");
+  check_event_fits(report, scenario, last, robots, {now->targets, 0, 0, {}, now->obstacles});
   return report.take();
 }
 

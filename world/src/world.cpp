@@ -16,6 +16,7 @@
 #endif
 
 #include "banyan/controller/digest.hpp"
+#include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/threads.hpp"
@@ -289,7 +290,11 @@ void World::step() {
 }
 
 std::vector<Fault> World::faults_now(const Event& event) const {
-  const Present present{impl_->targets.size(), impl_->obstacles};
+  Present present{impl_->targets.size(), impl_->obstacles};
+  impl_->agenda.each_due(time_s() + 1e-9, [&](const Event& sooner) {
+    if (sooner.kind == Event::Kind::move_obstacle)
+      present.obstacles[sooner.index] = moved(present.obstacles[sooner.index], sooner.position);
+  });
   std::vector<Fault> found = event_faults(impl_->with(event), &present);
   std::erase_if(found, [](const Fault& fault) { return fault.warning; });
   return found;

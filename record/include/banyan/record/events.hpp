@@ -20,11 +20,14 @@ class EventWatcher {
   void watch_robots(const Frame& frame);
   void watch_targets(const Setting& setting, const Frame& frame);
   void watch_radio(const measure::Tick& tick);
+  void watch_setting(const Setting& setting);
   void add(std::string_view kind, std::int64_t robot, std::int64_t target, std::string text);
 
   bool started_ = false;
   Frame last_;
   measure::Tick last_tick_;
+  std::vector<world::Vec2> obstacles_;  // where each was
+  bool line_of_sight_ = false;
   std::vector<std::uint8_t> reached_;   // per target
   bool complete_ = false;
   std::vector<RecordedEvent> events_;

@@ -82,7 +82,9 @@ class Recording {
   [[nodiscard]] const std::string& path() const noexcept;
   [[nodiscard]] const std::vector<std::string>& warnings() const;
   [[nodiscard]] const Provenance& provenance() const noexcept;
-  [[nodiscard]] const Setting& setting() const noexcept;
+  [[nodiscard]] const Setting& setting() const noexcept;   // at the start
+  // The one that holds then: obstacles may be moved in a run, and line of sight switched.
+  [[nodiscard]] const Setting& setting_at(double time_s) const noexcept;
   // The run's result by column name (table.hpp), plus "interrupted"; empty if it was cut short.
   [[nodiscard]] const std::map<std::string, std::string>& result() const noexcept;
 
