@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The arrows of the house: adapters, viewer -> cli -> study -> {record, measure, config} -> world ->
-// controller. Reads the include lines of every source file and names each that points up.
+// The arrows of the house: adapters -> cli -> study -> {record, measure, config} -> world -> controller,
+// and viewer -> {record, measure, config}: a browser has no processes to start. Reads the include lines
+// of every source file and names each that points up.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -31,7 +32,7 @@ const std::map<std::string, Names, std::less<>> may_include = {
     {"study", {"controller", "world", "measure", "record", "config"}},
     {"cli", {"controller", "world", "measure", "record", "config", "study"}},
     {"adapters", {"controller", "world", "measure", "record", "config", "study", "cli"}},
-    {"viewer", {"controller", "world", "measure", "record", "config", "study", "cli"}},
+    {"viewer", {"controller", "world", "measure", "record", "config"}},
 };
 
 // Libraries that have one home: <prefix of the header> -> the rooms that know them.
@@ -48,6 +49,7 @@ const std::map<std::string, Names, std::less<>> homes = {
     {"pagmo/", {"study"}},
     {"boost/", {"study"}},
     {"mpi.h", {"study"}},
+    {"emscripten", {"viewer"}},
 };
 
 // The whole of the standard library that runs on a robot: no heap, no streams, no clock, no threads.
@@ -91,7 +93,8 @@ std::optional<std::string> quoted_fault(const fs::path& room_folder, const fs::p
     for (const std::string& below : may_include.at(room_folder.filename().string()))
       if (fs::exists(room_folder.parent_path() / below / "test" / name) && name.find("..") == std::string::npos) return std::nullopt;
   }
-  for (const fs::path& folder : {file.parent_path(), room_folder / "src", room_folder / "test"}) {
+  // The viewer's src/ is the page's; its C++ is in live/.
+  for (const fs::path& folder : {file.parent_path(), room_folder / "src", room_folder / "live", room_folder / "test"}) {
     if (!fs::exists(folder / name)) continue;
     const std::string inside = fs::weakly_canonical(folder / name).lexically_relative(fs::weakly_canonical(room_folder)).string();
     return inside.starts_with("..") ? std::optional("reaches out of its room") : std::nullopt;
@@ -191,6 +194,12 @@ TEST_F(WrongHouse, OnlyTestsShareTheHelpersOfTests) {
   EXPECT_EQ(faults_of("controller/test/helper.hpp", ""), "");
   EXPECT_EQ(faults_of("world/test/x_test.cpp", "#include \"helper.hpp\""), "");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"helper.hpp\""), "world/src/x.cpp: helper.hpp is not in its room\n");
+}
+TEST_F(WrongHouse, ThePageUsesTheProgram) {
+  EXPECT_NE(faults_of("viewer/live/x.cpp", "#include \"banyan/study/study.hpp\""), "");
+  EXPECT_NE(faults_of("record/src/x.cpp", "#include <emscripten/bind.h>"), "");
+  std::ofstream(house_ / "viewer/live/live.hpp") << "\n";
+  EXPECT_NE(faults_of("record/src/x.cpp", "#include \"live.hpp\""), "");
 }
 TEST_F(WrongHouse, WorldReadsToml) { EXPECT_NE(faults_of("world/src/x.cpp", "#include <toml++/toml.h>"), ""); }
 TEST_F(WrongHouse, RoomThatDoesNotExist) { EXPECT_NE(faults_of("cli/src/x.cpp", "#include \"banyan/attic/x.hpp\""), ""); }

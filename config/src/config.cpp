@@ -398,6 +398,11 @@ class Reader {
     if (read_whole(node, path, key.range, key.unit, value)) access(owner) = static_cast<Whole>(value);
   }
   template <class Owner>
+  void read_as(const Node& node, const std::string& path, const Key<Owner>& key, const SeedAccess<Owner>& access,
+               Owner& owner) {
+    read_as(node, path, key, access.member, owner);
+  }
+  template <class Owner>
   void read_as(const Node& node, const std::string& path, const Key<Owner>& key,
                std::optional<std::size_t>& (*access)(Owner&), Owner& owner) {
     std::int64_t value = 0;
@@ -592,6 +597,7 @@ template <class Owner> struct ToJson {
     for (const double v : access(owner)) list.push_back(angle(v));
     return list.empty() ? Json() : list;
   }
+  Json operator()(const SeedAccess<Owner>& access) const { return access.member(owner); }
   Json operator()(const ChoiceAccess<Owner>& access) const { return access.names()[access.get(owner)]; }
   double angle(double v) const { return is_angle(key.unit) ? exact_degrees(v) : v; }
 };

@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "banyan/world/decimal.hpp"
 #include "banyan/world/names.hpp"
 
 namespace banyan::config {
@@ -428,17 +429,14 @@ std::vector<Problem> apply_override(Node& root, std::string_view assignment, con
 std::string number_text(double value) {
   if (std::abs(value) >= 1e5 && std::abs(value) < 1e16 && value == std::trunc(value))
     return std::to_string(static_cast<std::int64_t>(value));
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  std::array<char, world::longest_shortest> buffer;
+  return {buffer.data(), world::write_shortest(buffer.data(), value)};
 }
 
 double widened(float value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  double result = 0.0;
-  std::from_chars(text.data(), end, result);
-  return result;
+  std::array<char, world::longest_shortest + 1> text;
+  *world::write_shortest(text.data(), value) = '\0';
+  return world::read_decimal(text.data());
 }
 
 bool good_name(std::string_view name) {

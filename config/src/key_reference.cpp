@@ -24,6 +24,7 @@ template <class Owner> struct TypeName {
   std::string operator()(std::vector<world::Vec2>& (*)(Owner&)) const { return "[[x, y], ...]"; }
   std::string operator()(std::vector<double>& (*)(Owner&)) const { return "list of numbers"; }
   std::string operator()(const ChoiceAccess<Owner>&) const { return "name"; }
+  std::string operator()(const SeedAccess<Owner>&) const { return "whole number"; }
 };
 
 template <class Owner> KeyRow row_of(const Key<Owner>& key) {

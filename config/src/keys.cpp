@@ -19,7 +19,8 @@ constexpr std::string_view body_names[] = {"disks", "box2d", "linear"};
 constexpr std::string_view target_layout_names[] = {"list", "ring", "random"};
 constexpr std::string_view obstacle_names[] = {"disc", "box", "wall"};
 constexpr std::string_view event_names[] = {"die",        "freeze", "set_loss", "move_target",
-                                            "add_target", "kill",   "blackout", "remove_target"};
+                                            "add_target", "kill",   "blackout", "remove_target",
+                                            "set_line_of_sight", "move_obstacle"};
 constexpr std::string_view when_names[] = {"time", "half-way", "complete"};
 constexpr std::string_view of_names[] = {"robots", "connectors", "root", "worker", "worker_and_parent"};
 constexpr std::string_view reading_names[] = {"corrected", "literal"};
@@ -90,7 +91,7 @@ constexpr Key<Form> scenario_list[] = {
      "length of a tick; robots broadcast, decide and move once a tick",
      [](Form& f) -> double& { return f.configuration.scenario.tick_s; }},
     {"", "seed", "", seeds, "decides everything random; the same seed gives the same run",
-     [](Form& f) -> std::size_t& { return f.configuration.scenario.seed; }},
+     SeedAccess<Form>{[](Form& f) -> std::uint64_t& { return f.configuration.scenario.seed; }}},
 
     {"mission",
      "algorithm",
@@ -459,6 +460,8 @@ constexpr Key<EventForm> event_list[] = {
      "freeze blackout"},
     {"events", "loss", "", share, "the new radio.loss", [](EventForm& e) -> double& { return e.loss; }, "set_loss",
      true},
+    {"events", "line_of_sight", "", {}, "the new radio.line_of_sight; the robots are told",
+     [](EventForm& e) -> bool& { return e.line_of_sight; }, "set_line_of_sight", true},
     {"events",
      "target",
      "",
@@ -467,8 +470,17 @@ constexpr Key<EventForm> event_list[] = {
      [](EventForm& e) -> std::size_t& { return e.target; },
      "move_target remove_target",
      true},
-    {"events", "position_m", "m", anywhere, "where the target is from then on, or drives to",
-     [](EventForm& e) -> Vec2& { return e.position; }, "move_target add_target", true},
+    {"events",
+     "obstacle",
+     "",
+     {0.0, 1e6},
+     "index of the obstacle, counted from 0",
+     [](EventForm& e) -> std::size_t& { return e.obstacle; },
+     "move_obstacle",
+     true},
+    {"events", "position_m", "m", anywhere,
+     "where the target is from then on, or drives to; where the centre of the obstacle is, of a wall its middle",
+     [](EventForm& e) -> Vec2& { return e.position; }, "move_target add_target move_obstacle", true},
     {"events",
      "speed_m_s",
      "m/s",
@@ -549,6 +561,8 @@ EventForm to_event_form(const world::Event& e) {
   if (e.kind == Kind::freeze || e.kind == Kind::blackout) form.duration_s = e.value;
   if (e.kind == Kind::set_loss) form.loss = e.value;
   if (e.kind == Kind::move_target) form.speed_m_s = e.value;
+  if (e.kind == Kind::set_line_of_sight) form.line_of_sight = e.value != 0.0;
+  if (e.kind == Kind::move_obstacle) form.obstacle = e.index;
   return form;
 }
 
@@ -561,7 +575,10 @@ world::Event to_event(const EventForm& form) {
   if (e.kind == Kind::freeze || e.kind == Kind::blackout) e.value = form.duration_s;
   if (e.kind == Kind::set_loss) e.value = form.loss;
   if (e.kind == Kind::move_target) e.value = form.speed_m_s;
-  if (e.kind == Kind::move_target || e.kind == Kind::add_target) e.position = form.position;
+  if (e.kind == Kind::set_line_of_sight) e.value = form.line_of_sight ? 1.0 : 0.0;
+  if (e.kind == Kind::move_obstacle) e.index = form.obstacle;
+  if (e.kind == Kind::move_target || e.kind == Kind::add_target || e.kind == Kind::move_obstacle)
+    e.position = form.position;
   if (e.kind != Kind::kill) return e;
   e.of = static_cast<world::Event::Of>(form.of);
   e.share = form.share;

@@ -240,11 +240,28 @@ kind = "move_target"
 target = 0
 position_m = [1, -1]
 speed_m_s = 0.05
+[[events]]
+time_s = 10
+kind = "set_line_of_sight"
+line_of_sight = true
+[[events]]
+time_s = 11
+kind = "move_obstacle"
+obstacle = 1
+position_m = [-3, 4.5]
+[[obstacles]]
+kind = "disc"
+center_m = [9, 9]
+radius_m = 1
+[[obstacles]]
+kind = "wall"
+from_m = [9, -9]
+to_m = [9, -8]
 )");
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
   using Event = world::Event;
   const auto& events = loaded.configuration.scenario.events;
-  ASSERT_EQ(events.size(), 5U);
+  ASSERT_EQ(events.size(), 7U);
   EXPECT_EQ(events[0].kind, Event::Kind::kill);
   EXPECT_EQ(events[0].when, Event::When::half_way);
   EXPECT_EQ(events[0].of, Event::Of::connectors);
@@ -263,6 +280,15 @@ speed_m_s = 0.05
   EXPECT_EQ(events[3].index, 1U);
   EXPECT_EQ(events[4].value, 0.05);
   EXPECT_EQ(events[4].position, (world::Vec2{1.0, -1.0}));
+  EXPECT_EQ(events[5].kind, Event::Kind::set_line_of_sight);
+  EXPECT_EQ(events[5].value, 1.0);
+  EXPECT_EQ(events[6].kind, Event::Kind::move_obstacle);
+  EXPECT_EQ(events[6].index, 1U);
+  EXPECT_EQ(events[6].position, (world::Vec2{-3.0, 4.5}));
+  // And back, and read again.
+  const auto again = parse(config_toml(loaded.configuration));
+  ASSERT_TRUE(again.ok()) << all_problems(again);
+  EXPECT_EQ(config_json(again.configuration), config_json(loaded.configuration));
 }
 
 TEST(Config, FaultsOfEventsHaveTheirLine) {
@@ -315,6 +341,11 @@ time_s = 1
 )");
   EXPECT_TRUE(says(loaded, "w.toml:7: error: events[0].share: give share or count, not both"));
   EXPECT_TRUE(says(loaded, "w.toml:13: error: events[2].duration_s: must be a number above 0"));
+  EXPECT_TRUE(says(parse(small + "[[events]]\nkind = \"move_obstacle\"\ntime_s = 1\nobstacle = 2\n"
+                                 "position_m = [1, 1]\n"),
+                   "w.toml:7: error: events[0].obstacle: there is no obstacle 2"));
+  EXPECT_TRUE(says(parse(small + "[[events]]\nkind = \"set_line_of_sight\"\ntime_s = 1\nline_of_sight = 1\n"),
+                   "w.toml:7: error: events[0].line_of_sight: must be true or false, not the number 1"));
   EXPECT_TRUE(says(parse(small + "[[events]]\nkind = \"remove_target\"\ntime_s = 1\ntarget = 2\n"),
                    "w.toml:7: error: events[0].target: there is no target 2 at that time; the last one is 1"));
 }

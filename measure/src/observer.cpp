@@ -188,7 +188,7 @@ void Observer::Impl::count_edges(const world::World& world) {
       ++tick.broken_by_death;
     } else if (squared_norm(positions[i] - positions[other]) >= range_m * range_m) {
       ++tick.broken_by_distance;
-    } else if (world.scenario().radio.line_of_sight) {
+    } else if (world.line_of_sight()) {
       const auto links = world.links(i);
       if (!std::binary_search(links.begin(), links.end(), std::uint32_t{other})) ++tick.broken_by_occlusion;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What happened between two frames (events.hpp).
-#include "events.hpp"
+#include "banyan/record/events.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,13 +30,6 @@ std::string place(Vec2 p) {
   text.fixed(p.y, 2);
   text.put(") m");
   return std::string(text.view());
-}
-
-Vec2 center_of(const world::Obstacle& obstacle) {
-  if (const auto* disc = std::get_if<world::Disc>(&obstacle)) return disc->center;
-  if (const auto* box = std::get_if<world::Box>(&obstacle)) return box->center;
-  const auto& wall = std::get<world::Wall>(obstacle);
-  return 0.5 * (wall.from + wall.to);
 }
 
 bool has_robot(const Frame& frame, std::int32_t i) {
@@ -138,7 +131,7 @@ void EventWatcher::watch_setting(const Setting& setting) {
     const bool moved = !(setting.obstacles[k] == setting_.obstacles[k]);
     if (moved && drifting_[k] == 0) {
       add("obstacle_moved", -1, -1,
-          "obstacle " + std::to_string(k) + " has moved to " + place(center_of(setting.obstacles[k])));
+          "obstacle " + std::to_string(k) + " has moved to " + place(world::center_of(setting.obstacles[k])));
     }
     drifting_[k] = moved ? 1 : 0;
   }

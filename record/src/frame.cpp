@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "banyan/controller/trig.hpp"
+#include "banyan/world/obstacles.hpp"
 #include "banyan/world/world.hpp"
 
 namespace banyan::record {
@@ -110,11 +111,20 @@ Setting setting_of(const world::World& world) {
   setting.tick_s = scenario.tick_s;
   setting.radius_m = scenario.robot.radius_m;
   setting.range_m = scenario.radio.range_m;
-  setting.line_of_sight = scenario.radio.line_of_sight;
+  setting.line_of_sight = world.line_of_sight();
   setting.target_tolerance_m = scenario.mission.target_tolerance_m;
   setting.time_limit_s = world::time_limit_s(scenario);
-  setting.obstacles = scenario.obstacles;
+  setting.obstacles.assign(world.obstacles().begin(), world.obstacles().end());
   return setting;
+}
+
+bool still_holds(const Setting& setting, const world::World& world) noexcept {
+  const auto same_place = [](const world::Obstacle& a, const world::Obstacle& b) {
+    return world::center_of(a) == world::center_of(b);
+  };
+  return setting.line_of_sight == world.line_of_sight() &&
+         std::equal(setting.obstacles.begin(), setting.obstacles.end(), world.obstacles().begin(),
+                    world.obstacles().end(), same_place);
 }
 
 std::string_view name_of(Role role) noexcept {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "banyan/record/json.hpp"
 #include "cell.hpp"
 #include "message_json.hpp"
 
@@ -247,6 +248,22 @@ void write_time(Text& out, double time_s) {
   out.put(",\"nsec\":");
   out.natural(ns % 1000000000U);
   out.put('}');
+}
+
+std::span<const FrameColumn> frame_columns() noexcept {
+  static constexpr auto columns = [] {
+    std::array<FrameColumn, fields.size()> list{};
+    for (std::size_t c = 0; c < fields.size(); ++c) list[c] = {fields[c].key, fields[c].meaning};
+    return list;
+  }();
+  return columns;
+}
+
+void pack(const Frame& frame, std::vector<double>& into) {
+  into.resize(fields.size() * frame.robots.size());
+  double* at = into.data();
+  for (const Field& field : fields)
+    for (const RobotFrame& robot : frame.robots) *at++ = field.get(robot);
 }
 
 void write_frame(Text& out, const Frame& frame) {

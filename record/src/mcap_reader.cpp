@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Reading MCAP (mcap.hpp): from the summary if it is sound, else by walking through the file.
-#include <zstd.h>
-
 #include <algorithm>
 #include <optional>
 #include <set>
 
 #include "bytes.hpp"
+#include "compression.hpp"
 
 namespace banyan::record::mcap {
 
@@ -126,15 +125,10 @@ std::string at_byte(std::uint64_t offset) { return " (at byte " + std::to_string
 }  // namespace
 
 struct Reader::Impl {
-  explicit Impl(const std::string& path) : file(path), zstd(ZSTD_createDCtx()) {
-    if (zstd == nullptr) throw std::bad_alloc();
-  }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() { ZSTD_freeDCtx(zstd); }
+  explicit Impl(const std::string& path) : file(path) {}
 
   InputFile file;
-  ZSTD_DCtx* zstd;
+  Decompressor decompressor;
   bool indexed = false;
   std::vector<std::string> warnings;
   std::set<std::uint64_t> warned;          // offsets of chunks that were complained about
@@ -162,7 +156,6 @@ struct Reader::Impl {
   void scan_chunk(std::uint64_t offset, std::uint64_t length);
   void scan_loose(const Record& record, std::uint64_t offset, std::uint64_t length);
   std::optional<std::string_view> unpack(std::string_view content, std::string& problem);
-  bool decompress(const ChunkHeader& chunk);
   bool load(const Stretch& stretch);
   std::vector<Message> messages_in(const Stretch& stretch, std::uint16_t channel, Nanoseconds from, Nanoseconds to);
   [[nodiscard]] static bool may_hold(const Stretch& s, std::uint16_t channel) {
@@ -346,29 +339,6 @@ void Reader::Impl::scan_chunk(std::uint64_t offset, std::uint64_t length) {
   if (any) stretches.push_back(std::move(s));
 }
 
-// Grows with what really comes out, so that a forged size costs no memory.
-bool Reader::Impl::decompress(const ChunkHeader& chunk) {
-  ZSTD_DCtx_reset(zstd, ZSTD_reset_session_only);
-  ZSTD_inBuffer in{chunk.records.data(), chunk.records.size(), 0};
-  std::size_t filled = 0;
-  unpacked.resize(std::min<std::uint64_t>(chunk.uncompressed, 4 * chunk.records.size() + 4096));
-  for (;;) {
-    ZSTD_outBuffer out{unpacked.data(), unpacked.size(), filled};
-    const std::size_t result = ZSTD_decompressStream(zstd, &out, &in);
-    if (ZSTD_isError(result) != 0) return false;
-    const bool progress = out.pos > filled || result == 0;
-    filled = out.pos;
-    if (result == 0) break;
-    if (filled == unpacked.size()) {
-      if (filled >= chunk.uncompressed) return false;
-      unpacked.resize(std::min<std::uint64_t>(chunk.uncompressed, 2 * unpacked.size()));
-    } else if (!progress || in.pos == in.size) {
-      return false;                        // the compressed data end too early
-    }
-  }
-  return filled == chunk.uncompressed && in.pos == in.size;
-}
-
 std::optional<std::string_view> Reader::Impl::unpack(std::string_view content, std::string& problem) {
   const auto chunk = read_chunk(content);
   if (!chunk || chunk->uncompressed > largest_chunk) {
@@ -377,7 +347,7 @@ std::optional<std::string_view> Reader::Impl::unpack(std::string_view content, s
   }
   std::string_view records = chunk->records;
   if (chunk->compression == "zstd") {
-    if (!decompress(*chunk)) {
+    if (!decompressor.decompress(chunk->records, chunk->uncompressed, unpacked)) {
       problem = "a damaged chunk was skipped";
       return std::nullopt;
     }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Writing MCAP (mcap.hpp). Schemas, channels and metadata stand outside the chunks, so a damaged
 // chunk takes only its own messages with it.
-#include <zstd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 #include <utility>
 
 #include "bytes.hpp"
+#include "compression.hpp"
 
 namespace banyan::record::mcap {
 
@@ -106,7 +106,7 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t seed) noexcept {
 struct Writer::Impl {
   OutputFile& file;
   WriterOptions options;
-  ZSTD_CCtx* zstd = nullptr;
+  Compressor compressor;
   std::uint32_t data_crc = 0;
   std::vector<Schema> schemas;
   std::vector<Channel> channels;
@@ -119,14 +119,11 @@ struct Writer::Impl {
 
   std::map<ChunkGroup, OpenChunk> open;
   std::vector<OpenChunk*> chunk_of;       // per channel; nodes of a map stay where they are
-  std::string compressed, scratch;
+  std::string scratch;
 
-  Impl(OutputFile& output, WriterOptions wanted) : file(output), options(std::move(wanted)), zstd(ZSTD_createCCtx()) {
-    if (zstd == nullptr) throw std::bad_alloc();
+  Impl(OutputFile& output, WriterOptions wanted) : file(output), options(std::move(wanted)) {
+    options.compression_level = possible_level(options.compression_level);
   }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() { ZSTD_freeCCtx(zstd); }
 
   void data(std::string_view bytes) {     // of the data section
     data_crc = crc32(bytes, data_crc);
@@ -197,11 +194,9 @@ void Writer::message(std::uint16_t channel_id, Nanoseconds time, std::string_vie
 
 std::string_view Writer::Impl::compress(std::string_view records) {
   if (options.compression_level == 0) return records;
-  compressed.resize(ZSTD_compressBound(records.size()));
-  const std::size_t size = ZSTD_compressCCtx(zstd, compressed.data(), compressed.size(), records.data(),
-                                             records.size(), options.compression_level);
-  if (ZSTD_isError(size) != 0) throw FileError(file.path(), std::string("cannot compress: ") + ZSTD_getErrorName(size));
-  return {compressed.data(), size};
+  try {
+    return compressor.compress(records, options.compression_level);
+  } catch (const std::runtime_error& e) { throw FileError(file.path(), std::string("cannot compress: ") + e.what()); }
 }
 
 void Writer::end_chunks() {

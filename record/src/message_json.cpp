@@ -7,6 +7,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "banyan/record/frame.hpp"
+
 namespace banyan::record {
 
 namespace {
@@ -104,8 +106,29 @@ constexpr auto fields = std::to_array<MessageField>({
     {"below", "the only worker below, by its target, -1: none or branches", robot<&M::below>},
 });
 
+// The name behind an enumerator's field; nothing for other fields.
+std::string_view word(std::string_view field, const Message& message) noexcept {
+  if (field == "role") return name_of(message.role);
+  if (field == "phase") return name_of(message.phase);
+  if (field == "need") return name_of(message.need);
+  return {};
+}
+
 }  // namespace
 
 std::span<const MessageField> message_fields() noexcept { return fields; }
+
+void write_message(Text& out, const Message& message) {
+  out.put('{');
+  for (const MessageField& field : fields) {
+    out.json_string(field.name);
+    out.put(':');
+    const std::string_view name = word(field.name, message);
+    name.empty() ? out.shortest(field.get(message)) : out.json_string(name);
+    out.put(',');
+  }
+  out.drop_last();
+  out.put('}');
+}
 
 }  // namespace banyan::record

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "banyan/controller/message.hpp"
+#include "text.hpp"
 
 namespace banyan::record {
 
@@ -25,5 +26,8 @@ struct MessageField {
 
 // In the order of the wire format; `version` is not among them. Valid for the whole program.
 [[nodiscard]] std::span<const MessageField> message_fields() noexcept;
+
+// One object with all fields in their order; role, phase and need by name.
+void write_message(Text& out, const Message& message);
 
 }  // namespace banyan::record

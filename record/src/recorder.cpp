@@ -4,10 +4,10 @@
 #include <cerrno>
 #include <utility>
 
+#include "banyan/record/events.hpp"
 #include "banyan/record/mcap.hpp"
 #include "banyan/record/recording.hpp"
 #include "cell.hpp"
-#include "events.hpp"
 #include "frame_json.hpp"
 #include "scene.hpp"
 #include "schemas.hpp"
@@ -171,7 +171,7 @@ void Recorder::frame(const world::World& world, const measure::Tick& tick) {
   Impl& r = *impl_;
   capture(world, r.now);
   if (r.options.messages) r.last_messages.assign(world.messages().begin(), world.messages().end());
-  r.record(setting_of(world), tick);
+  r.record(r.started && still_holds(r.setting, world) ? r.setting : setting_of(world), tick);
 }
 
 void Recorder::frame(const Setting& setting, const Frame& frame, const measure::Tick& tick) {

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
+
+#include "banyan/world/decimal.hpp"
 
 namespace banyan::record {
 
@@ -114,9 +115,7 @@ void Text::fixed(double value, int decimals, std::string_view otherwise) {
   const std::uint64_t unit = power[static_cast<std::size_t>(decimals)];
   const double scaled = std::fabs(value) * static_cast<double>(unit);
   if (scaled >= exact_limit) {
-    constexpr std::size_t longest = 340;  // DBL_MAX has 309 digits
-    char* at = space(longest);
-    return advance_to(std::to_chars(at, at + longest, value, std::chars_format::fixed, decimals).ptr);
+    return advance_to(world::write_fixed(space(world::longest_fixed), value, decimals));
   }
   const auto number = static_cast<std::uint64_t>(scaled + 0.5);
   char* at = space(40);
@@ -136,8 +135,7 @@ void Text::fixed(double value, int decimals, std::string_view otherwise) {
 
 void Text::shortest(double value) {
   if (!std::isfinite(value)) return put("null");
-  char* at = space(32);
-  advance_to(std::to_chars(at, at + 32, value).ptr);
+  advance_to(world::write_shortest(space(world::longest_shortest), value));
 }
 
 void Text::json_string(std::string_view text) {

@@ -56,6 +56,23 @@ TEST(Between, PositionsOnALineAndHeadingsByTheShorterWay) {
   EXPECT_TRUE(between(a, a, a.time_s) == a);
 }
 
+TEST(Capture, TheSettingIsTheWorldsOfNow) {
+  world::World world(scenario(10, true));
+  const Setting before = setting_of(world);
+  EXPECT_TRUE(still_holds(before, world));
+  world.intervene({.kind = world::Event::Kind::move_obstacle, .index = 0, .position = {-7.0, 2.0}});
+  EXPECT_TRUE(still_holds(before, world)) << "in the next step";
+  world.step();
+  EXPECT_FALSE(still_holds(before, world));
+  const Setting moved = setting_of(world);
+  EXPECT_EQ(std::get<world::Disc>(moved.obstacles[0]).center, (Vec2{-7.0, 2.0}));
+  EXPECT_TRUE(moved.line_of_sight);
+  world.intervene({.kind = world::Event::Kind::set_line_of_sight, .value = 0.0});
+  world.step();
+  EXPECT_FALSE(still_holds(moved, world));
+  EXPECT_FALSE(setting_of(world).line_of_sight);
+}
+
 TEST(Capture, ShowsTheWorldAsItIs) {
   world::World world(scenario(30, true));
   Frame frame;

@@ -10,9 +10,11 @@
 #include <optional>
 #include <sstream>
 
+#include "banyan/measure/observer.hpp"
 #include "banyan/record/draw.hpp"
 #include "banyan/record/export.hpp"
 #include "banyan/record/mcap.hpp"
+#include "banyan/world/world.hpp"
 #include "sample.hpp"
 
 namespace banyan::record {
@@ -99,6 +101,43 @@ TEST(Recording, ProvenanceSettingAndResultComeBack) {
   EXPECT_EQ(recording.result().at("hash"), "0123456789abcdef");
   EXPECT_EQ(recording.result().at("complete"), "true");
   EXPECT_EQ(recording.result().at("interrupted"), "false");
+}
+
+TEST(Recording, ObstaclesAndSightAreThoseOfTheTime) {
+  world::Scenario scenario;
+  scenario.obstacles = {world::Disc{{9.0, 9.0}, 0.5}};
+  scenario.events = {{.time_s = 1.0, .kind = world::Event::Kind::move_obstacle, .position = {7.0, -7.0}},
+                     {.time_s = 2.0, .kind = world::Event::Kind::set_line_of_sight, .value = 1.0}};
+  world::World world(scenario);
+  measure::Observer observer(world);
+  const std::string path = ::testing::TempDir() + "/settings.mcap";
+  RecorderOptions options;
+  options.existing = Existing::replace;
+  Recorder recorder(path, {}, options);
+  recorder.frame(world, observer.last());
+  while (world.tick() < 30) {
+    world.step();
+    recorder.frame(world, observer.observe(world));
+  }
+  recorder.finish(observer.result(world));
+  Recording recording(path);
+  fs::remove(path);
+  EXPECT_EQ(recording.warnings().size(), 0U);
+  const auto center = [&](double time_s) {
+    return std::get<world::Disc>(recording.setting_at(time_s).obstacles[0]).center;
+  };
+  EXPECT_EQ(center(0.0), (Vec2{9.0, 9.0}));
+  EXPECT_EQ(center(1.05), (Vec2{9.0, 9.0}));
+  EXPECT_EQ(center(1.1), (Vec2{7.0, -7.0})) << "it is there after the step that begins at 1 s";
+  EXPECT_EQ(center(99.0), (Vec2{7.0, -7.0}));
+  EXPECT_FALSE(recording.setting_at(2.0).line_of_sight);
+  EXPECT_TRUE(recording.setting_at(2.1).line_of_sight);
+  EXPECT_FALSE(recording.setting().line_of_sight);
+  std::string told;
+  for (const RecordedEvent& event : recording.events())
+    if (event.kind == "obstacle_moved" || event.kind == "line_of_sight")
+      told += std::to_string(event.tick) + " " + event.text + "\n";
+  EXPECT_EQ(told, "11 obstacle 0 has moved\n21 bodies and obstacles block the radio now\n");
 }
 
 TEST(Recording, FrameAtIsTheLastOneBefore) {

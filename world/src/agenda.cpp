@@ -23,6 +23,13 @@ Agenda::Agenda(const std::vector<Event>& events) {
     (events[i].when == Event::When::time ? due_ : waiting_)
         .push_back({.event = events[i], .number = i, .due_s = events[i].time_s});
   std::sort(due_.begin(), due_.end(), later);
+  size_ = events.size();
+}
+
+void Agenda::add(const Event& event) {
+  ++size_;
+  due_.reserve(size_);  // again() must find room for all
+  insert({.event = event, .number = size_ - 1, .due_s = event.time_s});
 }
 
 bool Agenda::waits_for(Event::When moment) const noexcept {

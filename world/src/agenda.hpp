@@ -27,12 +27,19 @@ class Agenda {
 
   explicit Agenda(const std::vector<Event>& events);
 
+  // One more event of the scenario's list, the last one so far, due at its time_s. Allocates.
+  void add(const Event& event);
   // Whether an event waits for this moment of the mission.
   [[nodiscard]] bool waits_for(Event::When moment) const noexcept;
   // The moment has come: what waits for it is due event.time_s after `now_s`.
   void come(Event::When moment, double now_s);
   // Takes out the next event that is due at `now_s`; none if there is none yet.
   [[nodiscard]] std::optional<Entry> take(double now_s);
+  // What take(now_s) is going to give, in its order.
+  template <class Visit>
+  void each_due(double now_s, const Visit& visit) const {
+    for (auto entry = due_.rbegin(); entry != due_.rend() && entry->due_s <= now_s; ++entry) visit(entry->event);
+  }
   // Puts back one that was taken and acts again at its due_s. No allocation: there is room for all.
   void again(const Entry& entry);
   // Whether a robot is still to die by an event, drawn or named.
@@ -45,6 +52,7 @@ class Agenda {
 
   std::vector<Entry> due_;      // the next one last
   std::vector<Entry> waiting_;  // in the order of the file
+  std::uint64_t size_ = 0;      // of the scenario's list
   std::uint64_t acted_ = 0;     // events that will not act again
 };
 

@@ -114,6 +114,10 @@ class Box2d final : public Bodies {
 
   void remove(std::size_t i) override { gone_[i] = 1; }
 
+  void set_obstacles(std::span<const Obstacle> obstacles) override {
+    obstacles_.assign(obstacles.begin(), obstacles.end());
+  }
+
   [[nodiscard]] std::uint64_t hash(std::uint64_t h) const noexcept override {
     const auto add = [&h](float x) { h = mix(h ^ std::bit_cast<std::uint32_t>(x)); };
     for (const Momentum& m : momentum_) {
@@ -196,6 +200,8 @@ class Box2d final : public Bodies {
 };
 
 }  // namespace
+
+bool has_box2d() noexcept { return true; }
 
 std::unique_ptr<Bodies> make_box2d(const Scenario& scenario, const Poses& poses) {
   return std::make_unique<Box2d>(scenario, poses.position.size());

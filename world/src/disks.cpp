@@ -30,6 +30,10 @@ class Disks final : public Bodies {
         for (const Obstacle& obstacle : obstacles_) p += push_out(obstacle, p, robot_.radius_m);
   }
 
+  void set_obstacles(std::span<const Obstacle> obstacles) override {
+    obstacles_.assign(obstacles.begin(), obstacles.end());
+  }
+
   [[nodiscard]] std::uint64_t hash(std::uint64_t h) const noexcept override { return h; }  // poses are all there is
 
  private:

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"
 #include "world_impl.hpp"
 
@@ -119,6 +120,12 @@ void World::Impl::apply(Agenda::Entry entry) {
     case Event::Kind::remove_target:
       give_up(event.index);
       break;
+    case Event::Kind::set_line_of_sight:
+      set_line_of_sight(event.value != 0.0);
+      break;
+    case Event::Kind::move_obstacle:
+      move_obstacle(event.index, event.position);
+      break;
   }
 }
 
@@ -226,8 +233,39 @@ void World::Impl::give_up(std::size_t target) {
   }
 }
 
+// The robots are told: with their parameter they look out for what is in the way, or do not.
+void World::Impl::set_line_of_sight(bool on) {
+  line_of_sight = on;
+  params.line_of_sight = on;
+  radio.set_line_of_sight(on);
+}
+
+void World::Impl::move_obstacle(std::size_t obstacle, Vec2 center) {
+  obstacles[obstacle] = moved(obstacles[obstacle], center);
+  bodies->set_obstacles(obstacles);
+  radio.set_obstacles(obstacles);
+  proximity.set_obstacles(obstacles);
+}
+
+// ---- What somebody does to a running world ----
+
+Scenario World::Impl::with(const Event& event) const {
+  Scenario changed = scenario;
+  changed.events.push_back(event);
+  changed.events.back().time_s = static_cast<double>(tick) * scenario.tick_s;
+  return changed;
+}
+
+// Settings that an event can change are hashed where they differ from the scenario's.
 void World::Impl::add_events(Digest& digest) const noexcept {
   if (silent_until > tick) digest.add(silent_until);
+  if (line_of_sight != scenario.radio.line_of_sight) digest.add(line_of_sight);
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const Vec2 center = center_of(obstacles[k]);
+    if (center == center_of(scenario.obstacles[k])) continue;
+    digest.add(k);
+    digest.add(center);
+  }
   const bool half_way_counts = agenda.waits_for(Event::When::half_way);
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (!targets[t].active) digest.add(t);

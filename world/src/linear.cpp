@@ -75,6 +75,10 @@ class Linear final : public Bodies {
     }
   }
 
+  void set_obstacles(std::span<const Obstacle> obstacles) override {
+    obstacles_.assign(obstacles.begin(), obstacles.end());
+  }
+
   [[nodiscard]] std::uint64_t hash(std::uint64_t h) const noexcept override {
     for (const Vec2 v : velocity_)
       for (const double x : {v.x, v.y}) h = mix(h ^ std::bit_cast<std::uint64_t>(x));

@@ -152,4 +152,26 @@ Vec2 push_out(const Obstacle& obstacle, Vec2 p, double radius) noexcept {
   return std::visit([&](const auto& o) { return push_out_of(o, p, radius); }, obstacle);
 }
 
+Vec2 center_of(const Obstacle& obstacle) noexcept {
+  struct Center {
+    Vec2 operator()(const Disc& disc) const { return disc.center; }
+    Vec2 operator()(const Box& box) const { return box.center; }
+    Vec2 operator()(const Wall& wall) const { return (wall.from + wall.to) * 0.5; }
+  };
+  return std::visit(Center{}, obstacle);
+}
+
+Obstacle moved(const Obstacle& obstacle, Vec2 center) noexcept {
+  struct Move {
+    Vec2 center;
+    Obstacle operator()(const Disc& disc) const { return Disc{center, disc.radius_m}; }
+    Obstacle operator()(const Box& box) const { return Box{center, box.size, box.angle_rad}; }
+    Obstacle operator()(const Wall& wall) const {
+      const Vec2 half = (wall.to - wall.from) * 0.5;
+      return Wall{center - half, center + half};
+    }
+  };
+  return std::visit(Move{center}, obstacle);
+}
+
 }  // namespace banyan::world

@@ -54,8 +54,13 @@ Proximity::Proximity(const Scenario& scenario)
     : reach_m_(scenario.robot.proximity_m),
       radius_m_(scenario.robot.radius_m),
       sees_dead_(scenario.robot.dead_bodies && reach_m_ > 0.0) {
+  set_obstacles(scenario.obstacles);
+}
+
+void Proximity::set_obstacles(std::span<const Obstacle> obstacles) {
   if (reach_m_ == 0.0) return;
-  obstacles_ = scenario.obstacles;
+  obstacles_.assign(obstacles.begin(), obstacles.end());
+  around_.clear();
   for (const Obstacle& obstacle : obstacles_) {
     const auto [center, radius] = std::visit(Enclose{}, obstacle);
     around_.push_back({center, radius * (1.0 + 1e-9) + 1e-9});

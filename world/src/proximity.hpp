@@ -21,6 +21,8 @@ class Proximity {
   // Reach: scenario.robot.proximity_m from the robot's centre to the nearest point of a surface.
   explicit Proximity(const Scenario& scenario);
 
+  // From now on these are the obstacles.
+  void set_obstacles(std::span<const Obstacle> obstacles);
   // Where the dead lie now. O(dead log dead), nothing while all live or the dead vanish.
   void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, std::size_t dead);
   // What robot i sees, in its body frame, m: ascending by distance, equal ones obstacles before

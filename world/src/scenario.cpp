@@ -12,6 +12,7 @@
 #include "banyan/controller/message.hpp"
 #include "banyan/controller/policy.hpp"
 #include "banyan/controller/trig.hpp"
+#include "banyan/world/bodies.hpp"
 #include "banyan/world/names.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
@@ -163,6 +164,8 @@ void check_swarm(Report& report, const Swarm& swarm) {
 }
 
 void check_robot(Report& report, const RobotModel& robot) {
+  if (robot.body == BodyModel::box2d && !has_box2d())
+    report.fail("robot.body", "the body model box2d is not in the browser's build; use disks or linear");
   report.number_in("robot.radius_m", robot.radius_m, positive(100.0));
   check_as_parameter(report, "robot.wheel_distance_m", robot.wheel_distance_m, "wheel_distance_m");
   check_as_parameter(report, "robot.wheel_limit_m_s", robot.wheel_limit_m_s, "wheel_limit_m_s");
@@ -243,10 +246,16 @@ void check_event(Report& report, const std::string& key, const Event& event) {
     case Event::Kind::freeze: report.number_in(key + ".seconds", event.value, up_to(1e7)); break;
     case Event::Kind::blackout: report.number_in(key + ".duration_s", event.value, positive(1e7)); break;
     case Event::Kind::move_target: report.number_in(key + ".speed_m_s", event.value, up_to(100.0)); [[fallthrough]];
-    case Event::Kind::add_target: report.point(key + ".position", event.position); break;
+    case Event::Kind::add_target:
+    case Event::Kind::move_obstacle: report.point(key + ".position", event.position); break;
+    case Event::Kind::set_line_of_sight:
+      if (event.value != 0.0 && event.value != 1.0)
+        report.fail(key + ".line_of_sight", "must be 0 or 1, not " + number(event.value));
+      break;
     case Event::Kind::kill: check_kill(report, key, event); break;
     case Event::Kind::die:
     case Event::Kind::remove_target: break;
+    default: report.fail(key + ".kind", "there is no such kind");
   }
 }
 
@@ -266,9 +275,9 @@ void check_numbers(Report& report, const Scenario& scenario) {
 
 // ---------------------------------------------------------------- round two: how they fit
 
-double clearance_to_all(const Scenario& scenario, Vec2 p) noexcept {
+double clearance_to_all(const std::vector<Obstacle>& obstacles, Vec2 p) noexcept {
   double least = std::numeric_limits<double>::infinity();
-  for (const Obstacle& o : scenario.obstacles) least = std::min(least, clearance(o, p));
+  for (const Obstacle& o : obstacles) least = std::min(least, clearance(o, p));
   return least;
 }
 
@@ -276,9 +285,9 @@ std::string target_key(const Scenario& scenario, std::size_t i) {
   return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions", i) : "targets";
 }
 
-void check_target_room(Report& report, const Scenario& scenario, const std::string& key, const std::string& name,
-                       Vec2 p) {
-  const double room = clearance_to_all(scenario, p);
+void check_target_room(Report& report, const Scenario& scenario, const std::vector<Obstacle>& obstacles,
+                       const std::string& key, const std::string& name, Vec2 p) {
+  const double room = clearance_to_all(obstacles, p);
   if (room <= 0.0) {
     report.fail(key, name + " at " + at(p) + " lies inside an obstacle");
   } else if (room + scenario.mission.target_tolerance_m < scenario.robot.radius_m) {
@@ -340,7 +349,7 @@ void check_listed_cluster(Report& report, const Scenario& scenario) {
                                              " groups are farther than radio.range_m = " + number(range) +
                                              " m from each other");
   for (std::size_t i = 0; i < p.size(); ++i)
-    if (clearance_to_all(scenario, p[i]) < scenario.robot.radius_m)
+    if (clearance_to_all(scenario.obstacles, p[i]) < scenario.robot.radius_m)
       report.fail(element("swarm.start.positions", i), "a robot at " + at(p[i]) + " touches an obstacle");
 }
 
@@ -386,6 +395,7 @@ struct Sequel {
   std::size_t served;    // those that are not given up
   std::size_t most;      // the largest of `served` so far
   std::vector<std::size_t> removed;
+  std::vector<Obstacle> obstacles;
 };
 
 // Who and what an event refers to exists when it happens.
@@ -402,11 +412,17 @@ void check_event_fits(Report& report, const Scenario& scenario, std::size_t inde
   if (target && event.index >= before.targets)
     report.fail(key + ".target", "there is no target " + std::to_string(event.index) +
                                      " at that time; the last one is " + std::to_string(before.targets - 1));
+  const std::size_t obstacles = before.obstacles.size();
+  if (event.kind == Event::Kind::move_obstacle && event.index >= obstacles)
+    report.fail(key + ".obstacle", "there is no obstacle " + std::to_string(event.index) +
+                                       (obstacles == 0 ? "" : "; the last one is " + std::to_string(obstacles - 1)));
   if (event.kind == Event::Kind::add_target || event.kind == Event::Kind::move_target)
-    check_target_room(report, scenario, key + ".position", "the target", event.position);
+    check_target_room(report, scenario, before.obstacles, key + ".position", "the target", event.position);
 }
 
 void follow(Sequel& sequel, const Event& event) {
+  if (event.kind == Event::Kind::move_obstacle && event.index < sequel.obstacles.size())
+    sequel.obstacles[event.index] = moved(sequel.obstacles[event.index], event.position);
   if (event.kind == Event::Kind::add_target) {
     ++sequel.targets;
     sequel.most = std::max(sequel.most, ++sequel.served);
@@ -429,7 +445,7 @@ std::size_t check_events(Report& report, const Scenario& scenario, std::size_t t
   const auto adds_late = static_cast<std::size_t>(std::count_if(order.begin(), order.end(), [&](std::size_t i) {
     return waits(i) && events[i].kind == Event::Kind::add_target;
   }));
-  Sequel sequel{targets + adds_late, targets, targets, {}};
+  Sequel sequel{targets + adds_late, targets, targets, {}, scenario.obstacles};
   for (const std::size_t i : order) {
     if (waits(i)) continue;
     check_event_fits(report, scenario, i, robots, sequel);
@@ -440,17 +456,20 @@ std::size_t check_events(Report& report, const Scenario& scenario, std::size_t t
   return sequel.most + adds_late;
 }
 
+// False if there are more targets than robots that can be sent.
+bool check_events_fit(Report& report, const Scenario& scenario, std::size_t targets, std::size_t robots) {
+  const std::size_t at_most = check_events(report, scenario, targets, robots);
+  if (at_most + 1 <= robots) return true;
+  return report.fail("swarm.robots", std::to_string(robots) + " robots cannot serve " + std::to_string(at_most) +
+                                         " targets: each needs a worker, and the root is none of them");
+}
+
 void check_targets_fit(Report& report, const Scenario& scenario) {
   const std::vector<Vec2> targets = target_positions(scenario);
   const std::size_t robots = robot_count(scenario);
   for (std::size_t i = 0; i < targets.size(); ++i)
-    check_target_room(report, scenario, target_key(scenario, i), "target " + std::to_string(i), targets[i]);
-  const std::size_t at_most = check_events(report, scenario, targets.size(), robots);
-  if (at_most + 1 > robots) {
-    report.fail("swarm.robots", std::to_string(robots) + " robots cannot serve " + std::to_string(at_most) +
-                                    " targets: each needs a worker, and the root is none of them");
-    return;
-  }
+    check_target_room(report, scenario, scenario.obstacles, target_key(scenario, i), "target " + std::to_string(i), targets[i]);
+  if (!check_events_fit(report, scenario, targets.size(), robots)) return;
   const std::size_t needed = least_robots(targets, scenario.mission.target_tolerance_m, scenario.radio.range_m);
   if (needed > robots)
     report.warn("targets", "out of reach: no connected network of fewer than " + std::to_string(needed) +
@@ -483,7 +502,7 @@ struct TargetPositions {
       const double u = to_uniform(bits(scenario.seed, Purpose::targets, i, 2 * attempt));
       const double v = to_uniform(bits(scenario.seed, Purpose::targets, i, 2 * attempt + 1));
       p = random.center + random.radius_m * std::sqrt(0.1 + 0.9 * u) * unit_vector(2.0 * pi<double> * v);
-      if (clearance_to_all(scenario, p) >= scenario.robot.radius_m) break;
+      if (clearance_to_all(scenario.obstacles, p) >= scenario.robot.radius_m) break;
     }
     return p;
   }
@@ -522,6 +541,20 @@ std::vector<Fault> faults(const Scenario& scenario) {
     check_swarm_fits(report, scenario);
     check_targets_fit(report, scenario);
   }
+  return report.take();
+}
+
+std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
+  Report report;
+  for (std::size_t i = 0; i < scenario.events.size(); ++i)
+    check_event(report, element("events", i), scenario.events[i]);
+  const std::size_t robots = robot_count(scenario);
+  if (!report.failed()) check_events_fit(report, scenario, target_positions(scenario).size(), robots);
+  if (report.failed() || now == nullptr || scenario.events.empty()) return report.take();
+  const std::size_t last = scenario.events.size() - 1;
+  if (scenario.events[last].when != Event::When::time)
+    report.fail(element("events", last) + ".when", "what somebody does happens now");
+  check_event_fits(report, scenario, last, robots, {now->targets, 0, 0, {}, now->obstacles});
   return report.take();
 }
 

@@ -16,6 +16,7 @@
 #endif
 
 #include "banyan/controller/digest.hpp"
+#include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/threads.hpp"
@@ -47,12 +48,14 @@ std::unique_ptr<Bodies> make_bodies(Scenario scenario, const Poses& poses) {
   }
 }
 
-void require_possible(const Scenario& scenario) {
+void refuse(const std::vector<Fault>& faults) {
   std::string text;
-  for (const Fault& fault : faults(scenario))
+  for (const Fault& fault : faults)
     if (!fault.warning) text += (text.empty() ? "" : "; ") + fault.key + ": " + fault.text;
   if (!text.empty()) throw std::invalid_argument(text);
 }
+
+void require_possible(const Scenario& scenario) { refuse(faults(scenario)); }
 
 }  // namespace
 
@@ -61,6 +64,8 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
       policy(own != nullptr ? own : find_policy(s.mission.algorithm)),
       params(controller_params(s, *policy)),
       loss(s.radio.loss),
+      line_of_sight(s.radio.line_of_sight),
+      obstacles(s.obstacles),
       poses(place(s)),
       bodies(make_bodies(s, poses)),
       radio(s, poses.position.size()),
@@ -101,7 +106,8 @@ void World::Impl::adopt(const Policy& own) {
 }
 
 World::Impl::Impl(const Impl& o)
-    : scenario(o.scenario), policy(o.policy), params(o.params), loss(o.loss), tick(o.tick), poses(o.poses),
+    : scenario(o.scenario), policy(o.policy), params(o.params), loss(o.loss),
+      line_of_sight(o.line_of_sight), obstacles(o.obstacles), tick(o.tick), poses(o.poses),
       bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
       target_of(o.target_of), states(make_room(o.states.size())), messages(o.messages), next_messages(o.next_messages), commands(o.commands),
       moving(o.moving), odometry(o.odometry), agenda(o.agenda), silent_until(o.silent_until), deaths(o.deaths),
@@ -216,8 +222,8 @@ Output World::Impl::consult(std::size_t i, std::span<const Heard> heard, const O
     target = {static_cast<float>(d.x), static_cast<float>(d.y)};
   }
   Proximity::Seen seen;
-  const std::size_t obstacles = proximity.sense(poses, i, seen);
-  return banyan::step(params, *policy, states[i], heard, moved, sees_target ? &target : nullptr, {seen.data(), obstacles});
+  const std::size_t in_reach = proximity.sense(poses, i, seen);
+  return banyan::step(params, *policy, states[i], heard, moved, sees_target ? &target : nullptr, {seen.data(), in_reach});
 }
 
 // Robot i is next: asks for the memory its step will touch while the one before it computes. States
@@ -283,6 +289,23 @@ void World::step() {
   step(alone);
 }
 
+std::vector<Fault> World::faults_now(const Event& event) const {
+  Present present{impl_->targets.size(), impl_->obstacles};
+  impl_->agenda.each_due(time_s() + 1e-9, [&](const Event& sooner) {
+    if (sooner.kind == Event::Kind::move_obstacle)
+      present.obstacles[sooner.index] = moved(present.obstacles[sooner.index], sooner.position);
+  });
+  std::vector<Fault> found = event_faults(impl_->with(event), &present);
+  std::erase_if(found, [](const Fault& fault) { return fault.warning; });
+  return found;
+}
+
+void World::intervene(const Event& event) {
+  refuse(faults_now(event));
+  impl_->scenario = impl_->with(event);
+  impl_->agenda.add(impl_->scenario.events.back());
+}
+
 const Scenario& World::scenario() const noexcept { return impl_->scenario; }
 const Params& World::params() const noexcept { return impl_->params; }
 const Policy& World::policy() const noexcept { return *impl_->policy; }
@@ -295,6 +318,8 @@ std::span<const State> World::states() const noexcept { return impl_->states; }
 std::span<const Message> World::messages() const noexcept { return impl_->messages; }
 std::span<const std::uint8_t> World::alive() const noexcept { return impl_->alive; }
 std::span<const Target> World::targets() const noexcept { return impl_->targets; }
+std::span<const Obstacle> World::obstacles() const noexcept { return impl_->obstacles; }
+bool World::line_of_sight() const noexcept { return impl_->line_of_sight; }
 std::optional<std::size_t> World::holder(std::size_t target) const noexcept { return impl_->holder(target); }
 std::size_t World::deaths() const noexcept { return impl_->deaths; }
 std::optional<std::uint64_t> World::last_death_tick() const noexcept { return impl_->last_death; }

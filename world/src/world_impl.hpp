@@ -110,6 +110,9 @@ struct World::Impl {
   void move_target(std::size_t target, Vec2 position, double speed_m_s);
   void assign_target(Vec2 position);
   void give_up(std::size_t target);
+  void set_line_of_sight(bool on);
+  void move_obstacle(std::size_t obstacle, Vec2 center);
+  [[nodiscard]] Scenario with(const Event& event) const;   // the scenario, and this happening now
   [[nodiscard]] double remaining_m(std::size_t target) const noexcept;
   [[nodiscard]] bool half_way() const noexcept;
   [[nodiscard]] bool complete() const noexcept;
@@ -125,6 +128,8 @@ struct World::Impl {
   const Policy* policy;
   Params params;
   double loss;
+  bool line_of_sight;                          // now, and so are
+  std::vector<Obstacle> obstacles;             // these; radio, proximity and bodies have copies
   std::uint64_t tick = 0;
   std::uint64_t moment = 0;                    // what is drawn now is drawn for: the tick, or the substep
 

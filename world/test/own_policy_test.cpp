@@ -52,6 +52,14 @@ TEST(OwnPolicy, DecidesWithItsOwnParameters) {
   EXPECT_NE(hash_after_100_ticks(world), hash_after_100_ticks(World(Scenario{}, inwards())));
 }
 
+TEST(OwnPolicy, ItsWorldCanBeInterferedWith) {
+  const Mine mine(1.45F);
+  World world(Scenario{}, mine);
+  world.intervene({.kind = Event::Kind::die, .index = 0});
+  world.step();
+  EXPECT_EQ(world.alive()[0], 0);
+}
+
 TEST(OwnPolicy, ImpossibleParametersAreToldWithItsName) {
   const Mine mine(1.2F);   // S below E
   try {

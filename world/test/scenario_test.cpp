@@ -146,6 +146,27 @@ const std::vector<Case>& cases() {
       {"events[0].loss", "7", [](Scenario& s) { s.events = {event(Kind::set_loss, 0)}, s.events[0].value = 7; }},
       {"events[0].seconds", "-1", [](Scenario& s) { s.events = {event(Kind::freeze, 0)}, s.events[0].value = -1; }},
       {"events[0].target", "there is no target 3", [](Scenario& s) { s.events = {event(Kind::remove_target, 3)}; }},
+      {"events[0].obstacle", "there is no obstacle 0", [](Scenario& s) { s.events = {event(Kind::move_obstacle, 0)}; }},
+      {"events[0].obstacle", "there is no obstacle 2; the last one is 1",
+       [](Scenario& s) {
+         s.events = {event(Kind::move_obstacle, 2)};
+         s.obstacles = {Disc{{5, 5}, 1}, Disc{{-5, 5}, 1}};
+       }},
+      {"events[0].position", "must lie within",
+       [](Scenario& s) {
+         s.events = {event(Kind::move_obstacle, 0)};
+         s.events[0].position = {0, infinity};
+         s.obstacles = {Disc{{5, 5}, 1}};
+       }},
+      {"events[1].position", "inside an obstacle",
+       [](Scenario& s) {
+         s.events = {event(Kind::move_obstacle, 0, 1), event(Kind::add_target, 0, 2)};
+         s.events[0].position = s.events[1].position = {4, -4};
+         s.obstacles = {Disc{{5, 5}, 1}};
+       }},
+      {"events[0].line_of_sight", "must be 0 or 1",
+       [](Scenario& s) { s.events = {event(Kind::set_line_of_sight, 0)}, s.events[0].value = 0.5; }},
+      {"events[0].kind", "no such kind", [](Scenario& s) { s.events = {event(static_cast<Kind>(99), 0)}; }},
       {"events[0].speed_m_s", "-1", [](Scenario& s) { s.events = {event(Kind::move_target, 0)}, s.events[0].value = -1; }},
       {"events[0].duration_s", "above 0", [](Scenario& s) { s.events = {event(Kind::blackout, 0)}; }},
       {"events[0].share", "not both",

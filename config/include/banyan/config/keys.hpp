@@ -48,6 +48,8 @@ struct EventForm {
   double loss = 0.0;
   double duration_s = 0.0;
   double speed_m_s = 0.0;
+  bool line_of_sight = false;
+  std::size_t obstacle = 0;
   world::Vec2 position{};
   std::size_t when = 0;  // as Event::When
   std::size_t of = 0;    // as Event::Of
@@ -76,13 +78,18 @@ template <class Owner> struct ChoiceAccess {
   void (*set)(Owner&, std::size_t);
 };
 
+// A key with more bits than std::size_t has everywhere.
+template <class Owner> struct SeedAccess {
+  std::uint64_t& (*member)(Owner&);
+};
+
 // How to reach the member behind a key; the alternative is the key's type.
 template <class Owner>
 using Access =
     std::variant<bool& (*)(Owner&), double& (*)(Owner&), int& (*)(Owner&), std::uint32_t& (*)(Owner&),
                  std::size_t& (*)(Owner&), std::optional<std::size_t>& (*)(Owner&), std::optional<double>& (*)(Owner&),
                  std::string& (*)(Owner&), world::Vec2& (*)(Owner&), std::vector<world::Vec2>& (*)(Owner&),
-                 std::vector<double>& (*)(Owner&), ChoiceAccess<Owner>>;
+                 std::vector<double>& (*)(Owner&), ChoiceAccess<Owner>, SeedAccess<Owner>>;
 
 struct Range {
   double minimum = -std::numeric_limits<double>::infinity();

@@ -76,7 +76,9 @@ struct Setting {
 
 // Reuses the memory of `frame`. O(robots + links).
 void capture(const world::World& world, Frame& frame);
-[[nodiscard]] Setting setting_of(const world::World& world);
+[[nodiscard]] Setting setting_of(const world::World& world);   // as it is now
+// Whether setting_of(world) would still be `setting`, which it was before. O(obstacles), no allocation.
+[[nodiscard]] bool still_holds(const Setting& setting, const world::World& world) noexcept;
 
 // Names as they appear in exports ("connector", "grow_tree", "no_need", "extend_edge").
 [[nodiscard]] std::string_view name_of(Role role) noexcept;

@@ -35,6 +35,8 @@ class Bodies {
                     std::span<Odometry> odometry) = 0;
   // From now on robot i has no body: nobody touches it. Its command stays zero.
   virtual void remove(std::size_t) {}   // where contacts are only those of `near` there is nothing to do
+  // From the next step on these are the obstacles. Who is inside one then is pushed out of it.
+  virtual void set_obstacles(std::span<const Obstacle> obstacles) = 0;
   // Adds what the model remembers beside the poses (velocities) to a running hash.
   [[nodiscard]] virtual std::uint64_t hash(std::uint64_t h) const noexcept = 0;
 };
@@ -43,5 +45,7 @@ class Bodies {
 [[nodiscard]] std::unique_ptr<Bodies> make_disks(const Scenario& scenario, std::size_t robots);
 [[nodiscard]] std::unique_ptr<Bodies> make_box2d(const Scenario& scenario, const Poses& poses);
 [[nodiscard]] std::unique_ptr<Bodies> make_linear(const Scenario& scenario, std::size_t robots);
+// False in the browser's build: make_box2d() throws there.
+[[nodiscard]] bool has_box2d() noexcept;
 
 }  // namespace banyan::world

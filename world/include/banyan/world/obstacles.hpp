@@ -22,4 +22,10 @@ namespace banyan::world {
 // The shortest shift that brings a disc of `radius` at p out of the obstacle; zero if it is out.
 [[nodiscard]] Vec2 push_out(const Obstacle& obstacle, Vec2 p, double radius) noexcept;
 
+// Of a wall, its middle.
+[[nodiscard]] Vec2 center_of(const Obstacle& obstacle) noexcept;
+
+// The same obstacle with its centre, of a wall the middle, at `center`; it is not turned.
+[[nodiscard]] Obstacle moved(const Obstacle& obstacle, Vec2 center) noexcept;
+
 }  // namespace banyan::world

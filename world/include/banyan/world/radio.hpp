@@ -24,6 +24,10 @@ class Radio {
   // Finds links, blocked pairs and near pairs at the given poses. O(N + pairs in range) time.
   void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor);
 
+  // From the next update on these block, and blocking counts or not.
+  void set_obstacles(std::span<const Obstacle> obstacles) { obstacles_.assign(obstacles.begin(), obstacles.end()); }
+  void set_line_of_sight(bool on) noexcept { line_of_sight_ = on; }
+
   // Robot i has vanished since the last update: it is near to nobody.
   void forget(std::uint32_t i);
 

@@ -101,7 +101,9 @@ struct Wall {                            // a segment without thickness
 using Obstacle = std::variant<Disc, Box, Wall>;
 
 struct Event {
-  enum class Kind : std::uint8_t { die, freeze, set_loss, move_target, add_target, kill, blackout, remove_target };
+  enum class Kind : std::uint8_t {
+    die, freeze, set_loss, move_target, add_target, kill, blackout, remove_target, set_line_of_sight, move_obstacle
+  };
   // What time_s counts from: the start, the moment at which the workers' remaining distances have
   // fallen to half of what they were at the start, or the first at which all targets are held at
   // once (docs/model.md). An event whose moment never comes never happens.
@@ -110,9 +112,10 @@ struct Event {
   enum class Of : std::uint8_t { robots, connectors, root, worker, worker_and_parent };
   double time_s = 0.0;
   Kind kind = Kind::die;
-  std::size_t index = 0;                // robot (die, freeze) or target (move_target, remove_target)
-  double value = 0.0;                   // loss (set_loss); seconds (freeze, 0: for good; blackout); m/s (move_target, 0: it jumps)
-  Vec2 position{};                      // move_target, add_target
+  std::size_t index = 0;                // robot (die, freeze), target (move_target, remove_target), obstacle (move_obstacle)
+  double value = 0.0;                   // loss (set_loss); seconds (freeze, 0: for good; blackout); m/s (move_target,
+                                        // 0: it jumps); 1 or 0 (set_line_of_sight)
+  Vec2 position{};                      // move_target, add_target; move_obstacle: of its centre, or of a wall's middle
   When when = When::time;
   Of of = Of::robots;                   // kill, and the rest of this struct
   std::optional<double> share{};        // of those it is drawn from when it begins, rounded; not beside count
@@ -157,6 +160,15 @@ struct Fault {
 // counts, targets in obstacles, robots that do not fit, targets out of reach of the swarm. Safe
 // for any content; the functions below need a scenario without faults (warnings do not matter).
 [[nodiscard]] std::vector<Fault> faults(const Scenario& scenario);
+
+// What an event of a running world meets.
+struct Present {
+  std::size_t targets = 0;              // that have been there, given up or not
+  std::vector<Obstacle> obstacles;      // where they are
+};
+// The part of faults() that is about events and how many robots they need, for a scenario whose other
+// parts are without faults. With `now` its last event is also held against that.
+[[nodiscard]] std::vector<Fault> event_faults(const Scenario& scenario, const Present* now = nullptr);
 
 // The target positions that `scenario` and its seed stand for. Random ones keep clear of obstacles.
 [[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);

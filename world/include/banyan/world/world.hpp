@@ -43,6 +43,15 @@ class World {
   void step();
   void step(Executor& executor);
 
+  // What somebody does to the running world: `event` acts at the begin of the next step, as if the
+  // scenario had had it from the start as its last event, with time_s = time_s(); scenario() has it from
+  // now on. So a world made from that scenario has the same hash() at every tick. `event.time_s` is
+  // ignored. Throws std::invalid_argument with all faults_now(event). Allocates.
+  void intervene(const Event& event);
+  // What is wrong with it, in the words of faults(), keys as "events[2].loss"; also what faults() cannot
+  // know beforehand: which targets there are by now, and where the obstacles are. None: it can happen.
+  [[nodiscard]] std::vector<Fault> faults_now(const Event& event) const;
+
   [[nodiscard]] const Scenario& scenario() const noexcept;
   [[nodiscard]] const Params& params() const noexcept;
   [[nodiscard]] const Policy& policy() const noexcept;
@@ -55,6 +64,9 @@ class World {
   [[nodiscard]] std::span<const Message> messages() const noexcept;  // last broadcast of each robot
   [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays)
   [[nodiscard]] std::span<const Target> targets() const noexcept;
+  // As they are now; scenario() has them as they were at the start.
+  [[nodiscard]] std::span<const Obstacle> obstacles() const noexcept;
+  [[nodiscard]] bool line_of_sight() const noexcept;
   // Who holds targets()[target]: the living robot that broadcasts the role of a worker, serves this
   // target and is within mission.target_tolerance_m of it; the nearest, then the first, of several.
   // Need not be targets()[target].worker: a spare may have taken over. None if nobody does, if the

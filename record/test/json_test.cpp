@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Messages of a recording one by one: as numbers, and as JSON that a library reads.
+#include "banyan/record/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "frame_json.hpp"
+#include "message_json.hpp"
+#include "sample.hpp"
+
+namespace banyan::record {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Pack, HasTheNumbersOfARecordedFrameColumnByColumn) {
+  Frame frame;
+  frame.robots.resize(3);
+  frame.robots[1] = {
+      .position = {1.25, -2.5}, .role = Role::worker, .label_cm = 17, .parent = 2, .want_m = 0.75, .target = 1};
+  Text text;
+  write_frame(text, frame);
+  const Json recorded = Json::parse(text.view());
+  std::vector<double> packed(5, 99.0);
+  pack(frame, packed);
+  ASSERT_EQ(packed.size(), 3 * frame_columns().size());
+  for (std::size_t c = 0; c < frame_columns().size(); ++c)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(packed[c * 3 + i], recorded[std::string(frame_columns()[c].name)][i].get<double>())
+          << frame_columns()[c].name << " of robot " << i;
+  EXPECT_EQ(recorded.size(), frame_columns().size() + 2) << "tick and time_s are no columns";
+}
+
+// Each byte that travels must show in some field, and no field may be there twice.
+TEST(MessageFields, ShowEverythingThatTravels) {
+  std::set<std::string_view> names;
+  for (const MessageField& field : message_fields()) {
+    EXPECT_TRUE(names.insert(field.name).second) << field.name;
+    EXPECT_FALSE(field.meaning.empty()) << field.name;
+  }
+  const auto shown = [](const Message& message) {
+    std::vector<double> values;
+    for (const MessageField& field : message_fields()) values.push_back(field.get(message));
+    return values;
+  };
+  Message message;
+  message.id = 1;
+  const Wire wire = encode(message);
+  for (std::size_t at = 1; at < wire_size; ++at) {
+    bool seen = false;
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      Wire other = wire;
+      other[at] = static_cast<std::uint8_t>(other[at] ^ (1U << bit));
+      const auto decoded = decode(other);
+      if (!decoded) continue;
+      EXPECT_NE(shown(*decoded), shown(message)) << "byte " << at << ", bit " << bit;
+      seen = true;
+    }
+    EXPECT_TRUE(seen) << at;
+  }
+}
+
+TEST(MessageFields, AsJsonRolePhaseAndNeedAreWords) {
+  Message message;
+  message.id = 4;
+  message.role = Role::connector;
+  message.phase = Phase::grow_tree;
+  message.need = Need::await;
+  message.want_cm = 250;
+  message.q = {0.5F, -0.25F};
+  const Json json = Json::parse(message_json(message));
+  EXPECT_EQ(json.size(), message_fields().size());
+  EXPECT_EQ(json["id"], 4);
+  EXPECT_EQ(json["role"], "connector");
+  EXPECT_EQ(json["phase"], "grow_tree");
+  EXPECT_EQ(json["need"], "await");
+  EXPECT_EQ(json["want_cm"], 250);
+  EXPECT_EQ(json["q_y_m"], -0.25);
+  EXPECT_EQ(json["parent"], -1);
+  EXPECT_EQ(json["label_cm"], -1);
+  EXPECT_EQ(json["tree_hops"], -1);
+}
+
+TEST(ResultJson, HasTheColumnsThatARecordingKeeps) {
+  measure::Run run;
+  run.robots = 12;
+  const Json json = Json::parse(result_json(run));
+  EXPECT_EQ(json["robots"], "12");
+  EXPECT_EQ(json["complete"], "false");
+  EXPECT_EQ(json["completion_time_s"], "");
+  EXPECT_EQ(json["hash"], "0000000000000000");
+  EXPECT_FALSE(json.contains("name"));
+}
+
+}  // namespace
+}  // namespace banyan::record

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Stands in for box2d.cpp where there is no Box2D: faults() refuses the body model before anybody
+// gets here.
+#include <stdexcept>
+
+#include "banyan/world/bodies.hpp"
+
+namespace banyan::world {
+
+bool has_box2d() noexcept { return false; }
+
+std::unique_ptr<Bodies> make_box2d(const Scenario&, const Poses&) {
+  throw std::logic_error("this program was built without Box2D");
+}
+
+}  // namespace banyan::world

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// What somebody does to a running world is what a scenario with the same events would have brought.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "banyan/world/obstacles.hpp"
+#include "worlds.hpp"
+
+namespace banyan::world {
+namespace {
+
+using Kind = Event::Kind;
+using Random = std::mt19937;
+
+std::size_t below(Random& random, std::size_t n) { return random() % n; }
+double between(Random& random, double low, double high) {
+  return low + (high - low) * (static_cast<double>(random()) / 4294967295.0);
+}
+
+constexpr BodyModel bodies[] = {BodyModel::disks, BodyModel::linear, BodyModel::box2d};
+
+// Small, hard, and with everything that events can change.
+Scenario arena(Random& random, BodyModel body) {
+  const char* const algorithms[] = {"outwards", "inwards", "convoy"};
+  Scenario s = ring(algorithms[below(random, 3)], 12 + below(random, 8), 2, 2.5, random());
+  s.robot.body = body;
+  s.robot.dead_bodies = below(random, 2) == 0;
+  s.radio.line_of_sight = below(random, 2) == 0;
+  s.radio.loss = below(random, 2) == 0 ? 0.0 : 0.2;
+  s.robot.wheel_noise = 0.05;
+  s.clocks.asynchronous = body != BodyModel::box2d && below(random, 4) == 0;
+  s.radio.latency_ticks = 1 + static_cast<int>(below(random, 2));
+  s.obstacles = {Disc{{-3.0, 3.0}, 0.3}, Box{{3.0, 3.0}, {0.5, 0.3}, 0.4}, Wall{{-1.0, -3.0}, {1.0, -3.2}}};
+  s.events = {{.time_s = 4.0, .kind = Kind::set_loss, .value = 0.1},
+              {.time_s = 1.0, .kind = Kind::kill, .when = Event::When::half_way}};
+  return s;
+}
+
+Event anything(Random& random, const World& world) {
+  Event event{.kind = static_cast<Kind>(below(random, 10))};
+  event.time_s = -7.0;  // is ignored
+  event.position = {between(random, -3.0, 3.0), between(random, -3.0, 3.0)};
+  switch (event.kind) {
+    case Kind::die:
+    case Kind::freeze:
+      event.index = below(random, world.size());
+      break;
+    case Kind::move_obstacle:
+      event.index = below(random, world.obstacles().size());
+      break;
+    default:
+      event.index = below(random, world.targets().size());
+  }
+  if (event.kind == Kind::freeze || event.kind == Kind::blackout) event.value = between(random, 0.1, 2.0);
+  if (event.kind == Kind::set_loss) event.value = between(random, 0.0, 0.5);
+  if (event.kind == Kind::move_target) event.value = below(random, 2) == 0 ? 0.0 : 0.1;
+  if (event.kind == Kind::set_line_of_sight) event.value = static_cast<double>(below(random, 2));
+  if (event.kind == Kind::kill) {
+    event.of = static_cast<Event::Of>(below(random, 5));
+    event.count = 1 + below(random, 2);
+    event.every_s = below(random, 2) == 0 ? 0.0 : 0.7;
+  }
+  return event;
+}
+
+bool finite(const World& world) {
+  for (std::size_t i = 0; i < world.size(); ++i)
+    for (const Vec2 v : {world.positions()[i], world.headings()[i]})
+      if (!std::isfinite(v.x) || !std::isfinite(v.y)) return false;
+  return true;
+}
+
+TEST(Intervene, IsAsIfTheScenarioHadHadTheEventFromTheStart) {
+  const int worlds = long_search() ? 300 : 30;
+  std::size_t happened[10] = {};
+  for (int k = 0; k < worlds; ++k) {
+    Random random(static_cast<std::uint32_t>(k));
+    World live(arena(random, bodies[k % 3]));
+    std::vector<std::uint64_t> hashes;
+    for (int t = 0; t < 120; ++t) {
+      for (std::size_t times = below(random, 12) == 0 ? 1 + below(random, 3) : 0; times > 0; --times) {
+        const Event event = anything(random, live);
+        if (!live.faults_now(event).empty()) continue;
+        const std::uint64_t before = live.hash();
+        live.intervene(event);
+        ASSERT_EQ(live.hash(), before) << "it has not happened yet";
+        ++happened[static_cast<std::size_t>(event.kind)];
+      }
+      live.step();
+      hashes.push_back(live.hash());
+    }
+    ASSERT_TRUE(finite(live)) << k;
+    World planned(live.scenario());
+    for (std::size_t t = 0; t < hashes.size(); ++t) {
+      planned.step();
+      ASSERT_EQ(planned.hash(), hashes[t]) << "world " << k << ", tick " << t + 1;
+    }
+    EXPECT_EQ(planned.line_of_sight(), live.line_of_sight());
+    for (std::size_t o = 0; o < live.obstacles().size(); ++o)
+      EXPECT_EQ(center_of(planned.obstacles()[o]), center_of(live.obstacles()[o]));
+  }
+  for (std::size_t kind = 0; kind < 10; ++kind) EXPECT_GT(happened[kind], 0U) << "no event of kind " << kind;
+}
+
+TEST(Intervene, ACopyGoesOnAlikeWithObstaclesAndSightAsTheyAre) {
+  for (const BodyModel body : bodies) {
+    Random random(7);
+    World world(arena(random, body));
+    world.intervene({.kind = Kind::move_obstacle, .index = 1, .position = {0.4, 0.2}});
+    world.intervene({.kind = Kind::set_line_of_sight, .value = world.line_of_sight() ? 0.0 : 1.0});
+    for (int t = 0; t < 10; ++t) world.step();
+    World copy(world);
+    for (int t = 0; t < 40; ++t) {
+      world.step();
+      copy.step();
+      ASSERT_EQ(copy.hash(), world.hash()) << t;
+    }
+  }
+}
+
+TEST(Intervene, MovesTheObstacleForBodiesRadioAndSensors) {
+  for (const BodyModel body : bodies) {
+    Scenario s = ring("outwards", 2, 1, 3.0, 1);
+    s.robot.body = body;
+    s.radio.line_of_sight = true;
+    s.swarm.start = {.layout = Layout::list, .positions = {{-0.5, 0.0}, {0.5, 0.0}}, .headings_rad = {0.0, 0.0}};
+    s.obstacles = {Wall{{-9.0, -1.0}, {-9.0, 1.0}}, Disc{{9.0, 9.0}, 0.3}};
+    World world(s);
+    world.step();
+    ASSERT_EQ(world.links(0).size(), 1U);
+    world.intervene({.kind = Kind::move_obstacle, .index = 0, .position = {0.0, 0.0}});
+    world.step();
+    EXPECT_TRUE(world.links(0).empty()) << "the wall stands between them";
+    EXPECT_EQ(world.blocked().size(), 1U);
+    const Wall wall = std::get<Wall>(world.obstacles()[0]);
+    EXPECT_EQ(wall.from, (Vec2{0.0, -1.0}));
+    EXPECT_EQ(wall.to, (Vec2{0.0, 1.0}));
+    EXPECT_EQ(std::get<Wall>(world.scenario().obstacles[0]).from, (Vec2{-9.0, -1.0})) << "where it began";
+
+    world.intervene({.kind = Kind::set_line_of_sight, .value = 0.0});
+    world.step();
+    EXPECT_EQ(world.links(0).size(), 1U) << "the radio goes through the wall now";
+    EXPECT_FALSE(world.params().line_of_sight);
+
+    world.intervene({.kind = Kind::move_obstacle, .index = 1, .position = world.positions()[1] + Vec2{0.1, 0.0}});
+    for (int t = 0; t < 100; ++t) world.step();
+    EXPECT_GT(clearance(world.obstacles()[1], world.positions()[1]), s.robot.radius_m - 0.01)
+        << "it is pushed out of the disc";
+  }
+}
+
+// Exactly on their centres, where there is no direction to push in; among obstacles, where pushing out
+// of one is pushing into another.
+TEST(Intervene, ObstaclesMayJumpOntoRobots) {
+  for (const BodyModel body : bodies) {
+    Scenario s = ring("convoy", 16, 2, 3.0, 3);
+    s.robot.body = body;
+    s.radio.line_of_sight = true;
+    s.obstacles = {Disc{{-5.0, 5.0}, 0.6}, Box{{5.0, 5.0}, {1.2, 0.8}, 0.0}, Wall{{-1.0, -5.0}, {1.0, -5.0}}};
+    World world(s);
+    for (int t = 0; t < 60; ++t) {
+      if (t % 5 == 0)
+        for (std::size_t o = 0; o < 3; ++o)
+          world.intervene({.kind = Kind::move_obstacle,
+                           .index = o,
+                           .position = world.positions()[(static_cast<std::size_t>(t) + o) % 16]});
+      world.step();
+      ASSERT_TRUE(finite(world)) << t;
+    }
+    for (const Vec2 p : world.positions()) EXPECT_LT(norm(p), 20.0) << "nobody is shot away";
+  }
+}
+
+TEST(Intervene, IsHashedWhileItLasts) {
+  Scenario s = ring("outwards", 8, 2, 3.0, 1);
+  s.obstacles = {Disc{{50.0, 50.0}, 0.6}};
+  World a(s);
+  World b(s);
+  a.intervene({.kind = Kind::move_obstacle, .index = 0, .position = {60.0, 50.0}});
+  b.intervene({.kind = Kind::move_obstacle, .index = 0, .position = {70.0, 50.0}});
+  a.step();
+  b.step();
+  EXPECT_EQ(a.positions()[0], b.positions()[0]) << "nobody has met it yet";
+  EXPECT_NE(a.hash(), b.hash());
+}
+
+TEST(Intervene, RefusesWhatCannotHappenInTheWordsOfFaults) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Scenario s = ring("outwards", 5, 2, 3.0, 1);
+  s.obstacles = {Disc{{5.0, 5.0}, 0.6}};
+  s.events = {{.time_s = 100.0, .kind = Kind::set_loss}};
+  World world(s);
+  world.step();
+  const std::uint64_t before = world.hash();
+  const std::pair<Event, std::string> cases[] = {
+      {{.kind = Kind::die, .index = 5}, "events[1].robot: there is no robot 5; the last one is 4"},
+      {{.kind = Kind::move_target, .index = 2},
+       "events[1].target: there is no target 2 at that time; the last one is 1"},
+      {{.kind = Kind::remove_target, .index = 2}, "events[1].target: there is no target 2"},
+      {{.kind = Kind::move_obstacle, .index = 1}, "events[1].obstacle: there is no obstacle 1; the last one is 0"},
+      {{.kind = Kind::move_obstacle, .position = {nan, 0.0}}, "events[1].position: must lie within"},
+      {{.kind = Kind::add_target, .position = {5.0, 5.0}},
+       "events[1].position: the target at (5, 5) lies inside an obstacle"},
+      {{.kind = Kind::set_loss, .value = nan}, "events[1].loss: must be a number between 0 and 1, not nan"},
+      {{.kind = Kind::set_line_of_sight, .value = nan}, "events[1].line_of_sight: must be 0 or 1, not nan"},
+      {{.kind = Kind::blackout}, "events[1].duration_s: must be a number above 0"},
+      {{.kind = Kind::set_loss, .when = Event::When::complete}, "events[1].when: what somebody does happens now"},
+      {{.kind = static_cast<Kind>(77)}, "events[1].kind: there is no such kind"},
+  };
+  for (const auto& [event, words] : cases) {
+    std::string said;
+    try {
+      world.intervene(event);
+    } catch (const std::invalid_argument& e) { said = e.what(); }
+    EXPECT_NE(said.find(words), std::string::npos) << said << "\n  wanted: " << words;
+  }
+  EXPECT_EQ(world.hash(), before);
+  EXPECT_EQ(world.scenario().events.size(), 1U);
+
+  world.intervene({.kind = Kind::add_target, .position = {1.0, 1.0}});
+  world.intervene({.kind = Kind::add_target, .position = {1.0, 1.0}});
+  EXPECT_THROW(world.intervene({.kind = Kind::add_target, .position = {1.0, 1.0}}), std::invalid_argument)
+      << "5 robots cannot serve 5 targets";
+  EXPECT_THROW(world.intervene({.kind = Kind::move_target, .index = 2}), std::invalid_argument)
+      << "it is there from the next step on";
+  world.step();
+  world.intervene({.kind = Kind::move_target, .index = 2, .position = {1.0, -1.0}});
+}
+
+// A target may be put where an obstacle was, and not where one is by now.
+TEST(Intervene, ObstaclesCountWhereTheyAre) {
+  Scenario s = ring("outwards", 8, 2, 3.0, 1);
+  s.obstacles = {Disc{{5.0, 5.0}, 0.6}};
+  World world(s);
+  for (int k = 0; k < 2; ++k) {
+    const Vec2 was = k == 0 ? Vec2{5.0, 5.0} : Vec2{-5.0, 5.0};
+    const Vec2 is = k == 0 ? Vec2{-5.0, 5.0} : Vec2{6.0, 6.0};
+    world.intervene({.kind = Kind::move_obstacle, .index = 0, .position = is});
+    for (int t = 0; t < 2; ++t) {  // in the same tick, and later
+      EXPECT_TRUE(world.faults_now({.kind = Kind::add_target, .position = was}).empty()) << t;
+      EXPECT_FALSE(world.faults_now({.kind = Kind::add_target, .position = is}).empty()) << t;
+      world.step();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace banyan::world
