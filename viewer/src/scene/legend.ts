@@ -3,12 +3,14 @@
 import type { Theme } from './themes';
 
 export const legendMarks = [
-  'root', 'worker', 'connector', 'spare', 'dead', 'target', 'tree', 'oldTree', 'broken', 'joining', 'link', 'blocked', 'trail',
+  'root', 'worker', 'connector', 'spare', 'dead', 'target', 'tree', 'oldTree', 'broken', 'joining', 'link', 'blocked',
+  'trail',
 ] as const;
 export type LegendMark = (typeof legendMarks)[number];
 
 export const legendWords: Record<LegendMark, string> = {
-  root: 'root', worker: 'worker', connector: 'connector', spare: 'spare', dead: 'dead', target: 'target and tolerance, filled: held',
+  root: 'root', worker: 'worker', connector: 'connector', spare: 'spare', dead: 'dead',
+  target: 'target and tolerance, filled: held',
   tree: 'tree, thicker towards the root', oldTree: 'old tree', broken: 'broken edge', joining: 'spare about to join',
   link: 'radio link', blocked: 'in range, no line of sight', trail: 'trail',
 };
@@ -25,7 +27,8 @@ function shapes(mark: LegendMark, theme: Theme): string {
     case 'worker': return disc(worker, 5.5, outline) + disc('#ffffff', 2.1);
     case 'connector': return disc(connector, 5.5, outline);
     case 'spare': return disc(spare, 5.5, outline);
-    case 'dead': return disc(theme.dead, 5.5) + `<path d="M11.4 6.4l5.2 5.2m0-5.2l-5.2 5.2" stroke="${theme.background}" stroke-width="1.4" stroke-linecap="round"/>`;
+    case 'dead': return disc(theme.dead, 5.5) +
+      `<path d="M11.4 6.4l5.2 5.2m0-5.2l-5.2 5.2" stroke="${theme.background}" stroke-width="1.4"/>`;
     case 'target': return disc(theme.target, 7, `fill-opacity="0.2" stroke="${theme.target}" stroke-width="1.75"`) +
       `<path d="M10.5 9h7M14 5.5v7" stroke="${theme.target}" stroke-width="1.5"/>`;
     case 'tree': return `<path d="M2 6.6L26 8.2V9.8L2 11.4Z" fill="${theme.tree}"/>`;
@@ -33,7 +36,8 @@ function shapes(mark: LegendMark, theme: Theme): string {
     case 'broken': return line(theme.broken, 3, 'stroke-dasharray="0 6"') +
       `<path d="M10.4 14.5L13.6 3.5M14.4 14.5L17.6 3.5" stroke="${theme.background}" stroke-width="5"/>` +
       `<path d="M10.4 14.5L13.6 3.5M14.4 14.5L17.6 3.5" stroke="${theme.broken}" stroke-width="2" stroke-linecap="round"/>`;
-    case 'joining': return `<path d="M2 9H25M20 5.5L25 9L20 12.5" fill="none" stroke="${connector}" stroke-width="1.75" stroke-linecap="round"/>`;
+    case 'joining':
+      return `<path d="M2 9H25M20 5.5L25 9L20 12.5" fill="none" stroke="${connector}" stroke-width="1.75"/>`;
     case 'link': return line(theme.link, 1);
     case 'blocked': return line(theme.blocked, 1.25, 'style="stroke-linecap:butt" stroke-dasharray="3 4"');
     case 'trail': return line(connector, 3, `stroke-opacity="${theme.trailAlpha}"`);

@@ -24,6 +24,9 @@ export function drawTree(shot: Shot): void {
   const thickest = thickestPx(shot);
   pen.lineCap = 'round';
   if (view.switches.oldTree) drawOldTree(shot);
+  // Before the edges that hold, which its halo must not interrupt.
+  drawBroken(shot, facts.broken.filter((e) => !e.old || view.switches.oldTree));
+  pen.lineCap = 'round';
   pen.strokeStyle = theme.tree;
   for (let w = 0; w < widths; ++w) {
     pen.beginPath();
@@ -34,7 +37,6 @@ export function drawTree(shot: Shot): void {
     pen.lineWidth = thinnestEdgePx + ((thickest - thinnestEdgePx) * w) / (widths - 1);
     pen.stroke();
   }
-  drawBroken(shot, facts.broken.filter((e) => !e.old || view.switches.oldTree));
 }
 
 function drawOldTree(shot: Shot): void {
