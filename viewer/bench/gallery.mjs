@@ -15,6 +15,8 @@ const shots = [
   { name: 'large-dark', run: 'paper-large', at: 35, theme: 'dark' },
   { name: 'large-old', run: 'paper-large', at: 43.5, theme: 'light', view: { switches: { ...on, ids: true } } },
   { name: 'large-near', run: 'paper-large', at: 26.1, theme: 'light', zoom: 3, where: { x: 2, y: 1 }, view: { switches: { ...on, ids: true, labels: true } } },
+  { name: 'path', run: 'paper-large', at: 35, theme: 'light', zoom: 1.7, where: { x: 0, y: 0 }, view: { selection: { kind: 'robot', index: 88 }, hovered: { kind: 'robot', index: 58 } } },
+  { name: 'path-dark', run: 'paper-large', at: 60, theme: 'dark', zoom: 1.7, where: { x: 0, y: 0 }, view: { selection: { kind: 'robot', index: 88 }, switches: { ...on, labels: true } } },
   { name: 'start', run: 'paper-large', at: 0, theme: 'light' },
   { name: 'rooms', run: 'rooms', at: 42, theme: 'light', view: { selection: { kind: 'target', index: 1 }, hovered: { kind: 'obstacle', index: 4 } } },
   { name: 'rooms-dark', run: 'rooms', at: 42, theme: 'dark', view: { switches: { ...on, blocked: true } } },

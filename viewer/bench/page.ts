@@ -61,11 +61,11 @@ async function times(draw: (timeS: number) => void, finish: () => void): Promise
 /** What draws a frame at a time, until the pixels are there. */
 interface Drawing { about: string; links: number; draw(timeS: number): void; finish(): void }
 
-async function plainDrawing(name: 'canvas' | 'pixi', layout: Layout, still: Frame): Promise<Drawing> {
+async function plainDrawing(name: 'canvas' | 'pixi' | 'jagged', layout: Layout, still: Frame): Promise<Drawing> {
   document.body.innerHTML = '<canvas width="1280" height="720" style="position:absolute;left:0;top:0"></canvas>';
   const canvas = document.querySelector('canvas')!;
-  const renderer: Renderer = name === 'pixi'
-    ? await pixiRenderer(canvas, (window as unknown as { PIXI: typeof import('pixi.js') }).PIXI) : canvasRenderer(canvas);
+  const renderer: Renderer = name === 'canvas' ? canvasRenderer(canvas)
+    : await pixiRenderer(canvas, (window as unknown as { PIXI: typeof import('pixi.js') }).PIXI, name === 'pixi');
   const links = allLinks(layout);
   const frame = { ...still, data: still.data.slice() };
   const reach = Math.abs(still.targets.y[1]!) + Math.abs(still.targets.x[0]!);
@@ -94,10 +94,10 @@ function sceneDrawing(still: Frame, lineOfSight: boolean, panning: boolean): Dra
   return { about: `${drawn} of the links drawn${lineOfSight ? ', line of sight' : ''}`, links: all, draw, finish: () => void pen.getImageData(0, 0, 1, 1) };
 }
 
-async function measure(name: 'canvas' | 'pixi' | 'scene' | 'panning' | 'sight', index: number, seconds: number): Promise<Count> {
+async function measure(name: 'canvas' | 'pixi' | 'jagged' | 'scene' | 'panning' | 'sight', index: number, seconds: number): Promise<Count> {
   const layout = layouts[index]!;
   const still = madeUpFrame(layout.robots, layout.pitchM);
-  const drawing = name === 'canvas' || name === 'pixi' ? await plainDrawing(name, layout, still) : sceneDrawing(still, name === 'sight', name === 'panning');
+  const drawing = name === 'canvas' || name === 'pixi' || name === 'jagged' ? await plainDrawing(name, layout, still) : sceneDrawing(still, name === 'sight', name === 'panning');
   const fps = await shownPerSecond(seconds, drawing.draw);
   const ms = await times(drawing.draw, drawing.finish);
   return { about: drawing.about, links: drawing.links, fps, medianMs: ms[20]!, p95Ms: ms[38]! };

@@ -44,8 +44,8 @@ export function canvasRenderer(canvas: HTMLCanvasElement): Renderer {
 }
 
 /** `pixi`: the module, so that the benchmark runs without it when only the scene is measured. */
-export async function pixiRenderer(canvas: HTMLCanvasElement, pixi: typeof import('pixi.js')): Promise<Renderer> {
-  const renderer = await pixi.autoDetectRenderer({ canvas, width: canvas.width, height: canvas.height, background: '#ffffff', antialias: true, preference: 'webgl' });
+export async function pixiRenderer(canvas: HTMLCanvasElement, pixi: typeof import('pixi.js'), antialias: boolean): Promise<Renderer> {
+  const renderer = await pixi.autoDetectRenderer({ canvas, width: canvas.width, height: canvas.height, background: '#ffffff', antialias, preference: 'webgl' });
   const gl = (renderer as unknown as { gl?: WebGL2RenderingContext }).gl;
   const stage = new pixi.Container();
   let positions = new Float32Array(0);

@@ -67,7 +67,7 @@ if (process.argv.includes('--compare')) {
   if (!library) console.log('\nPixiJS is not installed: npm install --no-save pixi.js@8');
   else {
     await run('plain picture, PixiJS 8, as the browser comes', 'pixi', [], [library, code]);
-    await run('plain picture, PixiJS 8, with --enable-unsafe-swiftshader', 'pixi', ['--enable-unsafe-swiftshader'], [library, code]);
+    await run('plain picture, PixiJS 8, without antialiasing', 'jagged', [], [library, code]);
   }
 } else {
   await run('Scene, playing', 'scene', [], [code]);

@@ -47,8 +47,10 @@ export class Backdrop {
 
   private holds({ view, facts, ratio }: Shot): boolean {
     const last = this.view;
-    return last !== null && !this.isCoarse && this.facts === facts && this.ratio === ratio && last.theme === view.theme &&
-      sameCamera(last, view) && last.switches.links === view.switches.links && last.switches.blocked === view.switches.blocked;
+    if (last === null || this.isCoarse || this.facts !== facts || this.ratio !== ratio) return false;
+    const { links, blocked } = last.switches;
+    return last.theme === view.theme && sameCamera(last, view) &&
+      links === view.switches.links && blocked === view.switches.blocked;
   }
 
   private make(shot: Shot): void {

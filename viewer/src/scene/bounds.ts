@@ -39,7 +39,8 @@ export function boundsOf(setting: Setting, ...frames: readonly Frame[]): Bounds 
   for (const frame of frames) {
     const x = column(frame, 'x_m'), y = column(frame, 'y_m');
     for (let i = 0; i < frame.robots; ++i) add(bounds, x[i]!, y[i]!, setting.radius_m);
-    for (let k = 0; k < frame.targets.x.length; ++k) add(bounds, frame.targets.x[k]!, frame.targets.y[k]!, setting.target_tolerance_m);
+    const { targets } = frame;
+    for (let k = 0; k < targets.x.length; ++k) add(bounds, targets.x[k]!, targets.y[k]!, setting.target_tolerance_m);
   }
   for (const obstacle of setting.obstacles) addObstacle(bounds, obstacle);
   return bounds.minX <= bounds.maxX ? bounds : { minX: -1, minY: -1, maxX: 1, maxY: 1 };

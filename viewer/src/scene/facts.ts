@@ -24,10 +24,13 @@ export class Facts {
 
   get radio(): Radio { return (this.radioMade ??= new Radio(this.setting, this.frame)); }
   get links(): Links { return (this.linksMade ??= this.radio.links()); }
-  get edges(): Edge[] { return (this.edgesMade ??= [...this.edgesTo(this.parent, false), ...this.edgesTo(this.oldParent, true)]); }
+  get edges(): Edge[] {
+    return (this.edgesMade ??= [...this.edgesTo(this.parent, false), ...this.edgesTo(this.oldParent, true)]);
+  }
   /** Edges that do not hold; one that is in both trees only once. */
   get broken(): Edge[] {
-    return (this.brokenMade ??= this.edges.filter((e) => e.link !== 'open' && !(e.old && this.parent[e.from] === e.to)));
+    const twice = (e: Edge) => e.old && this.parent[e.from] === e.to;
+    return (this.brokenMade ??= this.edges.filter((e) => e.link !== 'open' && !twice(e)));
   }
   /** Robots that have this one on their way to the root, itself included. */
   get subtreeSizes(): Int32Array { return (this.sizesMade ??= subtreeSizes(this)); }

@@ -64,7 +64,9 @@ export class Input {
     element.addEventListener('pointermove', (e) => this.move(e), options);
     element.addEventListener('pointerup', (e) => this.up(e), options);
     element.addEventListener('pointercancel', (e) => this.lost(e), options);
-    element.addEventListener('pointerleave', () => { if (this.pointers.size === 0) this.to.hover(null, null); }, options);
+    element.addEventListener('pointerleave', () => {
+      if (this.pointers.size === 0) this.to.hover(null, null);
+    }, options);
     element.addEventListener('wheel', (e) => this.wheel(e), { ...options, passive: false });
     element.addEventListener('contextmenu', (e) => { if (this.gesture.kind !== 'none') e.preventDefault(); }, options);
   }
@@ -106,7 +108,8 @@ export class Input {
     const touch = event.pointerType === 'touch';
     const pans = event.pointerType === 'mouse' && event.button === 1;
     this.gesture = pans ? { kind: 'pan', lastPx: atPx } : {
-      kind: 'pressed', fromPx: atPx, item: this.to.itemAt(atPx, touch), area: event.shiftKey || this.mode === 'area', touch,
+      kind: 'pressed', fromPx: atPx, item: this.to.itemAt(atPx, touch),
+      area: event.shiftKey || this.mode === 'area', touch,
     };
   }
 

@@ -25,7 +25,9 @@ export class Surface {
     this.pen = pen;
     this.observer = new ResizeObserver(() => { if (this.measure()) this.changed(); });
     this.observer.observe(host);
-    document.addEventListener('visibilitychange', () => { if (!document.hidden) this.changed(); }, { signal: this.stop.signal });
+    document.addEventListener('visibilitychange', () => {
+      if (!document.hidden) this.changed();
+    }, { signal: this.stop.signal });
     this.watchRatio();
     this.measure();
   }

@@ -90,7 +90,8 @@ export const themes = { light, dark } as const;
 
 /** `share` of a over b, as one opaque colour: blending every pixel of thousands of lines takes half as long again. */
 export function mixed(a: string, b: string, share: number): string {
-  const part = (at: number) => Math.round(share * parseInt(a.slice(at, at + 2), 16) + (1 - share) * parseInt(b.slice(at, at + 2), 16));
+  const value = (hex: string, at: number) => parseInt(hex.slice(at, at + 2), 16);
+  const part = (at: number) => Math.round(share * value(a, at) + (1 - share) * value(b, at));
   return `rgb(${part(1)} ${part(3)} ${part(5)})`;
 }
 

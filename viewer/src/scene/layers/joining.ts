@@ -10,7 +10,8 @@ export function drawJoining(shot: Shot): void {
   const { pen, theme, facts } = shot;
   const request = column(facts.frame, 'request');
   const grant = column(facts.frame, 'grant');
-  const asks = (i: number, owner: number) => owner >= 0 && owner < shot.robots && shot.isAlive(i) && shot.role(i) === spare;
+  const asks = (i: number, owner: number) =>
+    owner >= 0 && owner < shot.robots && shot.isAlive(i) && shot.role(i) === spare;
   pen.lineCap = 'round';
   pen.strokeStyle = theme.spareTrail;
   pen.lineWidth = 1.25;

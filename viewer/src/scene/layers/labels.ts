@@ -30,9 +30,13 @@ class Taken {
 
   /** Takes the rectangle if it is free, and says whether it was. */
   take(x: number, y: number, widthPx: number, heightPx: number): boolean {
-    const left = Math.max(0, Math.floor(x / cellPx)), right = Math.min(this.columns - 1, Math.floor((x + widthPx) / cellPx));
-    const top = Math.max(0, Math.floor(y / cellPx)), bottom = Math.min(this.rows - 1, Math.floor((y + heightPx) / cellPx));
-    for (let r = top; r <= bottom; ++r) for (let c = left; c <= right; ++c) if (this.cells[r * this.columns + c]) return false;
+    const left = Math.max(0, Math.floor(x / cellPx));
+    const right = Math.min(this.columns - 1, Math.floor((x + widthPx) / cellPx));
+    const top = Math.max(0, Math.floor(y / cellPx));
+    const bottom = Math.min(this.rows - 1, Math.floor((y + heightPx) / cellPx));
+    for (let r = top; r <= bottom; ++r) {
+      for (let c = left; c <= right; ++c) if (this.cells[r * this.columns + c]) return false;
+    }
     for (let r = top; r <= bottom; ++r) this.cells.fill(1, r * this.columns + left, r * this.columns + right + 1);
     return true;
   }

@@ -75,6 +75,7 @@ export function drawRadio(shot: Shot): RadioCount {
     // Dashes cost several times a plain line: only while there are few.
     const dashed = found.blocked.length / 2 < mostLinks / 4;
     if (dashed) pen.setLineDash([3, 4]);
+    shot.linkBudget /= 2; // they come on top of the others
     count.drawn += strokePairs(shot, found.blocked, dashed);
     count.all += found.blocked.length / 2;
     pen.setLineDash([]);

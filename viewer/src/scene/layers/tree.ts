@@ -24,6 +24,9 @@ export function drawTree(shot: Shot): void {
   const thickest = thickestPx(shot);
   pen.lineCap = 'round';
   if (view.switches.oldTree) drawOldTree(shot);
+  const broken = facts.broken.filter((e) => !e.old || view.switches.oldTree);
+  strokeAll(shot, broken, theme.background, 6); // a halo, which must not interrupt edges that hold
+  pen.lineCap = 'round';
   pen.strokeStyle = theme.tree;
   for (let w = 0; w < widths; ++w) {
     pen.beginPath();
@@ -34,7 +37,7 @@ export function drawTree(shot: Shot): void {
     pen.lineWidth = thinnestEdgePx + ((thickest - thinnestEdgePx) * w) / (widths - 1);
     pen.stroke();
   }
-  drawBroken(shot, facts.broken.filter((e) => !e.old || view.switches.oldTree));
+  drawBroken(shot, broken);
 }
 
 function drawOldTree(shot: Shot): void {
@@ -57,19 +60,21 @@ function drawOldTree(shot: Shot): void {
 /** Half the length of a break mark, px. */
 const markOf = (shot: Shot) => Math.min(7, Math.max(4, 1.1 * shot.bodyPx));
 
-function drawBroken(shot: Shot, edges: readonly Edge[]): void {
-  const { pen, theme } = shot;
-  if (edges.length === 0) return;
+function strokeAll(shot: Shot, edges: readonly Edge[], color: string, widthPx: number): void {
+  const { pen } = shot;
   pen.beginPath();
   for (const { from, to } of edges) shot.shortLine(from, to);
-  pen.strokeStyle = theme.background;
-  pen.lineWidth = 6;
+  pen.strokeStyle = color;
+  pen.lineWidth = widthPx;
   pen.stroke();
-  pen.strokeStyle = theme.broken;
-  pen.lineWidth = 3;
-  pen.setLineDash([0, 6]);
-  pen.stroke();
-  pen.setLineDash([]);
+}
+
+/** Above the edges that hold: what hides a parent is often a robot of the tree, and its edge runs along the broken one. */
+function drawBroken(shot: Shot, edges: readonly Edge[]): void {
+  if (edges.length === 0) return;
+  shot.pen.setLineDash([0, 6]);
+  strokeAll(shot, edges, shot.theme.broken, 3);
+  shot.pen.setLineDash([]);
   drawBreakMarks(shot, edges);
 }
 
