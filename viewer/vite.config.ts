@@ -20,5 +20,6 @@ export default defineConfig({
     include: ['test/**/*.test.ts'],
     exclude: ['test/browser/**'],
     globalSetup: 'test/recordings.setup.ts',
+    testTimeout: 30000, // ms: on a machine that has other things to do
   },
 } as Parameters<typeof defineConfig>[0]);
