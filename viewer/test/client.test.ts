@@ -93,6 +93,25 @@ describe('a source', () => {
     expect(worker.ended).toBe(true);
   });
 
+  it('tells of frames that cannot be had, and tries again when told to', async () => {
+    const worker = new ThreadlessWorker(false);
+    const source = new Source(worker, { type: 'open_url', url: 'x', name: 'x', size: 0 });
+    const header = { settings: [{ timeS: 0, setting: { tick_s: 0.1 } }], robots: 1, startS: 0, endS: 3, growing: false };
+    worker.reply({ type: 'header', header } as unknown as Reply);
+    for (let id = 1; id <= 3; ++id) {
+      expect(source.trouble.value).toBeNull();
+      source.prefetch(0, 0, 1);
+      worker.reply({ type: 'failed', id, text: 'the server does not answer' });
+      await new Promise((resolve) => setTimeout(resolve, 0));
+    }
+    expect(source.trouble.value!.message).toBe('the server does not answer');
+    source.prefetch(0, 0, 1);
+    expect(worker.requests.length).toBe(4); // not for ever
+    source.retry();
+    source.prefetch(0, 0, 1);
+    expect(worker.requests.length).toBe(5);
+  });
+
   it('forgets what an intervention undid', async () => {
     const worker = new ThreadlessWorker(false);
     const source = new Source(worker, { type: 'open_live', run: { name: 'x', text: '', overrides: [] } });
