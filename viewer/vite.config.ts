@@ -5,14 +5,21 @@ import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+const live = process.env.BANYAN_LIVE ?? here('../build/wasm/viewer');
 
 export default defineConfig({
   base: './',
   root: here('.'),
   publicDir: here('public'),
   cacheDir: here('../build/viewer/cache'),
-  resolve: { alias: { '@live': process.env.BANYAN_LIVE ?? here('../build/wasm/viewer') } },
+  resolve: { alias: { '@live': live } },
+  server: { fs: { allow: [here('.'), live] } }, // the simulation lies outside of this folder
   worker: { format: 'es' },
   build: { outDir: process.env.BANYAN_PAGE ?? here('../build/viewer/page'), emptyOutDir: true, target: 'es2022' },
-  test: { include: ['test/**/*.test.ts'], exclude: ['test/browser/**'], globalSetup: 'test/recordings.setup.ts' },
+  test: {
+    include: ['test/**/*.test.ts'],
+    exclude: ['test/browser/**'],
+    globalSetup: 'test/recordings.setup.ts',
+    testTimeout: 30000, // ms: on a machine that has other things to do
+  },
 } as Parameters<typeof defineConfig>[0]);

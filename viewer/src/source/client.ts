@@ -39,6 +39,8 @@ export class Source {
   readonly events = new Observable<RunEvent[]>([]);
   /** Not null: the source is lost, or could not be opened; in words. */
   readonly failure = new Observable<Problem | null>(null);
+  /** Not null: some frames could not be had even after several attempts, in words; retry() tries again. */
+  readonly trouble = new Observable<Problem | null>(null);
   /** Called with the time (s) after which nothing is as it was: somebody interfered with a live run. */
   readonly rewound = new Observable<number>(Infinity);
   /** Called when frames have come. */
@@ -127,6 +129,12 @@ export class Source {
     if (missing !== null && missing < timeS + 0.5 * aheadS) this.fetch(span, cache, Math.min(cache.endOf(span), timeS + aheadS));
   }
 
+  /** After trouble: a server may be there again. */
+  retry(): void {
+    this.attempts.clear();
+    this.trouble.set(null);
+  }
+
   async message(robot: number, tick: number): Promise<MessageFields | null> {
     const reply = await this.ask((id) => ({ type: 'message', id, robot, tick }));
     return reply.type === 'message' ? reply.fields : null;
@@ -177,10 +185,11 @@ export class Source {
         cache.put(span, reply);
         this.arrived.set(this.arrived.value + 1);
       })
-      .catch(() => {
+      .catch((problem: Problem) => {
         if (generation !== this.generation) return;
         this.inFlight.delete(key);
         this.attempts.set(key, tried + 1);
+        if (tried + 1 === mostAttempts && this.failure.value === null) this.trouble.set(problem);
       });
   }
 

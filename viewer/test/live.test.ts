@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The compiled simulation as a source, against what the native program recorded of the same scenario.
+import { existsSync, readFileSync } from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { describe, expect, it } from 'vitest';
+import { column, columns } from '../src/frame';
+import { History } from '../src/source/history';
+import { LiveRun } from '../src/source/live';
+import { LiveHost } from '../src/source/live_host';
+import type { LiveModule } from '../src/source/live_module';
+import { pack, unpack } from '../src/source/packed';
+import type { Reply } from '../src/source/protocol';
+import { bytesOf, fileOf, frameAt, numberOf, open, random, tableOf } from './support';
+
+const root = fileURLToPath(new URL('../../', import.meta.url));
+const folder = process.env.BANYAN_LIVE ?? path.join(root, 'build/wasm/viewer');
+const built = existsSync(path.join(folder, 'banyan_live.wasm'));
+const scenario = readFileSync(path.join(root, 'scenarios/three-targets.toml'), 'utf8');
+const request = { name: 'three-targets.toml', text: scenario, overrides: [] };
+
+async function load(): Promise<LiveModule> {
+  const { default: create } = await import(/* @vite-ignore */ pathToFileURL(path.join(folder, 'banyan_live.mjs')).href);
+  return await create({ wasmBinary: readFileSync(path.join(folder, 'banyan_live.wasm')) });
+}
+const module = built ? load() : null;
+
+function runTo(run: LiveRun, tick: number): LiveRun {
+  while (run.head < tick) run.step();
+  return run;
+}
+
+describe.skipIf(!built)('a live run', () => {
+  it('is the native run', async () => {
+    const run = LiveRun.load((await module)!, request);
+    const result = JSON.parse(readFileSync(fileOf('three', 'run.json'), 'utf8')).result;
+    runTo(run, result.ticks);
+    expect(run.hash()).toBe(result.hash);
+    const { frames } = run.framesReply(0, 99, 1);
+    const recorded = (await (await open(bytesOf('three'))).frames(0, 99, 1)).frames;
+    expect(frames.length).toBe(recorded.length);
+    frames.forEach((frame, k) => {
+      expect(frame.tick).toBe(recorded[k].tick);
+      const apart = frame.data.map((value, i) => Math.abs(value - recorded[k].data[i]));
+      expect(Math.max(...apart)).toBeLessThan(0.0051); // want_m has two decimals, poses four
+      expect([...frame.targets.worker]).toEqual([...recorded[k].targets.worker]);
+    });
+    const { series } = run.takeTable()!;
+    const rows = tableOf(fileOf('three', 'series.csv'));
+    for (const key of Object.keys(rows[0])) {
+      if (key === 'fiedler') continue; // computed exactly for --series only
+      const apart = rows.map((row, k) => Math.abs(series[key][k + 1] - numberOf(row[key])));
+      expect(Math.max(...apart), key).toBeLessThan(1e-4);
+    }
+    runTo(run, result.ticks + 50); // goes on after completion
+    expect(run.header().result.complete).toBe('true');
+    run.close();
+  });
+
+  it('goes back, and does again what was done there', async () => {
+    const plain = runTo(LiveRun.load((await module)!, request), 90);
+    const run = runTo(LiveRun.load((await module)!, request), 60);
+    run.intervene(30, [{ kind: 'die', robot: 3 }]);
+    expect(run.head).toBe(30);
+    run.takeTable();
+    runTo(run, 50);
+    run.intervene(30, [{ kind: 'die', robot: 5 }]); // beside the first one
+    runTo(run, 90);
+    const { frames } = run.framesReply(9, 9, 1);
+    expect([3, 5, 4].map((robot) => column(frames[0], 'alive')[robot])).toEqual([0, 0, 1]);
+    const table = run.takeTable()!;
+    expect(table.whole).toBe(true);
+    expect([...table.series.tick]).toEqual(Array.from({ length: 91 }, (_, k) => k));
+    const hash = run.hash();
+    expect(hash).not.toBe(plain.hash());
+    expect(() => run.intervene(10, [{ kind: 'die', robot: 99 }])).toThrow('robot');
+    expect(runTo(run, 90).hash()).toBe(hash); // nothing is lost by what could not be
+    run.close();
+    plain.close();
+  });
+
+  it('knows settings that change, messages, files', async () => {
+    const run = runTo(LiveRun.load((await module)!, request), 20);
+    run.intervene(20, [{ kind: 'set_line_of_sight', line_of_sight: false }]);
+    runTo(run, 25);
+    const sights = run.header().settings.map((s) => s.setting.line_of_sight);
+    expect(sights.length).toBeGreaterThanOrEqual(1);
+    expect(sights.at(-1)).toBe(false);
+    expect(run.message(2, 10)).toMatchObject({ id: 2 });
+    expect(run.message(2, 0)).toBeNull();
+    const recording = await open(run.recording() as Uint8Array<ArrayBuffer>);
+    expect(recording.headerNow()).toMatchObject({ endS: 2.5, robots: 18, warnings: [] });
+    expect(run.scenario()).toContain('set_line_of_sight');
+    run.close();
+  });
+
+  it('answers like a recording', async () => {
+    const replies: Reply[] = [];
+    const host = new LiveHost((reply) => replies.push(reply), async () => (await module)!);
+    const of = async (id: number) => {
+      for (;;) {
+        const found = replies.find((r) => 'id' in r && r.id === id);
+        if (found !== undefined) return found;
+        await new Promise((resolve) => setTimeout(resolve, 2));
+      }
+    };
+    host.receive({ type: 'open_live', run: { ...request, overrides: ['radio.loss=9'] } });
+    expect(await of(0)).toMatchObject({ type: 'failed', problems: [expect.stringContaining('radio.loss')] });
+    host.receive({ type: 'open_live', run: request });
+    let untilS = 0;
+    for (let id = 1; untilS < 5; ++id) {
+      host.receive({ type: 'frames', id, fromS: 0, toS: 5, stride: 16 });
+      const reply = await of(id);
+      if (reply.type !== 'frames') throw new Error(reply.type);
+      ({ untilS } = reply);
+      if (untilS >= 5) expect(reply.frames.map((f) => f.tick)).toEqual([0, 16, 32, 48, 64]);
+    }
+    host.receive({ type: 'save_scenario', id: 1001 });
+    expect(await of(1001)).toMatchObject({ type: 'file', name: 'three-targets.toml' });
+    host.receive({ type: 'intervene', id: 1002, tick: 10 ** 6, events: [] });
+    expect(await of(1002)).toMatchObject({ type: 'failed', text: 'that moment has not been simulated yet' });
+  });
+});
+
+describe('packed frames', () => {
+  it('come back as they were', () => {
+    const next = random(5);
+    const frame = frameAt(7, 0.1, 20);
+    columns.forEach((name, c) => {
+      const real = /_m$|_rad$/.test(name);
+      for (let i = 0; i < 20; ++i) frame.data[c * 20 + i] = real ? Math.fround(100 * next() - 50) : Math.floor(3 * next());
+    });
+    for (const name of ['parent', 'label_cm', 'target'] as const) column(frame, name).set([-1, 65534], 0);
+    column(frame, 'epoch')[0] = 65535;
+    for (const name of ['alive', 'role'] as const) column(frame, name).fill(1);
+    expect(unpack(pack(frame, frame.targets))).toEqual(frame);
+  });
+});
+
+describe('the history', () => {
+  it('is bounded, and coarser the longer ago', () => {
+    const history = new History<{ tick: number; bytes: number }>(100);
+    for (let tick = 0; tick < 5000; ++tick) history.push({ tick, bytes: 1 });
+    expect(history.bytesKept).toBeLessThanOrEqual(100);
+    expect(history.last()!.tick).toBe(4999);
+    const ticks = history.around(0, 5000, 1).map((entry) => entry.tick);
+    expect(ticks[0]).toBe(0);
+    expect(ticks.slice(-40)).toEqual(Array.from({ length: 40 }, (_, k) => 4960 + k));
+    expect(history.around(1000, 2000, 512).map((e) => e.tick)).toContain(1024);
+    history.cut(4990);
+    expect(history.last()!.tick).toBe(4990);
+    expect(history.at(4993)!.tick).toBe(4990);
+  });
+
+  it('gives the range and its neighbours', () => {
+    const history = new History<{ tick: number; bytes: number }>(1000);
+    for (let tick = 0; tick <= 50; ++tick) history.push({ tick, bytes: 1 });
+    const ticks = (from: number, to: number, stride: number) => history.around(from, to, stride).map((e) => e.tick);
+    expect(ticks(10, 12, 1)).toEqual([9, 10, 11, 12, 13]);
+    expect(ticks(10, 20, 8)).toEqual([8, 16, 24]);
+    expect(ticks(49, 99, 1)).toEqual([48, 49, 50]);
+    expect(ticks(0, 0, 1)).toEqual([0, 1]);
+  });
+});

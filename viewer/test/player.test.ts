@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// The clock, with a fake one behind it and sources that are slow, end or go on.
+import { describe, expect, it } from 'vitest';
+import { fastest, type Playable, Player, slowest } from '../src/state/player';
+import { random } from './support';
+
+class Fake implements Playable {
+  ready = true;
+  startS = 0;
+  tickS = 0.1;
+  /** Frames are here up to there. */
+  loadedS = Infinity;
+  asked: [number, number, number][] = [];
+  constructor(public endS = 20, public growing = false) {}
+  limit(fromS: number, toS: number): number {
+    if (!this.growing && fromS >= this.endS) return toS;
+    return Math.max(Math.min(toS, this.loadedS), Math.min(fromS, toS));
+  }
+  prefetch(timeS: number, speed: number, stride: number): void {
+    this.asked.push([timeS, speed, stride]);
+    if (this.growing) this.endS = Math.max(this.endS, timeS + 1);
+  }
+}
+
+function playing(...sources: Fake[]): { player: Player; run: (ms: number) => void } {
+  const player = new Player();
+  player.attach(sources);
+  let now = 1000;
+  player.frame(now);
+  return { player, run: (ms) => { for (let t = 0; t < ms; t += 16) player.frame((now += Math.min(16, ms - t))); } };
+}
+
+describe('the player', () => {
+  it('plays at its speed and stops at the end', () => {
+    const { player, run } = playing(new Fake(20));
+    player.play();
+    run(1000);
+    expect(player.timeS).toBeCloseTo(1);
+    player.setSpeed(16);
+    run(500);
+    expect(player.timeS).toBeCloseTo(9);
+    run(5000);
+    expect(player.timeS).toBe(20);
+    expect(player.playing).toBe(false);
+    player.play();
+    expect(player.timeS).toBe(0);
+  });
+
+  it('waits for frames, and then does not leap', () => {
+    const source = new Fake(20);
+    const { player, run } = playing(source);
+    source.loadedS = 2;
+    player.play();
+    run(5000);
+    expect(player.timeS).toBeCloseTo(2);
+    expect(player.waiting).toBe(true);
+    expect(player.playing).toBe(true);
+    source.loadedS = Infinity;
+    run(100);
+    expect(player.waiting).toBe(false);
+    expect(player.timeS).toBeCloseTo(2.1);
+  });
+
+  it('goes on with a live run, for ever', () => {
+    const { player, run } = playing(new Fake(0, true));
+    player.play();
+    player.setSpeed(64);
+    run(10000);
+    expect(player.timeS).toBeCloseTo(640);
+    expect(player.playing).toBe(true);
+    player.end();
+    expect(player.playing).toBe(true);
+  });
+
+  it('does not leap after a while in the background', () => {
+    const { player } = playing(new Fake(100));
+    player.play();
+    player.frame(2000);
+    const { timeS } = player;
+    player.frame(60000);
+    expect(player.timeS - timeS).toBeCloseTo(0.25);
+  });
+
+  it('steps from tick to tick', () => {
+    const { player } = playing(new Fake(20));
+    player.seek(3.14);
+    player.step(1);
+    expect(player.timeS).toBeCloseTo(3.2);
+    player.step(1);
+    expect(player.timeS).toBeCloseTo(3.3);
+    player.seek(3.14);
+    player.step(-1);
+    expect(player.timeS).toBeCloseTo(3.1);
+    player.home();
+    player.step(-1);
+    expect(player.timeS).toBe(0);
+    player.end();
+    player.step(1);
+    expect(player.timeS).toBe(20);
+  });
+
+  it('has speeds that are powers of two, and strides that follow', () => {
+    const { player } = playing(new Fake(1000));
+    const speeds: number[] = [];
+    player.setSpeed(0.01);
+    for (let k = 0; k < 12; ++k, player.faster()) speeds.push(player.speed);
+    expect(speeds).toEqual([0.25, 0.5, 1, 2, 4, 8, 16, 32, 64, 64, 64, 64]);
+    player.setSpeed(NaN);
+    expect(player.speed).toBe(64);
+    expect(player.stride).toBe(1);
+    player.play();
+    expect(player.stride).toBe(32);
+    player.setSpeed(1);
+    expect(player.stride).toBe(1);
+  });
+
+  it('shows two sources with one clock: the shorter one ends earlier', () => {
+    const short = new Fake(3);
+    const long = new Fake(6);
+    const { player, run } = playing(short, long);
+    long.loadedS = 4;
+    player.play();
+    run(8000);
+    expect(player.timeS).toBeCloseTo(4);
+    long.loadedS = Infinity;
+    run(8000);
+    expect(player.timeS).toBe(6);
+  });
+
+  it('fetches in the direction of the visitor', () => {
+    const source = new Fake(20);
+    const { player, run } = playing(source);
+    player.seek(10);
+    run(16);
+    player.seek(8);
+    run(16);
+    expect(source.asked.at(-1)).toEqual([8, -1, 1]);
+    player.setSpeed(4);
+    player.play();
+    run(16);
+    expect(source.asked.at(-1)!.slice(1)).toEqual([4, 2]);
+  });
+
+  it('keeps its promises whatever happens', () => {
+    const next = random(42);
+    for (let round = 0; round < 60; ++round) {
+      const source = new Fake(5 + 20 * next(), next() < 0.3);
+      const { player, run } = playing(source);
+      for (let k = 0; k < 120; ++k) {
+        source.loadedS = next() < 0.5 ? Infinity : 25 * next();
+        const actions = [() => player.play(), () => player.pause(), () => player.toggle(), () => player.faster(),
+          () => player.slower(), () => player.seek(30 * next() - 3), () => player.step(Math.round(6 * next()) - 3),
+          () => player.home(), () => player.end(), () => player.setSpeed(100 * next()), () => player.seek(NaN)];
+        actions[Math.floor(actions.length * next())]();
+        const before = player.timeS;
+        run(16 + 100 * next());
+        const elapsed = player.timeS - before;
+        expect(elapsed).toBeGreaterThanOrEqual(0);
+        expect(elapsed).toBeLessThanOrEqual(0.12 * player.speed + 1e-9);
+        expect(player.timeS).toBeGreaterThanOrEqual(0);
+        if (!source.growing) expect(player.timeS).toBeLessThanOrEqual(source.endS);
+        if (elapsed > 0) expect(player.timeS).toBeLessThanOrEqual(source.loadedS);
+        expect(player.speed >= slowest && player.speed <= fastest && Number.isInteger(Math.log2(player.speed))).toBe(true);
+        if (!player.playing) expect(elapsed > 0 && !player.atEnd).toBe(false);
+      }
+    }
+  });
+});

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Interpolation, jumps between events, trails, the page's state.
+import { describe, expect, it } from 'vitest';
+import { column, type RunEvent } from '../src/frame';
+import { eventsUntil, jumpTime } from '../src/state/events';
+import { interpolate, normalized } from '../src/state/interpolate';
+import { initialState, type State, Store } from '../src/state/store';
+import { Trails } from '../src/state/trails';
+import { frameAt, random } from './support';
+
+describe('interpolation', () => {
+  const between = (change: (a: ReturnType<typeof frameAt>, b: ReturnType<typeof frameAt>) => void, timeS = 0.05) => {
+    const a = frameAt(0, 0.1, 2);
+    const b = frameAt(1, 0.1, 2);
+    change(a, b);
+    return interpolate(a, b, timeS);
+  };
+
+  it('goes on a line', () => {
+    const frame = between((a, b) => { column(a, 'x_m').set([1, 2]); column(b, 'x_m').set([1.2, 1.9]); b.targets.x[0] = 0.5; }, 0.025);
+    expect(column(frame, 'x_m')[0]).toBeCloseTo(1.05);
+    expect(column(frame, 'x_m')[1]).toBeCloseTo(1.975);
+    expect(frame.targets.x[0]).toBeCloseTo(0.125);
+    expect(frame.timeS).toBe(0.025);
+  });
+  it('turns the shorter way', () => {
+    const frame = between((a, b) => { column(a, 'heading_rad').set([3, -3]); column(b, 'heading_rad').set([-3, 3]); });
+    expect(Math.abs(column(frame, 'heading_rad')[0])).toBeCloseTo(Math.PI);
+    expect(column(frame, 'heading_rad').every((v) => v > -Math.PI && v <= Math.PI)).toBe(true);
+  });
+  it('keeps all else from the earlier frame', () => {
+    const frame = between((a, b) => { column(a, 'role').set([1, 2]); column(b, 'role').set([3, 0]); column(b, 'parent').set([1, 1]); });
+    expect([...column(frame, 'role')]).toEqual([1, 2]);
+    expect([...column(frame, 'parent')]).toEqual([0, 0]);
+    expect(frame.tick).toBe(0);
+  });
+  it('does not smear who leaps', () => {
+    const frame = between((_, b) => { column(b, 'x_m').set([40, 1]); });
+    expect([...column(frame, 'x_m')]).toEqual([0, 1]);
+  });
+  it('outside is one of the frames, and never touches them', () => {
+    const a = frameAt(0);
+    const b = frameAt(1);
+    expect(interpolate(a, b, -1)).toEqual(a);
+    expect(interpolate(a, b, 7)).toEqual(b);
+    expect(interpolate(a, null, 7)).toEqual(a);
+    const into = interpolate(a, b, 0.05);
+    const again = interpolate(a, b, 0.09, into);
+    expect(again.data).toBe(into.data);
+    expect(a).toEqual(frameAt(0));
+    expect(b).toEqual(frameAt(1));
+  });
+  it('stands more robots or fewer in the next frame', () => {
+    expect(interpolate(frameAt(0, 0.1, 3), frameAt(1, 0.1, 2), 0.05).robots).toBe(3);
+    expect(interpolate(frameAt(0, 0.1, 1), frameAt(1, 0.1, 2), 0.05).robots).toBe(1);
+  });
+  it('normalizes any angle', () => {
+    const next = random(3);
+    for (let k = 0; k < 1000; ++k) {
+      const angle = 40 * next() - 20;
+      const inside = normalized(angle);
+      expect(inside > -Math.PI && inside <= Math.PI).toBe(true);
+      expect(Math.cos(inside)).toBeCloseTo(Math.cos(angle), 9);
+    }
+    expect(normalized(-Math.PI)).toBe(Math.PI);
+  });
+});
+
+describe('jumps', () => {
+  const event = (time_s: number, kind: string): RunEvent => ({ tick: Math.round(10 * time_s), time_s, kind, robot: 0, target: -1, text: kind });
+  const events = [event(0.5, 'phase'), event(1, 'recruited'), event(1, 'inserted'), event(2, 'phase'), event(3, 'death'), event(9, 'complete')];
+
+  it('stop at what is notable, once for each moment', () => {
+    expect(jumpTime(events, 0, 1)).toBe(1);
+    expect(jumpTime(events, 1, 1)).toBe(3);
+    expect(jumpTime(events, 1 - 1e-9, 1)).toBe(3);
+    expect(jumpTime(events, 9, 1)).toBeNull();
+    expect(jumpTime(events, 9, -1)).toBe(3);
+    expect(jumpTime(events, 2.5, -1)).toBe(1);
+    expect(jumpTime(events, 1, -1)).toBeNull();
+    expect(jumpTime([], 1, 1)).toBeNull();
+  });
+  it('know what was last', () => {
+    expect(eventsUntil(events, 3, 2).map((e) => e.kind)).toEqual(['death', 'inserted']);
+  });
+});
+
+describe('trails', () => {
+  const store = { framesBetween: (fromS: number, toS: number) => {
+    const first = Math.max(0, Math.ceil(fromS / 0.1 - 1e-6));
+    return Array.from({ length: Math.max(0, Math.floor(toS / 0.1 + 1e-6) - first + 1) }, (_, k) => frameAt(first + k));
+  } };
+  const path = (trails: Trails, timeS: number) => {
+    const found: number[] = [];
+    trails.each(0, timeS, (x) => found.push(x));
+    return found;
+  };
+
+  it('are the last seconds, oldest first', () => {
+    const trails = new Trails(2);
+    for (let timeS = 0; timeS <= 10; timeS += 0.05) trails.update(store, timeS, 1);
+    const xs = path(trails, 10);
+    expect(xs.length).toBeGreaterThan(18);
+    expect(xs[0]).toBeCloseTo(0.8, 1);
+    expect(xs.at(-1)).toBeCloseTo(1, 1);
+    expect(xs).toEqual([...xs].sort((a, b) => a - b));
+  });
+  it('are made anew after a jump back', () => {
+    const trails = new Trails(2);
+    trails.update(store, 10, 1);
+    trails.update(store, 5, 1);
+    expect(path(trails, 5).at(-1)).toBeCloseTo(0.5, 1);
+    expect(Math.max(...path(trails, 5))).toBeLessThan(0.51);
+  });
+  it('hold the whole length at any rate', () => {
+    const trails = new Trails(60);
+    for (let timeS = 0; timeS <= 120; timeS += 0.1) trails.update(store, timeS, 1);
+    expect(trails.samples).toBeLessThanOrEqual(128);
+    expect(path(trails, 120)[0]).toBeLessThan(6.2);
+  });
+});
+
+describe('the store', () => {
+  const memory = (text: string | null = null) => ({ text, getItem() { return this.text; }, setItem(_: string, value: string) { this.text = value; } });
+
+  it('tells once, whom it concerns', () => {
+    const store = new Store(null);
+    const told: string[] = [];
+    store.subscribe((_, changed) => told.push([...changed].join()), ['selected', 'links']);
+    const stop = store.subscribe(() => told.push('all'));
+    store.set({ selected: 3, hovered: 2 });
+    store.set({ selected: 3 });
+    store.set({ hovered: null });
+    stop();
+    store.toggle('links');
+    expect(told).toEqual(['selected,hovered', 'all', 'all', 'links']);
+  });
+  it('remembers what was chosen for good', () => {
+    const storage = memory();
+    const store = new Store(storage);
+    store.set({ theme: 'dark', ids: true, selected: 7 });
+    expect(new Store(storage).state).toEqual({ ...initialState, theme: 'dark', ids: true });
+  });
+  it.each(['nonsense', 'null', '[]', '{"theme":"pink","ids":1,"selected":4,"__proto__":{"ids":true}}'])('survives %s', (text) => {
+    expect(new Store(memory(text)).state).toEqual(initialState);
+  });
+  it('lives without storage that works', () => {
+    const broken = { getItem: () => { throw new Error('forbidden'); }, setItem: () => { throw new Error('full'); } };
+    const store = new Store(broken);
+    store.set({ theme: 'light' } satisfies Partial<State>);
+    expect(store.state.theme).toBe('light');
+  });
+});
