@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Interpolation, jumps between events, trails, the page's state.
+// Interpolation, jumps between events, the page's state.
 import { describe, expect, it } from 'vitest';
 import { column, type RunEvent } from '../src/frame';
 import { eventsUntil, jumpTime } from '../src/state/events';
 import { interpolate, normalized } from '../src/state/interpolate';
 import { initialState, type State, Store } from '../src/state/store';
-import { Trails } from '../src/state/trails';
 import { frameAt, random } from './support';
 
 describe('interpolation', () => {
@@ -85,63 +84,29 @@ describe('jumps', () => {
   });
 });
 
-describe('trails', () => {
-  const store = { framesBetween: (fromS: number, toS: number) => {
-    const first = Math.max(0, Math.ceil(fromS / 0.1 - 1e-6));
-    return Array.from({ length: Math.max(0, Math.floor(toS / 0.1 + 1e-6) - first + 1) }, (_, k) => frameAt(first + k));
-  } };
-  const path = (trails: Trails, timeS: number) => {
-    const found: number[] = [];
-    trails.each(0, timeS, (x) => found.push(x));
-    return found;
-  };
-
-  it('are the last seconds, oldest first', () => {
-    const trails = new Trails(2);
-    for (let timeS = 0; timeS <= 10; timeS += 0.05) trails.update(store, timeS, 1);
-    const xs = path(trails, 10);
-    expect(xs.length).toBeGreaterThan(18);
-    expect(xs[0]).toBeCloseTo(0.8, 1);
-    expect(xs.at(-1)).toBeCloseTo(1, 1);
-    expect(xs).toEqual([...xs].sort((a, b) => a - b));
-  });
-  it('are made anew after a jump back', () => {
-    const trails = new Trails(2);
-    trails.update(store, 10, 1);
-    trails.update(store, 5, 1);
-    expect(path(trails, 5).at(-1)).toBeCloseTo(0.5, 1);
-    expect(Math.max(...path(trails, 5))).toBeLessThan(0.51);
-  });
-  it('hold the whole length at any rate', () => {
-    const trails = new Trails(60);
-    for (let timeS = 0; timeS <= 120; timeS += 0.1) trails.update(store, timeS, 1);
-    expect(trails.samples).toBeLessThanOrEqual(128);
-    expect(path(trails, 120)[0]).toBeLessThan(6.2);
-  });
-});
-
 describe('the store', () => {
   const memory = (text: string | null = null) => ({ text, getItem() { return this.text; }, setItem(_: string, value: string) { this.text = value; } });
 
-  it('tells once, whom it concerns', () => {
+  it('tells once, if anything changed', () => {
     const store = new Store(null);
-    const told: string[] = [];
-    store.subscribe((_, changed) => told.push([...changed].join()), ['selected', 'links']);
-    const stop = store.subscribe(() => told.push('all'));
-    store.set({ selected: 3, hovered: 2 });
-    store.set({ selected: 3 });
-    store.set({ hovered: null });
+    const told: number[] = [];
+    const stop = store.subscribe((state) => told.push(state.followed ?? -1));
+    store.set({ followed: 3, theme: 'dark' });
+    store.set({ followed: 3 });
+    store.set({ followed: null });
     stop();
     store.toggle('links');
-    expect(told).toEqual(['selected,hovered', 'all', 'all', 'links']);
+    expect(told).toEqual([3, -1]);
+    expect(store.state.switches.links).toBe(!initialState.switches.links);
   });
   it('remembers what was chosen for good', () => {
     const storage = memory();
     const store = new Store(storage);
-    store.set({ theme: 'dark', ids: true, selected: 7 });
-    expect(new Store(storage).state).toEqual({ ...initialState, theme: 'dark', ids: true });
+    store.set({ theme: 'dark', selection: { kind: 'robot', index: 7 } });
+    store.toggle('ids');
+    expect(new Store(storage).state).toEqual({ ...initialState, theme: 'dark', switches: { ...initialState.switches, ids: true } });
   });
-  it.each(['nonsense', 'null', '[]', '{"theme":"pink","ids":1,"selected":4,"__proto__":{"ids":true}}'])('survives %s', (text) => {
+  it.each(['nonsense', 'null', '[]', '{"theme":"pink","switches":{"ids":1,"more":true},"selection":4,"__proto__":{"ids":true}}'])('survives %s', (text) => {
     expect(new Store(memory(text)).state).toEqual(initialState);
   });
   it('lives without storage that works', () => {
