@@ -446,6 +446,7 @@ template <class Owner> rc::Gen<json> value_of(const Key<Owner>& key) {
     rc::Gen<json> operator()(int& (*)(Owner&)) const { return whole; }
     rc::Gen<json> operator()(std::uint32_t& (*)(Owner&)) const { return whole; }
     rc::Gen<json> operator()(std::size_t& (*)(Owner&)) const { return whole; }
+    rc::Gen<json> operator()(const SeedAccess<Owner>&) const { return whole; }
     rc::Gen<json> operator()(std::optional<std::size_t>& (*)(Owner&)) const { return whole; }
     rc::Gen<json> operator()(std::optional<double>& (*)(Owner&)) const { return real; }
     rc::Gen<json> operator()(std::string& (*)(Owner&)) const {

@@ -49,6 +49,7 @@ TEST(MessageFields, ShowEverythingThatTravels) {
   };
   Message message;
   message.id = 1;
+  message.q = {0.5F, 0.5F};  // minus nothing is nothing
   const Wire wire = encode(message);
   for (std::size_t at = 1; at < wire_size; ++at) {
     bool seen = false;

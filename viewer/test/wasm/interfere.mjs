@@ -186,6 +186,32 @@ test('numbers are written as the program writes them', async () => {
   }
 });
 
+// Of every magnitude, and whole ones beyond what digits tell apart: what libc++ 14 cannot write.
+test('so are numbers in messages', async () => {
+  let bits = 1n;
+  const any = (k) => {
+    bits = BigInt.asUintN(64, bits * 6364136223846793005n + 1442695040888963407n);
+    if (k % 3 === 0) return -Number(bits % 1000000n) / 10 ** (k % 11);
+    if (k % 3 === 1) return -Number(bits) * 2 ** (k % 30);
+    return new Float64Array(new BigUint64Array([bits | 0x8000000000000000n]).buffer)[0];
+  };
+  const at = await mkdtemp(join(tmpdir(), 'banyan-wasm-'));
+  for (let round = 0; round < 4; ++round) {
+    let text = '[targets]\ncount = 2\n';
+    for (let k = 0; k < 90; ++k) {
+      const value = any(k);
+      if (Number.isFinite(value)) text += `[[events]]\ntime_s = 1\nkind = "set_loss"\nloss = ${value.toExponential()}\n`;
+    }
+    const said = new module.Live().load('wrong.toml', text, []);
+    await writeFile(join(at, 'wrong.toml'), text);
+    const native = await banyan('validate', join(at, 'wrong.toml')).catch((error) => error);
+    const its = native.stderr.split('\n').filter((line) => line.includes('error: events['));
+    assert.ok(said.length > 80);
+    assert.deepEqual(said, its.map((line) => line.replace(at + '/', '')));
+  }
+  await rm(at, { recursive: true });
+});
+
 test('a recording made here is one that the program reads, and says the same', async () => {
   const live = open(rooms);
   live_through(live, 120);
