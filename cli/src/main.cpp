@@ -319,8 +319,7 @@ void add_view(CLI::App& app, std::function<int()>& action) {
   command->footer(view_footer);
   command
       ->add_option("file", options->file,
-                   "a run.mcap, also one that is being written (.part), or a scenario, to be run in the page; none: a choice "
-                   "of scenarios")
+                   "a run.mcap, or a scenario to be run in the page; none: a choice of scenarios")
       ->type_name("FILE");
   add_overrides(*command, options->overrides);
   add_seed(*command, options->overrides);
