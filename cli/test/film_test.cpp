@@ -25,8 +25,9 @@ class Film : public StartedProgram {
   }
   // What ffprobe says of the only stream, every frame decoded and counted.
   json probe(const std::string& file) {
-    const auto outcome = finish(start({"-v", "error", "-count_frames", "-show_streams", "-show_format", "-of", "json", file},
-                                      {.program = "ffprobe"}));
+    const auto outcome =
+        finish(start({"-v", "error", "-count_frames", "-show_streams", "-show_format", "-of", "json", file},
+                     {.program = "ffprobe"}));
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const auto all = json::parse(outcome.out, nullptr, false);
@@ -47,8 +48,8 @@ class Film : public StartedProgram {
 // One second of the run at half speed: 2 s, and the last frame for one more.
 TEST_F(Film, AnMp4HasItsFramesItsSizeAndItsLength) {
   NEEDS_FFMPEG();
-  const auto outcome = run({"film", "o/run.mcap", "-o", "a.mp4", "--fps", "10", "--speed", "0.5", "--from", "1", "--to", "2",
-                            "--width", "320", "--height", "200", "--ids"});
+  const auto outcome = run({"film", "o/run.mcap", "-o", "a.mp4", "--fps", "10", "--speed", "0.5", "--from", "1", "--to",
+                            "2", "--width", "320", "--height", "200", "--ids"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "");
   EXPECT_TRUE(has(outcome.err, "1 s to 2 s at 0.5x: 3.1 s of film, 31 frames of 320 x 200")) << outcome.err;
@@ -62,31 +63,31 @@ TEST_F(Film, AnMp4HasItsFramesItsSizeAndItsLength) {
   EXPECT_EQ(film["r_frame_rate"], "10/1");
   EXPECT_NEAR(std::stod(film["format_duration"].get<std::string>()), 3.1, 0.02);
   const std::string bytes = read("a.mp4");
-  EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));   // the index first: it plays while it is loaded
+  EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));  // the index first: it plays while it is loaded
   EXPECT_FALSE(exists("a.mp4.part"));
 }
 
 TEST_F(Film, AGifAndAWebmToo) {
   NEEDS_FFMPEG();
   for (const auto& [name, codec] : {std::pair{"a.gif", "gif"}, {"a.webm", "vp9"}}) {
-    const auto outcome = run({"film", "o/run.mcap", "-o", name, "--fps", "10", "--speed", "4", "--to", "2", "--width", "240",
-                              "--height", "160", "-q", "--dark", "--no-links", "--trail", "0"});
+    const auto outcome = run({"film", "o/run.mcap", "-o", name, "--fps", "10", "--speed", "4", "--to", "2", "--width",
+                              "240", "--height", "160", "-q", "--dark", "--no-links", "--trail", "0"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const json film = probe(name);
     EXPECT_EQ(film["codec_name"], codec);
     EXPECT_EQ(film["width"], 240);
     EXPECT_EQ(film["height"], 160);
-    EXPECT_EQ(film["nb_read_frames"], "16") << name;   // 0, 0.4 .. 2.0 s, and ten
+    EXPECT_EQ(film["nb_read_frames"], "16") << name;  // 0, 0.4 .. 2.0 s, and ten
   }
-  EXPECT_TRUE(has(read("a.gif"), "NETSCAPE2.0"));       // goes round
+  EXPECT_TRUE(has(read("a.gif"), "NETSCAPE2.0"));  // goes round
 }
 
 TEST_F(Film, WithoutOptionsItIsHdAndAsLongAsItShouldBe) {
   NEEDS_FFMPEG();
   const auto outcome = run({"film", "o/run.mcap", "-o", "a.mp4", "--fps", "2"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, " s at 1x: ")) << outcome.err;   // five seconds need no haste
+  EXPECT_TRUE(has(outcome.err, " s at 1x: ")) << outcome.err;  // five seconds need no haste
   const json film = probe("a.mp4");
   EXPECT_EQ(film["width"], 1280);
   EXPECT_EQ(film["height"], 720);
@@ -129,19 +130,22 @@ TEST_F(Film, ARecordingWithoutFramesIsNoFilm) {
 
 TEST_F(Film, WithoutFfmpegItSaysWhatToInstall) {
   fs::create_directory(home_ / "bin");
-  const auto outcome = finish(start({"film", "o/run.mcap", "-o", "a.mp4"}, {.environment = {{"PATH", (home_ / "bin").string()}}}));
+  const auto outcome =
+      finish(start({"film", "o/run.mcap", "-o", "a.mp4"}, {.environment = {{"PATH", (home_ / "bin").string()}}}));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_TRUE(has(outcome.err, "films are made by ffmpeg, which is not installed (Debian's package: ffmpeg)")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "films are made by ffmpeg, which is not installed (Debian's package: ffmpeg)"))
+      << outcome.err;
   expect_nothing_left("a.mp4");
 }
 
 TEST_F(Film, AnFfmpegThatGivesUpIsQuotedAndLeavesNothing) {
   write("bin/ffmpeg", "#!/bin/sh\nfor i in 1 2 3 4 5 6 7 8 9; do echo \"line $i\" >&2; done\nexit 7\n");
   fs::permissions(home_ / "bin/ffmpeg", fs::perms::owner_all);
-  const auto outcome =
-      finish(start({"film", "o/run.mcap", "-o", "a.mp4"}, {.environment = {{"PATH", (home_ / "bin").string() + ":/usr/bin:/bin"}}}));
+  const auto outcome = finish(start({"film", "o/run.mcap", "-o", "a.mp4"},
+                                    {.environment = {{"PATH", (home_ / "bin").string() + ":/usr/bin:/bin"}}}));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_TRUE(has(outcome.err, "a.mp4: ffmpeg has given up (exit code 7); the last that it said:\nline 5\n")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "a.mp4: ffmpeg has given up (exit code 7); the last that it said:\nline 5\n"))
+      << outcome.err;
   EXPECT_TRUE(has(outcome.err, "line 9\n")) << outcome.err;
   EXPECT_FALSE(has(outcome.err, "line 4\n")) << outcome.err;
   expect_nothing_left("a.mp4");
@@ -187,7 +191,8 @@ TEST_F(Film, APictureIsAPngByItsNameOrByFormat) {
   EXPECT_TRUE(read("b.png").starts_with("<svg"));
   const auto odd = run({"draw", "o/run.mcap", "-o", "a.jpg"});
   EXPECT_EQ(odd.code, 2);
-  EXPECT_TRUE(has(odd.err, "a.jpg: \".jpg\" is no picture that banyan draws; use .svg or .png, or --format")) << odd.err;
+  EXPECT_TRUE(has(odd.err, "a.jpg: \".jpg\" is no picture that banyan draws; use .svg or .png, or --format"))
+      << odd.err;
   EXPECT_EQ(run({"draw", "o/run.mcap", "--format", "jpg"}).code, 2);
 }
 

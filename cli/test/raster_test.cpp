@@ -21,7 +21,8 @@ std::uint32_t rgb(const Pixels& pixels, int x, int y) {
 
 constexpr const char* halves =
     "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20\" height=\"10\">"
-    "<rect width=\"10\" height=\"10\" fill=\"#d55e00\"/><rect x=\"10\" width=\"10\" height=\"10\" fill=\"#0072b2\"/></svg>";
+    "<rect width=\"10\" height=\"10\" fill=\"#d55e00\"/><rect x=\"10\" width=\"10\" height=\"10\" "
+    "fill=\"#0072b2\"/></svg>";
 
 TEST(Raster, ColoursAreWhereTheyWereDrawn) {
   EXPECT_EQ(size_of(halves).width, 20);
@@ -66,10 +67,12 @@ TEST(Raster, ThreadsGiveTheSamePixels) {
   look.font = raster_font;
   look.width_px = 400.0;
   look.height_px = 300.0;
-  const std::string svg = record::draw_svg(record::test::sample_setting(), record::test::sample_frame(30, 3.0, 300), {}, look);
+  const std::string svg =
+      record::draw_svg(record::test::sample_setting(), record::test::sample_frame(30, 3.0, 300), {}, look);
   const Pixels first = rasterize(svg, 400, 300);
   std::vector<std::future<Pixels>> others;
-  for (int k = 0; k < 8; ++k) others.push_back(std::async(std::launch::async, [&svg] { return rasterize(svg, 400, 300); }));
+  for (int k = 0; k < 8; ++k)
+    others.push_back(std::async(std::launch::async, [&svg] { return rasterize(svg, 400, 300); }));
   for (auto& other : others) EXPECT_EQ(other.get().bgra, first.bgra);
   // There is text, not empty boxes of a missing font: ink where the title stands.
   int dark = 0;

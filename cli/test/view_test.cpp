@@ -64,13 +64,15 @@ class View : public StartedProgram {
     if (::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
         ::send(socket, request.data(), request.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(request.size())) {
       std::array<char, 4096> piece;
-      for (ssize_t got; (got = ::recv(socket, piece.data(), piece.size(), 0)) > 0;) answer.append(piece.data(), static_cast<std::size_t>(got));
+      for (ssize_t got; (got = ::recv(socket, piece.data(), piece.size(), 0)) > 0;)
+        answer.append(piece.data(), static_cast<std::size_t>(got));
     }
     ::close(socket);
     return answer;
   }
   std::string raw_get(const std::string& target) {
-    return raw("GET " + target + " HTTP/1.1\r\nHost: localhost:" + std::to_string(server_->port()) + "\r\nConnection: close\r\n\r\n");
+    return raw("GET " + target + " HTTP/1.1\r\nHost: localhost:" + std::to_string(server_->port()) +
+               "\r\nConnection: close\r\n\r\n");
   }
 
   std::string bytes_;
@@ -80,13 +82,14 @@ class View : public StartedProgram {
 TEST_F(View, ThePageIsServedWithTheTypesThatBrowsersInsistOn) {
   serve();
   EXPECT_EQ(server_->address(), "http://127.0.0.1:" + std::to_string(server_->port()) + "/");
-  const std::vector<std::array<const char*, 3>> files{{"/", "<!doctype html>the page", "text/html; charset=utf-8"},
-                                                      {"/index.html?x=1", "<!doctype html>the page", "text/html; charset=utf-8"},
-                                                      {"/assets/main.js", "1", "text/javascript; charset=utf-8"},
-                                                      {"/assets/worker.mjs", "2", "text/javascript; charset=utf-8"},
-                                                      {"/assets/live.wasm", "3", "application/wasm"},
-                                                      {"/assets/look.css", "4", "text/css; charset=utf-8"},
-                                                      {"/deep/", "deep", "text/html; charset=utf-8"}};
+  const std::vector<std::array<const char*, 3>> files{
+      {"/", "<!doctype html>the page", "text/html; charset=utf-8"},
+      {"/index.html?x=1", "<!doctype html>the page", "text/html; charset=utf-8"},
+      {"/assets/main.js", "1", "text/javascript; charset=utf-8"},
+      {"/assets/worker.mjs", "2", "text/javascript; charset=utf-8"},
+      {"/assets/live.wasm", "3", "application/wasm"},
+      {"/assets/look.css", "4", "text/css; charset=utf-8"},
+      {"/deep/", "deep", "text/html; charset=utf-8"}};
   for (const auto& [what, body, type] : files) {
     const auto answer = get(what);
     ASSERT_TRUE(answer) << what;
@@ -100,7 +103,7 @@ TEST_F(View, ThePageIsServedWithTheTypesThatBrowsersInsistOn) {
   EXPECT_EQ(head->status, 200);
   EXPECT_EQ(head->get_header_value("Content-Length"), "1");
   EXPECT_EQ(get("/nothing.js")->status, 404);
-  EXPECT_EQ(get("/assets")->status, 404);   // a folder without a page of its own
+  EXPECT_EQ(get("/assets")->status, 404);  // a folder without a page of its own
 }
 
 TEST_F(View, NothingOutsideThePageIsServed) {
@@ -145,7 +148,7 @@ TEST_F(View, ARecordingIsReadByRanges) {
     EXPECT_EQ(answer->status, 416) << asked;
     EXPECT_EQ(answer->get_header_value("Content-Range"), "bytes */1000000");
   }
-  const auto several = range("0-3,8-9");          // as HTTP allows
+  const auto several = range("0-3,8-9");  // as HTTP allows
   EXPECT_EQ(several->status, 200);
   EXPECT_EQ(several->body.size(), bytes_.size());
   for (const char* asked : {"abc", "7-3", "--4", "1-2-3"}) {
@@ -162,7 +165,8 @@ TEST_F(View, ARecordingIsReadByRanges) {
 
 TEST_F(View, ARecordingMayGrowAndVanish) {
   serve();
-  EXPECT_EQ(json::parse(get("/start.json")->body), json::parse(R"({"recording":{"name":"run.mcap","size":1000000,"url":"file"}})"));
+  EXPECT_EQ(json::parse(get("/start.json")->body),
+            json::parse(R"({"recording":{"name":"run.mcap","size":1000000,"url":"file"}})"));
   write("run.mcap", bytes_ + "more");
   EXPECT_EQ(range("1000000-")->body, "more");
   EXPECT_EQ(json::parse(get("/start.json")->body)["recording"]["size"], 1000004);
@@ -179,17 +183,19 @@ TEST_F(View, ARecordingMayGrowAndVanish) {
   // One that was being written has got its name.
   write("run.mcap", "x");
   server_.emplace(PageContent{path("page"), path("run.mcap.part"), "", path("scenarios")}, 0);
-  EXPECT_TRUE(has(get("/file")->body, "The run has ended and its recording is complete: banyan view " + path("run.mcap")));
+  EXPECT_TRUE(
+      has(get("/file")->body, "The run has ended and its recording is complete: banyan view " + path("run.mcap")));
 }
 
 TEST_F(View, OnlyItsOwnAddressIsAnswered) {
   serve();
   const std::string port = std::to_string(server_->port());
   const auto with_host = [&](const std::string& host) { return get("/start.json", {{"Host", host}})->status; };
-  for (const std::string& host : {"127.0.0.1:" + port, "localhost:" + port, "[::1]:" + port}) EXPECT_EQ(with_host(host), 200) << host;
-  for (const std::string& host : {std::string("127.0.0.1"), std::string("localhost:1"), "evil.example:" + port,
-                                 "localhost.evil.example:" + port, "127.0.0.1.nip.io:" + port, "localhost:" + port + "0",
-                                 "192.168.0.1:" + port}) {
+  for (const std::string& host : {"127.0.0.1:" + port, "localhost:" + port, "[::1]:" + port})
+    EXPECT_EQ(with_host(host), 200) << host;
+  for (const std::string& host :
+       {std::string("127.0.0.1"), std::string("localhost:1"), "evil.example:" + port, "localhost.evil.example:" + port,
+        "127.0.0.1.nip.io:" + port, "localhost:" + port + "0", "192.168.0.1:" + port}) {
     EXPECT_EQ(with_host(host), 403) << host;
   }
   EXPECT_TRUE(has(raw("GET /start.json HTTP/1.1\r\nConnection: close\r\n\r\n"), " 403 "));
@@ -234,7 +240,8 @@ class ViewCommand : public View {
   json started(Arguments arguments, int signal = SIGTERM) {
     arguments.insert(arguments.begin(), "view");
     fs::remove(home_ / "stdout.txt");
-    const pid_t child = start(arguments, {.environment = {{"BANYAN_PAGE", path("page")}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
+    const pid_t child =
+        start(arguments, {.environment = {{"BANYAN_PAGE", path("page")}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
     std::string said;
     for (int k = 0; k < 1000 && !said.ends_with('\n'); ++k) {
       std::this_thread::sleep_for(10ms);
@@ -259,8 +266,10 @@ TEST_F(ViewCommand, TakesARecordingAScenarioOrNothing) {
   EXPECT_EQ(started({"o/run.mcap"})["recording"]["size"], fs::file_size(home_ / "o/run.mcap"));
   write("cut.mcap.part", read("o/run.mcap").substr(0, 5000));
   EXPECT_EQ(started({"cut.mcap.part"}, SIGINT)["recording"]["name"], "cut.mcap.part");
-  EXPECT_EQ(started({"small.toml", "--set", "radio.loss=0.25", "--seed", "7"}),
-            json({{"scenario", {{"name", "small.toml"}, {"text", read("small.toml")}, {"overrides", {"radio.loss=0.25", "seed=7"}}}}}));
+  EXPECT_EQ(
+      started({"small.toml", "--set", "radio.loss=0.25", "--seed", "7"}),
+      json({{"scenario",
+             {{"name", "small.toml"}, {"text", read("small.toml")}, {"overrides", {"radio.loss=0.25", "seed=7"}}}}}));
   EXPECT_EQ(started({}), json::object());
   // Files on the command line are nothing that a page could read: what it gets is what they come to.
   write("more.toml", "[radio]\nloss = 0.125\n");
@@ -270,6 +279,31 @@ TEST_F(ViewCommand, TakesARecordingAScenarioOrNothing) {
   const json earlier = started({"o/run.json"});
   EXPECT_EQ(earlier["scenario"]["name"], "run.json");
   EXPECT_EQ(earlier["scenario"]["text"], read("o/run.json"));
+}
+
+// One that stays in the foreground is not waited for, neither at the begin nor at the end.
+TEST_F(ViewCommand, OpensABrowserOnADesktopOnly) {
+  write("bin/xdg-open", "#!/bin/sh\necho \"$1\" >'" + path("opened") + "'\nexec sleep 3\n");
+  fs::permissions(home_ / "bin/xdg-open", fs::perms::owner_all);
+  const std::string programs = path("bin") + ":/usr/bin:/bin";
+  const auto visit = [&](const Arguments& arguments, const std::string& display) {
+    fs::remove(home_ / "opened");
+    const pid_t child = start(arguments, {.environment = {{"BANYAN_PAGE", path("page")},
+                                                          {"PATH", programs},
+                                                          {"DISPLAY", display},
+                                                          {"WAYLAND_DISPLAY", ""}}});
+    std::this_thread::sleep_for(1s);
+    const auto begin = std::chrono::steady_clock::now();
+    ::kill(child, SIGINT);
+    const auto outcome = finish(child);
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 2500ms);
+    return std::pair{outcome.out, exists("opened") ? read("opened") : ""};
+  };
+  const auto [address, opened] = visit({"view"}, ":7");
+  EXPECT_EQ(opened, address);
+  EXPECT_EQ(visit({"view", "--no-open"}, ":7").second, "");
+  EXPECT_EQ(visit({"view"}, "").second, "");
 }
 
 TEST_F(ViewCommand, RefusesInWords) {

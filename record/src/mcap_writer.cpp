@@ -118,7 +118,7 @@ struct Writer::Impl {
   Nanoseconds first = 0, last = 0;
 
   std::map<ChunkGroup, OpenChunk> open;
-  std::vector<OpenChunk*> chunk_of;       // per channel; nodes of a map stay where they are
+  std::vector<OpenChunk*> chunk_of;  // per channel; nodes of a map stay where they are
   std::string compressed, scratch;
 
   Impl(OutputFile& output, WriterOptions wanted) : file(output), options(std::move(wanted)), zstd(ZSTD_createCCtx()) {
@@ -198,8 +198,8 @@ void Writer::message(std::uint16_t channel_id, Nanoseconds time, std::string_vie
 std::string_view Writer::Impl::compress(std::string_view records) {
   if (options.compression_level == 0) return records;
   compressed.resize(ZSTD_compressBound(records.size()));
-  const std::size_t size = ZSTD_compressCCtx(zstd, compressed.data(), compressed.size(), records.data(),
-                                             records.size(), options.compression_level);
+  const std::size_t size = ZSTD_compressCCtx(zstd, compressed.data(), compressed.size(), records.data(), records.size(),
+                                             options.compression_level);
   if (ZSTD_isError(size) != 0) throw FileError(file.path(), std::string("cannot compress: ") + ZSTD_getErrorName(size));
   return {compressed.data(), size};
 }
