@@ -27,6 +27,8 @@ constexpr double em_per_letter = 0.54;  // of DejaVu Sans, the widest of the fon
 constexpr double legend_row_px = 22.0;
 constexpr double smallest_robot_px = 3.4;   // radius; smaller ones could not be told apart in print
 constexpr double smallest_spare_px = 2.2;   // of hundreds, which must not hide the tree
+constexpr Vec2 zoom_one_px{1280.0, 720.0};  // a picture of given size whose text is as large as elsewhere;
+constexpr double smallest_zoom = 0.7;       // it goes with the picture, down to what can be read
 constexpr double smallest_view_m = 2.0;
 constexpr double tallest = 1.25;            // height / width of the map at most
 constexpr double trail_step_s = 0.5;
@@ -133,7 +135,12 @@ class Picture {
       extent_.high = options.view->high;
       extent_.at_least(smallest_view_m);
     }
-    width_ = std::round(std::clamp(options.width_px, 200.0, 20000.0));  // whole pixels, or its edges blur
+    size_.x = std::round(std::clamp(options.width_px, 200.0, 20000.0));  // whole pixels, or its edges blur
+    if (options.height_px > 0.0) {
+      size_.y = std::round(std::clamp(options.height_px, 150.0, 20000.0));
+      zoom_ = std::max(smallest_zoom, std::min(size_.x / zoom_one_px.x, size_.y / zoom_one_px.y));
+    }
+    width_ = size_.x / zoom_;
     links_ = radio_links(setting, frame);
     old_edges_ = std::any_of(frame.robots.begin(), frame.robots.end(), [this](const RobotFrame& r) {
       return r.alive && r.role != Role::spare && valid(r.old_parent);
@@ -244,6 +251,8 @@ class Picture {
   const Theme& theme_;
   Layout layout_;
   Vec2 origin_{};  // px, of the map's upper left corner
+  Vec2 size_{};        // of the picture, px
+  double zoom_ = 1.0;  // everything is laid out as for a picture smaller by this
   double width_ = 0.0, robot_px_ = 0.0;
   Links links_;
   bool old_edges_ = false, broken_edges_ = false;
@@ -282,7 +291,7 @@ Layout Picture::strips() const {
   layout.high.x = width_ - margin_px;
   const double inner = layout.high.x - layout.low.x;
   if (options_.height_px > 0.0) {
-    layout.height = std::clamp(options_.height_px, 150.0, 20000.0);
+    layout.height = size_.y / zoom_;
     layout.low.y = title_px + 10.0;
     layout.high.y = std::max(layout.low.y + 10.0, layout.height - legend_px - 16.0);
     layout.scale = std::min(inner / size.x, (layout.high.y - layout.low.y) / size.y);
@@ -298,7 +307,7 @@ Layout Picture::panel() const {
   const Vec2 size = extent_.high - extent_.low;
   Layout layout;
   layout.panel = true;
-  layout.height = std::clamp(options_.height_px, 150.0, 20000.0);
+  layout.height = size_.y / zoom_;
   layout.low = {panel_px, 26.0};
   layout.high = {std::max(panel_px + 10.0, width_ - 26.0), layout.height - 26.0};
   layout.scale = std::min((layout.high.x - layout.low.x) / size.x, (layout.high.y - layout.low.y) / size.y);
@@ -691,8 +700,8 @@ void Picture::scale_bar() {
 
 std::string Picture::svg() {
   out_.put("<svg xmlns=\"http://www.w3.org/2000/svg\"");
-  attribute("width", width_);
-  attribute("height", layout_.height);
+  attribute("width", size_.x);
+  attribute("height", options_.height_px > 0.0 ? size_.y : layout_.height);
   out_.put(" viewBox=\"0 0 ");
   number(width_);
   out_.put(' ');
