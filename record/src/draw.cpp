@@ -231,6 +231,7 @@ class Picture {
   void edges(std::int32_t RobotFrame::*to, const Which& which);
   void trees();
   void headings();
+  void dead();
   void robots(std::initializer_list<Role> roles);
   void robot_symbol(Vec2 at, Role role, bool alive, double radius_px);
   void ids();
@@ -542,10 +543,19 @@ void Picture::headings() {
       " stroke-linecap=\"round\"");
 }
 
+// Below everything: who took over from a dead robot may stand where it does.
+void Picture::dead() {
+  for (const RobotFrame& robot : frame_.robots) {
+    if (robot.alive) continue;
+    robot_symbol(screen(robot.position), robot.role, false, symbol_px(robot.role));
+    out_.put('\n');
+  }
+}
+
 void Picture::robots(std::initializer_list<Role> roles) {
   for (const Role role : roles) {
     for (const RobotFrame& robot : frame_.robots) {
-      if (robot.role != role) continue;
+      if (robot.role != role || !robot.alive) continue;
       robot_symbol(screen(robot.position), robot.role, robot.alive, symbol_px(role));
       out_.put('\n');
     }
@@ -717,6 +727,7 @@ std::string Picture::svg() {
   radio();
   trails();
   targets();
+  dead();
   // Headings below the bodies, so that only what sticks out is seen; spares below the tree, and
   // the few that matter on top of the many.
   headings();
