@@ -59,6 +59,10 @@ if(TARGET banyan_cli)
   install(TARGETS banyan_cli RUNTIME COMPONENT program)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
           FILES_MATCHING PATTERN "*.toml")
+  # The page, if viewer/build has built it.
+  if(EXISTS ${PROJECT_SOURCE_DIR}/build/viewer/page/index.html)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/page/ DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan/viewer COMPONENT program)
+  endif()
   if(EXISTS ${PROJECT_SOURCE_DIR}/cli/completion/banyan.bash)
     install(FILES ${PROJECT_SOURCE_DIR}/cli/completion/banyan.bash RENAME banyan
             DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
@@ -95,8 +99,8 @@ if(DPKG_SHLIBDEPS AND FILE_PROGRAM)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 else()
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
-      "libc6, libstdc++6, libbox2d2, libzstd1, libtomlplusplus3, libpagmo8, libboost-serialization1.74.0, libopenmpi3")
+      "libc6, libstdc++6, libbox2d2, libzstd1, libtomlplusplus3, libpagmo8, libboost-serialization1.74.0, libopenmpi3, librsvg2-2, libcairo2, libcpp-httplib0.11")
 endif()
-# Studies do without, but for figures and for mpirun.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox, openmpi-bin")
+# The program does without, but for figures, for mpirun, for films and for the text in pictures.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox, openmpi-bin, ffmpeg, fonts-dejavu-core, xdg-utils")
 include(CPack)

@@ -52,7 +52,8 @@ _banyan() {
     local suffix
     case $command in
       run | validate) suffix='toml|json' ;;
-      export | draw) suffix='mcap' ;;
+      export | draw | film) suffix='mcap' ;;
+      view) suffix='mcap|part|toml|json' ;;
       *) suffix='' ;;
     esac
     [[ $previous == -o || $previous == --output || $previous == --out ]] && suffix=''

@@ -38,7 +38,7 @@ int export_command(const ExportOptions& options);
 struct DrawOptions {
   std::string recording;
   std::string output = "-";
-  std::string format;          // "svg" or "png"; "": by the ending of `output`
+  std::string format;                                     // "svg" or "png"; "": by the ending of `output`
   double at_s = std::numeric_limits<double>::infinity();  // the end
   double trail_s = 10.0;
   double width_px = 1000.0;
@@ -54,11 +54,11 @@ int draw_command(const DrawOptions& options);
 struct FilmOptions {
   std::string recording;
   std::string output;
-  int fps = 0;                 // 0: 30, of a GIF 15
-  double speed = 0.0;          // seconds of the run in a second of the film; 0: chosen (film.cpp)
+  int fps = 0;         // 0: 30, of a GIF 15
+  double speed = 0.0;  // seconds of the run in a second of the film; 0: chosen (film.cpp)
   double from_s = 0.0;
   double to_s = std::numeric_limits<double>::infinity();
-  int width = 0, height = 0;   // px, even; 0: 1280 x 720, of a GIF 720 x 450
+  int width = 0, height = 0;  // px, even; 0: 1280 x 720, of a GIF 720 x 450
   double trail_s = 5.0;
   bool links = true;
   bool blocked = false;
@@ -71,12 +71,12 @@ struct FilmOptions {
 int film_command(const FilmOptions& options);
 
 struct ViewOptions {
-  std::string file;            // a recording or a scenario; "": neither
+  std::string file;                         // a recording or a scenario; "": neither
   std::vector<config::Override> overrides;  // of the scenario
-  std::string page;            // folder; "": BANYAN_PAGE, else where it was installed
-  std::string scenarios;       // folder; "": where they were when this was built, or were installed
-  int port = 0;                // 0: any that is free
-  bool open = true;            // in a browser
+  std::string page;                         // folder; "": BANYAN_PAGE, else where it was installed
+  std::string scenarios;                    // folder; "": where they were when this was built, or were installed
+  int port = 0;                             // 0: any that is free
+  bool open = true;                         // in a browser
 };
 int view_command(const ViewOptions& options);
 

@@ -33,19 +33,24 @@ std::vector<std::string> encoder(FilmKind kind) {
   std::vector<std::string> list;
   switch (kind) {
     case FilmKind::mp4:
-      list = {"-vf", video, "-c:v", "libx264", "-preset", "fast", "-tune", "animation", "-crf", "20",
-              "-movflags", "+faststart"};
+      list = {"-vf",   video,       "-c:v", "libx264", "-preset",   "fast",
+              "-tune", "animation", "-crf", "20",      "-movflags", "+faststart"};
       break;
     case FilmKind::webm:
-      list = {"-vf", video, "-c:v", "libvpx-vp9", "-crf", "30", "-b:v", "0", "-deadline", "good", "-cpu-used", "4",
-              "-row-mt", "1"};
+      list = {"-vf", video,       "-c:v", "libvpx-vp9", "-crf", "30",      "-b:v",
+              "0",   "-deadline", "good", "-cpu-used",  "4",    "-row-mt", "1"};
       break;
     case FilmKind::gif:
       // One palette for the whole film, and no dithering: flat colours stay flat, and small.
-      return {"-filter_complex", "[0:v]split[a][b];[a]palettegen=max_colors=128[p];[b][p]paletteuse=dither=none:diff_mode=rectangle",
-              "-loop", "0", "-f", "gif"};
+      return {"-filter_complex",
+              "[0:v]split[a][b];[a]palettegen=max_colors=128[p];[b][p]paletteuse=dither=none:diff_mode=rectangle",
+              "-loop",
+              "0",
+              "-f",
+              "gif"};
   }
-  for (const char* option : {"-colorspace", "-color_primaries", "-color_trc"}) list.insert(list.end(), {option, "bt709"});
+  for (const char* option : {"-colorspace", "-color_primaries", "-color_trc"})
+    list.insert(list.end(), {option, "bt709"});
   list.insert(list.end(), {"-f", kind == FilmKind::mp4 ? "mp4" : "webm"});
   return list;
 }
@@ -78,9 +83,22 @@ FilmKind film_kind(const std::string& output) {
 
 Ffmpeg::Ffmpeg(std::string output, int width, int height, int fps, bool replace)
     : output_(std::move(output)), part_(output_ + ".part"), replace_(replace) {
-  std::vector<std::string> arguments{
-      "ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "bgra", "-video_size",
-      std::to_string(width) + "x" + std::to_string(height), "-framerate", std::to_string(fps), "-i", "pipe:0", "-an"};
+  std::vector<std::string> arguments{"ffmpeg",
+                                     "-hide_banner",
+                                     "-loglevel",
+                                     "error",
+                                     "-y",
+                                     "-f",
+                                     "rawvideo",
+                                     "-pixel_format",
+                                     "bgra",
+                                     "-video_size",
+                                     std::to_string(width) + "x" + std::to_string(height),
+                                     "-framerate",
+                                     std::to_string(fps),
+                                     "-i",
+                                     "pipe:0",
+                                     "-an"};
   const auto more = encoder(film_kind(output_));
   arguments.insert(arguments.end(), more.begin(), more.end());
   // Not an option and not a protocol ("a:b.mp4"), whatever the name looks like.
@@ -116,8 +134,9 @@ void Ffmpeg::start(const std::vector<std::string>& arguments) {
   child_ = -1;
   close_pipe();
   ::close(std::exchange(log_, -1));
-  throw CommandError(exit_lost, error == ENOENT ? "films are made by ffmpeg, which is not installed (Debian's package: ffmpeg)"
-                                                : std::string("ffmpeg cannot be started: ") + std::strerror(error));
+  throw CommandError(exit_lost, error == ENOENT
+                                    ? "films are made by ffmpeg, which is not installed (Debian's package: ffmpeg)"
+                                    : std::string("ffmpeg cannot be started: ") + std::strerror(error));
 }
 
 Ffmpeg::~Ffmpeg() {
@@ -165,8 +184,10 @@ bool Ffmpeg::finish() {
 void Ffmpeg::rename_part() {
   // link(), unlike rename(), refuses to replace a file that has appeared meanwhile.
   if (!replace_ && ::link(part_.c_str(), output_.c_str()) == 0) return;
-  if (!replace_ && errno == EEXIST) throw CommandError(exit_lost, output_ + " has appeared meanwhile; add --force to replace it");
-  if (::rename(part_.c_str(), output_.c_str()) != 0) throw record::FileError(output_, "cannot rename from " + part_, errno);
+  if (!replace_ && errno == EEXIST)
+    throw CommandError(exit_lost, output_ + " has appeared meanwhile; add --force to replace it");
+  if (::rename(part_.c_str(), output_.c_str()) != 0)
+    throw record::FileError(output_, "cannot rename from " + part_, errno);
 }
 
 void Ffmpeg::fail(int status) {

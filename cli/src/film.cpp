@@ -24,16 +24,16 @@ namespace banyan::cli {
 
 namespace {
 
-constexpr double hold_s = 1.0;           // the last frame stays, so that the end can be seen
-constexpr double film_length_s = 20.0;   // what the speed is chosen for
+constexpr double hold_s = 1.0;          // the last frame stays, so that the end can be seen
+constexpr double film_length_s = 20.0;  // what the speed is chosen for
 constexpr double gif_length_s = 12.0;
 
 // Which moments of the recording are shown, and how fast.
 struct Cut {
   double from_s = 0.0, to_s = 0.0;
-  double speed = 1.0;                    // seconds of the run in a second of the film
+  double speed = 1.0;  // seconds of the run in a second of the film
   int fps = 30;
-  std::size_t stride = 1;                // recorded frames per frame that is read: no more than are shown
+  std::size_t stride = 1;  // recorded frames per frame that is read: no more than are shown
   double trail_s = 0.0;
 
   [[nodiscard]] double step_s() const { return speed / fps; }
@@ -41,7 +41,9 @@ struct Cut {
     return 1 + static_cast<std::size_t>(std::floor((to_s - from_s) / step_s() + 1e-6));
   }
   [[nodiscard]] std::size_t held() const { return static_cast<std::size_t>(std::lround(hold_s * fps)); }
-  [[nodiscard]] double time_s(std::size_t k) const { return std::min(from_s + static_cast<double>(k) * step_s(), to_s); }
+  [[nodiscard]] double time_s(std::size_t k) const {
+    return std::min(from_s + static_cast<double>(k) * step_s(), to_s);
+  }
 };
 
 // The slowest at which the whole is not longer than it should be.
@@ -60,12 +62,13 @@ Cut make_cut(const record::Recording& recording, const FilmOptions& options, boo
                                           options.from_s, options.to_s, recording.start_s(), recording.end_s()));
   }
   cut.fps = options.fps > 0 ? options.fps : gif ? 15 : 30;
-  cut.speed = options.speed > 0.0 ? options.speed
-                                  : chosen_speed(cut.to_s - cut.from_s, gif ? gif_length_s : film_length_s);
+  cut.speed =
+      options.speed > 0.0 ? options.speed : chosen_speed(cut.to_s - cut.from_s, gif ? gif_length_s : film_length_s);
   cut.trail_s = options.trail_s;
   const auto intervals = static_cast<double>(std::max<std::size_t>(recording.frames(), 2) - 1);
   const double recorded_s = (recording.end_s() - recording.start_s()) / intervals;
-  if (recorded_s > 0.0) cut.stride = static_cast<std::size_t>(std::max(1.0, std::floor(cut.step_s() / recorded_s + 1e-6)));
+  if (recorded_s > 0.0)
+    cut.stride = static_cast<std::size_t>(std::max(1.0, std::floor(cut.step_s() / recorded_s + 1e-6)));
   return cut;
 }
 
@@ -108,10 +111,11 @@ class Studio {
   // Waits for the oldest while enough are being drawn.
   void draw(const record::Setting& setting, record::Frame frame, record::Trails trails) {
     if (drawing_.size() >= threads_) take();
-    drawing_.push_back(std::async(std::launch::async, [this, setting, frame = std::move(frame), trails = std::move(trails)] {
-      return rasterize(record::draw_svg(setting, frame, trails, look_), static_cast<int>(look_.width_px),
-                       static_cast<int>(look_.height_px));
-    }));
+    drawing_.push_back(
+        std::async(std::launch::async, [this, setting, frame = std::move(frame), trails = std::move(trails)] {
+          return rasterize(record::draw_svg(setting, frame, trails, look_), static_cast<int>(look_.width_px),
+                           static_cast<int>(look_.height_px));
+        }));
   }
   // Everything that is being drawn, then the last frame `times` more.
   void finish(std::size_t times) {
@@ -161,8 +165,10 @@ void shoot(record::Recording& recording, const Cut& cut, Studio& studio, Progres
       studio.draw(recording.setting_at(now.time_s), std::move(now), std::move(trails));
       if (!progress.due()) continue;
       const double done = static_cast<double>(next) / static_cast<double>(cut.moving());
-      progress.show(done, format("frame %zu of %zu, %.0f frames/s", next, cut.moving(),
-                                 static_cast<double>(next) / progress.elapsed_s()), false);
+      progress.show(done,
+                    format("frame %zu of %zu, %.0f frames/s", next, cut.moving(),
+                           static_cast<double>(next) / progress.elapsed_s()),
+                    false);
     }
   };
   read_frames(recording, cut, [&](const record::Frame& frame) {
@@ -195,12 +201,13 @@ int film_command(const FilmOptions& options) {
   record::DrawOptions look = look_of(options, gif);
   catch_stop_signals();
   Progress progress(!options.quiet);
-  Ffmpeg ffmpeg(options.output, static_cast<int>(look.width_px), static_cast<int>(look.height_px), cut.fps, options.force);
+  Ffmpeg ffmpeg(options.output, static_cast<int>(look.width_px), static_cast<int>(look.height_px), cut.fps,
+                options.force);
   const std::size_t frames = cut.moving() + cut.held();
   const double length_s = static_cast<double>(frames) / cut.fps;
   if (!options.quiet) {
-    complain(format("%.6g s to %.6g s at %.3gx: %.1f s of film, %zu frames of %.0f x %.0f", cut.from_s, cut.to_s, cut.speed,
-                    length_s, frames, look.width_px, look.height_px));
+    complain(format("%.6g s to %.6g s at %.3gx: %.1f s of film, %zu frames of %.0f x %.0f", cut.from_s, cut.to_s,
+                    cut.speed, length_s, frames, look.width_px, look.height_px));
   }
   look.view = whole_view(recording, cut);
   if (stop_signal() != 0) return stopped();

@@ -243,8 +243,7 @@ void add_export(CLI::App& app, std::function<int()>& action) {
 }
 
 // What `draw` and `film` have in common.
-template <class Options>
-void add_look(CLI::App& command, Options& options) {
+template <class Options> void add_look(CLI::App& command, Options& options) {
   command.add_flag("--links,!--no-links", options.links, "show or leave out radio links; default: show");
   command.add_flag("--blocked", options.blocked, "show pairs in range without a line of sight");
   command.add_flag("--ids", options.ids, "number the robots");
@@ -278,10 +277,11 @@ void add_draw(CLI::App& app, std::function<int()>& action) {
 CLI::Validator even_size(int least, int most) {
   return {[=](const std::string& text) {
             int value = 0;
-            const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most && value % 2 == 0;
+            const bool fits =
+                CLI::detail::lexical_cast(text, value) && value >= least && value <= most && value % 2 == 0;
             return fits ? std::string()
-                        : "must be an even number of " + std::to_string(least) + " to " + std::to_string(most) + ", not \"" +
-                              text + "\"";
+                        : "must be an even number of " + std::to_string(least) + " to " + std::to_string(most) +
+                              ", not \"" + text + "\"";
           },
           ""};
 }
@@ -291,7 +291,9 @@ void add_film(CLI::App& app, std::function<int()>& action) {
   auto* command = app.add_subcommand("film", "turn a recording into a film: MP4, WebM or GIF")->group(command_group);
   command->footer(film_footer);
   command->add_option("recording", options->recording, "a run.mcap")->required()->type_name("FILE");
-  command->add_option("-o,--output", options->output, "file to write: .mp4, .webm or .gif")->required()->type_name("FILE");
+  command->add_option("-o,--output", options->output, "file to write: .mp4, .webm or .gif")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--fps", options->fps, "frames a second, default 30, of a GIF 15")
       ->type_name("N")
       ->check(CLI::Range(1, 120).description(""));
@@ -306,7 +308,9 @@ void add_film(CLI::App& app, std::function<int()>& action) {
   command->add_option("--height", options->height, "in pixels, default 720, of a GIF 450")
       ->type_name("PX")
       ->check(even_size(150, 4320));
-  command->add_option("--trail", options->trail_s, "how far back trails go, s; default 5")->type_name("S")->check(moment);
+  command->add_option("--trail", options->trail_s, "how far back trails go, s; default 5")
+      ->type_name("S")
+      ->check(moment);
   add_look(*command, *options);
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
   command->add_flag("-f,--force", options->force, "replace the file if it exists");
@@ -319,8 +323,7 @@ void add_view(CLI::App& app, std::function<int()>& action) {
   command->footer(view_footer);
   command
       ->add_option("file", options->file,
-                   "a run.mcap, also one that is being written (.part), or a scenario, to be run in the page; none: a choice "
-                   "of scenarios")
+                   "a run.mcap, or a scenario to be run in the page; none: a choice of scenarios")
       ->type_name("FILE");
   add_overrides(*command, options->overrides);
   add_seed(*command, options->overrides);
@@ -328,8 +331,10 @@ void add_view(CLI::App& app, std::function<int()>& action) {
       ->type_name("N")
       ->check(CLI::Range(0, 65535).description(""));
   command->add_flag("!--no-open", options->open, "only print the address");
-  command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or as it was installed")->type_name("DIR");
-  command->add_option("--scenarios", options->scenarios, "what the page offers to run; default Banyan's own")->type_name("DIR");
+  command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or as it was installed")
+      ->type_name("DIR");
+  command->add_option("--scenarios", options->scenarios, "what the page offers to run; default Banyan's own")
+      ->type_name("DIR");
   command->callback([options, &action] { action = [options] { return view_command(*options); }; });
 }
 

@@ -114,7 +114,7 @@ Ranges ranges_of(const httplib::Ranges& asked, std::uint64_t size) {
   if (asked.size() != 1) return {};
   const auto end = static_cast<std::int64_t>(size);
   auto [first, last] = asked.front();
-  if (first < 0) {   // the last so many bytes
+  if (first < 0) {  // the last so many bytes
     if (last <= 0 || end == 0) return {Ranges::Kind::beyond, 0, 0};
     return {Ranges::Kind::part, std::max<std::int64_t>(0, end - last), end - 1};
   }
@@ -150,10 +150,12 @@ void PageServer::Impl::bind(int wanted) {
   });
   server.set_tcp_nodelay(true);
   server.set_keep_alive_max_count(10000);
-  server.set_keep_alive_timeout(1);   // s: an idle connection must not hold up the end
+  server.set_keep_alive_timeout(1);  // s: an idle connection must not hold up the end
   errno = 0;
-  if (wanted == 0) port = server.bind_to_any_port(host);
-  else if (server.bind_to_port(host, wanted)) port = wanted;
+  if (wanted == 0)
+    port = server.bind_to_any_port(host);
+  else if (server.bind_to_port(host, wanted))
+    port = wanted;
   if (port > 0) return;
   const std::string name = wanted == 0 ? "no port" : "port " + std::to_string(wanted);
   const std::string why = errno == EADDRINUSE ? "it is taken; leave out --port and one that is free is found"
@@ -211,7 +213,8 @@ std::shared_ptr<record::InputFile> PageServer::Impl::open_recording(Response& re
   } catch (const record::FileError& error) {
     std::string text = error.what();
     constexpr std::string_view part = ".part";
-    const std::string whole = content.recording.substr(0, content.recording.size() - std::min(part.size(), content.recording.size()));
+    const std::string whole =
+        content.recording.substr(0, content.recording.size() - std::min(part.size(), content.recording.size()));
     std::error_code ignored;
     if (content.recording.ends_with(part) && fs::exists(whole, ignored)) {
       text += ". The run has ended and its recording is complete: banyan view " + whole;
@@ -243,9 +246,7 @@ void PageServer::Impl::file(const Request& request, Response& response) const {
         try {
           // Cut short meanwhile: the connection ends, and the client sees that bytes are missing.
           if (!input->read(offset, std::min<std::uint64_t>(length, piece_bytes), piece)) return false;
-        } catch (const record::FileError&) {
-          return false;
-        }
+        } catch (const record::FileError&) { return false; }
         return sink.write(piece.data(), piece.size());
       });
 }
@@ -256,8 +257,9 @@ void PageServer::Impl::start(Response& response) const {
   }
   const auto input = open_recording(response);
   if (!input) return;
-  const json start = {{"recording",
-                       {{"name", fs::path(content.recording).filename().string()}, {"size", input->size()}, {"url", "file"}}}};
+  const json start = {
+      {"recording",
+       {{"name", fs::path(content.recording).filename().string()}, {"size", input->size()}, {"url", "file"}}}};
   response.set_content(start.dump(-1, ' ', false, json::error_handler_t::replace), json_type);
 }
 
@@ -276,6 +278,8 @@ PageServer::~PageServer() {
 }
 
 int PageServer::port() const noexcept { return impl_->port; }
-std::string PageServer::address() const { return std::string("http://") + host + ":" + std::to_string(impl_->port) + "/"; }
+std::string PageServer::address() const {
+  return std::string("http://") + host + ":" + std::to_string(impl_->port) + "/";
+}
 
 }  // namespace banyan::cli

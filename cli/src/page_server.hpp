@@ -9,10 +9,10 @@
 namespace banyan::cli {
 
 struct PageContent {
-  std::string page;         // folder with index.html: /
-  std::string recording;    // file: /file, by ranges; "": none
-  std::string scenario;     // JSON object for /start.json if there is no recording; "": nothing to start with
-  std::string scenarios;    // folder with *.toml: /scenarios.json
+  std::string page;       // folder with index.html: /
+  std::string recording;  // file: /file, by ranges; "": none
+  std::string scenario;   // JSON object for /start.json if there is no recording; "": nothing to start with
+  std::string scenarios;  // folder with *.toml: /scenarios.json
 };
 
 class PageServer {
@@ -22,10 +22,10 @@ class PageServer {
   PageServer(PageContent content, int port);
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
-  ~PageServer();   // ends all answers that are being given
+  ~PageServer();  // ends all answers that are being given
 
   [[nodiscard]] int port() const noexcept;
-  [[nodiscard]] std::string address() const;   // "http://127.0.0.1:8000/"
+  [[nodiscard]] std::string address() const;  // "http://127.0.0.1:8000/"
 
  private:
   struct Impl;

@@ -56,8 +56,8 @@ Pixels rasterize(std::string_view svg, int width, int height) {
   Pixels pixels{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
   // A row of 32-bit pixels has no padding, and on the little-endian machines that we know their bytes
   // are blue, green, red, alpha.
-  const Surface surface(cairo_image_surface_create_for_data(pixels.bgra.data(), CAIRO_FORMAT_ARGB32, width, height,
-                                                            4 * width));
+  const Surface surface(
+      cairo_image_surface_create_for_data(pixels.bgra.data(), CAIRO_FORMAT_ARGB32, width, height, 4 * width));
   check(cairo_surface_status(surface.get()));
   const Context context(cairo_create(surface.get()));
   check(cairo_status(context.get()));
@@ -79,8 +79,8 @@ PixelSize size_of(std::string_view svg) {
 std::string png_of(const Pixels& pixels) {
   // cairo only reads them, but has no way to say so.
   auto* bytes = const_cast<std::uint8_t*>(pixels.bgra.data());
-  const Surface surface(cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, pixels.width, pixels.height,
-                                                            4 * pixels.width));
+  const Surface surface(
+      cairo_image_surface_create_for_data(bytes, CAIRO_FORMAT_ARGB32, pixels.width, pixels.height, 4 * pixels.width));
   check(cairo_surface_status(surface.get()));
   std::string png;
   check(cairo_surface_write_to_png_stream(surface.get(), append, &png));

@@ -34,14 +34,15 @@ fs::path installed(const char* name) {
 
 std::string page_folder(const ViewOptions& options) {
   const char* given = std::getenv("BANYAN_PAGE");
-  const fs::path folder = !options.page.empty() ? fs::path(options.page)
+  const fs::path folder = !options.page.empty()                ? fs::path(options.page)
                           : given != nullptr && *given != '\0' ? fs::path(given)
                                                                : installed("viewer");
   std::error_code ignored;
   if (fs::is_regular_file(folder / "index.html", ignored)) return folder;
-  throw CommandError(exit_lost, folder.string() +
-                                    ": the page is not there (no index.html). In a clone of Banyan, `./banyan view` builds it; "
-                                    "or build it with viewer/build and say where it is with --page DIR or BANYAN_PAGE");
+  throw CommandError(exit_lost,
+                     folder.string() +
+                         ": the page is not there (no index.html). In a clone of Banyan, `./banyan view` builds it; "
+                         "or build it with viewer/build and say where it is with --page DIR or BANYAN_PAGE");
 }
 
 std::string scenarios_folder(const ViewOptions& options) {
@@ -57,7 +58,8 @@ std::string scenarios_folder(const ViewOptions& options) {
 bool is_recording(const std::string& file) {
   std::array<char, 5> start{};
   std::ifstream(file, std::ios::binary).read(start.data(), start.size());
-  return std::string_view(start.data(), start.size()) == "\x89MCAP" || file.ends_with(".mcap") || file.ends_with(".mcap.part");
+  return std::string_view(start.data(), start.size()) == "\x89MCAP" || file.ends_with(".mcap") ||
+         file.ends_with(".mcap.part");
 }
 
 // Says now what would not work later. A part is being written and may be large: its begin must do.
@@ -105,7 +107,11 @@ void open_browser(const std::string& address) {
   }
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF);
+  sigset_t ours;  // that we ignore or catch is no business of a browser
+  ::sigemptyset(&ours);
+  for (const int number : {SIGCHLD, SIGPIPE, SIGXFSZ}) ::sigaddset(&ours, number);
+  ::posix_spawnattr_setsigdefault(&attributes, &ours);
   std::array<std::string, 2> words{"xdg-open", address};
   std::array<char*, 3> argv{words[0].data(), words[1].data(), nullptr};
   pid_t child = 0;
@@ -121,14 +127,16 @@ int view_command(const ViewOptions& options) {
   content.page = page_folder(options);
   content.scenarios = scenarios_folder(options);
   if (!options.file.empty() && is_recording(options.file)) {
-    if (!options.overrides.empty()) throw CommandError(exit_usage, "a recording is what it is: --set, --seed and --with change scenarios");
+    if (!options.overrides.empty())
+      throw CommandError(exit_usage, "a recording is what it is: --set, --seed and --with change scenarios");
     check_recording(options.file);
     content.recording = options.file;
   } else if (!options.file.empty()) {
     const auto loaded = load_configuration(options.file, options.overrides);
     print_problems(loaded.problems);
     if (!loaded.ok()) return exit_usage;
-    content.scenario = scenario_start(options, loaded.configuration).dump(-1, ' ', false, json::error_handler_t::replace);
+    content.scenario =
+        scenario_start(options, loaded.configuration).dump(-1, ' ', false, json::error_handler_t::replace);
   }
   catch_stop_signals();
   ::signal(SIGCHLD, SIG_IGN);  // nobody waits for the browser

@@ -406,7 +406,7 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
 TEST_F(Program, EveryCommandHelpsWithExamples) {
   const auto help = run({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const char* command : {"run", "validate", "export", "draw", "algorithms", "keys", "bench"}) {
+  for (const char* command : {"run", "validate", "export", "draw", "film", "view", "algorithms", "keys", "bench"}) {
     EXPECT_TRUE(has(help.out, std::string("  ") + command)) << command;
     const auto own = run({command, "--help"});
     EXPECT_EQ(own.code, 0);
@@ -450,8 +450,8 @@ class Completion : public Program {
 using Words = std::vector<std::string>;
 
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
-  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "bench", "collect", "draw", "export", "keys",
-                                  "run", "study", "tune", "validate"}));
+  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "bench", "collect", "draw", "export", "film",
+                                  "keys", "run", "study", "tune", "validate", "view"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});
@@ -461,6 +461,10 @@ TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
   EXPECT_EQ(complete(" algorithms in"), Words{"inwards"});
   fs::create_directory(home_ / "out");
   EXPECT_EQ(complete(" draw o"), Words{"out/"});
+  write("run.mcap", "");
+  EXPECT_EQ(complete(" film "), (Words{"out/", "run.mcap"}));
+  EXPECT_EQ(complete(" view r"), Words{"run.mcap"});
+  EXPECT_EQ(complete(" view sm"), Words{"small.toml"});
 }
 
 }  // namespace

@@ -22,11 +22,13 @@ namespace {
 
 constexpr double margin_px = 24.0;
 constexpr double title_px = 62.0;
-constexpr double panel_px = 232.0;          // beside a map in a picture of given size, where that suits it better
-constexpr double em_per_letter = 0.54;      // of DejaVu Sans, the widest of the fonts to be expected
+constexpr double panel_px = 232.0;      // beside a map in a picture of given size, where that suits it better
+constexpr double em_per_letter = 0.54;  // of DejaVu Sans, the widest of the fonts to be expected
 constexpr double legend_row_px = 22.0;
 constexpr double smallest_robot_px = 3.4;   // radius; smaller ones could not be told apart in print
 constexpr double smallest_spare_px = 2.2;   // of hundreds, which must not hide the tree
+constexpr Vec2 zoom_one_px{1280.0, 720.0};  // a picture of given size whose text is as large as elsewhere;
+constexpr double smallest_zoom = 0.7;       // it goes with the picture, down to what can be read
 constexpr double smallest_view_m = 2.0;
 constexpr double tallest = 1.25;            // height / width of the map at most
 constexpr double trail_step_s = 0.5;
@@ -74,23 +76,37 @@ struct Theme {
   Color tree, link, obstacle;
   std::string_view trail_opacity;
 };
-constexpr Theme light{"#ffffff", "#000000", "#444444", "#8f3f6d", "#1a1a1a", palette::tree, palette::link, palette::obstacle,
-                      " stroke-opacity=\"0.45\""};
-constexpr Theme dark{"#12161c", "#f2f2f2", "#aab2bd", "#e7a9cd", "#05070a", {0xE8, 0xE8, 0xE8, "#e8e8e8"},
-                     {0x47, 0x50, 0x5C, "#47505c"}, {0x6E, 0x69, 0x62, "#6e6962"}, " stroke-opacity=\"0.65\""};
+constexpr Theme light{.paper = "#ffffff",
+                      .ink = "#000000",
+                      .faint_ink = "#444444",
+                      .target_ink = "#8f3f6d",
+                      .outline = "#1a1a1a",
+                      .tree = palette::tree,
+                      .link = palette::link,
+                      .obstacle = palette::obstacle,
+                      .trail_opacity = " stroke-opacity=\"0.45\""};
+constexpr Theme dark{.paper = "#12161c",
+                     .ink = "#f2f2f2",
+                     .faint_ink = "#aab2bd",
+                     .target_ink = "#e7a9cd",
+                     .outline = "#05070a",
+                     .tree = {0xE8, 0xE8, 0xE8, "#e8e8e8"},
+                     .link = {0x47, 0x50, 0x5C, "#47505c"},
+                     .obstacle = {0x6E, 0x69, 0x62, "#6e6962"},
+                     .trail_opacity = " stroke-opacity=\"0.65\""};
 
 // Where what goes: the map fills its box as far as its shape allows.
 struct Layout {
-  bool panel = false;                       // title and legend in a column at the left, else above and below
-  Vec2 low, high;                           // the box of the map, px, y downwards
-  double height = 0.0;                      // of the picture
-  double scale = 0.0;                       // px / m
+  bool panel = false;   // title and legend in a column at the left, else above and below
+  Vec2 low, high;       // the box of the map, px, y downwards
+  double height = 0.0;  // of the picture
+  double scale = 0.0;   // px / m
 };
 
 struct LegendEntry {
   std::function<void(Vec2)> symbol;
   std::string words;
-  bool shown = true;                        // else its place stays empty
+  bool shown = true;  // else its place stays empty
 };
 
 Extent extent_of(const Setting& setting, const Frame& frame, const Trails& trails) {
@@ -108,14 +124,23 @@ Extent extent_of(const Setting& setting, const Frame& frame, const Trails& trail
 class Picture {
  public:
   Picture(const Setting& setting, const Frame& frame, const Trails& trails, const DrawOptions& options)
-      : setting_(setting), frame_(frame), trails_(trails), options_(options),
-        extent_(extent_of(setting, frame, trails)), theme_(options.dark ? dark : light) {
+      : setting_(setting),
+        frame_(frame),
+        trails_(trails),
+        options_(options),
+        extent_(extent_of(setting, frame, trails)),
+        theme_(options.dark ? dark : light) {
     if (options.view) {
       extent_.low = options.view->low;
       extent_.high = options.view->high;
       extent_.at_least(smallest_view_m);
     }
-    width_ = std::round(std::clamp(options.width_px, 200.0, 20000.0));   // whole pixels, or its edges blur
+    size_.x = std::round(std::clamp(options.width_px, 200.0, 20000.0));  // whole pixels, or its edges blur
+    if (options.height_px > 0.0) {
+      size_.y = std::round(std::clamp(options.height_px, 150.0, 20000.0));
+      zoom_ = std::max(smallest_zoom, std::min(size_.x / zoom_one_px.x, size_.y / zoom_one_px.y));
+    }
+    width_ = size_.x / zoom_;
     links_ = radio_links(setting, frame);
     old_edges_ = std::any_of(frame.robots.begin(), frame.robots.end(), [this](const RobotFrame& r) {
       return r.alive && r.role != Role::spare && valid(r.old_parent);
@@ -206,6 +231,7 @@ class Picture {
   void edges(std::int32_t RobotFrame::*to, const Which& which);
   void trees();
   void headings();
+  void dead();
   void robots(std::initializer_list<Role> roles);
   void robot_symbol(Vec2 at, Role role, bool alive, double radius_px);
   void ids();
@@ -225,7 +251,9 @@ class Picture {
   Extent extent_;
   const Theme& theme_;
   Layout layout_;
-  Vec2 origin_{};                           // px, of the map's upper left corner
+  Vec2 origin_{};  // px, of the map's upper left corner
+  Vec2 size_{};        // of the picture, px
+  double zoom_ = 1.0;  // everything is laid out as for a picture smaller by this
   double width_ = 0.0, robot_px_ = 0.0;
   Links links_;
   bool old_edges_ = false, broken_edges_ = false;
@@ -264,7 +292,7 @@ Layout Picture::strips() const {
   layout.high.x = width_ - margin_px;
   const double inner = layout.high.x - layout.low.x;
   if (options_.height_px > 0.0) {
-    layout.height = std::clamp(options_.height_px, 150.0, 20000.0);
+    layout.height = size_.y / zoom_;
     layout.low.y = title_px + 10.0;
     layout.high.y = std::max(layout.low.y + 10.0, layout.height - legend_px - 16.0);
     layout.scale = std::min(inner / size.x, (layout.high.y - layout.low.y) / size.y);
@@ -280,14 +308,14 @@ Layout Picture::panel() const {
   const Vec2 size = extent_.high - extent_.low;
   Layout layout;
   layout.panel = true;
-  layout.height = std::clamp(options_.height_px, 150.0, 20000.0);
+  layout.height = size_.y / zoom_;
   layout.low = {panel_px, 26.0};
   layout.high = {std::max(panel_px + 10.0, width_ - 26.0), layout.height - 26.0};
   layout.scale = std::min((layout.high.x - layout.low.x) / size.x, (layout.high.y - layout.low.y) / size.y);
   return layout;
 }
 
-constexpr double panel_legend_px = 176.0;   // where it begins
+constexpr double panel_legend_px = 176.0;  // where it begins
 
 void Picture::arrange() {
   add_roles();
@@ -317,7 +345,7 @@ std::vector<std::string> Picture::facts() const {
 void Picture::title() {
   const std::string name = setting_.name.empty() ? "Banyan" : setting_.name;
   constexpr double size_px = 14.0;
-  constexpr std::string_view gap = "\u2002·\u2002";   // spaces that XML does not run together
+  constexpr std::string_view gap = "\u2002·\u2002";  // spaces that XML does not run together
   constexpr std::size_t gap_letters = 3;
   double left = width_ - 2.0 * margin_px - 0.22 * (width_ - 2.0 * margin_px) - 12.0;
   std::string words;
@@ -346,7 +374,8 @@ void Picture::panel_title() {
   const std::string name = setting_.name.empty() ? "Banyan" : setting_.name;
   const double room = panel_px - margin_px;
   const double letters = static_cast<double>(std::max<std::size_t>(name.size(), 1));
-  text({margin_px, 42.0}, std::clamp(room / (1.15 * em_per_letter * letters), 10.0, 20.0), name, theme_.ink, " font-weight=\"bold\"");
+  text({margin_px, 42.0}, std::clamp(room / (1.15 * em_per_letter * letters), 10.0, 20.0), name, theme_.ink,
+       " font-weight=\"bold\"");
   const auto all = facts();
   const std::string seed = " · seed " + std::to_string(setting_.seed);
   text({margin_px, 64.0}, 13.0, all[0] + (seed.size() < 16 ? seed : ""), theme_.faint_ink, {});
@@ -376,7 +405,8 @@ void Picture::obstacles() {
       }
       out_.put("Z\"/>\n");
     } else if (const auto* wall = std::get_if<world::Wall>(&obstacle)) {
-      path(theme_.obstacle, 4.0, [&] { segment(wall->from, wall->to); }, " stroke-linecap=\"round\"");
+      path(
+          theme_.obstacle, 4.0, [&] { segment(wall->from, wall->to); }, " stroke-linecap=\"round\"");
     }
   }
 }
@@ -386,11 +416,14 @@ void Picture::radio() {
   constexpr std::size_t piece = 50;
   const auto draw = [this](const Color& color, double width_px, const auto& list, std::string_view more) {
     for (std::size_t first = 0; first < list.size(); first += piece) {
-      path(color, width_px, [&] {
-        for (std::size_t k = first; k < std::min(first + piece, list.size()); ++k) {
-          segment(frame_.robots[list[k].first].position, frame_.robots[list[k].second].position);
-        }
-      }, more);
+      path(
+          color, width_px,
+          [&] {
+            for (std::size_t k = first; k < std::min(first + piece, list.size()); ++k) {
+              segment(frame_.robots[list[k].first].position, frame_.robots[list[k].second].position);
+            }
+          },
+          more);
     }
   };
   // Where everybody hears everybody, links would cover all else: the more there are, the finer.
@@ -406,13 +439,16 @@ void Picture::trails() {
     if (trails_[i].size() < 2) continue;
     const RobotFrame& robot = frame_.robots[i];
     const Color& color = robot.role == Role::spare ? palette::trail : color_of(robot.role, robot.alive);
-    path(color, std::max(1.0, 0.35 * robot_px_), [&] {
-      char command = 'M';
-      for (const Vec2 p : trails_[i]) {
-        move_to(screen(p), command);
-        command = 'L';
-      }
-    }, std::string(theme_.trail_opacity) + " stroke-linejoin=\"round\" stroke-linecap=\"round\"");
+    path(
+        color, std::max(1.0, 0.35 * robot_px_),
+        [&] {
+          char command = 'M';
+          for (const Vec2 p : trails_[i]) {
+            move_to(screen(p), command);
+            command = 'L';
+          }
+        },
+        std::string(theme_.trail_opacity) + " stroke-linejoin=\"round\" stroke-linecap=\"round\"");
   }
 }
 
@@ -453,7 +489,8 @@ void Picture::trees() {
   const double width = std::clamp(0.5 * robot_px_, 1.4, 3.2);
   const auto open = [](bool is_linked) { return is_linked; };
   const auto broken = [](bool is_linked) { return !is_linked; };
-  path(theme_.tree, width, [&] { edges(&RobotFrame::parent, open); }, " stroke-linecap=\"round\"");
+  path(
+      theme_.tree, width, [&] { edges(&RobotFrame::parent, open); }, " stroke-linecap=\"round\"");
   path(palette::old_tree, 0.8 * width, [&] { edges(&RobotFrame::old_parent, open); }, " stroke-dasharray=\"6 4\"");
   path(palette::root, width, [&] {
     edges(&RobotFrame::parent, broken);
@@ -492,21 +529,33 @@ void Picture::robot_symbol(Vec2 at, Role role, bool alive, double radius_px) {
 }
 
 void Picture::headings() {
-  path(theme_.tree, std::clamp(0.3 * robot_px_, 0.8, 2.0), [&] {
-    for (const RobotFrame& robot : frame_.robots) {
-      if (!robot.alive) continue;
-      const Vec2 at = screen(robot.position);
-      const Vec2 ahead = unit_vector(robot.heading_rad);
-      move_to(at, 'M');
-      move_to(at + 1.7 * symbol_px(robot.role) * Vec2{ahead.x, -ahead.y}, 'L');
-    }
-  }, " stroke-linecap=\"round\"");
+  path(
+      theme_.tree, std::clamp(0.3 * robot_px_, 0.8, 2.0),
+      [&] {
+        for (const RobotFrame& robot : frame_.robots) {
+          if (!robot.alive) continue;
+          const Vec2 at = screen(robot.position);
+          const Vec2 ahead = unit_vector(robot.heading_rad);
+          move_to(at, 'M');
+          move_to(at + 1.7 * symbol_px(robot.role) * Vec2{ahead.x, -ahead.y}, 'L');
+        }
+      },
+      " stroke-linecap=\"round\"");
+}
+
+// Below everything: who took over from a dead robot may stand where it does.
+void Picture::dead() {
+  for (const RobotFrame& robot : frame_.robots) {
+    if (robot.alive) continue;
+    robot_symbol(screen(robot.position), robot.role, false, symbol_px(robot.role));
+    out_.put('\n');
+  }
 }
 
 void Picture::robots(std::initializer_list<Role> roles) {
   for (const Role role : roles) {
     for (const RobotFrame& robot : frame_.robots) {
-      if (robot.role != role) continue;
+      if (robot.role != role || !robot.alive) continue;
       robot_symbol(screen(robot.position), robot.role, robot.alive, symbol_px(role));
       out_.put('\n');
     }
@@ -547,10 +596,13 @@ void Picture::add_roles() {
 
 void Picture::add_line(const Color& color, double width_px, std::string_view more, std::string words, bool shown) {
   legend_.push_back({[this, color, width_px, more](Vec2 at) {
-                       path(color, width_px, [&] {
-                         move_to(at - Vec2{12.0, 0.0}, 'M');
-                         move_to(at + Vec2{12.0, 0.0}, 'L');
-                       }, more);
+                       path(
+                           color, width_px,
+                           [&] {
+                             move_to(at - Vec2{12.0, 0.0}, 'M');
+                             move_to(at + Vec2{12.0, 0.0}, 'L');
+                           },
+                           more);
                      },
                      std::move(words), shown});
 }
@@ -586,9 +638,11 @@ void Picture::add_what_may_come() {
   if (options_.blocked_links && wanted(blocked)) {
     add_line(palette::blocked, 1.2, " stroke-dasharray=\"2 3\"", "no line of sight", blocked);
   }
-  const auto dead = std::count_if(frame_.robots.begin(), frame_.robots.end(), [](const RobotFrame& r) { return !r.alive; });
+  const auto dead =
+      std::count_if(frame_.robots.begin(), frame_.robots.end(), [](const RobotFrame& r) { return !r.alive; });
   if (!wanted(dead > 0)) return;
-  legend_.push_back({[this](Vec2 at) { robot_symbol(at, Role::spare, false, 5.5); }, "dead " + std::to_string(dead), dead > 0});
+  legend_.push_back(
+      {[this](Vec2 at) { robot_symbol(at, Role::spare, false, 5.5); }, "dead " + std::to_string(dead), dead > 0});
 }
 
 // In a film a count may get a digit more: nothing may jump then.
@@ -627,8 +681,10 @@ void Picture::legend() {
       entry.symbol(at + Vec2{12.0, 0.0});
       text(at + Vec2{30.0, 4.5}, 13.0, entry.words, theme_.ink, {});
     }
-    if (layout_.panel) at.y += legend_row_px;
-    else at.x += width;
+    if (layout_.panel)
+      at.y += legend_row_px;
+    else
+      at.x += width;
   }
 }
 
@@ -654,8 +710,8 @@ void Picture::scale_bar() {
 
 std::string Picture::svg() {
   out_.put("<svg xmlns=\"http://www.w3.org/2000/svg\"");
-  attribute("width", width_);
-  attribute("height", layout_.height);
+  attribute("width", size_.x);
+  attribute("height", options_.height_px > 0.0 ? size_.y : layout_.height);
   out_.put(" viewBox=\"0 0 ");
   number(width_);
   out_.put(' ');
@@ -671,6 +727,7 @@ std::string Picture::svg() {
   radio();
   trails();
   targets();
+  dead();
   // Headings below the bodies, so that only what sticks out is seen; spares below the tree, and
   // the few that matter on top of the many.
   headings();

@@ -41,9 +41,7 @@ std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 4;
   std::string text;
   const std::size_t shown = names.size() > most ? most - 1 : names.size();
-  for (std::size_t k = 0; k < shown; ++k) {
-    text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
-  }
+  for (std::size_t k = 0; k < shown; ++k) { text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k]; }
   return shown == names.size() ? text : text + " and " + std::to_string(names.size() - shown) + " more";
 }
 
@@ -64,7 +62,8 @@ std::string hidden_by(const Setting& setting, const Frame& frame, std::int32_t i
     const Vec2 p = frame.robots[k].position;
     if (std::fabs(p.x - middle.x) > reach || std::fabs(p.y - middle.y) > reach) continue;
     if (static_cast<std::int32_t>(k) == i || static_cast<std::int32_t>(k) == j) continue;
-    if (world::blocks(world::Disc{p, setting.radius_m}, a, b)) return "hidden by " + robot_name(static_cast<std::int64_t>(k));
+    if (world::blocks(world::Disc{p, setting.radius_m}, a, b))
+      return "hidden by " + robot_name(static_cast<std::int64_t>(k));
   }
   for (std::size_t k = 0; k < setting.obstacles.size(); ++k) {
     if (world::blocks(setting.obstacles[k], a, b)) return "hidden by obstacle " + std::to_string(k);
@@ -78,8 +77,10 @@ void judge_edge(const Setting& setting, const Frame& frame, std::size_t i, bool 
   if (!has_robot(frame, to) || !frame.robots[static_cast<std::size_t>(to)].alive) return;
   const double length = distance(robot.position, frame.robots[static_cast<std::size_t>(to)].position);
   BrokenEdge edge{static_cast<std::int32_t>(i), to, old, ""};
-  if (!(length < setting.range_m)) edge.why = metres(length) + " apart, out of range";
-  else if (setting.line_of_sight) edge.why = hidden_by(setting, frame, edge.robot, to);
+  if (!(length < setting.range_m))
+    edge.why = metres(length) + " apart, out of range";
+  else if (setting.line_of_sight)
+    edge.why = hidden_by(setting, frame, edge.robot, to);
   if (!edge.why.empty()) broken.push_back(std::move(edge));
 }
 
@@ -123,8 +124,8 @@ const std::vector<RecordedEvent>& EventWatcher::watch(const Setting& setting, co
 // What moves on and on is said once, when it begins.
 void EventWatcher::watch_setting(const Setting& setting) {
   if (setting.line_of_sight != setting_.line_of_sight) {
-    add("line_of_sight", -1, -1, setting.line_of_sight ? "links need a line of sight from now on"
-                                                       : "links need no line of sight from now on");
+    add("line_of_sight", -1, -1,
+        setting.line_of_sight ? "links need a line of sight from now on" : "links need no line of sight from now on");
   }
   drifting_.resize(setting.obstacles.size(), 0);
   for (std::size_t k = 0; k < std::min(setting.obstacles.size(), setting_.obstacles.size()); ++k) {
@@ -144,9 +145,11 @@ void EventWatcher::watch_death(const Frame& frame, std::size_t i) {
   const auto children = std::count_if(last_.robots.begin(), last_.robots.end(), [&](const RobotFrame& r) {
     return r.alive && r.role != Role::spare && r.parent == robot;
   });
-  std::string text = robot_name(robot) + " died, " + (before.role == Role::root ? "the " : "a ") + std::string(name_of(before.role));
+  std::string text =
+      robot_name(robot) + " died, " + (before.role == Role::root ? "the " : "a ") + std::string(name_of(before.role));
   if (before.target >= 0) text += " of " + target_name(static_cast<std::size_t>(before.target));
-  if (children > 0) text += "; " + std::to_string(children) + (children == 1 ? " child hangs" : " children hang") + " on it";
+  if (children > 0)
+    text += "; " + std::to_string(children) + (children == 1 ? " child hangs" : " children hang") + " on it";
   add("death", robot, before.target, std::move(text));
 }
 
@@ -220,7 +223,8 @@ void EventWatcher::watch_target(const Setting& setting, const Frame& frame, std:
   const TargetFrame& target = frame.targets[k];
   const bool moved = !(target.position == last_.targets[k].position);
   if (moved && moving_[k] == 0) {
-    add("target_moved", target.worker, static_cast<std::int64_t>(k), target_name(k) + " has moved to " + place(target.position));
+    add("target_moved", target.worker, static_cast<std::int64_t>(k),
+        target_name(k) + " has moved to " + place(target.position));
   }
   moving_[k] = moved ? 1 : 0;
   if (!moved) return;
@@ -279,10 +283,12 @@ void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const
   if (edges.size() == 1) {
     const BrokenEdge& edge = edges.front();
     add("edges_broken", edge.robot, -1,
-        "the edge from " + robot_name(edge.robot) + " to its " + (edge.old ? "old parent, " : "parent, ") + robot_name(edge.to) + ", is broken: " + edge.why);
+        "the edge from " + robot_name(edge.robot) + " to its " + (edge.old ? "old parent, " : "parent, ") +
+            robot_name(edge.to) + ", is broken: " + edge.why);
     return;
   }
-  std::string text = std::to_string(broken(tick)) + (broken(tick) == 1 ? " tree edge is broken" : " tree edges are broken");
+  std::string text =
+      std::to_string(broken(tick)) + (broken(tick) == 1 ? " tree edge is broken" : " tree edges are broken");
   if (tick.broken_by_distance > 0) text += ", " + std::to_string(tick.broken_by_distance) + " out of range";
   if (tick.broken_by_occlusion > 0) text += ", " + std::to_string(tick.broken_by_occlusion) + " hidden";
   std::vector<std::string> names;

@@ -523,8 +523,9 @@ std::string metrics_schema() {
 
 std::string setting_schema() {
   Text out;
-  out.put("{\"title\":\"banyan.Setting\",\"description\":\"What a picture needs beside a frame; written at the start "
-          "and whenever it changes\",\"type\":\"object\",\"properties\":{\"name\":{\"type\":\"string\"}");
+  out.put(
+      "{\"title\":\"banyan.Setting\",\"description\":\"What a picture needs beside a frame; written at the start "
+      "and whenever it changes\",\"type\":\"object\",\"properties\":{\"name\":{\"type\":\"string\"}");
   schema_property(out, "algorithm", "string", "by its name in `banyan algorithms`");
   schema_property(out, "reading", "string", "literal or corrected");
   schema_property(out, "seed", "integer", "of the run");

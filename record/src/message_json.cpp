@@ -17,18 +17,11 @@ using M = Message;
 using Kept = MessageField::Kept;
 
 // Enumerators, flags and plain numbers.
-template <auto member>
-double number(const M& m) {
-  return static_cast<double>(m.*member);
-}
+template <auto member> double number(const M& m) { return static_cast<double>(m.*member); }
 // A robot: ids are indices.
-template <auto member>
-double robot(const M& m) {
-  return m.*member == nobody ? -1.0 : static_cast<double>(m.*member);
-}
+template <auto member> double robot(const M& m) { return m.*member == nobody ? -1.0 : static_cast<double>(m.*member); }
 // A number whose largest value says that there is none.
-template <auto member>
-double known(const M& m) {
+template <auto member> double known(const M& m) {
   using Number = std::remove_cvref_t<decltype(m.*member)>;
   static_assert(std::unsigned_integral<Number>);
   return m.*member == std::numeric_limits<Number>::max() ? -1.0 : static_cast<double>(m.*member);
@@ -41,10 +34,10 @@ constexpr int of_q = 3, of_pull = 3;
 
 constexpr auto fields = std::to_array<MessageField>({
     {"role", "0 spare, 1 connector, 2 worker, 3 root", number<&M::role>, 0, Kept::in_frame},
-    {"phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", number<&M::phase>, 0, Kept::in_frame},
+    {"phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", number<&M::phase>, 0,
+     Kept::in_frame},
     {"need", "of the edge to the parent: 0 no_need, 1 need, 2 await", number<&M::need>, 0, Kept::in_frame},
-    {"flood_done", "1: everybody below in the flood has answered",
-     [](const M& m) { return m.flood_done ? 1.0 : 0.0; }},
+    {"flood_done", "1: everybody below in the flood has answered", [](const M& m) { return m.flood_done ? 1.0 : 0.0; }},
     {"committed", "1: in this epoch's tree", [](const M& m) { return m.committed ? 1.0 : 0.0; }},
     {"parent_silent", "1: the parent has not been heard for too long",
      [](const M& m) { return m.parent_silent ? 1.0 : 0.0; }},
@@ -52,11 +45,13 @@ constexpr auto fields = std::to_array<MessageField>({
     {"pinned", "1: a corner is about to cut the edge to the parent", [](const M& m) { return m.pinned ? 1.0 : 0.0; }},
     {"id", "of the sender", robot<&M::id>, 0, Kept::in_frame},
     {"epoch", "counts the trees", number<&M::epoch>, 0, Kept::in_frame},
-    {"root_sequence", "newest root token known: sequence", [](const M& m) { return static_cast<double>(m.root.sequence); }},
+    {"root_sequence", "newest root token known: sequence",
+     [](const M& m) { return static_cast<double>(m.root.sequence); }},
     {"root_id", "newest root token known: holder, -1: nobody",
      [](const M& m) { return m.root.id == nobody ? -1.0 : static_cast<double>(m.root.id); }},
     {"root_size", "robots that this root counted last, 0: none yet", number<&M::root_size>},
-    {"label_cm", "distance to the root along hops when the epoch began, -1: unknown", known<&M::label_cm>, 0, Kept::in_frame},
+    {"label_cm", "distance to the root along hops when the epoch began, -1: unknown", known<&M::label_cm>, 0,
+     Kept::in_frame},
     {"pulse", "the root's count as it came down the tree", number<&M::pulse>},
     {"depth", "in the tree, root 1; 0: no path of tree edges to the root", number<&M::depth>, 0, Kept::in_frame},
     {"tree_hops", "hops over free spares to the rooted tree, 0: in it, -1: no way known", known<&M::tree_hops>},
@@ -69,8 +64,7 @@ constexpr auto fields = std::to_array<MessageField>({
     {"subtree", "1 + sum over the children", number<&M::subtree>},
     {"subtree_workers", "workers among them", number<&M::subtree_workers>},
     {"count", "c of Alg. 2; nobody decides by it", number<&M::count>},
-    {"want_cm", "largest remaining way of a worker below, 0: all have arrived", number<&M::want_cm>, 0,
-     Kept::in_frame},
+    {"want_cm", "largest remaining way of a worker below, 0: all have arrived", number<&M::want_cm>, 0, Kept::in_frame},
     {"q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent",
      [](const M& m) { return static_cast<double>(m.q.x); }, of_q},
     {"q_y_m", "the same, to the left of that edge", [](const M& m) { return static_cast<double>(m.q.y); }, of_q},
@@ -84,8 +78,7 @@ constexpr auto fields = std::to_array<MessageField>({
      robot<&M::inserted_child>},
     {"warned", "the child whose line of sight to the sender is about to be cut, -1: nobody", robot<&M::warned>},
     {"new_root", "to whom the next root token is offered, -1: nobody", robot<&M::new_root>},
-    {"centroid_x_cm", "centroid relative to new_root, along the edge from the sender to it",
-     number<&M::centroid_x_cm>},
+    {"centroid_x_cm", "centroid relative to new_root, along the edge from the sender to it", number<&M::centroid_x_cm>},
     {"centroid_y_cm", "the same, to the left of that edge", number<&M::centroid_y_cm>},
     {"hinge_x_cm", "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge",
      number<&M::hinge_x_cm>},
@@ -93,13 +86,15 @@ constexpr auto fields = std::to_array<MessageField>({
     {"heartbeat", "the root's count of ticks, modulo 65536", number<&M::heartbeat>},
     {"serves", "of a worker: its target, by the worker first sent there, -1: none", robot<&M::serves>},
     {"told", "addressee of root and task, -1: nobody", robot<&M::told>},
-    {"root_x_cm", "where the root is, relative to `told`, along the edge from the sender to it", number<&M::root_x_cm>, 0, Kept::nowhere},
+    {"root_x_cm", "where the root is, relative to `told`, along the edge from the sender to it", number<&M::root_x_cm>,
+     0, Kept::nowhere},
     {"root_y_cm", "the same, to the left of that edge", number<&M::root_y_cm>, 0, Kept::nowhere},
     {"task", "a target, by the worker first sent there, -1: none", robot<&M::task_serves>},
     {"task_holder", "who serves it, -1: given up", robot<&M::task_holder>},
     {"task_host", "at which target its branch is to begin, -1: no plan", robot<&M::task_host>},
     {"task_beat", "the holder's count of ticks, modulo 65536", number<&M::task_beat>},
-    {"task_x_cm", "where it is, relative to `told`, along the edge from the sender to it", number<&M::task_x_cm>, 0, Kept::nowhere},
+    {"task_x_cm", "where it is, relative to `told`, along the edge from the sender to it", number<&M::task_x_cm>, 0,
+     Kept::nowhere},
     {"task_y_cm", "the same, to the left of that edge", number<&M::task_y_cm>, 0, Kept::nowhere},
     {"child_count", "living children that are no spares", number<&M::child_count>},
     {"above", "next worker above in the tree, by its target, -1: none", robot<&M::above>},

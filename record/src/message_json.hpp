@@ -13,10 +13,10 @@
 namespace banyan::record {
 
 struct MessageField {
-  std::string_view name;         // with its unit: "label_cm"
-  std::string_view meaning;      // what the numbers stand for
-  double (*get)(const Message&); // nobody, unknown, unreachable: -1
-  int decimals = 0;              // worth writing; 0: a whole number
+  std::string_view name;          // with its unit: "label_cm"
+  std::string_view meaning;       // what the numbers stand for
+  double (*get)(const Message&);  // nobody, unknown, unreachable: -1
+  int decimals = 0;               // worth writing; 0: a whole number
   // Where a recording has it. /banyan/frame has what is also state under the same name (want_cm as want_m;
   // id is the index). Vectors to an addressee that changes at every tick are noise to any compression: the
   // four of them would take as much room as all the rest, and say nothing without their addressee.

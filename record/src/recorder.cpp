@@ -44,7 +44,7 @@ struct Recorder::Impl {
   Frame now;
   bool started = false, frame_written = false, finished = false;
   double last_chunk_s = 0.0, next_scene_s = 0.0;
-  std::vector<Message> last_messages;        // of now's world; empty: none
+  std::vector<Message> last_messages;  // of now's world; empty: none
   std::vector<TargetFrame> last_targets;
 
   void add_channels();
@@ -160,7 +160,7 @@ Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 Recorder::~Recorder() {
   if (!impl_ || impl_->finished) return;
   try {
-    impl_->mcap.end_chunks();   // what there is can be read back by scanning
+    impl_->mcap.end_chunks();  // what there is can be read back by scanning
     impl_->file.flush();
   } catch (const std::exception&) {
     // Whoever threw away an unfinished recorder has been told by another exception.

@@ -80,9 +80,7 @@ void Recording::Impl::read_all_settings() {
   reader.messages(channel->id, [&](const mcap::Message& message) {
     try {
       settings.emplace_back(message.log_time, read_setting(message.data));
-    } catch (const std::runtime_error& problem) {
-      warn(std::string("setting: ") + problem.what());
-    }
+    } catch (const std::runtime_error& problem) { warn(std::string("setting: ") + problem.what()); }
     return true;
   });
 }

@@ -114,7 +114,8 @@ TEST(Draw, AGivenViewStandsStill) {
   frame.robots[4].alive = false;
   frame.robots[5].old_parent = 2;
   const std::string after = draw_svg(setting, frame, {}, options);
-  for (const char* what : {">T0<", ">T1<", ">radio link<", ">target, tolerance<"}) EXPECT_EQ(place(before, what), place(after, what)) << what;
+  for (const char* what : {">T0<", ">T1<", ">radio link<", ">target, tolerance<"})
+    EXPECT_EQ(place(before, what), place(after, what)) << what;
   EXPECT_NE(after.find(">dead 2<"), std::string::npos);
   options.view.reset();
   EXPECT_NE(place(draw_svg(setting, frame, {}, options), ">T0<"), place(after, ">T0<"));
@@ -143,7 +144,7 @@ TEST(Draw, DarkHasNoWhitePaperAndNoBlackInk) {
   EXPECT_TRUE(well_formed(svg));
   EXPECT_EQ(svg.find("height=\"100%\" fill=\"#ffffff\""), std::string::npos);
   EXPECT_EQ(svg.find("fill=\"#000000\""), std::string::npos);
-  EXPECT_NE(svg.find(color_of(Role::worker).hex), std::string::npos);   // roles keep their colours
+  EXPECT_NE(svg.find(color_of(Role::worker).hex), std::string::npos);  // roles keep their colours
 }
 
 TEST(TrailLog, EndsAtTheRobotAndIsAsLongAsWanted) {
@@ -152,7 +153,7 @@ TEST(TrailLog, EndsAtTheRobotAndIsAsLongAsWanted) {
   frame.robots.resize(2);
   for (int t = 0; t <= 100; ++t) {
     frame.time_s = 0.1 * t;
-    frame.robots[0].position = {frame.time_s, 0.0};   // 1 m/s; robot 1 stands
+    frame.robots[0].position = {frame.time_s, 0.0};  // 1 m/s; robot 1 stands
     log.add(frame);
   }
   const Trails trails = log.trails(frame);
@@ -161,7 +162,7 @@ TEST(TrailLog, EndsAtTheRobotAndIsAsLongAsWanted) {
   EXPECT_EQ(trails[0].back(), frame.robots[0].position);
   EXPECT_LE(trails[0].size(), 6U);
   EXPECT_EQ(trails[1].size(), 1U);
-  frame.time_s = 10.25;                               // between samples: the old end moves on too
+  frame.time_s = 10.25;  // between samples: the old end moves on too
   frame.robots[0].position = {10.25, 0.0};
   EXPECT_NEAR(log.trails(frame)[0].front().x, 8.25, 1e-9);
   EXPECT_TRUE(TrailLog(0.0).trails(frame)[0].empty());

@@ -58,10 +58,12 @@ TEST(MessageFields, HaveEachANameAMeaningAndTheDocumentsField) {
 
 TEST(MessageFields, NobodyAndUnknownAreMinusOne) {
   const Message silent;
-  const std::set<std::string_view> none{"id", "root_id", "label_cm", "tree_hops", "call_hops", "parent", "old_parent",
-                                        "flood_parent", "grant", "request", "inserted_child", "warned", "new_root",
-                                        "serves", "told", "task", "task_holder", "task_host", "above", "below"};
-  for (const MessageField& field : message_fields()) EXPECT_EQ(field.get(silent), none.contains(field.name) ? -1.0 : 0.0) << field.name;
+  const std::set<std::string_view> none{
+      "id",           "root_id", "label_cm",    "tree_hops",      "call_hops", "parent",   "old_parent",
+      "flood_parent", "grant",   "request",     "inserted_child", "warned",    "new_root", "serves",
+      "told",         "task",    "task_holder", "task_host",      "above",     "below"};
+  for (const MessageField& field : message_fields())
+    EXPECT_EQ(field.get(silent), none.contains(field.name) ? -1.0 : 0.0) << field.name;
   Message message;
   message.pull_x = 8192;
   message.q = {1.5F, -2.0F};
@@ -114,7 +116,8 @@ TEST_F(RecordedMessages, AreWhatWasSentAtEveryRecordedFrame) {
         const bool centimetres = name == "want_cm";
         const json& values = field.kept == Kept::in_messages ? messages[name] : frame[centimetres ? "want_m" : name];
         const double value = values.at(i).get<double>() * (centimetres ? 100.0 : 1.0);
-        EXPECT_NEAR(value, field.get(sent[i]), field.decimals == 0 ? 1e-6 : 0.51e-3) << name << " of " << i << " at " << tick;
+        EXPECT_NEAR(value, field.get(sent[i]), field.decimals == 0 ? 1e-6 : 0.51e-3)
+            << name << " of " << i << " at " << tick;
       }
     }
   }
@@ -123,7 +126,7 @@ TEST_F(RecordedMessages, AreWhatWasSentAtEveryRecordedFrame) {
 TEST_F(RecordedMessages, AreLeftOutWhereNotWantedOrNotKnown) {
   record(directory_.file("a.mcap"), false);
   EXPECT_EQ(mcap::Reader(directory_.file("a.mcap")).find_channel("/banyan/messages"), nullptr);
-  test::record_sample(directory_.file("b.mcap"), 5, 10);   // frames without a world
+  test::record_sample(directory_.file("b.mcap"), 5, 10);  // frames without a world
   mcap::Reader reader(directory_.file("b.mcap"));
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/messages")->id), 0U);
 }

@@ -323,16 +323,16 @@ TEST(Events, SayWhatHappenedToWhom) {
   Frame frame = chain();
   frame.robots[3].request = 2;
   told.next(setting, frame);
-  frame.robots[3].role = Role::connector;   // let into the edge of 2
+  frame.robots[3].role = Role::connector;  // let into the edge of 2
   frame.robots[3].request = -1;
   frame.robots[3].parent = 1;
   told.next(setting, frame);
   frame.robots[3].role = Role::spare;
   told.next(setting, frame);
-  frame.robots[3].role = Role::connector;   // without having asked: 2 has chosen it
+  frame.robots[3].role = Role::connector;  // without having asked: 2 has chosen it
   frame.robots[2].parent = 3;
   told.next(setting, frame);
-  frame.robots[1].role = Role::root;        // hand-over along the tree
+  frame.robots[1].role = Role::root;  // hand-over along the tree
   told.next(setting, frame);
   frame.robots[0].role = Role::connector;
   told.next(setting, frame);
@@ -343,15 +343,14 @@ TEST(Events, SayWhatHappenedToWhom) {
   frame.robots[2].alive = false;
   frame.robots[0].role = Role::worker;
   told.next(setting, frame);
-  EXPECT_EQ(told.events(),
-            (std::vector<std::string>{"inserted 3: robot 3 is inserted between robot 2 and robot 1",
-                                      "released 3: robot 3 is spare again",
-                                      "recruited 3: robot 3 is a connector: robot 2 hangs on it",
-                                      "root 1: robot 1 takes over the root from robot 0",
-                                      "death 1: robot 1 died, the root; 1 child hangs on it",
-                                      "root 3: robot 3 is root in place of robot 1, which is dead",
-                                      "worker 0: robot 0 takes over the target of a worker that is lost",
-                                      "death 2: robot 2 died, a worker"}));
+  EXPECT_EQ(
+      told.events(),
+      (std::vector<std::string>{
+          "inserted 3: robot 3 is inserted between robot 2 and robot 1", "released 3: robot 3 is spare again",
+          "recruited 3: robot 3 is a connector: robot 2 hangs on it",
+          "root 1: robot 1 takes over the root from robot 0", "death 1: robot 1 died, the root; 1 child hangs on it",
+          "root 3: robot 3 is root in place of robot 1, which is dead",
+          "worker 0: robot 0 takes over the target of a worker that is lost", "death 2: robot 2 died, a worker"}));
 }
 
 TEST(Events, ABrokenEdgeIsNamedWithItsReason) {
@@ -366,7 +365,7 @@ TEST(Events, ABrokenEdgeIsNamedWithItsReason) {
     tick.broken_by_distance = far;
     tick.broken_by_occlusion = hidden;
     told.next(setting, frame, tick);
-    told.next(setting, frame, tick);   // still the same: said once
+    told.next(setting, frame, tick);  // still the same: said once
     told.next(setting, chain());
     const auto all = told.events();
     EXPECT_EQ(all.size(), 2U);
@@ -379,16 +378,19 @@ TEST(Events, ABrokenEdgeIsNamedWithItsReason) {
             "edges_broken 2: the edge from robot 2 to its parent, robot 1, is broken: 2.25 m apart, out of range");
   Frame hidden = chain();
   hidden.robots[3].position = {0.5, 0.52};
-  hidden.robots[1].old_parent = 0;     // the same edge, not another one
-  EXPECT_EQ(text(hidden, 0, 1), "edges_broken 1: the edge from robot 1 to its parent, robot 0, is broken: hidden by robot 3");
+  hidden.robots[1].old_parent = 0;  // the same edge, not another one
+  EXPECT_EQ(text(hidden, 0, 1),
+            "edges_broken 1: the edge from robot 1 to its parent, robot 0, is broken: hidden by robot 3");
   Frame both = hidden;
   both.robots[2].position = {9.0, 0.5};
-  EXPECT_EQ(text(both, 1, 1), "edges_broken 1: 2 tree edges are broken, 1 out of range, 1 hidden: of the robots 1 and 2");
+  EXPECT_EQ(text(both, 1, 1),
+            "edges_broken 1: 2 tree edges are broken, 1 out of range, 1 hidden: of the robots 1 and 2");
   setting.obstacles = {world::Wall{{-1.0, 0.0}, {-1.0, 1.0}}, world::Wall{{0.5, 0.0}, {0.5, 1.0}}};
   Frame old = chain();
   old.robots[1].parent = -1;
   old.robots[1].old_parent = 0;
-  EXPECT_EQ(text(old, 0, 2), "edges_broken 1: the edge from robot 1 to its old parent, robot 0, is broken: hidden by obstacle 1");
+  EXPECT_EQ(text(old, 0, 2),
+            "edges_broken 1: the edge from robot 1 to its old parent, robot 0, is broken: hidden by obstacle 1");
 }
 
 TEST(Events, WhatMovesOnAndOnIsSaidOnce) {
@@ -398,7 +400,7 @@ TEST(Events, WhatMovesOnAndOnIsSaidOnce) {
   Frame frame = chain();
   frame.targets = {{{2.0, 0.5}, 2}};
   for (int t = 0; t < 40; ++t) {
-    if (t >= 5 && t < 30) {              // the worker keeps up, 0.1 m behind
+    if (t >= 5 && t < 30) {  // the worker keeps up, 0.1 m behind
       frame.targets[0].position.x += 0.1;
       frame.robots[2].position.x = frame.targets[0].position.x - 0.1;
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Writes the sample recordings that record/test/mcap/ reads with the official MCAP library:
 //   sample_files DIRECTORY
-// gives sample.mcap (all channels but messages), world.mcap (of a simulated world, with messages), sample.csv (its export), plain.mcap (uncompressed, every 5th
-// tick), cut.mcap.part (a recorder that never finished) and empty.mcap (no tick).
+// gives sample.mcap (all channels but messages), world.mcap (of a simulated world, with messages), sample.csv (its
+// export), plain.mcap (uncompressed, every 5th tick), cut.mcap.part (a recorder that never finished) and empty.mcap (no
+// tick).
 #include <cstdio>
 #include <exception>
 

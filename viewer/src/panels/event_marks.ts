@@ -15,6 +15,8 @@ const marks: Record<string, Mark> = {
   joined: { color: '--good', height: 0.7, sign: '◯' },
   edges_whole: { color: '--good', height: 0.4, sign: '○' },
   root: { color: '--root', height: 1, sign: '◆' },
+  inserted: { color: '--connector', height: 0.7, sign: '↳' },
+  worker: { color: '--worker', height: 0.7, sign: '⇄' },
   recruited: { color: '--connector', height: 0.5, sign: '+' },
   released: { color: '--quiet', height: 0.3, sign: '−' },
   arrival: { color: '--worker', height: 0.7, sign: '⚑' },

@@ -34,9 +34,9 @@ struct DrawOptions {
   bool blocked_links = false;  // in range, but no line of sight
   bool ids = false;            // robot numbers
   bool legend = true;
-  bool dark = false;           // light on dark
-  bool steady = false;         // for films: nothing but the world moves; what may come has its place
-  std::string_view font = "Helvetica, Arial, sans-serif";   // a list of families, as in CSS
+  bool dark = false;    // light on dark
+  bool steady = false;  // for films: nothing but the world moves; what may come has its place
+  std::string_view font = "Helvetica, Arial, sans-serif";  // a list of families, as in CSS
 };
 
 // Where each robot has been, oldest first: one path per robot, empty for none.
@@ -46,8 +46,8 @@ using Trails = std::vector<std::vector<Vec2>>;
 class TrailLog {
  public:
   explicit TrailLog(double length_s) : length_s_(length_s) {}
-  void add(const Frame& frame);                              // in order of time; a sample each half second is kept
-  [[nodiscard]] Trails trails(const Frame& end) const;       // that end at its robots; `end` not earlier than what came last
+  void add(const Frame& frame);                         // in order of time; a sample each half second is kept
+  [[nodiscard]] Trails trails(const Frame& end) const;  // that end at its robots; `end` not earlier than what came last
 
  private:
   struct Sample {

@@ -74,7 +74,7 @@ class Writer {
                                           Map metadata = {}, ChunkGroup group = 0);
   // Ends the group's chunk once that exceeds chunk_bytes. std::out_of_range for an unknown channel.
   void message(std::uint16_t channel_id, Nanoseconds time, std::string_view data);
-  void metadata(const Metadata& metadata);   // in the file at once, before what the open chunks hold
+  void metadata(const Metadata& metadata);  // in the file at once, before what the open chunks hold
   void attachment(std::string_view name, std::string_view media_type, Nanoseconds time, std::string_view data);
   void end_chunks();                         // of all groups: what came so far survives a crash
   void finish();                             // data end, summary, footer; once, nothing may follow

@@ -84,7 +84,7 @@ class Recording {
   [[nodiscard]] const std::string& path() const noexcept;
   [[nodiscard]] const std::vector<std::string>& warnings() const;
   [[nodiscard]] const Provenance& provenance() const noexcept;
-  [[nodiscard]] const Setting& setting() const noexcept;   // at the start
+  [[nodiscard]] const Setting& setting() const noexcept;  // at the start
   // The one that holds at `time_s`. Valid as long as this recording, as is setting().
   [[nodiscard]] const Setting& setting_at(double time_s) const noexcept;
   // The run's result by column name (table.hpp), plus "interrupted"; empty if it was cut short.
