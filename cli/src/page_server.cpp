@@ -279,7 +279,7 @@ PageServer::~PageServer() {
 
 int PageServer::port() const noexcept { return impl_->port; }
 std::string PageServer::address() const {
-  return std::string("http://") + host + ":" + std::to_string(impl_->port) + "/";
+  return std::string("http://") + host + ":" + std::to_string(impl_->port) + "/?start";  // the page asks for /start.json
 }
 
 }  // namespace banyan::cli

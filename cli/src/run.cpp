@@ -52,7 +52,7 @@ class Keeper {
   void start(const world::World& world) {
     if (!recorder_) return;
     measure::Observer before(world);  // the run's own observer counts ticks, and this is none
-    recorder_->frame(world, before.observe(world));
+    recorder_->frame(world, before.observe(world, measure::is_plotted(world)));
   }
   void tick(const world::World& world, const measure::Tick& tick) {
     if (recorder_) recorder_->frame(world, tick);
@@ -67,6 +67,7 @@ class Keeper {
     record::write_run_csv(outputs_.table(), row, outputs_.existing());
     record::write_run_json(outputs_.json(), row, json_, outputs_.existing());
   }
+  [[nodiscard]] bool records() const noexcept { return recorder_.has_value(); }
   [[nodiscard]] const std::string& config() const noexcept { return json_; }
 
  private:
@@ -90,7 +91,7 @@ void simulate(world::World& world, measure::Observer& observer, Keeper& keeper, 
   keeper.start(world);
   while (!observer.finished() && stop_signal() == 0) {
     world.step(executor);
-    keeper.tick(world, observer.observe(world, exact_fiedler));
+    keeper.tick(world, observer.observe(world, exact_fiedler || (keeper.records() && measure::is_plotted(world))));
     if (progress.due()) {
       const double share = world.time_s() / std::max(observer.run().time_limit_s, world.scenario().tick_s);
       progress.show(std::min(share, 1.0), progress_text(world, observer), true);

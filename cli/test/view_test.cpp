@@ -81,7 +81,7 @@ class View : public StartedProgram {
 
 TEST_F(View, ThePageIsServedWithTheTypesThatBrowsersInsistOn) {
   serve();
-  EXPECT_EQ(server_->address(), "http://127.0.0.1:" + std::to_string(server_->port()) + "/");
+  EXPECT_EQ(server_->address(), "http://127.0.0.1:" + std::to_string(server_->port()) + "/?start");
   const std::vector<std::array<const char*, 3>> files{
       {"/", "<!doctype html>the page", "text/html; charset=utf-8"},
       {"/index.html?x=1", "<!doctype html>the page", "text/html; charset=utf-8"},

@@ -367,4 +367,11 @@ Run Observer::result(const world::World& world) const {
   return run;
 }
 
+bool is_plotted(const world::World& world) noexcept {
+  constexpr std::size_t most_robots = 1000;
+  const double tick_s = world.scenario().tick_s;
+  const auto second = [tick_s](std::uint64_t tick) { return std::floor(static_cast<double>(tick) * tick_s + 1e-9); };
+  return world.size() <= most_robots && (world.tick() == 0 || second(world.tick()) > second(world.tick() - 1));
+}
+
 }  // namespace banyan::measure

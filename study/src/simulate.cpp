@@ -47,7 +47,7 @@ class Keeper {
   void start(const world::World& world) {
     if (!recorder_) return;
     measure::Observer before(world);
-    recorder_->frame(world, before.observe(world));
+    recorder_->frame(world, before.observe(world, measure::is_plotted(world)));
   }
   void tick(const world::World& world, const measure::Tick& tick) {
     if (recorder_) recorder_->frame(world, tick);
@@ -57,7 +57,9 @@ class Keeper {
     if (recorder_) recorder_->finish(run);
     if (series_) series_->finish();
   }
-  [[nodiscard]] bool wants_fiedler() const noexcept { return series_.has_value(); }
+  [[nodiscard]] bool wants_fiedler(const world::World& world) const noexcept {
+    return series_.has_value() || (recorder_.has_value() && measure::is_plotted(world));
+  }
 
  private:
   std::optional<record::Recorder> recorder_;
@@ -72,7 +74,7 @@ record::RunRow run(const config::Configuration& configuration, const Task& task)
   keeper.start(world);
   while (!observer.finished()) {
     world.step(alone);
-    keeper.tick(world, observer.observe(world, keeper.wants_fiedler()));
+    keeper.tick(world, observer.observe(world, keeper.wants_fiedler(world)));
   }
   const auto result = observer.result(world);
   keeper.finish(result);

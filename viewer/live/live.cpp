@@ -35,11 +35,11 @@ std::vector<std::string> in_words(const std::vector<config::Problem>& problems) 
 struct Play {
   explicit Play(const world::Scenario& scenario) : world(scenario), observer(world) {
     measure::Observer before(world);  // the run's own counts ticks, and the start is none
-    last = before.observe(world);
+    last = before.observe(world, measure::is_plotted(world));
   }
   void step() {
     world.step(executor);
-    last = observer.observe(world);
+    last = observer.observe(world, measure::is_plotted(world));
   }
 
   world::World world;

@@ -2,7 +2,7 @@
 // The page: which runs are open, and the way from what a visitor does to what is shown. Sources bring
 // frames, the player says which moment, stages and panels show it; nothing here draws or computes.
 import { button, download, h } from './dom';
-import { acceptDrops, askServer, chooseFile, judge } from './files';
+import { acceptDrops, askScenarios, askServer, chooseFile, judge } from './files';
 import { Keyboard } from './keyboard';
 import { EventsList } from './panels/events_list';
 import { helpDialog } from './panels/help';
@@ -62,7 +62,7 @@ export class App {
     this.seek(event.time_s);
     if (event.robot >= 0) this.select({ kind: 'robot', index: event.robot });
   });
-  private readonly facts = new RunFacts();
+  private readonly facts = new RunFacts((run) => this.hash(run));
   private readonly live = new LivePanel({
     start: (choice) => void this.startLive(choice), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
     saveRecording: () => void this.save((source) => source.saveRecording()),
@@ -95,7 +95,8 @@ export class App {
 
   /** Opens what `banyan view` was given; else shows a first run, so that the first thing seen moves. */
   async begin(): Promise<void> {
-    const start = await askServer();
+    const [start, scenarios] = await Promise.all([askServer(), askScenarios()]);
+    if (scenarios && scenarios.length > 0) this.live.setScenarios(scenarios);
     if (start.recording) return this.open([openUrl(start.recording.url, start.recording.name, start.recording.size)], false);
     if (start.scenario) {
       this.live.setOwn(start.scenario.name, start.scenario.text, start.scenario.overrides);
@@ -230,7 +231,7 @@ export class App {
     const headers = this.sources.flatMap((source) => source.header.value ?? []);
     this.what.textContent = headers.length === 0 ? '' : `${headers[0].name} · seed ${headers[0].seed}`;
     document.title = headers.length === 0 ? 'Banyan' : `${headers[0].name} – Banyan`;
-    this.facts.update(headers, []);
+    this.facts.update(headers);
     const warnings = headers.flatMap((header) => header.warnings);
     if (warnings.length > 0) this.notice.bad(warnings.join('\n'));
     this.draw();
@@ -315,6 +316,15 @@ export class App {
       });
     }
     this.draw();
+  }
+
+  private async hash(run: number): Promise<string> {
+    const stage = this.stages[run];
+    try {
+      return `${await stage.source.hash(stage.tick)} at tick ${stage.tick}`;
+    } catch (problem) {
+      return textOf(problem);
+    }
   }
 
   private async save(ask: (source: Source) => Promise<{ name: string; blob: Blob }>): Promise<void> {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a file gets into the page: dropped on it, chosen, or named by the program that serves it.
 import { h } from './dom';
+import type { Scenario } from './scenarios';
 
 export type Opened = { recording: File } | { scenario: { name: string; text: string } };
 
@@ -45,14 +46,24 @@ export interface Start {
   scenario?: { name: string; text: string; overrides: string[] };
 }
 
+/** What `banyan view` offers to run; null from any other server. */
+export async function askScenarios(): Promise<Scenario[] | null> {
+  const list = await ask<{ name: string; description: string; text: string }[]>('./scenarios.json');
+  return list?.map(({ name, description, text }) => ({ name, about: description, text })) ?? null;
+}
+
 /** {} from any other server. The program names its own addresses with `?start`, so that no other is asked for a
  *  file that it does not have. */
 export async function askServer(): Promise<Start> {
-  if (!new URLSearchParams(location.search).has('start')) return {};
+  return (await ask<Start>('./start.json')) ?? {};
+}
+
+async function ask<Answer>(file: string): Promise<Answer | null> {
+  if (!new URLSearchParams(location.search).has('start')) return null;
   try {
-    const answer = await fetch('./start.json', { cache: 'no-store' });
-    return answer.ok && (answer.headers.get('content-type') ?? '').includes('json') ? ((await answer.json()) as Start) : {};
+    const answer = await fetch(file, { cache: 'no-store' });
+    return answer.ok && (answer.headers.get('content-type') ?? '').includes('json') ? ((await answer.json()) as Answer) : null;
   } catch {
-    return {}; // opened from the disk, or the server is gone
+    return null; // the server is gone
   }
 }

@@ -3,7 +3,7 @@
 // or an intervention; the panel keeps only what has been typed in.
 import { button, h, setText } from '../dom';
 import type { Setting } from '../frame';
-import { scenarios } from '../scenarios';
+import { scenarios as builtIn, type Scenario } from '../scenarios';
 import type { Intervention } from '../source/protocol';
 
 export const algorithms = ['convoy', 'outwards', 'inwards'] as const;
@@ -32,11 +32,12 @@ const ownName = 'own';
 export class LivePanel {
   readonly element: HTMLElement;
   private own: { name: string; text: string } | null = null;
+  private scenarios: Scenario[] = builtIn;
   private readonly scenario = h('select', { id: 'live-scenario', onchange: () => this.describe() });
   private readonly about = h('p', { class: 'hint' });
-  private readonly first = this.algorithmSelect('live-algorithm', 'as the scenario says');
+  private readonly first = this.algorithmSelect('live-algorithm', 'the scenario’s');
   private readonly second = this.algorithmSelect('live-versus', 'nothing');
-  private readonly seed = h('input', { id: 'live-seed', type: 'number', min: 0, step: 1, placeholder: 'as the scenario says' });
+  private readonly seed = h('input', { id: 'live-seed', type: 'number', min: 0, step: 1, placeholder: 'the scenario’s' });
   private readonly keys = h('textarea', {
     id: 'live-keys', rows: 3, spellcheck: false, placeholder: 'radio.loss = 0.3\nswarm.redundancy = 3', 'aria-describedby': 'live-keys-help',
   });
@@ -71,6 +72,12 @@ export class LivePanel {
     this.describe();
   }
 
+  /** Other scenarios to choose from than those built in; there is at least one. */
+  setScenarios(scenarios: Scenario[]): void {
+    this.scenarios = scenarios;
+    this.offer();
+  }
+
   setProblems(problems: string[]): void {
     this.problems.replaceChildren(...problems.map((p) => h('li', {}, p)));
   }
@@ -93,8 +100,8 @@ export class LivePanel {
   }
 
   choice(): LiveChoice {
-    const picked = scenarios.find((s) => s.name === this.scenario.value);
-    const { name, text } = this.own && this.scenario.value === ownName ? this.own : (picked ?? scenarios[0]);
+    const picked = this.scenarios.find((s) => s.name === this.scenario.value);
+    const { name, text } = this.own && this.scenario.value === ownName ? this.own : (picked ?? this.scenarios[0]);
     const overrides = this.keys.value.split('\n').map(assignment).filter((line) => line !== '');
     if (this.seed.value !== '') overrides.push(`seed=${this.seed.value}`);
     return { name, text, algorithms: [this.first.value, ...(this.second.value === '' ? [] : [this.second.value])], overrides };
@@ -102,7 +109,7 @@ export class LivePanel {
 
   /** Picks one of the built-in scenarios by its name. */
   pick(name: string): boolean {
-    if (!scenarios.some((s) => s.name === name)) return false;
+    if (!this.scenarios.some((s) => s.name === name)) return false;
     this.scenario.value = name;
     this.describe();
     return true;
@@ -120,14 +127,15 @@ export class LivePanel {
     const before = this.scenario.value;
     this.scenario.replaceChildren(
       ...(this.own ? [h('option', { value: ownName }, this.own.name)] : []),
-      ...scenarios.map((s) => h('option', { value: s.name }, s.name)),
+      ...this.scenarios.map((s) => h('option', { value: s.name }, s.name)),
     );
     this.scenario.value = before || 'three-targets';
+    if (this.scenario.selectedIndex < 0) this.scenario.selectedIndex = 0;
     this.describe();
   }
 
   private describe(): void {
-    setText(this.about, scenarios.find((s) => s.name === this.scenario.value)?.about ?? '');
+    setText(this.about, this.scenarios.find((s) => s.name === this.scenario.value)?.about ?? '');
   }
 
   private startForm(): HTMLElement {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the run comes from and how it went: everything an output of Banyan carries inside.
-import { h } from '../dom';
+import { button, h } from '../dom';
 import type { Header } from '../source/protocol';
 
 function table(rows: [string, string][]): HTMLElement {
@@ -19,13 +19,15 @@ function pretty(config: string): string {
 export class RunFacts {
   readonly element = h('section', { class: 'run-facts', 'aria-label': 'Run' });
 
-  /** One or two runs; `hashes`: the state of a live run at its end so far, as text. */
-  update(headers: Header[], hashes: (string | null)[]): void {
-    this.element.replaceChildren(...headers.map((header, k) => this.run(header, hashes[k] ?? null)));
+  /** `hash`: asks for the state hash of a run at the moment that is shown; answers in words. */
+  constructor(private readonly hash: (run: number) => Promise<string>) {}
+
+  update(headers: Header[]): void {
+    this.element.replaceChildren(...headers.map((header, k) => this.run(header, k)));
     if (headers.length === 0) this.element.append(h('p', { class: 'hint' }, 'Nothing is open.'));
   }
 
-  private run(header: Header, hash: string | null): HTMLElement {
+  private run(header: Header, index: number): HTMLElement {
     const { setting } = header.settings[0];
     const about: [string, string][] = [
       ['algorithm', setting.reading === 'corrected' ? setting.algorithm : `${setting.algorithm}, ${setting.reading}`],
@@ -34,15 +36,24 @@ export class RunFacts {
       ['line of sight', setting.line_of_sight ? 'bodies and obstacles block' : 'not needed'],
       ['version', header.git === '' ? header.version : `${header.version}, ${header.git}`],
     ];
-    if (hash !== null) about.push(['state hash', hash]);
     const result = Object.entries(header.result).filter(([, value]) => value !== '');
     return h(
       'article', {},
       h('h2', {}, header.name),
       table(about),
+      ...(header.kind === 'live' ? [this.hashLine(index)] : []),
       ...header.warnings.map((warning) => h('p', { class: 'problems' }, warning)),
       ...(result.length === 0 ? [] : [h('h3', {}, 'Result'), table(result)]),
       ...(header.config === '' ? [] : [h('details', {}, h('summary', {}, 'Configuration'), h('pre', {}, pretty(header.config)))]),
     );
+  }
+
+  private hashLine(index: number): HTMLElement {
+    const answer = h('output', { class: 'hash' });
+    const ask = button('State hash', 'Of the moment that is shown: a native run of the same scenario has the same', () => {
+      answer.textContent = '…';
+      void this.hash(index).then((text) => { answer.textContent = text; });
+    });
+    return h('p', { class: 'buttons' }, ask, answer);
   }
 }

@@ -149,6 +149,12 @@ export class Source {
     }
   }
 
+  /** Live: 16 hexadecimal digits over everything that can influence a later tick. */
+  async hash(tick: number): Promise<string> {
+    const reply = await this.ask((id) => ({ type: 'hash', id, tick }));
+    return reply.type === 'hash' ? reply.hash : '';
+  }
+
   async saveRecording(): Promise<SavedFile> {
     return fileOf(await this.ask((id) => ({ type: 'save_recording', id })));
   }

@@ -73,7 +73,19 @@ export class LiveRun {
   get head(): number { return this.live.tick(); }
   get robots(): number { return this.live.robots(); }
   get tickLengthS(): number { return this.tickS; }
-  hash(): string { return this.live.hash(); }
+  /** Of the head at once; of an earlier tick by running the scenario once more, as it would be saved. Throws a Problem. */
+  hashAt(tick: number): string {
+    if (tick === this.head) return this.live.hash();
+    if (!Number.isInteger(tick) || tick < 0 || tick > this.head) throw new Problem('that moment has not been simulated yet');
+    const again = new this.module.Live();
+    try {
+      again.load(this.request.name.replace(/\.json$/, '.toml'), this.live.scenarioToml(), []);
+      again.step(tick);
+      return again.hash();
+    } finally {
+      again.delete();
+    }
+  }
 
   step(): void {
     const now = this.due.filter((act) => act.tick === this.head);

@@ -26,6 +26,7 @@ export class LiveHost extends Host {
     if (request.type === 'frames') await this.frames(run, request);
     else if (request.type === 'message') this.message(run, request);
     else if (request.type === 'intervene') this.intervene(run, request);
+    else if (request.type === 'hash') this.send({ type: 'hash', id: request.id, hash: run.hashAt(request.tick) });
     else if (request.type === 'save_recording') this.saveRecording(run, request.id);
     else if (request.type === 'save_scenario') this.saveScenario(run, request.id);
     else throw new Problem('the simulation opens no recordings');

@@ -69,6 +69,8 @@ export type Request =
   // Live only. An intervention acts at the begin of the step after `tick`; what was simulated
   // beyond it is forgotten and a new header is sent.
   | { type: 'intervene'; id: number; tick: number; events: Intervention[] }
+  /** The state hash after so many ticks, which `banyan run` has there too. */
+  | { type: 'hash'; id: number; tick: number }
   | { type: 'save_recording'; id: number }
   | { type: 'save_scenario'; id: number };
 
@@ -80,6 +82,7 @@ export type Reply =
   | ({ type: 'frames'; id: number } & FramesReply)
   /** null: not kept. */
   | { type: 'message'; id: number; fields: MessageFields | null }
+  | { type: 'hash'; id: number; hash: string }
   | { type: 'done'; id: number }
   | { type: 'file'; id: number; name: string; blob: Blob }
   /** A request that could not be met, in words for the visitor; id 0: the source could not be opened

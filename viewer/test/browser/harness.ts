@@ -39,14 +39,14 @@ export class Server {
     const url = await new Promise<string>((resolve, reject) => {
       const listen = (data: Buffer) => {
         said += String(data);
-        const found = /http:\/\/[0-9.]+:[0-9]+\/?/.exec(said);
+        const found = /http:\/\/\S+/.exec(said);
         if (found) resolve(found[0]);
       };
       child.stdout.on('data', listen);
       child.stderr.on('data', listen);
       child.on('exit', (code) => reject(new Error(`banyan view ended with ${code}: ${said}`)));
     });
-    return new Server(child, url.includes('?') ? url : `${url.replace(/\/?$/, '/')}?start`);
+    return new Server(child, url);
   }
 
   stop(): Promise<number | null> {

@@ -33,4 +33,8 @@ class Observer {
   std::unique_ptr<Impl> impl_;
 };
 
+// For plots: whether this is a tick at which lambda_2 itself is worth its time, the first of each simulated
+// second, in swarms of at most 1,000 robots (1 ms with 94, 10 ms with 1,000).
+[[nodiscard]] bool is_plotted(const world::World& world) noexcept;
+
 }  // namespace banyan::measure

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// A live run in the page: the simulation in WebAssembly, and what a visitor can do to it.
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import { banyan, Folder, launch, open, scenario, Server } from './harness';
+import { clickRobot, factsShown, placeOf, seekTo, timeShown, waitForRun } from './visitor';
+
+const folder = new Folder();
+let browser: Browser;
+let server: Server;
+
+beforeAll(async () => {
+  server = await Server.start(scenario('three-targets'));
+  browser = await launch();
+}, 120_000);
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+  folder.remove();
+});
+
+const visit = async (): Promise<{ tab: Page; errors: string[] }> => {
+  const visitor = await open(browser, server.url);
+  await waitForRun(visitor.tab);
+  return visitor;
+};
+
+/** Plays on to a moment, and stands there. */
+async function playTo(tab: Page, timeS: number): Promise<void> {
+  if (await tab.$('button.play[aria-label^="Play"]')) await tab.click('button.play');
+  await tab.selectOption('select[aria-label=Speed]', '16');
+  await tab.waitForFunction((t) => Number(document.querySelector<HTMLInputElement>('.timeline input')!.value) >= t, timeS);
+  await seekTo(tab, timeS);
+}
+
+async function hashShown(tab: Page): Promise<string> {
+  await tab.click('#tab-run');
+  await tab.click('text=State hash');
+  await tab.waitForFunction(() => /^[0-9a-f]{16}/.test(document.querySelector('.hash')?.textContent ?? ''));
+  return (await tab.textContent('.hash'))!;
+}
+
+/** Of a native run that ends after so many ticks of 0.1 s. */
+function nativeHash(file: string, ticks: number, out: string): string {
+  const json = banyan('run', file, '--no-record', '--json', '--set', `mission.time_limit_s=${ticks / 10}`, '--set', 'mission.stop_when_complete=false', '--out', join(folder.path, out));
+  return (JSON.parse(json) as { result: { hash: string } }).result.hash;
+}
+
+async function saved(tab: Page, button: string): Promise<string> {
+  await tab.click('#tab-live');
+  const download = tab.waitForEvent('download');
+  await tab.click(`text=${button}`);
+  const file = await download;
+  const path = join(folder.path, `${Math.random().toString(36).slice(2)}-${file.suggestedFilename()}`);
+  await file.saveAs(path);
+  return path;
+}
+
+async function dragTo(tab: Page, from: { x: number; y: number }, to: { x: number; y: number }): Promise<void> {
+  await tab.mouse.move(from.x, from.y);
+  await tab.mouse.down();
+  for (let k = 1; k <= 5; ++k) await tab.mouse.move(from.x + ((to.x - from.x) * k) / 5, from.y + ((to.y - from.y) * k) / 5);
+  await tab.mouse.up();
+  await tab.waitForTimeout(300);
+}
+
+describe('a live run', () => {
+  it('has after 200 ticks the state hash of the native run', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 20);
+    expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'native')} at tick 200`);
+    expect(errors).toEqual([]);
+  });
+
+  it('a worker turns towards its target when that is dragged away', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 4);
+    const home = await placeOf(tab, 'target', 0);
+    const other = await placeOf(tab, 'target', 1);
+    const worker = 0; // found by its target
+    const robot = await tab.evaluate((target) => {
+      const page = (window as unknown as { banyan: { stages: { shown: { targets: { worker: Int32Array } } }[] } }).banyan;
+      return page.stages[0].shown.targets.worker[target];
+    }, worker);
+    await clickRobot(tab, robot);
+    const before = Number.parseFloat((await factsShown(tab)).heading);
+    await dragTo(tab, home, { x: other.x + 30, y: other.y - 20 });
+    const moved = await placeOf(tab, 'target', 0);
+    await playTo(tab, 8);
+    const now = await placeOf(tab, 'target', 0);
+    expect(Math.hypot(now.x - other.x - 30, now.y - other.y + 20)).toBeLessThan(12);
+    expect(moved).toBeTruthy();
+    const after = Number.parseFloat((await factsShown(tab)).heading);
+    // It was on its way to (3, 0); now its target lies at 120 degrees.
+    expect(Math.abs(before)).toBeLessThan(0.5);
+    expect(after).toBeGreaterThan(1);
+  });
+
+  it('robots die one by one or in an area, and what was done is in the saved scenario', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 5);
+    await clickRobot(tab, 4);
+    await tab.click('text=Kill');
+    await tab.waitForTimeout(300);
+    await tab.click('#tab-live');
+    await tab.click('text=Kill area');
+    const root = await placeOf(tab, 'target', 1);
+    await dragTo(tab, { x: root.x - 60, y: root.y - 40 }, { x: root.x + 120, y: root.y + 140 });
+    await tab.click('#tab-live');
+    await tab.fill('#live-loss', '0.3');
+    await tab.dispatchEvent('#live-loss', 'change');
+    await tab.waitForTimeout(300);
+    await playTo(tab, 12);
+    expect(await tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
+    await tab.click('#tab-events');
+    expect(await tab.textContent('.events-rows')).toContain('robot 4');
+    const shown = await hashShown(tab);
+    const file = await saved(tab, 'Save .toml');
+    const text = readFileSync(file, 'utf8');
+    expect(text).toContain('kind = "die"');
+    expect(text).toContain('kind = "set_loss"');
+    expect(shown).toBe(`${nativeHash(file, 120, 'again')} at tick 120`);
+    expect(errors).toEqual([]);
+  });
+
+  it('goes back in time, does something else, and forgets what was', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 10);
+    await tab.keyboard.press('5');
+    await tab.keyboard.press('Enter');
+    await tab.keyboard.press('Delete');
+    await playTo(tab, 12);
+    await seekTo(tab, 6);
+    await tab.keyboard.press('6');
+    await tab.keyboard.press('Enter');
+    await tab.keyboard.press('Delete');
+    await playTo(tab, 12);
+    await clickRobot(tab, 5);
+    expect((await factsShown(tab)).alive).toBe('yes');
+    await clickRobot(tab, 6);
+    expect((await factsShown(tab)).alive).toBe('no');
+  });
+
+  it('is saved as a recording that the program reads', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 6);
+    const file = await saved(tab, 'Save .mcap');
+    const csv = banyan('export', file, '--csv');
+    expect(csv).toContain('\n50,5,');
+  });
+
+  it('two algorithms run side by side with the same seed and one clock', async () => {
+    const { tab, errors } = await visit();
+    await tab.click('#tab-live');
+    await tab.selectOption('#live-algorithm', 'outwards');
+    await tab.selectOption('#live-versus', 'inwards');
+    await tab.fill('#live-seed', '5');
+    await tab.click('text=Start');
+    await tab.waitForFunction(() => document.querySelectorAll('.stage').length === 2);
+    await playTo(tab, 3);
+    const captions = await tab.$$eval('.caption', (all) => all.map((e) => e.textContent ?? ''));
+    expect(captions[0]).toContain('outwards');
+    expect(captions[1]).toContain('inwards');
+    expect(await timeShown(tab)).toBeCloseTo(3);
+    expect(errors).toEqual([]);
+  });
+
+  it('says in words what is wrong with a scenario, and stays usable', async () => {
+    const { tab } = await visit();
+    await tab.click('#tab-live');
+    await tab.click('summary');
+    await tab.fill('#live-keys', 'radio.lost = 0.3\nradio.range_m = -1');
+    await tab.click('text=Start');
+    await tab.waitForSelector('.live .problems li');
+    const problems = (await tab.textContent('.live .problems'))!;
+    expect(problems).toContain('radio.lost');
+    expect(problems).toContain('radio.loss');
+    expect(problems).toContain('radio.range_m');
+    await tab.fill('#live-keys', 'radio.loss = 0.3');
+    await tab.click('text=Start');
+    await tab.waitForFunction(() => document.querySelector('.live .problems')?.children.length === 0);
+    await playTo(tab, 2);
+    expect(await timeShown(tab)).toBeCloseTo(2);
+  });
+});
