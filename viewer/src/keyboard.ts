@@ -50,7 +50,7 @@ export class Keyboard {
     if (document.querySelector('dialog[open]') !== null) return;
     if (event.key === 'Escape' && event.target instanceof HTMLElement) event.target.blur();
     if (event.key !== 'Escape' && isTyping(event.target)) return;
-    if (presses(event.target, event.key)) return;
+    if (presses(event.target, event.key) && this.digits === '') return;
     const action = this.digit(event.key) ?? this.find(event);
     if (action === null) return;
     event.preventDefault();

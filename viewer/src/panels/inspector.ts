@@ -48,6 +48,12 @@ export function facts(frame: Frame, robot: number): Fact[] {
   ];
 }
 
+/** Recordings have enumerators by number, live runs by name. */
+function word(field: string, value: number | string | boolean): string {
+  const names: Record<string, readonly string[]> = { role: roles, phase: phases, need: needs };
+  return typeof value === 'number' ? (names[field]?.[value] ?? String(value)) : String(value);
+}
+
 export interface InspectorActions {
   select(robot: number | null): void;
   follow(robot: number | null): void;
@@ -144,7 +150,7 @@ export class Inspector {
     if (message === undefined) return;
     const rows: Fact[] = message === null
       ? [{ name: 'not kept', value: 'this recording has no messages' }]
-      : Object.entries(message).map(([name, value]) => ({ name, value: String(value) }));
+      : Object.entries(message).map(([name, value]) => ({ name, value: word(name, value) }));
     this.fill(this.message, rows);
   }
 }

@@ -102,7 +102,7 @@ describe('a live run', () => {
     const { tab, errors } = await visit();
     await playTo(tab, 5);
     await clickRobot(tab, 4);
-    await tab.click('text=Kill');
+    await tab.click('.robot-head >> text=Kill');
     await tab.waitForTimeout(300);
     await tab.click('#tab-live');
     await tab.click('text=Kill area');

@@ -7,7 +7,11 @@ export async function waitForRun(tab: Page): Promise<void> {
   await tab.waitForSelector('.stage canvas');
 }
 
-export const timeShown = (tab: Page) => tab.$eval('.timeline input', (e) => Number((e as HTMLInputElement).value));
+/** Of the next picture. */
+export async function timeShown(tab: Page): Promise<number> {
+  await tab.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
+  return await tab.$eval('.timeline input', (e) => Number((e as HTMLInputElement).value));
+}
 
 /** Moves the timeline's handle and waits for the picture of that moment. */
 export async function seekTo(tab: Page, timeS: number): Promise<void> {
