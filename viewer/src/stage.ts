@@ -45,7 +45,9 @@ export class Stage {
   readonly element: HTMLElement;
   readonly scene: Scene;
   private readonly input: Input;
-  private readonly caption = h('div', { class: 'caption' });
+  private readonly captionText = h('span');
+  private readonly caption = h('div', { class: 'caption' }, h('i', { class: 'run-line', 'aria-hidden': 'true' }), this.captionText);
+  private readonly legend = legend();
   private camera: Camera | null = null;
   private touched = false; // the camera is the visitor's; else everything is kept in the picture
   private hovered: Item | null = null;
@@ -60,7 +62,7 @@ export class Stage {
 
   constructor(readonly source: Source, theme: Theme, private readonly actions: StageActions) {
     const picture = h('div', { class: 'picture' });
-    this.element = h('div', { class: 'stage' }, picture, this.caption, legend());
+    this.element = h('div', { class: 'stage' }, picture, this.caption, this.legend);
     this.scene = new Scene(picture, theme, () => actions.changed());
     this.scene.canvas.setAttribute('role', 'img');
     this.scene.canvas.setAttribute('aria-label', 'The swarm; press ? for the keys');
@@ -148,7 +150,7 @@ export class Stage {
       switches: shared.switches,
       camera: this.camera!,
       theme: shared.theme,
-      insets: { top: 0, right: 0, bottom: 28, left: 0 },
+      insets: { top: 0, right: 0, bottom: this.legend.offsetHeight + 8, left: 0 },
       dragged: this.dragged,
       area: this.area,
     };
@@ -189,7 +191,9 @@ export class Stage {
     for (let i = 0; i < frame.robots; ++i) living += alive[i];
     const dead = frame.robots - living;
     const reading = setting.reading === 'corrected' ? '' : ` (${setting.reading})`;
-    setText(this.caption, `${setting.algorithm}${reading} · ${living} robots${dead > 0 ? `, ${dead} dead` : ''} · ${frame.targets.x.length} targets`);
+    const { drawn, all } = this.scene.radioLinks;
+    const fewer = drawn < all ? ` · the shortest ${drawn} of ${all} links` : '';
+    setText(this.captionText, `${setting.algorithm}${reading} · ${living} robots${dead > 0 ? `, ${dead} dead` : ''} · ${frame.targets.x.length} targets${fewer}`);
   }
 
   private get live(): boolean { return this.source.header.value?.kind === 'live'; }

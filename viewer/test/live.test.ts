@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The compiled simulation as a source, against what the native program recorded of the same scenario.
-import { existsSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { describe, expect, it } from 'vitest';
@@ -15,7 +15,6 @@ import { bytesOf, fileOf, frameAt, numberOf, open, random, tableOf } from './sup
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 const folder = process.env.BANYAN_LIVE ?? path.join(root, 'build/wasm/viewer');
-const built = existsSync(path.join(folder, 'banyan_live.wasm'));
 const scenario = readFileSync(path.join(root, 'scenarios/three-targets.toml'), 'utf8');
 const request = { name: 'three-targets.toml', text: scenario, overrides: [] };
 
@@ -23,16 +22,16 @@ async function load(): Promise<LiveModule> {
   const { default: create } = await import(/* @vite-ignore */ pathToFileURL(path.join(folder, 'banyan_live.mjs')).href);
   return await create({ wasmBinary: readFileSync(path.join(folder, 'banyan_live.wasm')) });
 }
-const module = built ? load() : null;
+const module = load();
 
 function runTo(run: LiveRun, tick: number): LiveRun {
   while (run.head < tick) run.step();
   return run;
 }
 
-describe.skipIf(!built)('a live run', () => {
+describe('a live run', () => {
   it('is the native run', async () => {
-    const run = LiveRun.load((await module)!, request);
+    const run = LiveRun.load(await module, request);
     const result = JSON.parse(readFileSync(fileOf('three', 'run.json'), 'utf8')).result;
     runTo(run, result.ticks);
     expect(run.hashAt(run.head)).toBe(result.hash);
@@ -58,8 +57,8 @@ describe.skipIf(!built)('a live run', () => {
   });
 
   it('goes back, and does again what was done there', async () => {
-    const plain = runTo(LiveRun.load((await module)!, request), 90);
-    const run = runTo(LiveRun.load((await module)!, request), 60);
+    const plain = runTo(LiveRun.load(await module, request), 90);
+    const run = runTo(LiveRun.load(await module, request), 60);
     run.intervene(30, [{ kind: 'die', robot: 3 }]);
     expect(run.head).toBe(30);
     run.takeTable();
@@ -80,7 +79,7 @@ describe.skipIf(!built)('a live run', () => {
   });
 
   it('knows settings that change, messages, files', async () => {
-    const run = runTo(LiveRun.load((await module)!, request), 20);
+    const run = runTo(LiveRun.load(await module, request), 20);
     run.intervene(20, [{ kind: 'set_line_of_sight', line_of_sight: false }]);
     runTo(run, 25);
     const sights = run.header().settings.map((s) => s.setting.line_of_sight);
@@ -96,7 +95,7 @@ describe.skipIf(!built)('a live run', () => {
 
   it('answers like a recording', async () => {
     const replies: Reply[] = [];
-    const host = new LiveHost((reply) => replies.push(reply), async () => (await module)!);
+    const host = new LiveHost((reply) => replies.push(reply), async () => await module);
     const of = async (id: number) => {
       for (;;) {
         const found = replies.find((r) => 'id' in r && r.id === id);
