@@ -137,7 +137,7 @@ TEST(Recording, ObstaclesAndSightAreThoseOfTheTime) {
   for (const RecordedEvent& event : recording.events())
     if (event.kind == "obstacle_moved" || event.kind == "line_of_sight")
       told += std::to_string(event.tick) + " " + event.text + "\n";
-  EXPECT_EQ(told, "11 obstacle 0 has moved\n21 bodies and obstacles block the radio now\n");
+  EXPECT_EQ(told, "11 obstacle 0 has moved to (7.00, -7.00) m\n21 links need a line of sight from now on\n");
 }
 
 TEST(Recording, FrameAtIsTheLastOneBefore) {
