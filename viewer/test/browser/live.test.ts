@@ -125,6 +125,36 @@ describe('a live run', () => {
     expect(errors).toEqual([]);
   });
 
+  it('obstacles are dragged, line of sight is switched, a target is added: a native run repeats it all', async () => {
+    const { tab, errors } = await visit();
+    await tab.click('#tab-live');
+    await tab.selectOption('#live-scenario', 'scattered-discs');
+    await tab.click('text=Start');
+    await tab.waitForFunction(() => document.title.startsWith('scattered-discs'));
+    await playTo(tab, 3);
+    const obstacle = await placeOf(tab, 'obstacle', 0);
+    await dragTo(tab, obstacle, { x: obstacle.x + 40, y: obstacle.y + 25 });
+    const moved = await placeOf(tab, 'obstacle', 0);
+    await tab.click('#tab-live');
+    await tab.click('#live-sight');
+    await tab.waitForTimeout(200);
+    await tab.click('text=Add target');
+    const target = await placeOf(tab, 'target', 0);
+    await tab.mouse.click(target.x - 70, target.y + 45);
+    await tab.waitForTimeout(300);
+    await playTo(tab, 9);
+    expect(await tab.textContent('.caption')).toContain('4 targets');
+    await tab.click('#tab-events');
+    const said = await tab.textContent('.events-rows');
+    for (const part of ['obstacle 0', 'line of sight', 'T3']) expect(said).toContain(part);
+    expect(moved).not.toBeNull();
+    const shown = await hashShown(tab);
+    const file = await saved(tab, 'Save .toml');
+    expect(readFileSync(file, 'utf8')).toContain('kind = "move_obstacle"');
+    expect(shown).toBe(`${nativeHash(file, 90, 'obstacles')} at tick 90`);
+    expect(errors).toEqual([]);
+  });
+
   it('goes back in time, does something else, and forgets what was', async () => {
     const { tab } = await visit();
     await playTo(tab, 10);
