@@ -128,7 +128,7 @@ class Plot {
         ...this.size(),
         legend: { show: false },
         cursor: { show: false },
-        padding: [6, 8, 0, 0],
+        padding: [6, 16, 0, 0],
         scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(whole ? 1 : 1e-3, (Number.isFinite(high) ? high : 0) * 1.08)] } },
         axes: [
           { ...axis, size: 20, gap: 3, space: 60, values: (_, ticks) => ticks.map((t) => `${t} s`) },
