@@ -59,9 +59,9 @@ class Statistics:
     def of(self, part, metric, **labels):
         return self._find(self.rows[(part, metric)], labels)
 
-    def compare(self, part, metric, **labels):
-        pair = [r for r in self.comparisons[(part, metric)] if [r["first"], r["second"]] == ALGORITHMS]
-        return self._find(pair, labels)
+    def compare(self, part, metric, pair=tuple(ALGORITHMS), **labels):
+        of_pair = [r for r in self.comparisons[(part, metric)] if (r["first"], r["second"]) == pair]
+        return self._find(of_pair, labels)
 
 
 def table(header, rows):
@@ -72,6 +72,11 @@ def table(header, rows):
 def percent(row, field="positive"):
     value = 100 * float(row[field])
     return f"{value:.0f}" if value in (0, 100) or value >= 10 else f"{value:.1f}"
+
+
+def share(value):
+    """Per cent with one decimal, or with one digit where that would be nothing."""
+    return f"{100 * value:.1f}" if value == 0 or value >= 0.001 else f"{100 * value:.1g}"
 
 
 def interval(row):
@@ -89,11 +94,15 @@ def p_value(text):
     return "< 0.001" if value > 1e-300 else "0"
 
 
+def difference(row):
+    """The median of the paired differences with its interval."""
+    return f"{float(row['median_difference']):+.3f} ({float(row['difference_low']):+.3f} to {float(row['difference_high']):+.3f})"
+
+
 def time_row(row):
     """Medians, paired difference with interval, who was sooner, p."""
     pairs = int(row["pairs"])
-    return [number(row["first_median"]), number(row["second_median"]),
-            f"{float(row['median_difference']):+.3f} ({float(row['difference_low']):+.3f} to {float(row['difference_high']):+.3f})",
+    return [number(row["first_median"]), number(row["second_median"]), difference(row),
             f"{100 * int(row['second_larger']) / pairs:.0f}", p_value(row["p_holm"])]
 
 
@@ -234,22 +243,41 @@ def tuned(s):
 
 
 def convoy(s):
-    """Convoy against the better of the paper's two in every column, in their corrected reading."""
+    """Convoy beside the paper's two in their corrected reading."""
     rows = []
     for los in SIGHT:
         for r in RADII:
             def of(metric, field, los=los, r=r):
                 return [float(s.of("worlds", metric, reading="corrected", los=los, algorithm=a, r=r)[field]) for a in shown("corrected")]
             rows.append([los, f"{r} m", " / ".join(f"{v:.3f}" for v in of("normalized_time", "median")),
-                         " / ".join(f"{100 * v:.1f}" for v in of("disconnected_time_ratio", "positive")),
-                         " / ".join(f"{100 * v:.2f}" for v in of("disconnected_time_ratio", "mean")),
+                         " / ".join(percent({"positive": v}) for v in of("disconnected_time_ratio", "positive")),
+                         " / ".join(share(v) for v in of("disconnected_time_ratio", "mean")),
                          " / ".join(f"{v:.1f}" for v in of("committed", "mean"))])
-    return table(["line of sight", "r", "median time, outwards / inwards / convoy", "runs with a broken edge, %", "share of time, %",
-                  "robots in the tree at the end"], rows)
+    return table(["line of sight", "r", "median time, outwards / inwards / convoy", "runs with a broken edge, %",
+                  "share of time with one, %", "robots in the tree at the end, mean"], rows)
 
 
-TABLES = {"convoy": convoy, "time": time, "complete": complete, "broken": broken, "broken-by-redundancy": broken_by_redundancy, "split": split,
-          "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "pull": pull, "real": real}
+def equal_pull(s):
+    """All three with the same target gain, the paper's two as corrected."""
+    rows = []
+    for tau in ("0.2539", "0.49", "1"):
+        for r in RADII:
+            labels = dict(reading="corrected", tau=tau, r=r)
+
+            def all_three(metric, field, digits, labels=labels):
+                return " / ".join(number(s.of("pull", metric, algorithm=a, **labels)[field], digits) for a in shown("corrected"))
+
+            row = [tau, f"{r} m", all_three("normalized_time", "median", 3)]
+            for algorithm in ALGORITHMS:
+                test = s.compare("pull", "normalized_time", pair=(algorithm, "convoy"), **labels)
+                row += [difference(test), p_value(test["p_holm"])]
+            rows.append(row + [all_three("committed", "mean", 1)])
+    return table(["τ of all", "r", "median time, outwards / inwards / convoy", "outwards − convoy (95 %)", "p (Holm)",
+                  "inwards − convoy (95 %)", "p (Holm)", "robots in the tree at the end, mean"], rows)
+
+
+TABLES = {"convoy": convoy, "equal-pull": equal_pull, "time": time, "complete": complete, "broken": broken,
+          "broken-by-redundancy": broken_by_redundancy, "split": split, "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "pull": pull, "real": real}
 # Tables of another study, whose results lie beside those of the first.
 OTHERS = {"tuned": ("tuned", tuned)}
 
