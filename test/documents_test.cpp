@@ -83,6 +83,11 @@ class Clone {
     if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
     return result;
   }
+  // A server, ended by Ctrl-C; with an empty page, since what is in it does not matter here.
+  [[nodiscard]] Result view(const std::string& command) const {
+    return run("mkdir -p page && touch page/index.html && BANYAN_PAGE=page timeout --signal=INT --preserve-status 1 " +
+               command + " --no-open");
+  }
   fs::path path;
 };
 
@@ -117,6 +122,12 @@ TEST(Documents, CommandsRun) {
       continue;
     }
     ++commands;
+    if (line.text.starts_with("./banyan view")) {
+      const auto shown = clone.view(line.text);
+      EXPECT_EQ(shown.status, 130) << line.where() << ": " << line.text << "\n" << shown.output;
+      EXPECT_NE(shown.output.find("http://127.0.0.1:"), std::string::npos) << line.where() << "\n" << shown.output;
+      continue;
+    }
     // The shortest of its measurements instead of the better part of a minute.
     const bool bench = line.text.starts_with("./banyan bench");
     // Only the first study is a matter of seconds; of the others and of tunings the plan must do.
@@ -131,7 +142,7 @@ TEST(Documents, CommandsRun) {
 TEST(Documents, LinksAndPathsLeadSomewhere) {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   const std::regex path(
-      R"(`((?:bench|cli|cmake|config|controller|docs|examples|measure|record|scenarios|studies|study|test|world)/[\w./-]+\.\w+)`)");
+      R"(`((?:bench|cli|cmake|config|controller|docs|examples|measure|record|scenarios|studies|study|test|viewer|world)/[\w./-]+\.\w+)`)");
   std::size_t found = 0;
   for (const Line& line : lines_of_documents()) {
     if (!line.block.empty()) continue;
