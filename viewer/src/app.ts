@@ -64,7 +64,7 @@ export class App {
   });
   private readonly facts = new RunFacts((run) => this.hash(run));
   private readonly live = new LivePanel({
-    start: (choice) => void this.startLive(choice), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
+    start: (choice) => void this.startLive(choice), reset: () => this.reset(), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
     saveRecording: () => void this.save((source) => source.saveRecording()),
     saveScenario: () => void this.save((source) => source.saveScenario()),
   });
@@ -314,6 +314,15 @@ export class App {
       stage.source.intervene(stage.tick, events).catch((problem: unknown) => {
         this.notice.bad([textOf(problem), ...(problem instanceof Problem ? problem.problems : [])].join('\n'));
       });
+    }
+    this.draw();
+  }
+
+  /** To the begin; what was done to the run from there on never happened. */
+  private reset(): void {
+    this.player.home();
+    for (const { source } of this.stages) {
+      source.intervene(0, []).catch((problem: unknown) => this.notice.bad(textOf(problem)));
     }
     this.draw();
   }

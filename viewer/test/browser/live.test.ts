@@ -173,6 +173,21 @@ describe('a live run', () => {
     expect((await factsShown(tab)).alive).toBe('no');
   });
 
+  it('is reset to its begin, without what was done', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 5);
+    await tab.keyboard.type('5');
+    await tab.keyboard.press('Enter');
+    await tab.keyboard.press('Delete');
+    await playTo(tab, 7);
+    await tab.click('#tab-live');
+    await tab.click('button:text-is("Reset")');
+    await tab.waitForTimeout(300);
+    expect(await timeShown(tab)).toBeLessThan(1);
+    await playTo(tab, 20);
+    expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'reset')} at tick 200`);
+  });
+
   it('is saved as a recording that the program reads', async () => {
     const { tab } = await visit();
     await playTo(tab, 6);
