@@ -20,9 +20,10 @@ import { themes } from './scene/themes';
 import type { Item } from './scene/view';
 import type { Source } from './source/client';
 import { openFile, openLive, openUrl } from './source/open';
-import type { RunEvent, Series } from './frame';
+import type { RunEvent } from './frame';
 import { Problem } from './source/problem';
 import type { Intervention } from './source/protocol';
+import { Horizon } from './state/horizon';
 import { Player } from './state/player';
 import { eventAfter } from './state/events';
 import { Store } from './state/store';
@@ -30,7 +31,6 @@ import { RobotWatch } from './robot_watch';
 import { Stage, type Shared, type StageActions } from './stage';
 
 const trailS = 10; // how far back trails go
-const tellEveryS = 0.5; // plots and lists of a live run grow so often
 const panelEveryMs = 80; // panels are read, not watched: twelve times a second is enough
 
 export class App {
@@ -39,8 +39,7 @@ export class App {
   private stages: Stage[] = [];
   private dirty = true;
   private panelsAt = 0;
-  private seenS = 0; // of a live run: how far it was shown
-  private toldS = 0; // what plots and lists know of that
+  private readonly horizon = new Horizon();
   private opening = 0; // counts attempts: a later one makes an earlier one void
 
   private readonly notice = new Notice();
@@ -155,7 +154,7 @@ export class App {
     this.stages = sources.map((source) => new Stage(source, this.theme, this.stageActions));
     this.stagesElement.prepend(...this.stages.map((stage) => stage.element));
     for (const source of sources) this.listen(source);
-    this.seenS = this.toldS = 0;
+    this.horizon.open(live);
     this.player.attach(sources);
     this.player.home();
     this.player.play();
@@ -172,7 +171,7 @@ export class App {
     source.events.subscribe(() => this.showEvents());
     source.failure.subscribe((problem) => { if (problem && this.sources.includes(source)) this.notice.bad(problem.message); });
     source.arrived.subscribe(() => this.draw());
-    source.rewound.subscribe((timeS) => { this.seenS = Math.min(this.seenS, timeS); this.draw(); });
+    source.rewound.subscribe((timeS) => { this.horizon.cut(timeS); this.tell(); });
   }
 
   private get sources(): Source[] { return this.stages.map((stage) => stage.source); }
@@ -187,7 +186,7 @@ export class App {
     this.dirty = false;
     const shared = this.shared();
     for (const stage of this.stages) stage.draw(shared, nowMs); // what is not there yet will arrive and be drawn
-    this.see(this.player.timeS);
+    if (this.horizon.see(this.player.timeS)) this.tell();
     this.transport.update(this.clock());
     if (nowMs - this.panelsAt >= panelEveryMs || !this.player.playing) this.showPanels(nowMs);
   }
@@ -203,20 +202,9 @@ export class App {
     this.live.setLive(this.isLive ? setting : null);
   }
 
-  /** A live run is simulated ahead of what is shown; the page tells only of what has been seen. */
-  private see(timeS: number): void {
-    if (!this.isLive || timeS <= this.seenS) return;
-    this.seenS = timeS;
-    if (timeS < this.toldS + tellEveryS) return;
-    this.showSeries();
-    this.showEvents();
-  }
-
-  private get horizonS(): number { return this.isLive ? this.seenS : Infinity; }
-
   private clock(): Clock {
     const { playing, waiting, speed, timeS, startS, growing } = this.player;
-    return { playing, waiting, speed, timeS, startS, growing, endS: this.isLive ? this.seenS : this.player.endS };
+    return { playing, waiting, speed, timeS, startS, growing, endS: Math.min(this.horizon.timeS, this.player.endS) };
   }
 
   private shared(): Shared {
@@ -237,15 +225,20 @@ export class App {
     this.draw();
   }
 
+  private tell(): void {
+    this.horizon.tell();
+    this.showSeries();
+    this.showEvents();
+  }
+
   private showSeries(): void {
-    this.toldS = this.seenS;
     const runs = this.sources.map((source) => source.series.value).filter((s) => s.time_s !== undefined);
-    this.plots.setRuns(runs.map((series) => until(series, this.horizonS)));
+    this.plots.setRuns(runs.map((series) => this.horizon.rows(series)));
     this.draw();
   }
 
   private shownEvents(): RunEvent[] {
-    const events = this.sources.flatMap((source) => source.events.value.filter((event) => event.time_s <= this.horizonS));
+    const events = this.sources.flatMap((source) => this.horizon.events(source.events.value));
     return this.sources.length > 1 ? events.sort((a, b) => a.time_s - b.time_s) : events;
   }
 
@@ -261,7 +254,7 @@ export class App {
   private seek(timeS: number): void { this.player.seek(timeS); this.draw(); }
   private step(ticks: number): void { this.player.step(ticks); this.draw(); }
   private toEnd(): void {
-    if (this.isLive) this.player.seek(this.seenS);
+    if (this.isLive) this.player.seek(this.horizon.timeS);
     else this.player.end();
     this.draw();
   }
@@ -421,14 +414,6 @@ export class App {
       button('?', 'Keys and signs (?)', () => this.help.showModal()),
     );
   }
-}
-
-/** The rows up to a time, without copying them. */
-function until(series: Series, timeS: number): Series {
-  const times = series.time_s;
-  let rows = times.length;
-  while (rows > 0 && times[rows - 1] > timeS + 1e-9) --rows;
-  return rows === times.length ? series : Object.fromEntries(Object.entries(series).map(([name, values]) => [name, values.subarray(0, rows)]));
 }
 
 /** Millimetres are enough, and read well in a saved scenario. */
