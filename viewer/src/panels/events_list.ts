@@ -73,7 +73,7 @@ export class EventsList {
     return h(
       'li',
       { class: classes },
-      h('button', { type: 'button', onclick: () => this.go(event) },
+      h('button', { type: 'button', title: event.text, onclick: () => this.go(event) },
         h('span', { class: 'when' }, clockText(event.time_s)), sign, h('span', { class: 'what' }, event.text)),
     );
   }

@@ -163,7 +163,7 @@ export class LivePanel {
       h('legend', {}, 'While it runs'),
       h('p', { class: 'hint' }, 'Drag a target or an obstacle. Go back in time and do something else: the run is simulated anew from there.'),
       h('div', { class: 'buttons' }, this.tools.add_target, this.tools.kill_area,
-        button('Reset', 'The same run from its begin, without what you did', this.actions.reset),
+        button('Reset', 'The same run from its beginning, without what you did', this.actions.reset),
         button('Blackout', 'Nobody hears anything for a second', () => this.actions.intervene([{ kind: 'blackout', duration_s: 1 }]))),
       h('div', { class: 'field' }, h('label', { for: 'live-loss' }, 'Packet loss'), this.loss, this.lossText),
       h('label', { class: 'switch' }, this.sight, 'Line of sight: bodies and obstacles block the radio'),
