@@ -162,7 +162,8 @@ void shoot(record::Recording& recording, const Cut& cut, Studio& studio, Progres
     for (; next < cut.moving() && cut.time_s(next) <= later.time_s + 1e-9 && stop_signal() == 0; ++next) {
       record::Frame now = record::between(earlier ? *earlier : later, later, cut.time_s(next));
       auto trails = log.trails(now);
-      studio.draw(recording.setting_at(now.time_s), std::move(now), std::move(trails));
+      const record::Setting& setting = recording.setting_at(now.time_s);
+      studio.draw(setting, std::move(now), std::move(trails));
       if (!progress.due()) continue;
       const double done = static_cast<double>(next) / static_cast<double>(cut.moving());
       progress.show(done,

@@ -64,7 +64,7 @@ class View : public StartedProgram {
     if (::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
         ::send(socket, request.data(), request.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(request.size())) {
       std::array<char, 4096> piece;
-      for (ssize_t got; (got = ::recv(socket, piece.data(), piece.size(), 0)) > 0;)
+      for (ssize_t got = 0; (got = ::recv(socket, piece.data(), piece.size(), 0)) > 0;)
         answer.append(piece.data(), static_cast<std::size_t>(got));
     }
     ::close(socket);

@@ -292,6 +292,7 @@ void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const
   if (tick.broken_by_distance > 0) text += ", " + std::to_string(tick.broken_by_distance) + " out of range";
   if (tick.broken_by_occlusion > 0) text += ", " + std::to_string(tick.broken_by_occlusion) + " hidden";
   std::vector<std::string> names;
+  names.reserve(edges.size());
   for (const BrokenEdge& edge : edges) names.push_back(std::to_string(edge.robot));
   if (!names.empty()) text += ": of the robots " + listed(names);
   add("edges_broken", edges.empty() ? -1 : edges.front().robot, -1, std::move(text));
