@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { banyan, Folder, launch, open, scenario, Server } from './harness';
-import { clickRobot, factsShown, placeOf, seekTo, timeShown, waitForRun } from './visitor';
+import { clickRobot, factsShown, placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
 
 const folder = new Folder();
 let browser: Browser;
@@ -63,7 +63,7 @@ async function dragTo(tab: Page, from: { x: number; y: number }, to: { x: number
   await tab.mouse.down();
   for (let k = 1; k <= 5; ++k) await tab.mouse.move(from.x + ((to.x - from.x) * k) / 5, from.y + ((to.y - from.y) * k) / 5);
   await tab.mouse.up();
-  await tab.waitForTimeout(300);
+  await settle(tab);
 }
 
 describe('a live run', () => {
@@ -103,7 +103,7 @@ describe('a live run', () => {
     await playTo(tab, 5);
     await clickRobot(tab, 4);
     await tab.click('.robot-head >> text=Kill');
-    await tab.waitForTimeout(300);
+    await settle(tab);
     await tab.click('#tab-live');
     await tab.click('text=Kill area');
     const root = await placeOf(tab, 'target', 1);
@@ -111,7 +111,7 @@ describe('a live run', () => {
     await tab.click('#tab-live');
     await tab.fill('#live-loss', '0.3');
     await tab.dispatchEvent('#live-loss', 'change');
-    await tab.waitForTimeout(300);
+    await settle(tab);
     await playTo(tab, 12);
     expect(await tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
     await tab.click('#tab-events');
@@ -137,11 +137,11 @@ describe('a live run', () => {
     const moved = await placeOf(tab, 'obstacle', 0);
     await tab.click('#tab-live');
     await tab.click('#live-sight');
-    await tab.waitForTimeout(200);
+    await settle(tab);
     await tab.click('text=Add target');
     const target = await placeOf(tab, 'target', 0);
     await tab.mouse.click(target.x - 70, target.y + 45);
-    await tab.waitForTimeout(300);
+    await settle(tab);
     await playTo(tab, 9);
     expect(await tab.textContent('.caption')).toContain('4 targets');
     await tab.click('#tab-events');
@@ -182,7 +182,7 @@ describe('a live run', () => {
     await playTo(tab, 7);
     await tab.click('#tab-live');
     await tab.click('button:text-is("Reset")');
-    await tab.waitForTimeout(300);
+    await settle(tab);
     expect(await timeShown(tab)).toBeLessThan(1);
     await playTo(tab, 20);
     expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'reset')} at tick 200`);

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { banyan, Folder, launch, open, scenario, Server } from './harness';
-import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, timeShown, waitForRun } from './visitor';
+import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, settle, timeShown, waitForRun } from './visitor';
 
 const folder = new Folder();
 let browser: Browser;
@@ -116,16 +116,22 @@ describe('a recording', () => {
     expect(await timeShown(tab)).toBeCloseTo(complete);
     await tab.keyboard.type('11');
     await tab.keyboard.press('Enter');
+    await settle(tab);
     expect(await tab.textContent('.robot-head h2')).toBe('Robot 11');
     await tab.keyboard.press('n');
+    await settle(tab);
     expect(await tab.textContent('.robot-head h2')).toBe('Robot 12');
     await tab.keyboard.press('f');
+    await settle(tab);
     expect(await tab.textContent('.robot-head button')).toBe('Unfollow');
     await tab.keyboard.press('Escape');
+    await settle(tab);
     expect(await tab.isVisible('.robot-head')).toBe(false);
     await tab.keyboard.press('?');
+    await settle(tab);
     expect(await tab.isVisible('dialog')).toBe(true);
     await tab.keyboard.press('Escape');
+    await settle(tab);
     expect(await tab.isVisible('dialog')).toBe(false);
     // Every control is reached by Tab.
     const reached = new Set<string>();
@@ -142,7 +148,7 @@ describe('a recording', () => {
     await seekTo(tab, 8);
     for (const theme of ['light', 'dark']) {
       await tab.evaluate((name) => { if (document.documentElement.dataset.theme !== name) (document.querySelector('[aria-label^="Light or dark"]') as HTMLElement).click(); }, theme);
-      await tab.waitForTimeout(150);
+      await settle(tab);
       const pixels = await canvasPixels(tab);
       for (const color of ['213,94,0', '0,114,178', '0,158,115', '240,228,66']) expect(pixels[color] ?? 0, `${theme} ${color}`).toBeGreaterThan(20);
     }

@@ -7,9 +7,22 @@ export async function waitForRun(tab: Page): Promise<void> {
   await tab.waitForSelector('.stage canvas');
 }
 
+interface PageInside {
+  player: { timeS: number; waiting: boolean };
+  stages: { shown: { timeS: number } | null }[];
+  place(kind: string, index: number, stage: number): { x: number; y: number };
+}
+
+/** Until the page shows what it was told: on a busy machine that takes a while. */
+export async function settle(tab: Page): Promise<void> {
+  await tab.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
+  await tab.waitForFunction(() => !(window as unknown as { banyan: PageInside }).banyan.player.waiting);
+  await tab.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
+}
+
 /** Of the next picture. */
 export async function timeShown(tab: Page): Promise<number> {
-  await tab.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
+  await settle(tab);
   return await tab.$eval('.timeline input', (e) => Number((e as HTMLInputElement).value));
 }
 
@@ -22,14 +35,17 @@ export async function seekTo(tab: Page, timeS: number): Promise<void> {
     input.value = String(t);
     input.dispatchEvent(new Event('input', { bubbles: true }));
   }, timeS);
-  await tab.waitForTimeout(350);
+  await settle(tab);
+  await tab.waitForFunction((t) => (window as unknown as { banyan: PageInside }).banyan.stages
+    .every(({ shown }) => shown !== null && Math.abs(shown.timeS - t) < 1e-6), timeS);
+  await settle(tab);
 }
 
 /** Where robots and targets are on the screen: the page tells tests what it has drawn. */
 export async function placeOf(tab: Page, kind: 'robot' | 'target' | 'obstacle', index: number, stage = 0): Promise<{ x: number; y: number }> {
   const place = await tab.evaluate(([k, i, s]) => {
-    const page = (window as unknown as { banyan: { place(kind: string, index: number, stage: number): { x: number; y: number } } }).banyan;
-    return page.place(k as string, i as number, s as number);
+    const { banyan } = window as unknown as { banyan: PageInside };
+    return banyan.place(k as string, i as number, s as number);
   }, [kind, index, stage] as const);
   return place;
 }
@@ -38,7 +54,7 @@ export async function clickRobot(tab: Page, robot: number): Promise<void> {
   const { x, y } = await placeOf(tab, 'robot', robot);
   await tab.mouse.click(x, y);
   await tab.waitForFunction((name) => document.querySelector('.robot-head h2')?.textContent === name, `Robot ${robot}`);
-  await tab.waitForTimeout(150);
+  await settle(tab);
 }
 
 /** The rows of a table of facts, by name. */
