@@ -167,10 +167,10 @@ void PageServer::Impl::bind(int wanted) {
 // carry its name, not ours (DNS rebinding).
 bool PageServer::Impl::is_ours(const Request& request) const {
   const std::string given = request.get_header_value("Host");
-  for (const char* name : {"127.0.0.1", "localhost", "[::1]"}) {
-    if (given == std::string(name) + ":" + std::to_string(port) || (port == 80 && given == name)) return true;
-  }
-  return false;
+  constexpr std::array names{"127.0.0.1", "localhost", "[::1]"};
+  return std::any_of(names.begin(), names.end(), [&](const char* name) {
+    return given == std::string(name) + ":" + std::to_string(port) || (port == 80 && given == name);
+  });
 }
 
 void PageServer::Impl::add_routes() {

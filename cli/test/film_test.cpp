@@ -42,12 +42,8 @@ class Film : public StartedProgram {
   }
 };
 
-#define NEEDS_FFMPEG() \
-  if (std::system("command -v ffprobe >/dev/null") != 0) GTEST_SKIP() << "needs ffmpeg"
-
 // One second of the run at half speed: 2 s, and the last frame for one more.
 TEST_F(Film, AnMp4HasItsFramesItsSizeAndItsLength) {
-  NEEDS_FFMPEG();
   const auto outcome = run({"film", "o/run.mcap", "-o", "a.mp4", "--fps", "10", "--speed", "0.5", "--from", "1", "--to",
                             "2", "--width", "320", "--height", "200", "--ids"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -68,7 +64,6 @@ TEST_F(Film, AnMp4HasItsFramesItsSizeAndItsLength) {
 }
 
 TEST_F(Film, AGifAndAWebmToo) {
-  NEEDS_FFMPEG();
   for (const auto& [name, codec] : {std::pair{"a.gif", "gif"}, {"a.webm", "vp9"}}) {
     const auto outcome = run({"film", "o/run.mcap", "-o", name, "--fps", "10", "--speed", "4", "--to", "2", "--width",
                               "240", "--height", "160", "-q", "--dark", "--no-links", "--trail", "0"});
@@ -84,7 +79,6 @@ TEST_F(Film, AGifAndAWebmToo) {
 }
 
 TEST_F(Film, WithoutOptionsItIsHdAndAsLongAsItShouldBe) {
-  NEEDS_FFMPEG();
   const auto outcome = run({"film", "o/run.mcap", "-o", "a.mp4", "--fps", "2"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(has(outcome.err, " s at 1x: ")) << outcome.err;  // five seconds need no haste
@@ -158,7 +152,6 @@ TEST_F(Film, AnFfmpegThatGivesUpIsQuotedAndLeavesNothing) {
 
 // Before the first frame, while frames come, and while ffmpeg makes a GIF of them.
 TEST_F(Film, CtrlCLeavesNoHalfFile) {
-  NEEDS_FFMPEG();
   for (const char* name : {"a.mp4", "a.gif"}) {
     for (const auto wait : {0ms, 1500ms}) {
       write("old", "old");

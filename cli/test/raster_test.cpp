@@ -71,6 +71,7 @@ TEST(Raster, ThreadsGiveTheSamePixels) {
       record::draw_svg(record::test::sample_setting(), record::test::sample_frame(30, 3.0, 300), {}, look);
   const Pixels first = rasterize(svg, 400, 300);
   std::vector<std::future<Pixels>> others;
+  others.reserve(8);
   for (int k = 0; k < 8; ++k)
     others.push_back(std::async(std::launch::async, [&svg] { return rasterize(svg, 400, 300); }));
   for (auto& other : others) EXPECT_EQ(other.get().bgra, first.bgra);

@@ -483,7 +483,6 @@ class Reader {
     report(node.place, path, message);
   }
 
- private:
   std::vector<Problem>& problems_;
   Form form_;
   std::map<std::string, std::pair<std::string, Place>> places_;  // bare key -> key as written, place

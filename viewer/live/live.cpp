@@ -26,6 +26,7 @@ namespace {
 
 std::vector<std::string> in_words(const std::vector<config::Problem>& problems) {
   std::vector<std::string> lines;
+  lines.reserve(problems.size());
   for (const config::Problem& problem : problems) lines.push_back(to_string(problem));
   return lines;
 }
@@ -149,6 +150,7 @@ std::vector<std::string> Live::load(const std::string& name, std::string_view te
                                     const std::vector<std::string>& overrides) {
   run_.reset();
   std::vector<config::Override> changes;
+  changes.reserve(overrides.size());
   for (const std::string& change : overrides) changes.push_back({change, "--set " + change});
   config::Loaded loaded = config::parse_configuration(name, text, changes);
   std::vector<std::string> lines = in_words(loaded.problems);

@@ -32,7 +32,7 @@ struct Digits {
   explicit Digits(const char* scientific) noexcept {
     for (; *scientific != 'e'; ++scientific)
       if (*scientific != '.') text[static_cast<std::size_t>(size++)] = *scientific;
-    point = std::atoi(scientific + 1) + 1;
+    point = static_cast<int>(std::strtol(scientific + 1, nullptr, 10)) + 1;
   }
   void increment() noexcept {
     int k = size;

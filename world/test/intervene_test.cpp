@@ -108,7 +108,7 @@ TEST(Intervene, IsAsIfTheScenarioHadHadTheEventFromTheStart) {
 
 TEST(Intervene, ACopyGoesOnAlikeWithObstaclesAndSightAsTheyAre) {
   for (const BodyModel body : bodies) {
-    Random random(7);
+    Random random(7 + static_cast<unsigned>(body));
     World world(arena(random, body));
     world.intervene({.kind = Kind::move_obstacle, .index = 1, .position = {0.4, 0.2}});
     world.intervene({.kind = Kind::set_line_of_sight, .value = world.line_of_sight() ? 0.0 : 1.0});
