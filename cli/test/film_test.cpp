@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures and films of a recording, made by the program and read back by ffprobe.
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <thread>
