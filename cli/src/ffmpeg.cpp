@@ -124,6 +124,7 @@ void Ffmpeg::start(const std::vector<std::string>& arguments) {
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   const int error = ::posix_spawnp(&child_, "ffmpeg", &files, &attributes, argv.data(), environ);
