@@ -6,6 +6,7 @@ export default defineConfig({
   test: {
     include: ['test/browser/**/*.test.ts'],
     fileParallelism: false,
+    retry: 1, // a build machine that stalls for seconds is no fault of the page
     testTimeout: 60_000,
     hookTimeout: 60_000,
   },

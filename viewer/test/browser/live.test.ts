@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { banyan, Folder, launch, open, scenario, Server } from './harness';
-import { clickRobot, factsShown, placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
+import { clickRobot, expectEvent, factsShown, placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
 
 const folder = new Folder();
 let browser: Browser;
@@ -113,9 +113,8 @@ describe('a live run', () => {
     await tab.dispatchEvent('#live-loss', 'change');
     await settle(tab);
     await playTo(tab, 12);
-    expect(await tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
-    await tab.click('#tab-events');
-    expect(await tab.textContent('.events-rows')).toContain('robot 4');
+    await expect.poll(() => tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
+    await expectEvent(tab, 'robot 4 died');
     const shown = await hashShown(tab);
     const file = await saved(tab, 'Save .toml');
     const text = readFileSync(file, 'utf8');
@@ -143,10 +142,8 @@ describe('a live run', () => {
     await tab.mouse.click(target.x - 70, target.y + 45);
     await settle(tab);
     await playTo(tab, 9);
-    expect(await tab.textContent('.caption')).toContain('4 targets');
-    await tab.click('#tab-events');
-    const said = await tab.textContent('.events-rows');
-    for (const part of ['obstacle 0', 'line of sight', 'T3']) expect(said).toContain(part);
+    await expect.poll(() => tab.textContent('.caption')).toContain('4 targets');
+    for (const words of ['obstacle 0', 'line of sight', 'T3']) await expectEvent(tab, words);
     expect(moved).not.toBeNull();
     const shown = await hashShown(tab);
     const file = await saved(tab, 'Save .toml');
@@ -205,9 +202,8 @@ describe('a live run', () => {
     await tab.click('text=Start');
     await tab.waitForFunction(() => document.querySelectorAll('.stage').length === 2);
     await playTo(tab, 3);
-    const captions = await tab.$$eval('.caption', (all) => all.map((e) => e.textContent ?? ''));
-    expect(captions[0]).toContain('outwards');
-    expect(captions[1]).toContain('inwards');
+    const captions = () => tab.$$eval('.caption', (all) => all.map((e) => e.textContent ?? '').join(' | '));
+    await expect.poll(captions).toMatch(/outwards.*\|.*inwards/);
     expect(await timeShown(tab)).toBeCloseTo(3);
     expect(errors).toEqual([]);
   });

@@ -117,22 +117,22 @@ describe('a recording', () => {
     await tab.keyboard.type('11');
     await tab.keyboard.press('Enter');
     await settle(tab);
-    expect(await tab.textContent('.robot-head h2')).toBe('Robot 11');
+    await expect.poll(() => tab.textContent('.robot-head h2')).toBe('Robot 11');
     await tab.keyboard.press('n');
     await settle(tab);
-    expect(await tab.textContent('.robot-head h2')).toBe('Robot 12');
+    await expect.poll(() => tab.textContent('.robot-head h2')).toBe('Robot 12');
     await tab.keyboard.press('f');
     await settle(tab);
-    expect(await tab.textContent('.robot-head button')).toBe('Unfollow');
+    await expect.poll(() => tab.textContent('.robot-head button')).toBe('Unfollow');
     await tab.keyboard.press('Escape');
     await settle(tab);
-    expect(await tab.isVisible('.robot-head')).toBe(false);
+    await expect.poll(() => tab.isVisible('.robot-head')).toBe(false);
     await tab.keyboard.press('?');
     await settle(tab);
-    expect(await tab.isVisible('dialog')).toBe(true);
+    await expect.poll(() => tab.isVisible('dialog')).toBe(true);
     await tab.keyboard.press('Escape');
     await settle(tab);
-    expect(await tab.isVisible('dialog')).toBe(false);
+    await expect.poll(() => tab.isVisible('dialog')).toBe(false);
     // Every control is reached by Tab.
     const reached = new Set<string>();
     for (let k = 0; k < 40; ++k) {

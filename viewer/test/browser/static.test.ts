@@ -68,7 +68,7 @@ describe('the page without banyan view', () => {
     await seekTo(tab, 3);
     expect(await timeShown(tab)).toBeCloseTo(3);
     await drop('mine.toml', scenario('rooms'));
-    expect(await tab.textContent('.caption')).toContain('36 robots');
+    await expect.poll(() => tab.textContent('.caption')).toContain('36 robots');
     expect(errors).toEqual([]);
   });
 });

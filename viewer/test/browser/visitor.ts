@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a visitor does and sees, in words of the page: used by the tests that play it.
 import type { Page } from 'playwright-core';
+import { expect } from 'vitest';
 
 export async function waitForRun(tab: Page): Promise<void> {
   await tab.waitForFunction(() => document.title.includes('– Banyan'));
@@ -64,6 +65,13 @@ export async function factsShown(tab: Page, table = '.facts:not(.message)'): Pro
 }
 
 export const plotValues = (tab: Page) => tab.$$eval('.plot-value', (elements) => elements.map((e) => e.textContent ?? ''));
+
+/** Expects that the list of events has one with these words; it shows only those in view, so it is filtered. */
+export async function expectEvent(tab: Page, words: string): Promise<void> {
+  await tab.click('#tab-events');
+  await tab.fill('.events input', words);
+  await expect.poll(() => tab.textContent('.events-rows')).toContain(words);
+}
 
 /** How many pixels of each colour ("r,g,b") the picture has. */
 export async function canvasPixels(tab: Page): Promise<Record<string, number>> {
