@@ -14,7 +14,7 @@ import { Plots } from './panels/plots';
 import { RunFacts } from './panels/run_facts';
 import { SwitchPanel } from './panels/switches';
 import { Tabs } from './panels/tabs';
-import { Transport, speeds, type Clock } from './panels/transport';
+import { Transport, type Clock } from './panels/transport';
 import type { Spot, Bounds } from './scene/camera';
 import { themes } from './scene/themes';
 import type { Item } from './scene/view';
@@ -170,6 +170,7 @@ export class App {
     source.series.subscribe(() => this.showSeries());
     source.events.subscribe(() => this.showEvents());
     source.failure.subscribe((problem) => { if (problem && this.sources.includes(source)) this.notice.bad(problem.message); });
+    source.trouble.subscribe((problem) => { if (problem) this.notice.bad(`${problem.message}\nPlay tries again.`); });
     source.arrived.subscribe(() => this.draw());
     source.rewound.subscribe((timeS) => { this.horizon.cut(timeS); this.tell(); });
   }
@@ -250,7 +251,11 @@ export class App {
 
   // ---- What a visitor does ----
 
-  private toggle(): void { this.player.toggle(); this.draw(); }
+  private toggle(): void {
+    for (const source of this.sources) source.retry();
+    this.player.toggle();
+    this.draw();
+  }
   private seek(timeS: number): void { this.player.seek(timeS); this.draw(); }
   private step(ticks: number): void { this.player.step(ticks); this.draw(); }
   private toEnd(): void {
@@ -262,8 +267,9 @@ export class App {
   private fit(): void { for (const stage of this.stages) stage.fit(); }
 
   private changeSpeed(direction: 1 | -1): void {
-    const at = speeds.indexOf(this.player.speed) + direction;
-    if (at >= 0 && at < speeds.length) this.setSpeed(speeds[at]);
+    if (direction > 0) this.player.faster();
+    else this.player.slower();
+    this.draw();
   }
 
   private jump(direction: 1 | -1): void {

@@ -20,13 +20,4 @@ export function settingOf(more: Partial<Setting> = {}): Setting {
   };
 }
 
-/** Numbers in [0, 1) that are the same every time (Mulberry32). */
-export function dice(seed: number): () => number {
-  let state = seed >>> 0;
-  return () => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let t = Math.imul(state ^ (state >>> 15), state | 1);
-    t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
-    return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
-  };
-}
+export { dice } from '../bench/swarm';

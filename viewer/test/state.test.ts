@@ -2,7 +2,7 @@
 // Interpolation, jumps between events, the page's state.
 import { describe, expect, it } from 'vitest';
 import { column, type RunEvent } from '../src/frame';
-import { eventsUntil, jumpTime } from '../src/state/events';
+import { eventAfter } from '../src/state/events';
 import { interpolate, normalized } from '../src/state/interpolate';
 import { initialState, type State, Store } from '../src/state/store';
 import { frameAt, random } from './support';
@@ -70,17 +70,14 @@ describe('jumps', () => {
   const events = [event(0.5, 'phase'), event(1, 'recruited'), event(1, 'inserted'), event(2, 'phase'), event(3, 'death'), event(9, 'complete')];
 
   it('stop at what is notable, once for each moment', () => {
-    expect(jumpTime(events, 0, 1)).toBe(1);
-    expect(jumpTime(events, 1, 1)).toBe(3);
-    expect(jumpTime(events, 1 - 1e-9, 1)).toBe(3);
-    expect(jumpTime(events, 9, 1)).toBeNull();
-    expect(jumpTime(events, 9, -1)).toBe(3);
-    expect(jumpTime(events, 2.5, -1)).toBe(1);
-    expect(jumpTime(events, 1, -1)).toBeNull();
-    expect(jumpTime([], 1, 1)).toBeNull();
-  });
-  it('know what was last', () => {
-    expect(eventsUntil(events, 3, 2).map((e) => e.kind)).toEqual(['death', 'inserted']);
+    expect(eventAfter(events, 0, 1)?.time_s).toBe(1);
+    expect(eventAfter(events, 1, 1)?.time_s).toBe(3);
+    expect(eventAfter(events, 1 - 1e-9, 1)?.time_s).toBe(3);
+    expect(eventAfter(events, 9, 1)).toBeNull();
+    expect(eventAfter(events, 9, -1)?.time_s).toBe(3);
+    expect(eventAfter(events, 2.5, -1)?.time_s).toBe(1);
+    expect(eventAfter(events, 1, -1)).toBeNull();
+    expect(eventAfter([], 1, 1)).toBeNull();
   });
 });
 

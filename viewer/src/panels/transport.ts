@@ -3,6 +3,7 @@
 // reports what the visitor wants; it keeps no time of its own.
 import type { RunEvent } from '../frame';
 import { button, h, icon, setText } from '../dom';
+import { fastest, slowest } from '../state/player';
 import { eventMark } from './event_marks';
 
 export interface Clock {
@@ -23,7 +24,8 @@ export interface TransportActions {
   jump(direction: 1 | -1): void; // to the next or the last notable event
 }
 
-export const speeds = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64];
+const speeds: number[] = [];
+for (let speed = slowest; speed <= fastest; speed *= 2) speeds.push(speed);
 
 /** "1:07.3": minutes and seconds with one decimal. */
 export function clockText(timeS: number): string {
