@@ -24,7 +24,7 @@ std::string value_text(float value) {
   std::array<char, 32> text;
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
-double plain(float value) { return std::stod(value_text(value)); }
+double as_written(float value) { return std::stod(value_text(value)); }
 
 std::vector<const Policy*> chosen(const std::string& name) {
   const auto all = policies();
@@ -47,10 +47,10 @@ nlohmann::ordered_json json_of(const Policy& policy) {
                                   {"unit", info.unit},
                                   {"meaning", info.meaning},
                                   {"source", info.source},
-                                  {"minimum", plain(info.minimum)},
-                                  {"maximum", plain(info.maximum)}};
+                                  {"minimum", as_written(info.minimum)},
+                                  {"maximum", as_written(info.maximum)}};
     for (const auto reading : readings)
-      row["default"][std::string(name_of(reading))] = plain(policy.defaults(reading).*info.member);
+      row["default"][std::string(name_of(reading))] = as_written(policy.defaults(reading).*info.member);
     const auto owner = platform_key(info.key);
     row["set_by"] = owner.empty() ? "mission.parameters." + std::string(info.key) : std::string(owner);
     list.push_back(std::move(row));

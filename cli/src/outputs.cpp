@@ -24,19 +24,18 @@ std::vector<std::string> results_in(const fs::path& directory) {
   return found;
 }
 
-// True if it was not there before.
+std::string default_directory(const world::Scenario& scenario) {
+  return "out/" + scenario.name + "-" + scenario.mission.algorithm + "-" + std::to_string(scenario.seed);
+}
+
+}  // namespace
+
 bool make_directory(const std::string& directory) {
   std::error_code error;
   const bool created = fs::create_directories(directory, error);
   if (error) throw CommandError(exit_lost, directory + ": cannot be created: " + error.message());
   return created;
 }
-
-std::string default_directory(const world::Scenario& scenario) {
-  return "out/" + scenario.name + "-" + scenario.mission.algorithm + "-" + std::to_string(scenario.seed);
-}
-
-}  // namespace
 
 RunOutputs::RunOutputs(const Configuration& configuration, const std::string& out, bool force)
     : directory_(out.empty() ? default_directory(configuration.scenario) : out),

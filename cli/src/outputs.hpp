@@ -10,6 +10,9 @@
 
 namespace banyan::cli {
 
+// With the directories above it; true if it was not there before. Throws CommandError.
+bool make_directory(const std::string& directory);
+
 class RunOutputs {
  public:
   // Makes sure that the run may write before it starts. With `out` empty the directory is

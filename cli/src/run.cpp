@@ -85,7 +85,7 @@ std::string progress_text(const world::World& world, const measure::Observer& ob
 }
 
 // Steps until the mission ends or a signal comes.
-void simulate(world::World& world, measure::Observer& observer, Keeper& keeper, int threads, bool exact_fiedler,
+void play_out(world::World& world, measure::Observer& observer, Keeper& keeper, int threads, bool exact_fiedler,
               Progress& progress) {
   world::Executor executor(threads);
   keeper.start(world);
@@ -124,7 +124,7 @@ int run_command(const RunOptions& options) {
     measure::Observer observer(world);
     Keeper keeper(outputs, configuration);
     extras.threads = thread_count(options.threads, world.size());
-    simulate(world, observer, keeper, extras.threads, configuration.output.series, progress);
+    play_out(world, observer, keeper, extras.threads, configuration.output.series, progress);
     extras.wall_s = progress.elapsed_s();
     extras.targets = observer.last().active_targets;
     extras.targets_reached = observer.last().targets_reached;

@@ -19,6 +19,7 @@
 #include "banyan/study/workers.hpp"
 #include "banyan/version.hpp"
 #include "commands.hpp"
+#include "outputs.hpp"
 #include "sbatch.hpp"
 #include "study_summary.hpp"
 #include "terminal.hpp"
@@ -84,12 +85,6 @@ Folder folder_of(const StudyOptions& options, const Study& study) {
   std::string path = options.out.empty() ? "out/" + study.name : options.out;
   while (path.size() > 1 && path.ends_with('/')) path.pop_back();
   return {path};
-}
-
-void make_directory(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error) throw CommandError(exit_lost, path + ": cannot be created: " + error.message());
 }
 
 // Whether a study has left its results, or a beginning of them, in the folder.

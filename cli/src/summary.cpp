@@ -13,12 +13,6 @@ namespace banyan::cli {
 using namespace config;
 namespace {
 
-std::string line(const char* label, const std::string& text) { return format("  %-10s ", label) + text + "\n"; }
-
-std::string plural(std::uint64_t n, const char* noun) {
-  return grouped(static_cast<double>(n)) + " " + noun + (n == 1 ? "" : "s");
-}
-
 std::string verdict(const record::RunRow& row, const SummaryExtras& extras) {
   const auto& run = row.run;
   if (run.complete) return format("COMPLETE after %.1f s", run.completion_time_s);
@@ -85,19 +79,19 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   const auto& run = row.run;
   const auto& scenario = configuration.scenario;
   std::string text = scenario.name + ": " + verdict(row, extras) + "\n\n";
-  text += line("algorithm", format("%s (%s), %u robots, %zu targets, seed %" PRIu64, row.id.algorithm.c_str(),
+  text += summary_line("algorithm", format("%s (%s), %u robots, %zu targets, seed %" PRIu64, row.id.algorithm.c_str(),
                                    row.id.reading.c_str(), run.robots, extras.targets, row.id.seed));
-  text += line("time", time_text(run));
-  text += line("tree", tree_text(run));
-  text += line("network", network_text(run, scenario.radio.line_of_sight));
-  text += line("robots", robots_text(run));
-  if (run.deaths > 0) text += line("deaths", deaths_text(run));
-  text += line("work", work_text(run));
-  text += line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
+  text += summary_line("time", time_text(run));
+  text += summary_line("tree", tree_text(run));
+  text += summary_line("network", network_text(run, scenario.radio.line_of_sight));
+  text += summary_line("robots", robots_text(run));
+  if (run.deaths > 0) text += summary_line("deaths", deaths_text(run));
+  text += summary_line("work", work_text(run));
+  text += summary_line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
   const double steps = static_cast<double>(run.ticks) * run.robots / std::max(extras.wall_s, 1e-9);
-  text += line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s,
+  text += summary_line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s,
                                grouped(steps).c_str(), extras.threads, extras.threads == 1 ? "thread" : "threads"));
-  text += line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)", run.hash));
+  text += summary_line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)", run.hash));
   text += "\nResults in " + outputs.directory() + "/\n";
   if (configuration.output.record) {
     text += "  run.mcap    the recording; opens in Foxglove and Lichtblick, or draw a moment of it:\n";

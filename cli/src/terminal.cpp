@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstdarg>
@@ -17,8 +18,10 @@ namespace banyan::cli {
 using namespace config;
 namespace {
 
-// A signal handler can reach nothing but a global.
-volatile sig_atomic_t caught_signal = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+// A signal handler can reach nothing but a global, and runs on whichever thread the system chooses.
+std::atomic<int> caught_signal{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+static_assert(std::atomic<int>::is_always_lock_free);  // else a handler might wait for itself
 
 constexpr double silent_s = 2.0;  // shorter runs need no progress
 constexpr double terminal_period_s = 0.2;
@@ -115,6 +118,12 @@ std::string grouped(double number) {
   }
   return text;
 }
+
+std::string plural(std::uint64_t n, const char* noun) {
+  return grouped(static_cast<double>(n)) + " " + noun + (n == 1 ? "" : "s");
+}
+
+std::string summary_line(const char* label, const std::string& text) { return format("  %-10s ", label) + text + "\n"; }
 
 std::string format(const char* text, ...) {
   va_list arguments, again;

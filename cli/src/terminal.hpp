@@ -67,6 +67,10 @@ class Progress {
 [[nodiscard]] std::string duration_text(double seconds);
 // "12,345,678".
 [[nodiscard]] std::string grouped(double number);
+// "1 robot", "12,345 robots".
+[[nodiscard]] std::string plural(std::uint64_t n, const char* noun);
+// A line of a summary: what it is about, and the text.
+[[nodiscard]] std::string summary_line(const char* label, const std::string& text);
 // printf into a string.
 [[nodiscard]] [[gnu::format(printf, 1, 2)]] std::string format(const char* text, ...);
 

@@ -21,24 +21,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string plural(std::uint64_t n, const char* noun) {
-  return grouped(static_cast<double>(n)) + " " + noun + (n == 1 ? "" : "s");
-}
-
-std::string line(const char* label, const std::string& text) { return format("  %-10s ", label) + text + "\n"; }
-
 // What is searched and how, for the summary and for --dry-run.
 std::string plan_text(const TunePlan& plan) {
   const auto& o = plan.optimizer;
   const auto& mission = plan.worlds.front().scenario.mission;
-  std::string text = line("algorithm", mission.algorithm + " (" + mission.reading + ")");
-  text += line("search", std::string(study::name_of(o.search)) + ", " + plural(o.islands, "island") + " of " +
+  std::string text = summary_line("algorithm", mission.algorithm + " (" + mission.reading + ")");
+  text += summary_line("search", std::string(study::name_of(o.search)) + ", " + plural(o.islands, "island") + " of " +
                              plural(o.population, "individual") + ", " + plural(o.generations, "generation") +
                              format(", seed %" PRIu64, o.seed));
   std::string worlds;
   for (const auto& world : plan.worlds) worlds += (worlds.empty() ? "" : ", ") + world.scenario.name;
-  text += line("worlds", worlds);
-  return text + line("seeds", plural(plan.training.size(), "seed") + " to train on, " +
+  text += summary_line("worlds", worlds);
+  return text + summary_line("seeds", plural(plan.training.size(), "seed") + " to train on, " +
                                   grouped(static_cast<double>(plan.test.size())) + " to test with");
 }
 
@@ -46,11 +40,11 @@ std::string dry_run_text(const TunePlan& plan, const std::string& directory) {
   const auto evaluations = plan.evaluations() * plan.optimizer.islands;
   const auto compared = plan.comparison_runs();
   std::string text = plan.name + ": nothing was started\n\n" + plan_text(plan);
-  text += line("runs", "at most " + grouped(static_cast<double>(evaluations * plan.runs() + compared)) + ": " +
+  text += summary_line("runs", "at most " + grouped(static_cast<double>(evaluations * plan.runs() + compared)) + ": " +
                            plural(evaluations, "evaluation") + " of " + plural(plan.runs(), "run") + ", and " +
                            grouped(static_cast<double>(compared)) +
                            " to compare; what cannot be run or was seen before costs none");
-  text += line("results", "in " + directory + "/");
+  text += summary_line("results", "in " + directory + "/");
   text += "\n  parameter                  from      to        start\n";
   for (std::size_t i = 0; i < plan.bounds.size(); ++i) {
     const auto& bound = plan.bounds[i];
@@ -94,7 +88,7 @@ std::string summary_text(const TunePlan& plan, const study::TuneResult& result, 
   std::string text = plan.name + format(": best fitness %.4f, %.4f on the test seeds\n\n",
                                         best.training.merit.fitness(), best.test.merit.fitness());
   text += plan_text(plan);
-  text += line("work", plural(result.evaluations, "evaluation") + format(", %.1f s", wall_s) +
+  text += summary_line("work", plural(result.evaluations, "evaluation") + format(", %.1f s", wall_s) +
                            (result.resumed_at > 0 ? format(" from generation %u on", result.resumed_at) : ""));
   text += "\n" + comparison_text(plan, result);
   text += "\n\"default\" is the scenarios without tuning; \"discon.\" is the share of runs with any disconnection.\n";

@@ -133,7 +133,7 @@ void for_each_threat(const Robot& robot, Vec2 neighbor, Visit visit) noexcept {
 }
 
 template <class Visit>
-void for_each_edge(const Robot& robot, Visit visit) noexcept {
+void for_each_edge_of_both_trees(const Robot& robot, Visit visit) noexcept {
   const Neighborhood& table = robot.table();
   if (robot.parent_alive()) visit(robot.parent);
   if (robot.old_parent_alive() && robot.old_parent != robot.parent) visit(robot.old_parent);
@@ -146,7 +146,7 @@ void for_each_edge(const Robot& robot, Visit visit) noexcept {
 // How far a point is from the nearest of my tree edges: how little it matters.
 float to_edges(const Robot& robot, Vec2 p) noexcept {
   float nearest_m = norm(p);
-  for_each_edge(robot, [&](int k) { nearest_m = std::min(nearest_m, norm(nearest_on_segment(-p, robot.table().position(k) - p))); });
+  for_each_edge_of_both_trees(robot, [&](int k) { nearest_m = std::min(nearest_m, norm(nearest_on_segment(-p, robot.table().position(k) - p))); });
   return nearest_m;
 }
 
@@ -314,14 +314,14 @@ void keep_sight(const Robot& robot, Guard& guard) noexcept {
       guard.add_limit(t.towards, 0.5F * room_m * robot.params.guard_rate_per_s / t.lever);
     });
   };
-  for_each_edge(robot, keep);
+  for_each_edge_of_both_trees(robot, keep);
   if (const int k = last_in_sight(robot); k >= 0) keep(k);
 }
 
 Vec2 clear_sight(const Robot& robot) noexcept {
   Vec2 u;
   if (!robot.params.line_of_sight) return u;
-  for_each_edge(robot, [&](int k) {
+  for_each_edge_of_both_trees(robot, [&](int k) {
     for_each_threat(robot, robot.table().position(k), [&](const Threat& t) {
       u += -t.towards * (t.lever * std::min(sight_width_m / std::max(t.across_m, 1e-3F) - 1.0F, 2.0F));
     });

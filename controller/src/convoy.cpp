@@ -131,10 +131,11 @@ bool Convoy::may_insert(const Robot& robot, int owner, int parent) const noexcep
   return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
 }
 
-constexpr Convoy instance;
-
 }  // namespace
 
-const Policy& convoy() noexcept { return instance; }
+const Policy& convoy() noexcept {
+  static constexpr Convoy policy;
+  return policy;
+}
 
 }  // namespace banyan

@@ -45,10 +45,11 @@ class Inwards final : public Policy {
   [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
 };
 
-constexpr Inwards instance;
-
 }  // namespace
 
-const Policy& inwards() noexcept { return instance; }
+const Policy& inwards() noexcept {
+  static constexpr Inwards policy;
+  return policy;
+}
 
 }  // namespace banyan

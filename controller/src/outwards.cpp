@@ -33,10 +33,11 @@ class Outwards final : public Policy {
   [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
 };
 
-constexpr Outwards instance;
-
 }  // namespace
 
-const Policy& outwards() noexcept { return instance; }
+const Policy& outwards() noexcept {
+  static constexpr Outwards policy;
+  return policy;
+}
 
 }  // namespace banyan

@@ -12,16 +12,12 @@
 #include "banyan/controller/motion.hpp"
 #include "banyan/controller/trig.hpp"
 #include "bench.hpp"
+#include "numbers.hpp"
 
 namespace banyan {
 namespace {
 
 constexpr float body_m = 0.0706F;
-
-float number(float low, float high) {
-  constexpr int steps = 1 << 20;
-  return low + (high - low) * static_cast<float>(*rc::gen::inRange(0, steps + 1)) / static_cast<float>(steps);
-}
 
 struct Segment {
   Vec2 a, b;

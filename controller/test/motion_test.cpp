@@ -10,14 +10,11 @@
 
 #include "banyan/controller/trig.hpp"
 #include "bench.hpp"
+#include "numbers.hpp"
 
 namespace banyan {
 namespace {
 
-float number(float low, float high) {
-  constexpr int steps = 1 << 20;
-  return low + (high - low) * static_cast<float>(*rc::gen::inRange(0, steps + 1)) / static_cast<float>(steps);
-}
 Vec2 polar(float range, float angle) { return unit_vector(angle) * range; }
 
 // ---- u_tree ----

@@ -14,11 +14,11 @@
 namespace banyan {
 namespace {
 
-double number(double low, double high) {
+double double_between(double low, double high) {
   constexpr int steps = 1 << 30;
   return low + (high - low) * static_cast<double>(*rc::gen::inRange(0, steps)) / steps;
 }
-Vec2 vector(double limit) { return {static_cast<float>(number(-limit, limit)), static_cast<float>(number(-limit, limit))}; }
+Vec2 vector(double limit) { return {static_cast<float>(double_between(-limit, limit)), static_cast<float>(double_between(-limit, limit))}; }
 
 TEST(Trig, UnitVectorAgreesWithTheLibraryInDoublePrecision) {
   double worst = 0.0;
@@ -62,14 +62,14 @@ TEST(Trig, AngleOfTheAxes) {
 }
 
 RC_GTEST_PROP(Trig, AngleOfUndoesUnitVector, ()) {
-  const double angle = number(-3.14159, 3.14159);
+  const double angle = double_between(-3.14159, 3.14159);
   RC_ASSERT(std::fabs(angle_of(unit_vector(angle)) - angle) < 1e-10);
 }
 
 TEST(Vec2, TheZeroVectorHasNoDirection) { EXPECT_EQ(unit(Vec2{}), Vec2{}); }
 
 RC_GTEST_PROP(Vec2, RotatingBackUndoesARotation, ()) {
-  const Vec2 rotation = unit_vector(static_cast<float>(number(-10, 10)));
+  const Vec2 rotation = unit_vector(static_cast<float>(double_between(-10, 10)));
   const Vec2 v = vector(10);
   RC_ASSERT(distance(rotate_back(rotation, rotate(rotation, v)), v) < 1e-4F);
   RC_ASSERT(std::fabs(norm(rotate(rotation, v)) - norm(v)) < 1e-4F);
@@ -79,11 +79,11 @@ RC_GTEST_PROP(Vec2, RotatingBackUndoesARotation, ()) {
 // sends over the edge arrives as the same arrow in the world.
 RC_GTEST_PROP(EdgeFrame, AnArrowArrivesAsTheSameArrow, ()) {
   using W = BasicVec2<double>;
-  const W sender_at{number(-5, 5), number(-5, 5)};
-  const W edge = unit_vector(number(-3.14, 3.14)) * number(0.1, 2.0);
-  const W sender_heading = unit_vector(number(-3.14, 3.14));
-  const W addressee_heading = unit_vector(number(-3.14, 3.14));
-  const W arrow{number(-9, 9), number(-9, 9)};
+  const W sender_at{double_between(-5, 5), double_between(-5, 5)};
+  const W edge = unit_vector(double_between(-3.14, 3.14)) * double_between(0.1, 2.0);
+  const W sender_heading = unit_vector(double_between(-3.14, 3.14));
+  const W addressee_heading = unit_vector(double_between(-3.14, 3.14));
+  const W arrow{double_between(-9, 9), double_between(-9, 9)};
   const auto seen = [](W heading, W from, W to) {
     const W d = rotate_back(heading, to - from);
     return Vec2{static_cast<float>(d.x), static_cast<float>(d.y)};

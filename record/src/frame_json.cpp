@@ -49,7 +49,7 @@ constexpr Field real(std::string_view key, int decimals, double minimum, double 
 }
 
 using R = RobotFrame;
-constexpr std::array<Field, 18> fields{{
+constexpr std::array<Field, 18> of_robot{{
     {"x_m", "position", 4, -far, far, [](const R& r) { return r.position.x; },
      [](R& r, double v) { r.position.x = v; }},
     {"y_m", "position", 4, -far, far, [](const R& r) { return r.position.y; },
@@ -252,23 +252,23 @@ void write_time(Text& out, double time_s) {
 
 std::span<const FrameColumn> frame_columns() noexcept {
   static constexpr auto columns = [] {
-    std::array<FrameColumn, fields.size()> list{};
-    for (std::size_t c = 0; c < fields.size(); ++c) list[c] = {fields[c].key, fields[c].meaning};
+    std::array<FrameColumn, of_robot.size()> list{};
+    for (std::size_t c = 0; c < of_robot.size(); ++c) list[c] = {of_robot[c].key, of_robot[c].meaning};
     return list;
   }();
   return columns;
 }
 
 void pack(const Frame& frame, std::vector<double>& into) {
-  into.resize(fields.size() * frame.robots.size());
+  into.resize(of_robot.size() * frame.robots.size());
   double* at = into.data();
-  for (const Field& field : fields)
+  for (const Field& field : of_robot)
     for (const RobotFrame& robot : frame.robots) *at++ = field.get(robot);
 }
 
 void write_frame(Text& out, const Frame& frame) {
   write_stamp(out, frame.tick, frame.time_s);
-  for (const Field& field : fields) {
+  for (const Field& field : of_robot) {
     array(out, field.key, frame.robots, [&](const RobotFrame& robot) {
       const double value = field.get(robot);
       field.decimals == 0 ? write_whole(out, value) : out.fixed(value, field.decimals);
@@ -296,7 +296,7 @@ void read_frame(std::string_view text, Frame& frame) {
   const json& first = member(object, "x_m");
   if (!first.is_array()) fail("x_m", "is not an array");
   frame.robots.assign(first.size(), {});
-  for (const Field& field : fields) {
+  for (const Field& field : of_robot) {
     const json& values = array_of(object, field.key, frame.robots.size());
     for (std::size_t i = 0; i < frame.robots.size(); ++i) {
       field.set(frame.robots[i], number(values[i], field.key, field.minimum, field.maximum));
@@ -459,11 +459,11 @@ std::string frame_schema() {
   Text out;
   schema_head(out, "banyan.Frame",
               "All robots at one tick: arrays with one number per robot, in the order of their indices");
-  for (const Field& field : fields) {
+  for (const Field& field : of_robot) {
     schema_array(out, field.key, field.decimals == 0 ? "integer" : "number", field.meaning);
   }
   out.put("},\"required\":[\"tick\",\"time_s\"");
-  for (const Field& field : fields) {
+  for (const Field& field : of_robot) {
     out.put(',');
     out.json_string(field.key);
   }

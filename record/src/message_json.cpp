@@ -32,7 +32,7 @@ static_assert(nobody_calls == std::numeric_limits<decltype(Message::call_hops)>:
 
 constexpr int of_q = 3, of_pull = 3;
 
-constexpr auto fields = std::to_array<MessageField>({
+constexpr auto of_message = std::to_array<MessageField>({
     {"role", "0 spare, 1 connector, 2 worker, 3 root", number<&M::role>, 0, Kept::in_frame},
     {"phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", number<&M::phase>, 0,
      Kept::in_frame},
@@ -111,11 +111,11 @@ std::string_view word(std::string_view field, const Message& message) noexcept {
 
 }  // namespace
 
-std::span<const MessageField> message_fields() noexcept { return fields; }
+std::span<const MessageField> message_fields() noexcept { return of_message; }
 
 void write_message(Text& out, const Message& message) {
   out.put('{');
-  for (const MessageField& field : fields) {
+  for (const MessageField& field : of_message) {
     out.json_string(field.name);
     out.put(':');
     const std::string_view name = word(field.name, message);

@@ -187,7 +187,7 @@ void write_row(Text& out, const Columns& columns, const RowType& row) {
   out.drop_last();
 }
 
-std::string_view name_of(world::BodyModel body) noexcept {
+std::string_view body_name(world::BodyModel body) noexcept {
   switch (body) {
     case world::BodyModel::disks: return "disks";
     case world::BodyModel::box2d: return "box2d";
@@ -218,7 +218,7 @@ Identification identify(const world::Scenario& scenario, std::string_view versio
   id.name = scenario.name;
   id.algorithm = scenario.mission.algorithm;
   id.reading = scenario.mission.reading;
-  id.body = name_of(scenario.robot.body);
+  id.body = body_name(scenario.robot.body);
   id.line_of_sight = scenario.radio.line_of_sight;
   id.loss = scenario.radio.loss;
   const std::vector<Vec2> targets = world::target_positions(scenario);

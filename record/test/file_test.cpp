@@ -11,7 +11,6 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
-#include <sstream>
 
 #include "sample.hpp"
 
@@ -19,13 +18,6 @@ namespace banyan::record {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream all;
-  all << file.rdbuf();
-  return all.str();
-}
 
 int error_of(const std::function<void()>& act) {
   try {
@@ -70,7 +62,7 @@ TEST(OutputFile, AppearsOnlyWhenCommitted) {
   file.write("two");
   EXPECT_EQ(file.position(), 7U);
   file.commit();
-  EXPECT_EQ(contents(path), "one,two");
+  EXPECT_EQ(test::contents(path), "one,two");
   EXPECT_FALSE(fs::exists(path + ".part"));
 }
 
@@ -84,7 +76,7 @@ TEST(OutputFile, LargeAndSmallWritesKeepTheirOrder) {
     file.write(piece);
   }
   file.commit();
-  EXPECT_EQ(contents(directory.file("a")), expected);
+  EXPECT_EQ(test::contents(directory.file("a")), expected);
 }
 
 TEST(OutputFile, NeverReplacesUnlessTold) {
@@ -92,9 +84,9 @@ TEST(OutputFile, NeverReplacesUnlessTold) {
   const std::string path = directory.file("a");
   write_file(path, "old");
   EXPECT_EQ(error_of([&] { write_file(path, "new"); }), EEXIST);
-  EXPECT_EQ(contents(path), "old");
+  EXPECT_EQ(test::contents(path), "old");
   write_file(path, "new", Existing::replace);
-  EXPECT_EQ(contents(path), "new");
+  EXPECT_EQ(test::contents(path), "new");
 }
 
 TEST(OutputFile, DoesNotReplaceAFileThatAppearedMeanwhile) {
@@ -104,8 +96,8 @@ TEST(OutputFile, DoesNotReplaceAFileThatAppearedMeanwhile) {
   file.write("mine");
   std::ofstream(path) << "theirs";
   EXPECT_EQ(error_of([&] { file.commit(); }), EEXIST);
-  EXPECT_EQ(contents(path), "theirs");
-  EXPECT_EQ(contents(path + ".part"), "mine");
+  EXPECT_EQ(test::contents(path), "theirs");
+  EXPECT_EQ(test::contents(path + ".part"), "mine");
 }
 
 TEST(OutputFile, WithoutCommitThePartGoesOrStays) {
@@ -118,7 +110,7 @@ TEST(OutputFile, WithoutCommitThePartGoesOrStays) {
     file.write("x");
     file.flush();
   }
-  EXPECT_EQ(contents(directory.file("b.part")), "x");
+  EXPECT_EQ(test::contents(directory.file("b.part")), "x");
 }
 
 TEST(OutputFile, TwoWritersCannotShareAFile) {
@@ -128,7 +120,7 @@ TEST(OutputFile, TwoWritersCannotShareAFile) {
   first.flush();
   EXPECT_THROW(OutputFile(directory.file("a")), FileError);
   first.commit();
-  EXPECT_EQ(contents(directory.file("a")), "first");
+  EXPECT_EQ(test::contents(directory.file("a")), "first");
 }
 
 TEST(OutputFile, ReplacesWhatALinkPointsTo) {
@@ -137,7 +129,7 @@ TEST(OutputFile, ReplacesWhatALinkPointsTo) {
   fs::create_symlink("real", directory.file("link"));
   write_file(directory.file("link"), "new", Existing::replace);
   EXPECT_TRUE(fs::is_symlink(directory.file("link")));
-  EXPECT_EQ(contents(directory.file("real")), "new");
+  EXPECT_EQ(test::contents(directory.file("real")), "new");
 }
 
 TEST(OutputFile, SaysWhyAFileCannotBeCreated) {
@@ -168,7 +160,7 @@ TEST(OutputFile, AFullDiskLosesNoFinishedFile) {
     const FullDisk full(100000);
     EXPECT_EQ(error_of([&] { write_file(path, std::string(300000, 'x'), Existing::replace); }), EFBIG);
   }
-  EXPECT_EQ(contents(path), "old");
+  EXPECT_EQ(test::contents(path), "old");
   EXPECT_FALSE(fs::exists(path + ".part"));
 }
 

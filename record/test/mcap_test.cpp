@@ -6,20 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "banyan/world/random.hpp"
 #include "sample.hpp"
 
 namespace banyan::record::mcap {
 namespace {
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream all;
-  all << file.rdbuf();
-  return all.str();
-}
 
 // Without the fsync of write_file(): these tests write thousands of files.
 void spill(const std::string& path, std::string_view bytes) {
@@ -110,7 +102,7 @@ TEST_P(Mcap, WithoutAnEndItIsScanned) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.mcap");
   write_sample(path, 1000, {"", "", GetParam(), 3000});
-  const std::string whole = contents(path);
+  const std::string whole = test::contents(path);
   Reader complete(path);
   const auto expected = texts(complete, "/a");
   std::size_t longest = 0;
@@ -145,7 +137,7 @@ TEST(McapReader, ADamagedChunkCostsOnlyItself) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.mcap");
   write_sample(path, 1000, {"", "", 0, 3000});
-  std::string bytes = contents(path);
+  std::string bytes = test::contents(path);
   const std::size_t at = bytes.find("{\"k\":500}");
   ASSERT_NE(at, std::string::npos);
   bytes[at + 5] = '6';
@@ -180,7 +172,7 @@ TEST(McapWriter, GroupsShareNoChunk) {
     writer.finish();
     file.commit();
   }
-  std::string bytes = contents(path);
+  std::string bytes = test::contents(path);
   for (std::size_t at = 0; (at = bytes.find("LARGE", at)) != std::string::npos; ++at) bytes[at] = 'l';
   spill(path, bytes);
   Reader reader(path);
@@ -197,7 +189,7 @@ TEST(McapReader, AnUnknownCompressionIsSaidSo) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.mcap");
   write_sample(path, 10, {"", "", 1, 100000});
-  std::string bytes = contents(path);
+  std::string bytes = test::contents(path);
   for (std::size_t at = 0; (at = bytes.find("zstd", at)) != std::string::npos; ++at) bytes.replace(at, 4, "lz4x");
   spill(path, bytes);
   Reader reader(path);
@@ -235,7 +227,7 @@ TEST(McapReader, AForgedSizeCostsNoMemory) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.mcap");
   write_sample(path, 100, {"", "", 1, 1000000});
-  std::string bytes = contents(path);
+  std::string bytes = test::contents(path);
   Reader sound(path);
   // The chunk's uncompressed size stands 16 bytes into its content; claim a bit below 1 GiB.
   std::size_t at = 8;
@@ -263,7 +255,7 @@ TEST(McapReader, SurvivesMutations) {
   std::size_t readable = 0;
   for (const int level : {0, 1}) {
     write_sample(path, 120, {"p", "l", level, 900});
-    const std::string whole = contents(path);
+    const std::string whole = test::contents(path);
     for (int round = 0; round < 1500; ++round) {
       std::string bytes = whole;
       for (std::size_t k = 0; k <= draw(4); ++k) {

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 #include "banyan/measure/observer.hpp"
 #include "banyan/record/draw.hpp"
@@ -21,13 +20,6 @@ namespace banyan::record {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream all;
-  all << file.rdbuf();
-  return all.str();
-}
 
 // Zero is "no CRC": damage is then found by whoever reads the messages, or not at all.
 std::string without_checksums(std::string bytes) {
@@ -443,7 +435,7 @@ TEST(Recording, OlderRecordingsAreRead) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.mcap");
   test::record_sample(path, 5, 30);
-  std::string bytes = without_checksums(contents(path));
+  std::string bytes = without_checksums(test::contents(path));
   for (const std::string name : {"/banyan/setting", "/banyan/messages"}) {
     for (std::size_t at = 0; (at = bytes.find(name, at)) != std::string::npos; ++at) bytes[at + 1] = 'X';
   }
@@ -491,9 +483,9 @@ TEST(Recording, AnExistingRecordingStays) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.mcap");
   test::record_sample(path, 9, 5);
-  const std::string before = contents(path);
+  const std::string before = test::contents(path);
   EXPECT_THROW(test::record_sample(path, 9, 6), FileError);
-  EXPECT_EQ(contents(path), before);
+  EXPECT_EQ(test::contents(path), before);
   RecorderOptions options;
   options.existing = Existing::replace;
   test::record_sample(path, 9, 6, options);
@@ -504,7 +496,7 @@ TEST(Recording, SameRunSameBytes) {
   const test::TemporaryDirectory directory;
   test::record_sample(directory.file("a.mcap"), 20, 60);
   test::record_sample(directory.file("b.mcap"), 20, 60);
-  EXPECT_EQ(contents(directory.file("a.mcap")), contents(directory.file("b.mcap")));
+  EXPECT_EQ(test::contents(directory.file("a.mcap")), test::contents(directory.file("b.mcap")));
 }
 
 TEST(Recording, AForeignMcapFileIsRefusedInWords) {
@@ -576,7 +568,7 @@ TEST(Recording, SurvivesMutations) {
   options.chunk_bytes = 6000;
   options.compression_level = 0;
   test::record_sample(path, 5, 30, options);
-  const std::string whole = contents(path);
+  const std::string whole = test::contents(path);
   std::uint64_t seed = 9;
   const auto draw = [&](std::size_t below) { return static_cast<std::size_t>(world::mix(++seed) % below); };
   std::size_t opened = 0;

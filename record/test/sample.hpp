@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "banyan/controller/trig.hpp"
@@ -15,6 +17,11 @@
 #include "banyan/world/random.hpp"
 
 namespace banyan::record::test {
+
+inline std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 inline double uniform(std::uint64_t a, std::uint64_t b) {
   return world::to_uniform(world::bits(7, world::Purpose::placement, a, b));

@@ -4,10 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "sample.hpp"
 
@@ -36,13 +34,6 @@ std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
   return rows;
 }
 
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream all;
-  all << file.rdbuf();
-  return all.str();
-}
-
 RunRow sample_row() {
   RunRow row;
   row.id.name = "a \"b\", c\nd";
@@ -59,8 +50,8 @@ TEST(Table, CsvAndJsonAgree) {
   const RunRow row = sample_row();
   write_run_csv(directory.file("run.csv"), row);
   write_run_json(directory.file("run.json"), row, test::sample_provenance().config_json);
-  const auto csv = parse_csv(contents(directory.file("run.csv")));
-  const auto json = nlohmann::json::parse(contents(directory.file("run.json")));
+  const auto csv = parse_csv(test::contents(directory.file("run.csv")));
+  const auto json = nlohmann::json::parse(test::contents(directory.file("run.json")));
   ASSERT_EQ(csv.size(), 2U);
   ASSERT_EQ(csv[0].size(), csv[1].size());
   ASSERT_EQ(csv[0].size(), json["result"].size());
@@ -128,7 +119,7 @@ TEST(Table, ColumnsOfHealingAreThereOrEmpty) {
 
 // The page names some by their ends only: `…_by_distance`.
 TEST(Table, EveryColumnIsInTheDocumentation) {
-  const std::string page = contents(BANYAN_SOURCE_DIR "/docs/file-formats.md");
+  const std::string page = test::contents(BANYAN_SOURCE_DIR "/docs/file-formats.md");
   ASSERT_FALSE(page.empty());
   const auto documented = [&](std::string_view name) {
     if (page.find("`" + std::string(name) + "`") != std::string::npos) return true;
@@ -185,7 +176,7 @@ TEST(SeriesWriter, ARowPerTick) {
     EXPECT_FALSE(std::filesystem::exists(path));
     writer.finish();
   }
-  const auto csv = parse_csv(contents(path));
+  const auto csv = parse_csv(test::contents(path));
   ASSERT_EQ(csv.size(), 301U);
   ASSERT_EQ(csv[0].size(), series_columns().size());
   EXPECT_EQ(csv[0][0], "tick");

@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 using record::Existing;
 using record::FileError;
 
-constexpr std::string_view format_name = "banyan.study";
+constexpr std::string_view study_format = "banyan.study";
 
 ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& outcomes, const Results& results,
                         const std::vector<std::string>& builds) {
@@ -38,7 +38,7 @@ ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& ou
     }
     parts.push_back({{"name", part.name}, {"scenario", part.scenario}, {"seeds", part.seeds}, {"axes", axes}});
   }
-  return {{"format", format_name},
+  return {{"format", study_format},
           {"format_version", 1},
           {"study", study.name},
           {"description", study.description},
@@ -71,7 +71,7 @@ std::optional<Finished> finished(const Folder& folder) {
   std::string text;
   if (!file.read(0, file.size(), text)) throw FileError(folder.json(), "cannot be read");
   const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("format", "") != format_name)
+  if (!json.is_object() || json.value("format", "") != study_format)
     throw FileError(folder.json(), "is not what a study writes; choose another folder, or remove it");
   return Finished{json.value("study", ""), json.value("plan", ""), json.value("runs", std::uint64_t{0})};
 }

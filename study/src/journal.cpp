@@ -23,8 +23,8 @@ namespace {
 using nlohmann::json;
 using record::FileError;
 
-constexpr std::string_view format_name = "banyan.journal";
-constexpr int format_version = 1;
+constexpr std::string_view journal_format = "banyan.journal";
+constexpr int journal_format_version = 1;
 constexpr std::int64_t sync_period_ns = 1'000'000'000;
 constexpr std::size_t crc_digits = 8;
 
@@ -49,8 +49,8 @@ std::optional<json> unframed(std::string_view line) {
 }
 
 json header(const std::string& study, const std::string& version, const std::string& git) {
-  return {{"format", format_name},
-          {"format_version", format_version},
+  return {{"format", journal_format},
+          {"format_version", journal_format_version},
           {"study", study},
           {"version", version},
           {"git", git}};
@@ -68,8 +68,8 @@ JournalContent parse(const std::string& path, std::string_view text) {
     ++number;
     const auto line = unframed(text.substr(0, end));
     if (number == 1 || (line && line->contains("format"))) {
-      if (!line || line->value("format", "") != format_name) fail("this is no journal of a study");
-      if (line->value("format_version", 0) != format_version) fail("the journal is of another format version");
+      if (!line || line->value("format", "") != journal_format) fail("this is no journal of a study");
+      if (line->value("format_version", 0) != journal_format_version) fail("the journal is of another format version");
       content.study = line->value("study", "");
       content.version = line->value("version", "");
       content.git = line->value("git", "");

@@ -16,16 +16,16 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-void require(bool condition, const char* otherwise) {
+void require_that(bool condition, const char* otherwise) {
   if (!condition) throw std::invalid_argument(otherwise);
 }
 
 void require_confidence(double confidence) {
-  require(confidence > 0.0 && confidence < 1.0, "confidence must lie between 0 and 1");
+  require_that(confidence > 0.0 && confidence < 1.0, "confidence must lie between 0 and 1");
 }
 
 std::vector<double> sorted_copy(std::span<const double> values) {
-  for (const double v : values) require(std::isfinite(v), "statistics need finite values");
+  for (const double v : values) require_that(std::isfinite(v), "statistics need finite values");
   std::vector<double> sorted(values.begin(), values.end());
   for (double& v : sorted) v += 0.0;  // -0 becomes 0: sorting could leave them in any order
   std::sort(sorted.begin(), sorted.end());
@@ -142,12 +142,12 @@ struct Difference {
 };
 
 std::vector<Difference> differences(std::span<const double> first, std::span<const double> second) {
-  require(first.size() == second.size(), "paired samples must be of one length");
+  require_that(first.size() == second.size(), "paired samples must be of one length");
   std::vector<Difference> result;
   result.reserve(first.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
     const double value = first[i] - second[i];
-    require(std::isfinite(value), "paired tests need finite values and differences");
+    require_that(std::isfinite(value), "paired tests need finite values and differences");
     const double noise = 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(first[i]), std::abs(second[i]));
     result.push_back({std::abs(value) <= noise ? 0.0 : value, noise});
   }
@@ -282,7 +282,7 @@ Summary summarize(std::span<const double> values, const SummaryOptions& options)
 
 Interval wilson(std::size_t hits, std::size_t count, double confidence) {
   require_confidence(confidence);
-  require(hits <= count, "a share cannot have more hits than trials");
+  require_that(hits <= count, "a share cannot have more hits than trials");
   if (count == 0) return {0.0, 1.0};
   const auto n = static_cast<double>(count);
   const double share = static_cast<double>(hits) / n;
@@ -306,7 +306,7 @@ PairedTest wilcoxon(std::span<const double> first, std::span<const double> secon
 
 PairedTest mcnemar(std::span<const double> first, std::span<const double> second, const SummaryOptions& options) {
   for (const auto values : {first, second})
-    for (const double v : values) require(v == 0.0 || v == 1.0, "McNemar's test needs values that are 0 or 1");
+    for (const double v : values) require_that(v == 0.0 || v == 1.0, "McNemar's test needs values that are 0 or 1");
   PairedTest result = describe(differences(first, second), options);
   const std::size_t differing = result.first_larger + result.second_larger;
   if (differing == 0) return result;

@@ -51,11 +51,11 @@ std::string axis(const std::string& name, const std::string& key, const std::str
   return "[[axes]]\nname = \"" + name + "\"\nkey = \"" + key + "\"\nvalues = " + values + "\n";
 }
 
-const std::string head = "scenario = \"w.toml\"\nseeds = [5, 3]\n";
+const std::string plan_head = "scenario = \"w.toml\"\nseeds = [5, 3]\n";
 
 TEST_F(PlanTest, CountsTheLastAxisAndThenTheSeedFastest) {
   const auto plan =
-      good(head + axis("a", "mission.algorithm", "[\"outwards\", \"inwards\"]") + axis("l", "radio.loss", "[0, 0.5]"));
+      good(plan_head + axis("a", "mission.algorithm", "[\"outwards\", \"inwards\"]") + axis("l", "radio.loss", "[0, 0.5]"));
   ASSERT_EQ(plan.rows.size(), 8U);
   ASSERT_EQ(plan.combinations.size(), 4U);
   std::vector<std::string> order;
@@ -74,12 +74,12 @@ TEST_F(PlanTest, CountsTheLastAxisAndThenTheSeedFastest) {
 
 TEST_F(PlanTest, LaterChangesWin) {
   write("tuned.toml", "radio.loss = 0.1\nradio.range_m = 3.0\n");
-  const auto loss = [&](const std::string& text) { return good(head + text).combinations.at(0).scenario.radio.loss; };
+  const auto loss = [&](const std::string& text) { return good(plan_head + text).combinations.at(0).scenario.radio.loss; };
   EXPECT_EQ(loss("with = \"tuned.toml\"\n"), 0.1);
   EXPECT_EQ(loss("with = \"tuned.toml\"\nset = { radio.loss = 0.2 }\n"), 0.2);
   EXPECT_EQ(loss("set.radio.loss = 0.2\n[[parts]]\nname = \"p\"\nset = { radio.loss = 0.3 }\n"), 0.3);
   EXPECT_EQ(loss("set.radio.loss = 0.2\n" + axis("l", "radio.loss", "[0.4]")), 0.4);
-  auto loaded = parse_study(path("s.toml"), head + "set.radio.loss = 0.2\n", {{"radio.loss=0.6", "--set"}});
+  auto loaded = parse_study(path("s.toml"), plan_head + "set.radio.loss = 0.2\n", {{"radio.loss=0.6", "--set"}});
   EXPECT_EQ(make_plan(loaded.study).combinations.at(0).scenario.radio.loss, 0.6);
 }
 
@@ -126,7 +126,7 @@ TEST_F(PlanTest, IdsMeanWhatIsSimulated) {
 TEST_F(PlanTest, TheOrderOfAxesChangesNoId) {
   const auto ids = [&](const std::string& axes) {
     std::set<std::string> set;
-    for (const auto& run : good(head + axes).runs) set.insert(run.id);
+    for (const auto& run : good(plan_head + axes).runs) set.insert(run.id);
     return set;
   };
   const auto a = axis("a", "mission.algorithm", "[\"outwards\", \"inwards\"]"), l = axis("l", "radio.loss", "[0, 0.5]");
@@ -135,7 +135,7 @@ TEST_F(PlanTest, TheOrderOfAxesChangesNoId) {
 }
 
 TEST_F(PlanTest, PartsShareARunThatBothAskFor) {
-  const auto plan = good(head + "[[parts]]\nname = \"p\"\n[[parts.axes]]\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n" +
+  const auto plan = good(plan_head + "[[parts]]\nname = \"p\"\n[[parts.axes]]\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n" +
                          "[[parts]]\nname = \"q\"\n[[parts.axes]]\nkey = \"radio.loss\"\nvalues = [0.1, 0.2]\n");
   EXPECT_EQ(plan.rows.size(), 8U);
   EXPECT_EQ(plan.runs.size(), 6U);
@@ -144,7 +144,7 @@ TEST_F(PlanTest, PartsShareARunThatBothAskFor) {
 }
 
 TEST_F(PlanTest, TwoEqualRunsInOnePartAreAFault) {
-  const auto plan = plan_of(head + axis("a", "radio.loss", "[0.1, 0.2]") + axis("b", "radio.loss", "[0.3, 0.4]"));
+  const auto plan = plan_of(plan_head + axis("a", "radio.loss", "[0.1, 0.2]") + axis("b", "radio.loss", "[0.3, 0.4]"));
   EXPECT_FALSE(plan.ok());
   ASSERT_EQ(plan.problems.size(), 1U) << all_problems(plan);
   EXPECT_NE(plan.problems[0].text.find("two of its runs are the same: (a=0.1, b=0.3) and (a=0.2, b=0.3) with seed 5"),
@@ -153,13 +153,13 @@ TEST_F(PlanTest, TwoEqualRunsInOnePartAreAFault) {
 }
 
 TEST_F(PlanTest, AFaultIsToldOnceWithItsCombination) {
-  const auto everywhere = plan_of(head + "set.radio.los = 1\n" + axis("r", "radio.range_m", "[2, 3]"));
+  const auto everywhere = plan_of(plan_head + "set.radio.los = 1\n" + axis("r", "radio.range_m", "[2, 3]"));
   ASSERT_EQ(everywhere.problems.size(), 1U) << all_problems(everywhere);
   EXPECT_NE(all_problems(everywhere).find("s.toml:3: error: radio.los: "), std::string::npos)
       << all_problems(everywhere);
   EXPECT_EQ(all_problems(everywhere).find("combinations"), std::string::npos);
 
-  const auto somewhere = plan_of(head + axis("r", "radio.range_m", "[2, 3]") + axis("l", "radio.loss", "[0, 7]"));
+  const auto somewhere = plan_of(plan_head + axis("r", "radio.range_m", "[2, 3]") + axis("l", "radio.loss", "[0, 7]"));
   ASSERT_EQ(somewhere.problems.size(), 1U) << all_problems(somewhere);
   EXPECT_NE(all_problems(somewhere).find("s.toml:10: error: radio.loss: "), std::string::npos)
       << all_problems(somewhere);
@@ -179,7 +179,7 @@ TEST_F(PlanTest, DirectoriesAreUniqueAndTame) {
   for (const char* label : {"a/b", "a b", "a:b", "../..", "\xC3\xA9"}) labels += "\"" + std::string(label) + "\", ";
   labels += "\"" + std::string(300, 'x') + "\", \"" + std::string(300, 'x') + "y\"]";
   const auto plan =
-      good(head + axis("l", "radio.loss", "[0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]") + "labels = " + labels + "\n");
+      good(plan_head + axis("l", "radio.loss", "[0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]") + "labels = " + labels + "\n");
   std::set<std::string> directories;
   for (const auto& run : plan.runs) {
     directories.insert(run.directory);
@@ -193,11 +193,11 @@ TEST_F(PlanTest, DirectoriesAreUniqueAndTame) {
 
 TEST_F(PlanTest, TheDigestIsOfWhatIsRunAlone) {
   const auto digest = [&](const std::string& text) { return plan_text(good(text)); };
-  const auto one = digest(head + axis("l", "radio.loss", "[0, 0.5]"));
+  const auto one = digest(plan_head + axis("l", "radio.loss", "[0, 0.5]"));
   EXPECT_EQ(one.size(), 16U);
-  EXPECT_EQ(digest("name = \"x\"\nfigures = []\n" + head + axis("loss", "radio.loss", "[0, 0.5]")), one);
-  EXPECT_NE(digest(head + axis("l", "radio.loss", "[0.5, 0]")), one);
-  EXPECT_NE(digest(head + axis("l", "radio.loss", "[0]")), one);
+  EXPECT_EQ(digest("name = \"x\"\nfigures = []\n" + plan_head + axis("loss", "radio.loss", "[0, 0.5]")), one);
+  EXPECT_NE(digest(plan_head + axis("l", "radio.loss", "[0.5, 0]")), one);
+  EXPECT_NE(digest(plan_head + axis("l", "radio.loss", "[0]")), one);
   EXPECT_NE(digest("scenario = \"w.toml\"\nseeds = [5, 4]\n" + axis("l", "radio.loss", "[0, 0.5]")), one);
 }
 
@@ -205,8 +205,8 @@ TEST_F(PlanTest, TheScenariosOwnSeedAndRecordingDoNotCount) {
   const auto id = id_with("");
   write("w.toml", "seed = 99\n" + world + "[output]\nrecord = true\n");
   EXPECT_EQ(id_with(""), id);
-  EXPECT_FALSE(good(head).combinations.at(0).output.record);
-  EXPECT_TRUE(good(head + "set.output.record = true\n").combinations.at(0).output.record);
+  EXPECT_FALSE(good(plan_head).combinations.at(0).output.record);
+  EXPECT_TRUE(good(plan_head + "set.output.record = true\n").combinations.at(0).output.record);
 }
 
 // Axes of these change a world in ways of their own.

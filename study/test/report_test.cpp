@@ -55,7 +55,7 @@ std::vector<Row> picked(const std::vector<Row>& rows, const Row& wanted) {
   return found;
 }
 
-double number(const std::string& cell) { return cell.empty() ? std::nan("") : std::stod(cell); }
+double cell_value(const std::string& cell) { return cell.empty() ? std::nan("") : std::stod(cell); }
 
 // Two parts: algorithm x r x q, and algorithm alone. Metrics depend on everything, in no simple way.
 class ReportTest : public TemporaryFolder {
@@ -138,16 +138,16 @@ class ReportTest : public TemporaryFolder {
       for (const double v : values) sum += v, positive += v > 0.0 ? 1.0 : 0.0;
       const auto n = static_cast<double>(values.size());
       for (const double v : values) squares += (v - sum / n) * (v - sum / n);
-      EXPECT_NEAR(number(row.at("mean")), sum / n, 1e-5);
-      EXPECT_NEAR(number(row.at("standard_deviation")), values.size() > 1 ? std::sqrt(squares / (n - 1)) : 0.0, 1e-5);
-      EXPECT_NEAR(number(row.at("minimum")), values.front(), 1e-6);
-      EXPECT_NEAR(number(row.at("maximum")), values.back(), 1e-6);
+      EXPECT_NEAR(cell_value(row.at("mean")), sum / n, 1e-5);
+      EXPECT_NEAR(cell_value(row.at("standard_deviation")), values.size() > 1 ? std::sqrt(squares / (n - 1)) : 0.0, 1e-5);
+      EXPECT_NEAR(cell_value(row.at("minimum")), values.front(), 1e-6);
+      EXPECT_NEAR(cell_value(row.at("maximum")), values.back(), 1e-6);
       const auto half = values.size() / 2;
       const double median = values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-      EXPECT_NEAR(number(row.at("median")), median, 1e-6);
-      EXPECT_NEAR(number(row.at("positive")), positive / n, 1e-5);
-      EXPECT_LE(number(row.at("mean_low")), number(row.at("mean")) + 1e-6);
-      EXPECT_GE(number(row.at("mean_high")), number(row.at("mean")) - 1e-6);
+      EXPECT_NEAR(cell_value(row.at("median")), median, 1e-6);
+      EXPECT_NEAR(cell_value(row.at("positive")), positive / n, 1e-5);
+      EXPECT_LE(cell_value(row.at("mean_low")), cell_value(row.at("mean")) + 1e-6);
+      EXPECT_GE(cell_value(row.at("mean_high")), cell_value(row.at("mean")) - 1e-6);
     }
   }
   void check_comparisons() const {
@@ -178,8 +178,8 @@ class ReportTest : public TemporaryFolder {
       }
       const auto test = row.at("metric") == "complete" ? mcnemar(first, second, {0.95, 100, 1})
                                                        : wilcoxon(first, second, {0.95, 100, 1});
-      EXPECT_NEAR(number(row.at("p")), test.p, 1e-5);
-      EXPECT_NEAR(number(row.at("effect")), test.effect, 1e-5);
+      EXPECT_NEAR(cell_value(row.at("p")), test.p, 1e-5);
+      EXPECT_NEAR(cell_value(row.at("effect")), test.effect, 1e-5);
     }
   }
 
@@ -249,11 +249,11 @@ TEST_F(ReportTest, HolmCorrectsTheTestsOfOneQuestion) {
   EXPECT_EQ(families.size(), 2U * (3U + 1U)) << "big by r and q, by r, by nothing; small";
   for (auto& [name, rows] : families) {
     std::sort(rows.begin(), rows.end(),
-              [](const Row& x, const Row& y) { return number(x.at("p")) < number(y.at("p")); });
+              [](const Row& x, const Row& y) { return cell_value(x.at("p")) < cell_value(y.at("p")); });
     double least = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      least = std::max(least, std::min(1.0, static_cast<double>(rows.size() - i) * number(rows[i].at("p"))));
-      EXPECT_NEAR(number(rows[i].at("p_holm")), least, 1e-3) << name;
+      least = std::max(least, std::min(1.0, static_cast<double>(rows.size() - i) * cell_value(rows[i].at("p"))));
+      EXPECT_NEAR(cell_value(rows[i].at("p_holm")), least, 1e-3) << name;
     }
   }
 }

@@ -16,7 +16,7 @@
 namespace banyan::study {
 namespace {
 
-config::Configuration small() {
+config::Configuration small_world() {
   auto loaded = config::parse_configuration("small.toml",
                                             "seed = 3\n[mission]\ntime_limit_s = 5.0\n[swarm]\nrobots = 6\n"
                                             "[targets]\ncount = 2\nradius_m = 0.9\n[output]\nrecord = false\n");
@@ -31,7 +31,7 @@ Outcome outcome_of(const config::Configuration& configuration, const std::string
 class SimulateTest : public TemporaryFolder {};
 
 TEST_F(SimulateTest, GivesTheRowOfAWorldThatIsSteppedToItsEnd) {
-  const auto configuration = small();
+  const auto configuration = small_world();
   world::World world(configuration.scenario);
   measure::Observer observer(world);
   world::Executor two(2);
@@ -50,7 +50,7 @@ TEST_F(SimulateTest, GivesTheRowOfAWorldThatIsSteppedToItsEnd) {
 }
 
 TEST_F(SimulateTest, MalformedTasksAreFailedRuns) {
-  const auto whole = encode(Task{config::config_json(small()), ""});
+  const auto whole = encode(Task{config::config_json(small_world()), ""});
   for (const std::string& task :
        {std::string(), std::string("{}"), std::string("\xff\xff"), whole.substr(0, whole.size() / 2),
         encode(Task{"", ""}), encode(Task{"{\"radio\": {\"loss\": 2}}", ""}), encode(Task{"{\"no\": 1}", ""})}) {
@@ -64,7 +64,7 @@ TEST_F(SimulateTest, MalformedTasksAreFailedRuns) {
 }
 
 TEST_F(SimulateTest, KeepsWhatIsAskedForAndNothingElse) {
-  auto configuration = small();
+  auto configuration = small_world();
   EXPECT_EQ(outcome_of(configuration, path("none")).error, "");
   EXPECT_FALSE(exists("none"));
 
@@ -81,7 +81,7 @@ TEST_F(SimulateTest, KeepsWhatIsAskedForAndNothingElse) {
 }
 
 TEST_F(SimulateTest, AFolderThatCannotBeMadeIsTheRunsError) {
-  auto configuration = small();
+  auto configuration = small_world();
   configuration.output.record = true;
   write("file", "");
   const auto outcome = outcome_of(configuration, path("file/run"));
@@ -90,7 +90,7 @@ TEST_F(SimulateTest, AFolderThatCannotBeMadeIsTheRunsError) {
 }
 
 TEST_F(SimulateTest, FoldersMayHaveAnyName) {
-  auto configuration = small();
+  auto configuration = small_world();
   configuration.output.record = true;
   EXPECT_EQ(outcome_of(configuration, path("odd \xff\n\"'")).error, "");
   EXPECT_TRUE(exists("odd \xff\n\"'/run.mcap"));

@@ -12,6 +12,11 @@
 
 namespace banyan::study {
 
+inline std::string contents(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 class TemporaryFolder : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -25,10 +30,7 @@ class TemporaryFolder : public ::testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(home_ / name, std::ios::binary) << text;
   }
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ifstream in(home_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
+  [[nodiscard]] std::string read(const std::string& name) const { return contents(home_ / name); }
   [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(home_ / name); }
 
   std::filesystem::path home_;

@@ -7,21 +7,22 @@
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
 #include "banyan/world/random.hpp"
+#include "worlds.hpp"
 
 namespace banyan::world {
 namespace {
 
-struct Bench {
+struct Box2dBench {
   Poses poses;
   std::vector<Velocity> command;
   std::vector<Odometry> odometry;
   std::unique_ptr<Bodies> bodies;
   std::uint64_t tick = 0;
 
-  Bench(const Scenario& s, Poses start)
+  Box2dBench(const Scenario& s, Poses start)
       : poses{std::move(start)}, command(poses.position.size()), odometry(poses.position.size()),
         bodies{make_box2d(s, poses)} {}
-  Bench(const Bench& o)
+  Box2dBench(const Box2dBench& o)
       : poses{o.poses}, command{o.command}, odometry{o.odometry}, bodies{o.bodies->clone()}, tick{o.tick} {}
   void step() { bodies->step(command, {}, tick++, poses, odometry); }
   // Everybody turns and drives as it likes, changing its mind every 15 ticks.
@@ -33,8 +34,6 @@ struct Bench {
     step();
   }
 };
-
-Poses one(Vec2 p = {}, double heading_rad = 0.0) { return {{p}, {unit_vector(heading_rad)}}; }
 
 Scenario dense(std::size_t robots) {
   Scenario scenario;
@@ -48,7 +47,7 @@ TEST(Box2d, AcceleratesNoFasterThanItsForce) {
   Scenario scenario;
   scenario.robot.mass_kg = 0.4;
   scenario.robot.max_force_n = 0.1;  // 0.25 m/s^2: 0.2 m/s after 0.8 s
-  Bench bench(scenario, one());
+  Box2dBench bench(scenario, one_robot());
   bench.command[0] = {0.2F, 0.0F, 0.0F};
   for (int t = 1; t <= 16; ++t) {
     bench.step();
@@ -62,7 +61,7 @@ TEST(Box2d, SpinsUpNoFasterThanItsTorque) {
   Scenario scenario;
   const double inertia = 2 * scenario.robot.mass_kg * scenario.robot.radius_m * scenario.robot.radius_m;
   scenario.robot.max_torque_nm = inertia * 2.0;  // 2 rad/s^2: 1 rad/s after 0.5 s
-  Bench bench(scenario, one());
+  Box2dBench bench(scenario, one_robot());
   bench.command[0] = {0.0F, 0.0F, 1.0F};
   for (int t = 1; t <= 12; ++t) {
     bench.step();
@@ -72,7 +71,7 @@ TEST(Box2d, SpinsUpNoFasterThanItsTorque) {
 }
 
 TEST(Box2d, DrivesAnArcLikeADifferentialRobot) {
-  Bench bench(Scenario{}, one());
+  Box2dBench bench(Scenario{}, one_robot());
   bench.command[0] = {0.1F, 0.0F, 0.5F};  // radius 0.2 m
   for (int t = 0; t < 31; ++t) bench.step();
   const double angle = 3.1 * 0.5;
@@ -83,7 +82,7 @@ TEST(Box2d, DrivesAnArcLikeADifferentialRobot) {
 }
 
 TEST(Box2d, OdometryFollowsTheBodyOnAFreeDrive) {
-  Bench bench(Scenario{}, one({2, 1}, 1.0));
+  Box2dBench bench(Scenario{}, one_robot({2, 1}, 1.0));
   Vec2 p = bench.poses.position[0];
   Vec2 heading = bench.poses.heading[0];
   for (int t = 0; t < 200; ++t) {
@@ -99,7 +98,7 @@ TEST(Box2d, OdometryFollowsTheBodyOnAFreeDrive) {
 
 TEST(Box2d, AtRestNothingMoves) {
   Scenario scenario = dense(30);
-  Bench bench(scenario, place(scenario));
+  Box2dBench bench(scenario, place(scenario));
   bench.step();
   const std::vector<Vec2> start = bench.poses.position;
   for (int t = 0; t < 50; ++t) bench.step();
@@ -107,7 +106,7 @@ TEST(Box2d, AtRestNothingMoves) {
 }
 
 TEST(Box2d, PosesAreNotRoundedAgainEveryTick) {
-  Bench bench(Scenario{}, one({1.0 / 3, -2.0 / 7}, 0.3));
+  Box2dBench bench(Scenario{}, one_robot({1.0 / 3, -2.0 / 7}, 0.3));
   bench.step();
   const Vec2 first = bench.poses.position[0];
   EXPECT_NEAR(first.x, 1.0 / 3, 1e-6);
@@ -120,7 +119,7 @@ TEST(Box2d, PosesAreNotRoundedAgainEveryTick) {
 TEST(Box2d, BodiesHardlyPenetrate) {
   Scenario scenario = dense(40);
   scenario.obstacles = {Wall{{-2, 0.9}, {2, 0.9}}, Box{{0.9, 0}, {0.3, 1}, 0.4}, Disc{{-0.9, 0}, 0.2}};
-  Bench bench(scenario, place(scenario));
+  Box2dBench bench(scenario, place(scenario));
   ASSERT_EQ(bench.poses.position.size(), 40U);
   double deepest = 0.0;
   double deepest_obstacle = 0.0;
@@ -145,7 +144,7 @@ TEST(Box2d, BodiesHardlyPenetrate) {
 }
 
 TEST(Box2d, TwoHeadOnHoldEachOther) {
-  Bench bench(Scenario{}, {{{-0.2, 0}, {0.2, 0}}, {{1, 0}, {-1, 0}}});
+  Box2dBench bench(Scenario{}, {{{-0.2, 0}, {0.2, 0}}, {{1, 0}, {-1, 0}}});
   bench.command = {{0.2F, 0, 0}, {0.2F, 0, 0}};
   for (int t = 0; t < 50; ++t) bench.step();
   EXPECT_NEAR(distance(bench.poses.position[0], bench.poses.position[1]), 0.1408, 0.002);
@@ -155,7 +154,7 @@ TEST(Box2d, TwoHeadOnHoldEachOther) {
 
 TEST(Box2d, AShoveFromTheSideIsLostOnTheEncoders) {
   // One drives into the flank of another whose brakes are no stronger than its motors.
-  Bench bench(Scenario{}, {{{0, -0.3}, {0.0, 0}}, {{0, 1}, {1, 0}}});
+  Box2dBench bench(Scenario{}, {{{0, -0.3}, {0.0, 0}}, {{0, 1}, {1, 0}}});
   bench.command = {{0.2F, 0, 0}, {}};
   double measured = 0.0;
   for (int t = 0; t < 60; ++t) {
@@ -171,9 +170,9 @@ TEST(Box2d, CloneGoesOnBitByBitAlike) {
   Scenario scenario = dense(60);
   scenario.robot.wheel_noise = 0.05;
   scenario.obstacles = {Wall{{-2, 0.9}, {2, 0.9}}, Box{{1.1, 0}, {0.3, 1}, 0.4}};
-  Bench original(scenario, place(scenario));
+  Box2dBench original(scenario, place(scenario));
   for (int t = 0; t < 100; ++t) original.wander();
-  Bench copy(original);
+  Box2dBench copy(original);
   EXPECT_EQ(copy.bodies->hash(0), original.bodies->hash(0));
   for (int t = 0; t < 200; ++t) original.wander();
   for (int t = 0; t < 200; ++t) copy.wander();
@@ -183,7 +182,7 @@ TEST(Box2d, CloneGoesOnBitByBitAlike) {
 }
 
 TEST(Box2d, HashSeesVelocities) {
-  Bench bench(Scenario{}, one());
+  Box2dBench bench(Scenario{}, one_robot());
   const std::uint64_t at_rest = bench.bodies->hash(1);
   bench.command[0] = {0.1F, 0.0F, 0.0F};
   bench.step();

@@ -17,10 +17,6 @@ Scenario clocked(double drift, std::uint64_t seed = 1) {
   return s;
 }
 
-void run_until(World& world, std::uint64_t tick) {
-  while (world.tick() < tick) world.step();
-}
-
 TEST(Clocks, EachStrikesOncePerPeriodOfItsOwn) {
   for (const double drift : {0.0, 0.01, 0.5}) {
     for (const int parts : {2, 5, 7}) {

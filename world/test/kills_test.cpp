@@ -22,10 +22,6 @@ Event kill(double time_s, Event::Of of = Event::Of::robots) {
   return e;
 }
 
-void run_until(World& world, std::uint64_t tick) {
-  while (world.tick() < tick) world.step();
-}
-
 std::set<std::size_t> dead(const World& world) {
   std::set<std::size_t> list;
   for (std::size_t i = 0; i < world.size(); ++i)

@@ -6,11 +6,12 @@
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"
+#include "worlds.hpp"
 
 namespace banyan::world {
 namespace {
 
-struct Bench {
+struct LinearBench {
   Scenario scenario;
   Poses poses;
   std::vector<Velocity> command;
@@ -18,7 +19,7 @@ struct Bench {
   std::unique_ptr<Bodies> bodies;
   std::uint64_t tick = 0;
 
-  Bench(const Scenario& s, Poses start)
+  LinearBench(const Scenario& s, Poses start)
       : scenario{s}, poses{std::move(start)}, command(poses.position.size()), odometry(poses.position.size()),
         bodies{make_linear(s, poses.position.size())} {}
   void step() { bodies->step(command, {}, tick++, poses, odometry); }
@@ -29,12 +30,10 @@ float uniform(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
   return static_cast<float>(2 * to_uniform(bits(seed, Purpose::loss, a, b)) - 1);
 }
 
-Poses one(Vec2 p = {}, double heading_rad = 0.0) { return {{p}, {unit_vector(heading_rad)}}; }
-
 TEST(Linear, ReachesTheCommandedSpeedAtTheBoundOfItsAcceleration) {
   Scenario scenario;
   scenario.robot.max_acceleration_m_s2 = 0.5;  // 0.2 m/s take four ticks
-  Bench bench(scenario, one());
+  LinearBench bench(scenario, one_robot());
   bench.command[0] = {0.2F, 0.0F, 0.0F};
   for (int t = 1; t <= 10; ++t) {
     bench.step();
@@ -54,7 +53,7 @@ TEST(Linear, ReachesTheCommandedSpeedAtTheBoundOfItsAcceleration) {
 TEST(Linear, VelocityAndAccelerationKeepTheirBounds) {
   Scenario scenario;
   scenario.robot.max_acceleration_m_s2 = 0.7;
-  Bench bench(scenario, one());
+  LinearBench bench(scenario, one_robot());
   Vec2 last{};
   for (std::uint64_t t = 0; t < 2000; ++t) {
     const auto draw = [&](std::uint64_t k) { return uniform(7, t, k); };
@@ -72,7 +71,7 @@ TEST(Linear, VelocityAndAccelerationKeepTheirBounds) {
 TEST(Linear, CommandIsInTheBodyFrame) {
   Scenario scenario;
   scenario.robot.max_acceleration_m_s2 = 1000.0;
-  Bench bench(scenario, one({1, 1}, 0.5));
+  LinearBench bench(scenario, one_robot({1, 1}, 0.5));
   bench.command[0] = {0.1F, 0.15F, 0.0F};
   for (int t = 0; t < 10; ++t) bench.step();
   const Vec2 moved = bench.poses.position[0] - Vec2{1, 1};
@@ -82,7 +81,7 @@ TEST(Linear, CommandIsInTheBodyFrame) {
 }
 
 TEST(Linear, TurnsAsToldAndStaysAUnitVector) {
-  Bench bench(Scenario{}, one());
+  LinearBench bench(Scenario{}, one_robot());
   bench.command[0] = {0.0F, 0.0F, 0.5F};
   for (int t = 0; t < 1000; ++t) bench.step();
   const double angle = 1000 * 0.05;
@@ -94,7 +93,7 @@ TEST(Linear, TurnsAsToldAndStaysAUnitVector) {
 TEST(Linear, OdometryAddsUpToTheTrueMotion) {
   Scenario scenario;
   scenario.obstacles = {Wall{{0.5, -1}, {0.5, 1}}, Disc{{-0.6, 0.2}, 0.3}};
-  Bench bench(scenario, one({0, 0}, 2.0));
+  LinearBench bench(scenario, one_robot({0, 0}, 2.0));
   Vec2 p = bench.poses.position[0];
   Vec2 heading = bench.poses.heading[0];
   for (std::uint64_t t = 0; t < 500; ++t) {
@@ -112,7 +111,7 @@ TEST(Linear, OdometryAddsUpToTheTrueMotion) {
 TEST(Linear, ObstaclesAreNotEntered) {
   Scenario scenario;
   scenario.obstacles = {Wall{{0.5, -1}, {0.5, 1}}};
-  Bench bench(scenario, one());
+  LinearBench bench(scenario, one_robot());
   bench.command[0] = {0.2F, 0.05F, 0.0F};
   for (int t = 0; t < 100; ++t) {
     bench.step();
@@ -131,7 +130,7 @@ TEST(Linear, NoiseIsAFunctionOfSeedRobotAndTick) {
   scenario.robot.wheel_bias = 0.1;
   scenario.robot.odometry_noise = 0.1;
   const auto run = [&] {
-    Bench bench(scenario, {{{0, 0}, {1, 0}}, {{1, 0}, {1, 0}}});
+    LinearBench bench(scenario, {{{0, 0}, {1, 0}}, {{1, 0}, {1, 0}}});
     for (auto& c : bench.command) c = {0.1F, 0.05F, 0.1F};
     for (int t = 0; t < 50; ++t) bench.step();
     return bench.poses.position;
@@ -146,7 +145,7 @@ TEST(Linear, NoiseIsAFunctionOfSeedRobotAndTick) {
 TEST(Linear, CloneGoesOnAlikeAndHashSeesTheVelocity) {
   Scenario scenario;
   scenario.robot.max_acceleration_m_s2 = 0.3;
-  Bench bench(scenario, one());
+  LinearBench bench(scenario, one_robot());
   const std::uint64_t at_rest = bench.bodies->hash(1);
   bench.command[0] = {0.2F, 0.1F, 0.3F};
   for (int t = 0; t < 3; ++t) bench.step();

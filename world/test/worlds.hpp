@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "banyan/controller/trig.hpp"
+#include "banyan/world/bodies.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"
 
@@ -36,6 +38,14 @@ inline Scenario hostile(const std::string& algorithm, std::size_t robots, std::u
   s.robot.wheel_noise = 0.05;
   s.robot.odometry_noise = 0.05;
   return s;
+}
+
+inline Poses one_robot(Vec2 position = {}, double heading_rad = 0.0) {
+  return {{position}, {unit_vector(heading_rad)}};
+}
+
+inline void run_until(World& world, std::uint64_t tick) {
+  while (world.tick() < tick) world.step();
 }
 
 }  // namespace banyan::world

@@ -38,7 +38,7 @@ void Script::begin(std::string_view what, const std::string& name) {
   line("# Run by gnuplot in its folder, this script draws an svg and a png of its own name.");
   line("reset");
   line("set encoding utf8");
-  line("output = " + quoted("./" + name));
+  line("output = " + in_quotes("./" + name));
   line("if (exists('ARG1') && strlen(ARG1) > 0) { output = ARG1 }  # gnuplot -c script output");
 }
 
@@ -79,7 +79,7 @@ std::string Script::screen(Place at) const {
 void Script::label(std::string_view text, Place at, Align align, int degrees, bool title) {
   static constexpr std::array<std::string_view, 3> names{"left", "center", "right"};
   std::string command =
-      "set label " + quoted(text) + " at " + screen(at) + " " + std::string(names.at(static_cast<std::size_t>(align)));
+      "set label " + in_quotes(text) + " at " + screen(at) + " " + std::string(names.at(static_cast<std::size_t>(align)));
   if (degrees != 0) command += " rotate by " + std::to_string(degrees);
   if (title) command += " font 'DejaVu Sans:Bold," + number(title_px) + "'";
   line(command);

@@ -127,7 +127,7 @@ std::vector<std::string> fitted(std::string_view text, double width_px, double s
   return lines;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   bool after_number = false;  // which would swallow a digit: gnuplot reads more than three
   for (const char c : text) {

@@ -32,7 +32,7 @@ namespace banyan::study {
 // As a gnuplot string: in double quotes, with what gnuplot would act on there (quotes, backslashes,
 // commands in backquotes, macros) and control characters as octal numbers. Single quotes would not
 // do: gnuplot 5.4 takes '''x' for an empty string with commands behind it.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 // The fewest digits that read back as `value`; "NaN" if it is not finite.
 [[nodiscard]] std::string number(double value);

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* format_name = "banyan.tune-checkpoint";
-constexpr int format_version = 1;
+constexpr const char* checkpoint_format = "banyan.tune-checkpoint";
+constexpr int checkpoint_format_version = 1;
 
 Json body_of(const Checkpoint& checkpoint) {
   Json islands = Json::array(), history = Json::array();
@@ -83,7 +83,7 @@ void check_owner(const std::string& path, const Json& head, const TunePlan& plan
 
 void save_checkpoint(const std::string& path, const TunePlan& plan, const Checkpoint& checkpoint) {
   const std::string body = body_of(checkpoint).dump();
-  const Json head{{"format", format_name}, {"format_version", format_version}, {"version", version},
+  const Json head{{"format", checkpoint_format}, {"format_version", checkpoint_format_version}, {"version", version},
                   {"git", git_id()},       {"digest", tune_digest(plan)},      {"body", hexadecimal(digest_of(body))}};
   record::write_file(path, head.dump() + "\n" + body + "\n", record::Existing::replace);
 }
@@ -99,7 +99,7 @@ std::optional<Checkpoint> load_checkpoint(const std::string& path, const TunePla
   const std::string body = text.substr(first + 1, text.size() - first - 2);
   try {
     const Json head = Json::parse(text.substr(0, first));
-    if (head.at("format") != format_name || head.at("format_version") != format_version)
+    if (head.at("format") != checkpoint_format || head.at("format_version") != checkpoint_format_version)
       throw damaged(path, "it is no checkpoint of this format");
     if (head.at("body") != hexadecimal(digest_of(body))) throw damaged(path, "its digest does not fit its content");
     check_owner(path, head, plan);

@@ -11,24 +11,19 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
 #include <string_view>
 
 #include "../../src/figure/figure_text.hpp"
+#include "../temporary_folder.hpp"
 #include "banyan/world/random.hpp"
 
 namespace banyan::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 class Figure : public ::testing::Test {
  protected:
@@ -77,7 +72,7 @@ std::vector<double> runs(std::uint64_t seed, std::size_t count, double from, dou
   return values;
 }
 
-BoxFigure small() {
+BoxFigure small_figure() {
   BoxFigure figure;
   figure.x_label = "redundancy k";
   figure.y_label = "completion time";
@@ -275,7 +270,7 @@ std::pair<double, double> png_size(const std::string& png) {
 // ---- what is drawn
 
 TEST_F(FigureDraw, WritesTheNumbersOfTheBoxes) {
-  draw(small(), at("time"));
+  draw(small_figure(), at("time"));
   const std::string script = contents(at("time.gp"));
   // quantile(c(1:10, 100), c(.25, .5, .75)) in R: 3.5, 6, 8.5.
   const auto first = rows(script, "$box_1_1"), second = rows(script, "$box_1_2"), points = rows(script, "$out_1_1");
@@ -295,7 +290,7 @@ TEST_F(FigureDraw, WritesTheNumbersOfTheBoxes) {
 }
 
 TEST_F(FigureDraw, MakesThreeFilesAndNothingElse) {
-  draw(small(), at("time"));
+  draw(small_figure(), at("time"));
   EXPECT_EQ(names(), (std::vector<std::string>{"time.gp", "time.png", "time.svg"}));
   const std::string svg = contents(at("time.svg"));
   EXPECT_TRUE(well_formed(svg));
@@ -356,7 +351,7 @@ TEST_F(FigureDraw, CurvesHoldTheirDataAndGaps) {
 }
 
 TEST_F(FigureDraw, DrawsWhatIsEmpty) {
-  BoxFigure boxes = small();
+  BoxFigure boxes = small_figure();
   for (auto& group : boxes.panels[0].values) {
     for (auto& values : group) values.clear();
   }
@@ -377,7 +372,7 @@ TEST_F(FigureDraw, SameDataSameBytes) {
 }
 
 TEST_F(FigureDraw, TheKeptScriptDrawsTheSameByHand) {
-  draw(small(), at("time"));
+  draw(small_figure(), at("time"));
   const std::string svg = contents(at("time.svg"));
   fs::remove(at("time.svg"));
   fs::remove(at("time.png"));
@@ -394,7 +389,7 @@ TEST_F(FigureDraw, TextsAreTextsWhateverTheyHold) {
   const std::vector<std::string> evil{"it's \"quoted\" {/Bold x}_a^b $x @output", "\"; system('touch " + harm + "')",
                                       "'; system('touch " + harm + "') #", "`touch " + harm + "`",
                                       "a\\b %s 50% <b> & &amp; é λ₂ EOD }"};
-  BoxFigure figure = small();
+  BoxFigure figure = small_figure();
   figure.columns = 1;
   figure.title = evil[0] + "\n" + evil[1] + "\n" + evil[2] + "\n" + evil[3] + "\n" + evil[4] + "\\";
   figure.x_label = evil[1];
@@ -420,7 +415,7 @@ TEST_F(FigureDraw, TextsAreTextsWhateverTheyHold) {
 TEST_F(FigureDraw, AStemMayBeRelative) {
   const fs::path before = fs::current_path();
   fs::current_path(folder);
-  draw(small(), "-time");
+  draw(small_figure(), "-time");
   fs::current_path(before);
   EXPECT_EQ(names(), (std::vector<std::string>{"-time.gp", "-time.png", "-time.svg"}));
 }
@@ -430,7 +425,7 @@ TEST_F(FigureDraw, AStemMayBeRelative) {
 TEST_F(FigureErrors, WithoutGnuplotTheScriptIsThere) {
   const Path path("/nonexistent");
   try {
-    draw(small(), at("time"));
+    draw(small_figure(), at("time"));
     FAIL() << "no error";
   } catch (const FigureError& error) {
     EXPECT_NE(std::string(error.what()).find("not installed"), std::string::npos) << error.what();
@@ -451,7 +446,7 @@ class FigureStandIn : public Figure {
     stand_in(body);
     const Path path((folder / "bin").string() + ":" + std::getenv("PATH"));
     try {
-      draw(small(), at("time"));
+      draw(small_figure(), at("time"));
     } catch (const FigureError& error) { return error.what(); }
     return "";
   }
@@ -474,7 +469,7 @@ TEST_F(FigureStandIn, ALotOfMessagesDoNotBlock) {
 }
 
 TEST_F(FigureStandIn, HalfAPictureDoesNotReplaceAWholeOne) {
-  draw(small(), at("time"));
+  draw(small_figure(), at("time"));
   const std::string svg = contents(at("time.svg")), png = contents(at("time.png"));
   EXPECT_NE(error_of("exit 0").find("did not draw"), std::string::npos);
   EXPECT_NE(error_of("echo '<svg>' > \"$4.svg\"; echo > \"$4.png\"").find("half"), std::string::npos);
@@ -485,21 +480,21 @@ TEST_F(FigureStandIn, HalfAPictureDoesNotReplaceAWholeOne) {
 }
 
 TEST_F(FigureErrors, AFolderThatIsNotThere) {
-  EXPECT_THROW(draw(small(), at("missing/time")), record::FileError);
+  EXPECT_THROW(draw(small_figure(), at("missing/time")), record::FileError);
   EXPECT_THROW(draw(curves(), at("missing/time")), record::FileError);
-  EXPECT_THROW(draw(small(), folder.string() + "/"), record::FileError);
-  EXPECT_THROW(draw(small(), ""), record::FileError);
+  EXPECT_THROW(draw(small_figure(), folder.string() + "/"), record::FileError);
+  EXPECT_THROW(draw(small_figure(), ""), record::FileError);
   EXPECT_TRUE(names().empty());
 }
 
 TEST_F(FigureErrors, APictureThatCannotBeReplaced) {
   fs::create_directory(at("time.png"));  // permissions would not stop root
-  EXPECT_THROW(draw(small(), at("time")), record::FileError);
+  EXPECT_THROW(draw(small_figure(), at("time")), record::FileError);
 }
 
 TEST_F(FigureErrors, FiguresThatCannotBeDrawn) {
   const auto rejects = [&](auto change) {
-    BoxFigure figure = small();
+    BoxFigure figure = small_figure();
     change(figure);
     EXPECT_THROW(draw(figure, at("time")), std::invalid_argument);
   };

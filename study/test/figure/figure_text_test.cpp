@@ -62,9 +62,9 @@ TEST(FigureText, FitsInAnyCase) {
 }
 
 TEST(FigureText, NothingInQuotesIsACommand) {
-  EXPECT_EQ(quoted("it's {a}_b # $x é"), "\"it's {a}_b # $x é\"");
-  EXPECT_EQ(quoted("\"\\`@1\n"), R"("\042\134\140\100\061\012")");
-  EXPECT_EQ(quoted("1\"23x4"), R"("1\042\062\063x4")");
+  EXPECT_EQ(in_quotes("it's {a}_b # $x é"), "\"it's {a}_b # $x é\"");
+  EXPECT_EQ(in_quotes("\"\\`@1\n"), R"("\042\134\140\100\061\012")");
+  EXPECT_EQ(in_quotes("1\"23x4"), R"("1\042\062\063x4")");
 }
 
 TEST(FigureText, NumbersReadBack) {

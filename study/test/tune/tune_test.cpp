@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "../temporary_folder.hpp"
 #include "banyan/record/file.hpp"
 #include "banyan/record/table.hpp"
 #include "banyan/study/simulate.hpp"
@@ -34,11 +35,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 record::RunRow row_with(bool complete, std::uint64_t ticks, std::uint64_t broken, std::uint64_t split, double time) {
   record::RunRow row;

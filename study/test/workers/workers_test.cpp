@@ -330,13 +330,13 @@ TEST(Processes, SeveralWithoutMpiAreRefused) {
   forget_launcher();
 }
 
-struct Outcome {
+struct Ended {
   int status = -1;
   std::string output;
 };
 
-Outcome run(const std::string& command) {
-  Outcome outcome;
+Ended run(const std::string& command) {
+  Ended outcome;
   std::FILE* pipe = ::popen((command + " </dev/null").c_str(), "r");  // NOLINT(cert-env33-c): our own command
   if (pipe == nullptr) return outcome;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) outcome.output += static_cast<char>(c);
@@ -349,7 +349,7 @@ Outcome run(const std::string& command) {
 // processes than cores, over shared memory alone (half a second's search for networks less) and
 // without asking for debugging rights. By the last one the status of mpirun says whether all
 // processes ended by themselves; otherwise it would kill the others as soon as one reports failure.
-Outcome mpirun(int processes, const std::string& what) {
+Ended mpirun(int processes, const std::string& what) {
   return run(
       "env ASAN_OPTIONS=detect_leaks=0 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
       "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl=self,vader OMPI_MCA_pml=ob1 "
@@ -370,29 +370,29 @@ class ProcessesStarted : public testing::Test {
 };
 
 TEST_F(ProcessesStarted, AnyNumberOfThemDoesWhatThreadsDo) {
-  const Outcome alone = run("'" BANYAN_PROCESSES_PROGRAM "' all");
+  const Ended alone = run("'" BANYAN_PROCESSES_PROGRAM "' all");
   EXPECT_EQ(alone.status, 0) << alone.output;
   for (const int processes : {1, 2, 3}) {
-    const Outcome together = mpirun(processes, "all");
+    const Ended together = mpirun(processes, "all");
     EXPECT_EQ(together.status, 0) << processes << " processes";
     EXPECT_EQ(together.output, alone.output) << processes << " processes";
   }
 }
 
 TEST_F(ProcessesStarted, TheFirstMayThrowBeforeItHasWorkers) {
-  const Outcome outcome = mpirun(3, "throw at once");
+  const Ended outcome = mpirun(3, "throw at once");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.output, "first process throws\n");
 }
 
 TEST_F(ProcessesStarted, TheFirstMayThrowWithTasksUnderWay) {
-  const Outcome outcome = mpirun(3, "throw at work");
+  const Ended outcome = mpirun(3, "throw at work");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.output, "first process throws\n");
 }
 
 TEST_F(ProcessesStarted, OneThatDoesNotServeIsDoneWithout) {
-  const Outcome outcome = mpirun(3, "desert");
+  const Ended outcome = mpirun(3, "desert");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.output, "every process\n");
 }
