@@ -5,7 +5,7 @@ import { button, download, h } from './dom';
 import { acceptDrops, askScenarios, askServer, chooseFile, judge } from './files';
 import { Keyboard } from './keyboard';
 import { EventsList } from './panels/events_list';
-import { helpDialog } from './panels/help';
+import { Help } from './panels/help';
 import { Inspector } from './panels/inspector';
 import { LivePanel, type LiveChoice, type Tool } from './panels/live';
 import { logo } from './panels/logo';
@@ -43,7 +43,7 @@ export class App {
   private opening = 0; // counts attempts: a later one makes an earlier one void
 
   private readonly notice = new Notice();
-  private readonly help = helpDialog();
+  private readonly help = new Help();
   private readonly what = h('span', { class: 'what-runs' });
   private readonly stagesElement = h('main', { class: 'stages' });
   private readonly plots = new Plots((timeS) => this.seek(timeS));
@@ -77,7 +77,7 @@ export class App {
   ], 'Panels');
 
   constructor(root: HTMLElement) {
-    root.append(h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element), this.help);
+    root.append(h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element), this.help.element);
     this.stagesElement.append(this.notice.element);
     acceptDrops((file) => void this.openFile(file));
     new Keyboard(this.keys());
@@ -389,7 +389,7 @@ export class App {
       },
       kill: () => this.killSelected(), switchOn: (name) => this.store.toggle(name),
       tool: (name) => this.setTool(name), theme: () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' }),
-      release: () => this.release(), help: () => this.help.showModal(),
+      release: () => this.release(), help: () => this.help.open(this.theme),
     };
   }
 
@@ -417,7 +417,7 @@ export class App {
       this.what,
       button('Open …', 'A recording (.mcap) or a scenario (.toml); or drop it on the page', () => chooseFile((file) => void this.openFile(file))),
       button('◐', 'Light or dark (M)', () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' })),
-      button('?', 'Keys and signs (?)', () => this.help.showModal()),
+      button('?', 'Keys and signs (?)', () => this.help.open(this.theme)),
     );
   }
 }

@@ -3,7 +3,7 @@
 // side when runs are compared; what they share (clock, selection, switches) is the page's.
 import { h, setText } from './dom';
 import type { Frame, Setting } from './frame';
-import { legend } from './panels/legend';
+import { firstMarks, Legend } from './panels/legend';
 import { boundsOf } from './scene/bounds';
 import { fitted, following, followShare, panned, resized, toPx, toWorld, zoomedAt, type Bounds, type Camera, type Spot } from './scene/camera';
 import type { Facts } from './scene/facts';
@@ -47,7 +47,7 @@ export class Stage {
   private readonly input: Input;
   private readonly captionText = h('span');
   private readonly caption = h('div', { class: 'caption' }, h('i', { class: 'run-line', 'aria-hidden': 'true' }), this.captionText);
-  private readonly legend = legend();
+  private readonly legend = new Legend(firstMarks, (mark) => mark); // the words in full are in the help
   private camera: Camera | null = null;
   private touched = false; // the camera is the visitor's; else everything is kept in the picture
   private hovered: Item | null = null;
@@ -62,7 +62,7 @@ export class Stage {
 
   constructor(readonly source: Source, theme: Theme, private readonly actions: StageActions) {
     const picture = h('div', { class: 'picture' });
-    this.element = h('div', { class: 'stage' }, picture, this.caption, this.legend);
+    this.element = h('div', { class: 'stage' }, picture, this.caption, this.legend.element);
     this.scene = new Scene(picture, theme, () => actions.changed());
     this.scene.canvas.setAttribute('role', 'img');
     this.scene.canvas.setAttribute('aria-label', 'The swarm; press ? for the keys');
@@ -116,6 +116,7 @@ export class Stage {
 
   /** False: the frames of this time are not there yet, and the last picture stays. */
   draw(shared: Shared, nowMs: number): boolean {
+    this.legend.show(shared.theme);
     const pair = this.source.pair(shared.timeS, shared.stride);
     const there = pair !== null;
     if (pair) {
@@ -150,7 +151,7 @@ export class Stage {
       switches: shared.switches,
       camera: this.camera!,
       theme: shared.theme,
-      insets: { top: 0, right: 0, bottom: this.legend.offsetHeight + 8, left: 0 },
+      insets: { top: 0, right: 0, bottom: this.legend.element.offsetHeight + 8, left: 0 },
       dragged: this.dragged,
       area: this.area,
     };

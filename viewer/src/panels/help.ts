@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The keys, and what the signs in the picture mean.
 import { button, h } from '../dom';
+import { legendMarks } from '../scene/legend';
+import type { Theme } from '../scene/themes';
+import { Legend } from './legend';
 
 const keys: [string, string][] = [
   ['Space', 'play, pause'],
@@ -21,18 +24,34 @@ const keys: [string, string][] = [
   ['?', 'this help'],
 ];
 
-export function helpDialog(): HTMLDialogElement {
-  const rows = keys.map(([key, meaning]) => h('tr', {}, h('td', {}, ...key.split(' ').flatMap((k) => [h('kbd', {}, k), ' '])), h('td', {}, meaning)));
-  const dialog = h(
-    'dialog',
-    { 'aria-label': 'Help' },
-    h('h2', {}, 'Keys'),
-    h('table', {}, h('tbody', {}, ...rows)),
-    h('p', { class: 'hint' },
-      'Drag to move the picture, turn the wheel or pinch to zoom, click a robot to look into it. In a live run drag targets and obstacles; ' +
-      'double click adds a target. Thick lines are the tree, dashed orange ones the tree before the last reconstruction, dotted ones tree edges without a radio link.'),
-    button('Close', 'Close', () => dialog.close(), { class: 'primary' }),
-  );
-  dialog.addEventListener('click', (event) => { if (event.target === dialog) dialog.close(); });
-  return dialog;
+export class Help {
+  readonly element: HTMLDialogElement;
+  private readonly legend = new Legend(legendMarks);
+
+  constructor() {
+    const rows = keys.map(([key, meaning]) => h('tr', {}, h('td', {}, ...key.split(' ').flatMap((k) => [h('kbd', {}, k), ' '])), h('td', {}, meaning)));
+    this.element = h(
+      'dialog',
+      { 'aria-label': 'Help' },
+      h('div', { class: 'help' },
+        h('section', {},
+          h('h2', {}, 'Keys'),
+          h('table', {}, h('tbody', {}, ...rows))),
+        h('section', {},
+          h('h2', {}, 'Signs'),
+          this.legend.element,
+          h('h2', {}, 'Pointer'),
+          h('p', { class: 'hint' },
+            'Drag to move the picture, turn the wheel or pinch to zoom, click a robot to look into it. In a live run drag targets and obstacles; ' +
+            'double click adds a target.'))),
+      button('Close', 'Close', () => this.element.close(), { class: 'primary' }),
+    );
+    this.element.addEventListener('click', (event) => { if (event.target === this.element) this.element.close(); });
+  }
+
+  open(theme: Theme): void {
+    this.legend.show(theme);
+    this.element.showModal();
+    this.element.scrollTop = 0; // the focus is on the button at its end
+  }
 }

@@ -7,6 +7,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium, type Browser, type Page } from 'playwright-core';
+import { afterAll, beforeAll } from 'vitest';
+import { waitForRun } from './visitor';
 
 export const root = fileURLToPath(new URL('../../..', import.meta.url));
 export const program = process.env.BANYAN ?? join(root, 'build/check/bin/banyan');
@@ -75,4 +77,26 @@ export async function open(browser: Browser, url: string, size = { width: 1280, 
   tab.on('console', (message) => { if (message.type() === 'error') errors.push(message.text()); });
   await tab.goto(url);
   return { tab, errors };
+}
+
+/** `banyan view` of what `given` names and a browser, as long as the tests of a file run. */
+export function served(given: (folder: Folder) => string) {
+  const folder = new Folder();
+  let browser: Browser | undefined;
+  let server: Server | undefined;
+  beforeAll(async () => {
+    server = await Server.start(given(folder));
+    browser = await launch();
+  }, 120_000);
+  afterAll(async () => {
+    await browser?.close();
+    await server?.stop();
+    folder.remove();
+  });
+  const visit = async () => {
+    const visitor = await open(browser!, server!.url);
+    await waitForRun(visitor.tab);
+    return visitor;
+  };
+  return { folder, visit };
 }

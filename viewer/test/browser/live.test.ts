@@ -2,30 +2,12 @@
 // A live run in the page: the simulation in WebAssembly, and what a visitor can do to it.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { banyan, Folder, launch, open, scenario, Server } from './harness';
-import { clickRobot, expectEvent, factsShown, placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
+import type { Page } from 'playwright-core';
+import { describe, expect, it } from 'vitest';
+import { banyan, scenario, served } from './harness';
+import { clickRobot, expectEvent, factsShown, placeOf, seekTo, settle, timeShown } from './visitor';
 
-const folder = new Folder();
-let browser: Browser;
-let server: Server;
-
-beforeAll(async () => {
-  server = await Server.start(scenario('three-targets'));
-  browser = await launch();
-}, 120_000);
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  folder.remove();
-});
-
-const visit = async (): Promise<{ tab: Page; errors: string[] }> => {
-  const visitor = await open(browser, server.url);
-  await waitForRun(visitor.tab);
-  return visitor;
-};
+const { folder, visit } = served(() => scenario('three-targets'));
 
 /** Plays on to a moment, and stands there. */
 async function playTo(tab: Page, timeS: number): Promise<void> {
@@ -33,6 +15,12 @@ async function playTo(tab: Page, timeS: number): Promise<void> {
   await tab.selectOption('select[aria-label=Speed]', '16');
   await tab.waitForFunction((t) => Number(document.querySelector<HTMLInputElement>('.timeline input')!.value) >= t, timeS);
   await seekTo(tab, timeS);
+}
+
+async function killByKeys(tab: Page, robot: number): Promise<void> {
+  await tab.keyboard.type(String(robot));
+  await tab.keyboard.press('Enter');
+  await tab.keyboard.press('Delete');
 }
 
 async function hashShown(tab: Page): Promise<string> {
@@ -155,14 +143,10 @@ describe('a live run', () => {
   it('goes back in time, does something else, and forgets what was', async () => {
     const { tab } = await visit();
     await playTo(tab, 10);
-    await tab.keyboard.press('5');
-    await tab.keyboard.press('Enter');
-    await tab.keyboard.press('Delete');
+    await killByKeys(tab, 5);
     await playTo(tab, 12);
     await seekTo(tab, 6);
-    await tab.keyboard.press('6');
-    await tab.keyboard.press('Enter');
-    await tab.keyboard.press('Delete');
+    await killByKeys(tab, 6);
     await playTo(tab, 12);
     await clickRobot(tab, 5);
     expect((await factsShown(tab)).alive).toBe('yes');
@@ -173,9 +157,7 @@ describe('a live run', () => {
   it('is reset to its begin, without what was done', async () => {
     const { tab } = await visit();
     await playTo(tab, 5);
-    await tab.keyboard.type('5');
-    await tab.keyboard.press('Enter');
-    await tab.keyboard.press('Delete');
+    await killByKeys(tab, 5);
     await playTo(tab, 7);
     await tab.click('#tab-live');
     await tab.click('button:text-is("Reset")');

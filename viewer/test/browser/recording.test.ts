@@ -3,15 +3,12 @@
 // series table of the same run.
 import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { banyan, Folder, launch, open, scenario, Server } from './harness';
-import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, settle, timeShown, waitForRun } from './visitor';
+import type { Page } from 'playwright-core';
+import { describe, expect, it } from 'vitest';
+import { banyan, scenario, served } from './harness';
+import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, settle, timeShown } from './visitor';
 
-const folder = new Folder();
-let browser: Browser;
 let recording: string;
-let server: Server;
 let rows: Record<string, string>[]; // of the exported table
 
 function table(csv: string): Record<string, string>[] {
@@ -20,21 +17,14 @@ function table(csv: string): Record<string, string>[] {
   return lines.map((line) => Object.fromEntries(line.split(',').map((cell, k) => [names[k], cell])));
 }
 
-beforeAll(async () => {
-  recording = folder.record('run', scenario('three-targets'), '--series');
+const { folder, visit: open } = served((home) => {
+  recording = home.record('run', scenario('three-targets'), '--series');
   rows = table(banyan('export', recording, '--csv'));
-  server = await Server.start(recording);
-  browser = await launch();
-}, 120_000);
-afterAll(async () => {
-  await browser?.close();
-  await server?.stop();
-  folder.remove();
+  return recording;
 });
 
-const visit = async (): Promise<{ tab: Page; errors: string[] }> => {
-  const visitor = await open(browser, server.url);
-  await waitForRun(visitor.tab);
+const visit = async (): ReturnType<typeof open> => {
+  const visitor = await open();
   await seekTo(visitor.tab, 1); // it plays as soon as it is open
   return visitor;
 };
