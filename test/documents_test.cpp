@@ -133,7 +133,12 @@ TEST(Documents, CommandsRun) {
     // Only the first study is a matter of seconds; of the others and of tunings the plan must do.
     const bool long_one = std::regex_search(line.text, std::regex("banyan (study|tune) ")) &&
                           line.text.find("first.toml") == std::string::npos && line.text.find("--help") == std::string::npos;
-    const auto result = clone.run(line.text + (bench ? " spread-94-los --windows 1 --window 0.01" : long_one ? " --dry-run" : ""));
+    // And the first second of a run that is long on purpose.
+    const bool long_run = line.text.find("--set mission.time_limit_s=") != std::string::npos;
+    const auto result = clone.run(line.text + (bench      ? " spread-94-los --windows 1 --window 0.01"
+                                               : long_one ? " --dry-run"
+                                               : long_run ? " --set mission.time_limit_s=1"
+                                                          : ""));
     EXPECT_EQ(result.status, 0) << line.where() << ": " << line.text << "\n" << result.output;
   }
   EXPECT_GE(commands, 8U);

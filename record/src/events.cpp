@@ -275,27 +275,36 @@ void EventWatcher::watch_radio(const measure::Tick& tick) {
   if (tick.components <= 1 && last_tick_.components > 1) add("joined", -1, -1, "the radio graph is in one piece");
 }
 
+// Whenever more of them are broken than a tick ago: which have come to it.
 void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const measure::Tick& tick) {
   const auto broken = [](const measure::Tick& t) { return t.broken_by_distance + t.broken_by_occlusion; };
-  if (broken(tick) == 0 && broken(last_tick_) > 0) add("edges_whole", -1, -1, "no tree edge is broken any more");
-  if (broken(tick) == 0 || broken(last_tick_) > 0) return;
-  const auto edges = broken_edges(setting, frame);
+  const auto before = broken(last_tick_), now = broken(tick);
+  if (now == 0 && before > 0) add("edges_whole", -1, -1, "no tree edge is broken any more");
+  if (now <= before) return;
+  auto edges = broken_edges(setting, frame);
+  if (before > 0) {
+    const auto earlier = broken_edges(setting_, last_);
+    std::erase_if(edges, [&](const BrokenEdge& e) {
+      return std::any_of(earlier.begin(), earlier.end(), [&](const BrokenEdge& o) { return o.robot == e.robot && o.to == e.to; });
+    });
+  }
+  const std::string all = before > 0 ? "; " + std::to_string(now) + " are now" : "";
   if (edges.size() == 1) {
     const BrokenEdge& edge = edges.front();
     add("edges_broken", edge.robot, -1,
         "the edge from " + robot_name(edge.robot) + " to its " + (edge.old ? "old parent, " : "parent, ") +
-            robot_name(edge.to) + ", is broken: " + edge.why);
+            robot_name(edge.to) + ", is broken: " + edge.why + all);
     return;
   }
-  std::string text =
-      std::to_string(broken(tick)) + (broken(tick) == 1 ? " tree edge is broken" : " tree edges are broken");
-  if (tick.broken_by_distance > 0) text += ", " + std::to_string(tick.broken_by_distance) + " out of range";
-  if (tick.broken_by_occlusion > 0) text += ", " + std::to_string(tick.broken_by_occlusion) + " hidden";
+  const auto count = edges.empty() ? now - before : static_cast<std::uint32_t>(edges.size());
+  std::string text = std::to_string(count) + (before > 0 ? " more" : "") + (count == 1 ? " tree edge is broken" : " tree edges are broken");
+  if (before == 0 && tick.broken_by_distance > 0) text += ", " + std::to_string(tick.broken_by_distance) + " out of range";
+  if (before == 0 && tick.broken_by_occlusion > 0) text += ", " + std::to_string(tick.broken_by_occlusion) + " hidden";
   std::vector<std::string> names;
   names.reserve(edges.size());
   for (const BrokenEdge& edge : edges) names.push_back(std::to_string(edge.robot));
   if (!names.empty()) text += ": of the robots " + listed(names);
-  add("edges_broken", edges.empty() ? -1 : edges.front().robot, -1, std::move(text));
+  add("edges_broken", edges.empty() ? -1 : edges.front().robot, -1, text + all);
 }
 
 }  // namespace banyan::record

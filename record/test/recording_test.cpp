@@ -385,6 +385,32 @@ TEST(Events, ABrokenEdgeIsNamedWithItsReason) {
             "edges_broken 1: the edge from robot 1 to its old parent, robot 0, is broken: hidden by obstacle 1");
 }
 
+TEST(Events, EveryFurtherBrokenEdgeIsTold) {
+  const test::TemporaryDirectory directory;
+  Told told(directory.file("a.mcap"));
+  const Setting setting;
+  const auto broken = [](std::uint32_t edges) {
+    measure::Tick tick = calm();
+    tick.broken_by_distance = edges;
+    return tick;
+  };
+  Frame frame = chain();
+  told.next(setting, frame);
+  frame.robots[1].position.x = -3.0;  // 1 from 0, and 2 from 1
+  told.next(setting, frame, broken(2));
+  frame.robots[1].position.x = 3.5;  // 2 is back
+  told.next(setting, frame, broken(1));
+  frame.robots[2].position.x = 9.0;
+  told.next(setting, frame, broken(2));
+  told.next(setting, frame, broken(2));
+  told.next(setting, chain());
+  EXPECT_EQ(told.events(),
+            (std::vector<std::string>{"edges_broken 1: 2 tree edges are broken, 2 out of range: of the robots 1 and 2",
+                                      "edges_broken 2: the edge from robot 2 to its parent, robot 1, is broken: 5.50 m "
+                                      "apart, out of range; 2 are now",
+                                      "edges_whole -1: no tree edge is broken any more"}));
+}
+
 TEST(Events, WhatMovesOnAndOnIsSaidOnce) {
   const test::TemporaryDirectory directory;
   Told told(directory.file("a.mcap"));

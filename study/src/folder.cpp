@@ -24,9 +24,9 @@ constexpr std::string_view study_format = "banyan.study";
 
 ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& outcomes, const Results& results,
                         const std::vector<std::string>& builds) {
-  double wall_s = 0.0;
+  double runs_wall_s = 0.0;  // of all runs one after the other, however many were done at once
   for (const auto& run : plan.runs) {
-    if (const auto at = outcomes.find(run.id); at != outcomes.end()) wall_s += at->second.wall_s;
+    if (const auto at = outcomes.find(run.id); at != outcomes.end()) runs_wall_s += at->second.wall_s;
   }
   ordered_json parts = ordered_json::array();
   for (const auto& part : study.parts) {
@@ -47,7 +47,7 @@ ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& ou
           {"rows", results.rows()},
           {"failed", results.failed()},
           {"missing", results.missing()},
-          {"processor_time_s", wall_s},
+          {"runs_wall_s", runs_wall_s},
           {"version", std::string(version)},
           {"git", std::string(git_id())},
           {"builds", builds},
