@@ -108,6 +108,7 @@ Ffmpeg::Ffmpeg(std::string output, int width, int height, int fps, bool replace)
 
 void Ffmpeg::start(const std::vector<std::string>& arguments) {
   ::signal(SIGPIPE, SIG_IGN);  // an ffmpeg that gives up is then an error of write()
+  ::signal(SIGCHLD, SIG_DFL);  // whoever started us may have ignored it: then nobody would hear how ffmpeg ended
   std::array<int, 2> ends{-1, -1};
   log_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
   if (log_ < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -161,7 +162,8 @@ void Ffmpeg::write(const Pixels& frame) {
   } catch (const record::FileError& error) {
     if (error.error_number() != EPIPE) throw;
     int status = 0;
-    ::waitpid(std::exchange(child_, -1), &status, 0);
+    while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {}
+    child_ = -1;
     fail(status);
   }
 }
@@ -172,7 +174,9 @@ bool Ffmpeg::finish() {
   int status = 0;
   for (;;) {
     const pid_t ended = ::waitpid(child_, &status, WNOHANG);
-    if (ended == child_ || (ended < 0 && errno != EINTR)) break;
+    if (ended == child_) break;
+    if (ended < 0 && errno != EINTR)
+      throw CommandError(exit_lost, output_ + ": nobody knows how ffmpeg ended: " + std::strerror(errno));
     if (stop_signal() != 0) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

@@ -198,6 +198,7 @@ int film_command(const FilmOptions& options) {
   const bool gif = film_kind(options.output) == FilmKind::gif;
   refuse_to_overwrite(options.output, options.force);
   auto recording = open_recording(options.recording);
+  const auto told = recording.warnings();
   const Cut cut = make_cut(recording, options, gif);
   record::DrawOptions look = look_of(options, gif);
   catch_stop_signals();
@@ -218,6 +219,7 @@ int film_command(const FilmOptions& options) {
   }
   if (stop_signal() != 0 || !ffmpeg.finish()) return stopped();
   progress.clear();
+  tell_further_warnings(recording, options.recording, told);
   if (!options.quiet) {
     complain(format("wrote %s, %s KB, %.0f frames/s", options.output.c_str(),
                     grouped(static_cast<double>(std::filesystem::file_size(options.output)) / 1000.0).c_str(),

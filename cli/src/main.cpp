@@ -77,7 +77,7 @@ constexpr const char* film_footer =
 
 constexpr const char* view_footer =
     "Serves the page at an address of this machine, prints it and opens the browser if there is a\n"
-    "desktop. Nobody else can reach it. Ctrl-C ends it.\n\n"
+    "desktop. Only this machine can reach it, whoever is logged in there. Ctrl-C ends it.\n\n"
     "Examples:\n"
     "  banyan view out/three-targets-convoy-1/run.mcap\n"
     "  banyan view scenarios/three-targets.toml --set radio.loss=0.3\n"
@@ -225,6 +225,15 @@ const CLI::Validator moment(
     },
     "");
 
+// As `record::DrawOptions` has it.
+const CLI::Validator picture_width(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool number = CLI::detail::lexical_cast(text, value) && value >= 200.0 && value <= 20000.0;
+      return number ? std::string() : "must be a number from 200 to 20000, not \"" + text + "\"";
+    },
+    "");
+
 void add_export(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<ExportOptions>();
   auto* command =
@@ -267,7 +276,7 @@ void add_draw(CLI::App& app, std::function<int()>& action) {
       ->check(moment);
   command->add_option("--width", options->width_px, "width in pixels, default 1000")
       ->type_name("PX")
-      ->check(CLI::Range(100.0, 20000.0).description(""));
+      ->check(picture_width);
   add_look(*command, *options);
   command->add_flag("-f,--force", options->force, "replace the file if it exists");
   command->callback([options, &action] { action = [options] { return draw_command(*options); }; });

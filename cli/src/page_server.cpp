@@ -82,8 +82,9 @@ std::optional<fs::path> file_below(const fs::path& folder, const std::string& pa
 std::string scenarios_json(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  for (fs::directory_iterator at(folder, ignored); !ignored && at != fs::directory_iterator(); at.increment(ignored)) {
+    std::error_code odd;  // a folder of that name, a pipe that nobody writes to
+    if (at->path().extension() == ".toml" && at->is_regular_file(odd)) files.push_back(at->path());
   }
   std::sort(files.begin(), files.end());
   json list = json::array();
@@ -149,7 +150,9 @@ void PageServer::Impl::bind(int wanted) {
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   });
   server.set_tcp_nodelay(true);
-  server.set_keep_alive_max_count(10000);
+  // One request a connection: httplib would take the body of one that is refused for the next request,
+  // with whatever Host it claims.
+  server.set_keep_alive_max_count(1);
   server.set_keep_alive_timeout(1);  // s: an idle connection must not hold up the end
   errno = 0;
   if (wanted == 0)
@@ -183,6 +186,8 @@ void PageServer::Impl::add_routes() {
       say(response, 403, "This server answers its own machine only, under the address that it printed.");
       return Result::Handled;
     }
+    // Of a recording only; file() checks them. The request is httplib's own variable, constant for handlers.
+    if (request.path != "/file") const_cast<Request&>(request).ranges.clear();
     if (request.method == "GET" || request.method == "HEAD") return Result::Unhandled;
     say(response, 405, "There is nothing to do here but to read.");
     return Result::Handled;
@@ -228,8 +233,7 @@ void PageServer::Impl::file(const Request& request, Response& response) const {
   const auto input = open_recording(response);
   if (!input) return;
   const Ranges ranges = ranges_of(request.ranges, input->size());
-  // httplib cuts the ranges out by itself, but believes that they lie within the file. The request is its
-  // own variable, and only its handlers see it as constant.
+  // httplib cuts the ranges out by itself, but believes that they lie within the file.
   auto& asked = const_cast<Request&>(request).ranges;
   asked.clear();
   if (ranges.kind == Ranges::Kind::beyond) {

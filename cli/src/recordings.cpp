@@ -20,13 +20,21 @@ using namespace config;
 
 record::Recording open_recording(const std::string& path) {
   record::Recording recording(path);
-  for (const auto& warning : recording.warnings()) complain(path + ": warning: " + warning);
+  tell_further_warnings(recording, path, {});
   if (recording.frames() == 0) throw CommandError(exit_lost, path + ": the recording holds no frames");
   return recording;
 }
 
+void tell_further_warnings(const record::Recording& recording, const std::string& path,
+                           const std::vector<std::string>& told) {
+  for (const auto& warning : recording.warnings())
+    if (std::find(told.begin(), told.end(), warning) == told.end()) complain(path + ": warning: " + warning);
+}
+
 void refuse_to_overwrite(const std::string& output, bool force) {
   std::error_code ignored;
+  if (output != "-" && std::filesystem::is_directory(output, ignored))
+    throw CommandError(exit_usage, output + " is a directory; give the name of a file");
   if (output == "-" || force || !std::filesystem::is_regular_file(output, ignored)) return;
   throw CommandError(exit_usage, output + " exists; add --force to replace it");
 }
@@ -64,13 +72,16 @@ int export_command(const ExportOptions& options) {
   refuse_to_overwrite(options.output, options.force);
   if (options.from_s > options.to_s) throw CommandError(exit_usage, "--from is later than --to: nothing to export");
   auto recording = open_recording(options.recording);
+  const auto told = recording.warnings();
   const record::ExportOptions chosen{options.from_s, options.to_s, options.every};
   if (options.output == "-") {
     record::export_csv(
         recording, [](std::string_view piece) { record::write_all(STDOUT_FILENO, piece, "standard output"); }, chosen);
+    tell_further_warnings(recording, options.recording, told);
     return exit_done;
   }
   const auto rows = record::export_csv(recording, options.output, existing(options.force), chosen);
+  tell_further_warnings(recording, options.recording, told);
   complain("wrote " + grouped(static_cast<double>(rows)) + " rows to " + options.output);
   return exit_done;
 }
@@ -79,6 +90,7 @@ int draw_command(const DrawOptions& options) {
   const bool png = picture_format(options) == "png";
   refuse_to_overwrite(options.output, options.force);
   auto recording = open_recording(options.recording);
+  const auto told = recording.warnings();
   const double at_s = std::min(options.at_s, recording.end_s());
   if (std::isfinite(options.at_s) && options.at_s > recording.end_s() + 1e-9) {
     complain(format("the recording ends at %s s; drawing that moment", number_text(recording.end_s()).c_str()));
@@ -92,6 +104,7 @@ int draw_command(const DrawOptions& options) {
     record::write_all(STDOUT_FILENO, picture, "standard output");
   else
     record::write_file(options.output, picture, existing(options.force));
+  tell_further_warnings(recording, options.recording, told);
   return exit_done;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "banyan/record/recording.hpp"
 
@@ -11,7 +12,11 @@ namespace banyan::cli {
 // Tells its warnings. Throws record::FileError if it cannot be read, CommandError if it holds no frame.
 [[nodiscard]] record::Recording open_recording(const std::string& path);
 
-// Throws CommandError (exit_usage) if `output` is a file and not `force`.
+// Tells the warnings that were not among those of the opening: of a damaged chunk only who reads it hears.
+void tell_further_warnings(const record::Recording& recording, const std::string& path,
+                           const std::vector<std::string>& told);
+
+// Throws CommandError (exit_usage) if `output` is a file and not `force`, or can never be one.
 void refuse_to_overwrite(const std::string& output, bool force);
 
 }  // namespace banyan::cli

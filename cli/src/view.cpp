@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "banyan/record/recording.hpp"
@@ -57,6 +58,8 @@ std::string scenarios_folder(const ViewOptions& options) {
 
 bool is_recording(const std::string& file) {
   std::array<char, 5> start{};
+  std::error_code ignored;
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) return false;  // what comes out of a pipe is gone once it is read
   std::ifstream(file, std::ios::binary).read(start.data(), start.size());
   return std::string_view(start.data(), start.size()) == "\x89MCAP" || file.ends_with(".mcap") ||
          file.ends_with(".mcap.part");
@@ -74,23 +77,35 @@ void check_recording(const std::string& file) {
 
 // The scenario for /start.json: its text as it is and what the command line changes. Files that the
 // command line lays over it cannot be read by the page: then the text is what all comes to.
-json scenario_start(const ViewOptions& options, const Configuration& configuration) {
+json scenario_start(const ViewOptions& options, std::string text, const Configuration& configuration) {
   json overrides = json::array();
   bool files = false;
   for (const Override& change : options.overrides) {
     files = files || change.assignment.empty();
     overrides.push_back(change.assignment);
   }
-  std::string text = config_toml(configuration);
   std::string name = fs::path(options.file).filename();
   if (files) {
+    text = config_toml(configuration);
     overrides = json::array();
     name = fs::path(name).replace_extension(".toml");
-  } else {
-    std::ifstream in(options.file, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   }
   return {{"scenario", {{"name", name}, {"text", text}, {"overrides", overrides}}}};
+}
+
+// Nothing if the scenario has faults, which are told. It is read once: it may be a pipe.
+std::optional<json> checked_start(const ViewOptions& options) {
+  std::string text;
+  try {
+    text = read_text_file(options.file);
+  } catch (const DocumentError& error) {
+    print_problems({error.problem});
+    return std::nullopt;
+  }
+  const auto loaded = parse_configuration(options.file, text, options.overrides);
+  print_problems(loaded.problems);
+  if (!loaded.ok()) return std::nullopt;
+  return scenario_start(options, std::move(text), loaded.configuration);
 }
 
 void open_browser(const std::string& address) {
@@ -132,11 +147,9 @@ int view_command(const ViewOptions& options) {
     check_recording(options.file);
     content.recording = options.file;
   } else if (!options.file.empty()) {
-    const auto loaded = load_configuration(options.file, options.overrides);
-    print_problems(loaded.problems);
-    if (!loaded.ok()) return exit_usage;
-    content.scenario =
-        scenario_start(options, loaded.configuration).dump(-1, ' ', false, json::error_handler_t::replace);
+    const auto start = checked_start(options);
+    if (!start) return exit_usage;
+    content.scenario = start->dump(-1, ' ', false, json::error_handler_t::replace);
   }
   catch_stop_signals();
   ::signal(SIGCHLD, SIG_IGN);  // nobody waits for the browser

@@ -149,6 +149,28 @@ TEST_F(Film, AnFfmpegThatGivesUpIsQuotedAndLeavesNothing) {
   EXPECT_TRUE(has(folder.err, "No such file or directory")) << folder.err;
 }
 
+// A parent that ignores its children's ends passes that on.
+TEST_F(Film, AnFfmpegThatFailsAtTheEndIsNoticedWhoeverStartedUs) {
+  write("bin/ffmpeg", "#!/bin/sh\ncat >/dev/null\nexit 7\n");
+  fs::permissions(home_ / "bin/ffmpeg", fs::perms::owner_all);
+  const auto outcome = run({"-c", "trap '' CHLD; exec " BANYAN_PROGRAM " film o/run.mcap -o a.mp4"},
+                           {.program = "/bin/sh", .environment = {{"PATH", (home_ / "bin").string() + ":/usr/bin:/bin"}}});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(has(outcome.err, "a.mp4: ffmpeg has given up (exit code 7)")) << outcome.err;
+  expect_nothing_left("a.mp4");
+}
+
+TEST_F(Film, AFolderIsRefusedBeforeAnythingIsDone) {
+  fs::create_directory(home_ / "d.mp4");
+  for (const bool force : {false, true}) {
+    Arguments arguments{"film", "o/run.mcap", "-o", "d.mp4"};
+    if (force) arguments.emplace_back("--force");
+    const auto outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_TRUE(has(outcome.err, "d.mp4 is a directory")) << outcome.err;
+  }
+}
+
 // Before the first frame, while frames come, and while ffmpeg makes a GIF of them.
 TEST_F(Film, CtrlCLeavesNoHalfFile) {
   for (const char* name : {"a.mp4", "a.gif"}) {

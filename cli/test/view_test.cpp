@@ -3,10 +3,13 @@
 #include "page_server.hpp"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -44,6 +47,8 @@ class View : public StartedProgram {
     write("scenarios/a.toml", "name = \"first\"\n[targets]\ncount = 2\nradius_m = 1.5\n");
     write("scenarios/wrong.toml", "[swarm\n");
     write("scenarios/notes.md", "no scenario");
+    fs::create_directory(home_ / "scenarios/folder.toml");
+    ::mkfifo((home_ / "scenarios/pipe.toml").c_str(), 0600);
   }
   void serve(bool recording = true, const std::string& scenario = "") {
     server_.emplace(PageContent{path("page"), recording ? path("run.mcap") : "", scenario, path("scenarios")}, 0);
@@ -205,6 +210,29 @@ TEST_F(View, OnlyItsOwnAddressIsAnswered) {
   EXPECT_EQ(client.Delete("/file")->status, 405);
 }
 
+// What a page elsewhere hides in the body of a request that is refused is no request.
+TEST_F(View, NothingComesAfterARefusal) {
+  serve();
+  const std::string hidden = "GET /start.json HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server_->port()) + "\r\n\r\n";
+  for (const char* head : {"POST / HTTP/1.1\r\nHost: evil.example", "BREW / HTTP/1.1\r\nHost: evil.example"}) {
+    const auto answer = raw(std::string(head) + "\r\nContent-Length: " + std::to_string(hidden.size()) + "\r\n\r\n" + hidden);
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 4")) << answer;
+    EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << answer;
+    EXPECT_FALSE(has(answer, "recording")) << answer;
+  }
+}
+
+TEST_F(View, FilesOfThePageAreServedWhole) {
+  serve();
+  for (const char* asked : {"bytes=0-999999", "bytes=0-,0-,0-", "bytes=2-3"}) {
+    const auto answer = get("/assets/main.js", {{"Range", asked}});
+    ASSERT_TRUE(answer) << asked;
+    EXPECT_EQ(answer->status, 200) << asked;
+    EXPECT_EQ(answer->body, "1") << asked;
+    EXPECT_FALSE(answer->has_header("Content-Range")) << asked;
+  }
+}
+
 TEST_F(View, ScenariosAndWhatToStartWith) {
   serve(false);
   EXPECT_EQ(json::parse(get("/start.json")->body), json::object());
@@ -237,11 +265,11 @@ TEST_F(View, ATakenPortIsSaid) {
 class ViewCommand : public View {
  protected:
   // Starts `banyan view` with the page, waits for its address and gives the answer to /start.json.
-  json started(Arguments arguments, int signal = SIGTERM) {
+  json started(Arguments arguments, int signal = SIGTERM, int input = -1) {
     arguments.insert(arguments.begin(), "view");
     fs::remove(home_ / "stdout.txt");
-    const pid_t child =
-        start(arguments, {.environment = {{"BANYAN_PAGE", path("page")}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
+    const pid_t child = start(arguments, {.environment = {{"BANYAN_PAGE", path("page")}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}},
+                                          .input = input});
     std::string said;
     for (int k = 0; k < 1000 && !said.ends_with('\n'); ++k) {
       std::this_thread::sleep_for(10ms);
@@ -271,6 +299,9 @@ TEST_F(ViewCommand, TakesARecordingAScenarioOrNothing) {
       json({{"scenario",
              {{"name", "small.toml"}, {"text", read("small.toml")}, {"overrides", {"radio.loss=0.25", "seed=7"}}}}}));
   EXPECT_EQ(started({}), json::object());
+  const int input = ::open(path("small.toml").c_str(), O_RDONLY | O_CLOEXEC);
+  EXPECT_EQ(started({"-"}, SIGTERM, input)["scenario"]["text"], read("small.toml"));
+  ::close(input);
   // Files on the command line are nothing that a page could read: what it gets is what they come to.
   write("more.toml", "[radio]\nloss = 0.125\n");
   const json laid = started({"small.toml", "--with", "more.toml"});

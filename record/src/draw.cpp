@@ -460,6 +460,14 @@ void Picture::targets() {
     attribute("cx", at.x);
     attribute("cy", at.y);
     attribute("r", radius);
+    if (!target.active) {  // given up: where it was, and no more than that
+      attribute("fill", "none");
+      attribute("stroke", palette::target.hex);
+      attribute("stroke-width", 1.0);
+      attribute("stroke-opacity", 0.5);
+      out_.put(" stroke-dasharray=\"2 4\"/>\n");
+      continue;
+    }
     attribute("fill", palette::target.hex);
     attribute("fill-opacity", 0.18);
     attribute("stroke", palette::target.hex);
@@ -573,7 +581,7 @@ void Picture::ids() {
     const bool right = at.x < width_ - 4.0 * margin_px;
     std::string label("T");
     label += std::to_string(k);
-    text(at + Vec2{right ? away : -away, -away}, 15.0, label, theme_.target_ink,
+    text(at + Vec2{right ? away : -away, -away}, 15.0, label, frame_.targets[k].active ? theme_.target_ink : theme_.faint_ink,
          " font-weight=\"bold\"" + halo + (right ? "" : " text-anchor=\"end\""));
   }
   if (!options_.ids) return;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "banyan/world/obstacles.hpp"
+#include "sight.hpp"
 #include "text.hpp"
 
 namespace banyan::record {
@@ -36,6 +37,33 @@ bool has_robot(const Frame& frame, std::int32_t i) {
   return i >= 0 && static_cast<std::size_t>(i) < frame.robots.size();
 }
 
+// As World::holder has it: whoever serves the target now need not be the one first sent there.
+bool serves(const Frame& frame, std::size_t i, std::size_t k) {
+  if (i >= frame.robots.size()) return false;
+  const RobotFrame& robot = frame.robots[i];
+  return robot.alive && robot.role == Role::worker && robot.target == static_cast<std::int32_t>(k);
+}
+
+// The nearest robot that serves target k within tolerance, -1: none. O(robots).
+std::int32_t holder_of(const Setting& setting, const Frame& frame, std::size_t k) {
+  std::int32_t best = -1;
+  double best_m = setting.target_tolerance_m;
+  for (std::size_t i = 0; i < frame.robots.size() && frame.targets[k].active; ++i) {
+    if (!serves(frame, i, k)) continue;
+    const double away_m = distance(frame.robots[i].position, frame.targets[k].position);
+    if (!(best < 0 ? away_m <= best_m : away_m < best_m)) continue;
+    best = static_cast<std::int32_t>(i);
+    best_m = away_m;
+  }
+  return best;
+}
+
+// To the target it serves, when that was set: else it serves in place of another.
+bool was_sent(const Frame& frame, std::size_t i) {
+  const auto target = static_cast<std::size_t>(frame.robots[i].target);  // -1: beyond all
+  return target < frame.targets.size() && frame.targets[target].worker == static_cast<std::int32_t>(i);
+}
+
 // "a", "a and b", "a, b and 5 more".
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 4;
@@ -62,7 +90,7 @@ std::string hidden_by(const Setting& setting, const Frame& frame, std::int32_t i
     const Vec2 p = frame.robots[k].position;
     if (std::fabs(p.x - middle.x) > reach || std::fabs(p.y - middle.y) > reach) continue;
     if (static_cast<std::int32_t>(k) == i || static_cast<std::int32_t>(k) == j) continue;
-    if (world::blocks(world::Disc{p, setting.radius_m}, a, b))
+    if (hides(setting, frame.robots[k], a, b))
       return "hidden by " + robot_name(static_cast<std::int64_t>(k));
   }
   for (std::size_t k = 0; k < setting.obstacles.size(); ++k) {
@@ -113,7 +141,7 @@ const std::vector<RecordedEvent>& EventWatcher::watch(const Setting& setting, co
     watch_radio(tick);
     watch_edges(setting, frame, tick);
   }
-  watch_targets(setting, frame);
+  watch_targets(setting, frame, tick);
   started_ = true;
   setting_ = setting;
   last_ = frame;
@@ -200,8 +228,9 @@ void EventWatcher::watch_recruit(const Frame& frame, std::size_t i) {
       const std::string who = child == frame.robots.end() ? "somebody" : robot_name(child - frame.robots.begin());
       add("recruited", robot, -1, robot_name(robot) + " is a connector: " + who + " hangs on it");
     }
-  } else if (before.role != Role::worker && now.role == Role::worker && now.target < 0) {
-    add("worker", robot, -1, robot_name(robot) + " takes over the target of a worker that is lost");
+  } else if (before.role != Role::worker && now.role == Role::worker && !was_sent(frame, i)) {
+    const std::string what = now.target < 0 ? "the target" : target_name(static_cast<std::size_t>(now.target));
+    add("worker", robot, now.target, robot_name(robot) + " takes over " + what + " of a worker that is lost");
   } else if (before.role == Role::connector && now.role == Role::spare) {
     add("released", robot, -1, robot_name(robot) + " is spare again");
   }
@@ -217,28 +246,46 @@ void EventWatcher::watch_robots(const Frame& frame) {
   }
 }
 
-// Of a target that has moved: a new arrival is worth telling only once its worker had really lost it.
+// A target that moves on and on is said once. Of one that has moved a new arrival is worth telling only
+// once its worker had really lost it.
 void EventWatcher::watch_target(const Setting& setting, const Frame& frame, std::size_t k) {
   constexpr double lost = 1.5;  // tolerances
   const TargetFrame& target = frame.targets[k];
+  if (!target.active) {
+    if (last_.targets[k].active)
+      add("target_removed", target.worker, static_cast<std::int64_t>(k), target_name(k) + " is given up");
+    return;
+  }
   const bool moved = !(target.position == last_.targets[k].position);
   if (moved && moving_[k] == 0) {
     add("target_moved", target.worker, static_cast<std::int64_t>(k),
         target_name(k) + " has moved to " + place(target.position));
   }
   moving_[k] = moved ? 1 : 0;
-  if (!moved) return;
-  const bool far = !has_robot(frame, target.worker) ||
-                   !(distance(frame.robots[static_cast<std::size_t>(target.worker)].position, target.position) <=
-                     lost * setting.target_tolerance_m);
-  if (far) {
-    reached_[k] = 0;
-    complete_ = false;
-  }
+  if (reached_[k] < 0) return;
+  const auto who = static_cast<std::size_t>(reached_[k]);
+  const bool near = serves(frame, who, k) && (!moved || distance(frame.robots[who].position, target.position) <=
+                                                            lost * setting.target_tolerance_m);
+  if (near) return;
+  reached_[k] = -1;  // moved away, or its worker has died or resigned: whoever comes now arrives
+  complete_ = false;
 }
 
-void EventWatcher::watch_targets(const Setting& setting, const Frame& frame) {
-  reached_.resize(frame.targets.size(), 0);
+void EventWatcher::watch_arrivals(const Setting& setting, const Frame& frame, const measure::Tick& tick) {
+  for (std::size_t k = 0; k < frame.targets.size(); ++k) {
+    if (reached_[k] >= 0) continue;
+    const std::int32_t who = holder_of(setting, frame, k);
+    if (who < 0) continue;
+    reached_[k] = who;
+    add("arrival", who, static_cast<std::int64_t>(k), robot_name(who) + " has reached " + target_name(k));
+  }
+  if (complete_ || tick.active_targets == 0 || tick.targets_reached != tick.active_targets) return;
+  complete_ = true;
+  add("complete", -1, -1, "all targets are reached");
+}
+
+void EventWatcher::watch_targets(const Setting& setting, const Frame& frame, const measure::Tick& tick) {
+  reached_.resize(frame.targets.size(), -1);
   moving_.resize(frame.targets.size(), 0);
   for (std::size_t k = 0; k < frame.targets.size() && started_; ++k) {
     if (k < last_.targets.size()) {
@@ -249,23 +296,7 @@ void EventWatcher::watch_targets(const Setting& setting, const Frame& frame) {
       complete_ = false;
     }
   }
-  std::size_t held = 0;
-  for (std::size_t k = 0; k < frame.targets.size(); ++k) {
-    const TargetFrame& target = frame.targets[k];
-    if (!has_robot(frame, target.worker)) continue;
-    const RobotFrame& worker = frame.robots[static_cast<std::size_t>(target.worker)];
-    if (!worker.alive || !(distance(worker.position, target.position) <= setting.target_tolerance_m)) continue;
-    ++held;
-    if (reached_[k] == 0) {
-      reached_[k] = 1;
-      add("arrival", target.worker, static_cast<std::int64_t>(k),
-          robot_name(target.worker) + " has reached " + target_name(k));
-    }
-  }
-  if (!complete_ && !frame.targets.empty() && held == frame.targets.size()) {
-    complete_ = true;
-    add("complete", -1, -1, "all targets are reached");
-  }
+  watch_arrivals(setting, frame, tick);
 }
 
 void EventWatcher::watch_radio(const measure::Tick& tick) {

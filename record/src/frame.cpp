@@ -34,6 +34,22 @@ void capture_robot(const State& state, RobotFrame& robot) noexcept {
   robot.target = -1;
 }
 
+// A worker names its target by the robot first sent there, which a successor is not.
+void capture_targets(const world::World& world, Frame& frame) {
+  static thread_local std::vector<std::int32_t> target_of;  // by that robot
+  target_of.assign(world.size(), -1);
+  frame.targets.clear();
+  for (const world::Target& target : world.targets()) {
+    const auto worker = target.worker < world.size() ? static_cast<std::int32_t>(target.worker) : -1;
+    if (worker >= 0 && target.active) target_of[target.worker] = static_cast<std::int32_t>(frame.targets.size());
+    frame.targets.push_back({target.position, worker, target.active});
+  }
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const State& state = world.states()[i];
+    if (state.is_worker && state.serves < world.size()) frame.robots[i].target = target_of[state.serves];
+  }
+}
+
 // During a hand-over there may be two; the newer token is the one that lasts.
 std::optional<std::uint32_t> newest_root(const world::World& world) noexcept {
   std::optional<std::uint32_t> root;
@@ -74,12 +90,7 @@ void capture(const world::World& world, Frame& frame) {
     capture_robot(world.states()[i], robot);
   }
   mark_connected(world, frame.robots);
-  frame.targets.clear();
-  for (const world::Target& target : world.targets()) {
-    const auto worker = target.worker < world.size() ? static_cast<std::int32_t>(target.worker) : -1;
-    if (worker >= 0) frame.robots[target.worker].target = static_cast<std::int32_t>(frame.targets.size());
-    frame.targets.push_back({target.position, worker});
-  }
+  capture_targets(world, frame);
 }
 
 Frame between(const Frame& a, const Frame& b, double time_s) {
@@ -112,6 +123,7 @@ Setting setting_of(const world::World& world) {
   setting.radius_m = scenario.robot.radius_m;
   setting.range_m = scenario.radio.range_m;
   setting.line_of_sight = world.line_of_sight();
+  setting.dead_bodies = scenario.robot.dead_bodies;
   setting.target_tolerance_m = scenario.mission.target_tolerance_m;
   setting.time_limit_s = world::time_limit_s(scenario);
   setting.obstacles.assign(world.obstacles().begin(), world.obstacles().end());

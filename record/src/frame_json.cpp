@@ -69,7 +69,7 @@ constexpr std::array<Field, 18> of_robot{{
     whole<&R::grant>("grant", -1, 65535, "the spare let into the edge to the parent, -1: nobody"),
     whole<&R::request>("request", -1, 65535, "the owner of the edge a spare wants to join, -1: nobody"),
     real<&R::want_m>("want_m", 2, 0, far, "largest remaining worker distance below"),
-    whole<&R::target>("target", -1, 65535, "index of the target the robot is assigned to, -1: none"),
+    whole<&R::target>("target", -1, 65535, "index of the target the robot serves, -1: none"),
 }};
 
 void key(Text& out, std::string_view name) {
@@ -131,6 +131,11 @@ bool flag_of(const json& object, std::string_view name) {
   const json& value = member(object, name);
   if (!value.is_boolean()) fail(name, "is not true or false");
   return value.get<bool>();
+}
+
+// The same of a field that older recordings do not have.
+bool flag_of(const json& object, std::string_view name, bool otherwise) {
+  return object.contains(name) ? flag_of(object, name) : otherwise;
 }
 
 constexpr double most_ticks = 9007199254740992.0;  // 2^53: exact in JSON readers that use doubles
@@ -309,6 +314,7 @@ void write_targets(Text& out, const Frame& frame) {
   array(out, "x_m", frame.targets, [&](const TargetFrame& t) { out.fixed(t.position.x, 4); });
   array(out, "y_m", frame.targets, [&](const TargetFrame& t) { out.fixed(t.position.y, 4); });
   array(out, "worker", frame.targets, [&](const TargetFrame& t) { out.integer(t.worker); });
+  array(out, "active", frame.targets, [&](const TargetFrame& t) { out.put(t.active ? '1' : '0'); });
   out.put('}');
 }
 
@@ -318,10 +324,12 @@ std::vector<TargetFrame> read_targets(std::string_view text) {
   if (!x.is_array()) fail("x_m", "is not an array");
   const json& y = array_of(object, "y_m", x.size());
   const json& worker = array_of(object, "worker", x.size());
+  const json* active = object.contains("active") ? &array_of(object, "active", x.size()) : nullptr;
   std::vector<TargetFrame> targets;
   for (std::size_t k = 0; k < x.size(); ++k) {
     targets.push_back({{number(x[k], "x_m", -far, far), number(y[k], "y_m", -far, far)},
-                       static_cast<std::int32_t>(number(worker[k], "worker", -1.0, 65535.0))});
+                       static_cast<std::int32_t>(number(worker[k], "worker", -1.0, 65535.0)),
+                       active == nullptr || number((*active)[k], "active", 0.0, 1.0) != 0.0});
   }
   return targets;
 }
@@ -424,6 +432,8 @@ void write_setting(Text& out, const Setting& s) {
   real("range_m", s.range_m);
   key(out, "line_of_sight");
   out.put(s.line_of_sight ? "true," : "false,");
+  key(out, "dead_bodies");
+  out.put(s.dead_bodies ? "true," : "false,");
   real("target_tolerance_m", s.target_tolerance_m);
   real("time_limit_s", s.time_limit_s);
   key(out, "obstacles");
@@ -447,6 +457,7 @@ Setting read_setting(std::string_view text) {
   s.radius_m = number_of(o, "radius_m", 0.0, far);
   s.range_m = number_of(o, "range_m", 0.0, far);
   s.line_of_sight = flag_of(o, "line_of_sight");
+  s.dead_bodies = flag_of(o, "dead_bodies", true);
   s.target_tolerance_m = number_of(o, "target_tolerance_m", 0.0, far);
   s.time_limit_s = number_of(o, "time_limit_s", 0.0, far);
   const json& obstacles = member(o, "obstacles");
@@ -489,7 +500,8 @@ std::string targets_schema() {
   schema_head(out, "banyan.Targets", "All targets; written at the start and whenever one changes");
   schema_array(out, "x_m", "number", "position");
   schema_array(out, "y_m", "number", "position");
-  schema_array(out, "worker", "integer", "index of the robot assigned to the target, -1: nobody");
+  schema_array(out, "worker", "integer", "index of the robot first sent to the target, -1: nobody");
+  schema_array(out, "active", "integer", "0: the target has been given up");
   out.put("},\"required\":[\"tick\",\"time_s\",\"x_m\",\"y_m\",\"worker\"]}");
   return std::string(out.view());
 }
@@ -533,6 +545,7 @@ std::string setting_schema() {
   schema_property(out, "radius_m", "number", "of a robot");
   schema_property(out, "range_m", "number", "of the radio");
   schema_property(out, "line_of_sight", "boolean", "whether a link needs one");
+  schema_property(out, "dead_bodies", "boolean", "whether the dead hide what is behind them");
   schema_property(out, "target_tolerance_m", "number", "distance at which a target is reached");
   schema_property(out, "time_limit_s", "number", "of the mission");
   schema_array(out, "obstacles", "object", "discs, boxes and walls");

@@ -5,6 +5,7 @@
 
 #include "banyan/record/draw.hpp"
 #include "banyan/world/obstacles.hpp"
+#include "sight.hpp"
 
 namespace banyan::record {
 
@@ -39,7 +40,7 @@ class Sweep {
   [[nodiscard]] Vec2 at(std::uint32_t i) const { return robots_[i].position; }
   [[nodiscard]] double x(std::uint32_t i) const { return robots_[i].position.x; }
 
-  // Bodies, dead ones too, and obstacles. Only robots whose x lies within the pair's, widened by
+  // Bodies and obstacles. Only robots whose x lies within the pair's, widened by
   // a radius, can be in the way; `p` and `q` are places in the order.
   [[nodiscard]] bool is_blocked(std::size_t p, std::size_t q) const {
     const Vec2 a = at(order_[p]);
@@ -48,7 +49,7 @@ class Sweep {
     std::size_t first = p;
     while (first > 0 && x(order_[first - 1]) > a.x - radius) --first;
     for (std::size_t k = first; k < order_.size() && x(order_[k]) < b.x + radius; ++k) {
-      if (k != p && k != q && world::blocks(world::Disc{at(order_[k]), radius}, a, b)) return true;
+      if (k != p && k != q && hides(setting_, robots_[order_[k]], a, b)) return true;
     }
     return std::any_of(setting_.obstacles.begin(), setting_.obstacles.end(),
                        [&](const world::Obstacle& obstacle) { return world::blocks(obstacle, a, b); });

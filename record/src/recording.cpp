@@ -126,6 +126,7 @@ std::optional<Frame> Recording::Impl::parse(const mcap::Message& message) {
          problem.what());
     return std::nullopt;
   }
+  frame.time_s = static_cast<double>(message.log_time) * 1e-9;  // the text has but four decimals
   frame.targets = targets_at(message.log_time);
   return frame;
 }

@@ -153,11 +153,13 @@ void targets(const Entity& entity, const Setting& setting, const Frame& frame) {
   entity.begin("targets");
   entity.list("cylinders", [&] {
     for (const TargetFrame& t : frame.targets) {
+      if (!t.active) continue;
       cylinder(out, t.position, setting.target_tolerance_m, 0.005, palette::target, 0.5);
     }
   });
   entity.list("texts", [&] {
     for (std::size_t k = 0; k < frame.targets.size(); ++k) {
+      if (!frame.targets[k].active) continue;
       out.put('{');
       pose(out, frame.targets[k].position, 0.35);
       out.put(",\"billboard\":true,\"font_size\":0.25,\"scale_invariant\":false,\"color\":");

@@ -168,6 +168,35 @@ TEST(TrailLog, EndsAtTheRobotAndIsAsLongAsWanted) {
   EXPECT_TRUE(TrailLog(0.0).trails(frame)[0].empty());
 }
 
+TEST(Draw, ATargetGivenUpIsFaint) {
+  Frame frame = test::sample_frame(9, 1.0, 3);
+  DrawOptions options;
+  options.legend = false;
+  const auto filled = [&] { return count(draw_svg(test::sample_setting(), frame, {}, options), "fill-opacity=\"0.18\""); };
+  EXPECT_EQ(filled(), 2U);
+  frame.targets[1].active = false;
+  EXPECT_EQ(filled(), 1U);
+  const std::string svg = draw_svg(test::sample_setting(), frame, {}, options);
+  EXPECT_TRUE(well_formed(svg));
+  EXPECT_NE(svg.find(">T1<"), std::string::npos);
+}
+
+TEST(Draw, TheVanishedHideNobody) {
+  Setting setting;
+  setting.line_of_sight = true;
+  Frame frame;
+  frame.robots.resize(3);
+  frame.robots[1].position = {0.5, 0.02};
+  frame.robots[2].position = {1.0, 0.0};
+  frame.robots[1].alive = false;
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  EXPECT_EQ(radio_links(setting, frame).blocked, (Pairs{{0, 2}}));
+  setting.dead_bodies = false;
+  EXPECT_EQ(radio_links(setting, frame).open, (Pairs{{0, 2}}));
+  frame.robots[1].alive = true;
+  EXPECT_EQ(radio_links(setting, frame).blocked, (Pairs{{0, 2}}));
+}
+
 TEST(Draw, LinksAgreeWithBruteForce) {
   Setting setting = test::sample_setting();
   for (std::uint64_t round = 0; round < 20; ++round) {

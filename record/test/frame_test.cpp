@@ -108,10 +108,55 @@ TEST(Capture, ShowsTheWorldAsItIs) {
   EXPECT_FALSE(frame.robots[3].alive);
 }
 
+// A worker dies on its way to its target, which another takes over, and one target is given up.
+TEST(Capture, WhoServesATargetIsWhoHoldsItNow) {
+  world::Scenario s = scenario(40, false);
+  s.obstacles.clear();
+  s.robot.dead_bodies = false;
+  s.events = {{.time_s = 15.0, .kind = world::Event::Kind::remove_target, .index = 2}};
+  world::World world(s);
+  measure::Observer observer(world);
+  const test::TemporaryDirectory directory;
+  Recorder recorder(directory.file("a.mcap"), {});
+  recorder.frame(world, observer.last());
+  Frame frame;
+  std::int32_t successor = -1;
+  while (world.tick() < 900) {
+    if (world.tick() == 60) world.intervene({.kind = world::Event::Kind::die, .index = world.targets()[0].worker});
+    world.step();
+    recorder.frame(world, observer.observe(world));
+    capture(world, frame);
+    EXPECT_EQ(frame.targets[2].active, world.targets()[2].active);
+    for (std::size_t k = 0; k < frame.targets.size(); ++k) {
+      const auto holder = world.holder(k);
+      if (!holder) continue;
+      EXPECT_EQ(frame.robots[*holder].target, static_cast<std::int32_t>(k));
+      if (k == 0) successor = static_cast<std::int32_t>(*holder);
+    }
+  }
+  recorder.finish(observer.result(world));
+  ASSERT_GE(successor, 0);
+  EXPECT_NE(successor, frame.targets[0].worker);
+  EXPECT_TRUE(std::ranges::none_of(frame.robots, [](const RobotFrame& r) { return r.target == 2; })) << "it is given up";
+  std::size_t arrivals = 0, removals = 0, completions = 0;
+  for (const RecordedEvent& e : Recording(directory.file("a.mcap")).events()) {
+    arrivals += e.kind == "arrival" && e.target == 0 && e.robot == successor;
+    removals += e.kind == "target_removed" && e.target == 2;
+    completions += e.kind == "complete";
+  }
+  EXPECT_EQ(arrivals, 1U);
+  EXPECT_EQ(removals, 1U);
+  EXPECT_GE(completions, 1U);
+}
+
 // The picture's links against the radio's own.
 TEST(Capture, LinksOfAPictureAreTheRadios) {
-  for (const bool line_of_sight : {false, true}) {
-    world::World world(scenario(60, line_of_sight));
+  for (const auto& [line_of_sight, dead_bodies] : {std::pair{false, true}, {true, true}, {true, false}}) {
+    world::Scenario s = scenario(60, line_of_sight);
+    s.robot.dead_bodies = dead_bodies;
+    for (std::size_t robot = 5; robot < 20; ++robot)
+      s.events.push_back({.time_s = 1.0, .kind = world::Event::Kind::die, .index = robot});
+    world::World world(s);
     const Setting setting = setting_of(world);
     Frame frame;
     for (int t = 0; t < 100; ++t) {

@@ -35,6 +35,21 @@ TEST(Pack, HasTheNumbersOfARecordedFrameColumnByColumn) {
   EXPECT_EQ(recorded.size(), frame_columns().size() + 2) << "tick and time_s are no columns";
 }
 
+TEST(Older, FieldsThatWereNotThereHaveTheirDefaults) {
+  const auto targets = read_targets(R"({"tick":0,"time_s":0,"x_m":[1,2],"y_m":[3,4],"worker":[0,-1]})");
+  ASSERT_EQ(targets.size(), 2U);
+  EXPECT_TRUE(targets[0].active && targets[1].active);
+  EXPECT_THROW((void)read_targets(R"({"x_m":[1],"y_m":[3],"worker":[0],"active":[]})"), std::runtime_error);
+  Text text;
+  Setting setting;
+  setting.dead_bodies = false;
+  write_setting(text, setting);
+  Json object = Json::parse(text.view());
+  EXPECT_FALSE(read_setting(object.dump()).dead_bodies);
+  object.erase("dead_bodies");
+  EXPECT_TRUE(read_setting(object.dump()).dead_bodies);
+}
+
 // Each byte that travels must show in some field, and no field may be there twice.
 TEST(MessageFields, ShowEverythingThatTravels) {
   std::set<std::string_view> names;

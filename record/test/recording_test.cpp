@@ -205,9 +205,10 @@ TEST(Recording, EventsTellWhatChanged) {
   frame.robots.resize(4);
   frame.robots[0].role = Role::root;
   frame.robots[3].role = Role::worker;
+  frame.robots[3].target = 0;
   frame.targets = {{{1.0, 0.0}, 3}};
   measure::Tick whole;
-  whole.components = 1;
+  whole.components = whole.active_targets = 1;
   {
     Recorder recorder(path, {});
     const auto next = [&](measure::Tick tick) {
@@ -225,7 +226,9 @@ TEST(Recording, EventsTellWhatChanged) {
     frame.robots[2].epoch = 1;
     frame.robots[2].phase = Phase::start_tree;
     frame.robots[3].position = {0.9, 0.1};
+    whole.targets_reached = 1;
     next(whole);
+    whole.targets_reached = 0;
     frame.targets[0].position = {2.0, 0.0};
     frame.targets.push_back({{0.0, 2.0}, 0});
     next(whole);
@@ -266,6 +269,13 @@ TEST(Recording, AtEveryMomentThePartHoldsAllButTheLastTenSeconds) {
 measure::Tick calm() {
   measure::Tick tick;
   tick.components = 1;
+  return tick;
+}
+
+measure::Tick of_targets(std::uint32_t active, std::uint32_t reached) {
+  measure::Tick tick = calm();
+  tick.active_targets = active;
+  tick.targets_reached = reached;
   return tick;
 }
 
@@ -416,6 +426,7 @@ TEST(Events, WhatMovesOnAndOnIsSaidOnce) {
   Told told(directory.file("a.mcap"));
   Setting setting;
   Frame frame = chain();
+  frame.robots[2].target = 0;
   frame.targets = {{{2.0, 0.5}, 2}};
   for (int t = 0; t < 40; ++t) {
     if (t >= 5 && t < 30) {  // the worker keeps up, 0.1 m behind
@@ -423,12 +434,134 @@ TEST(Events, WhatMovesOnAndOnIsSaidOnce) {
       frame.robots[2].position.x = frame.targets[0].position.x - 0.1;
     }
     if (t == 35) frame.targets[0].position = {0.0, 0.0};
-    told.next(setting, frame);
+    told.next(setting, frame, of_targets(1, t < 35 ? 1 : 0));
   }
   EXPECT_EQ(told.events(), (std::vector<std::string>{"arrival 2: robot 2 has reached target T0",
                                                      "complete -1: all targets are reached",
                                                      "target_moved 2: target T0 has moved to (2.10, 0.50) m",
                                                      "target_moved 2: target T0 has moved to (0.00, 0.00) m"}));
+}
+
+// Target 0 names robot 2, which dies on its way and, in another run, at the target.
+TEST(Events, WhoTakesOverATargetArrivesAndCompletes) {
+  const test::TemporaryDirectory directory;
+  for (const bool had_arrived : {false, true}) {
+    Told told(directory.file(had_arrived ? "at.mcap" : "way.mcap"));
+    const Setting setting;
+    Frame frame = chain();
+    frame.robots[2].target = 0;
+    frame.targets = {{had_arrived ? Vec2{2.1, 0.5} : Vec2{5.0, 0.5}, 2}};
+    told.next(setting, frame, of_targets(1, had_arrived ? 1 : 0));
+    frame.robots[2].alive = false;
+    told.next(setting, frame, of_targets(1, 0));
+    frame.robots[3].role = Role::worker;
+    frame.robots[3].target = 0;
+    told.next(setting, frame, of_targets(1, 0));
+    frame.robots[3].position = frame.targets[0].position;
+    for (int t = 0; t < 3; ++t) told.next(setting, frame, of_targets(1, 1));
+    std::vector<std::string> expected;
+    if (had_arrived) expected = {"arrival 2: robot 2 has reached target T0", "complete -1: all targets are reached"};
+    expected.insert(expected.end(), {"death 2: robot 2 died, a worker of target T0",
+                                     "worker 3: robot 3 takes over target T0 of a worker that is lost",
+                                     "arrival 3: robot 3 has reached target T0", "complete -1: all targets are reached"});
+    EXPECT_EQ(told.events(), expected);
+  }
+}
+
+TEST(Events, ATargetGivenUpIsToldAndNoLongerCounts) {
+  const test::TemporaryDirectory directory;
+  Told told(directory.file("a.mcap"));
+  const Setting setting;
+  Frame frame = chain();
+  frame.robots[2].target = 0;
+  frame.robots[3].role = Role::worker;
+  frame.robots[3].target = 1;
+  frame.targets = {{{2.0, 0.5}, 2}, {{9.0, 9.0}, 3}};
+  told.next(setting, frame, of_targets(2, 1));
+  frame.targets[1].active = false;
+  frame.robots[3].target = -1;  // as capture() has it
+  frame.robots[3].role = Role::spare;
+  told.next(setting, frame, of_targets(1, 1));
+  frame.targets[1].position = frame.robots[3].position;  // whatever becomes of it
+  told.next(setting, frame, of_targets(1, 1));
+  frame.robots[3].alive = false;
+  frame.targets[0].active = false;
+  told.next(setting, frame, of_targets(0, 0));
+  EXPECT_EQ(told.events(), (std::vector<std::string>{
+                               "arrival 2: robot 2 has reached target T0", "target_removed 3: target T1 is given up",
+                               "complete -1: all targets are reached", "death 3: robot 3 died, a spare",
+                               "target_removed 2: target T0 is given up"}));
+}
+
+TEST(Events, TheVanishedHideNobody) {
+  const test::TemporaryDirectory directory;
+  for (const bool dead_bodies : {true, false}) {
+    Told told(directory.file(dead_bodies ? "stay.mcap" : "vanish.mcap"));
+    Setting setting;
+    setting.line_of_sight = true;
+    setting.dead_bodies = dead_bodies;
+    setting.obstacles = {world::Wall{{0.6, 0.0}, {0.6, 1.0}}};
+    Frame frame = chain();
+    frame.robots[3].alive = false;
+    told.next(setting, frame);
+    frame.robots[3].position = {0.5, 0.52};
+    measure::Tick tick = calm();
+    tick.broken_by_occlusion = 1;
+    told.next(setting, frame, tick);
+    const std::string who = dead_bodies ? "robot 3" : "obstacle 0";
+    EXPECT_EQ(told.events(), (std::vector<std::string>{"edges_broken 1: the edge from robot 1 to its parent, robot 0, "
+                                                       "is broken: hidden by " + who}));
+  }
+}
+
+TEST(Recording, WhatIsGivenUpAndWhetherTheDeadVanishComesBack) {
+  const test::TemporaryDirectory directory;
+  Told told(directory.file("a.mcap"));
+  Setting setting;
+  setting.dead_bodies = false;
+  Frame frame = chain();
+  frame.targets = {{{2.0, 0.5}, 2}, {{9.0, 9.0}, 3}};
+  told.next(setting, frame);
+  frame.targets[1].active = false;
+  told.next(setting, frame);
+  (void)told.events();
+  Recording recording(directory.file("a.mcap"));
+  EXPECT_FALSE(recording.setting().dead_bodies);
+  EXPECT_FALSE(recording.setting_at(0.1).dead_bodies);
+  EXPECT_TRUE(recording.frame_at(0.0).targets[1].active);
+  EXPECT_FALSE(recording.frame_at(0.1).targets[1].active);
+  EXPECT_TRUE(recording.frame_at(0.1).targets[0].active);
+}
+
+// The text of a frame has four decimals, a tick may have more.
+TEST(Recording, AFrameIsOfTheTimeOfItsMessage) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  constexpr double tick_s = 0.00013;
+  Setting first;
+  first.tick_s = tick_s;
+  Setting second = first;
+  second.line_of_sight = true;
+  {
+    Recorder recorder(path, {});
+    for (std::uint64_t t = 0; t < 20; ++t) {
+      Frame frame = chain();
+      frame.tick = t;
+      frame.time_s = tick_s * static_cast<double>(t);
+      recorder.frame(t < 10 ? first : second, frame, calm());
+    }
+    recorder.finish(test::sample_run(20));
+  }
+  Recording recording(path);
+  std::uint64_t tick = 0;
+  recording.for_each([&](const Frame& frame) {
+    EXPECT_NEAR(frame.time_s, tick_s * static_cast<double>(tick), 1e-12);
+    EXPECT_EQ(recording.setting_at(frame.time_s).line_of_sight, tick >= 10) << tick;
+    EXPECT_EQ(recording.frame_at(frame.time_s).tick, tick);
+    ++tick;
+    return true;
+  });
+  EXPECT_EQ(tick, 20U);
 }
 
 TEST(Recording, ASettingThatChangesIsKept) {

@@ -303,6 +303,7 @@ std::string Live::recording() const {
   const TemporaryFile file;
   record::RecorderOptions options;
   options.every_ticks = r.configuration.output.record_every;
+  options.messages = r.configuration.output.messages;
   options.existing = record::Existing::replace;
   record::Recorder recorder(file.path(), {config_json(), version(), git(), seed()}, options);
   recorder.frame(again.world, again.last);

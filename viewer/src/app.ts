@@ -2,9 +2,9 @@
 // The page: which runs are open, and the way from what a visitor does to what is shown. Sources bring
 // frames, the player says which moment, stages and panels show it; nothing here draws or computes.
 import { button, download, h } from './dom';
-import { acceptDrops, askScenarios, askServer, chooseFile, judge } from './files';
+import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge, nameIn } from './files';
 import { Keyboard } from './keyboard';
-import { EventsList } from './panels/events_list';
+import { EventsList, type ListedEvent } from './panels/events_list';
 import { Help } from './panels/help';
 import { Inspector } from './panels/inspector';
 import { LivePanel, type LiveChoice, type Tool } from './panels/live';
@@ -23,8 +23,10 @@ import { openFile, openLive, openUrl } from './source/open';
 import type { RunEvent } from './frame';
 import { Problem } from './source/problem';
 import type { Intervention } from './source/protocol';
+import { Controls, LossHistory } from './state/controls';
 import { Horizon } from './state/horizon';
-import { Player } from './state/player';
+import { Pace } from './state/pace';
+import { Player, tickAt } from './state/player';
 import { eventAfter } from './state/events';
 import { Store } from './state/store';
 import { RobotWatch } from './robot_watch';
@@ -32,6 +34,7 @@ import { Stage, type Shared, type StageActions } from './stage';
 
 const trailS = 10; // how far back trails go
 const panelEveryMs = 80; // panels are read, not watched: twelve times a second is enough
+const tellEveryMs = 250; // lists and plots tell of all there is: the longer the run, the more work
 
 export class App {
   private readonly store = new Store();
@@ -40,6 +43,9 @@ export class App {
   private dirty = true;
   private panelsAt = 0;
   private readonly horizon = new Horizon();
+  private readonly tables = new Pace(tellEveryMs);
+  private readonly controls = new Controls();
+  private loss = new LossHistory('');
   private opening = 0; // counts attempts: a later one makes an earlier one void
 
   private readonly notice = new Notice();
@@ -63,7 +69,7 @@ export class App {
   });
   private readonly facts = new RunFacts((run) => this.hash(run));
   private readonly live = new LivePanel({
-    start: (choice) => void this.startLive(choice), reset: () => this.reset(), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
+    start: (choice) => void this.startByHand(choice), reset: () => this.reset(), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
     saveRecording: () => void this.save((source) => source.saveRecording()),
     saveScenario: () => void this.save((source) => source.saveScenario()),
   });
@@ -96,13 +102,15 @@ export class App {
   async begin(): Promise<void> {
     const [start, scenarios] = await Promise.all([askServer(), askScenarios()]);
     if (scenarios && scenarios.length > 0) this.live.setScenarios(scenarios);
-    if (start.recording) return this.open([openUrl(start.recording.url, start.recording.name, start.recording.size)], false);
+    if (start.recording) return void await this.open([openUrl(start.recording.url, start.recording.name, start.recording.size)], false);
     if (start.scenario) {
       this.live.setOwn(start.scenario.name, start.scenario.text, start.scenario.overrides);
-      return this.startLive(this.live.choice());
+      return void await this.startLive(this.live.choice());
     }
-    this.live.pick(decodeURIComponent(location.hash.slice(1)));
-    await this.startLive(this.live.choice());
+    const name = nameIn(location.hash);
+    const found = name === '' || this.live.pick(name);
+    const shown = await this.startLive(this.live.choice());
+    if (shown && !found) this.notice.bad(`There is no scenario “${name}”; this is another one.`);
   }
 
   // ---- What is open ----
@@ -110,7 +118,7 @@ export class App {
   private async openFile(file: File): Promise<void> {
     try {
       const opened = await judge(file);
-      if ('recording' in opened) return await this.open([openFile(opened.recording)], false);
+      if ('recording' in opened) return void await this.open([openFile(opened.recording)], false);
       this.live.setOwn(opened.scenario.name, opened.scenario.text, []);
       this.tabs.show('live');
       await this.startLive(this.live.choice());
@@ -119,31 +127,43 @@ export class App {
     }
   }
 
-  private async startLive(choice: LiveChoice): Promise<void> {
+  /** The keys belong to the run then: the same button once more would start it anew. */
+  private async startByHand(choice: LiveChoice): Promise<void> {
+    const focused = document.activeElement;
+    if (await this.startLive(choice) && document.activeElement === focused) this.transport.focus();
+  }
+
+  /** Whether it is shown. */
+  private async startLive(choice: LiveChoice): Promise<boolean> {
     this.live.setProblems([]);
     const sources = choice.algorithms.map((algorithm) => openLive({
       name: choice.name, text: choice.text,
       overrides: algorithm === '' ? choice.overrides : [...choice.overrides, `mission.algorithm=${algorithm}`],
     }));
-    await this.open(sources, true);
+    return await this.open(sources, true);
   }
 
   /** Shows the sources once all of them are open; until then, and if one fails, what was there stays. */
-  private async open(sources: Source[], live: boolean): Promise<void> {
+  private async open(sources: Source[], live: boolean): Promise<boolean> {
     const attempt = ++this.opening;
     try {
       await Promise.all(sources.map(opened));
     } catch (problem) {
       for (const source of sources) source.close();
-      if (attempt !== this.opening) return;
-      const problems = problem instanceof Problem ? problem.problems : [];
-      if (live) this.live.setProblems(problems.length > 0 ? [...problems] : [textOf(problem)]);
-      if (live) this.tabs.show('live');
-      this.notice.bad([textOf(problem), ...(live ? [] : problems)].join('\n'));
-      return;
+      if (attempt === this.opening) this.refused(problem, live);
+      return false;
     }
-    if (attempt !== this.opening) for (const source of sources) source.close();
-    else this.show(sources, live);
+    const wanted = attempt === this.opening;
+    if (wanted) this.show(sources, live);
+    else for (const source of sources) source.close();
+    return wanted;
+  }
+
+  private refused(problem: unknown, live: boolean): void {
+    const problems = problem instanceof Problem ? problem.problems : [];
+    if (live) this.live.setProblems(problems.length > 0 ? [...problems] : [textOf(problem)]);
+    if (live) this.tabs.show('live');
+    this.notice.bad([textOf(problem), ...(live ? [] : problems)].join('\n'));
   }
 
   private show(sources: Source[], live: boolean): void {
@@ -155,20 +175,20 @@ export class App {
     this.stagesElement.prepend(...this.stages.map((stage) => stage.element));
     for (const source of sources) this.listen(source);
     this.horizon.open(live);
+    this.controls.forget();
     this.player.attach(sources);
     this.player.home();
     this.player.play();
     this.showHeaders();
     this.showSeries();
     this.showEvents();
-    if (live) this.live.setLoss(lossOf(sources[0]));
     if (!live) this.tabs.show('robot');
   }
 
   private listen(source: Source): void {
     source.header.subscribe(() => this.showHeaders());
-    source.series.subscribe(() => this.showSeries());
-    source.events.subscribe(() => this.showEvents());
+    source.series.subscribe(() => this.tables.want());
+    source.events.subscribe(() => this.tables.want());
     source.failure.subscribe((problem) => { if (problem && this.sources.includes(source)) this.notice.bad(problem.message); });
     source.trouble.subscribe((problem) => { if (problem) this.notice.bad(`${problem.message}\nPlay tries again.`); });
     source.arrived.subscribe(() => this.draw());
@@ -183,11 +203,12 @@ export class App {
   private loop(nowMs: number): void {
     requestAnimationFrame((now) => this.loop(now));
     if (this.player.frame(nowMs)) this.dirty = true;
+    if (this.tables.due(nowMs)) this.tell();
     if (!this.dirty) return;
     this.dirty = false;
     const shared = this.shared();
     for (const stage of this.stages) stage.draw(shared, nowMs); // what is not there yet will arrive and be drawn
-    if (this.horizon.see(this.player.timeS)) this.tell();
+    if (this.horizon.see(this.player.timeS) || (!this.player.playing && this.horizon.behind)) this.tables.want();
     this.transport.update(this.clock());
     if (nowMs - this.panelsAt >= panelEveryMs || !this.player.playing) this.showPanels(nowMs);
   }
@@ -199,8 +220,15 @@ export class App {
     const { selection, followed } = this.store.state;
     const stage = this.stages[0];
     this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive);
-    const setting = stage?.source.settingAt(this.player.timeS) ?? null;
-    this.live.setLive(this.isLive ? setting : null);
+    this.showControls(stage?.source ?? null);
+  }
+
+  private showControls(source: Source | null): void {
+    const { timeS, waiting } = this.player;
+    const setting = source?.settingAt(timeS) ?? null;
+    if (!this.isLive || setting === null) return this.live.setLive(null);
+    const known = { loss: this.loss.at(timeS), lineOfSight: setting.line_of_sight };
+    this.live.setLive(this.controls.at(timeS, !waiting, known));
   }
 
   private clock(): Clock {
@@ -221,8 +249,8 @@ export class App {
     this.what.textContent = headers.length === 0 ? '' : `${headers[0].name} · seed ${headers[0].seed}`;
     document.title = headers.length === 0 ? 'Banyan' : `${headers[0].name} – Banyan`;
     this.facts.update(headers);
-    const warnings = headers.flatMap((header) => header.warnings);
-    if (warnings.length > 0) this.notice.bad(warnings.join('\n'));
+    this.loss = new LossHistory(headers[0]?.config ?? '');
+    this.notice.warn(headers.flatMap((header) => header.warnings), this.stages);
     this.draw();
   }
 
@@ -238,9 +266,11 @@ export class App {
     this.draw();
   }
 
-  private shownEvents(): RunEvent[] {
-    const events = this.sources.flatMap((source) => this.horizon.events(source.events.value));
-    return this.sources.length > 1 ? events.sort((a, b) => a.time_s - b.time_s) : events;
+  private shownEvents(): ListedEvent[] {
+    if (this.sources.length < 2) return this.sources.flatMap((source) => this.horizon.events(source.events.value));
+    const named = (source: Source) =>
+      this.horizon.events(source.events.value).map((event) => ({ ...event, run: source.settingAt(0)?.algorithm }));
+    return this.sources.flatMap(named).sort((a, b) => a.time_s - b.time_s);
   }
 
   private showEvents(): void {
@@ -307,42 +337,59 @@ export class App {
 
   // ---- What is done to a live run ----
 
-  private intervene(events: Intervention[], stages: Stage[] = this.stages): void {
-    if (!this.isLive || events.length === 0) return;
-    for (const stage of stages) {
-      stage.source.intervene(stage.tick, events).catch((problem: unknown) => {
-        this.notice.bad([textOf(problem), ...(problem instanceof Problem ? problem.problems : [])].join('\n'));
-      });
+  private intervene(events: Intervention[]): void { this.act(() => events); }
+
+  /** Does to each run what is said for it. Standing still, the page goes on to where that is seen. */
+  private act(eventsFor: (stage: Stage) => Intervention[]): void {
+    if (!this.isLive) return;
+    const { timeS } = this.player;
+    for (const stage of this.stages) {
+      const { source } = stage;
+      const events = eventsFor(stage);
+      if (events.length === 0) continue;
+      const tick = tickAt(timeS, source);
+      this.controls.ask(events, tick, source.tickS);
+      this.change(source, source.intervene(tick, events));
+      this.player.goOnTo((tick + 1) * source.tickS);
     }
     this.draw();
   }
 
-  /** To the begin; what was done to the run from there on never happened. */
+  /** To the begin; what was done to the run never happened. */
   private reset(): void {
     this.player.home();
-    for (const { source } of this.stages) {
-      source.intervene(0, []).catch((problem: unknown) => this.notice.bad(textOf(problem)));
-    }
+    this.controls.forget();
+    for (const source of this.sources) this.change(source, source.reset());
     this.draw();
+  }
+
+  /** Says what went wrong, unless another run is shown by then. */
+  private change(source: Source, done: Promise<void>): void {
+    done.catch((problem: unknown) => {
+      if (!this.sources.includes(source)) return;
+      this.controls.forget();
+      this.notice.bad([textOf(problem), ...(problem instanceof Problem ? problem.problems : [])].join('\n'));
+      this.draw();
+    });
   }
 
   private async hash(run: number): Promise<string> {
-    const stage = this.stages[run];
+    const { source, tick } = this.stages[run]; // of the moment when it was asked for
     try {
-      return `${await stage.source.hash(stage.tick)} at tick ${stage.tick}`;
+      return `${await source.hash(tick)} at tick ${tick}`;
     } catch (problem) {
       return textOf(problem);
     }
   }
 
   private async save(ask: (source: Source) => Promise<{ name: string; blob: Blob }>): Promise<void> {
+    const { sources } = this;
     try {
-      for (const source of this.sources) {
-        const { name, blob } = await ask(source);
-        download(name, blob);
-      }
+      const files = await Promise.all(sources.map(ask));
+      const names = apart(files.map(({ name }) => name), sources.map((source) => source.settingAt(0)?.algorithm ?? ''));
+      files.forEach(({ blob }, k) => download(names[k], blob));
     } catch (problem) {
-      this.notice.bad(textOf(problem));
+      if (sources.every((source) => this.sources.includes(source))) this.notice.bad(textOf(problem));
     }
   }
 
@@ -358,7 +405,7 @@ export class App {
 
   private killArea(area: Bounds): void {
     this.setTool('look');
-    for (const stage of this.stages) this.intervene(stage.robotsIn(area).map((robot) => ({ kind: 'die', robot })), [stage]);
+    this.act((stage) => stage.robotsIn(area).map((robot) => ({ kind: 'die', robot })));
   }
 
   private release(): void {
@@ -426,15 +473,6 @@ export class App {
 const place = (at: Spot): [number, number] => [Math.round(at.x * 1000) / 1000, Math.round(at.y * 1000) / 1000];
 
 const textOf = (problem: unknown) => (problem instanceof Error ? problem.message : String(problem));
-
-function lossOf(source: Source): number {
-  try {
-    const config = JSON.parse(source.header.value?.config ?? '') as { radio?: { loss?: number } };
-    return config.radio?.loss ?? 0;
-  } catch {
-    return 0;
-  }
-}
 
 /** Resolves when a source has told what it holds, rejects with its problem. */
 function opened(source: Source): Promise<void> {

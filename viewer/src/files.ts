@@ -17,6 +17,26 @@ export async function judge(file: File): Promise<Opened> {
   return { recording: file }; // its reader says what is wrong with it
 }
 
+/** The scenario that an address names after its #; "" without one. */
+export function nameIn(hash: string): string {
+  const written = hash.replace(/^#/, '');
+  try {
+    return decodeURIComponent(written);
+  } catch {
+    return written; // a % that stands for nothing
+  }
+}
+
+/** Names under which the files of runs side by side are saved: none twice. */
+export function apart(names: string[], algorithms: string[]): string[] {
+  if (names.length < 2) return names;
+  return names.map((name, k) => {
+    const twin = algorithms.filter((algorithm) => algorithm === algorithms[k]).length > 1;
+    const which = twin ? `${algorithms[k]}-${k + 1}` : algorithms[k];
+    return name.replace(/(\.[^.]*)?$/, (ending) => `-${which}${ending}`);
+  });
+}
+
 export function acceptDrops(open: (file: File) => void): void {
   const root = document.documentElement;
   let inside = 0; // dragenter and dragleave come for every element

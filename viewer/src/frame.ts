@@ -12,8 +12,11 @@ export type Column = (typeof columns)[number];
 export interface Targets {
   x: Float64Array; // m
   y: Float64Array;
-  worker: Int32Array; // robot index, -1: nobody
+  worker: Int32Array; // index of the robot first sent there, -1: nobody, `givenUp`
 }
+
+/** In Targets.worker: nobody is to go there any more. In that array, so that whoever copies targets keeps it. */
+export const givenUp = -2;
 
 export interface Frame {
   tick: number;
@@ -53,6 +56,8 @@ export interface Setting {
   radius_m: number;
   range_m: number;
   line_of_sight: boolean;
+  /** The dead hide what is behind them; false: they vanish. Missing: true. */
+  dead_bodies?: boolean;
   target_tolerance_m: number;
   time_limit_s: number;
   obstacles: Obstacle[];

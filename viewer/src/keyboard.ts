@@ -24,43 +24,57 @@ export interface KeyActions {
 
 const zoomStep = 1.25;
 const panStep = 0.12;
+const movesSlider = /^(Arrow|Home|End|Page)/;
 
 /** Whether the key is meant for a control and not for the page. */
-function isTyping(target: EventTarget | null): boolean {
+function isTyping(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
-  if (target instanceof HTMLInputElement) return target.type !== 'range' && target.type !== 'checkbox';
+  if (target instanceof HTMLInputElement && target.type === 'range') return !isTimeline(target) && movesSlider.test(key);
+  if (target instanceof HTMLInputElement) return target.type !== 'checkbox';
   return target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
 }
 
-/** Space and Enter press what has the focus. */
-function presses(target: EventTarget | null, key: string): boolean {
-  if (key !== ' ' && key !== 'Enter') return false;
-  return target instanceof HTMLElement && target.closest('button, summary, a, input[type=checkbox]') !== null;
+/** Space and Enter press what has the focus. `clicked`: it has it from the pointer, and who clicked a button does
+ *  not mean it any more with the next space. */
+function presses(target: EventTarget | null, key: string, clicked: boolean): boolean {
+  if (key !== ' ' && key !== 'Enter' || !(target instanceof HTMLElement)) return false;
+  if (key === ' ' && clicked && target.closest('button') !== null) return false;
+  return target.closest('button, summary, a, input[type=checkbox]') !== null;
 }
 
 export class Keyboard {
   private digits = '';
+  private clicked = false; // what has the focus has it from the pointer
+  private taken = ''; // the key that is held down, if the page has taken it
 
   constructor(private readonly actions: KeyActions) {
     document.addEventListener('keydown', (event) => this.onKey(event));
+    // Some browsers press a button only when space is let go.
+    document.addEventListener('keyup', (event) => { if (event.key === ' ' && this.taken === ' ') event.preventDefault(); });
+    document.addEventListener('focusin', ({ target }) => { this.clicked = target instanceof HTMLElement && !target.matches(':focus-visible'); });
+    document.addEventListener('pointerdown', () => { this.digits = ''; });
   }
 
   private onKey(event: KeyboardEvent): void {
+    this.taken = '';
     if (event.ctrlKey || event.metaKey || event.defaultPrevented && !isTimeline(event.target)) return;
     if (document.querySelector('dialog[open]') !== null) return;
     if (event.key === 'Escape' && event.target instanceof HTMLElement) event.target.blur();
-    if (event.key !== 'Escape' && isTyping(event.target)) return;
-    if (presses(event.target, event.key) && this.digits === '') return;
+    if (event.key !== 'Escape' && isTyping(event.target, event.key)) return;
+    if (presses(event.target, event.key, this.clicked) && this.digits === '') return;
     const action = this.digit(event.key) ?? this.find(event);
     if (action === null) return;
     event.preventDefault();
+    this.taken = event.key;
     action();
   }
 
-  /** A number and Enter select a robot. */
+  /** A number and Enter select a robot. A 0 alone shows all of the picture, and may be the begin of a number, too. */
   private digit(key: string): (() => void) | null {
-    if (/^[0-9]$/.test(key) && (this.digits !== '' || key !== '0')) {
-      return () => { this.digits = (this.digits + key).slice(-6); };
+    if (/^[0-9]$/.test(key)) {
+      const first = this.digits === '';
+      this.digits = (this.digits + key).slice(-6);
+      return first && key === '0' ? this.actions.fit : () => {};
     }
     const digits = this.digits;
     this.digits = '';
@@ -78,7 +92,7 @@ export class Keyboard {
     const plain: Record<string, () => void> = {
       ' ': a.toggle, ArrowLeft: () => a.step(-ticks), ArrowRight: () => a.step(ticks), Home: a.toStart, End: a.toEnd,
       '[': () => a.jump(-1), ']': () => a.jump(1), '-': () => a.speed(-1), '+': () => a.speed(1), '=': () => a.speed(1),
-      PageUp: () => a.zoom(zoomStep), PageDown: () => a.zoom(1 / zoomStep), '0': a.fit,
+      PageUp: () => a.zoom(zoomStep), PageDown: () => a.zoom(1 / zoomStep),
       n: () => a.selectNext(1), p: () => a.selectNext(-1), f: a.follow, Delete: a.kill,
       l: () => a.switchOn('links'), b: () => a.switchOn('blocked'), o: () => a.switchOn('oldTree'),
       r: () => a.switchOn('trails'), i: () => a.switchOn('ids'),
@@ -89,5 +103,5 @@ export class Keyboard {
 }
 
 function isTimeline(target: EventTarget | null): boolean {
-  return target instanceof HTMLInputElement && target.type === 'range';
+  return target instanceof HTMLInputElement && target.closest('.timeline') !== null;
 }

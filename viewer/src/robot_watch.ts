@@ -1,27 +1,39 @@
 // SPDX-License-Identifier: MIT
 // Keeps the inspector on the robot that is selected: what the frame says at once, what it broadcast when
 // the source has answered. At most one question is under way.
-import type { Inspector } from './panels/inspector';
-import type { MessageFields } from './source/protocol';
+import type { Inspector, Said } from './panels/inspector';
+import type { Source } from './source/client';
+import { wordsOf } from './source/problem';
 import type { Stage } from './stage';
 
 export class RobotWatch {
+  private source: Source | null = null; // whom everything below is about
   private asked = '';
   private busy = false;
-  private answer: { robot: number; tick: number; fields: MessageFields | null } | null = null;
+  private answer: (Said & { robot: number }) | null = null;
 
   constructor(private readonly inspector: Inspector) {}
 
   show(stage: Stage | null, robot: number | null, followed: number | null, live: boolean): void {
+    this.attend(stage?.source ?? null);
     const frame = stage?.recordedFrame ?? null;
     if (stage === null || frame === null || robot === null || robot >= frame.robots) return this.inspector.update(null);
     this.ask(stage, robot, frame.tick);
-    const answer = this.answer?.robot === robot ? this.answer : null;
     this.inspector.update({
       frame, robot, live, followed: followed === robot,
+      algorithm: stage.source.settingAt(frame.timeS)?.algorithm ?? '',
       neighbours: stage.facts()?.radio.neighbours(robot) ?? [],
-      message: answer?.fields, messageTick: answer?.tick ?? 0,
+      said: this.answer?.robot === robot ? this.answer : null,
     });
+  }
+
+  /** Another run is shown: what was asked and answered was about the last one. */
+  private attend(source: Source | null): void {
+    if (source === this.source) return;
+    this.source = source;
+    this.asked = '';
+    this.busy = false;
+    this.answer = null;
   }
 
   private ask(stage: Stage, robot: number, tick: number): void {
@@ -29,9 +41,15 @@ export class RobotWatch {
     if (this.busy || question === this.asked) return;
     this.asked = question;
     this.busy = true;
-    stage.source.message(robot, tick)
-      .then((fields) => { this.answer = { robot, tick, fields }; })
-      .catch(() => { this.answer = { robot, tick, fields: null }; })
-      .finally(() => { this.busy = false; stage.redraw(); });
+    const take = (said: Said) => {
+      if (stage.source !== this.source) return; // too late
+      this.busy = false;
+      this.answer = { robot, ...said };
+      stage.redraw();
+    };
+    stage.source.message(robot, tick).then(
+      (fields) => take({ tick, fields, problem: '' }),
+      (problem: unknown) => take({ tick, fields: null, problem: wordsOf(problem) }),
+    );
   }
 }

@@ -112,23 +112,62 @@ describe('a source', () => {
     expect(worker.requests.length).toBe(5);
   });
 
-  it('forgets what an intervention undid', async () => {
-    const worker = new ThreadlessWorker(false);
-    const source = new Source(worker, { type: 'open_live', run: { name: 'x', text: '', overrides: [] } });
-    const setting = { tick_s: 0.1 };
-    const header = { kind: 'live', settings: [{ timeS: 0, setting }], robots: 1, startS: 0, endS: 0, growing: true };
-    worker.reply({ type: 'header', header } as unknown as Reply);
+  const liveHeader = (endS: number) => ({
+    type: 'header',
+    header: { kind: 'live', settings: [{ timeS: 0, setting: { tick_s: 0.1 } }], robots: 1, startS: 0, endS, growing: true },
+  }) as unknown as Reply;
+
+  /** Asks for frames and gets the first seven; what the answer is to. */
+  function sevenFrames(worker: ThreadlessWorker, source: Source): () => void {
     source.prefetch(0, 1, 1);
     const ask = worker.requests.at(-1) as Extract<Request, { type: 'frames' }>;
     expect(ask).toMatchObject({ type: 'frames', fromS: -0.05, toS: 0.5 });
     const frames = Array.from({ length: 7 }, (_, tick) => frameAt(tick));
-    worker.reply({ type: 'frames', id: ask.id, frames, untilS: 0.5, endS: 0.6 });
+    return () => worker.reply({ type: 'frames', id: ask.id, frames, untilS: 0.5, endS: 0.6 });
+  }
+
+  async function liveSource(): Promise<{ worker: ThreadlessWorker; source: Source }> {
+    const worker = new ThreadlessWorker(false);
+    const source = new Source(worker, { type: 'open_live', run: { name: 'x', text: '', overrides: [] } });
+    worker.reply(liveHeader(0));
+    sevenFrames(worker, source)();
     await until(() => source.pair(0.35) !== null);
+    return { worker, source };
+  }
+
+  it('forgets what an intervention undid at once, and keeps what was fetched after it', async () => {
+    const { worker, source } = await liveSource();
     const done = source.intervene(3, [{ kind: 'die', robot: 0 }]);
-    worker.reply({ type: 'done', id: worker.requests.length - 1 });
-    await done;
-    expect(source.pair(0.35)).toBeNull();
+    const { id } = worker.requests.at(-1) as Extract<Request, { type: 'intervene' }>;
+    expect(source.pair(0.35)).toBeNull(); // the worker has not even seen it
     expect(source.endS).toBeCloseTo(0.3);
+    worker.reply(liveHeader(0.6)); // was under way
+    expect(source.endS).toBeCloseTo(0.3);
+    const answer = sevenFrames(worker, source);
+    worker.reply({ type: 'done', id });
+    answer();
+    await done;
+    await until(() => source.pair(0.35) !== null);
+    expect(source.endS).toBeCloseTo(0.6);
+  });
+
+  it('fetches again what an intervention that could not be made it forget', async () => {
+    const { worker, source } = await liveSource();
+    const done = source.intervene(3, [{ kind: 'die', robot: 99 }]);
+    worker.reply({ type: 'failed', id: (worker.requests.at(-1) as { id: number }).id, text: 'no such robot' });
+    await expect(done).rejects.toThrow('no such robot');
+    sevenFrames(worker, source)();
+    await until(() => source.pair(0.35) !== null);
+  });
+
+  it('forgets everything at a reset', async () => {
+    const { worker, source } = await liveSource();
+    const done = source.reset();
+    expect(worker.requests.at(-1)).toMatchObject({ type: 'reset' });
+    expect(source.pair(0.35)).toBeNull();
+    expect(source.endS).toBe(0);
+    worker.reply({ type: 'done', id: (worker.requests.at(-1) as { id: number }).id });
+    await done;
   });
 });
 

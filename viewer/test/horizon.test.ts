@@ -32,6 +32,15 @@ describe('the horizon', () => {
     });
     expect(asked).toEqual([0.5, 1, 1.5, 2]);
   });
+  it('knows whether plots and lists are behind', () => {
+    const horizon = new Horizon();
+    horizon.open(true);
+    expect(horizon.behind).toBe(false);
+    expect(horizon.see(0.1)).toBe(false);
+    expect(horizon.behind).toBe(true);
+    horizon.tell();
+    expect(horizon.behind).toBe(false);
+  });
   it('comes back when somebody interferes', () => {
     const horizon = new Horizon();
     horizon.open(true);

@@ -6,6 +6,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { describe, expect, it } from 'vitest';
 import { column, columns } from '../src/frame';
 import { History } from '../src/source/history';
+import { LossHistory } from '../src/state/controls';
 import { LiveRun } from '../src/source/live';
 import { LiveHost } from '../src/source/live_host';
 import type { LiveModule } from '../src/source/live_module';
@@ -78,6 +79,49 @@ describe('a live run', () => {
     plain.close();
   });
 
+  it('is reset to the scenario, also from what was done before its first tick', async () => {
+    const plain = runTo(LiveRun.load(await module, request), 40);
+    const run = LiveRun.load(await module, request);
+    const before = { config: run.header().config, frames: run.framesReply(0, 0, 1).frames };
+    for (const head of [0, 40]) {
+      run.intervene(0, [{ kind: 'die', robot: 3 }, { kind: 'set_line_of_sight', line_of_sight: false }]);
+      runTo(run, head);
+      run.takeTable();
+      run.reset();
+      expect(run.head).toBe(0);
+      expect(run.headerChanged).toBe(true);
+      expect(run.header()).toMatchObject({ config: before.config, endS: 0, warnings: [] });
+      expect(run.header().settings).toHaveLength(1);
+      expect(run.framesReply(0, 9, 1).frames).toEqual(before.frames);
+      expect(run.takeTable()).toMatchObject({ whole: true, series: { tick: Float64Array.of(0) } });
+    }
+    expect(runTo(run, 40).hashAt(40)).toBe(plain.hashAt(40));
+    expect(run.takeTable()!.events).toEqual(plain.takeTable()!.events);
+    run.close();
+    plain.close();
+  });
+
+  it('promises nothing behind the last frame of a stride', async () => {
+    const run = runTo(LiveRun.load(await module, request), 55);
+    expect(run.framesReply(0, 5, 16).untilS).toBeCloseTo(4.8);
+    expect(run.framesReply(0, 5, 1).untilS).toBe(5);
+    expect(runTo(run, 64).framesReply(0, 5, 16).untilS).toBe(5);
+    run.close();
+  });
+
+  it('tells at once what was done to it, also where nothing is undone', async () => {
+    const run = runTo(LiveRun.load(await module, request), 20);
+    expect(new LossHistory(run.header().config).at(5)).toBe(0);
+    run.intervene(20, [{ kind: 'set_loss', loss: 0.3 }]);
+    expect(run.headerChanged).toBe(true);
+    runTo(run, 30).intervene(30, [{ kind: 'set_loss', loss: 0.5 }]);
+    const loss = new LossHistory(run.header().config);
+    expect([0, 1.9, 2, 2.9, 3, 99].map((timeS) => loss.at(timeS))).toEqual([0, 0, 0.3, 0.3, 0.5, 0.5]);
+    run.intervene(10, []);
+    expect(new LossHistory(run.header().config).at(5)).toBe(0);
+    run.close();
+  });
+
   it('knows settings that change, messages, files', async () => {
     const run = runTo(LiveRun.load(await module, request), 20);
     run.intervene(20, [{ kind: 'set_line_of_sight', line_of_sight: false }]);
@@ -116,6 +160,9 @@ describe('a live run', () => {
     }
     host.receive({ type: 'save_scenario', id: 1001 });
     expect(await of(1001)).toMatchObject({ type: 'file', name: 'three-targets.toml' });
+    host.receive({ type: 'reset', id: 1003 });
+    expect(await of(1003)).toMatchObject({ type: 'done' });
+    expect(replies.filter((reply) => reply.type === 'header').at(-1)).toMatchObject({ header: { endS: 0 } });
     host.receive({ type: 'intervene', id: 1002, tick: 10 ** 6, events: [] });
     expect(await of(1002)).toMatchObject({ type: 'failed', text: 'that moment has not been simulated yet' });
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The clock, with a fake one behind it and sources that are slow, end or go on.
 import { describe, expect, it } from 'vitest';
-import { fastest, type Playable, Player, slowest } from '../src/state/player';
+import { fastest, type Playable, Player, slowest, tickAt } from '../src/state/player';
 import { random } from './support';
 
 class Fake implements Playable {
@@ -30,7 +30,30 @@ function playing(...sources: Fake[]): { player: Player; run: (ms: number) => voi
   return { player, run: (ms) => { for (let t = 0; t < ms; t += 16) player.frame((now += Math.min(16, ms - t))); } };
 }
 
+describe('the tick of the clock', () => {
+  it('is not that of the picture, and one that there is', () => {
+    const source = { tickS: 0.1, endS: 12.8 };
+    expect([0, 0.05, 3 * 0.1, 9.99, 10.04, 12.8, 50].map((timeS) => tickAt(timeS, source))).toEqual([0, 0, 3, 99, 100, 128, 128]);
+    expect(tickAt(3, { tickS: 0.1, endS: 0 })).toBe(0);
+  });
+});
+
 describe('the player', () => {
+  it('goes on to where something is seen only if it stands still before', () => {
+    const { player, run } = playing(new Fake(20, true));
+    player.seek(0.5);
+    player.goOnTo(0.6);
+    expect(player.timeS).toBe(0.6);
+    player.goOnTo(0.6);
+    player.goOnTo(0.2);
+    expect(player.timeS).toBe(0.6);
+    player.play();
+    player.goOnTo(0.9);
+    expect(player.timeS).toBe(0.6);
+    run(100);
+    expect(player.playing).toBe(true);
+  });
+
   it('plays at its speed and stops at the end', () => {
     const { player, run } = playing(new Fake(20));
     player.play();

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Interpolation, jumps between events, the page's state.
+// Interpolation, jumps between events, live controls, names, the page's state.
 import { describe, expect, it } from 'vitest';
 import { column, type RunEvent } from '../src/frame';
+import { apart, nameIn } from '../src/files';
+import { outdated } from '../src/panels/transport';
+import { Controls, LossHistory } from '../src/state/controls';
 import { eventAfter } from '../src/state/events';
 import { interpolate, normalized } from '../src/state/interpolate';
+import { Pace } from '../src/state/pace';
 import { initialState, type State, Store } from '../src/state/store';
 import { frameAt, random } from './support';
 
@@ -78,6 +82,83 @@ describe('jumps', () => {
     expect(eventAfter(events, 2.5, -1)?.time_s).toBe(1);
     expect(eventAfter(events, 1, -1)).toBeNull();
     expect(eventAfter([], 1, 1)).toBeNull();
+  });
+});
+
+describe('work that is wanted too often', () => {
+  it('is done at once, then at most so often, and not forgotten', () => {
+    const pace = new Pace(250);
+    expect(pace.due(0)).toBe(false);
+    const done: number[] = [];
+    for (let ms = 0; ms < 1000; ms += 10) {
+      pace.want();
+      if (pace.due(ms)) done.push(ms);
+    }
+    expect(done).toEqual([0, 250, 500, 750]);
+    expect(pace.due(999)).toBe(false);
+    expect(pace.due(1000)).toBe(true);
+    expect(pace.due(2000)).toBe(false);
+  });
+});
+
+describe('marks on the timeline', () => {
+  const drawn = { width: 800, height: 20, startS: 0, endS: 100 };
+  it('are drawn anew when they are off by what can be seen', () => {
+    expect(outdated(null, drawn, true)).toBe(true);
+    expect(outdated(drawn, { ...drawn, width: 801 }, true)).toBe(true);
+    expect(outdated(drawn, { ...drawn, endS: 100.4 }, true)).toBe(false);
+    expect(outdated(drawn, { ...drawn, endS: 101 }, true)).toBe(true);
+    expect(outdated(drawn, { ...drawn, endS: 50 }, true)).toBe(true);
+  });
+  it('are exact where the clock stands still', () => {
+    expect(outdated(drawn, drawn, false)).toBe(false);
+    expect(outdated(drawn, { ...drawn, endS: 100.1 }, false)).toBe(true);
+  });
+});
+
+describe('what the live controls show', () => {
+  const known = { loss: 0, lineOfSight: true };
+
+  it('is what was asked for until that is seen, and what is known from then on', () => {
+    const controls = new Controls();
+    expect(controls.at(5, true, known)).toEqual(known);
+    controls.ask([{ kind: 'set_line_of_sight', line_of_sight: false }], 50, 0.1);
+    controls.ask([{ kind: 'set_loss', loss: 0.3 }], 50, 0.1);
+    expect(controls.at(5, true, known)).toEqual({ loss: 0.3, lineOfSight: false });
+    expect(controls.at(5.1, false, known)).toEqual({ loss: 0.3, lineOfSight: false });
+    expect(controls.at(5.1, true, known)).toEqual(known);
+    expect(controls.at(5, true, known)).toEqual(known);
+  });
+  it('is nothing of what could not be, or was undone by going back', () => {
+    const controls = new Controls();
+    controls.ask([{ kind: 'set_loss', loss: 0.3 }], 50, 0.1);
+    controls.forget();
+    expect(controls.at(5, true, known)).toEqual(known);
+    controls.ask([{ kind: 'set_loss', loss: 0.3 }], 50, 0.1);
+    expect(controls.at(4, true, known)).toEqual(known);
+    controls.ask([{ kind: 'set_loss', loss: 0.3 }], 50, 0.1);
+    controls.ask([{ kind: 'die', robot: 0 }], 40, 0.1);
+    expect(controls.at(4, true, known)).toEqual(known);
+  });
+  it('is the loss of that moment', () => {
+    const events = [
+      { kind: 'set_loss', time_s: 8, loss: 0.8 }, { kind: 'set_loss', time_s: 4, loss: 0.4 }, { kind: 'set_loss', time_s: 4, loss: 0.5 },
+      { kind: 'set_loss', when: 'complete', time_s: 1, loss: 0.9 }, { kind: 'die', time_s: 5 },
+    ];
+    const loss = new LossHistory(JSON.stringify({ radio: { loss: 0.1 }, events }));
+    expect([0, 3.9, 4, 7.9, 8, 99].map((timeS) => loss.at(timeS))).toEqual([0.1, 0.1, 0.5, 0.5, 0.8, 0.8]);
+    for (const config of ['', '{', '{}', '{"radio":{}}']) expect(new LossHistory(config).at(1)).toBe(0);
+  });
+});
+
+describe('names', () => {
+  it('of scenarios come from an address, whatever it is', () => {
+    expect(['', '#', '#rooms', '#two%20rooms', '#100%'].map(nameIn)).toEqual(['', '', 'rooms', 'two rooms', '100%']);
+  });
+  it('of files of runs side by side differ', () => {
+    expect(apart(['a.b.toml'], ['convoy'])).toEqual(['a.b.toml']);
+    expect(apart(['a.toml', 'a.toml'], ['outwards', 'convoy'])).toEqual(['a-outwards.toml', 'a-convoy.toml']);
+    expect(apart(['a.mcap', 'a.mcap'], ['convoy', 'convoy'])).toEqual(['a-convoy-1.mcap', 'a-convoy-2.mcap']);
   });
 });
 

@@ -14,6 +14,14 @@ function colors(theme: 'light' | 'dark'): Record<string, string> {
   return theme === 'light' ? light : { ...light, ...found(block(":root[data-theme='dark']")) };
 }
 
+/** Rules that make something see-through: what stands behind changes its contrast, whatever the colours are. */
+const seeThrough = [...css.matchAll(/([^{};]+)\{[^{}]*\bopacity: 0?\.\d/g)].map((m) => m[1].replace(/\/\*.*?\*\//gs, '').trim());
+
+it('lets no text be see-through', () => {
+  // A line, an icon, and controls that are out of use, which WCAG leaves out.
+  expect(seeThrough.sort()).toEqual(['.plot-cursor', '.transport .play.waiting', ':disabled']);
+});
+
 describe.each(['light', 'dark'] as const)('the %s theme', (theme) => {
   const color = colors(theme);
   it.each(['text', 'quiet', 'accent', 'bad', 'good'])('has %s that can be read', (name) => {

@@ -25,7 +25,8 @@ export function facts(frame: Frame, robot: number): Fact[] {
   const children: number[] = [];
   const parents = column(frame, 'parent');
   const allRoles = column(frame, 'role');
-  for (let i = 0; i < frame.robots; ++i) if (parents[i] === robot && allRoles[i] !== 0) children.push(i);
+  const alive = column(frame, 'alive');
+  for (let i = 0; i < frame.robots; ++i) if (parents[i] === robot && allRoles[i] !== 0 && alive[i] === 1) children.push(i);
   return [
     { name: 'position', value: `${get('x_m').toFixed(4)}, ${get('y_m').toFixed(4)} m`, help: 'The truth; the robot does not know it' },
     { name: 'heading', value: `${get('heading_rad').toFixed(4)} rad`, help: 'The truth' },
@@ -36,7 +37,7 @@ export function facts(frame: Frame, robot: number): Fact[] {
     { name: 'depth', value: get('depth') === 0 ? nobody : String(get('depth')), help: 'In the tree; the root has 1' },
     who('parent', 'In the tree'),
     who('old_parent', 'In the old tree, while trees are switched'),
-    { name: 'children', value: children.length === 0 ? nobody : children.join(', '), help: 'Robots of the tree whose parent it is' },
+    { name: 'children', value: children.length === 0 ? nobody : children.join(', '), help: 'Living robots of the tree whose parent it is' },
     { name: 'need', value: needs[get('need')] ?? 'unknown', help: 'Of the edge to the parent: does it want a robot inserted' },
     who('grant', 'The spare that may join the edge to the parent'),
     { name: 'spare_state', value: role === 'spare' ? (spareStates[get('spare_state')] ?? 'unknown') : nobody },
@@ -60,13 +61,27 @@ export interface InspectorActions {
   kill(robot: number): void;
 }
 
+/** What a robot had broadcast last at a tick. */
+export interface Said {
+  tick: number;
+  fields: Record<string, number | string | boolean> | null; // null: not known
+  problem: string; // why it could not be asked for, in words; else ''
+}
+
+/** The message as rows; where there is none, why. */
+export function messageFacts(said: Said, live: boolean): Fact[] {
+  if (said.fields !== null) return Object.entries(said.fields).map(([name, value]) => ({ name, value: word(name, value) }));
+  if (said.problem !== '') return [{ name: 'not known', value: said.problem }];
+  // A recording without messages, or before the first; a live run keeps some only (docs/viewer.md).
+  return [{ name: 'none', value: live ? 'not kept for this moment' : 'this recording has none for this moment' }];
+}
+
 export interface Inspected {
   frame: Frame;
   robot: number;
+  algorithm: string; // of the run; told when two stand side by side
   neighbours: number[]; // robots it can hear
-  /** Its last message; null: not kept; undefined: not there yet. */
-  message: Record<string, number | string | boolean> | null | undefined;
-  messageTick: number;
+  said: Said | null; // null: not there yet
   followed: boolean;
   live: boolean;
 }
@@ -74,6 +89,7 @@ export interface Inspected {
 export class Inspector {
   readonly element = h('section', { class: 'inspector', 'aria-label': 'Robot' });
   private readonly title = h('h2');
+  private readonly run = h('span');
   private readonly follow = button('Follow', 'Keep this robot in the middle (F)', () => this.actions.follow(this.shown?.followed ? null : (this.shown?.robot ?? null)));
   private readonly kill = button('Kill', 'This robot dies now (Delete)', () => { if (this.shown) this.actions.kill(this.shown.robot); }, { class: 'danger' });
   private readonly state = h('table', { class: 'facts' });
@@ -82,7 +98,8 @@ export class Inspector {
   private readonly messageTitle = h('h3');
   private readonly body = h(
     'div', {},
-    h('header', { class: 'robot-head' }, this.title, this.follow, this.kill, button('×', 'Close (Escape)', () => this.actions.select(null))),
+    h('header', { class: 'robot-head' }, this.title, this.follow, this.kill, button('×', 'Close (Escape)', () => this.actions.select(null)),
+      h('p', { class: 'of-run' }, h('i', { class: 'run-line', 'aria-hidden': 'true' }), this.run)),
     this.state, h('h3', {}, 'Neighbours in radio contact'), this.neighbours, this.messageTitle, this.message,
   );
   private readonly empty = h('p', { class: 'hint' }, 'Click a robot, or type its number and press Enter, to see what it knows, whom it hears and what it says.');
@@ -100,6 +117,7 @@ export class Inspector {
     const roleName = roles[column(shown.frame, 'role')[shown.robot]] ?? '';
     setText(this.title, `Robot ${shown.robot}`);
     this.title.dataset.role = roleName;
+    setText(this.run, `of the run with ${shown.algorithm}`);
     setText(this.follow, shown.followed ? 'Unfollow' : 'Follow');
     this.follow.setAttribute('aria-pressed', String(shown.followed));
     this.kill.hidden = !shown.live || column(shown.frame, 'alive')[shown.robot] === 0;
@@ -145,12 +163,11 @@ export class Inspector {
   }
 
   private fillMessage(shown: Inspected): void {
-    const { message } = shown;
-    setText(this.messageTitle, message ? `Last message (tick ${shown.messageTick})` : 'Last message');
-    if (message === undefined) return;
-    const rows: Fact[] = message === null
-      ? [{ name: 'not kept', value: 'this recording has no messages' }]
-      : Object.entries(message).map(([name, value]) => ({ name, value: word(name, value) }));
-    this.fill(this.message, rows);
+    const { said } = shown;
+    // It may be older than the tick that was asked for.
+    setText(this.messageTitle, said?.fields ? `Last message up to tick ${said.tick}` : 'Last message');
+    if (said !== null) this.fill(this.message, messageFacts(said, shown.live));
+    // Of somebody else until the answer comes; the rows stay, or the panel would jump.
+    else for (const row of this.message.rows) setText(row.cells[1], '…');
   }
 }

@@ -2,9 +2,9 @@
 // The handles of a live run: what to run, and what to do to it. Everything here becomes either a start
 // or an intervention; the panel keeps only what has been typed in.
 import { button, h, setText } from '../dom';
-import type { Setting } from '../frame';
 import { scenarios as builtIn, type Scenario } from '../scenarios';
 import type { Intervention } from '../source/protocol';
+import type { Settings } from '../state/controls';
 
 export const algorithms = ['convoy', 'outwards', 'inwards'] as const;
 
@@ -49,13 +49,15 @@ export class LivePanel {
   private readonly tools: Record<Exclude<Tool, 'look'>, HTMLButtonElement>;
   private readonly now: HTMLFieldSetElement;
   private tool: Tool = 'look';
+  private sliding = false; // the visitor holds the slider: it stays where it is
 
   constructor(private readonly actions: LiveActions) {
     this.tools = {
       add_target: button('Add target', 'Then click where it is to be (T)', () => this.choose('add_target'), { 'aria-pressed': 'false' }),
       kill_area: button('Kill area', 'Then draw a rectangle: all robots in it die (K)', () => this.choose('kill_area'), { 'aria-pressed': 'false' }),
     };
-    this.loss.addEventListener('input', () => setText(this.lossText, percent(this.loss.value)));
+    this.loss.addEventListener('input', () => { this.sliding = true; setText(this.lossText, percent(this.loss.value)); });
+    for (const end of ['change', 'pointerup', 'pointercancel', 'blur']) this.loss.addEventListener(end, () => { this.sliding = false; });
     this.loss.addEventListener('change', () => actions.intervene([{ kind: 'set_loss', loss: Number(this.loss.value) }]));
     this.sight.addEventListener('change', () => actions.intervene([{ kind: 'set_line_of_sight', line_of_sight: this.sight.checked }]));
     this.now = this.interventions();
@@ -83,16 +85,15 @@ export class LivePanel {
     this.problems.replaceChildren(...problems.map((p) => h('li', {}, p)));
   }
 
-  /** The setting of the live run that is shown; null: none is. */
-  setLive(setting: Setting | null): void {
-    this.now.disabled = setting === null;
-    if (setting) this.sight.checked = setting.line_of_sight;
-  }
-
-  /** Packet loss as the run begins with it. */
-  setLoss(loss: number): void {
-    this.loss.value = String(loss);
-    setText(this.lossText, percent(this.loss.value));
+  /** Of the live run at the moment that is shown; null: none is. */
+  setLive(settings: Settings | null): void {
+    this.now.disabled = settings === null;
+    if (settings === null) return;
+    this.sight.checked = settings.lineOfSight;
+    if (this.sliding) return;
+    const loss = String(settings.loss);
+    if (this.loss.value !== loss) this.loss.value = loss;
+    setText(this.lossText, percent(loss));
   }
 
   setTool(tool: Tool): void {

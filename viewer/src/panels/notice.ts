@@ -3,14 +3,27 @@
 import { button, h } from '../dom';
 
 const goodForMs = 6000;
+const mostWarnings = 3; // a damaged file has dozens
 
 export class Notice {
   readonly element = h('div', { class: 'notice', role: 'alert', hidden: true });
   private timer = 0;
+  private warned = ''; // of the run last warned of
+  private run: object | null = null;
 
   /** Stays until it is closed. */
   bad(text: string): void {
     this.show(text, true);
+  }
+
+  /** Warnings about what is open, `run`; the panel Run has all of them. What has been said of it once is not said
+   *  again: the visitor may have closed it. */
+  warn(warnings: readonly string[], run: object): void {
+    const all = warnings.join('\n');
+    if (run === this.run && all === this.warned) return;
+    this.run = run;
+    this.warned = all;
+    if (warnings.length > 0) this.bad(shortened(warnings).join('\n'));
   }
 
   /** Goes by itself. */
@@ -29,4 +42,10 @@ export class Notice {
     this.element.replaceChildren(h('span', {}, text), button('×', 'Close', () => this.hide()));
     this.element.hidden = false;
   }
+}
+
+/** The first, and how many there are besides. */
+export function shortened(warnings: readonly string[]): string[] {
+  const left = warnings.length - mostWarnings;
+  return left <= 0 ? [...warnings] : [...warnings.slice(0, mostWarnings), `… and ${left} more: see Run`];
 }

@@ -4,7 +4,7 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import type { Series } from '../frame';
-import { h } from '../dom';
+import { h, setText } from '../dom';
 
 interface Curve {
   title: string;
@@ -81,7 +81,7 @@ const runColors = ['--run-1', '--run-2'];
 class Plot {
   readonly element: HTMLElement;
   private chart: uPlot | null = null;
-  private readonly readout = h('output', { class: 'plot-value' });
+  private readonly readout = h('output', { class: 'plot-value', 'aria-live': 'off' }); // it changes all the time
   private readonly canvas = h('div', { class: 'plot-canvas' });
   private readonly cursor = h('div', { class: 'plot-cursor' });
   private runs: Series[] = [];
@@ -97,17 +97,25 @@ class Plot {
   }
 
   setRuns(runs: Series[]): void {
+    if (runs.every((series) => series.time_s.length === 0)) return this.clear();
     const remake = this.chart === null || runs.length !== this.runs.length;
     this.runs = runs;
-    if (runs.length === 0) return;
     if (remake) this.make();
     else this.chart?.setData(tabulate(this.curve, runs) as unknown as uPlot.AlignedData);
+  }
+
+  /** Another run is open, of which nothing is known yet: the curves of the last one are not its. */
+  private clear(): void {
+    this.runs = [];
+    this.chart?.destroy();
+    this.chart = null;
+    setText(this.readout, '');
   }
 
   setTime(timeS: number): void {
     const values = this.runs.map((s) => valueAt(this.curve, s, timeS));
     const text = values.map((v) => (v === null ? '–' : v.toFixed(this.curve.digits))).join(' | ');
-    this.readout.textContent = this.curve.unit && text !== '–' ? `${text} ${this.curve.unit}` : text;
+    setText(this.readout, this.curve.unit && text !== '' && text !== '–' ? `${text} ${this.curve.unit}` : text);
     if (this.chart === null) return;
     const left = this.chart.valToPos(timeS, 'x');
     this.cursor.style.transform = `translateX(${left.toFixed(1)}px)`;

@@ -35,6 +35,24 @@ export function clockText(timeS: number): string {
   return `${minutes}:${String(Math.floor(rest / 10)).padStart(2, '0')}.${rest % 10}`;
 }
 
+/** For what the marks were drawn. */
+export interface Drawn {
+  width: number; // px
+  height: number;
+  startS: number;
+  endS: number;
+}
+
+const worthDrawing = 0.005; // of the timeline
+
+/** Whether marks are in the wrong places. While a live run plays, its end moves with every picture: then they may be
+ *  off by less than their distances can be seen. */
+export function outdated(drawn: Drawn | null, now: Drawn, playing: boolean): boolean {
+  if (drawn === null || drawn.width !== now.width || drawn.height !== now.height || drawn.startS !== now.startS) return true;
+  const allowed = playing ? worthDrawing * (now.endS - now.startS) : 0;
+  return Math.abs(now.endS - drawn.endS) > allowed;
+}
+
 export class Transport {
   readonly element: HTMLElement;
   private readonly play: HTMLButtonElement;
@@ -45,7 +63,7 @@ export class Transport {
   private readonly speed: HTMLSelectElement;
   private events: RunEvent[] = [];
   private clock: Clock | null = null;
-  private drawn = '';
+  private drawn: Drawn | null = null;
 
   constructor(actions: TransportActions) {
     this.play = button(icon('play'), 'Play', actions.toggle, { class: 'play' });
@@ -77,9 +95,13 @@ export class Transport {
   }
 
   setEvents(events: RunEvent[]): void {
+    const same = events.length === this.events.length && events.every((event, k) => event === this.events[k]);
     this.events = events;
-    this.drawMarks(true);
+    if (!same) this.drawMarks(true);
   }
+
+  /** The keys of the page work there, and space plays. */
+  focus(): void { this.play.focus(); }
 
   update(clock: Clock): void {
     this.clock = clock;
@@ -111,8 +133,8 @@ export class Transport {
     const width = this.marks.clientWidth;
     const height = this.marks.clientHeight;
     const { startS, endS } = this.clock;
-    const now = `${width} ${height} ${startS} ${endS} ${this.events.length}`;
-    if (!always && now === this.drawn) return;
+    const now = { width, height, startS, endS };
+    if (!always && !outdated(this.drawn, now, this.clock.playing)) return;
     this.drawn = now;
     const ratio = window.devicePixelRatio;
     this.marks.width = Math.round(width * ratio);
@@ -121,12 +143,17 @@ export class Transport {
     if (context === null || endS <= startS) return;
     context.scale(ratio, ratio);
     const style = getComputedStyle(this.marks);
+    const colors = new Map<string, string>(); // asking for one costs more than drawing with it
+    const colorOf = (name: string): string => {
+      if (!colors.has(name)) colors.set(name, style.getPropertyValue(name));
+      return colors.get(name)!;
+    };
     const thumb = 7; // px: half of the handle's width, beyond which it does not go
     for (const event of this.events) {
       const mark = eventMark(event.kind);
       if (mark === null) continue;
       const x = thumb + ((event.time_s - startS) / (endS - startS)) * (width - 2 * thumb);
-      context.fillStyle = style.getPropertyValue(mark.color);
+      context.fillStyle = colorOf(mark.color);
       context.fillRect(x - 0.75, height * (1 - mark.height), 1.5, height * mark.height);
     }
   }

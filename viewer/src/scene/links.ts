@@ -38,11 +38,13 @@ export class Radio {
   private readonly y: Float64Array;
   private readonly alive: Float64Array;
   private readonly cells: Cells;
+  private readonly deadHide: boolean;
 
   constructor(private readonly setting: Setting, frame: Frame) {
     this.x = column(frame, 'x_m');
     this.y = column(frame, 'y_m');
     this.alive = column(frame, 'alive');
+    this.deadHide = setting.dead_bodies !== false;
     this.cells = new Cells(this.x, this.y, Math.max(setting.range_m / 8, 2 * setting.radius_m, 1e-3));
   }
 
@@ -93,7 +95,7 @@ export class Radio {
     }
   }
 
-  /** Bodies, those of the dead too, and obstacles. */
+  /** Bodies, those of the dead too unless they vanish, and obstacles. */
   private isBlocked(i: number, j: number): boolean {
     const swap = this.x[j]! < this.x[i]! || (this.x[j] === this.x[i] && this.y[j]! < this.y[i]!);
     const ax = this.x[swap ? j : i]!, ay = this.y[swap ? j : i]!;
@@ -121,7 +123,8 @@ export class Radio {
       const to = cells.first[row * cells.columns + cells.column(ax + leave * dx + radius + slack) + 1]!;
       for (let m = cells.first[row * cells.columns + cells.column(ax + enter * dx - radius - slack)]!; m < to; ++m) {
         const k = cells.members[m]!;
-        if (k !== i && k !== j && discBlocks(this.x[k]!, this.y[k]!, radius, ax, ay, bx, by)) return true;
+        if (k === i || k === j || (this.alive[k] === 0 && !this.deadHide)) continue;
+        if (discBlocks(this.x[k]!, this.y[k]!, radius, ax, ay, bx, by)) return true;
       }
     }
     return false;

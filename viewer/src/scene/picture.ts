@@ -40,8 +40,8 @@ export class Scene {
   get widthPx(): number { return this.surface.widthPx; }
   get heightPx(): number { return this.surface.heightPx; }
 
-  /** Of the last picture: radio links that are in it and that there were; fewer are drawn than there are when they
-   *  would only make a grey area. */
+  /** Of the last picture: radio links that are drawn, of all that are in sight; fewer when they would only make a
+   *  grey area. */
   get radioLinks(): RadioCount { return this.count; }
 
   /** Links, edges and neighbours of the instant that is shown, for panels; as computed for the picture. */

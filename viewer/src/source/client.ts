@@ -54,6 +54,7 @@ export class Source {
   private nextId = 1;
   private generation = 0; // of the cache: what was asked for before a rewind is not taken
   private lastS = 0; // of the last frame that there is
+  private undoing = 0; // changes of the past that the worker has not confirmed yet
 
   constructor(private readonly worker: WorkerLike, open: OpenRequest, private readonly cacheBytes?: number) {
     worker.onmessage = ({ data }) => this.receive(data);
@@ -141,12 +142,13 @@ export class Source {
   }
 
   /** Acts at the begin of the step after `tick`; what was simulated beyond is forgotten. */
-  async intervene(tick: number, events: Intervention[]): Promise<void> {
-    try {
-      await this.ask((id) => ({ type: 'intervene', id, tick, events }));
-    } finally {
-      this.forgetAfter(tick * this.tickS); // one that could not be may have gone back, too
-    }
+  intervene(tick: number, events: Intervention[]): Promise<void> {
+    return this.changePast(tick * this.tickS, (id) => ({ type: 'intervene', id, tick, events }));
+  }
+
+  /** To the begin; what was done to the run never happened. */
+  reset(): Promise<void> {
+    return this.changePast(0, (id) => ({ type: 'reset', id }));
   }
 
   /** Live: 16 hexadecimal digits over everything that can influence a later tick. */
@@ -199,6 +201,18 @@ export class Source {
       });
   }
 
+  /** What is undone is forgotten before the worker knows, or it would be shown until the answer comes. Whatever is
+   *  asked for from now on is answered after the change; if that fails, the same frames are only fetched again. */
+  private async changePast(fromS: number, make: (id: number) => Request): Promise<void> {
+    this.forgetAfter(fromS);
+    ++this.undoing;
+    try {
+      await this.ask(make);
+    } finally {
+      --this.undoing;
+    }
+  }
+
   private forgetAfter(timeS: number): void {
     this.cache?.dropAfter(timeS);
     ++this.generation;
@@ -228,7 +242,8 @@ export class Source {
   }
 
   private takeHeader(header: Header): void {
-    this.lastS = header.endS;
+    // One that was under way when the past was changed tells of an end that there is no more.
+    this.lastS = this.undoing > 0 ? Math.min(this.lastS, header.endS) : header.endS;
     this.cache ??= new FrameCache(header.settings[0].setting.tick_s, header.robots, this.cacheBytes);
     this.header.set(header);
   }

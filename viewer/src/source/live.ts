@@ -53,17 +53,41 @@ export class LiveRun {
   /** Throws a Problem with a line for each thing that is wrong with the scenario. */
   static load(module: LiveModule, request: LiveRequest): LiveRun {
     const run = new LiveRun(new module.Live(), module, request);
-    const lines = run.live.load(request.name, request.text, request.overrides);
-    if (!run.live.loaded()) {
+    try {
+      run.begin();
+    } catch (problem) {
       run.close();
-      throw new Problem(`${request.name} cannot be run`, lines);
+      throw problem;
     }
-    run.warnings = lines;
     const own = module.columns();
     if (own.join() !== columns.join()) throw new Error('the simulation speaks of other columns than this page');
     run.listenToAll();
     run.capture();
     return run;
+  }
+
+  /** The scenario once more, as if nobody had interfered. */
+  reset(): void {
+    this.frames = new History<Packed>(framesBytes);
+    this.messages = new History<Spoken>(messagesBytes);
+    this.builder = new SeriesBuilder();
+    this.events = [];
+    this.settings = [];
+    this.settingVersion = NaN;
+    this.done = [];
+    this.due = [];
+    this.result = {};
+    this.whole = true;
+    this.headerChanged = true;
+    this.begin();
+    this.capture();
+  }
+
+  private begin(): void {
+    const { name, text, overrides } = this.request;
+    const lines = this.live.load(name, text, overrides);
+    if (!this.live.loaded()) throw new Problem(`${name} cannot be run`, lines);
+    this.warnings = lines;
   }
 
   close(): void {
@@ -100,7 +124,9 @@ export class LiveRun {
     const found = this.frames.around(from, Math.floor(toS / this.tickS + 1e-6), stride);
     const endS = this.head * this.tickS;
     const all = this.head >= this.tickAfter(toS, stride);
-    return { frames: found.map(unpack), untilS: all ? toS : Math.min(toS, endS), endS };
+    // Else up to the last frame of this stride: what is behind it has no frame on its other side yet.
+    const untilS = all ? toS : Math.min(toS, Math.floor(this.head / stride) * stride * this.tickS);
+    return { frames: found.map(unpack), untilS, endS };
   }
 
   /** The head that a request for frames up to `toS` needs. */
@@ -132,6 +158,7 @@ export class LiveRun {
     const lines = this.live.intervene(json);
     if (lines.length > 0) throw new Problem(lines.join('; '), lines);
     this.done.push({ tick: this.head, json });
+    this.headerChanged = true; // its configuration lists what was done
   }
 
   private rewind(tick: number): void {

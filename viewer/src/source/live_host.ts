@@ -26,6 +26,7 @@ export class LiveHost extends Host {
     if (request.type === 'frames') await this.frames(run, request);
     else if (request.type === 'message') this.message(run, request);
     else if (request.type === 'intervene') this.intervene(run, request);
+    else if (request.type === 'reset') this.reset(run, request.id);
     else if (request.type === 'hash') this.send({ type: 'hash', id: request.id, hash: run.hashAt(request.tick) });
     else if (request.type === 'save_recording') this.saveRecording(run, request.id);
     else if (request.type === 'save_scenario') this.saveScenario(run, request.id);
@@ -71,6 +72,12 @@ export class LiveHost extends Host {
     } finally {
       this.tell(run); // it may have gone back in any case
     }
+    this.send({ type: 'done', id });
+  }
+
+  private reset(run: LiveRun, id: number): void {
+    run.reset();
+    this.tell(run);
     this.send({ type: 'done', id });
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Messages of a recording as values of the page (docs/file-formats.md), in the ranges that Banyan's own
 // reader accepts (record/src/frame_json.cpp). What is out of them throws Malformed.
-import { type Column, columns, type Frame, type RunEvent, type Targets } from '../frame';
-import { arrayAt, fail, type JsonObject, numberAt, numberIn, parseObject, textAt, wholeAt } from './json';
+import { type Column, columns, type Frame, givenUp, type RunEvent, type Targets } from '../frame';
+import { arrayAt, fail, type JsonObject, member, numberAt, numberIn, parseObject, textAt, wholeAt } from './json';
 
 export const far = 1e12; // m: beyond, a position is damage
 const longest = 9e9; // s
@@ -68,10 +68,15 @@ export function parseTargets(text: string): Targets {
   if (x.length > mostRobots) fail('x_m', 'has more values than there can be targets');
   const y = arrayAt(object, 'y_m', x.length);
   const worker = arrayAt(object, 'worker', x.length);
+  // Recordings made before targets could be told apart have none: all are active.
+  const active = member(object, 'active') === undefined ? null : arrayAt(object, 'active', x.length);
   return {
     x: Float64Array.from(x, (v) => numberIn(v, 'x_m', -far, far)),
     y: Float64Array.from(y, (v) => numberIn(v, 'y_m', -far, far)),
-    worker: Int32Array.from(worker, (v) => numberIn(v, 'worker', -1, mostId)),
+    worker: Int32Array.from(worker, (v, k) => {
+      const first = numberIn(v, 'worker', -1, mostId);
+      return active === null || numberIn(active[k], 'active', 0, 1) !== 0 ? first : givenUp;
+    }),
   };
 }
 

@@ -69,6 +69,8 @@ export type Request =
   // Live only. An intervention acts at the begin of the step after `tick`; what was simulated
   // beyond it is forgotten and a new header is sent.
   | { type: 'intervene'; id: number; tick: number; events: Intervention[] }
+  /** The scenario from its beginning, as if nobody had interfered; a new header is sent. */
+  | { type: 'reset'; id: number }
   /** The state hash after so many ticks, which `banyan run` has there too. */
   | { type: 'hash'; id: number; tick: number }
   | { type: 'save_recording'; id: number }

@@ -8,7 +8,7 @@ import { far } from './parse';
 export function defaultSetting(): Setting {
   return {
     name: '', algorithm: '', reading: '', seed: 0, tick_s: 0.1, radius_m: 0.07, range_m: 2, line_of_sight: false,
-    target_tolerance_m: 0.2, time_limit_s: 0, obstacles: [],
+    dead_bodies: true, target_tolerance_m: 0.2, time_limit_s: 0, obstacles: [],
   };
 }
 
@@ -43,13 +43,17 @@ export function parseSetting(text: string, warn: (text: string) => void): Settin
       setting[name] = value;
     });
   }
-  attempt(() => {
-    const value = member(object, 'line_of_sight');
-    if (typeof value !== 'boolean') fail('line_of_sight', 'is not true or false');
-    setting.line_of_sight = value;
-  });
+  attempt(() => { setting.line_of_sight = flagOf(object, 'line_of_sight'); });
+  // Older recordings do not have it.
+  if (member(object, 'dead_bodies') !== undefined) attempt(() => { setting.dead_bodies = flagOf(object, 'dead_bodies'); });
   attempt(() => { setting.obstacles = arrayAt(object, 'obstacles').slice(0, mostObstacles).map(parseObstacle); });
   return setting;
+}
+
+function flagOf(object: JsonObject, name: string): boolean {
+  const value = member(object, name);
+  if (typeof value !== 'boolean') fail(name, 'is not true or false');
+  return value;
 }
 
 function parseObstacle(value: Json): Obstacle {

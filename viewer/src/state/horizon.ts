@@ -27,6 +27,9 @@ export class Horizon {
     return timeS >= this.told + tellEveryS;
   }
 
+  /** Something has been seen that plots and lists do not tell of. */
+  get behind(): boolean { return this.seen > this.told; }
+
   /** Plots and lists know all that has been seen. */
   tell(): void { this.told = this.seen; }
 

@@ -19,6 +19,12 @@ const longestStepMs = 250; // a page in the background gets no frames; it does n
 const shownPerS = 20; // frames of the run that are worth showing, per second
 const slack = 1e-9;
 
+/** The tick in which the clock of a run stands, or the last one that there is: what the visitor does happens after
+ *  it. Not that of the picture, which shows every 32nd tick at high speed. */
+export function tickAt(timeS: number, { tickS, endS }: Pick<Playable, 'tickS' | 'endS'>): number {
+  return Math.max(0, Math.floor(Math.min(timeS, endS) / tickS + 1e-6));
+}
+
 export class Player {
   /** s since the start of the run; what is to be shown now. */
   timeS = 0;
@@ -101,6 +107,11 @@ export class Player {
     const tick = ticks > 0 ? Math.floor(this.timeS / this.tickS + 1e-6) : Math.ceil(this.timeS / this.tickS - 1e-6);
     const timeS = (tick + Math.round(ticks)) * this.tickS;
     this.jump(this.growing ? Math.max(this.startS, timeS) : this.clamped(timeS));
+  }
+
+  /** Standing still before this moment, on to it. A live run is simulated for it. */
+  goOnTo(timeS: number): void {
+    if (!this.playing && this.timeS < timeS - slack) this.jump(timeS);
   }
 
   /** Once per picture; `nowMs` as requestAnimationFrame says it. True: something has changed. */

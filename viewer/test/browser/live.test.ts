@@ -36,6 +36,9 @@ function nativeHash(file: string, ticks: number, out: string): string {
   return (JSON.parse(json) as { result: { hash: string } }).result.hash;
 }
 
+const lossShown = (tab: Page) => tab.$eval('#live-loss', (e) => Number((e as HTMLInputElement).value));
+const isPlaying = (tab: Page) => tab.$('button.play[aria-label^="Pause"]').then((button) => button !== null);
+
 async function saved(tab: Page, button: string): Promise<string> {
   await tab.click('#tab-live');
   const download = tab.waitForEvent('download');
@@ -167,6 +170,83 @@ describe('a live run', () => {
     expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'reset')} at tick 200`);
   });
 
+  it('is reset from what was done before its first tick', async () => {
+    const { tab } = await visit();
+    await seekTo(tab, 0);
+    await killByKeys(tab, 5);
+    await settle(tab);
+    await tab.click('#tab-live');
+    await tab.click('button:text-is("Reset")');
+    await playTo(tab, 2);
+    expect(await tab.textContent('.caption')).not.toContain('dead');
+  });
+
+  it('shows loss and line of sight as they are at the moment that is shown', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 3);
+    await tab.click('#tab-live');
+    expect(await lossShown(tab)).toBe(0);
+    await tab.focus('#live-loss');
+    await tab.keyboard.press('ArrowRight');
+    await tab.keyboard.press('ArrowRight');
+    const sight = await tab.isChecked('#live-sight');
+    await tab.click('#live-sight');
+    await settle(tab);
+    await tab.waitForTimeout(200); // a while in which nothing may spring back
+    expect(await lossShown(tab)).toBe(0.1);
+    expect(await tab.isChecked('#live-sight')).toBe(!sight);
+    const now = await timeShown(tab);
+    expect(now).toBeGreaterThan(3.05); // it went on to where it is seen
+    await seekTo(tab, 2);
+    expect(await lossShown(tab)).toBe(0);
+    expect(await tab.isChecked('#live-sight')).toBe(sight);
+    await seekTo(tab, now);
+    expect(await lossShown(tab)).toBe(0.1);
+    await tab.click('button:text-is("Reset")');
+    await settle(tab);
+    await expect.poll(() => lossShown(tab)).toBe(0);
+  });
+
+  it('has its keys: 0 and Enter for robot 0, space for the clock after Start and after a click on a button', async () => {
+    const { tab } = await visit();
+    await tab.keyboard.press('0');
+    await tab.keyboard.press('Enter');
+    await expect.poll(() => tab.textContent('.robot-head h2')).toBe('Robot 0');
+    await tab.click('#tab-live');
+    await tab.fill('#live-seed', '7');
+    await tab.click('text=Start');
+    await tab.waitForFunction(() => document.querySelector('.what-runs')?.textContent?.includes('seed 7'));
+    await tab.waitForFunction(() => document.activeElement?.matches('button.play'));
+    expect(await isPlaying(tab)).toBe(true);
+    await tab.keyboard.press(' ');
+    await settle(tab);
+    expect(await isPlaying(tab)).toBe(false);
+    await tab.click('text=Blackout');
+    await settle(tab);
+    await tab.keyboard.press(' ');
+    await settle(tab);
+    expect(await isPlaying(tab)).toBe(true);
+    const text = readFileSync(await saved(tab, 'Save .toml'), 'utf8');
+    expect(text.split('kind = "blackout"')).toHaveLength(2); // one of it
+  });
+
+  it('says nothing of a run that is no longer there', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 1);
+    await tab.evaluate(() => {
+      const { stages } = (window as unknown as { banyan: { stages: { source: { intervene(): Promise<void> } }[] } }).banyan;
+      stages[0].source.intervene = () => new Promise((_, reject) => { Object.assign(window, { failLate: () => reject(new Error('too late')) }); });
+    });
+    await killByKeys(tab, 5);
+    await tab.click('#tab-live');
+    await tab.fill('#live-seed', '9');
+    await tab.click('text=Start');
+    await tab.waitForFunction(() => document.querySelector('.what-runs')?.textContent?.includes('seed 9'));
+    await tab.evaluate(() => (window as unknown as { failLate(): void }).failLate());
+    await settle(tab);
+    expect(await tab.textContent('.stages')).not.toContain('too late');
+  });
+
   it('is saved as a recording that the program reads', async () => {
     const { tab } = await visit();
     await playTo(tab, 6);
@@ -187,6 +267,11 @@ describe('a live run', () => {
     const captions = () => tab.$$eval('.caption', (all) => all.map((e) => e.textContent ?? '').join(' | '));
     await expect.poll(captions).toMatch(/outwards.*\|.*inwards/);
     expect(await timeShown(tab)).toBeCloseTo(3);
+    await tab.click('#tab-live');
+    const names: string[] = [];
+    tab.on('download', (download) => names.push(download.suggestedFilename()));
+    await tab.click('text=Save .toml');
+    await expect.poll(() => names.sort()).toEqual(['three-targets-inwards.toml', 'three-targets-outwards.toml']);
     expect(errors).toEqual([]);
   });
 

@@ -145,6 +145,99 @@ describe('a recording', () => {
   });
 });
 
+/** The page's own parts, for what no visitor can bring about at will. */
+interface Inside {
+  plots: { setRuns(runs: unknown[]): void };
+  events: { setEvents(events: unknown[]): void };
+  notice: { warn(warnings: string[], run: object): void; bad(text: string): void };
+  shownEvents(): unknown[];
+}
+
+describe('panels', () => {
+  it('have no curves while nothing is known of a run, and none of the one before', async () => {
+    const { tab, errors } = await visit();
+    await tab.waitForSelector('.plot .u-over');
+    expect(await tab.$eval('.plot .u-over', (e) => getComputedStyle(e).touchAction)).toBe('pan-y');
+    await tab.evaluate(() => (window as unknown as { banyan: Inside }).banyan.plots.setRuns([]));
+    await tab.keyboard.press('m');
+    await settle(tab);
+    expect(await tab.$$('.plot .u-over')).toHaveLength(0);
+    expect(await plotValues(tab)).toEqual(['', '', '', '']);
+    expect(errors).toEqual([]);
+  });
+
+  /** A hundred deaths, one every tenth of a second from 0.1 s on: more than there is room for. */
+  const listDeaths = (tab: Page) => tab.evaluate(() => {
+    const { banyan } = window as unknown as { banyan: Inside };
+    banyan.events.setEvents(Array.from({ length: 100 }, (_, k) => ({ tick: k + 1, time_s: 0.1 * (k + 1), kind: 'death', robot: k, target: -1, text: `death ${k}` })));
+  });
+  const listed = async () => {
+    const visitor = await visit();
+    await visitor.tab.waitForFunction(() => (window as unknown as { banyan: Inside }).banyan.shownEvents().length > 0); // the recording's are there
+    await listDeaths(visitor.tab);
+    return visitor;
+  };
+
+  it('list the events around now when they are opened, and each event keeps its row', async () => {
+    const { tab } = await listed();
+    await seekTo(tab, 8);
+    await tab.click('#tab-events');
+    const now = await tab.waitForSelector('.event.now button');
+    expect(await now.textContent()).toContain('death 79');
+    const isInView = () => now.evaluate((e) => {
+      const [row, view] = [e.getBoundingClientRect(), e.closest('.events-view')!.getBoundingClientRect()];
+      return row.top >= view.top && row.bottom <= view.bottom;
+    });
+    await expect.poll(isInView).toBe(true);
+    await listDeaths(tab); // as after every answer of a live run
+    expect(await now.evaluate((e) => e.isConnected)).toBe(true);
+    expect(await now.evaluate((e) => e.parentElement!.className)).toBe('event now');
+  });
+
+  it('let Tab go through the events, beyond those in view', async () => {
+    const { tab } = await listed();
+    await tab.click('#tab-events');
+    await tab.$eval('.events-view', (e) => { e.scrollTop = 0; });
+    await settle(tab);
+    await tab.focus('.events-view');
+    for (let k = 0; k < 45; ++k) {
+      await tab.keyboard.press('Tab');
+      await settle(tab); // the list has been scrolled
+      expect(await tab.evaluate(() => document.activeElement?.querySelector('.what')?.textContent)).toBe(`death ${k}`);
+    }
+  });
+
+  it('say of many warnings the first, once, and can be closed', async () => {
+    const { tab } = await visit();
+    const say = (how: 'warn' | 'bad') => tab.evaluate((name) => {
+      const page = window as unknown as { banyan: Inside; warned: object };
+      page.warned ??= {};
+      const texts = Array.from({ length: 41 }, (_, k) => `chunk ${k} was skipped`);
+      if (name === 'warn') page.banyan.notice.warn(texts, page.warned);
+      else page.banyan.notice.bad(texts.join('\n'));
+    }, how);
+    await say('warn');
+    expect((await tab.textContent('.notice span'))!.split('\n')).toEqual(['chunk 0 was skipped', 'chunk 1 was skipped', 'chunk 2 was skipped', '… and 38 more: see Run']);
+    await tab.click('.notice button');
+    await say('warn');
+    expect(await tab.isVisible('.notice')).toBe(false);
+    await say('bad');
+    const box = (await (await tab.$('.notice'))!.boundingBox())!;
+    expect(box.y).toBeGreaterThanOrEqual(0);
+    await tab.click('.notice button');
+    expect(await tab.isVisible('.notice')).toBe(false);
+  });
+
+  it('tell which run the robot is of only when there are two', async () => {
+    const { tab } = await visit();
+    await clickRobot(tab, 3);
+    expect(await tab.isVisible('.of-run')).toBe(false);
+    await tab.evaluate(() => document.querySelector('.stage')!.after(Object.assign(document.createElement('div'), { className: 'stage' })));
+    expect(await tab.isVisible('.of-run')).toBe(true);
+    expect(await tab.textContent('.of-run')).toMatch(/^of the run with \w+$/);
+  });
+});
+
 describe('a file that cannot be shown', () => {
   const drop = async (tab: Page, name: string, bytes: Buffer) => {
     const path = join(folder.path, name);

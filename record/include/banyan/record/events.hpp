@@ -13,7 +13,8 @@ namespace banyan::record {
 
 class EventWatcher {
  public:
-  // Events since the last call; the first call only learns what is there. Valid until the next.
+  // Events since the last call; the first call learns what is there and tells only of targets that
+  // are held already. Valid until the next.
   const std::vector<RecordedEvent>& watch(const Setting& setting, const Frame& frame, const measure::Tick& tick);
 
  private:
@@ -22,8 +23,9 @@ class EventWatcher {
   void watch_death(const Frame& frame, std::size_t i);
   void watch_root(const Frame& frame, std::size_t i);
   void watch_recruit(const Frame& frame, std::size_t i);
-  void watch_targets(const Setting& setting, const Frame& frame);
+  void watch_targets(const Setting& setting, const Frame& frame, const measure::Tick& tick);
   void watch_target(const Setting& setting, const Frame& frame, std::size_t k);
+  void watch_arrivals(const Setting& setting, const Frame& frame, const measure::Tick& tick);
   void watch_radio(const measure::Tick& tick);
   void watch_edges(const Setting& setting, const Frame& frame, const measure::Tick& tick);
   void add(std::string_view kind, std::int64_t robot, std::int64_t target, std::string text);
@@ -32,7 +34,7 @@ class EventWatcher {
   Setting setting_;
   Frame last_;
   measure::Tick last_tick_;
-  std::vector<std::uint8_t> reached_;   // per target
+  std::vector<std::int32_t> reached_;   // per target: the worker that has reached it, -1: none that still serves it
   std::vector<std::uint8_t> moving_;    // per target: it has moved since the last frame
   std::vector<std::uint8_t> drifting_;  // the same per obstacle
   bool complete_ = false;

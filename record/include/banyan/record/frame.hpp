@@ -35,13 +35,14 @@ struct RobotFrame {
   std::int32_t grant = -1;
   std::int32_t request = -1;
   double want_m = 0.0;           // largest remaining worker distance below
-  std::int32_t target = -1;      // index of the target it is assigned to, -1: none
+  std::int32_t target = -1;      // index of the target that it serves, sent there or in place of another; -1: none
   friend bool operator==(const RobotFrame&, const RobotFrame&) = default;
 };
 
 struct TargetFrame {
   Vec2 position;
-  std::int32_t worker = -1;
+  std::int32_t worker = -1;      // robot first sent there, -1: nobody; who serves it now has it as RobotFrame::target
+  bool active = true;            // false once it has been given up
   friend bool operator==(const TargetFrame&, const TargetFrame&) = default;
 };
 
@@ -64,6 +65,7 @@ struct Setting {
   double radius_m = 0.07;
   double range_m = 2.0;
   bool line_of_sight = false;
+  bool dead_bodies = true;       // the dead hide what is behind them; false: they vanish
   double target_tolerance_m = 0.2;
   double time_limit_s = 0.0;
   std::vector<world::Obstacle> obstacles;

@@ -28,23 +28,25 @@ function longestPx(shot: Shot, pairs: Int32Array): number {
   return (rangePx * Math.max(1, c)) / lengthClasses;
 }
 
-/** Draws the pairs as one path; returns how many. */
-function strokePairs(shot: Shot, pairs: Int32Array, dashed: boolean): number {
+/** Links that are drawn, and all that are in sight: fewer are drawn only when the longest are left out. */
+export interface RadioCount { drawn: number; all: number }
+
+/** Draws the pairs as one path and counts them. */
+function strokePairs(shot: Shot, pairs: Int32Array, dashed: boolean, count: RadioCount): void {
   const { pen, x, y } = shot;
   const longest2 = Math.pow(longestPx(shot, pairs), 2);
-  let drawn = 0;
   pen.beginPath();
   for (let k = 0; k < pairs.length; k += 2) {
     const i = pairs[k]!, j = pairs[k + 1]!;
-    if (i >= shot.robots || j >= shot.robots || !shot.lineInSight(i, j)) continue;
+    if (!shot.lineInSight(i, j)) continue;
+    ++count.all;
     const dx = x[i]! - x[j]!, dy = y[i]! - y[j]!;
     if (dx * dx + dy * dy > longest2) continue;
     if (dashed) shot.shortLine(i, j);
     else shot.line(i, j);
-    ++drawn;
+    ++count.drawn;
   }
   pen.stroke();
-  return drawn;
 }
 
 /** 1 for a sparse net, down to a third where each has dozens of links. */
@@ -53,8 +55,6 @@ function faintness(pairs: Int32Array, shot: Shot): number {
   const faint = Math.max(0.3, 5 / Math.max(1, perRobot));
   return Math.min(1, Math.sqrt(shot.ratio) * faint); // finer pixels need more ink
 }
-
-export interface RadioCount { drawn: number; all: number }
 
 export function drawRadio(shot: Shot): RadioCount {
   const { pen, view, theme, facts } = shot;
@@ -67,8 +67,7 @@ export function drawRadio(shot: Shot): RadioCount {
   pen.lineWidth = 1 / shot.ratio;
   if (links) {
     pen.strokeStyle = mixed(theme.link, theme.background, faintness(found.open, shot));
-    count.drawn += strokePairs(shot, found.open, false);
-    count.all += found.open.length / 2;
+    strokePairs(shot, found.open, false, count);
   }
   if (blocked && found.blocked.length > 0) {
     pen.strokeStyle = mixed(theme.blocked, theme.background, Math.max(0.5, faintness(found.blocked, shot)));
@@ -76,8 +75,7 @@ export function drawRadio(shot: Shot): RadioCount {
     const dashed = found.blocked.length / 2 < mostLinks / 4;
     if (dashed) pen.setLineDash([3, 4]);
     shot.linkBudget /= 2; // they come on top of the others
-    count.drawn += strokePairs(shot, found.blocked, dashed);
-    count.all += found.blocked.length / 2;
+    strokePairs(shot, found.blocked, dashed, count);
     pen.setLineDash([]);
   }
   return count;

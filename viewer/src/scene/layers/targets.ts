@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Targets: the circle of their tolerance and a cross; filled once a worker holds the target. Their numbers are
-// written with the other labels.
-import { column } from '../../frame';
+// Targets: the circle of their tolerance and a cross; filled once a worker holds the target. One that was
+// given up is a faint dashed ring. Their numbers are written with the other labels.
+import { column, givenUp } from '../../frame';
 import { toPxX, toPxY } from '../camera';
 import { worker, type Shot } from '../shot';
 
@@ -27,6 +27,19 @@ export function traceTarget(pen: CanvasRenderingContext2D, x: number, y: number,
   pen.arc(x, y, radius, 0, 2 * Math.PI);
 }
 
+/** Where it was, and no more than that. */
+function drawGivenUp({ pen, theme }: Shot, x: number, y: number, radius: number): void {
+  pen.beginPath();
+  traceTarget(pen, x, y, radius);
+  pen.setLineDash([2, 4]);
+  pen.globalAlpha = 0.5;
+  pen.strokeStyle = theme.target;
+  pen.lineWidth = 1;
+  pen.stroke();
+  pen.globalAlpha = 1;
+  pen.setLineDash([]);
+}
+
 export function drawTargets(shot: Shot): void {
   const { pen, view, theme } = shot;
   const { targets } = view.frame;
@@ -36,6 +49,10 @@ export function drawTargets(shot: Shot): void {
     const x = toPxX(view.camera, targets.x[k]!);
     const y = toPxY(view.camera, targets.y[k]!);
     if (!shot.inSight(x, y, radius + 4)) continue;
+    if (targets.worker[k] === givenUp) {
+      drawGivenUp(shot, x, y, radius);
+      continue;
+    }
     const held = isHeld(shot, k);
     pen.beginPath();
     traceTarget(pen, x, y, radius);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What panels say, without a page: the words of the inspector and the notice, and where a list stands.
+import { describe, expect, it } from 'vitest';
+import type { RunEvent } from '../src/frame';
+import { lastAt } from '../src/panels/events_list';
+import { facts, messageFacts } from '../src/panels/inspector';
+import { shortened } from '../src/panels/notice';
+import { frameOf } from './scene_frames';
+
+describe('the inspector', () => {
+  it('counts the living as children, and no spares', () => {
+    const frame = frameOf({ x_m: [0, 1, 2, 3], role: [3, 1, 1, 0], parent: [-1, 0, 0, 0], alive: [1, 1, 0, 1] });
+    expect(facts(frame, 0).find(({ name }) => name === 'children')?.value).toBe('1');
+  });
+  it('says why there is no message', () => {
+    const words = (live: boolean, problem = '') => messageFacts({ tick: 3, fields: null, problem }, live)[0].value;
+    expect(words(true)).toBe('not kept for this moment');
+    expect(words(false)).toBe('this recording has none for this moment');
+    expect(words(true, 'the worker is gone')).toBe('the worker is gone');
+  });
+  it('has a message in words', () => {
+    expect(messageFacts({ tick: 3, fields: { role: 3, phase: 'init', id: 7 }, problem: '' }, false).map(({ value }) => value)).toEqual(['root', 'init', '7']);
+  });
+});
+
+describe('many warnings', () => {
+  it('are the first three and how many more there are', () => {
+    expect(shortened(['a', 'b', 'c', 'd', 'e'])).toEqual(['a', 'b', 'c', '… and 2 more: see Run']);
+    expect(shortened(['a', 'b', 'c'])).toEqual(['a', 'b', 'c']);
+  });
+});
+
+describe('the list of events', () => {
+  const events = [1, 2, 2, 4].map((time_s) => ({ time_s }) as RunEvent);
+  it.each([[0, -1], [1, 0], [2, 2], [3.9, 2], [9, 3]])('stands at %s s at the right one', (timeS, index) => expect(lastAt(events, timeS)).toBe(index));
+});
