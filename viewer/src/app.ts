@@ -20,7 +20,6 @@ import { themes } from './scene/themes';
 import type { Item } from './scene/view';
 import type { Source } from './source/client';
 import { openFile, openLive, openUrl } from './source/open';
-import type { RunEvent } from './frame';
 import { Problem } from './source/problem';
 import type { Intervention } from './source/protocol';
 import { Controls, LossHistory } from './state/controls';
