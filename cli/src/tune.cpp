@@ -11,6 +11,7 @@
 #include "banyan/study/simulate.hpp"
 #include "banyan/study/tune.hpp"
 #include "commands.hpp"
+#include "outputs.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -124,9 +125,7 @@ void refuse_what_is_there(const std::string& directory, bool force) {
 // Makes sure that the tuning, and no other, may write there as long as the lock lives.
 std::unique_ptr<study::TuneLock> claim(const std::string& directory, bool force) {
   refuse_what_is_there(directory, force);  // before anything is written
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw CommandError(exit_lost, directory + ": cannot be created: " + error.message());
+  make_directory(directory);
   try {
     auto lock = std::make_unique<study::TuneLock>(directory);
     refuse_what_is_there(directory, force);  // another may have finished meanwhile
