@@ -29,6 +29,7 @@ struct Circumstances {
   std::string program = BANYAN_PROGRAM;  // found in PATH if there is no slash
   std::vector<std::pair<std::string, std::string>> environment = {};
   int input = -1;             // a descriptor for standard input, else /dev/null
+  bool ignores_children = false;  // by a parent that does, which is inherited
   const char* out = nullptr;  // a file for standard output instead of one that is read at the end
 };
 
@@ -70,6 +71,7 @@ class StartedProgram : public ::testing::Test {
       const rlimit limit{how.largest_file, how.largest_file};
       ::setrlimit(RLIMIT_FSIZE, &limit);
     }
+    if (how.ignores_children) ::signal(SIGCHLD, SIG_IGN);
     std::vector<char*> argv{const_cast<char*>(how.program.c_str())};
     for (const auto& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
