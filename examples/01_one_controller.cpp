@@ -5,7 +5,7 @@
 
 #include "banyan/controller/controller.hpp"
 #include "banyan/controller/policies.hpp"
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 
 using namespace banyan;
 

@@ -5,8 +5,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "banyan/controller/params.hpp"
-#include "banyan/controller/policy.hpp"
+#include "banyan/controller/core/algorithm.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -15,9 +14,7 @@ namespace banyan::cli {
 using namespace config;
 namespace {
 
-constexpr Reading readings[] = {Reading::corrected, Reading::literal};
-
-std::string_view name_of(Reading reading) { return reading == Reading::literal ? "literal" : "corrected"; }
+constexpr std::string_view readings[] = {"corrected", "literal"};
 
 // As a person would write it: 1.3893, not 1.38929999.
 std::string value_text(float value) {
@@ -26,31 +23,34 @@ std::string value_text(float value) {
 }
 double as_written(float value) { return std::stod(value_text(value)); }
 
-std::vector<const Policy*> chosen(const std::string& name) {
-  const auto all = policies();
+std::vector<const Algorithm*> chosen(const std::string& name) {
+  const auto all = algorithms();
   if (name.empty()) return {all.begin(), all.end()};
-  if (const Policy* policy = find_policy(name)) return {policy};
+  if (const Algorithm* algorithm = find_algorithm(name)) return {algorithm};
   std::vector<std::string_view> names;
-  for (const Policy* policy : all) names.push_back(policy->name());
+  for (const Algorithm* algorithm : all) names.push_back(algorithm->name());
   const auto near = nearest(name, names);
   std::string text = "there is no algorithm \"" + name + "\"";
   text += near.empty() ? "; `banyan algorithms` lists them" : "; did you mean " + std::string(near) + "?";
   throw CommandError(exit_usage, text);
 }
 
-nlohmann::ordered_json json_of(const Policy& policy) {
-  nlohmann::ordered_json entry = {{"name", policy.name()}, {"summary", policy.summary()}};
+nlohmann::ordered_json json_of(const Algorithm& algorithm) {
+  nlohmann::ordered_json entry = {{"name", algorithm.name()}, {"summary", algorithm.summary()}};
   auto& list = entry["parameters"] = nlohmann::ordered_json::array();
-  for (const auto& info : parameter_table()) {
+  const auto rows = algorithm.parameters();
+  const auto defaults = algorithm.values(Setup{});
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const ParameterInfo& info = *rows[k];
     nlohmann::ordered_json row = {{"key", info.key},
                                   {"symbol", info.symbol},
                                   {"unit", info.unit},
                                   {"meaning", info.meaning},
+                                  {"advice", info.advice},
                                   {"source", info.source},
                                   {"minimum", as_written(info.minimum)},
                                   {"maximum", as_written(info.maximum)}};
-    for (const auto reading : readings)
-      row["default"][std::string(name_of(reading))] = as_written(policy.defaults(reading).*info.member);
+    for (const auto reading : readings) row["default"][std::string(reading)] = as_written(defaults[k]);  // the same in both
     const auto owner = platform_key(info.key);
     row["set_by"] = owner.empty() ? "mission.parameters." + std::string(info.key) : std::string(owner);
     list.push_back(std::move(row));
@@ -58,24 +58,24 @@ nlohmann::ordered_json json_of(const Policy& policy) {
   return entry;
 }
 
-std::string table_text(const std::vector<const Policy*>& list) {
+// "-" if the algorithm has no such parameter.
+std::string default_text(const Algorithm& algorithm, std::string_view key) {
+  const auto rows = algorithm.parameters();
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const ParameterInfo* info) { return info->key == key; });
+  return row == rows.end() ? "-" : value_text(algorithm.values(Setup{})[static_cast<std::size_t>(row - rows.begin())]);
+}
+
+std::string table_text(const std::vector<const Algorithm*>& list) {
   std::string head = format("%-26s %-8s %-4s", "parameter", "symbol", "unit");
-  std::string under = format("%-26s %-8s %-4s", "", "", "");
-  for (const Policy* policy : list) {
-    head += format("  %-18s", std::string(policy->name()).c_str());
-    under += format("  %-9s %-8s", "corrected", "literal");
-  }
-  std::string text = head + "  source\n" + under + "\n";
+  for (const Algorithm* algorithm : list) head += format("  %-9s", std::string(algorithm->name()).c_str());
+  std::string text = head + "  source\n";
   for (const auto& info : parameter_table()) {
     text += format("%-26s %-8s %-4s", std::string(info.key).c_str(), std::string(info.symbol).c_str(),
                    std::string(info.unit).c_str());
-    for (const Policy* policy : list) {
-      text += format("  %-9s %-8s", value_text(policy->defaults(Reading::corrected).*info.member).c_str(),
-                     value_text(policy->defaults(Reading::literal).*info.member).c_str());
-    }
+    for (const Algorithm* algorithm : list) text += format("  %-9s", default_text(*algorithm, info.key).c_str());
     text += "  " + std::string(info.source) + "\n    " + std::string(info.meaning);
     if (const auto owner = platform_key(info.key); !owner.empty()) text += " (set by " + std::string(owner) + ")";
-    text += "\n";
+    text += "\n    " + std::string(info.advice) + "\n";
   }
   return text;
 }
@@ -86,13 +86,13 @@ int algorithms_command(const AlgorithmsOptions& options) {
   const auto list = chosen(options.name);
   if (options.json) {
     auto entries = nlohmann::ordered_json::array();
-    for (const Policy* policy : list) entries.push_back(json_of(*policy));
+    for (const Algorithm* algorithm : list) entries.push_back(json_of(*algorithm));
     print(entries.dump(2) + "\n");
     return exit_done;
   }
   std::string text = "Choose one with mission.algorithm = \"...\" in a scenario, or --set mission.algorithm=...\n\n";
-  for (const Policy* policy : list)
-    text += format("  %-10s ", std::string(policy->name()).c_str()) + std::string(policy->summary()) + "\n";
+  for (const Algorithm* algorithm : list)
+    text += format("  %-10s ", std::string(algorithm->name()).c_str()) + std::string(algorithm->summary()) + "\n";
   text +=
       "\nTwo readings of the paper, by mission.reading: corrected (default) closes its gaps, literal is as printed.\n"
       "Change a parameter by mission.parameters.<parameter>. Defaults:\n\n";

@@ -16,7 +16,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/measure/observer.hpp"
 #include "banyan/world/world.hpp"
 #include "commands.hpp"

@@ -39,7 +39,7 @@ Outcome simulate(const std::string& name, std::uint64_t seed) {
     for (const world::Vec2 p : world.positions())
       for (const world::Obstacle& obstacle : world.scenario().obstacles) outcome.nearest_m = std::min(outcome.nearest_m, clearance(obstacle, p));
     std::uint32_t committed = 0;
-    for (const Message& m : world.messages()) committed += m.role != Role::spare ? 1 : 0;
+    for (const Report& m : world.reports()) committed += m.role != Role::spare ? 1 : 0;
     outcome.committed.push_back(committed);
     if (world.time_s() < 60.0) continue;
     ticks += 1.0;

@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "banyan/config/config.hpp"
-#include "banyan/controller/digest.hpp"
+#include "banyan/controller/core/digest.hpp"
 #include "banyan/world/threads.hpp"
 #include "banyan/world/world.hpp"
 #include "terminal.hpp"
@@ -62,9 +62,9 @@ void add_robots(const world::World& world, Digest& digest) {
   for (std::size_t i = 0; i < world.size(); ++i) {
     digest.add(world.positions()[i]);
     digest.add(world.headings()[i]);
-    digest.add(static_cast<int>(world.messages()[i].role));
-    digest.add(world.messages()[i].parent);
-    digest.add(world.messages()[i].old_parent);
+    digest.add(static_cast<int>(world.reports()[i].role));
+    digest.add(world.reports()[i].parent);
+    digest.add(world.reports()[i].old_parent);
   }
 }
 

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "banyan/controller/params.hpp"
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/controller/core/trig.hpp"
 
 namespace banyan::config {
 namespace {
@@ -309,7 +309,7 @@ class Reader {
     } else if (robots->place.from_file()) {
       swarm.robots = 0;
     } else {
-      swarm.redundancy = world::Swarm{}.redundancy;
+      swarm.redundancy = world::SwarmModel{}.redundancy;
     }
   }
 

@@ -6,7 +6,7 @@
 #include "banyan/config/config.hpp"
 #include "banyan/config/document.hpp"
 #include "banyan/config/keys.hpp"
-#include "banyan/controller/params.hpp"
+#include "banyan/controller/core/algorithm.hpp"
 
 namespace banyan::config {
 namespace {

@@ -4,9 +4,7 @@
 #include <algorithm>
 
 #include "banyan/config/document.hpp"
-#include "banyan/controller/message.hpp"
-#include "banyan/controller/params.hpp"
-#include "banyan/controller/policy.hpp"
+#include "banyan/controller/core/algorithm.hpp"
 
 namespace banyan::config {
 namespace {
@@ -28,7 +26,7 @@ constexpr std::string_view reading_names[] = {"corrected", "literal"};
 Names algorithm_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> list;
-    for (const Policy* policy : policies()) list.push_back(policy->name());
+    for (const Algorithm* algorithm : algorithms()) list.push_back(algorithm->name());
     return list;
   }();
   return names;

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "banyan/controller/params.hpp"
+#include "banyan/controller/core/algorithm.hpp"
 
 namespace banyan::config {
 namespace {

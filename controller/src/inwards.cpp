@@ -1,55 +1,109 @@
 // SPDX-License-Identifier: MIT
-// The inwards algorithm (paper Sec. III-E): branches grow from the workers towards the root; only
-// who is named as a parent joins.
-#include "banyan/controller/parent_selection.hpp"
-#include "banyan/controller/policies.hpp"
+#include "banyan/controller/inwards.hpp"
+
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tick.hpp"
+#include "banyan/controller/tree/census.hpp"
+#include "banyan/controller/tree/epoch.hpp"
+#include "banyan/controller/tree/label.hpp"
+#include "banyan/controller/tree/motion.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/tree/root_selection.hpp"
+#include "banyan/controller/tree/spare_management.hpp"
+#include "banyan/controller/tree/tree_index.hpp"
 
 namespace banyan {
 namespace {
 
-class Inwards final : public Policy {
- public:
-  constexpr Inwards() = default;
-  [[nodiscard]] std::string_view name() const noexcept override { return "inwards"; }
-  [[nodiscard]] std::string_view summary() const noexcept override {
-    return "grows a sparse tree from the workers towards the root; only robots that are needed join";
-  }
-  [[nodiscard]] Params defaults(Reading reading) const noexcept override {
-    Params p;  // Table I, inwards column
-    p.safe_range_m = 1.3525581F;
-    p.avoidance_range_m = 0.4099F;
-    p.ideal_distance_m = 1.540841F;
-    p.interaction_gain = 10.0F;
-    p.target_gain = 0.2539F;
-    p.reconfiguration_period_s = 44.0F;
-    p.liveness_period_s = 0.5F;
-    p.recruitment_distance_m = 1.321353F;
-    p.insertion_distance_m = 0.066395F;
-    p.reading = reading;
-    return p;
-  }
-  [[nodiscard]] bool may_join(const Robot& robot) const noexcept override {
-    return robot.self.is_worker || is_named_parent(robot);
-  }
-  [[nodiscard]] bool accepts(const Robot&, int) const noexcept override { return true; }
-  // The smallest distance to the root, within S if there is one.
-  [[nodiscard]] bool prefers(const Robot& robot, int a, int b) const noexcept override {
-    const Neighborhood& table = robot.table();
-    const bool a_safe = table.range(a) <= robot.params.safe_range_m;
-    const bool b_safe = table.range(b) <= robot.params.safe_range_m;
-    return a_safe != b_safe ? a_safe : table.message(a).label_cm < table.message(b).label_cm;
-  }
-  [[nodiscard]] bool tree_complete(const Robot& robot) const noexcept override {
-    return robot.self.subtree_workers >= robot.self.flood_workers;
-  }
-  [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
-};
+bool may_join(const TreeRobot& robot) noexcept { return robot.self.is_worker || is_named_parent(robot); }
+
+bool tree_complete(const TreeRobot& robot) noexcept { return robot.self.subtree_workers >= robot.self.flood_workers; }
+
+// SELECT PARENT: the smallest distance to the root, within S if there is one.
+void select_inner_parent(TreeRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  const auto is_safe = [&](int k) { return table.range(k) <= robot.params.safe_range_m; };
+  select_parent(robot, {.may_join = may_join(robot),
+                        .workers_relay = false,
+                        .accepts = [](int) { return true; },
+                        .prefers = [&](int a, int b) {
+                          return is_safe(a) != is_safe(b) ? is_safe(a) : table.message(a).label_cm < table.message(b).label_cm;
+                        }});
+}
 
 }  // namespace
 
-const Policy& inwards() noexcept {
-  static constexpr Inwards policy;
-  return policy;
+HealingParams inwards_defaults() noexcept {
+  HealingParams p;
+  p.safe_range_m = 1.3525581F;
+  p.avoidance_range_m = 0.4099F;
+  p.ideal_distance_m = 1.540841F;
+  p.interaction_gain = 10.0F;
+  p.target_gain = 0.2539F;
+  p.reconfiguration_period_s = 44.0F;
+  p.liveness_period_s = 0.5F;
+  p.recruitment_distance_m = 1.321353F;
+  p.insertion_distance_m = 0.066395F;
+  return p;
+}
+
+Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& state, std::span<Heard> heard, const Senses& senses) noexcept {
+  const Admitted admitted(senses, heard, params, state.tally);
+  TreeRobot robot(params, literal_reading, state, admitted);
+  begin_tick(robot, admitted);
+  listen(robot);                                       // the largest epoch, phase and root token heard
+  accept_offer(robot);                                 // Select Root, the heir's side
+  index_neighbors(robot);                              // who are my parent and children
+  update_role(robot);
+  advance(robot, tree_complete(robot));                // the root's barriers
+  update_label(robot);                                 // Start Tree
+  select_inner_parent(robot);                          // Select Parent, repair
+  take_census(robot, params.arrival_distance_m);       // Alg. 1 and 2
+  select_root(robot, [](int) { return true; });        // Select Root, the root's side
+  manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
+                        .may_call = [] { return false; },
+                        .count_waiting = [&](bool unserved) { count_unserved(state, unserved); },
+                        .may_insert = [&](int owner, int parent) { return is_at_midpoint(robot, owner, parent); }});
+  const Vec2 u = state.role == Role::spare ? attendance_motion(robot) : spring_motion(robot);
+
+  Output<TreeMessage> output;
+  write_tree(robot, output.message);
+  output.velocity = move(u, Guard{}, params);
+  return output;
+}
+
+Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& state, std::span<Heard> heard, const Senses& senses) noexcept {
+  const Admitted admitted(senses, heard, params, state.tally);
+  HealingRobot robot(params, state, admitted);
+  begin_tick(robot, admitted);
+  estimate_loss(robot);                                // how long neighbours may be silent
+  listen_among_fragments(robot);
+  accept_offered_root(robot);                          // Select Root, the heir's side
+  follow_heartbeat(robot);                             // is there a root at all,
+  claim_root(robot);                                   // and if not, am I the one to be it?
+  watch_tasks(robot);                                  // does every target have its worker?
+  index_neighbors(robot);
+  watch_branch(robot);                                 // has the last below me died?
+  update_role(robot);
+  advance_and_count(robot, tree_complete(robot));      // the root's barriers
+  update_label(robot);                                 // Start Tree
+  select_inner_parent(robot);                          // Select Parent, repair
+  take_census(robot, params.arrival_distance_m, own_want_m(robot));
+  select_root(robot, [](int) { return true; });        // Select Root, the root's side
+  manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
+                        .may_call = [] { return true; },
+                        .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, false); },
+                        .may_insert = [&](int owner, int parent) { return is_at_midpoint(robot, owner, parent); }});
+  const bool retreats = is_retreating(robot, false);
+  const Vec2 u = retreats ? retreat_motion(robot, false, false) : state.role == Role::spare ? attendance_motion(robot) : spring_motion(robot);
+  Guard guard;
+  guard_edges(robot, retreats, guard);
+  keep_off(robot, guard);                              // obstacles
+
+  Output<HealingMessage> output;
+  write_healing(robot, output.message);
+  output.velocity = move(u, guard, params);
+  return output;
 }
 
 }  // namespace banyan

@@ -1,43 +1,95 @@
 // SPDX-License-Identifier: MIT
-// The outwards algorithm (paper Sec. III-D): a spanning tree that grows from the root; branches
-// without worker are pruned from their leaves.
-#include "banyan/controller/policies.hpp"
+#include "banyan/controller/outwards.hpp"
+
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tick.hpp"
+#include "banyan/controller/tree/census.hpp"
+#include "banyan/controller/tree/epoch.hpp"
+#include "banyan/controller/tree/label.hpp"
+#include "banyan/controller/tree/motion.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/tree/root_selection.hpp"
+#include "banyan/controller/tree/spare_management.hpp"
+#include "banyan/controller/tree/tree_index.hpp"
 
 namespace banyan {
 namespace {
 
-class Outwards final : public Policy {
- public:
-  constexpr Outwards() = default;
-  [[nodiscard]] std::string_view name() const noexcept override { return "outwards"; }
-  [[nodiscard]] std::string_view summary() const noexcept override {
-    return "grows a spanning tree from the root over all robots, then prunes branches without worker";
-  }
-  [[nodiscard]] Params defaults(Reading reading) const noexcept override {
-    Params p;  // Table I's outwards column is what Params starts with
-    p.reading = reading;
-    return p;
-  }
-  // Everybody joins in SELECT PARENT; later only who still matters to the tree.
-  [[nodiscard]] bool may_join(const Robot& robot) const noexcept override {
-    return robot.self.phase == Phase::select_parent || robot.self.role != Role::spare;
-  }
-  [[nodiscard]] bool accepts(const Robot& robot, int k) const noexcept override { return robot.table().message(k).committed; }
-  [[nodiscard]] bool prefers(const Robot& robot, int a, int b) const noexcept override {
-    return robot.table().range(a) < robot.table().range(b);
-  }
-  // Never equality: with motion and occlusion the flood under-counts (protocol 4).
-  [[nodiscard]] bool tree_complete(const Robot& robot) const noexcept override {
-    return robot.self.subtree >= robot.self.flood_robots;
-  }
-  [[nodiscard]] bool leaves_branch(const Robot& robot) const noexcept override { return robot.children.size == 0; }
-};
+// Everybody joins in SELECT PARENT; later only who still matters to the tree.
+bool may_join(const TreeRobot& robot) noexcept { return robot.self.phase == Phase::select_parent || robot.self.role != Role::spare; }
+
+// Never equality: with motion and occlusion the flood under-counts (protocol 4).
+bool tree_complete(const TreeRobot& robot) noexcept { return robot.self.subtree >= robot.self.flood_robots; }
+
+// SELECT PARENT: the nearest robot that has joined already.
+void select_nearest_parent(TreeRobot& robot) noexcept {
+  select_parent(robot, {.may_join = may_join(robot),
+                        .workers_relay = false,
+                        .accepts = [&](int k) { return robot.table().message(k).committed; },
+                        .prefers = [&](int a, int b) { return robot.table().range(a) < robot.table().range(b); }});
+}
 
 }  // namespace
 
-const Policy& outwards() noexcept {
-  static constexpr Outwards policy;
-  return policy;
+HealingParams outwards_defaults() noexcept { return {}; }  // what TreeParams starts with
+
+Output<TreeMessage> outwards_literal_step(const TreeParams& params, TreeState& state, std::span<Heard> heard, const Senses& senses) noexcept {
+  const Admitted admitted(senses, heard, params, state.tally);
+  TreeRobot robot(params, literal_reading, state, admitted);
+  begin_tick(robot, admitted);
+  listen(robot);                                       // the largest epoch, phase and root token heard
+  accept_offer(robot);                                 // Select Root, the heir's side
+  index_neighbors(robot);                              // who are my parent and children
+  update_role(robot);
+  advance(robot, tree_complete(robot));                // the root's barriers
+  update_label(robot);                                 // Start Tree
+  select_nearest_parent(robot);                        // Select Parent, repair
+  take_census(robot, params.arrival_distance_m);       // Alg. 1 and 2
+  select_root(robot, [](int) { return true; });        // Select Root, the root's side
+  manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
+                        .may_call = [] { return false; },
+                        .count_waiting = [&](bool unserved) { count_unserved(state, unserved); },
+                        .may_insert = [&](int owner, int parent) { return is_at_midpoint(robot, owner, parent); }});
+  const Vec2 u = state.role == Role::spare ? attendance_motion(robot) : spring_motion(robot);
+
+  Output<TreeMessage> output;
+  write_tree(robot, output.message);
+  output.velocity = move(u, Guard{}, params);
+  return output;
+}
+
+Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& state, std::span<Heard> heard, const Senses& senses) noexcept {
+  const Admitted admitted(senses, heard, params, state.tally);
+  HealingRobot robot(params, state, admitted);
+  begin_tick(robot, admitted);
+  estimate_loss(robot);                                // how long neighbours may be silent
+  listen_among_fragments(robot);
+  accept_offered_root(robot);                          // Select Root, the heir's side
+  follow_heartbeat(robot);                             // is there a root at all,
+  claim_root(robot);                                   // and if not, am I the one to be it?
+  watch_tasks(robot);                                  // does every target have its worker?
+  index_neighbors(robot);
+  watch_branch(robot);                                 // has the last below me died?
+  update_role(robot);
+  advance_and_count(robot, tree_complete(robot));      // the root's barriers
+  update_label(robot);                                 // Start Tree
+  select_nearest_parent(robot);                        // Select Parent, repair
+  take_census(robot, params.arrival_distance_m, own_want_m(robot));
+  select_root(robot, [](int) { return true; });        // Select Root, the root's side
+  manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
+                        .may_call = [] { return true; },
+                        .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, false); },
+                        .may_insert = [&](int owner, int parent) { return is_at_midpoint(robot, owner, parent); }});
+  const bool retreats = is_retreating(robot, false);
+  const Vec2 u = retreats ? retreat_motion(robot, false, false) : state.role == Role::spare ? attendance_motion(robot) : spring_motion(robot);
+  Guard guard;
+  guard_edges(robot, retreats, guard);
+  keep_off(robot, guard);                              // obstacles
+
+  Output<HealingMessage> output;
+  write_healing(robot, output.message);
+  output.velocity = move(u, guard, params);
+  return output;
 }
 
 }  // namespace banyan

@@ -83,8 +83,6 @@ struct Spectrum {
 
 }  // namespace
 
-// Reads what the robots broadcast, not what they remember: the same, but 64 bytes apart instead of
-// 8 KB, which in large swarms is the difference between a pass and a cache miss per robot.
 struct Observer::Impl {
   explicit Impl(const world::World& world);
   void count_robots(const world::World& world);
@@ -133,7 +131,7 @@ std::vector<world::Vec2> active_positions(const world::World& world) {
 double network_length_m(const world::World& world) {
   double length_m = 0.0;
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const Message& m = world.messages()[i];
+    const Report& m = world.reports()[i];
     const RobotId up = up_of(m);
     if (world.alive()[i] == 0 || m.role == Role::spare || up >= world.size()) continue;
     if (world.alive()[up] != 0) length_m += distance(world.positions()[i], world.positions()[up]);
@@ -165,10 +163,10 @@ Observer::Impl::Impl(const world::World& world)
 
 void Observer::Impl::count_robots(const world::World& world) {
   const auto alive = world.alive();
-  const auto messages = world.messages();
+  const auto reports = world.reports();
   std::array<std::uint32_t, 4> by_role{};
-  for (std::size_t i = 0; i < messages.size(); ++i)
-    if (alive[i] != 0) ++by_role[static_cast<std::size_t>(messages[i].role)];
+  for (std::size_t i = 0; i < reports.size(); ++i)
+    if (alive[i] != 0) ++by_role[static_cast<std::size_t>(reports[i].role)];
   tick.spares = by_role[0];
   tick.connectors = by_role[1];
   tick.workers = by_role[2];
@@ -179,10 +177,10 @@ void Observer::Impl::count_robots(const world::World& world) {
 
 void Observer::Impl::count_edges(const world::World& world) {
   const auto alive = world.alive();
-  const auto messages = world.messages();
+  const auto reports = world.reports();
   const auto positions = world.positions();
   const auto count = [&](std::size_t i, RobotId other) {
-    if (other == nobody || other >= messages.size()) return;
+    if (other == nobody || other >= reports.size()) return;
     ++tick.edges;
     if (alive[other] == 0) {
       ++tick.broken_by_death;
@@ -194,8 +192,8 @@ void Observer::Impl::count_edges(const world::World& world) {
     }
   };
   tick.edges = tick.broken_by_death = tick.broken_by_distance = tick.broken_by_occlusion = 0;
-  for (std::size_t i = 0; i < messages.size(); ++i) {
-    const Message& m = messages[i];
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Report& m = reports[i];
     if (alive[i] == 0 || m.role == Role::spare) continue;
     count(i, m.parent);
     if (m.old_parent != m.parent) count(i, m.old_parent);
@@ -226,7 +224,7 @@ void Observer::Impl::measure_targets(const world::World& world) {
   const auto targets = world.targets();
   nearest_worker.assign(targets.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const Message& m = world.messages()[i];
+    const Report& m = world.reports()[i];
     if (m.role != Role::worker || world.alive()[i] == 0) continue;
     for (std::size_t t = 0; t < targets.size(); ++t)
       if (m.serves == targets[t].worker)
@@ -253,10 +251,10 @@ void Observer::Impl::measure_targets(const world::World& world) {
 // Barrier lengths as the root lives them; the newest token decides who that is.
 void Observer::Impl::time_phases(const world::World& world) {
   const auto alive = world.alive();
-  const Message* root = nullptr;
+  const Report* root = nullptr;
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const Message& m = world.messages()[i];
-    if (alive[i] != 0 && m.role == Role::root && (root == nullptr || newer(m.root, root->root))) root = &m;
+    const Report& m = world.reports()[i];
+    if (alive[i] != 0 && m.role == Role::root && (root == nullptr || has_newer_root(m, *root))) root = &m;
   }
   if (root == nullptr) return;
   run.epochs = std::max<std::uint64_t>(run.epochs, root->epoch);
@@ -348,7 +346,7 @@ Run Observer::result(const world::World& world) const {
   run.start_phase_ticks = static_cast<double>(impl_->start_ticks) / epochs;
   run.select_phase_ticks = static_cast<double>(impl_->select_ticks) / epochs;
   run.insertions = run.handovers = run.repairs = run.elections = run.replacements = 0;
-  for (const State& s : world.states()) {
+  for (const Report& s : world.reports()) {
     run.insertions += s.tally.insertions;
     run.handovers += s.tally.handovers;
     run.repairs += s.tally.repairs;
@@ -356,7 +354,7 @@ Run Observer::result(const world::World& world) const {
     run.replacements += s.tally.replacements;
   }
   if (run.time_s > 0.0)
-    run.bytes_per_robot_s = static_cast<double>(world.packets_sent() * wire_size) / (static_cast<double>(world.size()) * run.time_s);
+    run.bytes_per_robot_s = static_cast<double>(world.packets_sent() * world.swarm().message_bytes()) / (static_cast<double>(world.size()) * run.time_s);
   if (impl_->ticks_since_complete > 0) run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-#include "banyan/controller/vec2.hpp"
+#include "banyan/controller/core/vec2.hpp"
 #include "banyan/world/random.hpp"
 
 namespace banyan::measure {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "banyan/controller/policies.hpp"
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
 #include "banyan/measure/steiner.hpp"

@@ -10,7 +10,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/record/file.hpp"
 #include "banyan/record/palette.hpp"
 #include "banyan/record/recording.hpp"

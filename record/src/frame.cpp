@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/world.hpp"
 
@@ -17,14 +17,14 @@ namespace {
 
 std::int32_t index_of(RobotId id) noexcept { return id == nobody ? -1 : static_cast<std::int32_t>(id); }
 
-void capture_robot(const State& state, RobotFrame& robot) noexcept {
+void capture_robot(const Report& state, RobotFrame& robot) noexcept {
   robot.role = state.role;
   robot.phase = state.phase;
   robot.need = state.need;
   robot.spare_state = state.spare_state;
   robot.connected = false;
   robot.epoch = state.epoch;
-  robot.label_cm = state.label_cm == unknown_label ? -1 : static_cast<std::int32_t>(state.label_cm);
+  robot.label_cm = state.label_cm;
   robot.depth = state.depth;
   robot.parent = index_of(state.parent);
   robot.old_parent = index_of(state.old_parent);
@@ -45,8 +45,8 @@ void capture_targets(const world::World& world, Frame& frame) {
     frame.targets.push_back({target.position, worker, target.active});
   }
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const State& state = world.states()[i];
-    if (state.is_worker && state.serves < world.size()) frame.robots[i].target = target_of[state.serves];
+    const Report& state = world.reports()[i];
+    if (state.serves < world.size()) frame.robots[i].target = target_of[state.serves];
   }
 }
 
@@ -54,9 +54,9 @@ void capture_targets(const world::World& world, Frame& frame) {
 std::optional<std::uint32_t> newest_root(const world::World& world) noexcept {
   std::optional<std::uint32_t> root;
   for (std::uint32_t i = 0; i < world.size(); ++i) {
-    const State& state = world.states()[i];
+    const Report& state = world.reports()[i];
     if (world.alive()[i] == 0 || state.role != Role::root) continue;
-    if (!root || newer(state.root, world.states()[*root].root)) root = i;
+    if (!root || has_newer_root(state, world.reports()[*root])) root = i;
   }
   return root;
 }
@@ -87,7 +87,7 @@ void capture(const world::World& world, Frame& frame) {
     robot.position = world.positions()[i];
     robot.heading_rad = angle_of(world.headings()[i]);
     robot.alive = world.alive()[i] != 0;
-    capture_robot(world.states()[i], robot);
+    capture_robot(world.reports()[i], robot);
   }
   mark_connected(world, frame.robots);
   capture_targets(world, frame);

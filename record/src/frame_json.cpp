@@ -282,14 +282,20 @@ void write_frame(Text& out, const Frame& frame) {
   out.put('}');
 }
 
-void write_messages(Text& out, std::uint64_t tick, double time_s, std::span<const Message> messages) {
+void write_messages(Text& out, std::uint64_t tick, double time_s, const MessageNumbers& messages) {
   write_stamp(out, tick, time_s);
-  for (const MessageField& field : message_fields()) {
-    if (field.kept != MessageField::Kept::in_messages) continue;
-    array(out, field.name, messages, [&](const Message& message) {
-      const double value = field.get(message);
-      field.decimals == 0 ? write_whole(out, value) : out.fixed(value, field.decimals);
-    });
+  const std::size_t count = messages.fields.size();
+  for (std::size_t f = 0; f < count; ++f) {
+    const FieldInfo& field = messages.fields[f];
+    if (!is_recorded(field)) continue;
+    key(out, field.name);
+    out.put('[');
+    for (std::size_t at = f; at < messages.numbers.size(); at += count) {
+      field.decimals == 0 ? write_whole(out, messages.numbers[at]) : out.fixed(messages.numbers[at], field.decimals);
+      out.put(',');
+    }
+    if (!messages.empty()) out.drop_last();
+    out.put(']');
   }
   out.put('}');
 }
@@ -482,13 +488,13 @@ std::string frame_schema() {
   return std::string(out.view());
 }
 
-std::string messages_schema() {
+std::string messages_schema(std::span<const FieldInfo> fields) {
   Text out;
   schema_head(out, "banyan.Messages",
               "What each robot broadcast last: arrays with one number per robot, in the order of their indices. "
               "What /banyan/frame says at the same time is not repeated");
-  for (const MessageField& field : message_fields()) {
-    if (field.kept != MessageField::Kept::in_messages) continue;
+  for (const FieldInfo& field : fields) {
+    if (!is_recorded(field)) continue;
     schema_array(out, field.name, field.decimals == 0 ? "integer" : "number", field.meaning);
   }
   out.put("}}");

@@ -10,13 +10,14 @@
 #include "banyan/measure/metrics.hpp"
 #include "banyan/record/frame.hpp"
 #include "banyan/record/recording.hpp"
+#include "message_json.hpp"
 #include "text.hpp"
 
 namespace banyan::record {
 
 void write_frame(Text& out, const Frame& frame);            // without the targets
-// An array per field of message_fields() that is kept in messages, a number per robot.
-void write_messages(Text& out, std::uint64_t tick, double time_s, std::span<const Message> messages);
+// An array per field that is_recorded(), a number per robot.
+void write_messages(Text& out, std::uint64_t tick, double time_s, const MessageNumbers& messages);
 void write_targets(Text& out, const Frame& frame);
 void write_metrics(Text& out, const measure::Tick& tick);
 void write_event(Text& out, const RecordedEvent& event);
@@ -32,7 +33,7 @@ void read_frame(std::string_view text, Frame& frame);
 
 // JSON Schemas of the above.
 [[nodiscard]] std::string frame_schema();
-[[nodiscard]] std::string messages_schema();
+[[nodiscard]] std::string messages_schema(std::span<const FieldInfo> fields);
 [[nodiscard]] std::string targets_schema();
 [[nodiscard]] std::string metrics_schema();
 [[nodiscard]] std::string event_schema();

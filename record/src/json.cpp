@@ -28,8 +28,8 @@ std::string metrics_json(const measure::Tick& tick) {
 std::string event_json(const RecordedEvent& event) {
   return written([&](Text& out) { write_event(out, event); });
 }
-std::string message_json(const Message& message) {
-  return written([&](Text& out) { write_message(out, message); });
+std::string message_json(const Swarm& swarm, std::size_t robot) {
+  return written([&](Text& out) { write_message(out, swarm, robot); });
 }
 
 std::string result_json(const measure::Run& run) {

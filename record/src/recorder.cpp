@@ -44,10 +44,11 @@ struct Recorder::Impl {
   Frame now;
   bool started = false, frame_written = false, finished = false;
   double last_chunk_s = 0.0, next_scene_s = 0.0;
-  std::vector<Message> last_messages;  // of now's world; empty: none
+  MessageNumbers last_messages;  // of now's world; empty: none
   std::vector<TargetFrame> last_targets;
 
   void add_channels();
+  void add_messages_channel();
   void look_at(const Setting& current);
   void put(std::uint16_t channel) {
     mcap.message(channel, nanoseconds(now.time_s), text.view());
@@ -66,13 +67,19 @@ void Recorder::Impl::add_channels() {
     return mcap.add_channel(id, std::move(topic), "json", {}, group);
   };
   frames = add("/banyan/frame", "banyan.Frame", frame_schema(), large);
-  if (options.messages) messages = add("/banyan/messages", "banyan.Messages", messages_schema(), large);
   settings = add("/banyan/setting", "banyan.Setting", setting_schema(), small);
   targets = add("/banyan/targets", "banyan.Targets", targets_schema(), small);
   metrics = add("/banyan/metrics", "banyan.Metrics", metrics_schema(), small);
   events = add("/banyan/events", "banyan.Event", event_schema(), small);
   log = add("/log", "foxglove.Log", log_schema, small);
   if (options.scene_period_s > 0.0) scene = add("/scene", "foxglove.SceneUpdate", scene_update_schema, large);
+}
+
+// Its fields are those of the algorithm, which the first frame of a world tells.
+void Recorder::Impl::add_messages_channel() {
+  if (messages != 0) return;
+  const auto schema = mcap.add_schema("banyan.Messages", "jsonschema", messages_schema(last_messages.fields));
+  messages = mcap.add_channel(schema, "/banyan/messages", "json", {}, large);
 }
 
 void Recorder::Impl::look_at(const Setting& current) {
@@ -89,6 +96,7 @@ void Recorder::Impl::put_frame() {
   write_frame(text, now);
   put(frames);
   if (!last_messages.empty()) {
+    add_messages_channel();
     write_messages(text, now.tick, now.time_s, last_messages);
     put(messages);
   }
@@ -170,14 +178,14 @@ Recorder::~Recorder() {
 void Recorder::frame(const world::World& world, const measure::Tick& tick) {
   Impl& r = *impl_;
   capture(world, r.now);
-  if (r.options.messages) r.last_messages.assign(world.messages().begin(), world.messages().end());
+  if (r.options.messages) capture_messages(world.swarm(), r.last_messages);
   r.record(r.started && still_holds(r.setting, world) ? r.setting : setting_of(world), tick);
 }
 
 void Recorder::frame(const Setting& setting, const Frame& frame, const measure::Tick& tick) {
   Impl& r = *impl_;
   r.now = frame;
-  r.last_messages.clear();
+  r.last_messages = {};
   r.record(setting, tick);
 }
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/record/palette.hpp"
 #include "frame_json.hpp"
 

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <string>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/record/recording.hpp"
 #include "banyan/world/random.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "banyan/controller/digest.hpp"
+#include "banyan/controller/core/digest.hpp"
 
 namespace banyan::study {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "banyan/controller/digest.hpp"
+#include "banyan/controller/core/digest.hpp"
 #include "file_text.hpp"
 #include "hexadecimal.hpp"
 

@@ -268,7 +268,7 @@ std::string Live::take_events_json() {
 std::string Live::message_json(std::size_t robot) const {
   const world::World& world = run().play->world;
   if (world.tick() == 0 || robot >= world.size()) return "null";
-  return record::message_json(world.messages()[robot]);
+  return record::message_json(world.swarm(), robot);
 }
 
 std::string Live::hash() const {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "banyan/controller/digest.hpp"
+#include "banyan/controller/core/digest.hpp"
 #include "banyan/world/scenario.hpp"
 
 namespace banyan::world {

@@ -17,7 +17,7 @@
 #include <bit>
 #include <cmath>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/wheels.hpp"

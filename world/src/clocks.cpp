@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "banyan/controller/digest.hpp"
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/digest.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/threads.hpp"
 #include "world_impl.hpp"
 
 namespace banyan::world {
 
 void World::Impl::set_clocks() {
-  clocked.resize(states.size());
+  clocked.resize(alive.size());
   for (std::size_t i = 0; i < clocked.size(); ++i) {
     clocked[i].phase = to_uniform(bits(scenario.seed, Purpose::clock_phase, i));
     clocked[i].rate =
@@ -31,6 +31,7 @@ void World::Impl::step_by_clocks(Executor& executor) {
     proximity.update(poses.position, alive, deaths);
     deliver(executor);
     wake(executor);
+    swarm->advance();
   }
   for (const std::uint64_t r : received_by) received += r;
 }
@@ -63,7 +64,7 @@ void World::Impl::deliver(Executor& executor) {
         if (!clocked[sender].told || lost(i, sender)) continue;
         const banyan::Vec2 seen = measure(i, sender);
         const Vec2 now{static_cast<double>(seen.x), static_cast<double>(seen.y)};
-        robot.waiting.push_back({messages[sender], robot.shift + rotate(unit_vector(robot.turn), now), arrival});
+        robot.waiting.push_back({sender, moment - 1, robot.shift + rotate(unit_vector(robot.turn), now), arrival});
       }
     }
   });
@@ -71,11 +72,26 @@ void World::Impl::deliver(Executor& executor) {
 
 void World::Impl::wake(Executor& executor) {
   executor.parallel_for(clocked.size(), [&](std::size_t begin, std::size_t end, int worker) {
-    const auto thread = static_cast<std::size_t>(worker);
-    for (std::size_t i = begin; i < end; ++i) {
-      clocked[i].told = alive[i] != 0 && strikes(i);
-      if (clocked[i].told) step_one(i, inboxes[thread].heard, received_by[thread]);
-      if (alive[i] == 0) clocked[i].waiting.clear();
+    Inbox& inbox = inboxes[static_cast<std::size_t>(worker)];
+    for (std::size_t first = begin; first < end; first += Inbox::batch_size) {
+      const std::size_t count = std::min(Inbox::batch_size, end - first);
+      inbox.packets.clear();
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = first + k;
+        inbox.begin[k] = inbox.packets.size();
+        clocked[i].told = alive[i] != 0 && strikes(i);
+        inbox.sensed[k].steps = clocked[i].told;
+        if (clocked[i].told) {
+          const Clocked& robot = clocked[i];
+          sense(i, {static_cast<float>(robot.shift.x), static_cast<float>(robot.shift.y), static_cast<float>(robot.turn)}, inbox.seen[k],
+                inbox.sensed[k].senses);
+          collect(i, inbox.packets);
+        }
+        if (alive[i] == 0) clocked[i].waiting.clear();
+      }
+      inbox.begin[count] = inbox.packets.size();
+      received_by[static_cast<std::size_t>(worker)] += inbox.packets.size();
+      step_batch(first, count, inbox);
     }
   });
 }
@@ -90,26 +106,22 @@ bool World::Impl::strikes(std::size_t i) const noexcept {
   return periods(moment + 1) > periods(moment);
 }
 
-// What has arrived since its last step is carried along by its odometry to where it is now.
-void World::Impl::step_one(std::size_t i, std::vector<Heard>& heard, std::uint64_t& received_here) {
+// What has arrived since its last step is carried along by its odometry to where it is now. Its odometry
+// begins anew.
+void World::Impl::collect(std::size_t i, std::vector<Packet>& packets) {
   Clocked& robot = clocked[i];
   const auto arrived =
       std::find_if(robot.waiting.begin(), robot.waiting.end(), [&](const Waiting& w) { return w.heard > moment; });
   const Vec2 turned = unit_vector(robot.turn);
-  heard.clear();
+  const std::size_t begin = packets.size();
   for (auto packet = robot.waiting.begin(); packet != arrived; ++packet) {
     const Vec2 now = rotate_back(turned, packet->position - robot.shift);
-    heard.push_back({&packet->message, {static_cast<float>(now.x), static_cast<float>(now.y)}});
+    packets.push_back({.sender = packet->sender, .age_ticks = static_cast<std::uint32_t>(moment - packet->composed),
+                       .position = {static_cast<float>(now.x), static_cast<float>(now.y)}});
   }
   const auto slots = static_cast<std::size_t>(scenario.radio.slots);
-  if (slots > 0 && heard.size() > slots) heard.resize(keep_slots(i, std::span<Heard>(heard), heard.size()));
-  received_here += heard.size();
-
-  const Odometry moved{static_cast<float>(robot.shift.x), static_cast<float>(robot.shift.y),
-                       static_cast<float>(robot.turn)};
-  const Output output = consult(i, heard, moved);
-  messages[i] = output.message;
-  commands[i] = output.velocity;
+  const std::size_t count = packets.size() - begin;
+  if (slots > 0 && count > slots) packets.resize(begin + keep_slots(i, std::span(packets).subspan(begin), count));
   robot.waiting.erase(robot.waiting.begin(), arrived);
   robot.shift = {};
   robot.turn = 0.0;
@@ -123,7 +135,8 @@ void World::Impl::add_clocks(Digest& digest) const noexcept {
     for (const Waiting& packet : robot.waiting) {
       digest.add(packet.heard);
       digest.add(packet.position);
-      for (const std::uint8_t byte : encode(packet.message)) digest.add(byte);
+      digest.add(packet.sender);
+      digest.add(packet.composed);
     }
   }
 }

@@ -46,8 +46,8 @@ void World::Impl::watch_for_moments(double now_s) {
 double World::Impl::remaining_m(std::size_t target) const noexcept {
   const auto& [position, first, active] = targets[target];
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < states.size(); ++i)
-    if (alive[i] != 0 && role_of(i) == Role::worker && served_by(i) == static_cast<RobotId>(first))
+  for (std::size_t i = 0; i < alive.size(); ++i)
+    if (alive[i] != 0 && reports[i].role == Role::worker && reports[i].serves == static_cast<RobotId>(first))
       least = std::min(least, distance(poses.position[i], position));
   return least < std::numeric_limits<double>::infinity() ? least : distance(poses.position[first], position);
 }
@@ -80,8 +80,8 @@ std::optional<std::size_t> World::Impl::holder(std::size_t target) const noexcep
   const auto& [position, first, active] = targets[target];
   std::optional<std::size_t> best;
   double best_m = 0.0;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    if (alive[i] == 0 || role_of(i) != Role::worker || served_by(i) != static_cast<RobotId>(first)) continue;
+  for (std::size_t i = 0; i < alive.size(); ++i) {
+    if (alive[i] == 0 || reports[i].role != Role::worker || reports[i].serves != static_cast<RobotId>(first)) continue;
     const double away_m = distance(poses.position[i], position);
     if (away_m > scenario.mission.target_tolerance_m || (best && away_m >= best_m)) continue;
     best = i;
@@ -166,17 +166,17 @@ bool World::Impl::among(Event::Of of, std::size_t i) const noexcept {
     case Event::Of::robots:
       return true;
     case Event::Of::connectors:
-      return role_of(i) == Role::connector;
+      return reports[i].role == Role::connector;
     case Event::Of::root:
-      return role_of(i) == Role::root;
+      return reports[i].role == Role::root;
     default:
-      return role_of(i) == Role::worker;
+      return reports[i].role == Role::worker;
   }
 }
 
 std::size_t World::Impl::count_among(Event::Of of) const noexcept {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < states.size(); ++i) count += among(of, i) ? 1 : 0;
+  for (std::size_t i = 0; i < alive.size(); ++i) count += among(of, i) ? 1 : 0;
   return count;
 }
 
@@ -185,9 +185,9 @@ void World::Impl::draw_victim(const Agenda::Entry& entry) {
   const Event::Of of = entry.event.of;
   const double u = to_uniform(bits(scenario.seed, Purpose::kill, entry.number, entry.drawn));
   auto rank = static_cast<std::size_t>(u * static_cast<double>(count_among(of)));
-  for (std::size_t i = 0; i < states.size(); ++i) {
+  for (std::size_t i = 0; i < alive.size(); ++i) {
     if (!among(of, i) || rank-- > 0) continue;
-    const RobotId parent = up_of(messages[i]);
+    const RobotId parent = up_of(reports[i]);
     die(i);
     if (of == Event::Of::worker_and_parent && parent != nobody) die(parent);
     return;
@@ -205,15 +205,13 @@ void World::Impl::move_target(std::size_t target, Vec2 position, double speed_m_
 // connector if there is none. One that was sent to a target before stays out: its id names that one
 // for as long as somebody may serve it.
 void World::Impl::assign_target(Vec2 position) {
-  std::size_t best = states.size();
-  const auto key = [&](std::size_t i) { return std::pair(states[i].role != Role::spare, squared_norm(poses.position[i] - position)); };
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    if (alive[i] == 0 || states[i].is_worker || states[i].role == Role::root || target_of[i] >= 0) continue;
-    if (best == states.size() || key(i) < key(best)) best = i;
+  std::size_t best = alive.size();
+  const auto key = [&](std::size_t i) { return std::pair(reports[i].role != Role::spare, squared_norm(poses.position[i] - position)); };
+  for (std::size_t i = 0; i < alive.size(); ++i) {
+    if (alive[i] == 0 || is_worker(i) || reports[i].role == Role::root || target_of[i] >= 0) continue;
+    if (best == alive.size() || key(i) < key(best)) best = i;
   }
-  if (best == states.size()) return;  // nobody is left to send
-  states[best].is_worker = true;
-  states[best].serves = static_cast<RobotId>(best);
+  if (best == alive.size()) return;  // nobody is left to send
   target_of[best] = static_cast<std::int32_t>(targets.size());
   targets.push_back({.position = position, .worker = best});
   courses.push_back({.start_m = distance(poses.position[best], position)});
@@ -226,17 +224,14 @@ void World::Impl::give_up(std::size_t target) {
   courses[target].speed_m_s = 0.0;
   const std::size_t first = targets[target].worker;
   target_of[first] = -1;
-  for (State& state : states) {
-    if (!state.is_worker || state.serves != static_cast<RobotId>(first)) continue;
-    state.is_worker = false;
-    state.serves = nobody;
-  }
+  for (std::size_t i = 0; i < alive.size(); ++i)
+    if (reports[i].serves == static_cast<RobotId>(first)) given_up[i] = static_cast<RobotId>(first);
 }
 
 // The robots are told: with their parameter they look out for what is in the way, or do not.
 void World::Impl::set_line_of_sight(bool on) {
   line_of_sight = on;
-  params.line_of_sight = on;
+  swarm->set_line_of_sight(on);
   radio.set_line_of_sight(on);
 }
 

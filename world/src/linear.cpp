@@ -15,7 +15,7 @@
 #include <array>
 #include <bit>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"

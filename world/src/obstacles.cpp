@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 
 namespace banyan::world {
 namespace {

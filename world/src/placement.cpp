@@ -12,7 +12,7 @@
 #include <tuple>
 #include <unordered_set>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"
 

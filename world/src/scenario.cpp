@@ -9,9 +9,7 @@
 #include <limits>
 #include <numeric>
 
-#include "banyan/controller/message.hpp"
-#include "banyan/controller/policy.hpp"
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/names.hpp"
 #include "banyan/world/obstacles.hpp"
@@ -121,7 +119,7 @@ void check_parameter(Report& report, const std::string& name, double value) {
 
 void check_mission(Report& report, const Mission& mission) {
   std::vector<std::string_view> names;
-  for (const Policy* policy : policies()) names.push_back(policy->name());
+  for (const Algorithm* algorithm : algorithms()) names.push_back(algorithm->name());
   check_name(report, "mission.algorithm", mission.algorithm, names);
   const std::string_view readings[] = {"corrected", "literal"};
   check_name(report, "mission.reading", mission.reading, readings);
@@ -132,7 +130,7 @@ void check_mission(Report& report, const Mission& mission) {
   for (const auto& [name, value] : mission.parameters) check_parameter(report, name, value);
 }
 
-void check_list_start(Report& report, const Swarm& swarm) {
+void check_list_start(Report& report, const SwarmModel& swarm) {
   const Start& start = swarm.start;
   report.count_in("swarm.start.positions", start.positions.size(), 1, most_robots);
   if (swarm.robots != 0 && swarm.robots != start.positions.size())
@@ -148,7 +146,7 @@ void check_list_start(Report& report, const Swarm& swarm) {
     report.number_in(element("swarm.start.headings_rad", i), start.headings_rad[i], {-1000.0, 1000.0});
 }
 
-void check_swarm(Report& report, const Swarm& swarm) {
+void check_swarm(Report& report, const SwarmModel& swarm) {
   const Start& start = swarm.start;
   report.point("swarm.start.center", start.center);
   if (start.layout == Layout::list) {
@@ -306,8 +304,8 @@ void check_platform(Report& report, const Scenario& scenario) {
                                      " m), else no robot can hear another");
   if (time_limit_s(scenario) < scenario.tick_s)
     report.fail("mission.time_limit_s", "must be given when no target is away from swarm.start.center");
-  if (const std::string_view text = fault(controller_params(scenario)); !text.empty())
-    report.fail("mission.parameters", std::string(text));
+  if (const std::string text = find_algorithm(scenario.mission.algorithm)->fault(setup_of(scenario)); !text.empty())
+    report.fail("mission.parameters", text);
 }
 
 std::size_t find(std::vector<std::size_t>& leader, std::size_t i) noexcept {
@@ -563,13 +561,23 @@ std::vector<Vec2> target_positions(const Scenario& scenario) {
 }
 
 std::size_t robot_count(const Scenario& scenario) {
-  const Swarm& swarm = scenario.swarm;
+  const SwarmModel& swarm = scenario.swarm;
   if (swarm.start.layout == Layout::list) return swarm.start.positions.size();
   if (swarm.robots != 0) return swarm.robots;
   double length = 0.0;
   const std::vector<Vec2> targets = target_positions(scenario);
   for (const Vec2 p : targets) length += distance(swarm.start.center, p);
   return std::max(robots_for(swarm.redundancy * length / delta_inwards), targets.size() + 1);
+}
+
+// A packet is heard so many steps of the swarm after it was composed, at most: it flies, and waits until its
+// receiver's clock strikes.
+static std::size_t longest_way(const Scenario& scenario) {
+  const auto latency = static_cast<std::size_t>(std::max(1, scenario.radio.latency_ticks));
+  if (!scenario.clocks.asynchronous) return latency;
+  const auto substeps = static_cast<std::size_t>(std::max(1, scenario.clocks.substeps));
+  const double slowest = std::max(1.0 - scenario.clocks.drift, 1e-3);
+  return (latency - 1) * substeps + static_cast<std::size_t>(std::ceil(static_cast<double>(substeps) / slowest)) + 2;
 }
 
 double time_limit_s(const Scenario& scenario) {
@@ -580,25 +588,21 @@ double time_limit_s(const Scenario& scenario) {
   return 10.0 * farthest / scenario.robot.wheel_limit_m_s;
 }
 
-Params controller_params(const Scenario& scenario, const Policy& policy) {
-  Params params = policy.defaults(scenario.mission.reading == "literal" ? Reading::literal : Reading::corrected);
-  const double scale = scenario.mission.scale * (policy.scales_with_range() ? scenario.radio.range_m / 2.0 : 1.0);
-  for (const ParameterInfo& info : parameter_table())
-    if (info.source == "Table I" && info.unit == "m") params.*info.member *= static_cast<float>(scale);
-  params.communication_range_m = static_cast<float>(scenario.radio.range_m);
-  params.line_of_sight = scenario.radio.line_of_sight;
-  params.tick_s = static_cast<float>(scenario.tick_s);
-  params.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
-  params.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
-  params.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
-  params.arrival_distance_m = static_cast<float>(scenario.mission.target_tolerance_m);
-  for (const auto& [name, value] : scenario.mission.parameters)
-    for (const ParameterInfo& info : parameter_table())
-      if (info.key == name) params.*info.member = static_cast<float>(value);
-  return params;
+Setup setup_of(const Scenario& scenario) {
+  Setup setup;
+  setup.reading = scenario.mission.reading;
+  setup.scale = scenario.mission.scale;
+  setup.platform.communication_range_m = static_cast<float>(scenario.radio.range_m);
+  setup.platform.line_of_sight = scenario.radio.line_of_sight;
+  setup.platform.tick_s = static_cast<float>(scenario.tick_s);
+  setup.platform.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
+  setup.platform.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
+  setup.platform.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
+  setup.arrival_distance_m = scenario.mission.target_tolerance_m;
+  setup.parameters = scenario.mission.parameters;
+  setup.history = longest_way(scenario);
+  return setup;
 }
-
-Params controller_params(const Scenario& scenario) { return controller_params(scenario, *find_policy(scenario.mission.algorithm)); }
 
 std::size_t least_robots(const std::vector<Vec2>& targets, double tolerance_m, double range_m) {
   double longest = 0.0;

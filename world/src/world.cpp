@@ -6,16 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <string>
-#include <string_view>
+#include <utility>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
-#include "banyan/controller/digest.hpp"
+#include "banyan/controller/core/digest.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
 #include "banyan/world/random.hpp"
@@ -24,20 +19,6 @@
 
 namespace banyan::world {
 namespace {
-
-// Room for n states in large pages, where the system has them: states lie 8 KB apart, so that in
-// small pages every robot costs address translations of its own. A hint; failure changes nothing.
-std::vector<State> make_room(std::size_t n) {
-  std::vector<State> states;
-  states.reserve(n);
-#ifdef __linux__
-  constexpr std::size_t page = 4096;
-  void* first = states.data();
-  std::size_t bytes = n * sizeof(State);
-  if (std::align(page, page, first, bytes) != nullptr) madvise(first, bytes / page * page, MADV_HUGEPAGE);
-#endif
-  return states;
-}
 
 std::unique_ptr<Bodies> make_bodies(Scenario scenario, const Poses& poses) {
   if (scenario.clocks.asynchronous) scenario.tick_s /= scenario.clocks.substeps;  // clocks.cpp moves them so often
@@ -55,14 +36,33 @@ void refuse(const std::vector<Fault>& faults) {
   if (!text.empty()) throw std::invalid_argument(text);
 }
 
-void require_possible(const Scenario& scenario) { refuse(faults(scenario)); }
+// faults() judges the parameters of the algorithm that the scenario names, not those of one of your own.
+Scenario checked(Scenario scenario, const Algorithm* own) {
+  if (own == nullptr) {
+    refuse(faults(scenario));
+    return scenario;
+  }
+  std::vector<Fault> found = faults(scenario);
+  std::erase_if(found, [](const Fault& fault) { return fault.key == "mission.algorithm" || fault.key == "mission.parameters"; });
+  refuse(found);
+  if (const std::string text = own->fault(setup_of(scenario)); !text.empty())
+    throw std::invalid_argument(std::string(own->name()) + ": " + text);
+  scenario.mission.algorithm = own->name();
+  return scenario;
+}
+
+std::vector<Member> members_of(const Assignment& assignment, std::size_t n) {
+  std::vector<Member> members(n);
+  for (std::size_t i = 0; i < n; ++i) members[i] = {.id = static_cast<RobotId>(i), .worker = false, .root = i == assignment.root};
+  for (const std::size_t worker : assignment.worker) members[worker].worker = true;
+  return members;
+}
 
 }  // namespace
 
-World::Impl::Impl(const Scenario& s, const Policy* own)
-    : scenario((require_possible(s), s)),
-      policy(own != nullptr ? own : find_policy(s.mission.algorithm)),
-      params(controller_params(s, *policy)),
+World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
+    : scenario(s),
+      algorithm(&algorithm_),
       loss(s.radio.loss),
       line_of_sight(s.radio.line_of_sight),
       obstacles(s.obstacles),
@@ -71,24 +71,20 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
       radio(s, poses.position.size()),
       proximity(s),
       agenda(s.events) {
-  if (own != nullptr) adopt(*own);
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
   const Assignment assignment = assign(s, poses, positions);
   alive.assign(n, 1);
   frozen_until.assign(n, 0);
   target_of.assign(n, -1);
+  given_up.assign(n, nobody);
   for (std::size_t t = 0; t < positions.size(); ++t) {
     targets.push_back({.position = positions[t], .worker = assignment.worker[t]});
     courses.push_back({.start_m = distance(poses.position[assignment.worker[t]], positions[t])});
     target_of[assignment.worker[t]] = static_cast<std::int32_t>(t);
   }
-  states = make_room(n);
-  for (std::size_t i = 0; i < n; ++i)
-    states.push_back(initial_state(static_cast<RobotId>(i), target_of[i] >= 0, i == assignment.root));
-  messages.resize(n);
-  for (std::size_t i = 0; i < n; ++i) messages[i].id = static_cast<RobotId>(i);
-  next_messages = messages;
+  swarm = algorithm->make(setup_of(s), members_of(assignment, n));
+  for (std::size_t i = 0; i < n; ++i) reports.push_back(swarm->report(i));
   commands.resize(n);
   moving.resize(n);
   odometry.resize(n);
@@ -98,23 +94,14 @@ World::Impl::Impl(const Scenario& s, const Policy* own)
   radio.update(poses.position, alive, alone);
 }
 
-// faults() has judged the parameters of the algorithm that the scenario names, not these.
-void World::Impl::adopt(const Policy& own) {
-  if (const std::string_view text = fault(params); !text.empty())
-    throw std::invalid_argument(std::string(own.name()) + ": " + std::string(text));
-  scenario.mission.algorithm = own.name();
-}
-
 World::Impl::Impl(const Impl& o)
-    : scenario(o.scenario), policy(o.policy), params(o.params), loss(o.loss),
+    : scenario(o.scenario), algorithm(o.algorithm), loss(o.loss),
       line_of_sight(o.line_of_sight), obstacles(o.obstacles), tick(o.tick), poses(o.poses),
       bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
-      target_of(o.target_of), states(make_room(o.states.size())), messages(o.messages), next_messages(o.next_messages), commands(o.commands),
+      target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), commands(o.commands),
       moving(o.moving), odometry(o.odometry), agenda(o.agenda), silent_until(o.silent_until), deaths(o.deaths),
       last_death(o.last_death), flights(o.flights), arriving(o.arriving), clocked(o.clocked),
-      received(o.received), sent(o.sent) {
-  states.assign(o.states.begin(), o.states.end());
-}
+      received(o.received), sent(o.sent) {}
 
 // ---- One tick ----
 
@@ -166,7 +153,7 @@ void World::Impl::carry_waiting(std::size_t i, const Flight& fresh) noexcept {
 }
 
 void World::Impl::think(Executor& executor) {
-  const std::size_t n = states.size();
+  const std::size_t n = alive.size();
   make_inboxes(executor);
   Flight* flight = flights.empty() ? nullptr : &flights[tick % flights.size()];
   if (flight != nullptr) {
@@ -176,68 +163,67 @@ void World::Impl::think(Executor& executor) {
     flight->offsets.assign(radio.offsets().begin(), radio.offsets().end());
     flight->count.assign(n, 0);
     flight->packets.resize(flight->offsets.back());
-    flight->messages = messages;
   }
   const bool silence = tick == 0 || tick < silent_until;  // nobody has said anything yet, or a blackout
 
   executor.parallel_for(n, [&](std::size_t begin, std::size_t end, int worker) {
     Inbox& inbox = inboxes[static_cast<std::size_t>(worker)];
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i + 1 < end) fetch(i + 1);
-      if (alive[i] == 0) {
-        next_messages[i] = messages[i];  // its last broadcast, in both buffers
-        continue;
+    for (std::size_t first = begin; first < end; first += Inbox::batch_size) {
+      const std::size_t count = std::min(Inbox::batch_size, end - first);
+      std::size_t room = 0;
+      for (std::size_t i = first; i < first + count; ++i) room += std::max<std::size_t>(radio.links(i).size(), arriving.count.empty() ? 0 : arriving.count[i]);
+      if (inbox.packets.size() < room) inbox.packets.resize(room + room / 4);
+      std::size_t size = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        inbox.begin[k] = size;
+        if (alive[first + k] != 0) size += gather(first + k, std::span(inbox.packets).subspan(size), flight, silence);
       }
-      inbox.packets.resize(radio.links(i).size());
-      std::span<const Packet> packets(inbox.packets.data(), silence ? 0 : receive(i, inbox.packets));
-      const Message* content = messages.data();
-      if (flight != nullptr) {
-        carry_waiting(i, *flight);
-        std::copy(packets.begin(), packets.end(), flight->packets.begin() + flight->offsets[i]);
-        flight->count[i] = static_cast<std::uint32_t>(packets.size());
-        content = arriving.messages.data();
-        packets = silence || arriving.count.empty() ? std::span<const Packet>{}
-                                         : std::span<const Packet>(arriving.packets.data() + arriving.offsets[i], arriving.count[i]);
+      inbox.begin[count] = size;
+      received_by[static_cast<std::size_t>(worker)] += size;
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = first + k;
+        inbox.sensed[k].steps = alive[i] != 0;
+        if (alive[i] != 0) sense(i, odometry[i], inbox.seen[k], inbox.sensed[k].senses);
       }
-      inbox.heard.clear();
-      for (const Packet& packet : packets) inbox.heard.push_back({content + packet.sender, packet.position});
-      received_by[static_cast<std::size_t>(worker)] += packets.size();
-
-      const Output output = consult(i, inbox.heard, odometry[i]);
-      next_messages[i] = output.message;
-      commands[i] = output.velocity;
+      step_batch(first, count, inbox);
     }
   });
-  std::swap(messages, next_messages);
+  swarm->advance();
   for (const std::uint64_t r : received_by) received += r;
 }
 
-// One step of robot i's controller, with what its own sensors give it.
-Output World::Impl::consult(std::size_t i, std::span<const Heard> heard, const Odometry& moved) noexcept {
-  // A controller that has resigned, or has taken over another's target, gets none from outside.
-  banyan::Vec2 target{};
-  const bool sees_target = target_of[i] >= 0 && states[i].is_worker && states[i].serves == static_cast<RobotId>(i);
-  if (sees_target) {
-    const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
-    target = {static_cast<float>(d.x), static_cast<float>(d.y)};
+// What robot i hears in this tick. Returns how many packets.
+std::size_t World::Impl::gather(std::size_t i, std::span<Packet> room, Flight* flight, bool silence) {
+  if (flight == nullptr) return silence ? 0 : receive(i, room);
+  // Drawn now, heard later: what was sent latency - 1 ticks ago arrives.
+  carry_waiting(i, *flight);
+  const std::size_t sent_now = silence ? 0 : receive(i, std::span(flight->packets).subspan(flight->offsets[i]));
+  flight->count[i] = static_cast<std::uint32_t>(sent_now);
+  if (silence || arriving.count.empty()) return 0;
+  const auto latency = static_cast<std::uint32_t>(scenario.radio.latency_ticks);
+  for (std::uint32_t k = 0; k < arriving.count[i]; ++k) {
+    room[k] = arriving.packets[arriving.offsets[i] + k];
+    room[k].age_ticks = latency;
   }
-  Proximity::Seen seen;
-  const std::size_t in_reach = proximity.sense(poses, i, seen);
-  return banyan::step(params, *policy, states[i], heard, moved, sees_target ? &target : nullptr, {seen.data(), in_reach});
+  return arriving.count[i];
 }
 
-// Robot i is next: asks for the memory its step will touch while the one before it computes. States
-// lie 8 KB apart, too far for the processor to guess; in large swarms this is worth a third.
-void World::Impl::fetch(std::size_t i) const noexcept {
-  constexpr std::size_t line = 64;
-  const auto prefetch = [](const void* from, std::size_t bytes) {
-    for (std::size_t at = 0; at < bytes; at += line) __builtin_prefetch(static_cast<const char*>(from) + at);
-  };
-  const Neighborhood& table = states[i].neighbors;
-  const auto heard = radio.links(i);
-  prefetch(&states[i], offsetof(State, neighbors) + line);
-  table.prefetch(heard.size());
-  for (const std::uint32_t sender : heard) prefetch(&messages[sender], sizeof(Message));
+void World::Impl::step_batch(std::size_t first, std::size_t count, Inbox& inbox) {
+  for (std::size_t k = 0; k < count; ++k)
+    inbox.sensed[k].packets = std::span<const Packet>(inbox.packets).subspan(inbox.begin[k], inbox.begin[k + 1] - inbox.begin[k]);
+  swarm->step(first, std::span<const Sensed>(inbox.sensed).first(count), std::span(commands).subspan(first, count),
+              std::span(reports).subspan(first, count));
+}
+
+// What robot i's own sensors and the mission give it for its next step.
+void World::Impl::sense(std::size_t i, const Odometry& moved, Proximity::Seen& seen, Senses& senses) noexcept {
+  senses.odometry = moved;
+  senses.orders = {.sent = target_of[i] >= 0, .target = {}, .given_up = std::exchange(given_up[i], nobody)};
+  if (target_of[i] >= 0) {
+    const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
+    senses.orders.target = {static_cast<float>(d.x), static_cast<float>(d.y)};
+  }
+  senses.obstacles = std::span<const banyan::Vec2>(seen).first(proximity.sense(poses, i, seen));
 }
 
 // ---- The way of a packet ----
@@ -251,7 +237,7 @@ std::size_t World::Impl::receive(std::size_t i, std::span<Packet> packets) const
   std::size_t count = 0;
   for (const std::uint32_t sender : radio.links(i)) {
     if (lost(i, sender)) continue;
-    packets[count++] = {sender, measure(i, sender)};
+    packets[count++] = {.sender = sender, .age_ticks = 1, .position = measure(i, sender)};
   }
   const auto slots = static_cast<std::size_t>(scenario.radio.slots);
   return slots > 0 && count > slots ? keep_slots(i, packets, count) : count;
@@ -273,8 +259,9 @@ banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noe
 
 // ---- The view from outside ----
 
-World::World(const Scenario& scenario) : impl_(std::make_unique<Impl>(scenario, nullptr)) {}
-World::World(const Scenario& scenario, const Policy& policy) : impl_(std::make_unique<Impl>(scenario, &policy)) {}
+World::World(const Scenario& scenario)
+    : impl_(std::make_unique<Impl>(checked(scenario, nullptr), *find_algorithm(scenario.mission.algorithm))) {}
+World::World(const Scenario& scenario, const Algorithm& algorithm) : impl_(std::make_unique<Impl>(checked(scenario, &algorithm), algorithm)) {}
 World::World(const World& o) : impl_(std::make_unique<Impl>(*o.impl_)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(const World& o) {
@@ -307,15 +294,14 @@ void World::intervene(const Event& event) {
 }
 
 const Scenario& World::scenario() const noexcept { return impl_->scenario; }
-const Params& World::params() const noexcept { return impl_->params; }
-const Policy& World::policy() const noexcept { return *impl_->policy; }
+const Algorithm& World::algorithm() const noexcept { return *impl_->algorithm; }
+const Swarm& World::swarm() const noexcept { return *impl_->swarm; }
 std::uint64_t World::tick() const noexcept { return impl_->tick; }
 double World::time_s() const noexcept { return static_cast<double>(impl_->tick) * impl_->scenario.tick_s; }
-std::size_t World::size() const noexcept { return impl_->states.size(); }
+std::size_t World::size() const noexcept { return impl_->alive.size(); }
 std::span<const Vec2> World::positions() const noexcept { return impl_->poses.position; }
 std::span<const Vec2> World::headings() const noexcept { return impl_->poses.heading; }
-std::span<const State> World::states() const noexcept { return impl_->states; }
-std::span<const Message> World::messages() const noexcept { return impl_->messages; }
+std::span<const Report> World::reports() const noexcept { return impl_->reports; }
 std::span<const std::uint8_t> World::alive() const noexcept { return impl_->alive; }
 std::span<const Target> World::targets() const noexcept { return impl_->targets; }
 std::span<const Obstacle> World::obstacles() const noexcept { return impl_->obstacles; }
@@ -335,16 +321,16 @@ std::uint64_t World::hash() const noexcept {
   d.add(w.tick);
   d.add(w.loss);
   w.agenda.add_to(d);
-  for (std::size_t i = 0; i < w.states.size(); ++i) {
+  for (std::size_t i = 0; i < w.alive.size(); ++i) {
     d.add(w.poses.position[i]);
     d.add(w.poses.heading[i]);
     d.add(w.alive[i]);
     d.add(w.frozen_until[i]);
-    d.add(banyan::hash(w.states[i]));
+    w.swarm->add_to(d, i);
+    if (w.given_up[i] != nobody) d.add(w.given_up[i]);
     d.add(w.commands[i].forward_m_s);
     d.add(w.commands[i].sideways_m_s);
     d.add(w.commands[i].turn_rad_s);
-    for (const std::uint8_t byte : encode(w.messages[i])) d.add(byte);
   }
   for (const Target& target : w.targets) {
     d.add(target.position);
@@ -356,7 +342,6 @@ std::uint64_t World::hash() const noexcept {
       for (std::uint32_t k = 0; k < flight.count[i]; ++k) {
         d.add(flight.packets[flight.offsets[i] + k].sender);
         d.add(flight.packets[flight.offsets[i] + k].position);
-        for (const std::uint8_t byte : encode(flight.messages[flight.packets[flight.offsets[i] + k].sender])) d.add(byte);
       }
   w.add_clocks(d);
   return w.bodies->hash(d.value());
@@ -364,15 +349,15 @@ std::uint64_t World::hash() const noexcept {
 
 std::size_t World::memory_bytes() const noexcept {
   const Impl& w = *impl_;
-  const std::size_t per_robot = sizeof(State) + 2 * sizeof(Message) + 2 * sizeof(Velocity) + sizeof(Odometry) + 2 * sizeof(Vec2) +
+  const std::size_t per_robot = sizeof(Report) + sizeof(RobotId) + 2 * sizeof(Velocity) + sizeof(Odometry) + 2 * sizeof(Vec2) +
                                 sizeof(std::uint8_t) + sizeof(std::uint64_t) + sizeof(std::int32_t);
-  std::size_t total = sizeof(Impl) + w.states.size() * per_robot + w.radio.memory_bytes();
+  std::size_t total = sizeof(Impl) + w.swarm->memory_bytes() + w.alive.size() * per_robot + w.radio.memory_bytes();
   for (const Flight& flight : w.flights)
-    total += flight.packets.capacity() * sizeof(Packet) + flight.messages.capacity() * sizeof(Message) +
+    total += flight.packets.capacity() * sizeof(Packet) +
              (flight.offsets.capacity() + flight.count.capacity()) * sizeof(std::uint32_t);
   for (const Clocked& robot : w.clocked) total += sizeof(Clocked) + robot.waiting.capacity() * sizeof(Waiting);
   for (const auto& inbox : w.inboxes)
-    total += inbox.packets.capacity() * sizeof(Packet) + inbox.heard.capacity() * sizeof(Heard);
+    total += sizeof inbox + inbox.packets.capacity() * sizeof(Packet);
   return total;
 }
 

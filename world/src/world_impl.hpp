@@ -2,6 +2,7 @@
 // What a world is made of, shared by the files that make it tick: world.cpp, events.cpp, clocks.cpp.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,30 +20,10 @@
 
 namespace banyan::world {
 
-// Puts every element of cache-line size into one cache line.
-template <class T>
-struct CacheAligned {
-  using value_type = T;
-  static constexpr std::align_val_t line{64};
-  CacheAligned() = default;
-  template <class U>
-  explicit CacheAligned(const CacheAligned<U>&) noexcept {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-  void deallocate(T* p, std::size_t) noexcept { ::operator delete(p, line); }
-  friend bool operator==(const CacheAligned&, const CacheAligned&) noexcept { return true; }
-};
-
-// One packet on its way to one receiver.
-struct Packet {
-  std::uint32_t sender;
-  banyan::Vec2 position;   // of the sender in the receiver's body frame, as measured
-};
-
 // Packets of one tick with latency above one: held back until they are heard.
 struct Flight {
   std::vector<std::uint32_t> offsets, count;
   std::vector<Packet> packets;
-  std::vector<Message, CacheAligned<Message>> messages;
 };
 
 // What a target does beside being somewhere.
@@ -54,7 +35,8 @@ struct Course {
 
 // Robots with clocks of their own (clocks.cpp).
 struct Waiting {              // a packet that has been sent to a robot and waits for its next step
-  Message message;
+  std::uint32_t sender = 0;
+  std::uint64_t composed = 0; // the substep in which its sender stepped
   Vec2 position{};            // of the sender, in the receiver's frame at its last step before the measurement, m
   std::uint64_t heard = 0;    // the substep in which it arrives
 };
@@ -68,7 +50,7 @@ struct Clocked {
 };
 
 struct World::Impl {
-  Impl(const Scenario& s, const Policy* own);   // own: null for the one that s names
+  Impl(const Scenario& s, const Algorithm& algorithm);
   Impl(const Impl& o);
 
   // The phases of a tick, in order.
@@ -78,15 +60,14 @@ struct World::Impl {
   void think(Executor& executor);
   void carry_waiting(std::size_t i, const Flight& fresh) noexcept;
 
-  void fetch(std::size_t i) const noexcept;
   std::size_t receive(std::size_t i, std::span<Packet> packets) const noexcept;
   template <class P>
   std::size_t keep_slots(std::size_t i, std::span<P> packets, std::size_t count) const noexcept;
   [[nodiscard]] bool lost(std::size_t i, std::uint32_t sender) const noexcept;
   void make_inboxes(const Executor& executor);
+  std::size_t gather(std::size_t i, std::span<Packet> room, Flight* flight, bool silence);
   [[nodiscard]] banyan::Vec2 measure(std::size_t i, std::uint32_t sender) const noexcept;
-  Output consult(std::size_t i, std::span<const Heard> heard, const Odometry& moved) noexcept;
-  void adopt(const Policy& own);
+  void sense(std::size_t i, const Odometry& moved, Proximity::Seen& seen, Senses& senses) noexcept;
 
   // A tick of robots with clocks of their own (clocks.cpp)
   void set_clocks();
@@ -94,7 +75,7 @@ struct World::Impl {
   void count_wheel_turns();
   void deliver(Executor& executor);
   void wake(Executor& executor);
-  void step_one(std::size_t i, std::vector<Heard>& heard, std::uint64_t& received_here);
+  void collect(std::size_t i, std::vector<Packet>& packets);
   [[nodiscard]] bool strikes(std::size_t i) const noexcept;
   void add_clocks(Digest& digest) const noexcept;
 
@@ -119,14 +100,11 @@ struct World::Impl {
 
   void add_events(Digest& digest) const noexcept;   // what is hashed of all this
 
-  // What robot i has told the others; before it has said anything, what the mission told it.
-  [[nodiscard]] Role role_of(std::size_t i) const noexcept { return tick == 0 ? states[i].role : messages[i].role; }
-  [[nodiscard]] RobotId served_by(std::size_t i) const noexcept { return tick == 0 ? states[i].serves : messages[i].serves; }
+  [[nodiscard]] bool is_worker(std::size_t i) const noexcept { return reports[i].serves != nobody && given_up[i] == nobody; }
   [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
 
   Scenario scenario;
-  const Policy* policy;
-  Params params;
+  const Algorithm* algorithm;
   double loss;
   bool line_of_sight;                          // now, and so are
   std::vector<Obstacle> obstacles;             // these; radio, proximity and bodies have copies
@@ -142,8 +120,9 @@ struct World::Impl {
   std::vector<std::uint8_t> alive;
   std::vector<std::uint64_t> frozen_until;     // tick; 0: not frozen
   std::vector<std::int32_t> target_of;         // per robot, -1: none
-  std::vector<State> states;
-  std::vector<Message, CacheAligned<Message>> messages, next_messages;
+  std::vector<RobotId> given_up;               // per robot: the target that it is told to serve no more, until it steps
+  std::unique_ptr<Swarm> swarm;
+  std::vector<Report> reports;                 // of the last step
   std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
   std::vector<Odometry> odometry;
   Agenda agenda;
@@ -153,7 +132,15 @@ struct World::Impl {
   std::vector<Flight> flights;                 // ring of latency_ticks - 1
   Flight arriving;                             // taken out of the ring: heard this tick
   std::vector<Clocked> clocked;                // one per robot; none if they step together
-  struct Inbox { std::vector<Packet> packets; std::vector<Heard> heard; };
+  // What the robots of one batch receive and sense. They step together.
+  struct Inbox {
+    static constexpr std::size_t batch_size = 16;
+    std::vector<Packet> packets;
+    std::array<std::size_t, batch_size + 1> begin{};
+    std::array<Proximity::Seen, batch_size> seen;
+    std::array<Sensed, batch_size> sensed;
+  };
+  void step_batch(std::size_t first, std::size_t count, Inbox& inbox);
   std::vector<Inbox> inboxes;                  // one per thread
   std::vector<std::uint64_t> received_by;      // packets, per thread
   std::uint64_t received = 0, sent = 0;

@@ -2,7 +2,7 @@
 // Rigid discs: motors within their bounds, contact, and a clone that goes on bit by bit alike.
 #include <gtest/gtest.h>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"

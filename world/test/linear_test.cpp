@@ -2,7 +2,7 @@
 // The paper's linear dynamics against closed forms and against bodies integrated in tiny steps.
 #include <gtest/gtest.h>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"

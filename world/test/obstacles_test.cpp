@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/random.hpp"
 
 namespace banyan::world {

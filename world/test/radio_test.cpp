@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/random.hpp"
 
 namespace banyan::world {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "banyan/config/table_reader.hpp"
-#include "banyan/controller/params.hpp"
+#include "banyan/controller/core/algorithm.hpp"
 #include "banyan/study/tune.hpp"
 #include "tune_point.hpp"
 
@@ -274,8 +274,9 @@ class Reader {
     }
     if (!sound(problems_)) return;
     for (const auto& world : plan_.worlds) {
-      const auto why = fault(world::controller_params(with_parameters(world.scenario, plan_.bounds, point)));
-      if (!why.empty()) return table.report("", "cannot be run: " + std::string(why));
+      const auto scenario = with_parameters(world.scenario, plan_.bounds, point);
+      const auto why = find_algorithm(scenario.mission.algorithm)->fault(world::setup_of(scenario));
+      if (!why.empty()) return table.report("", "cannot be run: " + why);
     }
     plan_.initial = point;
   }

@@ -33,15 +33,22 @@ std::optional<double> number_in(const std::vector<std::string>& cells, std::stri
 }
 
 // How far these parameters are from 0 < A < E < S < delta < C, in units of C; nothing if they keep it.
-std::optional<double> disorder(const Params& params) {
-  const std::array<std::pair<float, float>, 4> ordered{{{params.avoidance_range_m, params.recruitment_distance_m},
-                                                        {params.recruitment_distance_m, params.safe_range_m},
-                                                        {params.safe_range_m, params.ideal_distance_m},
-                                                        {params.ideal_distance_m, params.communication_range_m}}};
+std::optional<double> disorder(const Algorithm& algorithm, const Setup& setup) {
+  const auto rows = algorithm.parameters();
+  const auto values = algorithm.values(setup);
+  const auto value = [&](std::string_view key) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const ParameterInfo* info) { return info->key == key; });
+    return row == rows.end() ? std::numeric_limits<float>::quiet_NaN() : values[static_cast<std::size_t>(row - rows.begin())];
+  };
+  constexpr std::string_view ascending[] = {"avoidance_range_m", "recruitment_distance_m", "safe_range_m", "ideal_distance_m",
+                                            "communication_range_m"};
+  std::vector<std::pair<float, float>> ordered;
+  for (std::size_t k = 1; k < std::size(ascending); ++k) ordered.emplace_back(value(ascending[k - 1]), value(ascending[k]));
+  const float range_m = value("communication_range_m");
   std::optional<double> sum;
   for (const auto& [smaller, larger] : ordered) {
-    if (smaller < larger) continue;
-    sum = sum.value_or(0.0) + static_cast<double>(smaller - larger) / params.communication_range_m;
+    if (!(smaller >= larger)) continue;  // in order, or the algorithm has no such length
+    sum = sum.value_or(0.0) + static_cast<double>(smaller - larger) / range_m;
   }
   return sum;
 }
@@ -86,9 +93,11 @@ double infeasibility(const TunePlan& plan, std::span<const double> point) {
   constexpr double least = 1e-6;  // two parameters that should differ are equal
   double worst = 0.0;
   for (const auto& world : plan.worlds) {
-    const auto params = world::controller_params(with_parameters(world.scenario, plan.bounds, point));
-    if (fault(params).empty()) continue;
-    const auto distance = disorder(params);
+    const auto scenario = with_parameters(world.scenario, plan.bounds, point);
+    const Algorithm& algorithm = *find_algorithm(scenario.mission.algorithm);
+    const Setup setup = world::setup_of(scenario);
+    if (algorithm.fault(setup).empty()) continue;
+    const auto distance = disorder(algorithm, setup);
     worst = std::max(worst, distance ? std::max(*distance / (1.0 + *distance), least) : 1.0);
   }
   return worst;

@@ -16,7 +16,7 @@
 #include <utility>
 #include <variant>
 
-#include "banyan/controller/digest.hpp"
+#include "banyan/controller/core/digest.hpp"
 #include "tune_point.hpp"
 
 namespace banyan::study {

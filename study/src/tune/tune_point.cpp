@@ -37,11 +37,14 @@ world::Scenario with_parameters(world::Scenario scenario, const std::vector<Tune
 }
 
 std::vector<double> untuned_point(const TunePlan& plan) {
-  const auto params = world::controller_params(plan.worlds.front().scenario);
+  const world::Scenario& scenario = plan.worlds.front().scenario;
+  const Algorithm& algorithm = *find_algorithm(scenario.mission.algorithm);
+  const auto rows = algorithm.parameters();
+  const auto values = algorithm.values(world::setup_of(scenario));
   std::vector<double> point;
   for (const auto& bound : plan.bounds) {
-    for (const auto& info : parameter_table()) {
-      if (info.key == bound.parameter) point.push_back(config::widened(params.*info.member));
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (rows[k]->key == bound.parameter) point.push_back(config::widened(values[k]));
     }
   }
   return point;

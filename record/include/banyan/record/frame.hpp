@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "banyan/controller/state.hpp"
+#include "banyan/controller/core/report.hpp"
 #include "banyan/world/scenario.hpp"
 
 namespace banyan::world {

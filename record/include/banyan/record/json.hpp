@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "banyan/controller/message.hpp"
+#include "banyan/controller/core/swarm.hpp"
 #include "banyan/measure/metrics.hpp"
 #include "banyan/record/frame.hpp"
 #include "banyan/record/recording.hpp"
@@ -30,8 +30,8 @@ void pack(const Frame& frame, std::vector<double>& into);
 [[nodiscard]] std::string targets_json(const Frame& frame);
 [[nodiscard]] std::string metrics_json(const measure::Tick& tick);
 [[nodiscard]] std::string event_json(const RecordedEvent& event);
-// The fields of message_fields(); role, phase and need by name.
-[[nodiscard]] std::string message_json(const Message& message);
+// What a robot broadcast last: all fields of its message; role, phase and need by name.
+[[nodiscard]] std::string message_json(const Swarm& swarm, std::size_t robot);
 // The columns of the run table that tell how it went, as {"column": "text"}: what a recording's
 // banyan.result holds.
 [[nodiscard]] std::string result_json(const measure::Run& run);

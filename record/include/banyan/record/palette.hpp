@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "banyan/controller/message.hpp"
+#include "banyan/controller/core/report.hpp"
 
 namespace banyan::record {
 

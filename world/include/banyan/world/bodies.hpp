@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "banyan/controller/controller.hpp"
+#include "banyan/controller/core/inputs.hpp"
 #include "banyan/world/scenario.hpp"
 
 namespace banyan::world {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 
 namespace banyan::world {
 

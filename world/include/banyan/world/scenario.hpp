@@ -12,16 +12,15 @@
 #include <variant>
 #include <vector>
 
-#include "banyan/controller/params.hpp"
-#include "banyan/controller/policy.hpp"
-#include "banyan/controller/vec2.hpp"
+#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/controller/core/vec2.hpp"
 
 namespace banyan::world {
 
 using Vec2 = BasicVec2<double>;
 
 struct Mission {
-  std::string algorithm = "convoy";     // a name in the policy registry
+  std::string algorithm = "convoy";     // a name in the list of algorithms
   std::string reading = "corrected";    // or "literal"
   double scale = 1.0;                   // on Table I's lengths (paper Sec. IV-C, "rescaled")
   double target_tolerance_m = 0.20;
@@ -42,7 +41,7 @@ struct Start {
   std::vector<double> headings_rad;     // layout list, optional: random if empty
 };
 
-struct Swarm {
+struct SwarmModel {
   std::size_t robots = 0;               // 0: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
   double redundancy = 2.0;              // k
   Start start;
@@ -137,7 +136,7 @@ struct Scenario {
   double tick_s = 0.1;
   std::uint64_t seed = 1;
   Mission mission;
-  Swarm swarm;
+  SwarmModel swarm;
   RobotModel robot;
   RadioModel radio;
   Clocks clocks;
@@ -180,11 +179,9 @@ struct Present {
 // mission.time_limit_s, or 10 r / v_max (paper Sec. IV-B).
 [[nodiscard]] double time_limit_s(const Scenario& scenario);
 
-// What every controller is given: Table I for algorithm and reading, mission.parameters over it,
-// and the platform (range, tick, wheels, drive) from `robot`, `radio` and `tick_s`.
-[[nodiscard]] Params controller_params(const Scenario& scenario);
-// The same with the defaults of a policy that the registry need not know.
-[[nodiscard]] Params controller_params(const Scenario& scenario, const Policy& policy);
+// What the swarm is made for: reading, scale, mission.parameters, and the platform (range, tick, wheels, drive)
+// from `robot`, `radio` and `tick_s`.
+[[nodiscard]] Setup setup_of(const Scenario& scenario);
 
 // No network of fewer robots, each nearer than C to its neighbours, comes within tolerance of all
 // targets: from the longest distance between two of them and from 0.8241 times their minimum

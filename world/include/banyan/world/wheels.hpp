@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "banyan/controller/controller.hpp"
+#include "banyan/controller/core/inputs.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/scenario.hpp"
 

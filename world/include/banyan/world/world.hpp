@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "banyan/controller/controller.hpp"
+#include "banyan/controller/core/algorithm.hpp"
 #include "banyan/world/scenario.hpp"
 
 namespace banyan::world {
@@ -30,9 +30,9 @@ class World {
  public:
   // Throws std::invalid_argument with all faults(scenario) that are no warnings.
   explicit World(const Scenario& scenario);
-  // The same with a policy of your own instead of the registered one that the scenario names;
-  // scenario().mission.algorithm is then its name. `policy` must outlive this world and its copies.
-  World(const Scenario& scenario, const Policy& policy);
+  // The same with an algorithm of your own instead of the one that the scenario names;
+  // scenario().mission.algorithm is then its name. `algorithm` must outlive this world and its copies.
+  World(const Scenario& scenario, const Algorithm& algorithm);
   World(const World&);
   World(World&&) noexcept;
   World& operator=(const World&);
@@ -53,15 +53,15 @@ class World {
   [[nodiscard]] std::vector<Fault> faults_now(const Event& event) const;
 
   [[nodiscard]] const Scenario& scenario() const noexcept;
-  [[nodiscard]] const Params& params() const noexcept;
-  [[nodiscard]] const Policy& policy() const noexcept;
+  [[nodiscard]] const Algorithm& algorithm() const noexcept;
+  [[nodiscard]] const Swarm& swarm() const noexcept;      // for who looks into the robots; the world goes by reports
   [[nodiscard]] std::uint64_t tick() const noexcept;      // 0 before the first step
   [[nodiscard]] double time_s() const noexcept;           // tick x tick_s
   [[nodiscard]] std::size_t size() const noexcept;        // robots, dead ones included
   [[nodiscard]] std::span<const Vec2> positions() const noexcept;
   [[nodiscard]] std::span<const Vec2> headings() const noexcept;   // unit vectors
-  [[nodiscard]] std::span<const State> states() const noexcept;    // what each controller remembers
-  [[nodiscard]] std::span<const Message> messages() const noexcept;  // last broadcast of each robot
+  // What each robot makes known of itself, as of its last step; of a dead one, as of its last before it died.
+  [[nodiscard]] std::span<const Report> reports() const noexcept;
   [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays)
   [[nodiscard]] std::span<const Target> targets() const noexcept;
   // As they are now; scenario() has them as they were at the start.

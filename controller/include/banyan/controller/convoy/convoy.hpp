@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
+// springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
+#pragma once
+
+#include "banyan/controller/convoy/params.hpp"
+#include "banyan/controller/convoy/state.hpp"
+#include "banyan/controller/core/digest.hpp"
+#include "banyan/controller/core/output.hpp"
+
+namespace banyan {
+
+// For C = 2 m; lengths grow with C. There is nothing printed to be read in two ways.
+[[nodiscard]] ConvoyParams convoy_defaults() noexcept;
+
+[[nodiscard]] ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept;
+
+// One tick of one robot, as outwards_step() (outwards.hpp).
+[[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard,
+                                                const Senses& senses) noexcept;
+
+[[nodiscard]] std::array<Column, 4> columns_of(ConvoyState& self) noexcept;
+void add_to(Digest& digest, const ConvoyState& state) noexcept;
+void add_to(Digest& digest, const ConvoyMessage& message) noexcept;
+
+}  // namespace banyan

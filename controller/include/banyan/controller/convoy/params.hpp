@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// What only convoy reads (docs/convoy.md). Lengths in units of C as a designer sets them; resolved() has
+// them in metres.
+#pragma once
+
+#include "banyan/controller/healing/params.hpp"
+
+namespace banyan {
+
+struct ConvoyParams : HealingParams {
+  float pull_start = 0.675F;        // a child farther than this pulls its parent along
+  float pull_width = 0.15F;         // and with full strength so much farther
+  float tension_gain = 0.4F;        // edges are taut strings: straight chains, junctions of 120 degrees
+  float tension_start = 0.15F;
+  float tension_width = 0.15F;
+  float slack_gain = 2.0F;          // edges of a chain share their slack
+  float first_edge = 0.35F;         // the longest edge that is chosen while there is a choice
+  float clearance = 0.08F;          // a robot nearer than this to a segment blocks it, or soon may
+  float corridor_width = 0.35F;     // robots within it move out of a tree edge's line of sight
+  float corridor_gain = 0.5F;
+  float join_margin = 0.05F;        // a spare joins an edge whose ends are nearer than delta minus this
+  float shortest_split = 0.4F;      // shorter edges get no spare
+  float call_distance = 0.9F;       // a longer edge in need calls spares from afar
+  float release_distance = 0.75F;   // a grandparent nearer than this becomes the parent
+  float spare_avoidance = 0.14F;    // repulsion from spares begins here
+  float merge_distance = 0.93F;     // longest edge made to save a robot, once all below have arrived
+  float compact_distance = 0.91F;   // a chain that has arrived stretches its edges to this
+  float plan_after_s = 15.0F;       // all have arrived: the root plans chains from target to target; 0: never
+};
+
+[[nodiscard]] std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept;
+
+}  // namespace banyan

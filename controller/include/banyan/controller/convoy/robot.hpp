@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// A robot of convoy: the same step, with more to know.
+#pragma once
+
+#include <algorithm>
+
+#include "banyan/controller/convoy/params.hpp"
+#include "banyan/controller/convoy/state.hpp"
+#include "banyan/controller/healing/robot.hpp"
+#include "banyan/controller/obstacles/sight.hpp"
+
+namespace banyan {
+
+struct ConvoyRobot : HealingRobot {
+  ConvoyRobot(const ConvoyParams& params_, ConvoyState& self_, const Admitted& admitted) noexcept
+      : HealingRobot(params_, self_, admitted), params(params_), self(self_) {}
+
+  const ConvoyParams& params;   // the same objects as the tree's
+  ConvoyState& self;
+
+  [[nodiscard]] const ConvoyStanding& convoy_of(int k) const noexcept { return self.convoy_standings[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const CornerStanding& corner_of(int k) const noexcept { return self.corners.of(k); }
+  // Neighbour k, a worker: whose target it serves.
+  [[nodiscard]] RobotId served_by(int k) const noexcept { return self.healing_standings[static_cast<std::size_t>(k)].serves; }
+  // What my parent has said this tick; null if I did not hear it.
+  [[nodiscard]] const ConvoyMessage* parent_message() const noexcept {
+    if (self.parent == nobody) return nullptr;
+    const auto it = std::find_if(heard.begin(), heard.end(), [&](const Heard& h) { return h.message->id == self.parent; });
+    return it == heard.end() ? nullptr : static_cast<const ConvoyMessage*>(it->message);
+  }
+};
+
+[[nodiscard]] inline bool sees_clearly(const ConvoyRobot& robot, int k, float clearance_m) noexcept {
+  return sees_clearly(robot, robot.self.corners, k, clearance_m);
+}
+
+}  // namespace banyan

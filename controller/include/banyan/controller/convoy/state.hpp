@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What a robot of convoy remembers besides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "banyan/controller/convoy/message.hpp"
+#include "banyan/controller/healing/state.hpp"
+
+namespace banyan {
+
+struct ConvoyState : HealingState {
+  std::uint16_t pending_ticks = 0;       // for so long I have been waiting for pending_parent to get ahead of me
+  RobotId warned = nobody;               // the child that I am about to lose sight of
+
+  // Chains from target to target (plan.cpp)
+  RobotId above = nobody;                // the next worker above me in the tree, by its target
+  RobotId below = nobody;                // the only worker below me, by its target
+  RobotId lead_to = nobody;              // I lead my branch to that target
+  RobotId led_from = nobody;             // the parent it had then
+  std::uint16_t lead_ticks = 0;          // since its parent changed
+  std::uint16_t settled_ticks = 0;       // the root: all workers have arrived
+  std::uint16_t unsettled_ticks = 0;     // or have not any more
+  std::uint16_t plan_ticks = 0;          // of the plan that is being carried out
+  std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
+
+  Corners corners;                       // obstacles: lines of sight past them
+  std::array<ConvoyStanding, neighbor_capacity> convoy_standings{};  // beside the neighbour table
+
+ private:
+  static constexpr std::array<RobotId, task_capacity> none() noexcept {
+    std::array<RobotId, task_capacity> hosts{};
+    hosts.fill(nobody);
+    return hosts;
+  }
+};
+
+template <class Visitor, class State>
+constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
+  visit(s.pending_ticks), visit(s.warned), visit(s.above), visit(s.below), visit(s.lead_to), visit(s.led_from), visit(s.lead_ticks);
+  visit(s.settled_ticks), visit(s.unsettled_ticks), visit(s.plan_ticks);
+  for (int k = 0; k < s.task_count; ++k) visit(s.hosts[static_cast<std::size_t>(k)]);
+  visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
+  for (int k = 0; k < s.corners.landmarks.size; ++k) visit(s.corners.landmarks.points[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < s.neighbors.size(); ++k) {
+    const auto n = static_cast<std::size_t>(k);
+    visit(s.corners.standings[n].hinge_x_cm), visit(s.corners.standings[n].hinge_y_cm), visit(s.corners.standings[n].pinned);
+    visit(s.convoy_standings[n].child_count), visit(s.convoy_standings[n].below);
+  }
+}
+
+}  // namespace banyan

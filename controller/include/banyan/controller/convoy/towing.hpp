@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// The rules of convoy (docs/convoy.md) that need more than a line: how it moves, and what
+// has arrived. shortcut.hpp has what changes its tree between two reconstructions.
+#pragma once
+
+#include "banyan/controller/convoy/robot.hpp"
+
+namespace banyan {
+
+// Whether branches that have arrived save robots (rule 9) at all: merge_distance 0 switches it off.
+[[nodiscard]] bool prunes(const ConvoyParams& params) noexcept;
+// All workers below me stand at their targets, and there is one: my branch may save robots.
+[[nodiscard]] bool has_arrived(const ConvoyRobot& robot) noexcept;
+// Neighbour k is a worker that has arrived: others whose workers have arrived may hang on it.
+[[nodiscard]] bool is_relay(const ConvoyRobot& robot, int k) noexcept;
+
+// A robot of the tree: a worker drives to its target, a connector follows the children that tow it;
+// tension straightens chains; nobody stays in another edge's line of sight. In units of speed_gain.
+[[nodiscard]] Vec2 towed_motion(const ConvoyRobot& robot) noexcept;
+
+// A spare: where it is, unless it is called, in the way, or left behind.
+[[nodiscard]] Vec2 waiting_motion(const ConvoyRobot& robot) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The one gate through which everything sensed passes before an algorithm sees it. What is not finite,
+// or beyond wide limits that no working sensor exceeds, counts as not sensed; odometry that is not
+// possible counts as no motion. No later code can meet a NaN.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "banyan/controller/core/inputs.hpp"
+#include "banyan/controller/core/platform.hpp"
+
+namespace banyan {
+
+inline constexpr float farthest_ranges = 10.0F;      // of C: a neighbour, an obstacle, a way driven in one step
+inline constexpr float farthest_target_m = 1.0e6F;
+inline constexpr float largest_turn_rad = 1.0e3F;    // in one step; trig.hpp is exact up to 1e4
+inline constexpr float longest_step_s = 3600.0F;
+inline constexpr std::size_t most_obstacles = 64;    // that are looked at in one step: the first
+
+// What passed, and how much did not. Lives as long as the step: obstacles may lie in it.
+class Gate {
+ public:
+  Gate(const Senses& senses, const Platform& platform) noexcept;
+  Gate(const Gate&) = delete;
+  Gate& operator=(const Gate&) = delete;
+
+  // Drops packets whose sender cannot be where it was measured, in place; the order stays.
+  template <class Heard>
+  std::span<Heard> packets(std::span<Heard> heard, const Platform& platform) noexcept {
+    const float limit_m = farthest_ranges * platform.communication_range_m;
+    std::size_t kept = 0;
+    for (const Heard& h : heard) {
+      if (is_within(h.position, limit_m)) heard[kept++] = h;
+      else ++rejected_;
+    }
+    return heard.first(kept);
+  }
+
+  [[nodiscard]] const Senses& senses() const noexcept { return senses_; }
+  // Whole ticks since the last step, at least one.
+  [[nodiscard]] int elapsed_ticks() const noexcept { return elapsed_ticks_; }
+  // Readings that did not pass.
+  [[nodiscard]] std::uint32_t rejected() const noexcept { return rejected_; }
+
+ private:
+  // False for NaN and infinity too.
+  static bool is_within(Vec2 v, float limit_m) noexcept { return squared_norm(v) <= limit_m * limit_m; }
+  void admit_obstacles(float limit_m) noexcept;
+
+  Senses senses_;
+  int elapsed_ticks_ = 1;
+  std::uint32_t rejected_ = 0;
+  std::array<Vec2, most_obstacles> obstacles_;  // used only if some did not pass
+};
+
+}  // namespace banyan

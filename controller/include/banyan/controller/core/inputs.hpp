@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What a robot senses between two steps and what a step answers. Everything is in the robot's own
+// body frame: x forward, y to the left.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "banyan/controller/core/trig.hpp"
+#include "banyan/controller/core/vec2.hpp"
+
+namespace banyan {
+
+using RobotId = std::uint16_t;
+inline constexpr RobotId nobody = 0xFFFF;
+
+// The robot's own motion since its last step, in the body frame it had then, as its wheels measure it.
+// A differential robot that has turned while it drove reports the chord: `sideways_m` is what the arc
+// left of the straight line, zero if it does not measure it.
+struct Odometry {
+  float forward_m = 0.0F;
+  float sideways_m = 0.0F;
+  float turn_rad = 0.0F;   // to the left
+};
+
+// What the mission tells a robot, over whatever channel the host has.
+struct Orders {
+  // Somebody has sent this robot to a target. It stays sent until this is false again. A robot may
+  // resign, or serve another's target instead; the host need not know.
+  bool sent = false;
+  // While it is sent: from the robot to that target, m. None: not sensed in this tick.
+  std::optional<Vec2> target;
+  // A target that has been given up, named by the robot first sent there: who serves it stops. Told once.
+  RobotId given_up = nobody;
+};
+
+struct Senses {
+  Odometry odometry;
+  Orders orders;
+  // The nearest point of each obstacle within reach of the proximity sensor, m. No robots.
+  std::span<const Vec2> obstacles;
+  // Since the last step. Counted in whole ticks, at least one.
+  float elapsed_s = 0.0F;   // 0: one tick
+};
+
+// What the motors shall do until the next step. A differential robot is never given `sideways_m_s`;
+// its two wheels never exceed Platform::wheel_limit_m_s.
+struct Velocity {
+  float forward_m_s = 0.0F;
+  float sideways_m_s = 0.0F;
+  float turn_rad_s = 0.0F;
+};
+
+// The speeds of the two wheels that make that motion, m/s.
+struct WheelSpeeds {
+  float left_m_s = 0.0F;
+  float right_m_s = 0.0F;
+};
+[[nodiscard]] constexpr WheelSpeeds wheel_speeds(const Velocity& velocity, float wheel_distance_m) noexcept {
+  const float turn = 0.5F * velocity.turn_rad_s * wheel_distance_m;
+  return {velocity.forward_m_s - turn, velocity.forward_m_s + turn};
+}
+
+// A point or vector remembered over ticks, carried along by own odometry every tick.
+struct Carry {
+  Vec2 shift;     // m
+  Vec2 rotation;  // (cos, sin) of the turn
+  explicit Carry(const Odometry& odometry) noexcept
+      : shift{odometry.forward_m, odometry.sideways_m}, rotation(unit_vector(odometry.turn_rad)) {}
+  [[nodiscard]] Vec2 point(Vec2 p) const noexcept { return rotate_back(rotation, p - shift); }
+  [[nodiscard]] Vec2 vector(Vec2 v) const noexcept { return rotate_back(rotation, v); }
+};
+
+}  // namespace banyan

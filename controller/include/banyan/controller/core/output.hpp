@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "banyan/controller/core/inputs.hpp"
+
+namespace banyan {
+
+template <class Message>
+struct Output {
+  Message message;  // to broadcast
+  Velocity velocity;
+};
+
+}  // namespace banyan

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What an observer may know of a robot: never read by an algorithm. The first part is what every
+// algorithm can say; what one has no use for stays as it is here.
+#pragma once
+
+#include <cstdint>
+
+#include "banyan/controller/core/inputs.hpp"
+#include "banyan/controller/core/serial.hpp"
+
+namespace banyan {
+
+// Paper Sec. III-A. A mission fixes worker and the first root; the others follow from the tree.
+enum class Role : std::uint8_t { spare, connector, worker, root };
+
+// Paper Fig. 1, in the order in which they are entered; (epoch, phase) only ever grows.
+enum class Phase : std::uint8_t { init, start_tree, select_parent, grow_tree, select_root };
+
+// Paper Fig. 5, non-spare robots: the need of the edge to the parent.
+enum class Need : std::uint8_t { no_need, need, await };
+
+// Paper Fig. 5, spare robots.
+enum class SpareState : std::uint8_t { wait, extend_edge, adjust_position };
+
+// What has happened to a robot since the start.
+struct Tally {
+  std::uint32_t insertions = 0;    // times it was inserted into an edge
+  std::uint32_t handovers = 0;     // times it took over the root token
+  std::uint32_t repairs = 0;       // times it replaced a lost parent or re-attached as an orphan
+  std::uint32_t elections = 0;     // times it made itself root because the root had fallen silent
+  std::uint32_t replacements = 0;  // times it took over the target of a worker that had fallen silent
+  std::uint32_t rejected = 0;      // sensor readings that did not pass the gate (gate.hpp)
+};
+
+struct Report {
+  Role role = Role::spare;
+  RobotId parent = nobody;         // the edges that it promises to keep
+  RobotId old_parent = nobody;
+  RobotId serves = nobody;         // a worker: whose target, by the robot first sent there
+  RobotId root = nobody;           // whom it takes for the root,
+  Serial root_sequence = 0;        // by a token with this number: the newest names the root
+
+  // Algorithms that build a tree again and again (paper Fig. 1, Fig. 5)
+  Serial epoch = 0;
+  Phase phase = Phase::init;
+  Need need = Need::no_need;
+  SpareState spare_state = SpareState::wait;
+  std::int32_t label_cm = -1;      // distance to the root along hops, -1: unknown
+  std::uint16_t depth = 0;         // in the tree, root 1; 0: no path of tree edges to the root
+  RobotId grant = nobody;          // the spare that it lets into the edge to its parent
+  RobotId request = nobody;        // the owner of the edge that it wants to join
+  float want_m = 0.0F;             // largest remaining way of a worker below
+
+  Tally tally;
+};
+
+// The robot at the upper end of its edge: the parent or, while trees are switched and there is none, the old one.
+constexpr RobotId up_of(const Report& r) noexcept { return r.role == Role::root ? nobody : r.parent != nobody ? r.parent : r.old_parent; }
+
+// Of two that take themselves for the root, `a` has the newer token.
+constexpr bool has_newer_root(const Report& a, const Report& b) noexcept {
+  return a.root_sequence != b.root_sequence ? is_newer(a.root_sequence, b.root_sequence) : a.root > b.root;
+}
+
+}  // namespace banyan

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Counters that wrap (epochs, root tokens, sequence numbers, heartbeats): serial numbers of 16 bits,
+// compared as in RFC 1982. Of two numbers the one is newer that is ahead by less than half the range.
+//
+// The one rule for silence: who has heard nothing of a counter for more than half its range of ticks
+// cannot tell old from new any more, and takes whatever it hears as newer (`is_news`).
+#pragma once
+
+#include <cstdint>
+
+namespace banyan {
+
+using Serial = std::uint16_t;
+
+inline constexpr int serial_half_range = 32768;
+
+// By how much `a` is ahead of `b`: in [-32768, 32767], negative if it is behind.
+constexpr int ahead_by(Serial a, Serial b) noexcept { return static_cast<std::int16_t>(static_cast<Serial>(a - b)); }
+
+constexpr bool is_newer(Serial a, Serial b) noexcept { return ahead_by(a, b) > 0; }
+
+// Whether `heard` is newer than `known`, which was last renewed `silence_ticks` ago.
+constexpr bool is_news(Serial heard, Serial known, int silence_ticks) noexcept {
+  return is_newer(heard, known) || (silence_ticks >= serial_half_range && heard != known);
+}
+
+}  // namespace banyan

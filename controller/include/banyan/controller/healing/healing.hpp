@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Healing (protocol 12): any robot may die at any moment, the root included, and nobody is told. The
+// root and the workers count ticks, everybody passes on the largest counts heard, and where the root
+// and the targets are: whoever falls silent is replaced by somebody who knows what to do.
+#pragma once
+
+#include "banyan/controller/healing/robot.hpp"
+
+namespace banyan {
+
+// ---- loss.cpp: how long a neighbour may be silent ----
+
+// Estimates the share of packets that are lost from those heard the tick before, and makes I so long
+// that a living neighbour is silent for it once in 10^5 times.
+void estimate_loss(HealingRobot& robot) noexcept;
+
+// ---- heartbeat.cpp: is there a root, and where? ----
+
+void follow_heartbeat(HealingRobot& robot) noexcept;
+// Near to where the root fell silent: makes itself root and opens an epoch.
+void claim_root(HealingRobot& robot) noexcept;
+
+// ---- takeover.cpp: does every target have its worker? ----
+
+// Learns of targets and their workers, gives up a target that is served by somebody with precedence,
+// takes over one whose worker has fallen silent.
+void watch_tasks(HealingRobot& robot) noexcept;
+// By its first worker; null if I know of no such target.
+[[nodiscard]] Task* find_task(HealingState& self, RobotId serves) noexcept;
+
+// ---- dangling_branch.cpp: the end of a torn branch ----
+
+// Notes that the only robot that hung on this connector has fallen silent for good. It stays in the
+// tree and goes where that one was, as a worker would, to meet whoever hung on it.
+void watch_branch(HealingRobot& robot) noexcept;
+// Until it is there: robot.carries_on.
+
+// ---- retreat.cpp: back to where the others must be ----
+
+// A worker whose edge has waited in vain for a spare: the branch that it hangs on does not reach. Where a
+// branch can change its hold between reconstructions (convoy) it drives home, joins whoever is nearest to
+// the root, and sets out anew from there: it regroups.
+[[nodiscard]] bool is_left_waiting(const HealingRobot& robot) noexcept;
+// The ticks that its edge has waited, or would have while it is on its way.
+void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
+// No root has been heard of for long, or it regroups.
+[[nodiscard]] bool is_retreating(const HealingRobot& robot, bool regroups) noexcept;
+// Towards where the root was, in units of speed_gain.
+[[nodiscard]] Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept;
+
+// How far this robot goes of its own accord, m: to where the last one below it was.
+[[nodiscard]] inline float own_want_m(const HealingRobot& robot) noexcept { return robot.carries_on ? norm(robot.self.lost_child) : 0.0F; }
+
+// ---- fragments.cpp: two networks meet ----
+
+// What listen() does in a swarm that may have been torn apart: of two roots that meet, the one of the larger
+// fragment stays.
+void listen_among_fragments(HealingRobot& robot) noexcept;
+// accept_offer() and advance(), with the size of the root's fragment.
+void accept_offered_root(HealingRobot& robot) noexcept;
+void advance_and_count(HealingRobot& robot, bool tree_complete, bool may_reconstruct = true) noexcept;
+
+// ---- What of it is broadcast ----
+
+// The counts, and in turn what one neighbour is to know of root and targets. Index of the target spoken of;
+// -1: none.
+int gossip(const HealingRobot& robot, HealingMessage& message) noexcept;
+
+}  // namespace banyan

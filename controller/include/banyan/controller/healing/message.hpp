@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What a robot broadcasts besides so that the living can take the place of the dead (protocol 12): everybody
+// passes on where the root and the targets are, a target and an addressee a tick in turn. Who is no
+// addressee makes use of the counts alone.
+#pragma once
+
+#include "banyan/controller/tree/message.hpp"
+
+namespace banyan {
+
+struct HealingStanding {
+  RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
+
+  friend bool operator==(const HealingStanding&, const HealingStanding&) = default;
+};
+
+struct HealingNews {
+  bool root_told = false;             // I know where the root is
+  std::uint16_t root_size = 0;        // robots that this root counted last; 0: none yet
+  Serial heartbeat = 0;               // gossip: the root's count of ticks
+  RobotId told = nobody;              // addressee of the vectors that follow
+  std::int16_t root_x_cm = 0;         // root - addressee, edge frame to `told`
+  std::int16_t root_y_cm = 0;
+  RobotId task_serves = nobody;       // a target, by its first worker; nobody: I know none
+  RobotId task_holder = nobody;       // gossip: who serves it; nobody: it has been given up
+  Serial task_beat = 0;               // gossip: the holder's count of ticks
+  std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `told`
+  std::int16_t task_y_cm = 0;
+
+  friend bool operator==(const HealingNews&, const HealingNews&) = default;
+};
+
+struct HealingMessage : TreeMessage, HealingStanding, HealingNews {
+  static constexpr std::uint8_t blocks = TreeMessage::blocks | block::healing;
+  friend bool operator==(const HealingMessage&, const HealingMessage&) = default;
+};
+
+// The healing block, field by field (wire.hpp).
+template <class Visitor, class M>
+constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
+  visit.flag("root_told", "1: knows where the root is", m.root_told);
+  visit.number("root_size", "robots that this root counted last, 0: none yet", m.root_size);
+  visit.number("heartbeat", "the root's count of ticks, modulo 65536", m.heartbeat);
+  visit.robot("serves", "of a worker: its target, by the worker first sent there, -1: none", m.serves);
+  visit.robot("told", "addressee of root and task, -1: nobody", m.told);
+  visit.number("root_x_cm", "where the root is, relative to `told`, along the edge from the sender to it", m.root_x_cm);
+  visit.number("root_y_cm", "the same, to the left of that edge", m.root_y_cm);
+  visit.robot("task", "a target, by the worker first sent there, -1: none", m.task_serves);
+  visit.robot("task_holder", "who serves it, -1: given up", m.task_holder);
+  visit.number("task_beat", "the holder's count of ticks, modulo 65536", m.task_beat);
+  visit.number("task_x_cm", "where it is, relative to `told`, along the edge from the sender to it", m.task_x_cm);
+  visit.number("task_y_cm", "the same, to the left of that edge", m.task_y_cm);
+}
+
+template <class Visitor>
+constexpr void visit_fields(Visitor& visit, HealingMessage& m) noexcept { visit_tree_block(visit, m), visit_healing_block(visit, m); }
+template <class Visitor>
+constexpr void visit_fields(Visitor& visit, const HealingMessage& m) noexcept { visit_tree_block(visit, m), visit_healing_block(visit, m); }
+
+}  // namespace banyan

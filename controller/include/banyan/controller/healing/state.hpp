@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What an algorithm that heals remembers besides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "banyan/controller/healing/message.hpp"
+#include "banyan/controller/obstacles/bypass.hpp"
+#include "banyan/controller/tree/state.hpp"
+
+namespace banyan {
+
+inline constexpr int task_capacity = 12;  // further targets have no successor for their worker
+
+// A target, as everybody knows it who may have to take it over (takeover.cpp).
+struct Task {
+  RobotId serves = nobody;       // the worker first sent there: the target's name
+  RobotId holder = nobody;       // who serves it; nobody: it has been given up
+  Serial beat = 0;               // the holder's count of ticks, the newest heard of
+  std::uint16_t age_ticks = 0;   // since it grew
+  Vec2 target;                   // m, own frame
+};
+
+struct HealingState : TreeState {
+  bool was_sent = false;                 // to a target, at the last step
+  RobotId serves = nobody;               // worker: whose target this is, the id of the worker first sent there
+  float expected_packets = 0.0F;         // of the last ticks, fading: to be heard
+  float missed_packets = 0.0F;           // and of these, not heard
+  std::uint16_t loss_ticks = 0;          // what that loss asks for in place of I; 0: I will do
+  std::uint16_t root_size = 0;           // robots that this root counted last; 0: none yet
+  Serial heartbeat = 0;
+  std::uint16_t silence_ticks = 0;       // since the heartbeat grew
+  RootToken heart;                       // the root whose heartbeat it is
+  Vec2 root_at;                          // m, own frame: where that root is or was
+  bool root_known = false;
+  std::uint16_t turn = 0;                // whom I tell next
+  std::uint16_t dangling_ticks = 0;      // the last robot below me has died: so long I still go after it
+  Vec2 lost_child;                       // m, own frame: where it was
+  std::uint8_t task_count = 0;
+  std::array<Task, task_capacity> tasks{};  // the first task_count are valid
+  Detour detour;                         // obstacles: the way round one
+  std::array<HealingStanding, neighbor_capacity> healing_standings{};  // beside the neighbour table
+};
+
+template <class Visitor, class State>
+constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
+  visit(s.was_sent), visit(s.serves), visit(s.expected_packets), visit(s.missed_packets), visit(s.loss_ticks), visit(s.root_size);
+  visit(s.heartbeat), visit(s.silence_ticks), visit(s.heart.sequence), visit(s.heart.id), visit(s.root_at), visit(s.root_known), visit(s.turn);
+  visit(s.dangling_ticks), visit(s.lost_child), visit(s.task_count);
+  for (int k = 0; k < s.task_count; ++k) {
+    auto& task = s.tasks[static_cast<std::size_t>(k)];
+    visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target);
+  }
+  visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
+  for (int k = 0; k < s.neighbors.size(); ++k) visit(s.healing_standings[static_cast<std::size_t>(k)].serves);
+}
+
+}  // namespace banyan

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The begin and the end of a tick for robots that heal (tree/tick.hpp).
+#pragma once
+
+#include "banyan/controller/healing/robot.hpp"
+#include "banyan/controller/tree/tick.hpp"
+
+namespace banyan {
+
+[[nodiscard]] HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept;
+
+// Who has resigned from its target, or serves another's, goes on with that, however long it is sent.
+void follow_orders(HealingRobot& robot, const Orders& orders) noexcept;
+
+void carry_memory(HealingState& self, const Carry& carry) noexcept;
+[[nodiscard]] std::array<Column, 2> columns_of(HealingState& self) noexcept;
+void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept;
+
+// The tree's part and healing's. Index of the target that the message speaks of; -1: none.
+int write_healing(const HealingRobot& robot, HealingMessage& message) noexcept;
+[[nodiscard]] Report healing_report(const HealingState& state) noexcept;
+
+void add_to(Digest& digest, const HealingState& state) noexcept;
+void add_to(Digest& digest, const HealingMessage& message) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The inwards algorithm (paper Sec. III-E): branches grow from the workers towards the root; only who is named as
+// a parent joins.
+#pragma once
+
+#include "banyan/controller/core/output.hpp"
+#include "banyan/controller/healing/state.hpp"
+#include "banyan/controller/healing/params.hpp"
+
+namespace banyan {
+
+// Table I, inwards column.
+[[nodiscard]] HealingParams inwards_defaults() noexcept;
+
+// One tick of one robot. `heard`: every packet received since the last step, in any order, duplicates allowed
+// (the last counts); the span is worked on. Changes `state` only; allocates nothing; same arguments, same
+// result on every machine. As printed, and as corrected (docs/algorithms.md).
+[[nodiscard]] Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& state, std::span<Heard> heard,
+                                                        const Senses& senses) noexcept;
+[[nodiscard]] Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& state, std::span<Heard> heard,
+                                                   const Senses& senses) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The way round an obstacle, by the points of its surface within the proximity sensor's reach: enough to
+// slide along a wall and to follow it to its end. No map and no plan (docs/convoy.md).
+#pragma once
+
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+struct Guard;  // motion.hpp
+
+// A way round an obstacle that is being driven; vectors in the own frame, m.
+struct Detour {
+  std::int8_t side = 0;  // +1: the obstacle is to the right, -1: to the left, 0: no detour
+  Vec2 contact;          // where the obstacle was touched last
+  Vec2 origin;           // where the detour began
+  Vec2 goal;             // as it was then
+  float leave_m = 0.0F;  // over when the goal is nearer than it was then
+  float span_m = 0.0F;   // the other side is tried so far from the origin
+};
+
+// A body's radius is not among the parameters; the wheels stand on about 1.5 of it.
+[[nodiscard]] inline float body_m(const TreeRobot& robot) noexcept { return 0.67F * robot.params.wheel_distance_m; }
+inline constexpr float near_m = 0.19F;  // between body and obstacle, when it begins to matter
+
+void carry_detour(Detour& detour, const Carry& carry) noexcept;
+
+// The unit vector in which to drive in order to get to `goal` (own frame, m): straight, or along the
+// obstacle in between. The side is chosen once, nearer to the goal, and kept until the way is free and
+// the goal nearer than where the detour began; a side that leads too far is given up for the other,
+// each time twice as far. Remembers it in `detour`. Zero for a zero goal.
+[[nodiscard]] Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept;
+
+// Half-planes that keep the robot off obstacles: it slides along them, and never pushes, because
+// wheels that slip tell lies.
+void keep_off(const TreeRobot& robot, Guard& guard) noexcept;
+
+}  // namespace banyan

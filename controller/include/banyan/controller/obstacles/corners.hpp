@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Lines of sight past obstacles: a few points of those that a robot has passed are remembered, so that no
+// tree edge is cut by a corner. Children tell their parent of the corner nearest to their edge.
+#pragma once
+
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+struct Guard;  // motion.hpp
+
+// What is broadcast of it, and kept of each neighbour.
+struct CornerStanding {
+  std::int16_t hinge_x_cm = 0;   // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
+  std::int16_t hinge_y_cm = 0;
+  bool pinned = false;           // a corner is about to cut the edge to my parent, and I have to go on
+
+  friend bool operator==(const CornerStanding&, const CornerStanding&) = default;
+};
+
+// The obstacles block, field by field (wire.hpp).
+template <class Visitor, class M>
+constexpr void visit_corner_block(Visitor& visit, M& m) noexcept {
+  visit.flag("pinned", "1: a corner is about to cut the edge to the parent", m.pinned);
+  visit.number("hinge_x_cm", "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge", m.hinge_x_cm);
+  visit.number("hinge_y_cm", "the same, to the left of that edge; 0, 0: none", m.hinge_y_cm);
+}
+
+// Points of obstacles that were sensed a while ago, in the own frame, m.
+inline constexpr int landmark_capacity = 8;
+struct Landmarks {
+  std::array<Vec2, landmark_capacity> points{};  // the first `size` are valid
+  std::uint8_t size = 0;
+};
+
+struct Corners {
+  Landmarks landmarks;
+  Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent; a spare: where the tree was
+  bool pinned = false;                   // a corner is about to cut the edge to my parent
+  std::array<CornerStanding, neighbor_capacity> standings{};  // beside the neighbour table
+
+  [[nodiscard]] const CornerStanding& of(int k) const noexcept { return standings[static_cast<std::size_t>(k)]; }
+};
+
+void carry_corners(Corners& corners, const Carry& carry) noexcept;
+
+// Files what is sensed this tick among the remembered points, and forgets those that proved wrong.
+// Once a tick, after the memory has been carried along.
+void remember_corners(const TreeRobot& robot, Corners& corners) noexcept;
+
+// The obstacle point nearest to the inside of the edge to my parent, own frame, m; false if none is near.
+[[nodiscard]] bool find_hinge(const TreeRobot& robot, const Corners& corners, Vec2& hinge) noexcept;
+
+// Half-planes that keep obstacles out of the lines of sight along the robot's tree edges.
+void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) noexcept;
+
+// Away from obstacles that are about to cut one of the robot's tree edges. In units of speed_gain.
+[[nodiscard]] Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept;
+
+// An obstacle is about to cut the edge to the parent and holds this robot back, which must go on, or tows a
+// child beyond `towing_start_m`: the parent has to come up to the corner.
+[[nodiscard]] bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start_m) noexcept;
+
+// No obstacle known to me is nearer than `clearance_m` to the inside of segment a-b (own frame, m).
+[[nodiscard]] bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, float clearance_m) noexcept;
+
+}  // namespace banyan

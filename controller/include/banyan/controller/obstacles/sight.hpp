@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Lines of sight as a robot can judge them: between points of its own frame, past the robots it
+// knows of. A body in between will silence a radio that needs a free line (protocol 11).
+#pragma once
+
+#include "banyan/controller/obstacles/corners.hpp"
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+// The point of segment a-b that is nearest to the origin, i.e. to me.
+[[nodiscard]] Vec2 nearest_on_segment(Vec2 a, Vec2 b) noexcept;
+
+inline constexpr float narrow = 0.5F;  // of `clearance`: just past a body, better than nothing
+
+// No robot of the table but neighbours `i` and `j` (-1: none) is nearer than `clearance_m` to the inside
+// of segment a-b; nor am I, unless an end is where I am. O(neighbours).
+[[nodiscard]] bool is_clear(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, int i, int j, float clearance_m) noexcept;
+
+// The same for the segment from me to neighbour k.
+[[nodiscard]] bool sees_clearly(const TreeRobot& robot, const Corners& corners, int k, float clearance_m) noexcept;
+
+// How many ticks of silence a lossy radio makes unlikely (about one in a hundred): longer ones mean
+// that something stands between. 0 without loss.
+[[nodiscard]] inline int usual_silence_ticks(const TreeRobot& robot) noexcept { return robot.loss_ticks * 2 / 5; }
+
+}  // namespace banyan

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Epochs, phases and barriers (paper Fig. 1, protocol 4). "Go" spreads by gossip over the whole radio
+// graph and only grows, so a lost message delays a robot but never strands it.
+#pragma once
+
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+// Adopts the newest root token and the largest (epoch, phase) among the packets just heard.
+void listen(TreeRobot& robot) noexcept;
+
+// Its two halves, for who listens otherwise (healing/fragments.cpp): the largest (epoch, phase) of mine and
+// those just heard; and the step into it.
+struct EpochPhase {
+  Serial epoch;
+  Phase phase;
+  friend constexpr bool operator==(EpochPhase, EpochPhase) noexcept = default;
+};
+[[nodiscard]] EpochPhase newest_phase(const TreeRobot& robot) noexcept;
+void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept;
+
+// The root's barriers: opens the next phase when its condition holds, or its time is over.
+// `tree_complete`: everybody who should be in the tree is (barrier of SELECT PARENT); `may_reconstruct`: once
+// R is over.
+void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct = true) noexcept;
+
+// Enters (epoch, phase): a new epoch makes the parent the old parent and forgets labels and grants;
+// GROW TREE forgets the old tree.
+void enter(TreeRobot& robot, std::uint16_t epoch, Phase phase) noexcept;
+
+}  // namespace banyan

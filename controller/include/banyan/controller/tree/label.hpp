@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// START TREE: the distance to the root along hops, fixed once per epoch, and the echo by which the
+// root learns that everybody has one (protocol 4, 5).
+#pragma once
+
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+void update_label(TreeRobot& robot) noexcept;
+
+// Length of an edge in the label's unit; at least 1, so that a label grows along every edge.
+[[nodiscard]] std::uint16_t edge_cm(float range_m) noexcept;
+// label + edge, saturating below unknown_label.
+[[nodiscard]] std::uint16_t label_below(std::uint16_t label_cm, float range_m) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// What every robot of a tree broadcasts once a tick (protocol 1): the paper's part of it. The fields are
+// kept in their wire types, so what a receiver computes with is exactly what travelled.
+#pragma once
+
+#include <cstdint>
+
+#include "banyan/controller/core/fixed_point.hpp"
+#include "banyan/controller/core/inputs.hpp"
+#include "banyan/controller/core/report.hpp"
+#include "banyan/controller/core/serial.hpp"
+#include "banyan/controller/core/wire.hpp"
+
+namespace banyan {
+
+// A token that says who is root: the larger (sequence, id) wins.
+struct RootToken {
+  Serial sequence = 0;
+  RobotId id = nobody;
+  friend constexpr bool operator==(RootToken, RootToken) noexcept = default;
+};
+constexpr bool newer(RootToken a, RootToken b) noexcept {
+  return a.sequence != b.sequence ? is_newer(a.sequence, b.sequence) : a.id > b.id;
+}
+
+inline constexpr std::uint16_t unknown_label = 0xFFFF;
+inline constexpr std::uint16_t invalid_depth = 0;
+inline constexpr std::uint8_t unreachable = 0xFF;
+inline constexpr std::uint8_t nobody_calls = 0xFF;
+
+// What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
+struct TreeStanding {
+  RobotId id = nobody;
+  Role role = Role::spare;
+  Phase phase = Phase::init;
+  Need need = Need::no_need;
+  bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
+  bool committed = false;       // I am in this epoch's tree
+  bool parent_silent = false;   // my parent has not been heard for longer than I
+  Serial epoch = 0;
+  std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
+  Serial seqno = 0;                 // the root's count as it came down the tree: (seqno, label) orders the tree
+  std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
+  std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
+  std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need nobody has answered
+  RobotId parent = nobody;
+  RobotId old_parent = nobody;
+  RobotId flood_parent = nobody;
+  std::uint16_t flood_robots = 0;   // echo sums
+  std::uint16_t flood_workers = 0;
+  std::uint16_t subtree = 0;          // 1 + sum over children
+  std::uint16_t subtree_workers = 0;
+  std::uint16_t count = 0;            // Alg. 2's c_i, beside the sums above; nothing depends on it
+  std::uint16_t want_cm = 0;          // largest remaining worker distance below me
+  Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
+  std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
+  std::int16_t pull_y = 0;
+  RobotId grant = nobody;             // the spare I let into the edge to my parent
+  RobotId request = nobody;           // the owner whose edge I want to join
+  RobotId inserted_child = nobody;    // I have just been inserted above this robot
+
+  friend bool operator==(const TreeStanding&, const TreeStanding&) = default;
+};
+
+// What is made use of in the tick in which it is heard, and passed on.
+struct TreeNews {
+  RootToken root;                     // gossip: the newest root token I know
+  RobotId new_root = nobody;          // offer of the token root.sequence + 1
+  std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
+  std::int16_t centroid_y_cm = 0;
+
+  friend bool operator==(const TreeNews&, const TreeNews&) = default;
+};
+
+struct TreeMessage : TreeStanding, TreeNews {
+  static constexpr std::uint8_t blocks = block::tree;
+  friend bool operator==(const TreeMessage&, const TreeMessage&) = default;
+};
+
+inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: +-2
+// Largest |component| of q. A sender keeps within it and decode() rejects what exceeds it, or one
+// robot's nonsense would overflow the sums of all above it.
+inline constexpr float q_limit_m = 1.0e9F;
+
+// The tree block, field by field (wire.hpp).
+template <class Visitor, class M>
+constexpr void visit_tree_block(Visitor& visit, M& m) noexcept {
+  visit.choice("role", "0 spare, 1 connector, 2 worker, 3 root", m.role, 2, Role::root);
+  visit.choice("phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", m.phase, 3, Phase::select_root);
+  visit.choice("need", "of the edge to the parent: 0 no_need, 1 need, 2 await", m.need, 2, Need::await);
+  visit.flag("committed", "1: in this epoch's tree", m.committed);
+  visit.flag("flood_done", "1: everybody below in the flood has answered", m.flood_done);
+  visit.flag("parent_silent", "1: the parent has not been heard for too long", m.parent_silent);
+  visit.robot("id", "of the sender", m.id);
+  visit.number("epoch", "counts the trees", m.epoch);
+  visit.number("root_sequence", "newest root token known: sequence", m.root.sequence);
+  visit.robot("root_id", "newest root token known: holder, -1: nobody", m.root.id);
+  visit.known("label_cm", "distance to the root along hops when the epoch began, -1: unknown", m.label_cm);
+  visit.number("seqno", "the root's count as it came down the tree", m.seqno);
+  visit.number("depth", "in the tree, root 1; 0: no path of tree edges to the root", m.depth);
+  visit.known("tree_hops", "hops over free spares to the rooted tree, 0: in it, -1: no way known", m.tree_hops);
+  visit.known("call_hops", "hops to a need that nobody answers, -1: nobody calls", m.call_hops);
+  visit.robot("parent", "robot, -1: nobody", m.parent);
+  visit.robot("old_parent", "in the old tree while trees are switched, -1: nobody", m.old_parent);
+  visit.robot("flood_parent", "the neighbour that gave the label, -1: nobody", m.flood_parent);
+  visit.number("flood_robots", "robots labelled through this one, itself included", m.flood_robots);
+  visit.number("flood_workers", "workers among them", m.flood_workers);
+  visit.number("subtree", "1 + sum over the children", m.subtree);
+  visit.number("subtree_workers", "workers among them", m.subtree_workers);
+  visit.number("count", "c of Alg. 2; nobody decides by it", m.count);
+  visit.number("want_cm", "largest remaining way of a worker below, 0: all have arrived", m.want_cm);
+  visit.real("q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent", m.q.x, q_limit_m);
+  visit.real("q_y_m", "the same, to the left of that edge", m.q.y, q_limit_m);
+  visit.scaled("pull_x", "attraction to the targets below, along the edge from the sender to its parent, -2 to 2", m.pull_x, pull_unit);
+  visit.scaled("pull_y", "the same, to the left of that edge", m.pull_y, pull_unit);
+  visit.robot("grant", "the spare let into the edge to the parent, -1: nobody", m.grant);
+  visit.robot("request", "the owner of the edge a spare wants to join, -1: nobody", m.request);
+  visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody", m.inserted_child);
+  visit.robot("new_root", "to whom the root token is offered, -1: nobody", m.new_root);
+  visit.number("centroid_x_cm", "with the offer: the centroid, seen from the heir along the edge to it", m.centroid_x_cm);
+  visit.number("centroid_y_cm", "the same, to the left of that edge", m.centroid_y_cm);
+}
+
+template <class Visitor>
+constexpr void visit_fields(Visitor& visit, TreeMessage& m) noexcept { visit_tree_block(visit, m); }
+template <class Visitor>
+constexpr void visit_fields(Visitor& visit, const TreeMessage& m) noexcept { visit_tree_block(visit, m); }
+
+// The tree neighbour that vectors of the census are addressed to: the parent or, during a switch
+// while there is none, the old parent.
+constexpr RobotId up_of(const TreeStanding& m) noexcept {
+  return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent;
+}
+
+// One received packet. Its sender is in the receiver's body frame (x forward, y left; m), from range and
+// bearing: where it was `age_s` ago, in the frame of then; 0: as of now. `message` lives as long as the step.
+// What a healing algorithm hears is a HealingMessage, and so on: all of a swarm run the same.
+struct Heard {
+  const TreeMessage* message;
+  Vec2 position;
+  float age_s = 0.0F;
+};
+
+}  // namespace banyan

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Robot motion (paper Sec. III-G, protocol 9): virtual forces, the guard, and what the wheels make of it.
+#pragma once
+
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+// The paper's u_i for a robot of the tree: springs along its edges, the target's pull within f.
+[[nodiscard]] Vec2 spring_motion(const TreeRobot& robot) noexcept;
+// A spare's: to the midpoint of the edge it was granted, else ADJUST POSITION.
+[[nodiscard]] Vec2 attendance_motion(const TreeRobot& robot) noexcept;
+// u^avoid: repulsion from robots nearer than A that are no tree neighbours; corrected: from obstacles, too.
+[[nodiscard]] Vec2 avoidance(const TreeRobot& robot) noexcept;
+
+// u_tree's magnitude, (epsilon/d)((delta/d)^2 - (delta/d)^4) with lengths in cm: positive towards
+// the neighbour. Not bounded as d goes to 0.
+[[nodiscard]] float interaction(float distance_m, const TreeParams& params) noexcept;
+
+// Paper's f: what is left of target + avoidance for a robot whose parent is at `parent` (own frame).
+// literal: all up to S, nothing beyond; corrected: beyond S all but the part away from the parent.
+[[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept;
+
+// Corrected: the nearest velocity (m/s) to `v` that lengthens no edge to `neighbors` (positions, own
+// frame) faster than (delta - d)/2 x guard rate. With both ends doing so no edge outgrows delta.
+struct Guard {
+  static constexpr int capacity = neighbor_capacity + 64;  // tree neighbours, then obstacles
+  std::array<Vec2, capacity> away;     // unit vectors from the neighbour to me
+  std::array<float, capacity> limit;  // m/s along it
+  int size = 0;
+  void add(Vec2 neighbor, const TreeParams& params) noexcept;
+  // Not faster than `limit_m_s` along `direction` (unit). What exceeds the capacity is dropped.
+  void add_limit(Vec2 direction, float limit_m_s) noexcept;
+  [[nodiscard]] Vec2 apply(Vec2 v) const noexcept;
+};
+
+// Corrected: adds the edges of both trees. `lets_go`: not those to neighbours that have fallen silent, which
+// may have been lost for good.
+void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
+
+// What the motors shall do: `u` in units of speed_gain, own frame, within the guard and the wheels' limits.
+[[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;
+
+// Wheels or holonomic base: the velocity nearest to `v` (m/s, own frame) that the drive can do now.
+[[nodiscard]] Velocity drive(Vec2 v, const Guard& guard, const TreeParams& params) noexcept;
+
+}  // namespace banyan

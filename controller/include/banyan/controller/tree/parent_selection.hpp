@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// SELECT PARENT, and keeping a parent afterwards: repair of a silent one, re-attachment of orphans
+// (paper Sec. III-D, III-E; protocol 5).
+#pragma once
+
+#include "banyan/controller/core/function_ref.hpp"
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+// What differs between the algorithms in SELECT PARENT. What a candidate is at all, is_candidate() decides
+// for every rule: its label order keeps the tree free of cycles.
+struct ParentRule {
+  bool may_join;                            // a robot without parent may join the tree now
+  bool workers_relay;                       // a worker may be somebody's parent (protocol 5: not in the paper)
+  FunctionRef<bool(int k)> accepts;         // neighbour k of the table is a candidate for this algorithm
+  FunctionRef<bool(int a, int b)> prefers;  // candidate a is better than candidate b
+};
+
+// Candidate parent: alive, no worker unless they relay, same epoch, near enough, label strictly smaller
+// than mine, and ahead of me.
+[[nodiscard]] bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept;
+
+// Neighbour k's (seqno, label) is ahead of mine: fresher, or as fresh and nearer to the root. No robot
+// ever falls back behind a pair it has sent, and nobody takes a parent that is not ahead; so the pairs
+// strictly rise along every chain of parents, however old the messages are, and no chain can close
+// (the feasibility condition of EIGRP and Babel, RFC 8966 sec. 2.4).
+[[nodiscard]] bool is_ahead(const TreeRobot& robot, int k) noexcept;
+
+// A living child of this epoch that is no spare names me as its parent.
+[[nodiscard]] bool is_named_parent(const TreeRobot& robot) noexcept;
+
+// Chooses a parent if this robot may and needs to, repairs a lost one, re-attaches an orphan, and
+// keeps label, depth and hops to the rooted tree consistent with the parent.
+void select_parent(TreeRobot& robot, const ParentRule& rule) noexcept;
+
+// The tree edge to `k` of the table becomes this robot's edge to its parent.
+void take_parent(TreeRobot& robot, int k) noexcept;
+
+void leave_tree(TreeRobot& robot) noexcept;
+
+// Depth invalid for so long that this robot must not pull its branch any further (protocol 5).
+[[nodiscard]] bool is_orphan(const TreeRobot& robot) noexcept;
+
+}  // namespace banyan

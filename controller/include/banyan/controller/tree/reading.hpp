@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// How the paper's misprints and gaps are read (protocol 2, docs/algorithms.md). Its two values are all
+// the difference between `literal` and `corrected` within the rooms of the tree; that `corrected` heals
+// and goes round obstacles besides is seen in the steps of the algorithms.
+#pragma once
+
+#include <string_view>
+
+namespace banyan {
+
+struct Reading {
+  std::string_view name;
+  bool keeps_margin;         // a parent is chosen within delta - parent_margin_m; printed: within C
+  bool guards_edges;         // no robot lengthens an edge faster than (delta - d) / 2 allows; printed: not at all
+  bool slides_beyond_safe;   // beyond S only the motion away from the parent is dropped; printed: all but the springs
+  bool asks_while_wanted;    // an edge asks for a spare only while a worker below has to go on; printed: always
+  bool calls_spares;         // needs that nobody answers call spares from out of sight; printed: nothing of it
+  bool spares_stand_still;   // near their reference; printed: they orbit it
+  bool avoids_obstacles;     // printed: nothing of it
+};
+
+inline constexpr Reading literal_reading{
+    .name = "literal", .keeps_margin = false, .guards_edges = false, .slides_beyond_safe = false, .asks_while_wanted = false,
+    .calls_spares = false, .spares_stand_still = false, .avoids_obstacles = false};
+inline constexpr Reading corrected_reading{
+    .name = "corrected", .keeps_margin = true, .guards_edges = true, .slides_beyond_safe = true, .asks_while_wanted = true,
+    .calls_spares = true, .spares_stand_still = true, .avoids_obstacles = true};
+
+}  // namespace banyan

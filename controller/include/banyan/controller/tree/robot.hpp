@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What the rooms of the tree share during one step: parameters, reading, state, what was heard, and an
+// index of the neighbour table that is made once per tick so that no room has to search it again.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "banyan/controller/core/gate.hpp"
+#include "banyan/controller/tree/params.hpp"
+#include "banyan/controller/tree/reading.hpp"
+#include "banyan/controller/tree/state.hpp"
+
+namespace banyan {
+
+// Indices into the neighbour table, ascending.
+struct IndexList {
+  std::array<std::uint8_t, neighbor_capacity> items;  // the first `size` are valid
+  std::uint8_t size = 0;
+  void push(int k) noexcept { items[size++] = static_cast<std::uint8_t>(k); }
+  [[nodiscard]] const std::uint8_t* begin() const noexcept { return items.data(); }
+  [[nodiscard]] const std::uint8_t* end() const noexcept { return items.data() + size; }
+};
+
+// What passed the gate in this step: packets in the present frame, and the rest.
+class Admitted : public Gate {
+ public:
+  Admitted(const Senses& senses, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept;
+  [[nodiscard]] std::span<const Heard> heard() const noexcept { return heard_; }
+
+ private:
+  std::span<const Heard> heard_;
+};
+
+struct TreeRobot {
+  TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Admitted& admitted) noexcept
+      : params(params_), reading(reading_), self(self_), heard(admitted.heard()), obstacles(admitted.senses().obstacles),
+        elapsed_ticks(admitted.elapsed_ticks()) {}
+
+  const TreeParams& params;
+  const Reading& reading;
+  TreeState& self;
+  const Vec2* target = nullptr;     // own frame, m; null unless a worker
+  std::span<const Heard> heard;
+  std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
+  int elapsed_ticks;                // since the last step
+  int loss_ticks = 0;               // so long a living neighbour may well be silent where packets are lost; 0: unknown
+  bool carries_on = false;          // a connector that lost the last robot below it, and stays one (healing)
+
+  // The index (tree_index.hpp)
+  int parent = -1;             // index of the parent in the table
+  int old_parent = -1;
+  IndexList children;          // living neighbours that name me as parent
+  IndexList old_children;      // living neighbours that name me as old parent and not as parent
+  std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours
+  std::uint8_t useful_children = 0;  // living children (by parent or old parent) that are no spares
+
+  [[nodiscard]] const TreeTable& table() const noexcept { return self.neighbors; }
+  [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
+  // I, and longer where packets are lost.
+  [[nodiscard]] int liveness_ticks() const noexcept { return std::max(params.ticks(params.liveness_period_s), loss_ticks); }
+  // How long a connector waits for a child; one that has just chosen it may not have been heard yet.
+  [[nodiscard]] int patience_ticks() const noexcept { return std::max(params.ticks(params.connector_patience_s), loss_ticks); }
+  // The longest edge a robot may choose (protocol 2, row 4).
+  [[nodiscard]] float parent_range_m() const noexcept {
+    return reading.keeps_margin ? params.ideal_distance_m - params.parent_margin_m : params.communication_range_m;
+  }
+  // Neighbour k is at the other end of an edge of mine, old or new.
+  [[nodiscard]] bool is_tree_neighbor(int k) const noexcept {
+    const TreeStanding& m = table().message(k);
+    return k == parent || k == old_parent || m.parent == self.id || m.old_parent == self.id;
+  }
+  // Index of the robot that vectors of the census go to (up_of); -1 if it is not in the table.
+  [[nodiscard]] int up() const noexcept { return self.parent != nobody ? parent : old_parent; }
+  [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && table().alive(parent); }
+  [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && table().alive(old_parent); }
+};
+
+}  // namespace banyan

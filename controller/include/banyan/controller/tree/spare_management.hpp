@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Spare management (paper Sec. III-F, Fig. 5): stretched edges ask for a spare, spares look for
+// edges, and one at a time is let in. An edge is owned by its child end.
+#pragma once
+
+#include "banyan/controller/core/function_ref.hpp"
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+// What differs between the algorithms about edges and the spares that join them.
+struct EdgeRule {
+  FunctionRef<bool()> needs_spare;                       // the edge to my parent, or one below it, wants a spare
+  FunctionRef<bool()> may_call;                          // an unanswered need calls spares from afar (protocol 7)
+  FunctionRef<void(bool unserved)> count_waiting;        // keeps unserved_ticks
+  FunctionRef<bool(int owner, int parent)> may_insert;   // a spare whose edge is granted joins it from where it is
+};
+
+void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept;
+
+// The paper's: a spare joins where it is nearer than J to the middle of the edge.
+[[nodiscard]] bool is_at_midpoint(const TreeRobot& robot, int owner, int parent) noexcept;
+// Ticks in NEED without a grant.
+void count_unserved(TreeState& self, bool unserved) noexcept;
+
+// The edge to my parent is too long, and some worker below still wants to go on. As printed (literal)
+// the second half is missing, and the first reads "smaller" (docs/algorithms.md, row 2).
+[[nodiscard]] bool is_stretched(const TreeRobot& robot) noexcept;
+// A child that is no spare is in NEED.
+[[nodiscard]] bool child_in_need(const TreeRobot& robot) noexcept;
+
+// Where a spare in EXTEND EDGE is heading: the midpoint of the edge it was granted, own frame, m.
+// False if it does not know both ends.
+[[nodiscard]] bool edge_midpoint(const TreeRobot& robot, RobotId owner, Vec2& midpoint) noexcept;
+
+// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest. It
+// keeps the one it has while that is as good: who turns to another every tick gets nowhere.
+[[nodiscard]] RobotId nearest_reference(const TreeRobot& robot) noexcept;
+
+}  // namespace banyan

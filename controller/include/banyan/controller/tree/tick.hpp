@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The begin and the end of a tick, the same for every algorithm of the tree: what was remembered and heard
+// comes in, the message goes out.
+#pragma once
+
+#include "banyan/controller/core/digest.hpp"
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+// A robot before its first step. Exactly one robot of a swarm starts as root; who is sent to a target is
+// told so at every step (Orders).
+[[nodiscard]] TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept;
+
+// What is remembered moves with the robot's own frame, the neighbour table is brought up to date, and the
+// orders are followed.
+void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept;
+
+// Its parts. Who is sent to a target is a worker, until it is called back.
+void follow_orders(TreeRobot& robot, const Orders& orders) noexcept;
+void carry_memory(TreeState& self, const Carry& carry) noexcept;
+// `columns`: all arrays beside the table, the tree's too.
+void update_table(TreeRobot& robot, const Carry& carry, std::span<const Column> columns) noexcept;
+
+// The tree's part of the message, and what an observer may know of it.
+void write_tree(const TreeRobot& robot, TreeMessage& message) noexcept;
+[[nodiscard]] Report tree_report(const TreeState& state) noexcept;
+
+// Every field that can influence a later step, padding excluded.
+void add_to(Digest& digest, const TreeState& state) noexcept;
+void add_to(Digest& digest, const TreeMessage& message) noexcept;
+
+}  // namespace banyan

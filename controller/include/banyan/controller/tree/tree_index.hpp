@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// One pass over the neighbour table that finds the tree neighbours (robot.hpp).
+#pragma once
+
+#include "banyan/controller/tree/robot.hpp"
+
+namespace banyan {
+
+void index_neighbors(TreeRobot& robot) noexcept;
+
+// spare, connector, worker or root (protocol 3), from the survey. Turning spare leaves the tree, unless
+// spares still hang on this robot.
+void update_role(TreeRobot& robot) noexcept;
+
+}  // namespace banyan

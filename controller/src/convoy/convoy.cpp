@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/convoy/convoy.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/convoy/plan.hpp"
+#include "banyan/controller/convoy/shortcut.hpp"
+#include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tick.hpp"
+#include "banyan/controller/inwards.hpp"
+#include "banyan/controller/tree/census.hpp"
+#include "banyan/controller/tree/label.hpp"
+#include "banyan/controller/tree/motion.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/tree/root_selection.hpp"
+#include "banyan/controller/tree/spare_management.hpp"
+#include "banyan/controller/tree/tree_index.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr int silence_ticks = 2;      // a parent silent for so long counts as hidden
+constexpr float tight = 0.6F;         // of `clearance`: enough for who stands in the way and clears it by joining
+
+// ---- Select Parent: branches grow from the workers, as in inwards, by short edges in sight (rule 1) ----
+
+// An edge of the last tree, in either direction.
+bool was_edge(const ConvoyRobot& robot, int k) noexcept {
+  return k == robot.old_parent || robot.table().message(k).old_parent == robot.self.id;
+}
+
+// Once all below have arrived the tree stays what it has become. Else short first edges, then such as
+// need no spare, then the nearest; one that soon may be blocked is as good as far, one that is farther still.
+struct Preference {
+  int rank;
+  float key;
+  Preference(const ConvoyRobot& robot, int k) noexcept {
+    const ConvoyParams& p = robot.params;
+    const float c = p.communication_range_m;
+    if (prunes(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k)) {
+      rank = -1;
+      key = static_cast<float>(robot.table().message(k).label_cm);
+      return;
+    }
+    float range_m = robot.table().range(k);
+    if (!sees_clearly(robot, k, p.clearance * c)) range_m += sees_clearly(robot, k, narrow * p.clearance * c) ? 5.0F * c : 10.0F * c;
+    if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
+    rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
+    key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
+  }
+};
+
+bool is_better_parent(const ConvoyRobot& robot, int a, int b) noexcept {
+  const Preference pa(robot, a);
+  const Preference pb(robot, b);
+  return pa.rank != pb.rank ? pa.rank < pb.rank : pa.key < pb.key;
+}
+
+// ---- Grow Tree: which edges get a spare, and when (rules 3, 4 and 7) ----
+
+// Not passed on upwards: towed, the chain brings its slack to where the spares are by itself.
+bool needs_spare(const ConvoyRobot& robot) noexcept {
+  if (robot.parent < 0) return false;
+  const float d = robot.table().range(robot.parent);
+  const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
+  // A connector may have been made a worker: then it is the parent that has to go on.
+  const TreeStanding& parent = robot.table().message(robot.parent);
+  const bool wanted = robot.self.want_m > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want_cm > 0);
+  return (d > robot.params.recruitment_distance_m && wanted) ||
+         ((hidden || robot.self.corners.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);
+}
+
+// Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
+bool may_call(const ConvoyRobot& robot) noexcept {
+  if (is_planned(robot.self)) return false;  // they would come along the chains, and in the way
+  const ConvoyParams& p = robot.params;
+  const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance * p.communication_range_m;
+  return robot.parent >= 0 && (robot.self.corners.pinned || robot.table().range(robot.parent) > from_m);
+}
+
+bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  const float reach_m = p.ideal_distance_m - p.join_margin * p.communication_range_m;
+  const float clearance_m = p.clearance * p.communication_range_m;
+  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m) return false;
+  const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
+  const float room_m = in_the_way ? tight * clearance_m : clearance_m;
+  return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
+}
+
+// Not while the workers get on: the tree mends itself meanwhile, and a new one is not free.
+bool may_reconstruct(const ConvoyRobot& robot) noexcept {
+  constexpr float patience_s = 5.0F;
+  return robot.self.stalled_ticks > robot.params.ticks(patience_s) && !is_planned(robot.self);
+}
+
+// Once all have arrived, a spare as root would be a robot more.
+bool may_inherit(const ConvoyRobot& robot, int k) noexcept {
+  return !prunes(robot.params) || robot.self.want_m > 0.0F || robot.table().message(k).role != Role::spare;
+}
+
+// ---- The begin and the end of a tick ----
+
+void carry_memory(ConvoyState& self, const Carry& carry) noexcept {
+  carry_memory(static_cast<HealingState&>(self), carry);
+  carry_corners(self.corners, carry);
+}
+
+void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
+  const Carry carry(admitted.senses().odometry);
+  carry_memory(robot.self, carry);
+  update_table(robot, carry, columns_of(robot.self));
+  follow_orders(robot, admitted.senses().orders);
+}
+
+void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
+  const ConvoyState& self = robot.self;
+  const int spoken_of = write_healing(robot, m);
+  if (spoken_of >= 0) m.task_host = self.hosts[static_cast<std::size_t>(spoken_of)];
+  m.pinned = self.corners.pinned;
+  m.warned = self.warned;
+  m.child_count = robot.useful_children;
+  m.above = self.above;
+  m.below = self.below;
+  Vec2 hinge;
+  if (robot.up() < 0 || !find_hinge(robot, self.corners, hinge)) return;
+  const Vec2 parent = robot.table().position(robot.up());
+  hinge = to_edge_frame(hinge - parent, parent);
+  m.hinge_x_cm = to_fixed<std::int16_t>(hinge.x, per_cm);
+  m.hinge_y_cm = to_fixed<std::int16_t>(hinge.y, per_cm);
+}
+
+}  // namespace
+
+ConvoyParams convoy_defaults() noexcept {
+  ConvoyParams p;
+  static_cast<HealingParams&>(p) = inwards_defaults();
+  p.ideal_distance_m = 1.90F;        // G: no edge outgrows it
+  p.safe_range_m = 1.80F;            // the root and junctions are towed only beyond it
+  p.recruitment_distance_m = 1.65F;  // a longer edge asks for a spare
+  p.avoidance_range_m = 0.36F;
+  p.target_gain = 1.0F;
+  p.guard_rate_per_s = 2.0F;
+  p.connector_patience_s = 1.0F;
+  return p;
+}
+
+ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept {
+  ConvoyState state;
+  static_cast<HealingState&>(state) = initial_healing_state(id, worker, root);
+  return state;
+}
+
+Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard, const Senses& senses) noexcept {
+  const Admitted admitted(senses, heard, params, state.tally);
+  ConvoyRobot robot(params, state, admitted);
+  begin_tick(robot, admitted);
+  estimate_loss(robot);                                // how long neighbours may be silent
+  listen_among_fragments(robot);                       // the largest epoch, phase and root token heard
+  accept_offered_root(robot);                          // Select Root, the heir's side
+  follow_heartbeat(robot);                             // is there a root at all,
+  claim_root(robot);                                   // and if not, am I the one to be it?
+  watch_tasks(robot);                                  // does every target have its worker?
+  index_neighbors(robot);                              // who are my parent and children
+  remember_corners(robot, state.corners);
+  watch_branch(robot);                                 // has the last below me died?
+  update_role(robot);
+  advance_and_count(robot, state.subtree_workers >= state.flood_workers, may_reconstruct(robot));   // the root's barriers
+  update_label(robot);                                 // Start Tree
+  select_parent(robot, {.may_join = state.is_worker || is_named_parent(robot),                      // Select Parent, repair
+                        .workers_relay = true,
+                        .accepts = [](int) { return true; },
+                        .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
+  take_part_in_plan(robot);                            // chains from target to target
+  take_shortcuts(robot);                               // what changes between reconstructions
+  state.corners.pinned = is_pinned(robot, state.corners, params.pull_start * params.communication_range_m);
+  // Behind a target that drives a worker lags: its tree must come along before it has lost it.
+  take_census(robot, 0.4F * params.arrival_distance_m, own_want_m(robot));                          // Alg. 1 and 2
+  select_root(robot, [&](int k) { return may_inherit(robot, k); });                                 // Select Root, the root's side
+  manage_spares(robot, {.needs_spare = [&] { return needs_spare(robot); },                          // Grow Tree
+                        .may_call = [&] { return may_call(robot); },
+                        .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, is_left_waiting(robot)); },
+                        .may_insert = [&](int owner, int parent) { return may_insert(robot, owner, parent); }});
+  const bool regroups = is_left_waiting(robot);
+  const bool retreats = is_retreating(robot, regroups);
+  const Vec2 u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
+  Guard guard;
+  guard_edges(robot, retreats, guard);
+  keep_off(robot, guard);                              // obstacles
+  keep_sight(robot, state.corners, guard);
+
+  Output<ConvoyMessage> output;
+  write_convoy(robot, output.message);
+  output.velocity = move(u, guard, params);
+  return output;
+}
+
+std::array<Column, 4> columns_of(ConvoyState& self) noexcept {
+  const auto [tree, healing] = columns_of(static_cast<HealingState&>(self));
+  return {tree, healing, Column{self.corners.standings.data(), sizeof(CornerStanding), block_offset<CornerStanding, ConvoyMessage>()},
+          Column{self.convoy_standings.data(), sizeof(ConvoyStanding), block_offset<ConvoyStanding, ConvoyMessage>()}};
+}
+
+void add_to(Digest& digest, const ConvoyState& state) noexcept {
+  add_to(digest, static_cast<const HealingState&>(state));
+  const auto add = [&](const auto& field) { digest.add(field); };
+  visit_convoy_state(add, state);
+}
+
+void add_to(Digest& digest, const ConvoyMessage& message) noexcept {
+  FieldDigest visit{digest};
+  visit_fields(visit, message);
+}
+
+}  // namespace banyan

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Rule 6: edges are kept in sight.
+#include "banyan/controller/convoy/shortcut.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/obstacles/sight.hpp"
+
+namespace banyan {
+namespace {
+
+// Of `clearance`: a robot so near to the line of sight may soon be in it, and very soon.
+constexpr float danger = 0.8F;
+constexpr float urgency = 0.7F;
+constexpr float impossible = 1e9F;
+
+// How bad neighbour k would be as parent in place of one that is hidden, or soon will be: the nearer it
+// is to the old edge the better; rather one of the tree than a spare, which joins because it is named.
+float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  const TreeStanding& m = table.message(k);
+  const float c = p.communication_range_m;
+  if (k == robot.parent || table.age(k) > 0 || table.range(k) > robot.parent_range_m()) return impossible;
+  const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == robot.self.epoch &&
+                     m.tree_hops != unreachable;
+  if (!spare && !is_rooted(robot, k)) return impossible;
+  const bool clear = sees_clearly(robot, k, p.clearance * c);
+  if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance * c))) return impossible;
+  const Vec2 at = table.position(k);
+  return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare ? c : 0.0F) + (clear ? 0.0F : 2.0F * c);
+}
+
+}  // namespace
+
+Outlook outlook(const ConvoyRobot& robot) noexcept {
+  constexpr int hidden_ticks = 1;
+  const float clearance_m = robot.params.clearance * robot.params.communication_range_m;
+  const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
+  const ConvoyMessage* parent = robot.parent_message();
+  const bool warned = parent != nullptr && parent->warned == robot.self.id;
+  const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance_m);
+  return {endangered, endangered && (hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance_m))};
+}
+
+// The best link repair that is ahead of me, a spare only when it is urgent. If there is none, my
+// seqno rests, so that the others get ahead; not for long, for they may all hang on me.
+void keep_in_sight(ConvoyRobot& robot, bool urgent) noexcept {
+  ConvoyState& self = robot.self;
+  const TreeTable& table = robot.table();
+  int best = -1;
+  int behind = -1;
+  float best_cost = impossible;
+  float behind_cost = impossible;
+  for (int k = 0; k < table.size(); ++k) {
+    const float cost = repair_cost(robot, k, urgent);
+    const bool ahead = is_ahead(robot, k);
+    if (!ahead && cost < behind_cost) {
+      behind_cost = cost;
+      behind = k;
+    } else if (ahead && cost < best_cost && (urgent || table.message(k).role != Role::spare)) {
+      best_cost = cost;
+      best = k;
+    }
+  }
+  if (best < 0) {
+    self.pending_parent = behind < 0 || ++self.pending_ticks > pending_limit_ticks ? nobody : table.id(behind);
+    return;
+  }
+  self.grant = nobody;  // of the edge that is given up
+  take_parent(robot, best);
+}
+
+bool step_before_parent(ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  const int k = table.find(table.message(robot.parent).parent);
+  if (k < 0 || table.age(k) > 0) return false;
+  const float d = norm(nearest_on_segment(table.position(robot.parent), table.position(k)));
+  if (d > danger * p.clearance * p.communication_range_m || !is_hold(robot, k, robot.parent_range_m())) return false;
+  take_parent(robot, k);
+  return true;
+}
+
+// Of the robots around an edge its lower end may see less than the upper: others hide them.
+RobotId child_to_warn(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  for (const int k : robot.children)
+    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance * p.communication_range_m))
+      return table.id(k);
+  return nobody;
+}
+
+}  // namespace banyan

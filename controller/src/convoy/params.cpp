@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/convoy/params.hpp"
+
+namespace banyan {
+namespace {
+
+using P = ConvoyParams;
+
+constexpr Parameter<P> of_convoy[] = {
+    {{"pull_start", "", "C", "convoy: a child farther than this pulls its parent along",
+      "Smaller keeps chains slack; larger stretches edges before the next robot moves.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &P::pull_start},
+    {{"pull_width", "", "C", "convoy: the pull has full strength so much beyond pull_start",
+      "Smaller is stiffer: faster, and less smooth with noise.", "convoy 2", 0.001F, 1.0F, Scaling::range}, &P::pull_width},
+    {{"tension_gain", "", "", "convoy: tree edges pull like strings with this strength",
+      "Larger straightens chains sooner and holds workers back.", "convoy 2", 0.0F, 10.0F}, &P::tension_gain},
+    {{"tension_start", "", "C", "convoy: shorter edges have no tension", "Most users need not change it.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &P::tension_start},
+    {{"tension_width", "", "C", "convoy: tension has full strength so much beyond tension_start",
+      "Most users need not change it.", "convoy 2", 0.001F, 1.0F, Scaling::range}, &P::tension_width},
+    {{"slack_gain", "", "", "convoy: the edges of a chain share their slack with this strength",
+      "Matters only while robots are short.", "convoy 8", 0.0F, 10.0F}, &P::slack_gain},
+    {{"first_edge", "", "C", "convoy: parents are chosen this near while there is a choice",
+      "Above the distance at which the swarm stands at first.", "convoy 1", 0.01F, 1.0F, Scaling::range}, &P::first_edge},
+    {{"clearance", "", "C", "convoy: a robot this near to a segment counts as blocking it",
+      "More than a body's radius; larger loses fewer lines of sight and finds fewer parents.", "convoy 1", 0.0F, 1.0F, Scaling::range}, &P::clearance},
+    {{"corridor_width", "", "C", "convoy: robots this near to a tree edge move away from it",
+      "Larger keeps lines of sight open in crowds and takes room.", "convoy 6", 0.0F, 1.0F, Scaling::range}, &P::corridor_width},
+    {{"corridor_gain", "", "", "convoy: strength of moving out of a corridor", "Most users need not change it.", "convoy 6", 0.0F, 10.0F}, &P::corridor_gain},
+    {{"join_margin", "", "C", "convoy: a spare joins an edge if both ends are nearer than delta minus this",
+      "More with latency, noise or loss.", "convoy 4", 0.0F, 1.0F, Scaling::range}, &P::join_margin},
+    {{"shortest_split", "", "C", "convoy: edges shorter than this are not split", "Larger ends with fewer robots.", "convoy 4", 0.0F, 1.0F, Scaling::range}, &P::shortest_split},
+    {{"call_distance", "", "C", "convoy: a longer edge whose need nobody answers calls spares from afar",
+      "Smaller calls sooner, and spares crowd the chain.", "convoy 7", 0.0F, 1.0F, Scaling::range}, &P::call_distance},
+    {{"release_distance", "", "C", "convoy: a grandparent nearer than this becomes the parent",
+      "Below pull_start plus pull_width, or robots are taken out and put in by turns.", "convoy 5", 0.0F, 1.0F, Scaling::range}, &P::release_distance},
+    {{"spare_avoidance", "", "C", "convoy: spares repel within this", "About two body diameters.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &P::spare_avoidance},
+    {{"merge_distance", "", "C", "convoy: longest edge made to save a robot once all below have arrived",
+      "0 saves none. Larger saves more, and leaves less margin for noise.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &P::merge_distance},
+    {{"compact_distance", "", "C", "convoy: chains that have arrived stretch their edges to this",
+      "Below delta and merge_distance.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &P::compact_distance},
+    {{"plan_after_s", "", "s", "convoy: so long after all have arrived chains from target to target are planned; 0: never",
+      "0 where targets drive: the plan is for targets that stay.", "convoy 11", 0.0F, 600.0F}, &P::plan_after_s},
+};
+
+}  // namespace
+
+std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept { return of_convoy; }
+
+}  // namespace banyan

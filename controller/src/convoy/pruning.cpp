@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Rule 9: fewer robots, once all workers below have arrived.
+#include "banyan/controller/convoy/shortcut.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/convoy/plan.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float merge_period_s = 2.0F;
+constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
+
+// Who may carry a branch that has arrived: at rest itself, and not about to leave the tree.
+bool can_carry(const ConvoyRobot& robot, int k) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  return k != robot.parent && m.want_cm == 0 && m.epoch == robot.self.epoch &&
+         (m.role != Role::connector || robot.convoy_of(k).child_count > 0) && is_rooted_in_sight(robot, k);
+}
+
+// My parent serves only me: with another one for me it is not needed, nor are those above it that
+// serve only it.
+bool saves_parent(const ConvoyRobot& robot) noexcept {
+  const TreeStanding& parent = robot.table().message(robot.parent);
+  return parent.role == Role::connector && robot.convoy_of(robot.parent).child_count == 1;
+}
+
+// Whoever is nearest to the root takes me over at once.
+bool merge(ConvoyRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  const float reach_m = robot.params.merge_distance * robot.params.communication_range_m;
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.range(k) > reach_m || table.message(k).label_cm >= robot.self.label_cm || !is_ahead(robot, k)) continue;
+    if (best >= 0 && table.message(k).label_cm >= table.message(best).label_cm) continue;
+    if (can_carry(robot, k)) best = k;
+  }
+  if (best < 0) return false;
+  take_parent(robot, best);
+  return true;
+}
+
+// Those that are not ahead of me may hang on me, or be of another branch: I cannot tell. I let my
+// seqno rest. Who hangs on me never overtakes it. Each turn another one, or the first that hangs on
+// me would be the only one ever tried.
+void want_parent(ConvoyRobot& robot, float reach_m, int turn) noexcept {
+  const TreeTable& table = robot.table();
+  IndexList carriers;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.range(k) < reach_m && can_carry(robot, k)) carriers.push(k);
+  if (carriers.size == 0) return;
+  robot.self.pending_parent = table.id(carriers.items[turn % carriers.size]);
+  robot.self.pending_ticks = 0;
+}
+
+void follow_pending(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  const int k = robot.table().find(self.pending_parent);
+  const float reach_m = robot.params.merge_distance * robot.params.communication_range_m;
+  if (k < 0 || ++self.pending_ticks > pending_limit_ticks || robot.table().range(k) > reach_m || !can_carry(robot, k)) {
+    self.pending_parent = nobody;
+  } else if (is_ahead(robot, k)) {
+    take_parent(robot, k);
+  }
+}
+
+// I lead my branch to another target: the robot of the tree next to it that I can reach.
+void want_next_step(ConvoyRobot& robot) noexcept {
+  Vec2 goal;
+  if (!find_goal(robot, goal)) return;
+  const TreeTable& table = robot.table();
+  const float c = robot.params.communication_range_m;
+  int best = -1;
+  float best_m = distance(table.position(robot.parent), goal) - shorter_by * c;
+  for (int k = 0; k < table.size(); ++k) {
+    const float d = distance(table.position(k), goal);
+    if (d >= best_m || table.range(k) > robot.params.merge_distance * c || !can_carry(robot, k)) continue;
+    best = k;
+    best_m = d;
+  }
+  if (best < 0) return;
+  robot.self.pending_parent = table.id(best);
+  robot.self.pending_ticks = 0;
+}
+
+}  // namespace
+
+// In turns, so that neighbours see what the others have done.
+void prune(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  if (self.pending_parent != nobody) return follow_pending(robot);
+  if (is_planned(self)) return want_next_step(robot);  // other changes would undo the plan
+  const ConvoyParams& p = robot.params;
+  const int period = std::max(1, p.ticks(merge_period_s));
+  const TreeStanding& parent = robot.table().message(robot.parent);
+  if ((self.phase_ticks + self.id) % period != 0 || parent.need == Need::await || parent.inserted_child != nobody) return;
+  const int turn = self.phase_ticks / period;
+  const float c = p.communication_range_m;
+  if (!saves_parent(robot)) want_parent(robot, robot.table().range(robot.parent) - shorter_by * c, turn);
+  else if (!merge(robot)) want_parent(robot, p.merge_distance * c, turn);
+}
+
+}  // namespace banyan

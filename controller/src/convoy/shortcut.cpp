@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Which change of parent comes first, and rule 5: branches are shortened.
+#include "banyan/controller/convoy/shortcut.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/obstacles/sight.hpp"
+
+namespace banyan {
+namespace {
+
+// Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
+void release(ConvoyRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  const TreeStanding& parent = table.message(robot.parent);
+  if (parent.role != Role::connector || robot.convoy_of(robot.parent).child_count != 1 || parent.parent == nobody || parent.need == Need::await ||
+      parent.inserted_child != nobody)
+    return;
+  const int k = table.find(parent.parent);
+  if (k < 0 || (table.message(k).role == Role::worker && !is_relay(robot, k))) return;
+  const ConvoyParams& p = robot.params;
+  const float reach = has_arrived(robot) ? std::max(p.release_distance, p.merge_distance) : p.release_distance;
+  if (is_hold(robot, k, reach * p.communication_range_m)) take_parent(robot, k);
+}
+
+// An edge that would need a spare: a robot of the tree may stand nearer.
+void take_nearer(ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  int best = -1;
+  float best_m = p.release_distance * p.communication_range_m;
+  for (int k = 0; k < table.size(); ++k) {
+    if (k == robot.parent || table.range(k) >= best_m || !is_hold(robot, k, best_m)) continue;
+    if (table.message(k).role == Role::worker && !is_relay(robot, k)) continue;
+    best = k;
+    best_m = table.range(k);
+  }
+  if (best >= 0) take_parent(robot, best);
+}
+
+// A worker goes its own way and cannot be towed: as long as I have to go on, anybody else will do.
+void leave_worker(ConvoyRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.message(k).role == Role::worker || !is_hold(robot, k, robot.parent_range_m())) continue;
+    if (best < 0 || table.range(k) < table.range(best)) best = k;
+  }
+  if (best >= 0) take_parent(robot, best);
+}
+
+// Who regroups takes whatever hold is nearer to the root.
+void take_inner(ConvoyRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  const int parent_depth = table.message(robot.parent).depth;
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.message(k).role == Role::worker || table.message(k).depth >= parent_depth || !is_hold(robot, k, robot.parent_range_m())) continue;
+    if (best < 0 || table.message(k).depth < table.message(best).depth) best = k;
+  }
+  if (best >= 0) take_parent(robot, best);
+}
+
+}  // namespace
+
+bool is_rooted(const ConvoyRobot& robot, int k) noexcept {
+  const TreeTable& table = robot.table();
+  const TreeStanding& m = table.message(k);
+  return table.age(k) <= 1 && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
+         m.depth != invalid_depth;
+}
+
+bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept {
+  return is_rooted(robot, k) && sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+}
+
+bool is_hold(const ConvoyRobot& robot, int k, float range_m) noexcept {
+  return robot.table().range(k) <= range_m && is_ahead(robot, k) && is_rooted_in_sight(robot, k);
+}
+
+void take_shortcuts(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  self.warned = child_to_warn(robot);
+  if (self.phase != Phase::grow_tree || robot.parent < 0 || self.role == Role::spare || self.inserted_child != nobody) {
+    self.pending_parent = nobody;
+    return;
+  }
+  const Outlook view = outlook(robot);
+  const bool may_save = !view.endangered && self.grant == nobody && has_arrived(robot);
+  if (!view.endangered && !may_save) self.pending_parent = nobody;
+  if (!view.endangered && self.pending_parent == nobody) self.pending_ticks = 0;
+  if (view.endangered) return keep_in_sight(robot, view.urgent);
+  if (self.grant != nobody) return;  // the tree changes here already
+  if (step_before_parent(robot)) return;
+  if (is_left_waiting(robot)) take_inner(robot);
+  else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
+  else if (self.need == Need::need) take_nearer(robot);
+  else if (self.lead_to == nobody) release(robot);
+  if (may_save) prune(robot);
+}
+
+}  // namespace banyan

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+// How convoy moves (docs/convoy.md, rules 2, 6, 7 and 8).
+#include <algorithm>
+
+#include "banyan/controller/obstacles/bypass.hpp"
+#include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/tree/motion.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/convoy/plan.hpp"
+#include "banyan/controller/obstacles/sight.hpp"
+#include "banyan/controller/tree/spare_management.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float compact_gain = 0.8F;   // a branch that has arrived slides together with this strength
+constexpr float compact_width = 0.05F; // of C: with full strength so far from compact_distance
+constexpr float follow_spare = 0.25F;  // of C: so far it stays behind a spare that leads it to the tree
+constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
+constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
+constexpr float called_follow_tree = 0.75F;
+constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
+constexpr float pinned_start_m = 0.25F;
+constexpr float pinned_width_m = 0.10F;
+
+constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
+constexpr int slack_reach_hops = 8;
+
+// Somewhere near an edge waits in vain for a spare.
+bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }
+
+float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
+
+// Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
+// junctions stay with the spares as long as they can: there their edges grow and are split.
+Vec2 tow(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  const float c = p.communication_range_m;
+  // While robots are short, who is as good as there leaves the rest of the way to others.
+  const auto least_cm = is_short_of_robots(robot) ? static_cast<int>(as_good_as_there * p.arrival_distance_m * 100.0F) : 0;
+  const auto tows = [&](int k) {
+    const TreeStanding& m = table.message(k);
+    return m.role != Role::spare && m.want_cm > least_cm && up_of(m) == robot.self.id;
+  };
+  const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
+                     std::count_if(robot.old_children.begin(), robot.old_children.end(), tows);
+  const float start_m = robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start * c;
+  Vec2 u;
+  const auto add = [&](int k) {
+    if (!tows(k)) return;
+    // A child at a corner needs its parent there before it can go round.
+    const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width * c);
+    u += unit(table.position(k)) * weight;
+  };
+  for (const int k : robot.children) add(k);
+  for (const int k : robot.old_children) add(k);
+  return u;
+}
+
+template <class Visit>
+void for_each_edge(const ConvoyRobot& robot, Visit visit) noexcept {
+  const TreeTable& table = robot.table();
+  if (robot.parent >= 0) visit(robot.parent);
+  else if (robot.old_parent >= 0) visit(robot.old_parent);
+  for (const int k : robot.children)
+    if (table.message(k).role != Role::spare) visit(k);
+}
+
+// Edges as strings under tension: a chain becomes straight, three chains meet at 120 degrees.
+Vec2 tension(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const float c = p.communication_range_m;
+  Vec2 u;
+  for_each_edge(robot, [&](int k) {
+    u += unit(robot.table().position(k)) * ramp(robot.table().range(k), p.tension_start * c, p.tension_width * c);
+  });
+  return u * p.tension_gain;
+}
+
+// While robots are short, long edges take slack from short ones.
+Vec2 shared_slack(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  if (!is_short_of_robots(robot)) return {};
+  const float start_m = p.pull_start * p.communication_range_m;
+  Vec2 u;
+  for_each_edge(robot, [&](int k) {
+    u += unit(robot.table().position(k)) * ramp(robot.table().range(k), start_m, p.ideal_distance_m - start_m);
+  });
+  return u * p.slack_gain;
+}
+
+// Repulsion, from spares only when they are nearer still: they make room themselves.
+Vec2 repulsion(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  Vec2 u;
+  for (int k = 0; k < table.size(); ++k) {
+    const float d = table.range(k);
+    if (d >= p.avoidance_range_m || d <= 0.0F || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+    const float a = table.message(k).role == Role::spare ? p.spare_avoidance * p.communication_range_m : p.avoidance_range_m;
+    if (d < a) u += table.position(k) * (-p.avoidance_gain * (a / d - 1.0F) / d);
+  }
+  return u;
+}
+
+// Tree edges, old ones during a reconstruction, that are not mine and whose ends I know: visit(a, b).
+template <class Visit>
+void for_each_other_edge(const ConvoyRobot& robot, Visit visit) noexcept {
+  const TreeTable& table = robot.table();
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (m.role == Role::spare || !table.alive(k)) continue;
+    const auto visit_edge = [&](RobotId parent) {
+      if (parent == nobody || parent == robot.self.id) return;
+      if (const int up = table.find(parent); up >= 0) visit(table.position(k), table.position(up));
+    };
+    if (k != robot.parent) visit_edge(m.parent);
+    if (k != robot.old_parent && m.old_parent != m.parent) visit_edge(m.old_parent);
+  }
+}
+
+// Out of their lines of sight.
+Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
+  Vec2 u;
+  for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
+    const Vec2 near = nearest_on_segment(a, b);
+    const float d = norm(near);
+    if (d >= width_m) return;
+    const Vec2 along = unit(b - a);
+    const Vec2 side = d > 1e-3F ? -near / d : Vec2{-along.y, along.x};
+    u += side * std::min(width_m / std::max(d, 1e-3F) - 1.0F, 20.0F);
+  });
+  return u * robot.params.corridor_gain;
+}
+
+// The way along which I can save a robot: towards my parent; the root's is towards the nearest child
+// that does nothing but pass it on.
+int pruning_way(const ConvoyRobot& robot) noexcept {
+  if (!robot.is_root()) return robot.parent;
+  const TreeTable& table = robot.table();
+  int best = -1;
+  for (const int k : robot.children)
+    if (table.message(k).role == Role::connector && (best < 0 || table.range(k) < table.range(best))) best = k;
+  return best;
+}
+
+// Rule 9: a connector whose workers have arrived slides until its longest other edge is stretched. So
+// the slack of a branch gathers at one end, where a robot becomes superfluous.
+Vec2 compaction(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  const float c = p.communication_range_m;
+  const int way = pruning_way(robot);
+  if (way < 0) return {};
+  int longest = -1;
+  for (const int k : robot.children)
+    if (k != way && table.message(k).role != Role::spare && (longest < 0 || table.range(k) > table.range(longest))) longest = k;
+  if (longest < 0) return robot.is_root() ? unit(table.position(way)) * compact_gain : Vec2{};
+  const float slack = std::clamp((p.compact_distance - table.range(longest) / c) / compact_width, -1.0F, 1.0F);
+  return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
+}
+
+// Among obstacles a tree neighbour that falls silent has gone behind one: its child backs up to where
+// it heard it last, and it waits meanwhile.
+bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
+  constexpr int silent_ticks = 2;
+  const TreeTable& table = robot.table();
+  if (!robot.params.line_of_sight || robot.self.corners.landmarks.size == 0) return false;
+  if (up >= 0 && table.alive(up) && table.age(up) >= silent_ticks) return true;
+  if (robot.self.childless_ticks > 0) return true;
+  return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
+}
+
+// A worker's pull, or along the obstacle in its way.
+Vec2 pull_past_obstacles(const ConvoyRobot& robot) noexcept {
+  const Vec2 pull = robot.self.pull;
+  const float goal_m = robot.target != nullptr ? norm(*robot.target) : robot.self.want_m;
+  // The last bit straight, as near as obstacles let it: a dead worker may lie on its successor's target.
+  constexpr float last_bit = 0.15F;  // of C
+  if (goal_m < last_bit * robot.params.communication_range_m) return pull;
+  return bypass(robot, unit(pull) * goal_m) * norm(pull);
+}
+
+// While the tree is reconstructed nobody can mend a line of sight. When all have arrived there is no
+// hurry either: best nobody moves.
+bool holds_still(const ConvoyRobot& robot) noexcept {
+  if (robot.self.phase != Phase::start_tree && robot.self.phase != Phase::select_parent) return false;
+  if (robot.self.want_m > 0.0F) return false;
+  const TreeTable& table = robot.table();
+  for (int k = 0; k < table.size(); ++k)
+    if (table.message(k).want_cm > 0) return false;
+  return true;
+}
+
+}  // namespace
+
+bool prunes(const ConvoyParams& params) noexcept { return params.merge_distance > 0.0F; }
+
+bool has_arrived(const ConvoyRobot& robot) noexcept {
+  return prunes(robot.params) && robot.self.want_m == 0.0F && robot.self.subtree_workers > 0;
+}
+
+bool is_relay(const ConvoyRobot& robot, int k) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  return prunes(robot.params) && m.role == Role::worker && m.want_cm == 0 && robot.self.want_m == 0.0F;
+}
+
+Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
+  if (lost_sight(robot, up)) return norm(robot.self.corners.seen_from) > 0.02F ? unit(robot.self.corners.seen_from) : Vec2{};
+  if (up >= 0 && !robot.table().alive(up)) return bypass(robot, robot.table().position(up));
+  if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
+  if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
+  // A target may be added in mid-mission: not without the tree.
+  if (robot.self.is_worker && up < 0 && robot.self.phase == Phase::grow_tree) return repulsion(robot);
+  // At its target it may stand off a little, if that lets another reach its own; it ends before the
+  // target is out of tolerance.
+  constexpr float fading = 0.1F;
+  const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
+  if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + repulsion(robot);
+  if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
+  if (holds_still(robot)) return {};
+  const Vec2 along = robot.self.lead_to != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
+  return along + tension(robot) + shared_slack(robot) + repulsion(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot, robot.self.corners);
+}
+
+Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const float c = p.communication_range_m;
+  const ConvoyState& self = robot.self;
+  Vec2 midpoint;
+  if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
+    return bypass(robot, midpoint) + repulsion(robot) + make_way(robot, 2.0F * p.clearance * c);
+  // Nobody around has heard the tree for a while: it has gone behind an obstacle.
+  if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m) return bypass(robot, self.corners.seen_from) + repulsion(robot);
+  // The root is about to go round a corner, and waits for spares.
+  const int root = robot.table().find(self.root.id);
+  if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
+    return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance * c);
+  if (holds_still(robot)) return {};
+  int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
+  // Called in a crowd, it might wait for others to move while the tree goes away.
+  if (const int home = self.called ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
+    const float home_c = robot.table().message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
+    if (robot.table().range(home) > home_c * c) k = home;
+  }
+  const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
+  const float d = norm(reference);
+  // Sight can be lost at any distance: it follows in good time, and a spare that leads it even earlier.
+  const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
+  const float reach_m = (led ? follow_spare : follow_tree) * c;
+  // On its way along a chain it may come nearer to the line of sight than while it waits.
+  if (d > reach_m || (self.called && d > p.avoidance_range_m))
+    return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance * c);
+  // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
+  // Where many edges meet, others wait on its far side, and it would only cross their sight.
+  const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= 3);
+  if (self.called && roomy && d > 0.0F)
+    return bypass(robot, Vec2{-reference.y, reference.x}) + repulsion(robot) + make_way(robot, 2.0F * p.clearance * c);
+  return repulsion(robot) + make_way(robot, p.corridor_width * c);
+}
+
+}  // namespace banyan

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/core/gate.hpp"
+
+#include <algorithm>
+
+namespace banyan {
+
+Gate::Gate(const Senses& senses, const Platform& platform) noexcept : senses_(senses) {
+  const float limit_m = farthest_ranges * platform.communication_range_m;
+  const Odometry& moved = senses.odometry;
+  if (!is_within({moved.forward_m, moved.sideways_m}, limit_m) || !(std::fabs(moved.turn_rad) <= largest_turn_rad)) {
+    senses_.odometry = {};
+    ++rejected_;
+  }
+  if (senses.orders.target && !is_within(*senses.orders.target, farthest_target_m)) {
+    senses_.orders.target.reset();
+    ++rejected_;
+  }
+  if (senses.elapsed_s >= 0.0F && senses.elapsed_s <= longest_step_s) elapsed_ticks_ = std::max(1, platform.ticks(senses.elapsed_s));
+  else ++rejected_;
+  admit_obstacles(limit_m);
+}
+
+// They stay where they are, unless some of them must go.
+void Gate::admit_obstacles(float limit_m) noexcept {
+  const auto passes = [&](Vec2 o) { return is_within(o, limit_m); };
+  const std::span<const Vec2> all = senses_.obstacles;
+  if (all.size() <= most_obstacles && std::all_of(all.begin(), all.end(), passes)) return;
+  std::size_t kept = 0;
+  for (const Vec2 o : all)
+    if (passes(o) && kept < most_obstacles) obstacles_[kept++] = o;
+  rejected_ += static_cast<std::uint32_t>(all.size() - kept);
+  senses_.obstacles = std::span<const Vec2>(obstacles_).first(kept);
+}
+
+}  // namespace banyan

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "banyan/controller/healing/healing.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float pursue_for_s = 12.0F;
+constexpr float near_enough = 0.15F;  // of C
+constexpr int notice_ticks = 2;       // before the silent are forgotten
+
+void watch_children(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  const TreeTable& table = robot.table();
+  const auto hangs = [&](int k) { return table.message(k).role != Role::spare; };
+  const auto fades = [&](int k) { return hangs(k) && table.age(k) > robot.liveness_ticks() - notice_ticks; };
+  const auto lives = [&](int k) { return hangs(k) && !fades(k); };
+  const auto any = [&](auto is) { return std::any_of(robot.children.begin(), robot.children.end(), is); };
+  if (!robot.params.heals() || self.role != Role::connector || self.phase != Phase::grow_tree || any(lives)) {
+    self.dangling_ticks = 0;
+    return;
+  }
+  const auto lost = std::find_if(robot.children.begin(), robot.children.end(), fades);
+  if (lost != robot.children.end()) {
+    self.lost_child = table.position(*lost);
+    self.dangling_ticks = static_cast<std::uint16_t>(robot.params.ticks(pursue_for_s));
+  } else if (self.dangling_ticks > 0) {
+    const bool there = norm(self.lost_child) < near_enough * robot.params.communication_range_m;
+    self.dangling_ticks = there ? std::uint16_t{0} : static_cast<std::uint16_t>(self.dangling_ticks - 1);
+  }
+}
+
+}  // namespace
+
+void watch_branch(HealingRobot& robot) noexcept {
+  watch_children(robot);
+  robot.carries_on = robot.self.dangling_ticks > 0 && robot.useful_children == 0;
+}
+
+}  // namespace banyan

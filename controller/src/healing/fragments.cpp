@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/tree/epoch.hpp"
+#include "banyan/controller/tree/root_selection.hpp"
+
+namespace banyan {
+namespace {
+
+// A newer token than mine. Two fragments may each have had a root: when they meet, the larger keeps
+// its own. Each further token is of a larger fragment than the last, so that there is an end to it.
+// True if I remain root and all have to hear of it.
+bool hear_token(HealingRobot& robot, const HealingMessage& m) noexcept {
+  HealingState& self = robot.self;
+  const bool rival = robot.is_root() && m.root.id != self.id && m.root.id != self.new_root;
+  if (robot.params.heals() && rival && m.root_size < self.root_size) {
+    self.root.sequence = static_cast<Serial>(m.root.sequence + 1);
+    return true;
+  }
+  self.root = m.root;
+  self.root_size = m.root_size;
+  return false;
+}
+
+}  // namespace
+
+void listen_among_fragments(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  bool contested = false;
+  for (const Heard& h : robot.heard)
+    if (newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
+  const EpochPhase newest = newest_phase(robot);
+  // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
+  const bool ahead = is_newer(newest.epoch, self.epoch) && robot.params.heals();
+  if (robot.is_root() && (contested || ahead)) return enter(robot, static_cast<Serial>(newest.epoch + 1), Phase::start_tree);
+  follow_phase(robot, newest);
+}
+
+void accept_offered_root(HealingRobot& robot) noexcept {
+  if (const TreeMessage* offer = accept_offer(robot)) robot.self.root_size = static_cast<const HealingMessage&>(*offer).root_size;
+}
+
+void advance_and_count(HealingRobot& robot, bool tree_complete, bool may_reconstruct) noexcept {
+  HealingState& self = robot.self;
+  const Phase before = self.phase;
+  advance(robot, tree_complete, may_reconstruct);
+  if (before == Phase::start_tree && self.phase == Phase::select_parent && robot.is_root()) self.root_size = self.flood_robots;
+}
+
+}  // namespace banyan

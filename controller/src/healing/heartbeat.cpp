@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "banyan/controller/tree/epoch.hpp"
+#include "banyan/controller/healing/healing.hpp"
+
+namespace banyan {
+namespace {
+
+void beat(HealingState& self) noexcept {
+  self.heart = self.root;
+  ++self.heartbeat;
+  self.silence_ticks = 0;
+  self.root_at = {};
+  self.root_known = true;
+}
+
+// The largest count of the newest root; whoever does not know that root yet counts for nothing.
+void hear_heartbeat(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  if (self.silence_ticks < UINT16_MAX) ++self.silence_ticks;
+  for (const Heard& h : robot.heard) {
+    const HealingMessage& m = said(h);
+    if (m.root != self.root) continue;
+    if (self.heart == self.root && ahead_by(m.heartbeat, self.heartbeat) <= 0) continue;
+    self.heart = self.root;
+    self.heartbeat = m.heartbeat;
+    self.root_size = m.root_size;
+    self.silence_ticks = 0;
+  }
+}
+
+// From the root itself, else from somebody who is at least nearly as near to it: the count says so.
+void locate_root(HealingRobot& robot) noexcept {
+  constexpr int stale_ticks = 1;
+  HealingState& self = robot.self;
+  for (const Heard& h : robot.heard) {
+    const HealingMessage& m = said(h);
+    if (m.root != self.root) continue;
+    if (m.id == m.root.id) {
+      self.root_at = h.position;
+      self.root_known = true;
+      return;
+    }
+    // The root silent, copies of copies would only drift.
+    if (m.told != self.id || !m.root_told || ahead_by(m.heartbeat, self.heartbeat) < -stale_ticks) continue;
+    if (self.root_known && self.silence_ticks > robot.liveness_ticks()) continue;
+    const int k = robot.table().find(m.id);
+    Vec2 point;
+    if (k < 0 || !robot.table().read_point(k, m.root_x_cm, m.root_y_cm, point)) continue;
+    self.root_at = point;
+    self.root_known = true;
+  }
+}
+
+}  // namespace
+
+void follow_heartbeat(HealingRobot& robot) noexcept {
+  if (!robot.params.heals()) return;
+  if (robot.is_root()) return beat(robot.self);
+  hear_heartbeat(robot);
+  locate_root(robot);
+}
+
+void claim_root(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  const HealingParams& p = robot.params;
+  if (!p.heals() || robot.is_root() || self.is_worker || !self.root_known) return;
+  const float away_m = norm(self.root_at);
+  if (away_m > p.claim_radius * p.communication_range_m) return;
+  const int patience_ticks = 2 * robot.liveness_ticks() + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
+  if (self.silence_ticks <= patience_ticks) return;
+  self.root = {static_cast<std::uint16_t>(self.root.sequence + 1), self.id};
+  self.root_size = 0;  // nobody has been counted: whoever still has a root keeps it
+  self.role = Role::root;
+  enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
+  beat(self);
+  ++self.tally.elections;
+}
+
+}  // namespace banyan

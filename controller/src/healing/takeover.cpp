@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "banyan/controller/healing/healing.hpp"
+
+namespace banyan {
+
+Task* find_task(HealingState& self, RobotId serves) noexcept {
+  for (int k = 0; k < self.task_count; ++k)
+    if (self.tasks[k].serves == serves) return &self.tasks[k];
+  return nullptr;
+}
+
+namespace {
+
+constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
+constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
+
+Task* add_task(HealingState& self, RobotId serves) noexcept {
+  if (self.task_count == task_capacity) return nullptr;
+  Task& task = self.tasks[self.task_count++];
+  task = {};
+  task.serves = serves;
+  return &task;
+}
+
+void serve(HealingState& self, Task& task) noexcept {
+  task.holder = self.id;
+  task.age_ticks = 0;
+  ++task.beat;
+}
+
+// The worker first sent there stays, else the one with the smaller id.
+bool has_precedence(RobotId a, RobotId b, RobotId serves) noexcept { return a == serves || (b != serves && a < b); }
+
+void resign(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  self.is_worker = false;
+  self.serves = nobody;
+  robot.target = nullptr;
+}
+
+// Somebody else is said to serve what I serve. Counts far behind may be a dead worker's; a living
+// rival hears of mine, then.
+void settle_rivalry(HealingRobot& robot, Task& task, RobotId rival, std::uint16_t beat) noexcept {
+  if (rival == nobody || ahead_by(beat, task.beat) < -rival_beats) return;
+  if (has_precedence(rival, robot.self.id, task.serves)) {
+    resign(robot);
+    task.holder = rival;
+    task.beat = beat;
+  } else {
+    task.beat = static_cast<std::uint16_t>(beat + takeover_beats);  // so that it hears of me
+  }
+}
+
+void hear_of_task(HealingRobot& robot, RobotId serves, RobotId holder, std::uint16_t beat, const Vec2* target) noexcept {
+  HealingState& self = robot.self;
+  Task* task = find_task(self, serves);
+  if (task == nullptr) {
+    if (target == nullptr) return;
+    task = add_task(self, serves);
+    if (task == nullptr) return;
+    task->beat = static_cast<std::uint16_t>(beat - 1);
+    task->target = *target;
+  }
+  if (self.is_worker && self.serves == serves) {  // nobody knows better than I where it is
+    if (holder != self.id) settle_rivalry(robot, *task, holder, beat);
+    return;
+  }
+  const int ahead = ahead_by(beat, task->beat);
+  // From somebody about as near to the worker. The worker silent, copies of copies would only drift, and
+  // wheels slip in a crowd: the mean of what all around remember is the best there is.
+  constexpr int stale_ticks = 3;
+  constexpr float trust = 0.2F;
+  if (target != nullptr) {
+    const bool silent = task->age_ticks > 2 * robot.liveness_ticks() + task_capacity;
+    if (silent) task->target += (*target - task->target) * trust;
+    else if (ahead >= -stale_ticks) task->target = *target;
+  }
+  if (ahead <= 0) return;
+  task->beat = beat;
+  task->holder = holder;
+  task->age_ticks = 0;
+}
+
+void hear_of_tasks(HealingRobot& robot) noexcept {
+  for (const Heard& h : robot.heard) {
+    const HealingMessage& m = said(h);
+    if (m.task_serves == nobody) continue;
+    const int k = m.told == robot.self.id ? robot.table().find(m.id) : -1;
+    Vec2 target;
+    const bool told = k >= 0 && robot.table().read_point(k, m.task_x_cm, m.task_y_cm, target);
+    hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, told ? &target : nullptr);
+  }
+}
+
+// My own target. One that was taken from me from outside has been given up; everybody shall know.
+void mind_own(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  for (int k = 0; k < self.task_count; ++k) {
+    Task& task = self.tasks[k];
+    if (task.holder != self.id || (self.is_worker && self.serves == task.serves)) continue;
+    task.holder = nobody;
+    task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
+  }
+  if (!self.is_worker) return;
+  Task* task = find_task(self, self.serves);
+  if (task == nullptr && robot.target != nullptr) task = add_task(self, self.serves);
+  if (task == nullptr) return;
+  if (robot.target != nullptr) task->target = *robot.target;
+  serve(self, *task);
+}
+
+void take_over(HealingRobot& robot, Task& task) noexcept {
+  HealingState& self = robot.self;
+  self.is_worker = true;
+  self.serves = task.serves;
+  self.role = Role::worker;
+  self.request = self.inserted_child = nobody;
+  self.spare_state = SpareState::wait;
+  task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
+  serve(self, task);
+  ++self.tally.replacements;
+}
+
+// The nearer to the target, the sooner: the first tells the others.
+void succeed(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  const HealingParams& p = robot.params;
+  const bool free = self.role == Role::spare || self.dangling_ticks > 0;
+  if (!free || self.is_worker || robot.is_root() || self.silence_ticks > 2 * robot.liveness_ticks()) return;
+  for (int k = 0; k < self.task_count; ++k) {
+    Task& task = self.tasks[k];
+    if (task.holder == nobody) continue;
+    const int patience_ticks = 2 * robot.liveness_ticks() + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target));
+    if (task.age_ticks > patience_ticks) return take_over(robot, task);
+  }
+}
+
+}  // namespace
+
+void watch_tasks(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  if (!robot.params.heals()) return;
+  for (int k = 0; k < self.task_count; ++k)
+    if (self.tasks[k].age_ticks < UINT16_MAX) ++self.tasks[k].age_ticks;
+  mind_own(robot);
+  hear_of_tasks(robot);
+  succeed(robot);
+  // A successor has its target from the table, not from outside.
+  if (!self.is_worker || robot.target != nullptr) return;
+  if (const Task* task = find_task(self, self.serves); task != nullptr) robot.target = &task->target;
+}
+
+}  // namespace banyan

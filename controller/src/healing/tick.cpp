@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/healing/tick.hpp"
+
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/obstacles/bypass.hpp"
+
+namespace banyan {
+HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept {
+  HealingState state;
+  static_cast<TreeState&>(state) = initial_tree_state(id, worker, root);
+  state.was_sent = worker;
+  if (worker) state.serves = id;
+  return state;
+}
+
+void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
+  HealingState& self = robot.self;
+  const bool called_back = self.was_sent && (!orders.sent || orders.given_up == self.id);
+  if (self.is_worker && ((called_back && self.serves == self.id) || (orders.given_up != nobody && self.serves == orders.given_up))) {
+    self.is_worker = false;
+    self.serves = nobody;
+  }
+  if (orders.sent && (!self.was_sent || called_back)) {
+    self.is_worker = true;
+    self.serves = self.id;
+  }
+  self.was_sent = orders.sent;
+  if (!orders.sent) self.target_known = false;
+  if (orders.target) {
+    self.target = *orders.target;
+    self.target_known = true;
+  }
+  robot.target = self.is_worker && self.serves == self.id && self.target_known ? &self.target : nullptr;
+}
+
+void carry_memory(HealingState& self, const Carry& carry) noexcept {
+  carry_memory(static_cast<TreeState&>(self), carry);
+  self.root_at = carry.point(self.root_at);
+  self.lost_child = carry.point(self.lost_child);
+  for (int k = 0; k < self.task_count; ++k) self.tasks[k].target = carry.point(self.tasks[k].target);
+  ++self.turn;
+  carry_detour(self.detour, carry);
+}
+
+std::array<Column, 2> columns_of(HealingState& self) noexcept {
+  return {self.neighbors.column(), Column{self.healing_standings.data(), sizeof(HealingStanding), block_offset<HealingStanding, HealingMessage>()}};
+}
+
+void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
+  const Carry carry(admitted.senses().odometry);
+  carry_memory(robot.self, carry);
+  update_table(robot, carry, columns_of(robot.self));
+  follow_orders(robot, admitted.senses().orders);
+}
+
+int write_healing(const HealingRobot& robot, HealingMessage& m) noexcept {
+  write_tree(robot, m);
+  m.serves = robot.self.serves;
+  m.root_size = robot.self.root_size;
+  return gossip(robot, m);
+}
+
+Report healing_report(const HealingState& s) noexcept {
+  Report report = tree_report(s);
+  report.serves = s.is_worker ? s.serves : nobody;
+  return report;
+}
+
+void add_to(Digest& digest, const HealingState& state) noexcept {
+  add_to(digest, static_cast<const TreeState&>(state));
+  const auto add = [&](const auto& field) { digest.add(field); };
+  visit_healing_state(add, state);
+}
+
+void add_to(Digest& digest, const HealingMessage& message) noexcept {
+  FieldDigest visit{digest};
+  visit_fields(visit, message);
+}
+
+}  // namespace banyan

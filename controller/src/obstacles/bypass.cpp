@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/obstacles/bypass.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "banyan/controller/tree/motion.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float keep_m = 0.04F;           // between body and obstacle, while it slides along
+constexpr float same_obstacle_m = 0.20F;  // the contact point moves on by less in a tick
+constexpr float progress_m = 0.05F;
+constexpr float first_span = 0.35F;        // of C
+constexpr float goal_moved_m = 0.30F;
+
+Vec2 left_of(Vec2 v) noexcept { return {-v.y, v.x}; }
+
+// ---- One obstacle point: which directions it leaves ----
+
+// The largest cosine between a direction of motion and that of an obstacle `d` away: along it where it
+// is near enough, towards it where there is room.
+float allowed_cosine(const TreeRobot& robot, float d) noexcept {
+  const float gap = d - body_m(robot);
+  return std::clamp((gap - keep_m) / (near_m - keep_m), -0.5F, 1.0F);
+}
+
+bool is_blocked(const TreeRobot& robot, Vec2 direction, Vec2 obstacle) noexcept {
+  const float d = norm(obstacle);
+  return d < body_m(robot) + near_m && dot(direction, obstacle) > (allowed_cosine(robot, d) + 1e-3F) * d;
+}
+
+// Index of the first obstacle in the way, -1 if the direction is free.
+int find_blocking(const TreeRobot& robot, Vec2 direction) noexcept {
+  for (std::size_t k = 0; k < robot.obstacles.size(); ++k)
+    if (is_blocked(robot, direction, robot.obstacles[k])) return static_cast<int>(k);
+  return -1;
+}
+
+struct Course {
+  Vec2 direction;
+  Vec2 contact;
+};
+
+// Along the obstacle at `contact`, and along whatever else turns up on this side.
+Course sweep(const TreeRobot& robot, Vec2 contact, int side) noexcept {
+  Course course{{}, contact};
+  for (std::size_t round = 0; round <= robot.obstacles.size(); ++round) {
+    const Vec2 n = unit(course.contact);
+    const float c = allowed_cosine(robot, norm(course.contact));
+    course.direction = n * c + left_of(n) * (static_cast<float>(side) * std::sqrt(std::max(0.0F, 1.0F - c * c)));
+    const int k = find_blocking(robot, course.direction);
+    if (k < 0) return course;
+    course.contact = robot.obstacles[static_cast<std::size_t>(k)];
+  }
+  return course;
+}
+
+// ---- A detour ----
+
+// The side on which the obstacle takes me less far from the goal; of equal ones each robot its own,
+// so that several find out more.
+void begin(const TreeRobot& robot, Detour& detour, Vec2 goal, Vec2 contact) noexcept {
+  const Vec2 to_goal = unit(goal);
+  const float left = dot(sweep(robot, contact, 1).direction, to_goal);
+  const float right = dot(sweep(robot, contact, -1).direction, to_goal);
+  const bool equal = std::abs(left - right) < 0.01F;
+  detour.side = (equal ? robot.self.id % 2 == 0 : left > right) ? std::int8_t{1} : std::int8_t{-1};
+  detour.contact = contact;
+  detour.origin = {};
+  detour.goal = goal;
+  detour.leave_m = norm(goal);
+  detour.span_m = first_span * robot.params.communication_range_m;
+}
+
+// The point of the obstacle that is being followed; the null vector if it is out of sight.
+Vec2 followed(const TreeRobot& robot, const Detour& detour) noexcept {
+  Vec2 best;
+  float best_m = same_obstacle_m;
+  for (const Vec2 o : robot.obstacles) {
+    const float d = distance(o, detour.contact);
+    if (d >= best_m) continue;
+    best = o;
+    best_m = d;
+  }
+  return best;
+}
+
+}  // namespace
+
+void carry_detour(Detour& detour, const Carry& carry) noexcept {
+  // A robot that is pushed back on the way round would never get as near to the goal as it was, and would
+  // circle for ever: what it has to reach to be round grows with the way that it drives.
+  constexpr float allowance = 0.25F;
+  if (detour.side == 0) return;
+  for (Vec2* v : {&detour.contact, &detour.origin, &detour.goal}) *v = carry.point(*v);
+  detour.leave_m += allowance * norm(carry.shift);
+}
+
+Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
+  const Vec2 straight = unit(goal);
+  if (robot.obstacles.empty()) {
+    detour = {};
+    return straight;
+  }
+  const int blocking = find_blocking(robot, straight);
+  Vec2 contact = detour.side != 0 ? followed(robot, detour) : Vec2{};
+  if (detour.side != 0) {
+    if (distance(goal, detour.goal) > goal_moved_m) {  // another goal, or one that drives
+      detour.goal = goal;
+      detour.leave_m = norm(goal);
+    }
+    const bool done = blocking < 0 && norm(goal) < detour.leave_m - progress_m;
+    if (done || contact == Vec2{}) detour = {};
+  }
+  if (detour.side == 0) {
+    if (blocking < 0) return straight;
+    contact = robot.obstacles[static_cast<std::size_t>(blocking)];
+    begin(robot, detour, goal, contact);
+  } else if (norm(detour.origin) > detour.span_m) {
+    detour.side = static_cast<std::int8_t>(-detour.side);
+    detour.span_m *= 2.0F;
+  }
+  const Course course = sweep(robot, contact, detour.side);
+  detour.contact = course.contact;
+  return course.direction;
+}
+
+void keep_off(const TreeRobot& robot, Guard& guard) noexcept {
+  for (const Vec2 o : robot.obstacles) {
+    const float d = norm(o);
+    if (d > 0.0F) guard.add_limit(o / d, (d - body_m(robot) - 0.5F * keep_m) * robot.params.guard_rate_per_s);
+  }
+}
+
+}  // namespace banyan

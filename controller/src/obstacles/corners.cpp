@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/obstacles/corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/obstacles/bypass.hpp"
+#include "banyan/controller/obstacles/sight.hpp"
+#include "banyan/controller/tree/motion.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float sight_margin_m = 0.03F;   // no line of sight comes nearer to a corner by own motion
+constexpr float sight_width_m = 0.12F;    // and robots make room within this
+constexpr float hinge_width_m = 0.30F;    // of such a corner the parent is told
+constexpr float pin_width_m = 0.06F;
+constexpr float pin_shortest_m = 0.30F;   // a parent nearer than this need not come up
+constexpr float spacing_m = 0.06F;        // of remembered points
+constexpr float forget = 1.0F;            // of C: an edge is no longer
+
+Vec2 left_of(Vec2 v) noexcept { return {-v.y, v.x}; }
+
+template <class Visit>
+void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit visit) noexcept {
+  for (const Vec2 o : robot.obstacles) visit(o);
+  const Landmarks& known = corners.landmarks;
+  for (int k = 0; k < known.size; ++k) visit(known.points[static_cast<std::size_t>(k)]);
+}
+
+// ---- Lines of sight ----
+
+// An obstacle point beside the segment from me to a neighbour.
+struct Threat {
+  Vec2 towards;   // unit, from the segment to the point
+  float across_m; // its distance from the segment
+  float lever;    // how far the segment moves there when I move by 1
+};
+
+template <class Visit>
+void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighbor, Visit visit) noexcept {
+  const float d = norm(neighbor);
+  if (d <= 0.0F) return;
+  const Vec2 along = neighbor / d;
+  for_each_obstacle(robot, corners, [&](Vec2 o) {
+    const float a = dot(along, o);
+    const float across = cross(along, o);
+    if (a <= 0.0F || a >= d || std::abs(across) >= sight_width_m) return;
+    visit(Threat{left_of(along) * (across < 0.0F ? -1.0F : 1.0F), std::abs(across), 1.0F - a / d});
+  });
+}
+
+template <class Visit>
+void for_each_edge_of_both_trees(const TreeRobot& robot, Visit visit) noexcept {
+  const TreeTable& table = robot.table();
+  if (robot.parent_alive()) visit(robot.parent);
+  if (robot.old_parent_alive() && robot.old_parent != robot.parent) visit(robot.old_parent);
+  for (const int k : robot.children)
+    if (table.message(k).role != Role::spare) visit(k);
+  for (const int k : robot.old_children)
+    if (table.message(k).role != Role::spare) visit(k);
+}
+
+// How far a point is from the nearest of my tree edges: how little it matters.
+float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
+  float nearest_m = norm(p);
+  for_each_edge_of_both_trees(robot, [&](int k) { nearest_m = std::min(nearest_m, norm(nearest_on_segment(-p, robot.table().position(k) - p))); });
+  return nearest_m;
+}
+
+// Of more than there is room for, those go that matter least.
+void file(const TreeRobot& robot, Corners& corners, Vec2 o) noexcept {
+  Landmarks& known = corners.landmarks;
+  const auto begin = known.points.begin();
+  if (std::any_of(begin, begin + known.size, [&](Vec2 p) { return distance(p, o) < spacing_m; })) return;
+  if (known.size < landmark_capacity) {
+    known.points[known.size++] = o;
+    return;
+  }
+  const auto key = [&](Vec2 p) { return to_edges(robot, p); };
+  Vec2& least = *std::max_element(begin, begin + known.size, [&](Vec2 a, Vec2 b) { return key(a) < key(b); });
+  if (key(o) <= key(least)) least = o;
+}
+
+// What children know of corners beside their edge to me.
+void hear_of_corners(const TreeRobot& robot, Corners& corners) noexcept {
+  const TreeTable& table = robot.table();
+  const auto hear = [&](int k) {
+    const TreeStanding& m = table.message(k);
+    const CornerStanding& corner = corners.of(k);
+    if (table.age(k) > 0 || up_of(m) != robot.self.id || (corner.hinge_x_cm == 0 && corner.hinge_y_cm == 0)) return;
+    file(robot, corners, from_edge_frame({metres(corner.hinge_x_cm), metres(corner.hinge_y_cm)}, table.position(k)));
+  };
+  for (const int k : robot.children) hear(k);
+  for (const int k : robot.old_children) hear(k);
+}
+
+// Where to go when the tree falls silent: a robot of the tree to where it stood, a spare to where the
+// nearest robot of the tree was.
+void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
+  TreeState& self = robot.self;
+  const TreeTable& table = robot.table();
+  if (robot.parent >= 0) {
+    if (table.age(robot.parent) == 0) corners.seen_from = {};
+    return;
+  }
+  // By way of whom the root's count comes, there is the tree.
+  int nearest = -1;
+  const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
+  for (int k = 0; k < table.size(); ++k)
+    if (table.age(k) == 0 && (nearest < 0 || key(k) < key(nearest))) nearest = k;
+  if (nearest < 0) return;
+  const TreeStanding& m = table.message(nearest);
+  if (m.epoch == self.epoch && m.seqno > self.seqno) corners.seen_from = table.position(nearest);
+}
+
+// How near obstacles come to the line of sight to a neighbour; sight_width_m if they do not.
+float room_beside(const TreeRobot& robot, const Corners& corners, Vec2 neighbor) noexcept {
+  float room_m = sight_width_m;
+  for_each_threat(robot, corners, neighbor, [&](const Threat& t) { room_m = std::min(room_m, t.across_m); });
+  return room_m;
+}
+
+// The root is where the spares are: it must not lose the last of them behind a corner. Index of the
+// one that it sees best; -1 if that one is in no danger, or for all other robots.
+int last_in_sight(const TreeRobot& robot, const Corners& corners) noexcept {
+  if (!robot.is_root() || corners.landmarks.size == 0) return -1;
+  const TreeTable& table = robot.table();
+  int best = -1;
+  float best_m = 0.0F;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || table.message(k).role != Role::spare) continue;
+    const float room_m = room_beside(robot, corners, table.position(k));
+    if (room_m >= sight_width_m) return -1;
+    if (best >= 0 && room_m <= best_m) continue;
+    best = k;
+    best_m = room_m;
+  }
+  return best;
+}
+
+// A child that has to go on is held back by me.
+bool is_towed(const TreeRobot& robot, const Corners& corners, float start_m) noexcept {
+  const TreeTable& table = robot.table();
+  const auto tows = [&](int k) {
+    const TreeStanding& m = table.message(k);
+    return m.role != Role::spare && m.want_cm > 0 && (corners.of(k).pinned || table.range(k) > start_m);
+  };
+  return std::any_of(robot.children.begin(), robot.children.end(), tows);
+}
+
+void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
+  Landmarks& known = corners.landmarks;
+  float nearest_m = body_m(robot) + near_m;
+  for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
+  const float far_m = forget * robot.params.communication_range_m;
+  // A point nearer than anything that is sensed is not there any more, or never was.
+  const auto is_wrong = [&](Vec2 p) { return norm(p) > far_m || norm(p) < nearest_m - spacing_m; };
+  const auto end = std::remove_if(known.points.begin(), known.points.begin() + known.size, is_wrong);
+  known.size = static_cast<std::uint8_t>(end - known.points.begin());
+}
+
+}  // namespace
+
+void carry_corners(Corners& corners, const Carry& carry) noexcept {
+  corners.seen_from = carry.point(corners.seen_from);
+  for (int k = 0; k < corners.landmarks.size; ++k) {
+    Vec2& point = corners.landmarks.points[static_cast<std::size_t>(k)];
+    point = carry.point(point);
+  }
+}
+
+void remember_corners(const TreeRobot& robot, Corners& corners) noexcept {
+  Landmarks& known = corners.landmarks;
+  note_contact(robot, corners);
+  hear_of_corners(robot, corners);
+  if (known.size == 0 && robot.obstacles.empty()) return;
+  forget_wrong(robot, corners);
+  for (const Vec2 o : robot.obstacles) file(robot, corners, o);
+}
+
+bool find_hinge(const TreeRobot& robot, const Corners& corners, Vec2& hinge) noexcept {
+  const int up = robot.up();
+  if (up < 0) return false;
+  const Vec2 parent = robot.table().position(up);
+  float best_m = hinge_width_m;
+  for_each_obstacle(robot, corners, [&](Vec2 o) {
+    const float along = dot(o, parent);
+    const float across_m = std::abs(cross(o, parent)) / std::max(norm(parent), 1e-3F);
+    if (along <= 0.0F || along >= squared_norm(parent) || across_m >= best_m) return;
+    best_m = across_m;
+    hinge = o;
+  });
+  return best_m < hinge_width_m;
+}
+
+void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) noexcept {
+  if (!robot.params.line_of_sight) return;
+  const auto keep = [&](int k) {
+    for_each_threat(robot, corners, robot.table().position(k), [&](const Threat& t) {
+      if (t.lever < 0.1F) return;
+      const float room_m = std::max(0.0F, t.across_m - sight_margin_m);
+      guard.add_limit(t.towards, 0.5F * room_m * robot.params.guard_rate_per_s / t.lever);
+    });
+  };
+  for_each_edge_of_both_trees(robot, keep);
+  if (const int k = last_in_sight(robot, corners); k >= 0) keep(k);
+}
+
+Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept {
+  Vec2 u;
+  if (!robot.params.line_of_sight) return u;
+  for_each_edge_of_both_trees(robot, [&](int k) {
+    for_each_threat(robot, corners, robot.table().position(k), [&](const Threat& t) {
+      u += -t.towards * (t.lever * std::min(sight_width_m / std::max(t.across_m, 1e-3F) - 1.0F, 2.0F));
+    });
+  });
+  return u;
+}
+
+bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start_m) noexcept {
+  if (robot.self.want_m <= 0.0F) return false;
+  if (robot.is_root()) {
+    const int k = last_in_sight(robot, corners);
+    return k >= 0 && robot.table().range(k) > pin_shortest_m;
+  }
+  if (!robot.parent_alive() || (!robot.self.is_worker && !is_towed(robot, corners, towing_start_m))) return false;
+  return robot.table().range(robot.parent) > pin_shortest_m && room_beside(robot, corners, robot.table().position(robot.parent)) < pin_width_m;
+}
+
+bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, float clearance_m) noexcept {
+  const Vec2 d = b - a;
+  const float d2 = squared_norm(d);
+  bool free = true;
+  for_each_obstacle(robot, corners, [&](Vec2 o) {
+    const float along = dot(o - a, d);
+    const float across = cross(o - a, d);
+    free = free && (along <= 0.0F || along >= d2 || across * across >= clearance_m * clearance_m * d2);
+  });
+  return free;
+}
+
+}  // namespace banyan

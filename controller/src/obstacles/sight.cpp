@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/obstacles/sight.hpp"
+
+#include <algorithm>
+
+
+namespace banyan {
+namespace {
+
+constexpr float obstacle_clearance_m = 0.05F;  // a tree edge may graze a corner, but not by a hair
+
+// `p` is nearer than `clearance_m` to the inside of the segment from `a` along `d`; the ends are
+// the robots that talk: who stands beside them is no obstacle.
+bool blocks(Vec2 p, Vec2 a, Vec2 d, float d2, float clearance_m) noexcept {
+  const Vec2 k = p - a;
+  const float along = dot(k, d);
+  if (along <= 0.0F || along >= d2) return false;
+  const float across = cross(k, d);
+  return across * across < clearance_m * clearance_m * d2;
+}
+
+}  // namespace
+
+Vec2 nearest_on_segment(Vec2 a, Vec2 b) noexcept {
+  const Vec2 d = b - a;
+  const float d2 = squared_norm(d);
+  const float t = d2 > 0.0F ? std::clamp(-dot(a, d) / d2, 0.0F, 1.0F) : 0.0F;
+  return a + d * t;
+}
+
+bool is_clear(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, int i, int j, float clearance_m) noexcept {
+  const TreeTable& table = robot.table();
+  const Vec2 d = b - a;
+  const float d2 = squared_norm(d);
+  if (blocks(Vec2{}, a, d, d2, clearance_m)) return false;
+  if (!is_free(robot, corners, a, b, obstacle_clearance_m)) return false;
+  for (int k = 0; k < table.size(); ++k)
+    if (k != i && k != j && blocks(table.position(k), a, d, d2, clearance_m)) return false;
+  return true;
+}
+
+bool sees_clearly(const TreeRobot& robot, const Corners& corners, int k, float clearance_m) noexcept {
+  return is_clear(robot, corners, Vec2{}, robot.table().position(k), k, -1, clearance_m);
+}
+
+}  // namespace banyan

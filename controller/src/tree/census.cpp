@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/census.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/core/edge_frame.hpp"
+
+namespace banyan {
+namespace {
+
+struct Sums {
+  Vec2 a;                      // Alg. 1's accumulator
+  std::uint32_t robots = 1;
+  std::uint32_t workers = 0;
+  std::uint32_t counts = 0;    // of Alg. 2
+  int children = 0;
+  Vec2 pull;
+  int pulling = 0;
+  float want_m = 0.0F;
+};
+
+// `counts`: whether the child belongs to the tree that is being counted; its pull counts always.
+void add_child(const TreeRobot& robot, int k, bool counts, Sums& sums) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  if (up_of(m) != robot.self.id) return;  // its vectors are addressed to somebody else
+  const Vec2 sender = robot.table().position(k);
+  if (counts) {
+    sums.a += from_edge_frame(m.q, sender);
+    sums.robots += m.subtree;
+    sums.workers += m.subtree_workers;
+    sums.counts += m.count;
+    ++sums.children;
+  }
+  if (m.role == Role::spare) return;
+  sums.pull += from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, sender);
+  ++sums.pulling;
+  sums.want_m = std::max(sums.want_m, static_cast<float>(m.want_cm) * 0.01F);
+}
+
+// u_target = tau (l - p) / |l - p|, fading on arrival so that the worker does not chatter (protocol 9).
+void add_own_target(const TreeRobot& robot, float rest_distance_m, Sums& sums) noexcept {
+  const TreeParams& p = robot.params;
+  const float distance_m = norm(*robot.target);
+  sums.pull = unit(*robot.target) * (p.target_gain * std::min(1.0F, distance_m / p.arrival_distance_m));
+  sums.pulling = 1;
+  if (distance_m > rest_distance_m) sums.want_m = std::max(sums.want_m, distance_m);  // of those that hang on it, too
+}
+
+// Whether the workers below get any nearer to their targets.
+void watch_progress(TreeState& self) noexcept {
+  constexpr float hand_m = 0.1F;
+  if (self.want_m > self.least_want_m + hand_m || self.want_m < self.least_want_m - hand_m) {
+    self.least_want_m = self.want_m;
+    self.stalled_ticks = 0;
+  } else if (self.stalled_ticks < UINT16_MAX) {
+    ++self.stalled_ticks;
+  }
+}
+
+std::uint16_t saturate(std::uint32_t v) noexcept { return static_cast<std::uint16_t>(std::min<std::uint32_t>(v, UINT16_MAX)); }
+
+// Turned into the edge frame, a component grows by up to sqrt 2.
+Vec2 sendable(Vec2 q) noexcept {
+  constexpr float limit_m = 0.5F * q_limit_m;
+  return {std::clamp(q.x, -limit_m, limit_m), std::clamp(q.y, -limit_m, limit_m)};
+}
+
+}  // namespace
+
+std::uint32_t algorithm2_count(int child_count, std::uint32_t child_counts, std::uint32_t depth) noexcept {
+  switch (child_count) {
+    case 0: return depth;
+    case 1: return child_counts;
+    default: return child_counts - static_cast<std::uint32_t>(child_count) * depth + depth;
+  }
+}
+
+Vec2 algorithm1_contribution(Vec2 a, std::uint32_t descendants, Vec2 parent) noexcept {
+  return a - parent * static_cast<float>(descendants + 1);
+}
+
+void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m) noexcept {
+  TreeState& self = robot.self;
+  Sums sums;
+  if (self.is_worker) sums.workers = 1;
+  // SELECT PARENT's barrier counts the new tree alone; in START TREE there is only the old one.
+  const bool selecting = self.phase == Phase::select_parent;
+  for (const int k : robot.children) add_child(robot, k, true, sums);
+  if (!selecting || robot.children.size == 0)
+    for (const int k : robot.old_children) add_child(robot, k, !selecting, sums);
+  if (self.is_worker && robot.target != nullptr) add_own_target(robot, rest_distance_m, sums);
+  sums.want_m = std::max(sums.want_m, own_want_m);
+
+  self.subtree = saturate(sums.robots);
+  self.subtree_workers = saturate(sums.workers);
+  self.count = saturate(algorithm2_count(sums.children, sums.counts, self.depth));
+  self.want_m = sums.want_m;
+  watch_progress(self);
+  self.pull = sums.pulling > 0 ? sums.pull / static_cast<float>(sums.pulling) : Vec2{};
+
+  const int up = robot.up();
+  if (robot.is_root()) self.q = sums.a / static_cast<float>(sums.robots);
+  else if (up < 0) self.q = {};
+  else self.q = sendable(algorithm1_contribution(sums.a, sums.robots - 1, robot.table().position(up)));
+}
+
+}  // namespace banyan

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/epoch.hpp"
+
+
+namespace banyan {
+namespace {
+
+void begin_epoch(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  // A robot that has only an old parent keeps it: it is the one edge that ties it to the tree.
+  if (self.parent != nobody) {
+    self.old_parent = self.parent;
+    robot.old_parent = robot.parent;
+  }
+  self.parent = nobody;
+  robot.parent = -1;
+  self.committed = false;
+  self.label_cm = unknown_label;
+  self.label_wait_ticks = 0;
+  self.seqno = 0;
+  self.flood_parent = nobody;
+  self.flood_done = false;
+  self.flood_robots = self.flood_workers = 0;
+  self.search_ticks = self.orphan_ticks = 0;
+  self.need = Need::no_need;
+  self.grant = self.request = self.inserted_child = self.pending_parent = nobody;
+  self.spare_state = SpareState::wait;
+  self.centroid_known = false;
+  self.new_root = nobody;
+}
+
+// GROW TREE: the old parent goes. Whoever found no new one keeps it as a constraint on its motion
+// until it has: dropped, the branch would drift out of range before it can re-attach.
+void forget_old_tree(TreeRobot& robot) noexcept {
+  if (robot.self.parent == nobody && robot.self.role != Role::spare && !robot.is_root()) return;
+  robot.self.old_parent = nobody;
+  robot.old_parent = -1;
+}
+
+// The barrier of the root's phase: may it open the next one?
+bool barrier_holds(const TreeRobot& robot, bool tree_complete) noexcept {
+  const TreeState& self = robot.self;
+  switch (self.phase) {
+    case Phase::start_tree: return self.flood_done;
+    case Phase::select_parent: return tree_complete;
+    default: return false;
+  }
+}
+
+}  // namespace
+
+void listen(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  for (const Heard& h : robot.heard)
+    if (newer(h.message->root, self.root)) self.root = h.message->root;
+  follow_phase(robot, newest_phase(robot));
+}
+
+EpochPhase newest_phase(const TreeRobot& robot) noexcept {
+  EpochPhase newest{robot.self.epoch, robot.self.phase};
+  for (const Heard& h : robot.heard) {
+    const TreeMessage& m = *h.message;
+    if (is_newer(m.epoch, newest.epoch) || (m.epoch == newest.epoch && m.phase > newest.phase)) newest = {m.epoch, m.phase};
+  }
+  return newest;
+}
+
+void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept {
+  TreeState& self = robot.self;
+  if (self.phase_ticks < UINT16_MAX) ++self.phase_ticks;
+  if (newest != EpochPhase{self.epoch, self.phase}) enter(robot, newest.epoch, newest.phase);
+}
+
+void enter(TreeRobot& robot, std::uint16_t epoch, Phase phase) noexcept {
+  TreeState& self = robot.self;
+  if (epoch != self.epoch) begin_epoch(robot);
+  self.epoch = epoch;
+  self.phase = phase;
+  self.phase_ticks = 0;
+  self.done_ticks = 0;
+  if (phase >= Phase::grow_tree) forget_old_tree(robot);
+}
+
+void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct) noexcept {
+  constexpr int settle_ticks = 3;  // a barrier must hold, and SELECT PARENT last, for so long
+  TreeState& self = robot.self;
+  const TreeParams& p = robot.params;
+  if (!robot.is_root()) return;
+  if (self.phase == Phase::init) return enter(robot, 1, Phase::start_tree);
+  self.done_ticks = barrier_holds(robot, tree_complete) ? static_cast<std::uint16_t>(self.done_ticks + 1) : std::uint16_t{0};
+  const bool timeout = self.phase_ticks >= p.ticks(p.barrier_timeout_s);
+  switch (self.phase) {
+    case Phase::start_tree:
+      if (self.done_ticks < settle_ticks && !timeout) break;
+      enter(robot, self.epoch, Phase::select_parent);
+      break;
+    case Phase::select_parent:
+      if ((self.done_ticks > 0 && self.phase_ticks >= settle_ticks) || timeout) enter(robot, self.epoch, Phase::grow_tree);
+      break;
+    case Phase::grow_tree:
+      if (self.phase_ticks >= p.ticks(p.reconfiguration_period_s) && may_reconstruct)
+        enter(robot, self.epoch, Phase::select_root);
+      break;
+    default: break;  // SELECT ROOT ends with the root's next epoch (root_selection.hpp)
+  }
+}
+
+}  // namespace banyan

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/label.hpp"
+
+#include <algorithm>
+
+namespace banyan {
+namespace {
+
+// Fixed once: recomputed every tick, motion would leave robots in local minima without candidate.
+void take_label(TreeRobot& robot) noexcept {
+  constexpr int wait_ticks = 2;       // lets nearer labelled neighbours speak up
+  constexpr int wait_far_ticks = 6;   // if all heard so far are near the edge of the range
+  TreeState& self = robot.self;
+  const TreeTable& table = robot.table();
+  int best = -1;
+  std::uint16_t best_label = unknown_label;
+  float nearest_m = robot.params.communication_range_m;
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (!table.alive(k) || m.epoch != self.epoch || m.label_cm == unknown_label) continue;
+    nearest_m = std::min(nearest_m, table.range(k));
+    const std::uint16_t label = label_below(m.label_cm, table.range(k));
+    if (label < best_label) {
+      best_label = label;
+      best = k;
+    }
+  }
+  if (best < 0) return;
+  const bool far = nearest_m > 0.85F * robot.params.communication_range_m;
+  if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks)) return;
+  self.label_cm = best_label;
+  self.flood_parent = table.id(best);
+}
+
+// Echo (Chang 1982): done when all around have a label and all below are done. Who fell silent just
+// before the epoch opened may have left: waiting for it would hold up everybody for I.
+constexpr int echo_silence_ticks = 4;
+
+void echo(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  const TreeTable& table = robot.table();
+  bool done = true;
+  int robots = 1;
+  int workers = self.is_worker ? 1 : 0;
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.age(k) > echo_silence_ticks) continue;
+    const TreeStanding& m = table.message(k);
+    if (m.epoch != self.epoch || m.label_cm == unknown_label) {
+      done = false;
+    } else if (m.flood_parent == self.id) {
+      done = done && m.flood_done;
+      robots += m.flood_robots;
+      workers += m.flood_workers;
+    }
+  }
+  self.flood_done = done;
+  self.flood_robots = static_cast<std::uint16_t>(std::min<int>(robots, UINT16_MAX));
+  self.flood_workers = static_cast<std::uint16_t>(std::min<int>(workers, UINT16_MAX));
+}
+
+}  // namespace
+
+std::uint16_t edge_cm(float range_m) noexcept {
+  return static_cast<std::uint16_t>(std::clamp(range_m * 100.0F + 0.5F, 1.0F, 60000.0F));
+}
+
+std::uint16_t label_below(std::uint16_t label_cm, float range_m) noexcept {
+  return static_cast<std::uint16_t>(std::min<std::uint32_t>(std::uint32_t{label_cm} + edge_cm(range_m), unknown_label - 1));
+}
+
+void update_label(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  if (self.phase == Phase::init) return;
+  if (robot.is_root()) {
+    // A root by hand-over keeps its label until the epoch that it opens.
+    if (self.phase == Phase::start_tree) self.label_cm = 0;
+  } else if (self.label_cm == unknown_label) {
+    take_label(robot);
+  }
+  if (self.phase == Phase::start_tree && self.label_cm != unknown_label) echo(robot);
+}
+
+}  // namespace banyan

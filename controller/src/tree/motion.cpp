@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/motion.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/tree/spare_management.hpp"
+#include "banyan/controller/core/trig.hpp"
+
+namespace banyan {
+namespace {
+
+// The tree neighbour whose distance counts as d^parent: the parent, else the old one; -1 if none.
+int nearest_up(const TreeRobot& robot) noexcept { return robot.parent >= 0 ? robot.parent : robot.old_parent; }
+
+template <class Visit>
+void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
+  if (robot.parent >= 0) visit(robot.parent);
+  if (robot.old_parent >= 0 && robot.old_parent != robot.parent) visit(robot.old_parent);
+  for (const int k : robot.children)
+    if (k != robot.parent && k != robot.old_parent) visit(k);
+  for (const int k : robot.old_children)
+    if (k != robot.parent && k != robot.old_parent) visit(k);
+}
+
+// u^tree,new + u^tree,old. Each term is clamped: at 20 cm the law says -4000.
+Vec2 tree_force(const TreeRobot& robot) noexcept {
+  Vec2 u;
+  for_each_tree_neighbor(robot, [&](int k) {
+    const float magnitude = std::clamp(interaction(robot.table().range(k), robot.params), -1.0F, 1.0F);
+    u += unit(robot.table().position(k)) * magnitude;
+  });
+  return u;
+}
+
+// ADJUST POSITION: beyond S straight to the reference; within, orbit (literal) or stand still,
+// because orbiting spares block lines of sight.
+Vec2 adjust_position(const TreeRobot& robot) noexcept {
+  const TreeParams& p = robot.params;
+  const int k = robot.table().find(robot.self.parent != nobody ? robot.self.parent : robot.self.reference);
+  if (k < 0) return avoidance(robot);
+  const Vec2 reference = robot.table().position(k);
+  const float d = norm(reference);
+  if (!robot.reading.spares_stand_still) {
+    if (d > p.safe_range_m) return unit(reference);
+    return unit(Vec2{reference.y, -reference.x}) * p.target_gain + avoidance(robot);
+  }
+  // Near a robot of the tree within reach of its edges; a crowd far from the tree stays spread out.
+  const float reach_m = robot.table().message(k).role != Role::spare ? 0.5F * p.recruitment_distance_m : p.safe_range_m;
+  const bool called = robot.self.called && d > p.avoidance_range_m;
+  return d > reach_m || called ? unit(reference) + avoidance(robot) : avoidance(robot);
+}
+
+}  // namespace
+
+Vec2 avoidance(const TreeRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  const float a = robot.params.avoidance_range_m;
+  Vec2 u;
+  for (int k = 0; k < table.size(); ++k) {
+    const float d = table.range(k);
+    if (d >= a || d <= 0.0F || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+    u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
+  }
+  if (!robot.reading.avoids_obstacles) return u;
+  for (const Vec2 o : robot.obstacles) {
+    const float d = norm(o);
+    if (d < a && d > 0.0F) u += o * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
+  }
+  return u;
+}
+
+Vec2 spring_motion(const TreeRobot& robot) noexcept {
+  const TreeParams& p = robot.params;
+  const int up = nearest_up(robot);
+  const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
+  const float d = norm(parent);
+  const bool silent = up >= 0 && !robot.table().alive(up);
+  // Emergency: u = p_parent, at full speed. A silent parent may be anywhere: to where it must be.
+  if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
+  if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
+  const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
+  return tree_force(robot) + (up >= 0 ? safe_part(u, parent, p, robot.reading) : u);
+}
+
+Vec2 attendance_motion(const TreeRobot& robot) noexcept {
+  Vec2 midpoint;
+  if (robot.self.spare_state == SpareState::extend_edge && edge_midpoint(robot, robot.self.request, midpoint))
+    return unit(midpoint) + avoidance(robot);
+  return adjust_position(robot);
+}
+
+float interaction(float distance_m, const TreeParams& params) noexcept {
+  const float d = distance_m * 100.0F;
+  const float s = params.ideal_distance_m / distance_m;
+  const float s2 = s * s;
+  return d > 0.0F ? params.interaction_gain / d * (s2 - s2 * s2) : -1.0F;
+}
+
+Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept {
+  const float d = norm(parent);
+  if (d <= params.safe_range_m) return u;
+  if (!reading.slides_beyond_safe) return {};
+  const Vec2 away = -parent / d;
+  return u - away * std::max(0.0F, dot(u, away));
+}
+
+void Guard::add(Vec2 neighbor, const TreeParams& params) noexcept {
+  const float d = norm(neighbor);
+  if (d <= 0.0F) return;
+  away[size] = -neighbor / d;
+  limit[size++] = 0.5F * (params.ideal_distance_m - d) * params.guard_rate_per_s;
+}
+
+void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
+  if (size == capacity) return;
+  away[size] = direction;
+  limit[size++] = limit_m_s;
+}
+
+Vec2 Guard::apply(Vec2 v) const noexcept {
+  // Projections onto the half-planes in turn; they settle in a few rounds.
+  for (int round = 0; round < 4; ++round) {
+    bool violated = false;
+    for (int k = 0; k < size; ++k) {
+      const float excess = dot(v, away[k]) - limit[k];
+      if (excess <= 0.0F) continue;
+      v -= away[k] * excess;
+      violated = true;
+    }
+    if (!violated) return v;
+  }
+  // What is left is cut by standing still as far as needed: 0 is allowed while no edge is too long.
+  float scale = 1.0F;
+  for (int k = 0; k < size; ++k) {
+    const float along = dot(v, away[k]);
+    if (along > limit[k] && along > 0.0F) scale = std::min(scale, std::max(0.0F, limit[k]) / along);
+  }
+  return v * scale;
+}
+
+Velocity drive(Vec2 v, const Guard& guard, const TreeParams& params) noexcept {
+  const float speed = norm(v);
+  if (speed < 1e-4F) return {};
+  if (params.drive == Drive::holonomic) return {v.x, v.y, 0.0F};
+  const float turn_limit = 2.0F * params.wheel_limit_m_s / params.wheel_distance_m;
+  const float turn = std::clamp(4.0F * angle_of(v), -turn_limit, turn_limit);
+  float forward = std::max(0.0F, v.x);  // |u| max(0, cos theta)
+  forward = std::min(forward, params.wheel_limit_m_s - 0.5F * (turn < 0 ? -turn : turn) * params.wheel_distance_m);
+  // The guard again, along the true heading (1, 0).
+  for (int k = 0; k < guard.size; ++k)
+    if (guard.away[k].x > 0.0F && forward * guard.away[k].x > guard.limit[k])
+      forward = std::max(0.0F, guard.limit[k]) / guard.away[k].x;
+  return {std::max(0.0F, forward), 0.0F, turn};
+}
+
+void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
+  if (!robot.reading.guards_edges) return;
+  for_each_tree_neighbor(robot, [&](int k) {
+    // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params);
+  });
+}
+
+Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept {
+  const Vec2 v = guard.apply(clamped(u, 1.0F) * params.speed_gain_m_s);
+  return drive(clamped(v, params.wheel_limit_m_s), guard, params);
+}
+
+}  // namespace banyan

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/parent_selection.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/tree/label.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr int patience_flood_ticks = 4;     // without candidate, then the flood parent will do
+constexpr int patience_relabel_ticks = 7;   // then a childless robot may sort itself in anew
+constexpr float last_resort_range = 0.95F;  // of C: beyond, the next step might break the edge
+constexpr int orphan_still_ticks = 5;
+constexpr int orphan_attach_ticks = 20;
+constexpr int drafted_attach_ticks = 4;
+
+constexpr std::uint16_t largest_label = unknown_label - 1;  // where label_below() saturates
+
+bool may_relay(const ParentRule& rule, const TreeStanding& m) noexcept { return m.role != Role::worker || rule.workers_relay; }
+
+// The best candidate by the rule, -1 if none. `in_tree`: committed robots that are no spares only.
+int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) noexcept {
+  const TreeTable& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!is_candidate(robot, k, rule.workers_relay)) continue;
+    const TreeStanding& m = table.message(k);
+    if (in_tree ? !m.committed || m.role == Role::spare : !rule.accepts(k)) continue;
+    if (best < 0 || rule.prefers(k, best)) best = k;
+  }
+  return best;
+}
+
+// No candidate for a while: the flood parent, even beyond the range in which a parent is chosen, as
+// long as the order holds.
+int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
+  const TreeState& self = robot.self;
+  const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
+  if (k < 0 || !robot.table().alive(k)) return -1;
+  const TreeStanding& m = robot.table().message(k);
+  const bool near = robot.table().range(k) <= last_resort_range * robot.params.communication_range_m;
+  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
+}
+
+// Still none: nobody hangs on a childless robot, so it may move behind any committed neighbour.
+int nearest_committed(const TreeRobot& robot, const ParentRule& rule) noexcept {
+  const TreeTable& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (!table.alive(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || !m.committed) continue;
+    if (m.label_cm == unknown_label || !is_ahead(robot, k) || table.range(k) > robot.parent_range_m()) continue;
+    if (best < 0 || table.range(k) < table.range(best)) best = k;
+  }
+  return best;
+}
+
+void join(TreeRobot& robot, const ParentRule& rule) noexcept {
+  TreeState& self = robot.self;
+  if (self.label_cm == unknown_label || !rule.may_join) return;
+  int k = choose_parent(robot, rule, false);
+  if (k < 0) {
+    if (self.search_ticks < UINT16_MAX) ++self.search_ticks;
+    if (self.search_ticks > patience_flood_ticks) k = flood_parent(robot, rule);
+    const bool childless = robot.children.size == 0 && robot.old_children.size == 0;
+    if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) {
+      k = nearest_committed(robot, rule);
+    }
+  }
+  if (k >= 0) take_parent(robot, k);
+}
+
+// Parent silent for longer than I: another one, or keep it and drive to where it must be.
+void repair(TreeRobot& robot, const ParentRule& rule) noexcept {
+  TreeState& self = robot.self;
+  if (self.role == Role::spare) return leave_tree(robot);
+  const int k = choose_parent(robot, rule, true);
+  if (k < 0) return;
+  take_parent(robot, k);
+  ++self.tally.repairs;
+}
+
+// The neighbour over which the rooted tree is nearest: part of it, or a free spare that can be
+// drafted towards it. Never one whose own depth is invalid: it might hang on me.
+int way_to_tree(const TreeRobot& robot, const ParentRule& rule, float range_m) noexcept {
+  const TreeTable& table = robot.table();
+  int best = -1;
+  const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (!table.alive(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
+    if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
+    if (best < 0 || key(k) < key(best)) best = k;
+  }
+  return best;
+}
+
+void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
+  TreeState& self = robot.self;
+  const bool matters = !robot.is_root() && (self.is_worker || robot.useful_children > 0);
+  const bool settled = self.phase >= Phase::grow_tree;
+  if (!matters || !settled || self.depth != invalid_depth) {
+    self.orphan_ticks = 0;
+    return;
+  }
+  if (self.orphan_ticks < UINT16_MAX) ++self.orphan_ticks;
+  const bool drafted = self.parent == nobody && !self.is_worker;
+  if (self.orphan_ticks <= (drafted ? drafted_attach_ticks : orphan_attach_ticks)) return;
+  const float last_resort_m = last_resort_range * robot.params.communication_range_m;
+  int k = way_to_tree(robot, rule, std::min(robot.parent_range_m(), last_resort_m));
+  if (k < 0) k = way_to_tree(robot, rule, last_resort_m);
+  if (k < 0) return;
+  take_parent(robot, k);
+  self.orphan_ticks = orphan_still_ticks;  // time for the new parent to attach in turn
+  ++self.tally.repairs;
+}
+
+// The pair (seqno, label) flows down the tree: as fresh as k's, and behind it.
+void follow(TreeRobot& robot, int k) noexcept {
+  TreeState& self = robot.self;
+  const TreeStanding& m = robot.table().message(k);
+  if (m.epoch != self.epoch || m.label_cm >= largest_label || m.seqno <= self.seqno) return;
+  self.seqno = m.seqno;
+  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm) self.label_cm = label_below(m.label_cm, robot.table().range(k));
+}
+
+// A spare that has just joined my edge has its parent's seqno of a tick ago: I wait for it.
+bool awaits_inserted(const TreeRobot& robot) noexcept {
+  const int k = robot.self.grant == nobody ? -1 : robot.table().find(robot.self.grant);
+  return k >= 0 && robot.table().alive(k) && robot.table().message(k).inserted_child == robot.self.id;
+}
+
+// While I wish for another parent my seqno rests: the other's overtakes it, unless it hangs on me.
+void update_seqno(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  if (robot.is_root()) {
+    if (self.seqno < UINT16_MAX) ++self.seqno;
+  } else if (robot.parent_alive() && !awaits_inserted(robot) && self.pending_parent == nobody) {
+    follow(robot, robot.parent);
+  }
+}
+
+// Depth flows down; an orphan's is invalid, and so within a hop per tick are all below it.
+void update_depth(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  // In GROW TREE an old parent is but a constraint: it may by now hang on me.
+  const int up = self.parent != nobody ? robot.parent : self.phase < Phase::grow_tree ? robot.old_parent : -1;
+  if (robot.is_root()) {
+    self.depth = 1;
+  } else if (up >= 0 && robot.table().alive(up) && robot.table().message(up).depth != invalid_depth) {
+    self.depth = static_cast<std::uint16_t>(std::min(robot.table().message(up).depth + 1, UINT16_MAX - 1));
+  } else {
+    self.depth = invalid_depth;
+  }
+}
+
+// Hops over free spares to the rooted tree: the gradient that orphans follow.
+void update_tree_hops(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  self.tree_hops = self.depth != invalid_depth ? std::uint8_t{0} : unreachable;
+  if (self.depth != invalid_depth || self.role != Role::spare || self.parent != nobody) return;
+  const TreeTable& table = robot.table();
+  int nearest = -1;
+  int hops = unreachable - 1;  // the most that is passed on
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (!table.alive(k) || m.tree_hops > hops || m.tree_hops == unreachable) continue;
+    if (m.tree_hops == hops && nearest >= 0 && m.seqno <= table.message(nearest).seqno) continue;  // the freshest
+    hops = m.tree_hops;
+    nearest = k;
+  }
+  self.tree_hops = nearest < 0 ? unreachable : static_cast<std::uint8_t>(hops + 1);
+  // Whoever drafts this spare (in GROW TREE) must find it ahead; one about to join an edge stays behind.
+  if (nearest >= 0 && self.phase >= Phase::grow_tree && self.request == nobody) follow(robot, nearest);
+}
+
+}  // namespace
+
+bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  // An edge that exists may be as long as the guard lets it grow.
+  const float range_m =
+      std::max(robot.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
+  return robot.table().alive(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch && m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
+}
+
+bool is_ahead(const TreeRobot& robot, int k) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  const TreeState& self = robot.self;
+  if (m.epoch != self.epoch || m.label_cm >= largest_label) return false;  // nothing fits behind the largest label
+  return m.seqno != self.seqno ? m.seqno > self.seqno : m.label_cm < self.label_cm;
+}
+
+bool is_named_parent(const TreeRobot& robot) noexcept {
+  return std::any_of(robot.children.begin(), robot.children.end(),
+                     [&](int k) { return robot.table().message(k).role != Role::spare; });
+}
+
+void take_parent(TreeRobot& robot, int k) noexcept {
+  TreeState& self = robot.self;
+  self.parent = robot.table().id(k);
+  robot.parent = k;
+  self.committed = true;
+  self.search_ticks = 0;
+  self.pending_parent = nobody;
+  follow(robot, k);
+  if (self.phase >= Phase::grow_tree) {
+    self.old_parent = nobody;
+    robot.old_parent = -1;
+  }
+}
+
+void leave_tree(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  self.parent = self.old_parent = nobody;
+  robot.parent = robot.old_parent = -1;
+  self.committed = false;
+  self.need = Need::no_need;
+  self.grant = nobody;
+  self.request = nobody;
+  self.pending_parent = nobody;
+  self.spare_state = SpareState::wait;
+}
+
+bool is_orphan(const TreeRobot& robot) noexcept { return robot.self.orphan_ticks > orphan_still_ticks; }
+
+void select_parent(TreeRobot& robot, const ParentRule& rule) noexcept {
+  TreeState& self = robot.self;
+  if (robot.is_root()) {
+    self.parent = nobody;
+    robot.parent = -1;
+    self.committed = true;
+  } else if (self.phase >= Phase::select_parent) {
+    if (self.parent == nobody) join(robot, rule);
+    else if (!robot.parent_alive()) repair(robot, rule);
+    else if (self.role == Role::spare && self.phase >= Phase::grow_tree && robot.children.size == 0) leave_tree(robot);
+    reattach_orphan(robot, rule);
+  }
+  update_seqno(robot);
+  update_depth(robot);
+  update_tree_hops(robot);
+}
+
+}  // namespace banyan

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/root_selection.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/tree/epoch.hpp"
+
+namespace banyan {
+namespace {
+
+// A neighbour heard this tick, no worker, nearer to the centroid than the root by a margin.
+int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept {
+  const TreeState& self = robot.self;
+  const TreeTable& table = robot.table();
+  float best_m = norm(self.centroid) - robot.params.centroid_margin_m;
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || !may_inherit(k)) continue;
+    const float d = distance(table.position(k), self.centroid);
+    if (d < best_m) {
+      best_m = d;
+      best = k;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  const TreeMessage* accepted = nullptr;
+  if (self.is_worker) return accepted;
+  for (const Heard& h : robot.heard) {
+    const TreeMessage& m = *h.message;
+    if (m.new_root != self.id || m.root.id != m.id) continue;
+    const RootToken offered{static_cast<std::uint16_t>(m.root.sequence + 1), self.id};
+    if (!newer(offered, self.root)) continue;
+    self.root = offered;
+    accepted = &m;
+    self.centroid = from_edge_frame({static_cast<float>(m.centroid_x_cm) * 0.01F, static_cast<float>(m.centroid_y_cm) * 0.01F}, h.position);
+    self.centroid_known = true;
+    self.new_root = nobody;
+    // The edge to the parent stays an edge of the tree until GROW TREE (protocol 8).
+    if (self.parent != nobody) {
+      self.old_parent = self.parent;
+      robot.old_parent = robot.parent;
+    }
+    self.parent = nobody;
+    robot.parent = -1;
+    ++self.tally.handovers;
+  }
+  return accepted;
+}
+
+void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept {
+  TreeState& self = robot.self;
+  if (!robot.is_root()) {
+    self.new_root = nobody;  // gossip of the successor is the acknowledgement
+    return;
+  }
+  if (self.phase != Phase::select_root) return;
+  if (!self.centroid_known) {
+    self.centroid = self.q;
+    self.centroid_known = true;
+  }
+  if (self.new_root != nobody) {
+    if (++self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks())) return;
+    self.root.sequence = static_cast<std::uint16_t>(self.root.sequence + 2);  // beats an acceptance that I never heard of
+    self.new_root = nobody;
+    return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
+  }
+  const int k = better_root(robot, may_inherit);
+  if (k < 0) return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
+  self.new_root = robot.table().id(k);
+  self.offer_ticks = 0;
+}
+
+}  // namespace banyan

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/spare_management.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "banyan/controller/tree/label.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
+
+namespace banyan {
+namespace {
+
+// Protocol 7 has 6: too few for a question and an answer at five ticks of latency, or where packets are lost.
+int ungranted_limit_ticks(const TreeRobot& robot) noexcept { return std::max(14, robot.loss_ticks); }
+
+constexpr float call_after_s = 2.0F;      // a need unanswered for so long calls spares from afar
+constexpr std::uint8_t call_reach_hops = 40;
+constexpr float infinite_m = 1e9F;
+
+// ---- The owner of an edge: NO NEED -> NEED -> AWAIT ----
+
+void end_grant(TreeState& self) noexcept {
+  self.grant = nobody;
+  self.need = Need::no_need;
+}
+
+// The granted spare arrives, gives up, or falls silent.
+void follow_grant(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  const int k = robot.table().find(self.grant);
+  ++self.grant_ticks;
+  if (k < 0 || !robot.table().alive(k)) return end_grant(self);
+  const TreeStanding& m = robot.table().message(k);
+  if (m.inserted_child == self.id && m.parent != nobody && m.parent != self.id && is_ahead(robot, k)) {
+    take_parent(robot, k);
+    return end_grant(self);
+  }
+  const bool gone = self.grant_ticks > ungranted_limit_ticks(robot) && m.request != self.id && m.inserted_child != self.id;
+  const bool timeout = self.grant_ticks > robot.params.ticks(robot.params.insertion_timeout_s) + ungranted_limit_ticks(robot);
+  if (gone || timeout) end_grant(self);
+}
+
+// Of the spares that ask for my edge, the one nearest to its midpoint.
+RobotId best_request(const TreeRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  const Vec2 midpoint = table.position(robot.parent) * 0.5F;
+  RobotId best = nobody;
+  float best_m = infinite_m;
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (m.request != robot.self.id || !table.alive(k) || m.role != Role::spare) continue;
+    const float d = distance(table.position(k), midpoint);
+    if (d < best_m) {
+      best_m = d;
+      best = table.id(k);
+    }
+  }
+  return best;
+}
+
+void own_edge(TreeRobot& robot, const EdgeRule& rule) noexcept {
+  TreeState& self = robot.self;
+  if (self.grant != nobody) follow_grant(robot);
+  if (!robot.parent_alive()) return end_grant(self);
+  const TreeStanding& parent = robot.table().message(robot.parent);
+  const bool parent_awaits = parent.need == Need::await && parent.grant != nobody;
+  switch (self.need) {
+    case Need::no_need:
+      if (rule.needs_spare()) self.need = Need::need;
+      break;
+    case Need::need:
+      // Two insertions next to each other would leave the lower one without its parent.
+      if (parent_awaits) self.need = Need::await;
+      else if (!rule.needs_spare()) self.need = Need::no_need;
+      else if (self.phase == Phase::grow_tree) {
+        self.grant = best_request(robot);
+        self.grant_ticks = 0;
+        if (self.grant != nobody) self.need = Need::await;
+      }
+      break;
+    case Need::await:
+      if (self.grant == nobody && !parent_awaits) self.need = Need::no_need;
+      break;
+  }
+}
+
+// ---- The spare: WAIT -> EXTEND EDGE -> connector, or ADJUST POSITION ----
+
+bool in_need(const TreeStanding& m, const TreeState& self) noexcept {
+  return m.need == Need::need && m.role != Role::spare && m.grant == nobody && m.parent != nobody && m.parent != self.id && m.epoch == self.epoch;
+}
+
+// The owner in need whose midpoint is nearest; both ends must be heard.
+RobotId nearest_edge_in_need(const TreeRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  RobotId best = nobody;
+  float best_m = infinite_m;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || !in_need(table.message(k), robot.self)) continue;
+    Vec2 midpoint;
+    if (!edge_midpoint(robot, table.id(k), midpoint)) continue;
+    const float d = norm(midpoint);
+    if (d < best_m) {
+      best_m = d;
+      best = table.id(k);
+    }
+  }
+  return best;
+}
+
+// The neighbour by which an unanswered need is nearest.
+RobotId nearest_caller(const TreeRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k) && table.message(k).call_hops == robot.call_hops && (best < 0 || table.range(k) < table.range(best))) best = k;
+  return best < 0 ? nobody : table.id(best);
+}
+
+// Corrected reading: a spare that stands still may be far from where it is needed. Needs that nobody
+// answers spread hop by hop, and spares without an edge in sight follow the gradient.
+// True if a call is about: when it is over, the hops that the robots tell each other count up, which
+// is no gradient to follow.
+bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
+  TreeState& self = robot.self;
+  const bool steady = robot.call_hops < self.call_hops;
+  const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
+  rule.count_waiting(unserved);
+  const bool in_vain = self.unserved_ticks > robot.params.ticks(call_after_s);
+  if (robot.reading.calls_spares && in_vain && rule.may_call()) self.call_hops = 0;
+  else self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
+  return steady;
+}
+
+void give_up(TreeState& self) noexcept {
+  self.request = nobody;
+  self.spare_state = SpareState::wait;
+}
+
+void join_edge(TreeRobot& robot, int owner) noexcept {
+  TreeState& self = robot.self;
+  const TreeTable& table = robot.table();
+  const int parent = table.find(table.message(owner).parent);
+  if (!is_ahead(robot, parent)) return;  // its seqno will overtake mine
+  const TreeStanding& above = table.message(parent);
+  auto label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + above.label_cm) / 2);
+  if (label_cm <= above.label_cm) label_cm = label_below(above.label_cm, 0.0F);
+  self.label_cm = above.seqno > self.seqno ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
+  self.seqno = above.seqno;
+  take_parent(robot, parent);
+  self.inserted_child = self.request;
+  self.inserted_ticks = 0;
+  self.role = Role::connector;
+  self.childless_ticks = 0;
+  give_up(self);
+  ++self.tally.insertions;
+}
+
+// EXTEND EDGE once granted; before that the request waits for an answer.
+void follow_request(TreeRobot& robot, const EdgeRule& rule) noexcept {
+  TreeState& self = robot.self;
+  const TreeTable& table = robot.table();
+  const int owner = table.find(self.request);
+  Vec2 midpoint;
+  if (owner < 0 || !table.alive(owner) || !edge_midpoint(robot, self.request, midpoint)) return give_up(self);
+  if (++self.request_ticks > robot.params.ticks(robot.params.insertion_timeout_s)) return give_up(self);
+  const TreeStanding& m = table.message(owner);
+  const bool granted = m.grant == self.id;
+  self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
+  if (self.ungranted_ticks > ungranted_limit_ticks(robot) || (m.grant != nobody && !granted)) return give_up(self);
+  if (granted) self.spare_state = SpareState::extend_edge;
+  if (granted && rule.may_insert(owner, table.find(m.parent))) join_edge(robot, owner);
+}
+
+void look_for_edge(TreeRobot& robot, bool call) noexcept {
+  TreeState& self = robot.self;
+  self.reference = nearest_reference(robot);
+  self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
+  self.called = call && self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
+  if (self.called) self.reference = nearest_caller(robot);
+  self.request_ticks = self.ungranted_ticks = 0;
+  self.spare_state = self.request != nobody ? SpareState::wait : SpareState::adjust_position;
+}
+
+void watch_inserted_child(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  const int k = robot.table().find(self.inserted_child);
+  const bool done = k >= 0 && robot.table().message(k).parent == self.id;
+  if (done || ++self.inserted_ticks > robot.patience_ticks()) self.inserted_child = nobody;
+}
+
+}  // namespace
+
+RobotId nearest_reference(const TreeRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  int best = -1;
+  const auto hops = [&](int k) {
+    const TreeStanding& m = table.message(k);
+    return m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops);
+  };
+  const auto key = [&](int k) {
+    const bool other = table.id(k) != robot.self.reference;
+    return std::tuple(hops(k), hops(k) >= 0 && other, table.range(k));
+  };
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k) && (best < 0 || key(k) < key(best))) best = k;
+  return best < 0 ? nobody : table.id(best);
+}
+
+bool is_stretched(const TreeRobot& robot) noexcept {
+  const TreeState& self = robot.self;
+  return robot.parent >= 0 && robot.table().range(robot.parent) > robot.params.recruitment_distance_m &&
+         (!robot.reading.asks_while_wanted || self.want_m > 0.0F);
+}
+
+bool child_in_need(const TreeRobot& robot) noexcept {
+  return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) {
+    const TreeStanding& m = robot.table().message(k);
+    return m.role != Role::spare && m.need == Need::need;
+  });
+}
+
+bool edge_midpoint(const TreeRobot& robot, RobotId owner, Vec2& midpoint) noexcept {
+  const TreeTable& table = robot.table();
+  const int k = table.find(owner);
+  if (k < 0) return false;
+  const int parent = table.find(table.message(k).parent);
+  if (parent < 0 || !table.alive(parent)) return false;
+  midpoint = (table.position(k) + table.position(parent)) * 0.5F;
+  return true;
+}
+
+void count_unserved(TreeState& self, bool unserved) noexcept {
+  if (!unserved) self.unserved_ticks = 0;
+  else if (self.unserved_ticks < UINT16_MAX) ++self.unserved_ticks;
+}
+
+bool is_at_midpoint(const TreeRobot& robot, int owner, int parent) noexcept {
+  const TreeTable& table = robot.table();
+  return norm((table.position(owner) + table.position(parent)) * 0.5F) <= robot.params.insertion_distance_m;
+}
+
+void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept {
+  TreeState& self = robot.self;
+  const bool call = spread_call(robot, rule);
+  self.called = false;  // look_for_edge() finds out anew
+  if (self.inserted_child != nobody) watch_inserted_child(robot);
+  if (self.role != Role::spare) {
+    self.request = nobody;
+    if (self.parent != nobody) own_edge(robot, rule);
+    else end_grant(self);
+    return;
+  }
+  end_grant(self);
+  if (self.parent != nobody || robot.children.size > 0) give_up(self);  // still part of a branch
+  else if (self.request != nobody) follow_request(robot, rule);
+  else look_for_edge(robot, call);
+}
+
+}  // namespace banyan

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/tick.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/core/edge_frame.hpp"
+
+namespace banyan {
+namespace {
+
+// `odometry` is in the frame at the last step; what is left of it is turned into the frame of the packet.
+void carry_packets(std::span<Heard> heard, const Odometry& odometry, float elapsed_s) noexcept {
+  for (Heard& h : heard) {
+    if (!(h.age_s > 0.0F) || !(elapsed_s > 0.0F)) continue;
+    const float share = std::min(h.age_s / elapsed_s, 1.0F);
+    const Vec2 shift = rotate_back(unit_vector(odometry.turn_rad * (1.0F - share)), Vec2{odometry.forward_m, odometry.sideways_m} * share);
+    h.position = Carry({shift.x, shift.y, odometry.turn_rad * share}).point(h.position);
+    h.age_s = 0.0F;
+  }
+}
+
+}  // namespace
+
+TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept {
+  TreeState state;
+  state.id = id;
+  state.is_worker = worker;
+  state.role = root ? Role::root : worker ? Role::worker : Role::spare;
+  if (root) state.root = {1, id};
+  return state;
+}
+
+void follow_orders(TreeRobot& robot, const Orders& orders) noexcept {
+  TreeState& self = robot.self;
+  self.is_worker = orders.sent;
+  if (!orders.sent) self.target_known = false;
+  if (orders.target) {
+    self.target = *orders.target;
+    self.target_known = true;
+  }
+  robot.target = self.is_worker && self.target_known ? &self.target : nullptr;
+}
+
+void carry_memory(TreeState& self, const Carry& carry) noexcept {
+  if (self.target_known) self.target = carry.point(self.target);
+  if (self.centroid_known) self.centroid = carry.point(self.centroid);
+}
+
+Admitted::Admitted(const Senses& senses, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept : Gate(senses, platform) {
+  const std::span<Heard> passed = packets(heard, platform);
+  carry_packets(passed, this->senses().odometry, senses.elapsed_s > 0.0F ? senses.elapsed_s : platform.tick_s);
+  heard_ = passed;
+  tally.rejected += rejected();
+}
+
+void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
+  const Carry carry(admitted.senses().odometry);
+  carry_memory(robot.self, carry);
+  const std::array columns{robot.self.neighbors.column()};
+  update_table(robot, carry, columns);
+  follow_orders(robot, admitted.senses().orders);
+}
+
+void update_table(TreeRobot& robot, const Carry& carry, std::span<const Column> columns) noexcept {
+  TreeState& self = robot.self;
+  TreeTable& table = self.neighbors;
+  const std::array<RobotId, 2> keep{self.parent, self.old_parent};
+  const auto names_me = [&](const TreeStanding& m) { return m.parent == self.id || m.old_parent == self.id; };
+  table.begin(carry, robot.elapsed_ticks);
+  for (const Heard& h : robot.heard) {
+    const TreeMessage& m = *h.message;
+    if (m.id == self.id || m.id == nobody) continue;
+    table.file({m.id, h.position, &m, names_me(m)}, keep, columns, [&](int k) { return names_me(table.message(k)); });
+  }
+  table.end(carry, robot.liveness_ticks(), keep, columns);
+}
+
+void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
+  const TreeState& self = robot.self;
+  m.id = self.id;
+  m.role = self.role;
+  m.phase = self.phase;
+  m.need = self.need;
+  m.flood_done = self.flood_done;
+  m.committed = self.committed;
+  m.parent_silent = self.parent != nobody && !robot.parent_alive();
+  m.epoch = self.epoch;
+  m.root = self.root;
+  m.label_cm = self.label_cm;
+  m.seqno = self.seqno;
+  m.depth = self.depth;
+  m.tree_hops = self.tree_hops;
+  m.call_hops = self.call_hops;
+  m.parent = self.parent;
+  m.old_parent = self.old_parent;
+  m.flood_parent = self.flood_parent;
+  m.flood_robots = self.flood_robots;
+  m.flood_workers = self.flood_workers;
+  m.subtree = self.subtree;
+  m.subtree_workers = self.subtree_workers;
+  m.count = self.count;
+  m.grant = self.grant;
+  m.request = self.request;
+  m.inserted_child = self.inserted_child;
+  m.want_cm = to_fixed<std::uint16_t>(self.want_m, per_cm);
+  if (const int up = robot.up(); up >= 0) {
+    const Vec2 addressee = robot.table().position(up);
+    const Vec2 pull = to_edge_frame(self.pull, addressee);
+    m.q = to_edge_frame(self.q, addressee);
+    m.pull_x = to_fixed<std::int16_t>(pull.x, pull_unit);
+    m.pull_y = to_fixed<std::int16_t>(pull.y, pull_unit);
+  }
+  const int heir = self.new_root == nobody ? -1 : robot.table().find(self.new_root);
+  if (heir < 0) return;
+  const Vec2 addressee = robot.table().position(heir);
+  const Vec2 centroid = to_edge_frame(self.centroid - addressee, addressee);
+  m.new_root = self.new_root;
+  m.centroid_x_cm = to_fixed<std::int16_t>(centroid.x, per_cm);
+  m.centroid_y_cm = to_fixed<std::int16_t>(centroid.y, per_cm);
+}
+
+Report tree_report(const TreeState& s) noexcept {
+  return {.role = s.role, .parent = s.parent, .old_parent = s.old_parent, .serves = s.is_worker ? s.id : nobody,
+          .root = s.root.id, .root_sequence = s.root.sequence, .epoch = s.epoch, .phase = s.phase, .need = s.need,
+          .spare_state = s.spare_state, .label_cm = s.label_cm == unknown_label ? -1 : s.label_cm, .depth = s.depth,
+          .grant = s.grant, .request = s.request, .want_m = s.want_m, .tally = s.tally};
+}
+
+void add_to(Digest& digest, const TreeMessage& message) noexcept {
+  FieldDigest visit{digest};
+  visit_fields(visit, message);
+}
+
+void add_to(Digest& digest, const TreeState& state) noexcept {
+  const auto add = [&](const auto& field) { digest.add(field); };
+  visit_tree_state(add, state);
+  const TreeTable& table = state.neighbors;
+  digest.add(table.size());
+  for (int k = 0; k < table.size(); ++k) {
+    digest.add(table.id(k));
+    digest.add(table.age(k));
+    digest.add(table.position(k));
+    add_to(digest, TreeMessage{table.message(k), {}});
+  }
+}
+
+}  // namespace banyan

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/tree_index.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/tree/parent_selection.hpp"
+
+namespace banyan {
+
+void index_neighbors(TreeRobot& robot) noexcept {
+  const TreeState& self = robot.self;
+  const TreeTable& table = robot.table();
+  robot.parent = robot.old_parent = -1;
+  robot.children.size = robot.old_children.size = 0;
+  robot.useful_children = 0;
+  robot.call_hops = nobody_calls;
+  for (int k = 0; k < table.size(); ++k) {
+    const RobotId id = table.id(k);
+    if (id == self.parent) robot.parent = k;
+    if (id == self.old_parent) robot.old_parent = k;
+    if (!table.alive(k)) continue;
+    const TreeStanding& m = table.message(k);
+    robot.call_hops = std::min(robot.call_hops, m.call_hops);
+    const bool names_me = m.parent == self.id;
+    if (!names_me && m.old_parent != self.id) continue;
+    // Whoever has not entered this epoch yet names the parent of the last one.
+    (names_me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
+    if (m.role == Role::spare) continue;
+    ++robot.useful_children;
+  }
+}
+
+void update_role(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  if (robot.is_root()) {
+    self.role = Role::root;
+    self.childless_ticks = 0;
+  } else if (self.is_worker) {
+    self.role = Role::worker;
+    self.childless_ticks = 0;
+  } else if (robot.useful_children > 0 || self.inserted_child != nobody || robot.carries_on) {
+    self.role = Role::connector;
+    self.childless_ticks = 0;
+  } else if (self.role != Role::spare) {
+    self.role = Role::connector;  // a root that has handed over is one, too
+    // Patience: a child may only have been silent, or be about to name me (protocol 3).
+    if (++self.childless_ticks > robot.patience_ticks()) {
+      self.role = Role::spare;
+      self.childless_ticks = 0;
+      if (robot.children.size == 0) leave_tree(robot);
+    }
+  }
+}
+
+}  // namespace banyan
