@@ -109,10 +109,27 @@ void carry_memory(ConvoyState& self, const Carry& carry) noexcept {
   carry_corners(self.corners, carry);
 }
 
+struct ConvoyColumns : HealingColumns {
+  ConvoyState& state;
+
+  explicit ConvoyColumns(ConvoyState& state_) noexcept : HealingColumns(state_), state(state_) {}
+  void write(int k, const TreeMessage& m) noexcept {
+    const auto& message = static_cast<const ConvoyMessage&>(m);
+    HealingColumns::write(k, m);
+    state.corners.standings[static_cast<std::size_t>(k)] = message;
+    state.convoy_standings[static_cast<std::size_t>(k)] = message;
+  }
+  void close(int k, int size) noexcept {
+    HealingColumns::close(k, size);
+    close_gap(state.corners.standings, k, size);
+    close_gap(state.convoy_standings, k, size);
+  }
+};
+
 void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
   const Carry carry(admitted.senses().odometry);
   carry_memory(robot.self, carry);
-  update_table(robot, carry, columns_of(robot.self));
+  update_table(robot, carry, ConvoyColumns(robot.self));
   follow_orders(robot, admitted.senses().orders);
 }
 
@@ -196,12 +213,6 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   write_convoy(robot, output.message);
   output.velocity = move(u, guard, params);
   return output;
-}
-
-std::array<Column, 4> columns_of(ConvoyState& self) noexcept {
-  const auto [tree, healing] = columns_of(static_cast<HealingState&>(self));
-  return {tree, healing, Column{self.corners.standings.data(), sizeof(CornerStanding), block_offset<CornerStanding, ConvoyMessage>()},
-          Column{self.convoy_standings.data(), sizeof(ConvoyStanding), block_offset<ConvoyStanding, ConvoyMessage>()}};
 }
 
 void add_to(Digest& digest, const ConvoyState& state) noexcept {

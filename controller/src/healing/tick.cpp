@@ -42,14 +42,10 @@ void carry_memory(HealingState& self, const Carry& carry) noexcept {
   carry_detour(self.detour, carry);
 }
 
-std::array<Column, 2> columns_of(HealingState& self) noexcept {
-  return {self.neighbors.column(), Column{self.healing_standings.data(), sizeof(HealingStanding), block_offset<HealingStanding, HealingMessage>()}};
-}
-
 void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
   const Carry carry(admitted.senses().odometry);
   carry_memory(robot.self, carry);
-  update_table(robot, carry, columns_of(robot.self));
+  update_table(robot, carry, HealingColumns(robot.self));
   follow_orders(robot, admitted.senses().orders);
 }
 

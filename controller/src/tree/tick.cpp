@@ -10,6 +10,7 @@ namespace {
 
 // `odometry` is in the frame at the last step; what is left of it is turned into the frame of the packet.
 void carry_packets(std::span<Heard> heard, const Odometry& odometry, float elapsed_s) noexcept {
+  if (std::all_of(heard.begin(), heard.end(), [](const Heard& h) { return !(h.age_s > 0.0F); })) return;
   for (Heard& h : heard) {
     if (!(h.age_s > 0.0F) || !(elapsed_s > 0.0F)) continue;
     const float share = std::min(h.age_s / elapsed_s, 1.0F);
@@ -56,23 +57,8 @@ Admitted::Admitted(const Senses& senses, std::span<Heard> heard, const Platform&
 void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
   const Carry carry(admitted.senses().odometry);
   carry_memory(robot.self, carry);
-  const std::array columns{robot.self.neighbors.column()};
-  update_table(robot, carry, columns);
+  update_table(robot, carry, TreeColumns{robot.self});
   follow_orders(robot, admitted.senses().orders);
-}
-
-void update_table(TreeRobot& robot, const Carry& carry, std::span<const Column> columns) noexcept {
-  TreeState& self = robot.self;
-  TreeTable& table = self.neighbors;
-  const std::array<RobotId, 2> keep{self.parent, self.old_parent};
-  const auto names_me = [&](const TreeStanding& m) { return m.parent == self.id || m.old_parent == self.id; };
-  table.begin(carry, robot.elapsed_ticks);
-  for (const Heard& h : robot.heard) {
-    const TreeMessage& m = *h.message;
-    if (m.id == self.id || m.id == nobody) continue;
-    table.file({m.id, h.position, &m, names_me(m)}, keep, columns, [&](int k) { return names_me(table.message(k)); });
-  }
-  table.end(carry, robot.liveness_ticks(), keep, columns);
 }
 
 void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {

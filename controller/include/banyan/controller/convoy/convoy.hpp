@@ -19,7 +19,6 @@ namespace banyan {
 [[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard,
                                                 const Senses& senses) noexcept;
 
-[[nodiscard]] std::array<Column, 4> columns_of(ConvoyState& self) noexcept;
 void add_to(Digest& digest, const ConvoyState& state) noexcept;
 void add_to(Digest& digest, const ConvoyMessage& message) noexcept;
 

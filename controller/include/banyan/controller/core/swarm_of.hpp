@@ -109,9 +109,10 @@ class SwarmOf final : public Swarm {
         now[i] = last[i];
         continue;
       }
-      heard.clear();
-      for (const Packet& packet : sensed[k].packets) heard.push_back({message_of(packet), packet.position, packet.age_s});
-      auto output = A::step(params_, states_[i], std::span<Heard>(heard), sensed[k].senses);
+      const std::span<const Packet> packets = sensed[k].packets;
+      if (heard.size() < packets.size()) heard.resize(packets.size() + packets.size() / 4);
+      for (std::size_t p = 0; p < packets.size(); ++p) heard[p] = {message_of(packets[p]), packets[p].position, packets[p].age_s};
+      const auto output = A::step(params_, states_[i], std::span<Heard>(heard).first(packets.size()), sensed[k].senses);
       now[i] = output.message;
       commands[k] = output.velocity;
       reports[k] = A::report(states_[i]);

@@ -13,12 +13,25 @@ namespace banyan {
 void follow_orders(HealingRobot& robot, const Orders& orders) noexcept;
 
 void carry_memory(HealingState& self, const Carry& carry) noexcept;
-[[nodiscard]] std::array<Column, 2> columns_of(HealingState& self) noexcept;
 void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept;
 
 // The tree's part and healing's. Index of the target that the message speaks of; -1: none.
 int write_healing(const HealingRobot& robot, HealingMessage& message) noexcept;
 [[nodiscard]] Report healing_report(const HealingState& state) noexcept;
+
+struct HealingColumns : TreeColumns {
+  std::array<HealingStanding, neighbor_capacity>& healing;
+
+  explicit HealingColumns(HealingState& state) noexcept : TreeColumns{state}, healing(state.healing_standings) {}
+  void write(int k, const TreeMessage& m) noexcept {
+    TreeColumns::write(k, m);
+    healing[static_cast<std::size_t>(k)] = static_cast<const HealingMessage&>(m);
+  }
+  void close(int k, int size) noexcept {
+    TreeColumns::close(k, size);
+    close_gap(healing, k, size);
+  }
+};
 
 void add_to(Digest& digest, const HealingState& state) noexcept;
 void add_to(Digest& digest, const HealingMessage& message) noexcept;

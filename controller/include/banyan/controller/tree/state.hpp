@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "banyan/controller/core/neighbors.hpp"
@@ -11,13 +12,10 @@
 namespace banyan {
 
 // The neighbour table, and what each of them said of the tree.
-class TreeTable : public Neighbors {
- public:
-  [[nodiscard]] const TreeStanding& message(int k) const noexcept { return standings_[k]; }
-  [[nodiscard]] Column column() noexcept { return {standings_.data(), sizeof(TreeStanding), 0}; }
+struct TreeTable : Neighbors {
+  std::array<TreeStanding, neighbor_capacity> standings{};
 
- private:
-  std::array<TreeStanding, neighbor_capacity> standings_{};
+  [[nodiscard]] const TreeStanding& message(int k) const noexcept { return standings[static_cast<std::size_t>(k)]; }
 };
 
 struct TreeState {
@@ -87,6 +85,13 @@ struct TreeState {
 
   Tally tally;                           // the algorithm never reads it
   TreeTable neighbors;
+
+  // About `entries` entries of the table are needed soon, and all the rest.
+  void prefetch(std::size_t entries) const noexcept {
+    prefetch_lines(this, static_cast<std::size_t>(reinterpret_cast<const char*>(&neighbors) - reinterpret_cast<const char*>(this)));
+    neighbors.prefetch(entries);
+    prefetch_lines(neighbors.standings.data(), entries * sizeof(TreeStanding));
+  }
 };
 
 // Every field that can influence a later step, the table aside.

@@ -19,8 +19,34 @@ void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept;
 // Its parts. Who is sent to a target is a worker, until it is called back.
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept;
 void carry_memory(TreeState& self, const Carry& carry) noexcept;
-// `columns`: all arrays beside the table, the tree's too.
-void update_table(TreeRobot& robot, const Carry& carry, std::span<const Column> columns) noexcept;
+
+// The tree's array beside the neighbour table (Neighbors). Who heals adds its own.
+struct TreeColumns {
+  TreeState& self;
+
+  [[nodiscard]] bool names_me(const TreeStanding& m) const noexcept { return m.parent == self.id || m.old_parent == self.id; }
+  [[nodiscard]] bool ties(int k) const noexcept {
+    const TreeStanding& m = self.neighbors.message(k);
+    return m.id == self.parent || m.id == self.old_parent || names_me(m);
+  }
+  void write(int k, const TreeMessage& m) noexcept { self.neighbors.standings[static_cast<std::size_t>(k)] = m; }
+  void close(int k, int size) noexcept { close_gap(self.neighbors.standings, k, size); }
+};
+
+// Brings the neighbour table and all arrays beside it up to date.
+template <class Columns>
+void update_table(TreeRobot& robot, const Carry& carry, Columns columns) noexcept {
+  TreeState& self = robot.self;
+  Neighbors& table = self.neighbors;
+  table.begin(carry, robot.elapsed_ticks);
+  for (const Heard& h : robot.heard) {
+    const TreeMessage& m = *h.message;
+    if (m.id == self.id || m.id == nobody) continue;
+    const bool ties = m.id == self.parent || m.id == self.old_parent || columns.names_me(m);
+    table.file(m.id, h.position, ties, m, columns);
+  }
+  table.end(carry, robot.liveness_ticks(), {self.parent, self.old_parent}, columns);
+}
 
 // The tree's part of the message, and what an observer may know of it.
 void write_tree(const TreeRobot& robot, TreeMessage& message) noexcept;
