@@ -2,11 +2,12 @@
 // `banyan bench`: how many robot-steps per second this machine does, with everything on that a run
 // has by default: the full controller, line of sight, all metrics at every tick; one thread.
 //
-// A fair figure needs a layout that stays as it is while robots move. Spares that orbit their
-// reference robot (the literal reading) keep nearly every robot moving; targets just beside the
-// swarm keep the workers at work without pulling it apart. Each window steps from the same
-// settled state and goes back to it after `lap_ticks`, and the number of neighbours at the start
-// and end of a window is part of the result, so that a layout that drifted would show.
+// Where the layout is to stay as it is while robots move, spares that orbit their reference robot
+// (the literal reading) keep nearly every robot moving, and targets just beside the swarm keep the
+// workers at work without pulling it apart. Each window steps from the same settled state and goes
+// back to it after `lap_ticks`, and the number of neighbours at the start and end of a window is
+// part of the result, so that a layout that drifted would show. A mission is what users run: a
+// window is all of it, from the first tick on.
 #include <time.h>
 #include <unistd.h>
 
@@ -14,12 +15,15 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "banyan/config/config.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/measure/observer.hpp"
 #include "banyan/world/world.hpp"
 #include "commands.hpp"
+#include "shipped.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -30,20 +34,26 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct BenchLayout {
+  enum class Kind : std::uint8_t { dense, spread, mission };
   const char* name;
-  std::size_t robots;
-  bool dense;
+  Kind kind;
+  std::size_t robots;          // a mission has those of
+  const char* scenario;        // a shipped one
   std::uint64_t settle_ticks;  // before the first window: beyond START and SELECT PARENT
   std::uint64_t lap_ticks;     // then back to the settled world, before the layout has changed
 };
-constexpr BenchLayout bench_layouts[] = {{"dense-94-los", 94, true, 400, 1000},
-                                         {"spread-94-los", 94, false, 400, 1000},
-                                         {"spread-1000-los", 1000, false, 60, 100},
-                                         {"spread-10000-los", 10000, false, 60, 100}};
+using Kind = BenchLayout::Kind;
+constexpr BenchLayout bench_layouts[] = {{"dense-94-los", Kind::dense, 94, nullptr, 400, 1000},
+                                         {"spread-94-los", Kind::spread, 94, nullptr, 400, 1000},
+                                         {"spread-1000-los", Kind::spread, 1000, nullptr, 60, 100},
+                                         {"spread-10000-los", Kind::spread, 10000, nullptr, 60, 100},
+                                         {"mission-94", Kind::mission, 0, "paper-large", 0, 3000},
+                                         {"mission-1000", Kind::mission, 0, "swarm-1000", 0, 600},
+                                         {"mission-10000", Kind::mission, 0, "swarm-10000", 0, 150}};
 constexpr double spread_pitch_m = 1.3;
 constexpr double dense_pitch_m = 0.21;
 
-world::Scenario scenario_of(const BenchLayout& layout) {
+world::Scenario standing_scenario(const BenchLayout& layout) {
   world::Scenario s;
   s.name = layout.name;
   s.mission.reading = "literal";
@@ -51,7 +61,7 @@ world::Scenario scenario_of(const BenchLayout& layout) {
   s.mission.stop_when_complete = false;
   s.swarm.robots = layout.robots;
   s.radio.line_of_sight = true;
-  if (layout.dense) {
+  if (layout.kind == Kind::dense) {
     // Without the tree's springs, which would push everybody apart to S, and with avoidance only
     // from the lattice's own pitch on.
     s.mission.algorithm = "inwards";
@@ -64,6 +74,26 @@ world::Scenario scenario_of(const BenchLayout& layout) {
     s.swarm.start.pitch_m = spread_pitch_m;
     const double swarm_radius_m = spread_pitch_m * std::sqrt(static_cast<double>(layout.robots) / pi<double>);
     s.targets = world::RingTargets{.count = 4, .radius_m = swarm_radius_m + 0.9};
+  }
+  return s;
+}
+
+world::Scenario mission_scenario(const BenchLayout& layout) {
+  const std::string file = shipped_scenarios() + "/" + layout.scenario + ".toml";
+  const auto loaded = load_configuration(file);
+  if (!loaded.ok()) throw CommandError(exit_lost, to_string(loaded.problems.front()));
+  world::Scenario s = loaded.configuration.scenario;
+  s.mission.algorithm = "convoy";
+  return s;
+}
+
+world::Scenario scenario_of(const BenchLayout& layout, const BenchOptions& options) {
+  world::Scenario s = layout.kind == Kind::mission ? mission_scenario(layout) : standing_scenario(layout);
+  if (!options.algorithm.empty()) s.mission.algorithm = options.algorithm;
+  for (const world::Fault& fault : world::faults(s)) {
+    if (fault.warning) continue;
+    const std::string where = fault.key == "mission.algorithm" ? "--algorithm" : layout.name + (": " + fault.key);
+    throw CommandError(exit_usage, where + ": " + fault.text);
   }
   return s;
 }
@@ -102,6 +132,8 @@ Neighbors neighbors_of(const world::World& world) {
 }
 
 struct Sample {
+  std::string algorithm;
+  std::size_t robots = 0;
   std::vector<double> rates;              // robot-steps per second of wall time, one per window
   std::vector<double> cpu_rates;          // the same per second of processor time: when others are at work too
   Neighbors start, end;                   // first and last tick of the windows
@@ -120,19 +152,20 @@ double moving_share(world::World& world) {
   return static_cast<double>(moved) / static_cast<double>(before.size());
 }
 
-// One window: steps for `seconds` of measured time; copies back to `settled` do not count.
-void measure_window(const world::World& settled, std::uint64_t lap_ticks, double seconds, Sample& sample, int windows) {
+// One window: steps for `seconds` of measured time, or a whole mission; copies back to `settled` do not count.
+void measure_window(const world::World& settled, const BenchLayout& layout, double seconds, Sample& sample, int windows) {
+  if (layout.kind == Kind::mission) seconds = std::numeric_limits<double>::infinity();
   double spent_s = 0.0;
   double cpu_s = 0.0;
   double steps = 0.0;
   world::World world = settled;
-  while (spent_s < seconds) {
+  do {
     world = settled;
     measure::Observer observer(world);
     const auto start = Clock::now();
     const double cpu_start_s = cpu_seconds();
     double lap_s = 0.0;
-    for (std::uint64_t t = 0; t < lap_ticks && spent_s + lap_s < seconds; ++t) {
+    for (std::uint64_t t = 0; t < layout.lap_ticks && spent_s + lap_s < seconds; ++t) {
       world.step();
       observer.observe(world);
       steps += static_cast<double>(world.size());
@@ -140,7 +173,7 @@ void measure_window(const world::World& settled, std::uint64_t lap_ticks, double
     }
     spent_s += lap_s;
     cpu_s += cpu_seconds() - cpu_start_s;
-  }
+  } while (layout.kind != Kind::mission && spent_s < seconds);
   const auto end = neighbors_of(world);
   sample.end.in_range += end.in_range / windows;
   sample.end.visible += end.visible / windows;
@@ -151,7 +184,7 @@ void measure_window(const world::World& settled, std::uint64_t lap_ticks, double
 
 Sample measure_layout(const BenchLayout& layout, const BenchOptions& options, Progress& progress) {
   Sample sample;
-  const auto scenario = scenario_of(layout);
+  const auto scenario = scenario_of(layout, options);
   const double before = resident_bytes();
   const auto start = Clock::now();
   world::World settled(scenario);
@@ -162,18 +195,20 @@ Sample measure_layout(const BenchLayout& layout, const BenchOptions& options, Pr
     observer.observe(settled);
     if (progress.due()) progress.show(0.0, std::string(layout.name) + ": settling", false);
   }
-  const auto n = static_cast<double>(layout.robots);
+  sample.algorithm = scenario.mission.algorithm;
+  sample.robots = settled.size();
+  const auto n = static_cast<double>(sample.robots);
   sample.bytes_per_robot = static_cast<double>(settled.memory_bytes()) / n;
   sample.resident_bytes_per_robot = std::max(0.0, resident_bytes() - before) / n;
   sample.start = neighbors_of(settled);
   for (int w = 0; w < options.windows; ++w) {
-    measure_window(settled, layout.lap_ticks, options.window_s, sample, options.windows);
+    measure_window(settled, layout, options.window_s, sample, options.windows);
     if (progress.due()) progress.show(0.0, format("%s: window %d of %d", layout.name, w + 1, options.windows), false);
   }
   return sample;
 }
 
-nlohmann::ordered_json json_of(const BenchLayout& layout, const Sample& sample) {
+nlohmann::ordered_json json_of(const Sample& sample) {
   const auto [low, high] = std::minmax_element(sample.rates.begin(), sample.rates.end());
   auto round_to = [](double v, double unit) { return std::round(v / unit) * unit; };
   auto hundredth = [](double v) { return std::round(v * 100.0) / 100.0; };
@@ -182,7 +217,8 @@ nlohmann::ordered_json json_of(const BenchLayout& layout, const Sample& sample) 
           {"highest", round_to(*high, 1.0)},
           {"robot_steps_per_cpu_s", round_to(median(sample.cpu_rates), 1.0)},
           {"windows", sample.rates.size()},
-          {"robots", layout.robots},
+          {"robots", sample.robots},
+          {"algorithm", sample.algorithm},
           {"neighbors_in_range_start", hundredth(sample.start.in_range)},
           {"neighbors_in_range_end", hundredth(sample.end.in_range)},
           {"neighbors_visible_start", hundredth(sample.start.visible)},
@@ -224,7 +260,8 @@ int bench_command(const BenchOptions& options) {
   const auto layouts = chosen_layouts(options.only);
   auto report = nlohmann::ordered_json::object();
   if (!options.json) {
-    print("Robot-steps per second: one thread, line of sight, full controller, metrics at every tick.\n\n" +
+    print("Robot-steps per second: one thread, line of sight, full controller, metrics at every tick" +
+          (options.algorithm.empty() ? "" : "; all with " + options.algorithm) + ".\n\n" +
           format("%-17s %12s  %-24s %11s  %-14s %-14s %-8s %-9s %s\n", "layout", "median", "   lowest .. highest",
                  "per CPU s", "in range", "visible", "moving", "start, s", "bytes/robot"));
   }
@@ -233,7 +270,7 @@ int bench_command(const BenchOptions& options) {
     const auto sample = measure_layout(layout, options, progress);
     progress.clear();
     if (options.json)
-      report[layout.name] = json_of(layout, sample);
+      report[layout.name] = json_of(sample);
     else
       print(row_text(layout, sample));
   }
@@ -241,7 +278,8 @@ int bench_command(const BenchOptions& options) {
     print(report.dump(2) + "\n");
   else
     print(
-        format("\nin range, visible: neighbours per robot at the first and last tick of a window. %d windows of %g s.\n"
+        format("\nin range, visible: neighbours per robot at the first and last tick of a window. %d windows of %g s\n"
+               "or of a whole mission.\n"
                "per CPU s: the median per second of processor time, for machines that are busy otherwise.\n",
                options.windows, options.window_s));
   return exit_done;

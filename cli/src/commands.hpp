@@ -133,7 +133,8 @@ int collect_command(const CollectOptions& options);
 struct BenchOptions {
   bool json = false;
   int windows = 7;                // measured windows per layout
-  double window_s = 0.7;          // wall time of one
+  double window_s = 0.7;          // wall time of one; a mission is measured whole
+  std::string algorithm;          // "": each layout's own
   std::vector<std::string> only;  // names of layouts; empty: all
 };
 int bench_command(const BenchOptions& options);

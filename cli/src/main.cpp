@@ -113,10 +113,12 @@ constexpr const char* collect_footer =
 
 constexpr const char* bench_footer =
     "Layouts: dense-94-los (94 moving robots, about 85 in range of each), spread-94-los,\n"
-    "spread-1000-los and spread-10000-los (7 neighbours each); all with line of sight, one thread, the\n"
-    "full controller and all metrics at every tick.\n\n"
+    "spread-1000-los and spread-10000-los (7 neighbours each); and whole missions with convoy, mission-94\n"
+    "(paper-large, 300 s), mission-1000 (swarm-1000, 60 s) and mission-10000 (swarm-10000, 15 s). All with\n"
+    "line of sight, one thread, the full controller and all metrics at every tick.\n\n"
     "Examples:\n"
     "  banyan bench\n"
+    "  banyan bench mission-94 --algorithm inwards\n"
     "  banyan bench --json > today.json";
 
 // Collects --set and the options that are short for one, in the order given.
@@ -443,11 +445,13 @@ void add_bench(CLI::App& app, std::function<int()>& action) {
       app.add_subcommand("bench", "measure the speed of the simulation on this machine")->group(command_group);
   command->footer(bench_footer);
   command->add_option("layouts", options->only, "only these layouts")->type_name("LAYOUT");
+  command->add_option("--algorithm", options->algorithm, "run every layout with it instead of the layout's own")
+      ->type_name("NAME");
   command->add_flag("--json", options->json, "print the figures as JSON");
   command->add_option("--windows", options->windows, "measured windows per layout, default 7")
       ->type_name("N")
       ->check(CLI::Range(1, 1000).description(""));
-  command->add_option("--window", options->window_s, "length of a window, s of wall time, default 0.7")
+  command->add_option("--window", options->window_s, "length of a window, s of wall time, default 0.7; a mission is measured whole")
       ->type_name("S")
       ->check(CLI::Range(0.01, 600.0).description(""));
   command->callback([options, &action] { action = [options] { return bench_command(*options); }; });

@@ -17,6 +17,7 @@
 #include "banyan/record/recording.hpp"
 #include "commands.hpp"
 #include "page_server.hpp"
+#include "shipped.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -26,12 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
-
-// "share/banyan/NAME" of the installation that this program belongs to.
-fs::path installed(const char* name) {
-  std::error_code ignored;
-  return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "share" / "banyan" / name;
-}
 
 std::string page_folder(const ViewOptions& options) {
   const char* given = std::getenv("BANYAN_PAGE");
@@ -52,8 +47,7 @@ std::string scenarios_folder(const ViewOptions& options) {
     if (fs::is_directory(options.scenarios, ignored)) return options.scenarios;
     throw CommandError(exit_usage, options.scenarios + ": there is no such folder");
   }
-  const fs::path beside = installed("scenarios");
-  return fs::is_directory(beside, ignored) ? beside.string() : BANYAN_SCENARIOS_FOLDER;
+  return shipped_scenarios();
 }
 
 bool is_recording(const std::string& file) {

@@ -428,6 +428,23 @@ TEST_F(Program, BenchReportsTheFiguresOfItsLayouts) {
   EXPECT_NEAR(report["dense-94-los"]["neighbors_in_range_start"].get<double>(), 85.0, 8.0);
   EXPECT_NEAR(report["spread-94-los"]["neighbors_in_range_start"].get<double>(), 7.0, 1.5);
   EXPECT_GT(report["dense-94-los"]["moving_share"].get<double>(), 0.6);
+  EXPECT_EQ(report["dense-94-los"]["algorithm"], "inwards");
+}
+
+TEST_F(Program, BenchRunsAWholeMissionWithAnyAlgorithm) {
+  const auto mission = run({"bench", "--json", "--windows", "1", "--window", "0.01", "mission-94"});
+  ASSERT_EQ(mission.code, 0) << mission.err;
+  const auto convoy = json::parse(mission.out)["mission-94"];
+  EXPECT_EQ(convoy["algorithm"], "convoy");
+  EXPECT_EQ(convoy["robots"], 94);
+  // It starts as a cluster and ends spread out over four branches.
+  EXPECT_GT(convoy["neighbors_in_range_start"].get<double>(), 1.5 * convoy["neighbors_in_range_end"].get<double>());
+  const auto other = run({"bench", "--json", "--windows", "1", "--window", "0.01", "spread-94-los", "--algorithm", "inwards"});
+  ASSERT_EQ(other.code, 0) << other.err;
+  EXPECT_EQ(json::parse(other.out)["spread-94-los"]["algorithm"], "inwards");
+  const auto unknown = run({"bench", "spread-94-los", "--algorithm", "inward"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_TRUE(has(unknown.err, "--algorithm: \"inward\" is unknown")) << unknown.err;
 }
 
 // --------------------------------------------------------------------------------------- completion

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "shipped.hpp"
+
+namespace banyan::cli {
+
+namespace fs = std::filesystem;
+
+fs::path installed(const char* name) {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "share" / "banyan" / name;
+}
+
+std::string shipped_scenarios() {
+  std::error_code ignored;
+  const fs::path beside = installed("scenarios");
+  return fs::is_directory(beside, ignored) ? beside.string() : BANYAN_SCENARIOS_FOLDER;
+}
+
+}  // namespace banyan::cli

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Where the files are that come with the program.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace banyan::cli {
+
+// "share/banyan/NAME" of the installation that this program belongs to.
+[[nodiscard]] std::filesystem::path installed(const char* name);
+
+// Banyan's own scenarios: the installed ones, in a clone those of the clone.
+[[nodiscard]] std::string shipped_scenarios();
+
+}  // namespace banyan::cli
