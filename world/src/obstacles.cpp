@@ -65,6 +65,28 @@ bool blocks_ordered(const Wall& wall, Vec2 a, Vec2 b) noexcept {
   return (side_from <= 0.0 && side_to >= 0.0) || (side_from >= 0.0 && side_to <= 0.0);
 }
 
+// Between two segments that do not cross, some end is nearest.
+double gap_between(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
+  return std::min({distance(nearest_on_segment(a, b, c), c), distance(nearest_on_segment(a, b, d), d),
+                   distance(nearest_on_segment(c, d, a), a), distance(nearest_on_segment(c, d, b), b)});
+}
+
+double gap_of(const Disc& disc, Vec2 a, Vec2 b) noexcept {
+  return std::max(0.0, distance(nearest_on_segment(a, b, disc.center), disc.center) - disc.radius_m);
+}
+
+double gap_of(const Wall& wall, Vec2 a, Vec2 b) noexcept { return gap_between(a, b, wall.from, wall.to); }
+
+double gap_of(const Box& box, Vec2 a, Vec2 b) noexcept {
+  const LocalBox local(box);
+  const Vec2 p = rotate_back(local.rotation, a - box.center);
+  const Vec2 q = rotate_back(local.rotation, b - box.center);
+  const Vec2 corner = local.half;
+  const Vec2 other{-corner.x, corner.y};
+  return std::min({gap_between(p, q, corner, other), gap_between(p, q, other, corner * -1.0),
+                   gap_between(p, q, corner * -1.0, other * -1.0), gap_between(p, q, other * -1.0, corner)});
+}
+
 double clearance_of(const Disc& disc, Vec2 p) noexcept { return distance(disc.center, p) - disc.radius_m; }
 
 double clearance_of(const Box& box, Vec2 p) noexcept {
@@ -138,6 +160,10 @@ Vec2 push_out_of(const Wall& wall, Vec2 p, double radius) noexcept {
 bool blocks(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept {
   if (before(b, a)) std::swap(a, b);
   return std::visit([&](const auto& o) { return blocks_ordered(o, a, b); }, obstacle);
+}
+
+double gap(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept {
+  return std::visit([&](const auto& o) { return gap_of(o, a, b); }, obstacle);
 }
 
 double clearance(const Obstacle& obstacle, Vec2 p) noexcept {

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
+// Every verdict on a pair comes with a margin: how far robots may move until it could be another. Clocks
+// add up how far they have moved, and a pair is looked at again when its clock has passed the margin.
+// Margins are rounded down and clocks up, so that a verdict is always the one that the exact test would
+// give now.
+//
+// The clock of a pair is the sum of three ways: the robot's, the other's, and the farthest that anybody
+// around the robot has moved in each tick. The first two bound how far the ends of the line of sight
+// have come, the last how far a body beside it has.
 #include "banyan/world/radio.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "banyan/world/obstacles.hpp"
@@ -12,6 +21,19 @@ namespace {
 
 constexpr std::size_t few_cells = 15;   // so few, and scanning everybody beats the grid
 constexpr float far_away = 1e30F;
+constexpr double skin_share = 0.1;      // of the range
+constexpr double units_per_reach = 1 << 20;
+
+// What a body that blocks the segment from the origin to `d` may do until it is out of the way, as a
+// way by the clock of the pair. Across the segment nobody gets out faster than the clock goes. Along it
+// the turning of the segment counts too, by less than a third, since it is no shorter than four radii.
+double depth(Vec2 k, Vec2 d, double length, double radius) noexcept {
+  if (length < 4.0 * radius) return 0.0;
+  const double per_m = 1.0 / length;
+  const double along = dot(k, d) * per_m;
+  const double across = std::fabs(cross(k, d)) * per_m;
+  return std::min(std::min(along, length - along) / 1.5, radius - across);
+}
 
 }  // namespace
 
@@ -22,242 +44,396 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       line_of_sight_(scenario.radio.line_of_sight),
       dead_vanish_(!scenario.robot.dead_bodies),
       obstacles_(scenario.obstacles),
+      path_(robots, 0),
+      around_(robots, 0),
+      rows_(robots),
+      lower_(robots),
+      pairs_(robots),
+      cell_of_(robots, 0),
+      sorted_(robots, 0),
       offsets_(robots + 1, 0),
-      fill_(robots, 0),
-      blocked_offsets_(robots + 1, 0) {}
-
-void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor) {
-  if (scratch_.size() < static_cast<std::size_t>(executor.threads())) scratch_.resize(static_cast<std::size_t>(executor.threads()));
-  build_grid(positions);
-  for (Scratch& s : scratch_) {
-    s.links.clear();
-    s.blocked.clear();
-    s.blocker.clear();
-    s.near.clear();
-  }
-  executor.parallel_for(positions.size(), [&](std::size_t begin, std::size_t end, int worker) {
-    Scratch& s = scratch_[static_cast<std::size_t>(worker)];
-    for (std::size_t i = begin; i < end; ++i) scan(i, positions, alive, s);
-  });
-  merge(positions.size());
+      fill_(robots, 0) {
+  // Who blocks a pair is within its range and a radius of both. What is beyond that in the reach may be used up
+  // until the row is written anew: the skin, and what two robots move in the tick in which it is.
+  const double skin_m = skin_share * range_m_;
+  const double tick_m = 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s;
+  reach_m_ = std::max(range_m_, near_m_) + radius_m_ + skin_m + tick_m;
+  unit_m_ = reach_m_ / units_per_reach;
+  skin_ = static_cast<Way>(skin_m / unit_m_);
+  valid_ = static_cast<Way>(0.99 * (skin_m + tick_m) / unit_m_);
 }
 
-// Counting sort of the robots into cells. The number of cells stays below 4 N, so that a wide, thin
-// swarm costs no more memory than a dense one: the cells grow instead.
-void Radio::build_grid(std::span<const Vec2> positions) {
+void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor) {
+  if (!follow(positions, alive)) return;
+  scratch_.resize(std::max(scratch_.size(), static_cast<std::size_t>(executor.threads())));
+  const auto refresh_all = [&] {
+    executor.parallel_for(positions.size(), [&](std::size_t begin, std::size_t end, int worker) {
+      Scratch& s = scratch_[static_cast<std::size_t>(worker)];
+      for (std::size_t i = begin; i < end; ++i)
+        if (all_anew_ || !rows_[i].known || past(fast_clock(i), rows_[i].quiet_until)) refresh(i, positions, s);
+    });
+  };
+  for (Scratch& s : scratch_) s.changed = s.no_room = false;
+  refresh_all();
+  if (std::any_of(scratch_.begin(), scratch_.end(), [](const Scratch& s) { return s.no_room; })) {
+    make_room(positions);
+    refresh_all();
+  }
+  all_anew_ = false;
+  if (std::any_of(scratch_.begin(), scratch_.end(), [](const Scratch& s) { return s.changed; })) merge();
+}
+
+void Radio::forget(std::uint32_t i) {
+  std::erase_if(near_, [i](const Couple& couple) { return couple.first == i || couple.second == i; });
+}
+
+// ---- How far everybody has moved ----
+
+// Brings the clocks up to date. False if nothing has happened since the last update.
+bool Radio::follow(std::span<const Vec2> positions, std::span<const std::uint8_t> alive) {
+  bool rows_anew = last_.empty();
+  if (!std::equal(alive.begin(), alive.end(), alive_.begin(), alive_.end())) {
+    alive_.assign(alive.begin(), alive.end());
+    all_anew_ = true;
+    rows_anew |= dead_vanish_;
+  }
+  if (last_.empty()) last_.assign(positions.begin(), positions.end());
+  lay_grid(positions);
+  motion_.assign(columns_ * lines_, 0);
+  Way farthest = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (positions[i] == last_[i]) continue;
+    const double way = std::min(distance(positions[i], last_[i]) / unit_m_, units_per_reach);
+    const Way up = static_cast<Way>(way) + 1;
+    last_[i] = positions[i];
+    path_[i] += up;
+    motion_[cell_of_[i]] = std::max(motion_[cell_of_[i]], up);
+    farthest = std::max(farthest, up);
+  }
+  // Whoever jumps was around somebody without being counted there.
+  if (rows_anew || 2 * farthest > valid_)
+    for (Row& row : rows_) row.known = rows_anew = false;
+  if (farthest > 0) spread_motion();
+  const auto due = [&](std::size_t i) { return !rows_[i].known || clock(i) - rows_[i].written > skin_; };
+  std::size_t i = 0;
+  while (use_grid_ && i < rows_.size() && !due(i)) ++i;
+  if (use_grid_ && i < rows_.size()) sort_into_cells();
+  return farthest > 0 || all_anew_ || rows_anew;
+}
+
+// Cells are as wide as a row reaches, so that everybody within reach is in the same cell or one beside it.
+// The number of cells stays below 4 N, so that a wide, thin swarm costs no more memory than a dense one:
+// the cells grow instead.
+void Radio::lay_grid(std::span<const Vec2> positions) {
   Vec2 low = positions[0];
   Vec2 high = positions[0];
   for (const Vec2 p : positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  origin_ = low;
-  cell_m_ = std::max(range_m_, near_m_);
+  cell_m_ = reach_m_;
   const double limit = 4.0 * static_cast<double>(positions.size()) + 16.0;
   while (((high.x - low.x) / cell_m_ + 1.0) * ((high.y - low.y) / cell_m_ + 1.0) > limit) cell_m_ *= 2.0;
   columns_ = static_cast<std::size_t>((high.x - low.x) / cell_m_) + 1;
-  rows_ = static_cast<std::size_t>((high.y - low.y) / cell_m_) + 1;
-  use_grid_ = columns_ * rows_ > few_cells;
-  if (!use_grid_) return;
-
-  cell_of_.resize(positions.size());
-  sorted_.resize(positions.size());
-  sorted_position_.resize(positions.size());
-  cell_start_.assign(columns_ * rows_ + 1, 0);
+  lines_ = static_cast<std::size_t>((high.y - low.y) / cell_m_) + 1;
+  use_grid_ = columns_ * lines_ > few_cells;
   const double per_m = 1.0 / cell_m_;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     // Rounding may put the outermost robot one cell too far.
     const std::size_t column = std::min(static_cast<std::size_t>((positions[i].x - low.x) * per_m), columns_ - 1);
-    const std::size_t row = std::min(static_cast<std::size_t>((positions[i].y - low.y) * per_m), rows_ - 1);
-    cell_of_[i] = static_cast<std::uint32_t>(row * columns_ + column);
-    ++cell_start_[cell_of_[i] + 1];
+    const std::size_t line = std::min(static_cast<std::size_t>((positions[i].y - low.y) * per_m), lines_ - 1);
+    cell_of_[i] = static_cast<std::uint32_t>(line * columns_ + column);
   }
+}
+
+// Around each robot everybody has moved by no more than the farthest in its cell and the eight beside it.
+void Radio::spread_motion() {
+  across_.resize(motion_.size());
+  for (std::size_t l = 0; l < lines_; ++l) {
+    const Way* motion = motion_.data() + l * columns_;
+    Way* across = across_.data() + l * columns_;
+    for (std::size_t c = 0; c < columns_; ++c)
+      across[c] = std::max({motion[c > 0 ? c - 1 : c], motion[c], motion[c + 1 < columns_ ? c + 1 : c]});
+  }
+  for (std::size_t l = 0; l < lines_; ++l) {
+    const Way* below = across_.data() + (l > 0 ? l - 1 : l) * columns_;
+    const Way* here = across_.data() + l * columns_;
+    const Way* above = across_.data() + (l + 1 < lines_ ? l + 1 : l) * columns_;
+    for (std::size_t c = 0; c < columns_; ++c) motion_[l * columns_ + c] = std::max({below[c], here[c], above[c]});
+  }
+  for (std::size_t i = 0; i < around_.size(); ++i) around_[i] += motion_[cell_of_[i]];
+}
+
+// ---- Rows ----
+
+void Radio::sort_into_cells() {
+  cell_start_.assign(columns_ * lines_ + 1, 0);
+  for (const std::uint32_t cell : cell_of_) ++cell_start_[cell + 1];
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  for (std::size_t i = positions.size(); i-- > 0;) {
-    const std::uint32_t at = --cell_start_[cell_of_[i] + 1];
-    sorted_[at] = static_cast<std::uint32_t>(i);
-    sorted_position_[at] = positions[i];
-  }
+  for (std::size_t i = cell_of_.size(); i-- > 0;) sorted_[--cell_start_[cell_of_[i] + 1]] = static_cast<std::uint32_t>(i);
   // The loop has moved every start one cell up: cell c now begins at cell_start_[c + 1].
 }
 
-void Radio::forget(std::uint32_t i) {
-  std::erase_if(near_, [i](const Pair& pair) { return pair.first == i || pair.second == i; });
-}
-
-// Everybody within range of robot i who is still there, ascending.
-void Radio::gather(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const {
-  const double reach = std::max(range_m_, near_m_);
-  const double reach2 = reach * reach;
+// Everybody within reach of robot i who is still there, ascending.
+void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const {
+  s.size = 0;
+  if (dead_vanish_ && alive_[i] == 0) return;
+  const double reach2 = reach_m_ * reach_m_;
   const Vec2 here = positions[i];
   std::size_t size = 0;
   const auto reserve = [&](std::size_t more) {
-    if (s.index.size() >= size + more + chunk) return;
-    const std::size_t capacity = 2 * (size + more) + chunk;
-    s.index.resize(capacity);
-    for (auto* v : {&s.dx, &s.dy, &s.d2}) v->resize(capacity);
-    for (auto* v : {&s.x, &s.y}) v->resize(capacity);
+    if (s.index.size() < size + more + 1) s.index.resize(2 * (size + more) + chunk);
   };
   // Written unconditionally and kept by advancing: no branch for the processor to guess.
-  const auto consider = [&](std::size_t j, Vec2 there) {
+  const auto consider = [&](std::size_t j) {
     s.index[size] = static_cast<std::uint32_t>(j);
-    size += static_cast<std::size_t>(squared_norm(there - here) < reach2) & static_cast<std::size_t>(j != i);
+    size += static_cast<std::size_t>(squared_norm(positions[j] - here) < reach2) & static_cast<std::size_t>(j != i);
   };
   if (use_grid_) {
-    const std::size_t row = cell_of_[i] / columns_;
+    const std::size_t line = cell_of_[i] / columns_;
     const std::size_t column = cell_of_[i] % columns_;
     const std::size_t first = column > 0 ? column - 1 : 0;
     const std::size_t last = std::min(column + 1, columns_ - 1);
-    for (std::size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, rows_ - 1); ++r) {
-      const std::size_t begin = cell_start_[r * columns_ + first + 1];
-      const std::size_t end_cell = r * columns_ + last + 2;
+    for (std::size_t l = line > 0 ? line - 1 : 0; l <= std::min(line + 1, lines_ - 1); ++l) {
+      const std::size_t begin = cell_start_[l * columns_ + first + 1];
+      const std::size_t end_cell = l * columns_ + last + 2;
       const std::size_t end = end_cell < cell_start_.size() ? cell_start_[end_cell] : positions.size();
       reserve(end - begin);
-      for (std::size_t at = begin; at < end; ++at) consider(sorted_[at], sorted_position_[at]);
+      for (std::size_t at = begin; at < end; ++at) consider(sorted_[at]);
     }
   } else {
     reserve(positions.size());
-    for (std::size_t j = 0; j < positions.size(); ++j) consider(j, positions[j]);
+    for (std::size_t j = 0; j < positions.size(); ++j) consider(j);
   }
-  if (dead_vanish_) {
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < size; ++k) {
-      s.index[kept] = s.index[k];
-      kept += alive[s.index[k]] != 0 ? 1 : 0;
-    }
-    size = kept;
-  }
-  s.size = size;
+  const auto begin = s.index.begin();
+  if (dead_vanish_)
+    size = static_cast<std::size_t>(
+        std::remove_if(begin, begin + static_cast<std::ptrdiff_t>(size), [&](std::uint32_t j) { return alive_[j] == 0; }) - begin);
   // The grid hands out neighbours cell by cell.
-  if (use_grid_) std::sort(s.index.begin(), s.index.begin() + static_cast<std::ptrdiff_t>(size));
-  for (std::size_t k = 0; k < size; ++k) {
-    const Vec2 d = positions[s.index[k]] - here;
-    s.dx[k] = d.x;
-    s.dy[k] = d.y;
-    s.d2[k] = squared_norm(d);
-    s.x[k] = static_cast<float>(d.x);
-    s.y[k] = static_cast<float>(d.y);
-  }
-  std::fill_n(s.x.begin() + static_cast<std::ptrdiff_t>(size), chunk, far_away);
-  std::fill_n(s.y.begin() + static_cast<std::ptrdiff_t>(size), chunk, far_away);
+  if (use_grid_) std::sort(begin, begin + static_cast<std::ptrdiff_t>(size));
+  s.size = size;
 }
 
-// A body between the robot and its neighbour `target`, or nobody_blocks. Single precision, four at a
-// time, leaves out who is clearly beside the line; the exact test decides on the rest.
-std::uint32_t Radio::find_blocker(Scratch& s, std::size_t target) const noexcept {
-  const Vec2 d{s.dx[target], s.dy[target]};
-  const double d2 = s.d2[target];
+// Who is within reach of robot i now. What was known of pairs goes over into the new row, if its clock
+// has not gone too far: until then nobody whom the row missed has mattered. False: there is no room.
+bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s) {
+  gather(i, positions, s);
+  const auto begin = s.index.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(s.size);
+  const auto first = std::upper_bound(begin, end, static_cast<std::uint32_t>(i));
+  Row& row = rows_[i];
+  const bool valid = row.known && clock(i) - row.written <= valid_;
+  s.old.clear();
+  if (valid) s.old.insert(s.old.end(), pairs_.of(i).begin(), pairs_.of(i).end());
+  s.changed |= !valid;
+  row.known = lower_.resize(i, static_cast<std::size_t>(first - begin)) && pairs_.resize(i, static_cast<std::size_t>(end - first));
+  if (!row.known) {
+    s.changed = s.no_room = true;
+    return false;
+  }
+  row.written = clock(i);
+  std::copy(begin, first, lower_.of(i).begin());
+  auto old = s.old.cbegin();
+  auto other = first;
+  const auto counted = [](const Pair& pair) { return (pair.linked | pair.blocked | pair.near) != 0; };
+  for (Pair& pair : pairs_.of(i)) {
+    for (; old != s.old.cend() && old->other < *other; ++old) s.changed |= counted(*old);
+    if (old != s.old.cend() && old->other == *other) pair = *old++;
+    else pair = {*other & nobody_blocks, 0, 0, 0, nobody_blocks, clock(i, *other) - 1};
+    ++other;
+  }
+  for (; old != s.old.cend(); ++old) s.changed |= counted(*old);
+  return true;
+}
+
+// Lays the rows out anew, with room for those that had none.
+void Radio::make_room(std::span<const Vec2> positions) {
+  Scratch& s = scratch_[0];
+  const auto count = [&](std::size_t i) {
+    gather(i, positions, s);
+    const auto begin = s.index.begin();
+    const auto first = std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(s.size), static_cast<std::uint32_t>(i));
+    return static_cast<std::size_t>(first - begin);
+  };
+  lower_.lay_out([&](std::size_t i) { return !rows_[i].known ? std::max(count(i), lower_.of(i).size()) : lower_.of(i).size(); });
+  pairs_.lay_out([&](std::size_t i) {
+    if (rows_[i].known) return pairs_.of(i).size();
+    const std::size_t below = count(i);
+    return std::max(s.size - below, pairs_.of(i).size());
+  });
+}
+
+// ---- Pairs ----
+
+// Looks at the pairs of robot i whose clock has run out.
+void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) {
+  Row& row = rows_[i];
+  if ((!row.known || clock(i) - row.written > skin_) && !write_row(i, positions, s)) return;
+  Site site{i, positions[i], positions, lower_.of(i), pairs_.of(i), s};
+  Way least = skin_ - (clock(i) - row.written);
+  const Way own = clock(i);
+  for (Pair& pair : site.pairs) {
+    const Way now = own + path_[pair.other];
+    if (all_anew_ || past(now, pair.holds_until)) decide(site, pair);
+    least = std::min(least, pair.holds_until - now);
+  }
+  row.quiet_until = fast_clock(i) + least;
+}
+
+// Decides a pair, and for how long.
+void Radio::decide(Site& site, Pair& pair) const {
+  const Pair before = pair;
+  const Vec2 d = site.positions[pair.other] - site.here;
+  const double d2 = squared_norm(d);
+  const double length = std::sqrt(d2);
+  double lasts_m = std::min({std::fabs(length - range_m_), std::fabs(length - near_m_), range_m_});
+  pair.near = d2 < near_m_ * near_m_ ? 1 : 0;
+  const bool in_range = d2 < range_m_ * range_m_ && alive_[site.i] != 0 && alive_[pair.other] != 0;
+  pair.linked = in_range && !line_of_sight_ ? 1 : 0;
+  if (in_range && line_of_sight_) lasts_m = std::min(lasts_m, judge_sight(site, pair, d, length));
+  else pair.blocked = 0;
+  // Clocks go up to one unit too slowly per robot; rounding is far less.
+  pair.holds_until = clock(site.i, pair.other) + static_cast<Way>(std::max(0.0, lasts_m / unit_m_ - 4.0));
+  site.s.changed |= pair.linked != before.linked || pair.blocked != before.blocked || pair.near != before.near;
+}
+
+// Whether there is a line of sight; returns for how long that is so, as a way in m by the clock of the pair.
+double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double length) const {
+  const double d2 = squared_norm(d);
+  const Vec2 there = site.positions[pair.other];
+  const auto hides = [&](const Obstacle* o) { return blocks(*o, site.here, there); };
+  const bool was_blocked = pair.blocked != 0;
+  pair.blocked = 1;
+  // Who blocked the pair before mostly still does.
+  if (was_blocked && pair.blocker != nobody_blocks && !(dead_vanish_ && alive_[pair.blocker] == 0)) {
+    const Vec2 body = site.positions[pair.blocker] - site.here;
+    if (disc_blocks(body, d, d2, radius_m_)) return depth(body, d, length, radius_m_);
+  }
+  look_around(site);
+  if (was_blocked && pair.blocker == nobody_blocks && std::any_of(site.s.obstacles.begin(), site.s.obstacles.end(), hides)) return 0.0;
+  const View view = find_blocker(site, pair, d, d2);
+  pair.blocker = view.blocker;
+  if (view.blocker != nobody_blocks) return depth(site.positions[view.blocker] - site.here, d, length, radius_m_);
+  if (std::any_of(site.s.obstacles.begin(), site.s.obstacles.end(), hides)) return 0.0;
+  pair.blocked = 0;
+  pair.linked = 1;
+  double lasts_m = static_cast<double>(view.free_m);
+  for (const Obstacle* o : site.s.obstacles) lasts_m = std::min(lasts_m, gap(*o, site.here, there));
+  return lasts_m;
+}
+
+// Who and what could be in the way of a robot's lines of sight.
+void Radio::look_around(Site& site) const {
+  if (std::exchange(site.looked, true)) return;
+  Scratch& s = site.s;
+  const std::size_t size = site.lower.size() + site.pairs.size();
+  if (s.x.size() < size + chunk)
+    for (auto* v : {&s.x, &s.y}) v->resize(2 * size + chunk);
+  float* x = s.x.data();
+  float* y = s.y.data();
+  const auto put = [&](std::uint32_t j) {
+    const Vec2 d = site.positions[j] - site.here;
+    *x++ = static_cast<float>(d.x);
+    *y++ = static_cast<float>(d.y);
+  };
+  for (const std::uint32_t j : site.lower) put(j);
+  for (const Pair& pair : site.pairs) put(pair.other);
+  std::fill_n(x, chunk, far_away);
+  std::fill_n(y, chunk, far_away);
+  s.obstacles.clear();
+  for (const Obstacle& obstacle : obstacles_)
+    if (clearance(obstacle, site.here) < range_m_) s.obstacles.push_back(&obstacle);
+}
+
+// A body between the robot and the other of the pair. Single precision, four at a time, leaves out who
+// is clearly beside the line; the exact test decides on the rest.
+Radio::View Radio::find_blocker(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept {
+  Scratch& s = site.s;
+  const std::size_t lower = site.lower.size();
+  const std::size_t size = lower + site.pairs.size();
+  const auto target = lower + static_cast<std::size_t>(&pair - site.pairs.data());
+  const auto body = [&](std::size_t at) { return at < lower ? site.lower[at] : site.pairs[at - lower].other; };
   const auto length = static_cast<float>(std::sqrt(d2));
-  const float ux = s.x[target] / length;
-  const float uy = s.y[target] / length;
-  const float beside = static_cast<float>(radius_m_) + 1e-4F * (length + 1.0F);   // far above the rounding
-  const float aside = std::exchange(s.x[target], far_away);                        // the target itself is not in the way
-  std::uint32_t by = nobody_blocks;
-  for (std::size_t begin = 0; begin < s.size && by == nobody_blocks; begin += chunk) {
+  const float ux = static_cast<float>(d.x) / length;
+  const float uy = static_cast<float>(d.y) / length;
+  const float half = 0.5F * length;
+  const float rounding = 1e-4F * (length + 1.0F);   // far above it
+  const float beside = static_cast<float>(radius_m_) + rounding;
+  const bool has_direction = length > 1e-3F;
+  const float beside2 = has_direction ? beside * beside : far_away;
+  const float aside = std::exchange(s.x[target], far_away);   // the other itself is not in the way
+  float least2[chunk];
+  float gap2[chunk];
+  std::fill_n(least2, chunk, far_away);
+  View view{nobody_blocks, 0.0F};
+  for (std::size_t begin = 0; begin < size && view.blocker == nobody_blocks; begin += chunk) {
     const float* x = s.x.data() + begin;
     const float* y = s.y.data() + begin;
     int any = 0;
-    for (std::size_t k = 0; k < chunk; ++k) {
-      const float across = std::fabs(x[k] * uy - y[k] * ux);
-      const float along = x[k] * ux + y[k] * uy;
-      any |= static_cast<int>(across < beside) & static_cast<int>(along > -1e-3F) & static_cast<int>(along < length + 1e-3F);
+    for (std::size_t n = 0; n < chunk; ++n) {   // without a branch, for the compiler to make vectors of it
+      const float across = x[n] * uy - y[n] * ux;
+      const float over = std::fabs(x[n] * ux + y[n] * uy - half) - half;   // beyond the ends
+      const float out = 0.5F * (over + std::fabs(over));
+      gap2[n] = across * across + out * out;
+      least2[n] = gap2[n] < least2[n] ? gap2[n] : least2[n];
+      any |= static_cast<int>(!(gap2[n] >= beside2));
     }
     if (any == 0) continue;
-    const std::size_t end = std::min(begin + chunk, s.size);
-    for (std::size_t k = begin; k < end && by == nobody_blocks; ++k)
-      if (k != target && disc_blocks({s.dx[k], s.dy[k]}, d, d2, radius_m_)) by = s.index[k];
+    const std::size_t end = std::min(chunk, size - begin);
+    for (std::size_t n = 0; n < end && view.blocker == nobody_blocks; ++n) {
+      if (gap2[n] >= beside2 || begin + n == target) continue;
+      const std::uint32_t k = body(begin + n);
+      if (disc_blocks(site.positions[k] - site.here, d, d2, radius_m_)) view.blocker = k;
+    }
   }
   s.x[target] = aside;
-  return by;
+  if (has_direction) view.free_m = std::max(0.0F, std::sqrt(*std::min_element(least2, least2 + chunk)) - beside);
+  return view;
 }
 
-// Decides every pair (i, j > i), so that each is decided once and from the same end.
-void Radio::scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const {
-  if (dead_vanish_ && alive[i] == 0) return;
-  gather(i, positions, alive, s);
-  s.obstacles.clear();
-  if (line_of_sight_)
-    for (const Obstacle& obstacle : obstacles_)
-      if (clearance(obstacle, positions[i]) < range_m_) s.obstacles.push_back(&obstacle);
+// ---- The result ----
 
-  const auto self = static_cast<std::uint32_t>(i);
-  std::size_t last = blocked_offsets_[i];   // walks along the pairs of i that were blocked in the last tick
-  const std::size_t last_end = blocked_offsets_[i + 1];
-  std::size_t k = static_cast<std::size_t>(std::upper_bound(s.index.begin(), s.index.begin() + static_cast<std::ptrdiff_t>(s.size), self) - s.index.begin());
-  for (; k < s.size; ++k) {
-    const std::uint32_t other = s.index[k];
-    const Pair pair{self, other};
-    if (s.d2[k] < near_m_ * near_m_) s.near.push_back(pair);
-    if (s.d2[k] >= range_m_ * range_m_ || alive[i] == 0 || alive[other] == 0) continue;
-    if (!line_of_sight_) {
-      s.links.push_back(pair);
-      continue;
-    }
-    // Who blocked a pair a tick ago mostly still does.
-    while (last < last_end && blocked_[last].second < other) ++last;
-    std::uint32_t by = last < last_end && blocked_[last].second == other ? blocker_[last] : nobody_blocks;
-    if (by != nobody_blocks && dead_vanish_ && alive[by] == 0) by = nobody_blocks;
-    if (by == nobody_blocks || !disc_blocks(positions[by] - positions[i], {s.dx[k], s.dy[k]}, s.d2[k], radius_m_)) by = find_blocker(s, k);
-    const auto in_the_way = [&](const Obstacle* o) { return blocks(*o, positions[i], positions[other]); };
-    if (by == nobody_blocks && std::none_of(s.obstacles.begin(), s.obstacles.end(), in_the_way)) {
-      s.links.push_back(pair);
-    } else {
-      s.blocked.push_back(pair);
-      s.blocker.push_back(by);
-    }
-  }
-}
-
-// Pairs of all threads, in order, into compressed rows that are ascending at both ends.
-namespace {
-
-// insert() into an emptied vector takes exactly what it needs, and every new record would be an
-// allocation.
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& part) {
-  const std::size_t size = all.size() + part.size();
-  if (size > all.capacity()) all.reserve(size + size / 4);
-  all.insert(all.end(), part.begin(), part.end());
-}
-
-}  // namespace
-
-void Radio::merge(std::size_t robots) {
+// Pairs of all robots, in order, into compressed rows that are ascending at both ends.
+void Radio::merge() {
+  const std::size_t robots = fill_.size();
   blocked_.clear();
-  blocker_.clear();
   near_.clear();
   std::fill(offsets_.begin(), offsets_.end(), 0U);
-  std::fill(blocked_offsets_.begin(), blocked_offsets_.end(), 0U);
-  std::size_t pairs = 0;
-  for (const Scratch& s : scratch_) {
-    append(blocked_, s.blocked);
-    append(blocker_, s.blocker);
-    append(near_, s.near);
-    for (const auto& [i, j] : s.links) {
-      ++offsets_[i + 1];
-      ++offsets_[j + 1];
+  const auto add = [](std::vector<Couple>& couples, std::size_t i, std::uint32_t j) {
+    if (couples.size() == couples.capacity()) couples.reserve(couples.size() + couples.size() / 4 + 16);
+    couples.emplace_back(static_cast<std::uint32_t>(i), j);
+  };
+  for (std::size_t i = 0; i < robots; ++i) {
+    for (const Pair& pair : pairs_.of(i)) {
+      if (pair.linked != 0) {
+        ++offsets_[i + 1];
+        ++offsets_[pair.other + 1];
+      }
+      if (pair.blocked != 0) add(blocked_, i, pair.other);
+      if (pair.near != 0) add(near_, i, pair.other);
     }
-    pairs += s.links.size();
   }
-  for (const auto& [i, j] : blocked_) ++blocked_offsets_[i + 1];
   for (std::size_t i = 0; i < robots; ++i) {
     offsets_[i + 1] += offsets_[i];
-    blocked_offsets_[i + 1] += blocked_offsets_[i];
     fill_[i] = offsets_[i];
   }
-  links_.resize(2 * pairs);
-  for (const Scratch& s : scratch_)
-    for (const auto& [i, j] : s.links) {
-      links_[fill_[i]++] = j;
-      links_[fill_[j]++] = i;
+  if (offsets_[robots] > links_.capacity()) links_.reserve(offsets_[robots] + offsets_[robots] / 4);
+  links_.resize(offsets_[robots]);
+  for (std::size_t i = 0; i < robots; ++i) {
+    for (const Pair& pair : pairs_.of(i)) {
+      if (pair.linked == 0) continue;
+      links_[fill_[i]++] = pair.other;
+      links_[fill_[pair.other]++] = static_cast<std::uint32_t>(i);
     }
+  }
 }
 
 std::size_t Radio::memory_bytes() const noexcept {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  std::size_t total = bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(sorted_position_) + bytes(offsets_) +
-                      bytes(fill_) + bytes(links_) + bytes(blocked_) + bytes(near_) + bytes(blocker_) + bytes(blocked_offsets_);
-  for (const Scratch& s : scratch_) total += bytes(s.dx) + bytes(s.dy) + bytes(s.d2) + bytes(s.index) + bytes(s.x) + bytes(s.y) + bytes(s.blocker) + bytes(s.links) + bytes(s.blocked) + bytes(s.near);
+  std::size_t total = bytes(last_) + bytes(alive_) + lower_.memory_bytes() + pairs_.memory_bytes() + bytes(path_) + bytes(around_) + bytes(rows_) +
+                      bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(motion_) + bytes(across_) + bytes(offsets_) +
+                      bytes(fill_) + bytes(links_) + bytes(blocked_) + bytes(near_);
+  for (const Scratch& s : scratch_) total += bytes(s.index) + bytes(s.old) + bytes(s.x) + bytes(s.y) + bytes(s.obstacles);
   return total;
 }
 

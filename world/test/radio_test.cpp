@@ -9,6 +9,7 @@
 #include <set>
 
 #include "banyan/controller/core/trig.hpp"
+#include "banyan/world/obstacles.hpp"
 #include "banyan/world/random.hpp"
 
 namespace banyan::world {
@@ -167,6 +168,75 @@ TEST(Radio, AgreesWithPlainGeometryWhileRobotsMoveAndDie) {
         c.positions[i] += Vec2{far * (to_uniform(bits(seed, Purpose::loss, i, 0, tick)) - 0.5), far * (to_uniform(bits(seed, Purpose::loss, i, 1, tick)) - 0.5)};
         if (to_uniform(bits(seed, Purpose::loss, i, 2, tick)) < 0.02) c.alive[i] = 0;
       }
+    }
+  }
+}
+
+// A crowd in which many stand, some creep, some drive and a few are fast, each on its own way to and fro.
+class Traffic {
+ public:
+  explicit Traffic(std::uint64_t seed) : crowd(world::crowd(seed)), seed_(seed), heading_(crowd.positions.size()) {
+    crowd.scenario.robot.dead_bodies = draw(1) < 0.5;
+    for (std::size_t i = 0; i < heading_.size(); ++i) heading_[i] = unit_vector(6.2831853 * draw(2, i));
+  }
+
+  // True if robot i has just died.
+  bool move(std::size_t i, std::uint64_t tick) {
+    constexpr double speeds[] = {0.0, 0.0, 0.0, 0.0, 1e-9, 1e-5, 1e-3, 0.02, 0.02, 0.1};   // m per tick
+    if (draw(3, i, tick) < 0.02) heading_[i] = unit_vector(6.2831853 * draw(4, i, tick));
+    const bool everybody_rests = draw(5, tick / 8) < 0.2;
+    if (!everybody_rests) crowd.positions[i] += heading_[i] * speeds[static_cast<std::size_t>(10 * draw(6, i, tick / 30))];
+    if (draw(7, i, tick) < 0.0005) crowd.positions[i] = crowd.positions[static_cast<std::size_t>(draw(8, i, tick) * static_cast<double>(heading_.size()))] + Vec2{0.2, 0.1};
+    if (crowd.alive[i] == 0 || draw(9, i, tick) >= 0.0003) return false;
+    crowd.alive[i] = 0;
+    return true;
+  }
+
+  void change_settings(Radio& radio, std::uint64_t tick) {
+    Scenario& s = crowd.scenario;
+    if (draw(10, tick) < 0.02) radio.set_line_of_sight(s.radio.line_of_sight = !s.radio.line_of_sight);
+    if (s.obstacles.empty() || draw(11, tick) >= 0.05) return;
+    Obstacle& obstacle = s.obstacles[static_cast<std::size_t>(draw(12, tick) * static_cast<double>(s.obstacles.size()))];
+    obstacle = moved(obstacle, center_of(obstacle) + Vec2{0.3 * draw(13, tick) - 0.15, 0.3 * draw(14, tick) - 0.15});
+    radio.set_obstacles(s.obstacles);
+  }
+
+  Crowd crowd;
+
+ private:
+  [[nodiscard]] double draw(std::uint64_t what, std::uint64_t a = 0, std::uint64_t b = 0) const {
+    return to_uniform(bits(seed_, Purpose::loss, what, a, b));
+  }
+  std::uint64_t seed_;
+  std::vector<Vec2> heading_;
+};
+
+void expect_same(const Radio& radio, const Radio& other, std::size_t robots) {
+  for (std::size_t i = 0; i < robots; ++i) ASSERT_TRUE(std::ranges::equal(radio.links(i), other.links(i))) << i;
+  ASSERT_TRUE(std::ranges::equal(radio.blocked(), other.blocked()));
+  ASSERT_TRUE(std::ranges::equal(radio.near(), other.near()));
+}
+
+// Against one that sees each tick as its first, and now and then against plain geometry.
+TEST(Radio, WhatItKeepsFromTickToTickIsWhatItWouldFindAnew) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Traffic traffic(seed);
+    const Crowd& c = traffic.crowd;
+    const std::size_t robots = c.positions.size();
+    Executor executor(1 + static_cast<int>(seed % 4));
+    Executor alone(1);
+    Radio radio(c.scenario, robots);
+    for (std::uint64_t tick = 0; tick < 150; ++tick) {
+      radio.update(c.positions, c.alive, executor);
+      Radio anew(c.scenario, robots);
+      anew.update(c.positions, c.alive, alone);
+      ASSERT_NO_FATAL_FAILURE(expect_same(radio, anew, robots)) << "seed " << seed << ", tick " << tick;
+      if (tick % 50 == 49 && c.scenario.robot.dead_bodies) {
+        ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed));
+      }
+      traffic.change_settings(radio, tick);
+      for (std::size_t i = 0; i < robots; ++i)
+        if (traffic.move(i, tick) && !c.scenario.robot.dead_bodies) radio.forget(static_cast<std::uint32_t>(i));
     }
   }
 }

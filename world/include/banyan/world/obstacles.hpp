@@ -12,6 +12,9 @@ namespace banyan::world {
 // Whether the open segment a-b meets the obstacle. Symmetric in a and b to the last bit.
 [[nodiscard]] bool blocks(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept;
 
+// No more than the distance between the segment a-b and the obstacle, which does not block it; 0 if they touch.
+[[nodiscard]] double gap(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept;
+
 // Distance of p to the obstacle's surface; negative inside a disc or box.
 [[nodiscard]] double clearance(const Obstacle& obstacle, Vec2 p) noexcept;
 

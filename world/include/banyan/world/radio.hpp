@@ -2,13 +2,13 @@
 // Who can hear whom: links by range and exact line of sight, all pairs, every tick.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "banyan/world/bodies.hpp"
+#include "banyan/world/rows.hpp"
 #include "banyan/world/scenario.hpp"
 #include "banyan/world/threads.hpp"
 
@@ -21,12 +21,20 @@ class Radio {
  public:
   Radio(const Scenario& scenario, std::size_t robots);
 
-  // Finds links, blocked pairs and near pairs at the given poses. O(N + pairs in range) time.
+  // Finds links, blocked pairs and near pairs at the given poses. O(N + pairs in range) time, but what
+  // nobody can have changed by moving is not looked at again: every verdict comes with how far robots may
+  // move until it could be another. The result is that of deciding every pair anew, to the bit.
   void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor);
 
   // From the next update on these block, and blocking counts or not.
-  void set_obstacles(std::span<const Obstacle> obstacles) { obstacles_.assign(obstacles.begin(), obstacles.end()); }
-  void set_line_of_sight(bool on) noexcept { line_of_sight_ = on; }
+  void set_obstacles(std::span<const Obstacle> obstacles) {
+    obstacles_.assign(obstacles.begin(), obstacles.end());
+    all_anew_ = true;
+  }
+  void set_line_of_sight(bool on) noexcept {
+    line_of_sight_ = on;
+    all_anew_ = true;
+  }
 
   // Robot i has vanished since the last update: it is near to nobody.
   void forget(std::uint32_t i);
@@ -49,45 +57,101 @@ class Radio {
   }
 
  private:
-  using Pair = std::pair<std::uint32_t, std::uint32_t>;
-  static constexpr std::uint32_t nobody_blocks = 0xFFFFFFFF;
+  using Couple = std::pair<std::uint32_t, std::uint32_t>;
+  // A way in units of unit_m_, rounded up. It wraps: only differences count.
+  using Way = std::uint32_t;
+  static constexpr std::uint32_t nobody_blocks = (1U << 29) - 1;
   static constexpr std::size_t chunk = 16;   // of neighbours that are looked at together
-  struct Scratch {    // one per thread; the first `size` of each array are valid
+
+  // What was found out about robot i and another, j > i.
+  struct Pair {
+    std::uint32_t other : 29;
+    std::uint32_t linked : 1, blocked : 1, near : 1;   // neither linked nor blocked: out of range, or dead
+    std::uint32_t blocker;   // of a blocked pair: a body, or nobody_blocks for an obstacle
+    Way holds_until;         // by the clock of the pair
+  };
+  // The row of a robot: everybody within reach when it was written.
+  struct Row {
+    bool known = false;
+    Way written = 0;         // by the clock of the row
+    Way quiet_until = 0;     // by the fast clock of the row: until then no pair runs out
+  };
+  struct Scratch {           // one per thread
+    std::vector<std::uint32_t> index;   // everybody within reach of a robot, ascending; the first `size` are valid
     std::size_t size = 0;
-    std::vector<std::uint32_t> index;    // everybody in range of the robot being scanned, ascending
-    std::vector<double> dx, dy, d2;      // from it, world frame
-    std::vector<float> x, y;             // dx, dy in single precision, padded to whole chunks
-    std::vector<const Obstacle*> obstacles;   // near the robot
-    std::vector<Pair> links, blocked, near;
-    std::vector<std::uint32_t> blocker;       // of each blocked pair
+    std::vector<Pair> old;              // a row before it was written anew
+    std::vector<float> x, y;            // from a robot to each of its row, world frame, padded to whole chunks
+    std::vector<const Obstacle*> obstacles;   // near it
+    bool changed = false;               // some pair is not what it was
+    bool no_room = false;               // some row needs more
+  };
+  // A robot and its row, while it is looked at.
+  struct Site {
+    std::size_t i;
+    Vec2 here;
+    std::span<const Vec2> positions;
+    std::span<const std::uint32_t> lower;
+    std::span<Pair> pairs;
+    Scratch& s;
+    bool looked = false;   // s.x, s.y and s.obstacles are those of this robot
+  };
+  // A body in the way, or how far everybody else is from being in the way.
+  struct View {
+    std::uint32_t blocker;
+    float free_m;
   };
 
-  void build_grid(std::span<const Vec2> positions);
-  void scan(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const;
-  void gather(std::size_t i, std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Scratch& s) const;
-  [[nodiscard]] std::uint32_t find_blocker(Scratch& s, std::size_t target) const noexcept;
-  void merge(std::size_t robots);
+  [[nodiscard]] Way clock(std::size_t i) const noexcept { return path_[i] + around_[i]; }
+  [[nodiscard]] Way clock(std::size_t i, std::size_t j) const noexcept { return path_[i] + path_[j] + around_[i]; }
+  [[nodiscard]] Way fast_clock(std::size_t i) const noexcept { return path_[i] + 2 * around_[i]; }
+  [[nodiscard]] static bool past(Way now, Way until) noexcept { return static_cast<std::int32_t>(now - until) > 0; }
+
+  [[nodiscard]] bool follow(std::span<const Vec2> positions, std::span<const std::uint8_t> alive);
+  void lay_grid(std::span<const Vec2> positions);
+  void spread_motion();
+  void sort_into_cells();
+  void gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const;
+  [[nodiscard]] bool write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s);
+  void make_room(std::span<const Vec2> positions);
+  void refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s);
+  void decide(Site& site, Pair& pair) const;
+  [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double length) const;
+  void look_around(Site& site) const;
+  [[nodiscard]] View find_blocker(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept;
+  void merge();
 
   double range_m_;
   double radius_m_;
   double near_m_;
+  double reach_m_;      // how far a row reaches
+  double unit_m_;
+  Way skin_;            // a row is written anew once its clock has gone on so far; to the end of
+  Way valid_;           // this it misses nobody that matters
   bool line_of_sight_;
   bool dead_vanish_;
   std::vector<Obstacle> obstacles_;
 
-  // Grid of cells at least C wide, robots sorted by cell (counting sort). Not used while the swarm covers a few cells only.
-  Vec2 origin_{};
+  // As of the last update.
+  std::vector<Vec2> last_;
+  std::vector<std::uint8_t> alive_;
+  bool all_anew_ = true;                  // every pair is to be decided again: sight or obstacles have changed
+
+  std::vector<Way> path_;                 // how far each robot has come
+  std::vector<Way> around_;               // the farthest that anybody within its reach has moved, summed over ticks
+  std::vector<Row> rows_;
+  Rows<std::uint32_t> lower_;             // of each row those with a smaller index,
+  Rows<Pair> pairs_;                      // and those with a larger one; ascending
+
+  // Grid of cells at least as wide as the reach, robots sorted by cell (counting sort).
   double cell_m_ = 1.0;
-  std::size_t columns_ = 1, rows_ = 1;
-  bool use_grid_ = false;
+  std::size_t columns_ = 1, lines_ = 1;
+  bool use_grid_ = false;                 // not while the swarm covers a few cells only
   std::vector<std::uint32_t> cell_of_, cell_start_, sorted_;
-  std::vector<Vec2> sorted_position_;
+  std::vector<Way> motion_, across_;      // the farthest move in each cell in this tick; in three cells side by side
 
   std::vector<Scratch> scratch_;
   std::vector<std::uint32_t> offsets_, fill_, links_;  // compressed rows
-  std::vector<Pair> blocked_, near_;
-  std::vector<std::uint32_t> blocker_;           // of each blocked pair: a body, or nobody_blocks for an obstacle
-  std::vector<std::uint32_t> blocked_offsets_;   // blocked_ by first robot
+  std::vector<Couple> blocked_, near_;
 };
 
 }  // namespace banyan::world
