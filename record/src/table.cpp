@@ -29,8 +29,7 @@ std::string hexadecimal(std::uint64_t value) {
   return text;
 }
 
-constexpr std::size_t identifying = 14;
-constexpr std::array<Column<Row>, 62> run_table{{
+constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
     {"algorithm", "mission.algorithm", 0, [](const Row& r) -> Cell { return r.id.algorithm; }},
     {"reading", "mission.reading: literal or corrected", 0, [](const Row& r) -> Cell { return r.id.reading; }},
@@ -48,7 +47,9 @@ constexpr std::array<Column<Row>, 62> run_table{{
     {"seed", "of all random draws", 0, [](const Row& r) { return natural(r.id.seed); }},
     {"version", "of Banyan", 0, [](const Row& r) -> Cell { return r.id.version; }},
     {"git", "commit Banyan was built from", 0, [](const Row& r) -> Cell { return r.id.git; }},
+};
 
+constexpr Column<Row> result_table[] = {
     {"robots", "robots at the start", 0, [](const Row& r) { return natural(r.run.robots); }},
     {"ticks", "simulated ticks", 0, [](const Row& r) { return natural(r.run.ticks); }},
     {"time_s", "simulated time", 4, [](const Row& r) -> Cell { return r.run.time_s; }},
@@ -127,11 +128,18 @@ constexpr std::array<Column<Row>, 62> run_table{{
     {"hash", "state hash of the world at the end, hexadecimal", 0,
      [](const Row& r) -> Cell { return hexadecimal(r.run.hash); }},
     {"format_version", "of this table", 0, [](const Row&) { return natural(1); }},
-}};
+};
 
-static_assert(run_table[identifying].name == "robots");
+template <std::size_t a, std::size_t b>
+constexpr std::array<Column<Row>, a + b> joined(const Column<Row> (&first)[a], const Column<Row> (&second)[b]) {
+  std::array<Column<Row>, a + b> all{};
+  std::copy(std::begin(first), std::end(first), all.begin());
+  std::copy(std::begin(second), std::end(second), all.begin() + a);
+  return all;
+}
+constexpr auto run_table = joined(identifying_table, result_table);
 
-constexpr std::array<Column<Tick>, 18> series_table{{
+constexpr Column<Tick> series_table[] = {
     {"tick", "number of the tick", 0, [](const Tick& t) { return natural(t.tick); }},
     {"time_s", "tick times tick_s", 4, [](const Tick& t) -> Cell { return t.time_s; }},
     {"alive", "living robots", 0, [](const Tick& t) { return natural(t.alive); }},
@@ -156,7 +164,7 @@ constexpr std::array<Column<Tick>, 18> series_table{{
      [](const Tick& t) -> Cell { return t.worst_target_distance_m; }},
     {"targets_reached", "active targets held by a living worker", 0,
      [](const Tick& t) { return natural(t.targets_reached); }},
-}};
+};
 
 void write_csv_field(Text& out, std::string_view field) {
   if (field.find_first_of(",\"\r\n") == std::string_view::npos) return out.put(field);
@@ -241,7 +249,7 @@ Identification identify(const world::Scenario& scenario, std::string_view versio
 }
 
 std::span<const Column<RunRow>> run_columns() noexcept { return run_table; }
-std::span<const Column<RunRow>> result_columns() noexcept { return std::span(run_table).subspan(identifying); }
+std::span<const Column<RunRow>> result_columns() noexcept { return result_table; }
 std::span<const Column<measure::Tick>> series_columns() noexcept { return series_table; }
 
 std::string run_csv_header() { return header_of(run_columns()); }

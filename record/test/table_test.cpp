@@ -83,6 +83,16 @@ TEST(Table, ColumnNamesAreUniqueAndSnakeCase) {
   }
 }
 
+TEST(Table, ColumnsOfTheResultFollowThoseThatIdentifyTheRun) {
+  const auto all = run_columns(), results = result_columns();
+  ASSERT_LT(results.size(), all.size());
+  for (std::size_t k = 1; k <= results.size(); ++k)
+    EXPECT_EQ(all[all.size() - k].name, results[results.size() - k].name);
+  EXPECT_EQ(all[all.size() - results.size() - 1].name, "git");
+  EXPECT_EQ(results.front().name, "robots");
+  EXPECT_EQ(results.back().name, "format_version");
+}
+
 TEST(Table, WhatIsNotThereIsEmptyOrNull) {
   RunRow row = sample_row();
   row.run.complete = false;

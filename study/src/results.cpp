@@ -24,12 +24,11 @@ const std::vector<RunColumn>& run_columns() {
   static const std::vector<RunColumn> columns = [] {
     const auto sample = record::RunRow{record::identify(world::Scenario{}, version, git_id()), {}, false};
     std::vector<RunColumn> list;
-    bool identifying = true;
+    const std::size_t identifying = record::run_columns().size() - record::result_columns().size();
     for (const auto& column : record::run_columns()) {
-      if (column.name == "robots") identifying = false;  // the first column of results
       const auto cell = column.cell(sample);
       list.push_back({std::string(column.name), !std::holds_alternative<std::string>(cell),
-                      std::holds_alternative<bool>(cell), identifying});
+                      std::holds_alternative<bool>(cell), list.size() < identifying});
     }
     return list;
   }();

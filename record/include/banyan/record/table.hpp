@@ -52,6 +52,8 @@ struct Column {
   Cell (*cell)(const Row&);
 };
 [[nodiscard]] std::span<const Column<RunRow>> run_columns() noexcept;
+// The last of these: how the run went. Those before them identify it.
+[[nodiscard]] std::span<const Column<RunRow>> result_columns() noexcept;
 [[nodiscard]] std::span<const Column<measure::Tick>> series_columns() noexcept;
 
 // Lines without their end; RFC 4180 quoting.
