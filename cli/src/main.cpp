@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "banyan/record/file.hpp"
+#include "banyan/record/output_formats.hpp"
 #include "banyan/version.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
@@ -160,6 +161,19 @@ void add_seed(CLI::App& command, std::vector<Override>& overrides) {
       ->type_name("N");
 }
 
+// For each format of output: to have one that is not the default, and not to have one that is.
+void add_outputs(CLI::App& command, std::vector<Override>& overrides) {
+  for (const auto& format : banyan::record::output_formats) {
+    if (format.key.empty()) continue;
+    const std::string key(format.key), text = std::string(format.file) + ", " + std::string(format.what);
+    const std::string name = (format.by_default ? "--no-" : "--") + key;
+    const std::string assignment = "output." + key + (format.by_default ? "=false" : "=true");
+    command.add_flag_function(
+        name, [&overrides, name, assignment](std::int64_t) { overrides.push_back({assignment, name}); },
+        (format.by_default ? "do not write " : "also write ") + text);
+  }
+}
+
 void add_run(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<RunOptions>();
   auto* command = app.add_subcommand("run", "run a scenario and write its results")->group(command_group);
@@ -176,16 +190,7 @@ void add_run(CLI::App& app, std::function<int()>& action) {
   command->add_flag("-f,--force", options->force, "replace results that are already there");
   command->add_flag("--json", options->json, "print the result as JSON on standard output, and nothing else there");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
-  auto shorthand = [command, options](const std::string& name, const std::string& assignment, const std::string& text) {
-    command->add_flag_function(
-        name,
-        [options, name, assignment](std::int64_t) {
-          options->overrides.push_back({assignment, name});
-        },
-        text);
-  };
-  shorthand("--series", "output.series=true", "also write series.csv, the metrics of every tick");
-  shorthand("--no-record", "output.record=false", "do not write the recording run.mcap");
+  add_outputs(*command, options->overrides);
   command
       ->add_option_function<std::string>(
           "--record-every",

@@ -13,13 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* result_files[] = {"run.mcap", "run.csv", "run.json", "series.csv"};
-
 std::vector<std::string> results_in(const fs::path& directory) {
   std::vector<std::string> found;
   std::error_code ignored;
-  for (const char* file : result_files) {
-    if (fs::exists(fs::symlink_status(directory / file, ignored))) found.emplace_back(file);
+  for (const auto& format : record::output_formats) {
+    if (fs::exists(fs::symlink_status(directory / format.file, ignored))) found.emplace_back(format.file);
   }
   return found;
 }
@@ -62,10 +60,15 @@ RunOutputs::RunOutputs(const Configuration& configuration, const std::string& ou
   created_ = make_directory(directory_);
 }
 
-void RunOutputs::remove_leftovers(const Output& written) const {
+std::string RunOutputs::path(const record::OutputFormat& format) const {
+  return directory_ + "/" + std::string(format.file);
+}
+
+void RunOutputs::remove_leftovers(const record::Output& wanted) const {
   std::error_code ignored;
-  if (!written.record) fs::remove(recording(), ignored);
-  if (!written.series) fs::remove(series(), ignored);
+  for (const auto& format : record::output_formats) {
+    if (!wanted.wants(format)) fs::remove(path(format), ignored);
+  }
 }
 
 void RunOutputs::abandon() const noexcept {

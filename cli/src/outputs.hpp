@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "banyan/config/config.hpp"
-#include "banyan/record/file.hpp"
+#include "banyan/record/outputs.hpp"
 
 namespace banyan::cli {
 
@@ -22,14 +22,11 @@ class RunOutputs {
 
   [[nodiscard]] const std::string& directory() const noexcept { return directory_; }
   [[nodiscard]] record::Existing existing() const noexcept { return existing_; }
-  [[nodiscard]] std::string recording() const { return directory_ + "/run.mcap"; }
-  [[nodiscard]] std::string table() const { return directory_ + "/run.csv"; }
-  [[nodiscard]] std::string json() const { return directory_ + "/run.json"; }
-  [[nodiscard]] std::string series() const { return directory_ + "/series.csv"; }
+  [[nodiscard]] std::string path(const record::OutputFormat& format) const;
 
-  // With force: removes files of the earlier run that this one did not write, so that what lies
+  // With force: removes files of the earlier run that this one was not to write, so that what lies
   // together belongs together.
-  void remove_leftovers(const config::Output& written) const;
+  void remove_leftovers(const record::Output& wanted) const;
   // Removes the directory if it was made for this run and is still empty.
   void abandon() const noexcept;
 

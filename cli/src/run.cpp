@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <thread>
+#include <utility>
 
-#include "banyan/measure/observer.hpp"
-#include "banyan/record/recording.hpp"
+#include "banyan/record/outputs.hpp"
+#include "banyan/record/simulation.hpp"
 #include "banyan/record/table.hpp"
 #include "banyan/version.hpp"
-#include "banyan/world/threads.hpp"
-#include "banyan/world/world.hpp"
 #include "commands.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
@@ -32,77 +30,106 @@ int thread_count(int wanted, std::size_t robots) {
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
 }
 
-// What a run writes while it goes on; every part optional.
-class Keeper {
- public:
-  Keeper(const RunOutputs& outputs, const Configuration& configuration)
-      : outputs_(outputs), json_(config_json(configuration)) {
-    const auto& scenario = configuration.scenario;
-    if (configuration.output.record) {
-      record::RecorderOptions options;
-      options.every_ticks = configuration.output.record_every;
-      options.messages = configuration.output.messages;
-      options.existing = outputs.existing();
-      recorder_.emplace(outputs.recording(),
-                        record::Provenance{json_, std::string(version), std::string(git_id()), scenario.seed}, options);
-    }
-    if (configuration.output.series) series_.emplace(outputs.series(), outputs.existing());
-  }
+std::string progress_text(const record::Simulation& simulation) {
+  const auto& tick = simulation.last();
+  return format("%.1f s of at most %s s, %u of %u targets reached, farthest worker %.2f m off",
+                simulation.world().time_s(), number_text(simulation.run().time_limit_s).c_str(), tick.targets_reached,
+                tick.active_targets, tick.worst_target_distance_m);
+}
 
-  void start(const world::World& world) {
-    if (!recorder_) return;
-    measure::Observer before(world);  // the run's own observer counts ticks, and this is none
-    recorder_->frame(world, before.observe(world, measure::is_plotted(world)));
-  }
-  void tick(const world::World& world, const measure::Tick& tick) {
-    if (recorder_) recorder_->frame(world, tick);
-    if (series_) series_->row(tick);
-  }
-  void finish(const record::RunRow& row) {
-    if (recorder_) {
-      if (row.interrupted) recorder_->event("interrupt", "stopped from outside");
-      recorder_->finish(row.run, row.interrupted);
+void show(Progress& progress, const record::Simulation& simulation) {
+  const auto& world = simulation.world();
+  const double share = world.time_s() / std::max(simulation.run().time_limit_s, world.scenario().tick_s);
+  progress.show(std::min(share, 1.0), progress_text(simulation), true);
+}
+
+void tell_of_part(const std::string& path, const char* before = "") {
+  std::error_code ignored;
+  const std::string part = path + ".part";
+  if (std::filesystem::exists(part, ignored)) complain(before + ("what was recorded until then is in " + part));
+}
+
+// Tells of outputs that have failed, and does so at once: the run may take hours yet.
+class Complaints {
+ public:
+  Complaints(const record::Sinks& sinks, Progress& progress) : sinks_(sinks), progress_(progress) {}
+  void tell() {
+    for (; told_ < sinks_.failures().size(); ++told_) {
+      const auto& failure = sinks_.failures()[told_];
+      progress_.clear();
+      complain(failure.text);
+      tell_of_part(failure.path);
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(failure.path, ignored)) complain(failure.path + " is that of another run");
     }
-    if (series_) series_->finish();
-    record::write_run_csv(outputs_.table(), row, outputs_.existing());
-    record::write_run_json(outputs_.json(), row, json_, outputs_.existing());
   }
-  [[nodiscard]] bool records() const noexcept { return recorder_.has_value(); }
-  [[nodiscard]] const std::string& config() const noexcept { return json_; }
+  [[nodiscard]] bool any() const { return told_ > 0; }
+  [[nodiscard]] bool about(const std::string& path) const {
+    const auto& failures = sinks_.failures();
+    return std::any_of(failures.begin(), failures.end(), [&](const auto& failure) { return failure.path == path; });
+  }
 
  private:
-  const RunOutputs& outputs_;
-  std::string json_;
-  std::optional<record::Recorder> recorder_;
-  std::optional<record::SeriesWriter> series_;
+  const record::Sinks& sinks_;
+  Progress& progress_;
+  std::size_t told_ = 0;
 };
-
-std::string progress_text(const world::World& world, const measure::Observer& observer) {
-  const auto& tick = observer.last();
-  return format("%.1f s of at most %s s, %u of %u targets reached, farthest worker %.2f m off", world.time_s(),
-                number_text(observer.run().time_limit_s).c_str(), tick.targets_reached, tick.active_targets,
-                tick.worst_target_distance_m);
-}
-
-// Steps until the mission ends or a signal comes.
-void play_out(world::World& world, measure::Observer& observer, Keeper& keeper, int threads, bool exact_fiedler,
-              Progress& progress) {
-  world::Executor executor(threads);
-  keeper.start(world);
-  while (!observer.finished() && stop_signal() == 0) {
-    world.step(executor);
-    keeper.tick(world, observer.observe(world, exact_fiedler || (keeper.records() && measure::is_plotted(world))));
-    if (progress.due()) {
-      const double share = world.time_s() / std::max(observer.run().time_limit_s, world.scenario().tick_s);
-      progress.show(std::min(share, 1.0), progress_text(world, observer), true);
-    }
-  }
-}
 
 Loaded load_or_leave(const RunOptions& options) {
   auto loaded = load_configuration(options.scenario, options.overrides);
   print_problems(loaded.problems);
   return loaded;
+}
+
+// Steps until the mission ends or a signal comes. What is thrown here costs the run; an output that fails does not.
+record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, Complaints& complaints,
+                        Progress& progress) {
+  world::Executor executor(threads);
+  const auto go_on = [&](const record::Simulation& simulation) {
+    complaints.tell();
+    if (progress.due()) show(progress, simulation);
+    return stop_signal() == 0;
+  };
+  const record::RunEnd end = record::run_scenario(std::move(world), sinks, executor, go_on);
+  progress.clear();
+  complaints.tell();
+  return end;
+}
+
+int run_and_keep(const Configuration& configuration, const RunOutputs& outputs, const RunOptions& options) {
+  catch_stop_signals();
+  Progress progress(!options.quiet);
+  world::World world(configuration.scenario);
+  const record::SinkOptions wanted{
+      {config_json(configuration), std::string(version), std::string(git_id()), configuration.scenario.seed},
+      configuration.output,
+      outputs.existing()};
+  record::Sinks sinks = record::open_outputs(outputs.directory(), wanted);
+  Complaints complaints(sinks, progress);
+  const int threads = thread_count(options.threads, world.size());
+  record::RunEnd end;
+  try {
+    end = play_out(std::move(world), sinks, threads, complaints, progress);
+  } catch (...) {
+    for (const auto& format : record::output_formats) tell_of_part(outputs.path(format), "the run is lost; ");
+    throw;
+  }
+  SummaryExtras extras{progress.elapsed_s(), threads, end.last.active_targets, end.last.targets_reached, {}};
+  if (options.force) outputs.remove_leftovers(configuration.output);
+  for (const auto& format : record::output_formats) {
+    if (wanted.output.wants(format) && !complaints.about(outputs.path(format))) extras.written.push_back(&format);
+  }
+
+  const record::RunRow row{record::identify(configuration.scenario, version, git_id()), end.run, end.interrupted};
+  if (options.json)
+    print(record::run_json(row, wanted.provenance.config_json));
+  else if (!options.quiet)
+    print(summary_text(row, configuration, outputs, extras));
+  if (complaints.any()) return exit_lost;
+  if (!end.interrupted) return exit_done;
+  complain(format("stopped by %s at %.1f s; what was done until then is in %s",
+                  stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM", end.run.time_s, outputs.directory().c_str()));
+  return exit_signal + stop_signal();
 }
 
 }  // namespace
@@ -114,41 +141,12 @@ int run_command(const RunOptions& options) {
   ::signal(SIGPIPE, SIG_IGN);  // a reader of the summary that goes away must not cost the results
 
   const RunOutputs outputs(configuration, options.out, options.force);
-  record::RunRow row;
-  SummaryExtras extras;
-  std::string config;
   try {
-    catch_stop_signals();
-    Progress progress(!options.quiet);
-    world::World world(configuration.scenario);
-    measure::Observer observer(world);
-    Keeper keeper(outputs, configuration);
-    extras.threads = thread_count(options.threads, world.size());
-    play_out(world, observer, keeper, extras.threads, configuration.output.series, progress);
-    extras.wall_s = progress.elapsed_s();
-    extras.targets = observer.last().active_targets;
-    extras.targets_reached = observer.last().targets_reached;
-    row = {record::identify(configuration.scenario, version, git_id()), observer.result(world),
-           stop_signal() != 0 && !observer.finished()};
-    keeper.finish(row);
-    config = keeper.config();
+    return run_and_keep(configuration, outputs, options);
   } catch (...) {
     outputs.abandon();
-    if (std::filesystem::exists(outputs.recording() + ".part")) {
-      complain("the run is lost; what was recorded until then is in " + outputs.recording() + ".part");
-    }
     throw;
   }
-  if (options.force) outputs.remove_leftovers(configuration.output);
-
-  if (options.json)
-    print(record::run_json(row, config));
-  else if (!options.quiet)
-    print(summary_text(row, configuration, outputs, extras));
-  if (!row.interrupted) return exit_done;
-  complain(format("stopped by %s at %.1f s; what was done until then is in %s",
-                  stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM", row.run.time_s, outputs.directory().c_str()));
-  return exit_signal + stop_signal();
 }
 
 }  // namespace banyan::cli

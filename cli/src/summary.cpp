@@ -93,13 +93,15 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
                                grouped(steps).c_str(), extras.threads, extras.threads == 1 ? "thread" : "threads"));
   text += summary_line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)", run.hash));
   text += "\nResults in " + outputs.directory() + "/\n";
-  if (configuration.output.record) {
-    text += "  run.mcap    the recording; opens in Foxglove and Lichtblick, or draw a moment of it:\n";
-    text += format("              banyan draw %s --at %.0f -o frame.svg\n", outputs.recording().c_str(),
-                   std::floor(run.time_s / 2));
+  for (const record::OutputFormat* kept : extras.written) {
+    const bool recording = kept->key == "record";
+    const std::string more = recording ? "; opens in Foxglove and Lichtblick, or draw a moment of it:" : "";
+    text += summary_line(std::string(kept->file).c_str(), std::string(kept->what) + more);
+    if (recording) {
+      text += summary_line("", format("banyan draw %s --at %.0f -o frame.svg", outputs.path(*kept).c_str(),
+                                      std::floor(run.time_s / 2)));
+    }
   }
-  text += "  run.csv     the result as one row; run.json: with the whole configuration\n";
-  if (configuration.output.series) text += "  series.csv  the metrics of every tick\n";
   return text;
 }
 

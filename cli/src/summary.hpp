@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "banyan/record/table.hpp"
 #include "outputs.hpp"
@@ -14,6 +15,7 @@ struct SummaryExtras {
   int threads = 1;
   std::size_t targets = 0;
   std::size_t targets_reached = 0;
+  std::vector<const record::OutputFormat*> written;
 };
 
 [[nodiscard]] std::string summary_text(const record::RunRow& row, const config::Configuration& configuration,

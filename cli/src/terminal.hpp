@@ -14,7 +14,7 @@ namespace banyan::cli {
 // Documented in `banyan --help`. A mission that ends without completion is a result, not a failure.
 enum ExitCode : int {
   exit_done = 0,
-  exit_lost = 1,     // nothing usable came out: a file cannot be read or written, an internal error
+  exit_lost = 1,     // not everything came out: a file cannot be read or written, an internal error
   exit_usage = 2,    // bad options or a bad scenario; nothing was started
   exit_signal = 128  // + signal number: stopped by Ctrl-C (130) or SIGTERM (143), valid files written
 };

@@ -270,7 +270,7 @@ TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
 
 // --------------------------------------------------------------------------- disk full, interruption
 
-TEST_F(Program, AFullDiskIsSaidAndLeavesNoDamagedFile) {
+TEST_F(Program, AFullDiskIsSaidAndCostsNeitherTheRunNorTheOtherFiles) {
   const auto outcome = finish(
       start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o"}, {.largest_file = 300'000}));
 
@@ -280,12 +280,17 @@ TEST_F(Program, AFullDiskIsSaidAndLeavesNoDamagedFile) {
   const auto rescued = run({"export", "o/run.mcap.part", "--csv"});
   EXPECT_EQ(rescued.code, 0) << rescued.err;
   EXPECT_GT(std::count(rescued.out.begin(), rescued.out.end(), '\n'), 60);
-  for (const char* name : {"o/run.mcap", "o/run.csv", "o/run.json"}) EXPECT_FALSE(exists(name)) << name;
+  EXPECT_FALSE(exists("o/run.mcap"));
+  EXPECT_EQ(read_json("o/run.json")["result"]["ticks"], 6000);
+  EXPECT_TRUE(has(read("o/run.csv"), "\nendless,"));
+  EXPECT_TRUE(has(outcome.out, "endless: NOT COMPLETE within 600.0 s")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "  run.csv ")) << outcome.out;
+  EXPECT_FALSE(has(outcome.out, "  run.mcap ")) << outcome.out;
 }
 
-TEST_F(Program, AFullDiskDoesNotCostTheEarlierResults) {
+TEST_F(Program, AFullDiskDoesNotCostTheEarlierRecording) {
   ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
-  const auto recording = read("o/run.mcap"), table = read("o/run.csv");
+  const auto recording = read("o/run.mcap");
 
   const auto outcome =
       finish(start({"run", "endless.toml", "--set", "mission.time_limit_s=600", "--out", "o", "--force"},
@@ -293,7 +298,16 @@ TEST_F(Program, AFullDiskDoesNotCostTheEarlierResults) {
 
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(read("o/run.mcap"), recording);
-  EXPECT_EQ(read("o/run.csv"), table);
+  EXPECT_TRUE(has(outcome.err, "o/run.mcap is that of another run")) << outcome.err;
+  EXPECT_EQ(read_json("o/run.json")["result"]["name"], "endless");
+}
+
+TEST_F(Program, AFileThatCannotBeMadeIsSaidBeforeTheRun) {
+  fs::create_directories(home_ / "o/run.mcap.part");
+  const auto outcome = run({"run", "endless.toml", "--out", "o"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(has(outcome.err, "o/run.mcap: cannot create: Is a directory")) << outcome.err;
+  EXPECT_FALSE(has(outcome.err, "until then")) << outcome.err;
 }
 
 TEST_F(Program, AFullStandardOutputIsAnError) {

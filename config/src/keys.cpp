@@ -2,6 +2,8 @@
 #include "banyan/config/keys.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "banyan/config/document.hpp"
 #include "banyan/controller/core/algorithm.hpp"
@@ -351,13 +353,10 @@ constexpr Key<Form> scenario_list[] = {
      [](Form& f) -> double& { return f.target_phase_rad; }, "ring"},
     {"targets", "center_m", "m", anywhere, "centre of the circle or annulus",
      [](Form& f) -> Vec2& { return f.target_center; }, "ring random"},
+};
 
-    {"output",
-     "record",
-     "",
-     {},
-     "write the recording run.mcap",
-     [](Form& f) -> bool& { return f.configuration.output.record; }},
+// Of the recording; they follow its switch.
+constexpr Key<Form> recording_list[] = {
     {"output",
      "record_every",
      "ticks",
@@ -370,13 +369,23 @@ constexpr Key<Form> scenario_list[] = {
      {},
      "record what each robot broadcast, beside where it was",
      [](Form& f) -> bool& { return f.configuration.output.messages; }},
-    {"output",
-     "series",
-     "",
-     {},
-     "write series.csv, a row of metrics per tick",
-     [](Form& f) -> bool& { return f.configuration.output.series; }},
 };
+
+template <std::size_t format> bool& wanted(Form& form) { return form.configuration.output.wanted[format]; }
+
+// A switch for each format of record/'s table that has a key. Keys refer to texts: both are made once.
+template <std::size_t... format> std::vector<Key<Form>> with_outputs(std::index_sequence<format...>) {
+  static std::array<std::string, sizeof...(format)> meanings;
+  std::vector<Key<Form>> keys(std::begin(scenario_list), std::end(scenario_list));
+  const auto add = [&](const record::OutputFormat& of, std::string& meaning, bool& (*access)(Form&)) {
+    if (of.key.empty()) return;
+    meaning = "write " + std::string(of.file) + ", " + std::string(of.what);
+    keys.push_back({"output", of.key, "", {}, meaning, access});
+    if (of.key == "record") keys.insert(keys.end(), std::begin(recording_list), std::end(recording_list));
+  };
+  (add(record::output_formats[format], meanings[format], wanted<format>), ...);
+  return keys;
+}
 
 constexpr Key<ObstacleForm> obstacle_list[] = {
     {"obstacles",
@@ -587,7 +596,11 @@ world::Event to_event(const EventForm& form) {
 
 }  // namespace
 
-std::span<const Key<Form>> scenario_keys() noexcept { return scenario_list; }
+std::span<const Key<Form>> scenario_keys() noexcept {
+  using Formats = std::make_index_sequence<std::size(record::output_formats)>;
+  static const std::vector<Key<Form>> keys = with_outputs(Formats());
+  return keys;
+}
 std::span<const Key<ObstacleForm>> obstacle_keys() noexcept { return obstacle_list; }
 std::span<const Key<EventForm>> event_keys() noexcept { return event_list; }
 std::span<const Section> sections() noexcept { return section_list; }

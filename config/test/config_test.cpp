@@ -109,7 +109,7 @@ series = true
   EXPECT_EQ(s.events.at(0).kind, world::Event::Kind::freeze);
   EXPECT_EQ(s.events.at(0).index, 3U);
   EXPECT_EQ(s.events.at(0).value, 2.0);
-  EXPECT_TRUE(loaded.configuration.output.series);
+  EXPECT_TRUE(loaded.configuration.output["series"]);
 }
 
 TEST(Config, DefaultsAreTheScenariosOwn) {

@@ -365,6 +365,8 @@ Run Observer::result(const world::World& world) const {
   return run;
 }
 
+Tick at_start(const world::World& world, bool exact_fiedler) { return Observer(world).observe(world, exact_fiedler); }
+
 bool is_plotted(const world::World& world) noexcept {
   constexpr std::size_t most_robots = 1000;
   const double tick_s = world.scenario().tick_s;

@@ -42,7 +42,7 @@ void put_robot(Text& out, const Frame& frame, std::size_t i) {
 
 }  // namespace
 
-std::uint64_t export_csv(Recording& recording, const Sink& sink, const ExportOptions& options) {
+std::uint64_t export_csv(Recording& recording, const WritePiece& write, const ExportOptions& options) {
   Text out;
   out.put(header);
   std::uint64_t rows = 0;
@@ -52,13 +52,13 @@ std::uint64_t export_csv(Recording& recording, const Sink& sink, const ExportOpt
           put_robot(out, frame, i);
           ++rows;
           if (out.size() < piece_bytes) continue;
-          sink(out.view());
+          write(out.view());
           out.clear();
         }
         return true;
       },
       options.from_s, options.to_s, options.every);
-  if (out.size() > 0) sink(out.view());
+  if (out.size() > 0) write(out.view());
   return rows;
 }
 

@@ -332,16 +332,4 @@ void write_run_json(const std::string& path, const RunRow& row, std::string_view
   write_file(path, run_json(row, config_json), existing);
 }
 
-SeriesWriter::SeriesWriter(std::string path, Existing existing) : file_(std::move(path), existing) {
-  file_.write(series_csv_header() + "\n");
-}
-
-void SeriesWriter::row(const measure::Tick& tick) {
-  line_ = series_csv_row(tick);
-  line_ += '\n';
-  file_.write(line_);
-}
-
-void SeriesWriter::finish() { file_.commit(); }
-
 }  // namespace banyan::record

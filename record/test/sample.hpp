@@ -139,6 +139,16 @@ inline void record_sample(const std::string& path, std::size_t robots, std::uint
   recorder.finish(sample_run(ticks));
 }
 
+// A world whose run is over in a moment.
+inline world::Scenario small_world() {
+  world::Scenario scenario;
+  scenario.name = "small";
+  scenario.swarm.robots = 6;
+  scenario.targets = world::RingTargets{2, 0.9};
+  scenario.mission.time_limit_s = 5.0;
+  return scenario;
+}
+
 // A directory of its own for each test, removed afterwards.
 class TemporaryDirectory {
  public:

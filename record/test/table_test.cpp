@@ -177,25 +177,5 @@ TEST(Table, IdentifyTellsWhatWasRun) {
   EXPECT_NEAR(identify(scenario, "", "").redundancy, 9.0 * 1.540841 / 9.0, 1e-6);
 }
 
-TEST(SeriesWriter, ARowPerTick) {
-  const test::TemporaryDirectory directory;
-  const std::string path = directory.file("series.csv");
-  {
-    SeriesWriter writer(path);
-    for (std::uint64_t t = 0; t < 300; ++t) writer.row(test::sample_tick(test::sample_frame(3, 1.0, t)));
-    EXPECT_FALSE(std::filesystem::exists(path));
-    writer.finish();
-  }
-  const auto csv = parse_csv(test::contents(path));
-  ASSERT_EQ(csv.size(), 301U);
-  ASSERT_EQ(csv[0].size(), series_columns().size());
-  EXPECT_EQ(csv[0][0], "tick");
-  const auto fiedler = static_cast<std::size_t>(std::find(csv[0].begin(), csv[0].end(), "fiedler") - csv[0].begin());
-  for (std::uint64_t t = 0; t < 300; ++t) {
-    EXPECT_EQ(csv[t + 1][0], std::to_string(t));
-    EXPECT_EQ(csv[t + 1][fiedler], t % 20 == 0 ? "0.125000000" : "");
-  }
-}
-
 }  // namespace
 }  // namespace banyan::record

@@ -21,11 +21,11 @@ std::string id_of(const config::Configuration& configuration) {
   config::Configuration bare = configuration;
   bare.scenario.name.clear();
   bare.scenario.description.clear();
-  bare.output = {};
   std::string json = config::config_json(bare);
-  // A key of [output] that came later: the runs of older studies keep their names.
-  constexpr std::string_view later = "\"messages\":true,";
-  if (const auto at = json.find(later); at != std::string::npos) json.erase(at, later.size());
+  // [output] as it was when the first studies were made: their runs keep their ids, whatever can be kept today.
+  constexpr std::string_view key = "\"output\":{";
+  const auto begin = json.find(key) + key.size();
+  json.replace(begin, json.find('}', begin) - begin, R"("record":true,"record_every":1,"series":false)");
   return hexadecimal(digest_of(json));
 }
 
@@ -107,8 +107,11 @@ class Planner {
       root = tree_of(scenario);
     } catch (const config::DocumentError& e) { return {{}, {e.problem}}; }
     const config::Place place = root.place;
-    // Recordings of thousands of runs are kept on request only.
-    (void)config::assign(root, "output.record", {false, place});
+    // What a single run keeps unasked, recordings for one, thousands keep on request only.
+    for (const auto& format : record::output_formats) {
+      if (format.key.empty() || !format.by_default) continue;
+      (void)config::assign(root, "output." + std::string(format.key), {false, place});
+    }
     // What is checked is a run of the study: the scenario's own seed may be one that has no world.
     if (!part.seeds.empty()) (void)config::assign(root, "seed", {static_cast<std::int64_t>(part.seeds.front()), place});
     const auto change = [&](const Change& c) {
@@ -200,7 +203,7 @@ bool Plan::ok() const noexcept {
 }
 
 bool keeps_files(const config::Configuration& configuration) noexcept {
-  return configuration.output.record || configuration.output.series;
+  return configuration.output.any();
 }
 
 std::string plan_text(const Plan& plan) { return hexadecimal(plan.digest); }

@@ -5,80 +5,41 @@
 #include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <stdexcept>
 
 #include "banyan/config/config.hpp"
-#include "banyan/measure/observer.hpp"
-#include "banyan/record/file.hpp"
-#include "banyan/record/recording.hpp"
+#include "banyan/record/outputs.hpp"
+#include "banyan/record/simulation.hpp"
 #include "banyan/record/table.hpp"
 #include "banyan/version.hpp"
-#include "banyan/world/threads.hpp"
-#include "banyan/world/world.hpp"
 
 namespace banyan::study {
 namespace {
 
 using nlohmann::json;
 
-// What the configuration's [output] asks for. A study that was stopped may find files of a run
-// whose row was never written: they are replaced.
-class Keeper {
- public:
-  Keeper(const config::Configuration& configuration, const Task& task) {
-    if (task.directory.empty()) return;
-    const auto& output = configuration.output;
-    if (!output.record && !output.series) return;
-    std::error_code error;
-    std::filesystem::create_directories(task.directory, error);
-    if (error) throw record::FileError(task.directory, "cannot create", error.value());
-    if (output.record) {
-      record::RecorderOptions options;
-      options.every_ticks = output.record_every;
-      options.messages = output.messages;
-      options.existing = record::Existing::replace;
-      recorder_.emplace(task.directory + "/run.mcap",
-                        record::Provenance{task.config_json, std::string(version), std::string(git_id()),
-                                           configuration.scenario.seed},
-                        options);
-    }
-    if (output.series) series_.emplace(task.directory + "/series.csv", record::Existing::replace);
-  }
-  void start(const world::World& world) {
-    if (!recorder_) return;
-    measure::Observer before(world);
-    recorder_->frame(world, before.observe(world, measure::is_plotted(world)));
-  }
-  void tick(const world::World& world, const measure::Tick& tick) {
-    if (recorder_) recorder_->frame(world, tick);
-    if (series_) series_->row(tick);
-  }
-  void finish(const measure::Run& run) {
-    if (recorder_) recorder_->finish(run);
-    if (series_) series_->finish();
-  }
-  [[nodiscard]] bool wants_fiedler(const world::World& world) const noexcept {
-    return series_.has_value() || (recorder_.has_value() && measure::is_plotted(world));
-  }
+// A study has a table of its own for the results, and keeps files of a run where [output] asks for them. If it
+// was stopped, it may find files of a run whose row was never written: they are replaced.
+record::Sinks open_outputs(const config::Configuration& configuration, const Task& task) {
+  if (task.directory.empty() || !configuration.output.any()) return {};
+  const std::uint64_t seed = configuration.scenario.seed;
+  record::SinkOptions options{{task.config_json, std::string(version), std::string(git_id()), seed},
+                              configuration.output,
+                              record::Existing::replace};
+  options.output.results = false;
+  std::error_code error;
+  std::filesystem::create_directories(task.directory, error);
+  if (error) throw record::FileError(task.directory, "cannot create", error.value());
+  return record::open_outputs(task.directory, options);
+}
 
- private:
-  std::optional<record::Recorder> recorder_;
-  std::optional<record::SeriesWriter> series_;
-};
-
+// A run whose files cannot be kept has failed, and can be done again.
 record::RunRow run(const config::Configuration& configuration, const Task& task) {
-  Keeper keeper(configuration, task);
-  world::World world(configuration.scenario);
-  measure::Observer observer(world);
+  record::Sinks sinks = open_outputs(configuration, task);
   world::Executor alone(1);
-  keeper.start(world);
-  while (!observer.finished()) {
-    world.step(alone);
-    keeper.tick(world, observer.observe(world, keeper.wants_fiedler(world)));
-  }
-  const auto result = observer.result(world);
-  keeper.finish(result);
-  return {record::identify(configuration.scenario, version, git_id()), result, false};
+  const record::RunEnd end = record::run_scenario(world::World(configuration.scenario), sinks, alone);
+  if (!sinks.failures().empty()) throw std::runtime_error(sinks.failures().front().text);
+  return {record::identify(configuration.scenario, version, git_id()), end.run, end.interrupted};
 }
 
 std::string one_line(std::string text) {

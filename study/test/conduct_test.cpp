@@ -50,7 +50,7 @@ std::string slow(std::string_view task) {
 Plan plan_of(std::size_t runs) {
   Plan plan;
   plan.combinations.emplace_back();
-  plan.combinations.back().output.record = false;
+  plan.combinations.back().output["record"] = false;
   for (std::size_t i = 0; i < runs; ++i)
     plan.runs.push_back({"id" + std::to_string(i), 0, i, "all/seed=" + std::to_string(i), 1.0});
   return plan;
@@ -190,7 +190,7 @@ TEST_F(ConductTest, AJournalThatCannotBeWrittenEndsIt) {
 TEST_F(ConductTest, OnlyRunsThatKeepFilesGetAFolder) {
   auto plan = plan_of(2);
   plan.combinations.push_back(plan.combinations[0]);
-  plan.combinations[1].output.record = true;
+  plan.combinations[1].output["record"] = true;
   plan.runs[1].combination = 1;
   conduct_with(good, plan, all_of(plan), 1);
   for (const auto& [task, times] : seen().tasks) {

@@ -64,7 +64,7 @@ TEST_F(PlanTest, CountsTheLastAxisAndThenTheSeedFastest) {
     EXPECT_EQ(configuration.scenario.seed, row.seed);
     EXPECT_EQ(configuration.scenario.mission.algorithm, row.values[0] ? "inwards" : "outwards");
     EXPECT_EQ(configuration.scenario.radio.loss, row.values[1] ? 0.5 : 0.0);
-    EXPECT_FALSE(configuration.output.record);
+    EXPECT_FALSE(configuration.output["record"]);
     order.push_back(std::to_string(row.values[0]) + std::to_string(row.values[1]) + std::to_string(row.seed));
   }
   EXPECT_EQ(order, (std::vector<std::string>{"005", "003", "015", "013", "105", "103", "115", "113"}));
@@ -205,8 +205,8 @@ TEST_F(PlanTest, TheScenariosOwnSeedAndRecordingDoNotCount) {
   const auto id = id_with("");
   write("w.toml", "seed = 99\n" + world + "[output]\nrecord = true\n");
   EXPECT_EQ(id_with(""), id);
-  EXPECT_FALSE(good(plan_head).combinations.at(0).output.record);
-  EXPECT_TRUE(good(plan_head + "set.output.record = true\n").combinations.at(0).output.record);
+  EXPECT_FALSE(good(plan_head).combinations.at(0).output["record"]);
+  EXPECT_TRUE(good(plan_head + "set.output.record = true\n").combinations.at(0).output["record"]);
 }
 
 // Axes of these change a world in ways of their own.

@@ -69,12 +69,12 @@ TEST_F(SimulateTest, KeepsWhatIsAskedForAndNothingElse) {
   EXPECT_FALSE(exists("none"));
 
   const auto plain = outcome_of(configuration).row;
-  configuration.output.record = true;
+  configuration.output["record"] = true;
   EXPECT_EQ(outcome_of(configuration, path("a/b")).row, plain);
   EXPECT_TRUE(exists("a/b/run.mcap"));
   EXPECT_FALSE(exists("a/b/series.csv"));
 
-  configuration.output.series = true;
+  configuration.output["series"] = true;
   EXPECT_EQ(outcome_of(configuration, path("a/b")).row, plain) << "an earlier attempt's files are replaced";
   EXPECT_EQ(read("a/b/series.csv").substr(0, 5), "tick,");
   EXPECT_EQ(outcome_of(configuration, "").row, plain);
@@ -82,16 +82,28 @@ TEST_F(SimulateTest, KeepsWhatIsAskedForAndNothingElse) {
 
 TEST_F(SimulateTest, AFolderThatCannotBeMadeIsTheRunsError) {
   auto configuration = small_world();
-  configuration.output.record = true;
+  configuration.output["record"] = true;
   write("file", "");
   const auto outcome = outcome_of(configuration, path("file/run"));
   EXPECT_EQ(outcome.row, "");
   EXPECT_EQ(outcome.error, path("file/run") + ": cannot create: Not a directory");
 }
 
+TEST_F(SimulateTest, AFileThatFillsTheDiskIsTheRunsErrorAndCostsNoOtherFile) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  auto configuration = small_world();
+  configuration.output["record"] = configuration.output["series"] = true;
+  std::filesystem::create_directory(path("run"));
+  std::filesystem::create_symlink("/dev/full", path("run/series.csv"));
+  const auto outcome = outcome_of(configuration, path("run"));
+  EXPECT_EQ(outcome.row, "");
+  EXPECT_EQ(outcome.error, path("run/series.csv") + ": cannot write: No space left on device");
+  EXPECT_TRUE(exists("run/run.mcap"));
+}
+
 TEST_F(SimulateTest, FoldersMayHaveAnyName) {
   auto configuration = small_world();
-  configuration.output.record = true;
+  configuration.output["record"] = true;
   EXPECT_EQ(outcome_of(configuration, path("odd \xff\n\"'")).error, "");
   EXPECT_TRUE(exists("odd \xff\n\"'/run.mcap"));
 }

@@ -16,10 +16,9 @@
 #include "banyan/measure/observer.hpp"
 #include "banyan/record/events.hpp"
 #include "banyan/record/json.hpp"
-#include "banyan/record/recording.hpp"
+#include "banyan/record/outputs.hpp"
+#include "banyan/record/simulation.hpp"
 #include "banyan/version.hpp"
-#include "banyan/world/threads.hpp"
-#include "banyan/world/world.hpp"
 
 namespace banyan::viewer {
 namespace {
@@ -31,41 +30,54 @@ std::vector<std::string> in_words(const std::vector<config::Problem>& problems) 
   return lines;
 }
 
-// The world and what watches it, as `banyan run` has them. The same for playing, for going back and
-// for recording.
-struct Play {
-  explicit Play(const world::Scenario& scenario) : world(scenario), observer(world) {
-    measure::Observer before(world);  // the run's own counts ticks, and the start is none
-    last = before.observe(world, measure::is_plotted(world));
-  }
-  void step() {
-    world.step(executor);
-    last = observer.observe(world, measure::is_plotted(world));
-  }
-
-  world::World world;
-  measure::Observer observer;
-  measure::Tick last;
-  world::Executor executor{1};
-};
-
 struct Intervention {
   std::uint64_t tick;
   world::Event event;
 };
 
 // Steps up to `tick`, each intervention at its own.
-template <class EachTick>
-void replay(Play& play, const std::vector<Intervention>& interventions, std::uint64_t tick, const EachTick& each_tick) {
+template <class Step>
+void replay(record::Simulation& simulation, const std::vector<Intervention>& interventions, std::uint64_t tick,
+            const Step& step) {
   auto next = interventions.begin();
   const auto intervene = [&] {
-    for (; next != interventions.end() && next->tick == play.world.tick(); ++next) play.world.intervene(next->event);
+    for (; next != interventions.end() && next->tick == simulation.world().tick(); ++next)
+      simulation.intervene(next->event);
   };
-  for (intervene(); play.world.tick() < tick; intervene()) {
-    play.step();
-    each_tick();
-  }
+  for (intervene(); simulation.world().tick() < tick; intervene()) step();
 }
+
+// The last tick there is, in the terms of a recording, and what has happened up to it.
+struct Head final : record::Sink {
+  void start(const world::World& world) override {
+    watcher = {};
+    events.clear();
+    setting = record::setting_of(world);
+    ++setting_version;
+    look(world, measure::at_start(world, measure::is_plotted(world)));
+  }
+  void tick(const world::World& world, const measure::Tick& observed) override { look(world, observed); }
+  [[nodiscard]] bool wants_fiedler(const world::World& world) const override { return measure::is_plotted(world); }
+
+  void look(const world::World& world, const measure::Tick& observed) {
+    metrics = observed;
+    packed.clear();
+    capture(world, frame);
+    if (!still_holds(setting, world)) {
+      setting = record::setting_of(world);
+      ++setting_version;
+    }
+    for (const record::RecordedEvent& event : watcher.watch(setting, frame, metrics)) events.push_back(event);
+  }
+
+  measure::Tick metrics;
+  record::Frame frame;
+  std::vector<double> packed;  // the same; empty until somebody asks
+  record::Setting setting;
+  std::uint64_t setting_version = 0;
+  record::EventWatcher watcher;
+  std::vector<record::RecordedEvent> events;  // not taken yet
+};
 
 // A file of this process, gone with this object; in memory, where this runs in a browser.
 class TemporaryFile {
@@ -99,42 +111,30 @@ struct Live::Run {
   explicit Run(config::Configuration from) : configuration(std::move(from)) { begin(); }
 
   void begin() {
-    play.emplace(configuration.scenario);
-    watcher = {};
-    events.clear();
     finished_at.reset();
-    setting = record::setting_of(play->world);
-    ++setting_version;
-    watch();
+    simulation.emplace(world::World(configuration.scenario), head);
+    note_end();
   }
-  void watch() {
-    packed.clear();
-    if (!finished_at && play->observer.finished()) finished_at = play->world.tick();
-    capture(play->world, frame);
-    watch_setting();
-    for (const record::RecordedEvent& event : watcher.watch(setting, frame, play->last)) events.push_back(event);
+  void step() {
+    simulation->step(executor);
+    note_end();
   }
-  void watch_setting() {
-    if (still_holds(setting, play->world)) return;
-    setting = record::setting_of(play->world);
-    ++setting_version;
+  void note_end() {
+    if (!finished_at && simulation->finished()) finished_at = world().tick();
   }
+  [[nodiscard]] const world::World& world() const { return simulation->world(); }
   // As loaded, with what the visitor did as events.
   [[nodiscard]] config::Configuration current() const {
     config::Configuration result = configuration;
-    result.scenario.events = play->world.scenario().events;
+    result.scenario.events = world().scenario().events;
     return result;
   }
 
   config::Configuration configuration;  // as loaded, without interventions
-  std::optional<Play> play;
   std::vector<Intervention> interventions;
-  record::EventWatcher watcher;
-  std::vector<record::RecordedEvent> events;  // not taken yet
-  record::Setting setting;
-  std::uint64_t setting_version = 0;
-  record::Frame frame;                       // of the head
-  std::vector<double> packed;                // the same; empty until somebody asks
+  Head head;
+  std::optional<record::Simulation> simulation;
+  world::Executor executor{1};
   std::optional<std::uint64_t> finished_at;  // tick
 };
 
@@ -163,25 +163,22 @@ std::vector<std::string> Live::load(const std::string& name, std::string_view te
 
 void Live::step(std::size_t ticks) {
   Run& r = run();
-  for (; ticks > 0; --ticks) {
-    r.play->step();
-    r.watch();
-  }
+  for (; ticks > 0; --ticks) r.step();
 }
 
-std::uint64_t Live::tick() const { return run().play->world.tick(); }
-double Live::time_s() const { return run().play->world.time_s(); }
+std::uint64_t Live::tick() const { return run().world().tick(); }
+double Live::time_s() const { return run().world().time_s(); }
 bool Live::finished() const { return run().finished_at.has_value(); }
-bool Live::complete() const { return run().play->observer.run().complete; }
+bool Live::complete() const { return run().simulation->run().complete; }
 
 void Live::rewind(std::uint64_t tick) {
   Run& r = run();
-  if (tick > r.play->world.tick()) throw std::invalid_argument("there is no tick " + std::to_string(tick) + " yet");
-  if (tick == r.play->world.tick()) return;
+  if (tick > r.world().tick()) throw std::invalid_argument("there is no tick " + std::to_string(tick) + " yet");
+  if (tick == r.world().tick()) return;
   std::erase_if(r.interventions, [tick](const Intervention& i) { return i.tick >= tick; });
   r.begin();
-  replay(*r.play, r.interventions, tick, [&r] { r.watch(); });
-  r.events.clear();
+  replay(*r.simulation, r.interventions, tick, [&r] { r.step(); });
+  r.head.events.clear();
 }
 
 namespace {
@@ -216,7 +213,7 @@ std::string about_text(std::string text) {
 
 std::vector<std::string> Live::intervene(std::string_view event_json) {
   Run& r = run();
-  world::World& world = r.play->world;
+  const world::World& world = r.world();
   const std::size_t index = world.scenario().events.size();
   std::vector<std::string> lines;
   try {
@@ -232,19 +229,19 @@ std::vector<std::string> Live::intervene(std::string_view event_json) {
     for (const world::Fault& fault : world.faults_now(happens))
       lines.push_back(about_event(fault.key, fault.text, index));
     if (!lines.empty()) return lines;
-    world.intervene(happens);
+    r.simulation->intervene(happens);
     r.interventions.push_back({world.tick(), happens});
   } catch (const config::DocumentError& e) { lines.push_back(about_text(e.problem.text)); }
   return lines;
 }
 
 std::span<const double> Live::frame() {
-  Run& r = run();
-  if (r.packed.empty()) record::pack(r.frame, r.packed);
-  return r.packed;
+  Head& head = run().head;
+  if (head.packed.empty()) record::pack(head.frame, head.packed);
+  return head.packed;
 }
 
-std::size_t Live::robots() const { return run().frame.robots.size(); }
+std::size_t Live::robots() const { return run().head.frame.robots.size(); }
 
 std::vector<std::string> Live::columns() {
   std::vector<std::string> names;
@@ -252,35 +249,35 @@ std::vector<std::string> Live::columns() {
   return names;
 }
 
-std::string Live::targets_json() const { return record::targets_json(run().frame); }
-std::string Live::setting_json() const { return record::setting_json(run().setting); }
-std::uint64_t Live::setting_version() const { return run().setting_version; }
-std::string Live::metrics_json() const { return record::metrics_json(run().play->last); }
+std::string Live::targets_json() const { return record::targets_json(run().head.frame); }
+std::string Live::setting_json() const { return record::setting_json(run().head.setting); }
+std::uint64_t Live::setting_version() const { return run().head.setting_version; }
+std::string Live::metrics_json() const { return record::metrics_json(run().head.metrics); }
 
 std::string Live::take_events_json() {
   std::string text = "[";
-  for (const record::RecordedEvent& event : run().events)
+  std::vector<record::RecordedEvent>& events = run().head.events;
+  for (const record::RecordedEvent& event : events)
     text += (text.size() > 1 ? "," : "") + record::event_json(event);
-  run().events.clear();
+  events.clear();
   return text + "]";
 }
 
 std::string Live::message_json(std::size_t robot) const {
-  const world::World& world = run().play->world;
+  const world::World& world = run().world();
   if (world.tick() == 0 || robot >= world.size()) return "null";
   return record::message_json(world.swarm(), robot);
 }
 
 std::string Live::hash() const {
   std::array<char, 17> text;
-  const auto hash = static_cast<unsigned long long>(run().play->world.hash());
+  const auto hash = static_cast<unsigned long long>(run().world().hash());
   static_cast<void>(std::snprintf(text.data(), text.size(), "%016llx", hash));
   return text.data();
 }
 
 std::string Live::result_json() const {
-  const Play& play = *run().play;
-  return record::result_json(play.observer.result(play.world));
+  return record::result_json(run().simulation->result());
 }
 
 std::uint64_t Live::seed() const { return run().configuration.scenario.seed; }
@@ -290,25 +287,22 @@ std::string Live::config_json() const { return config::config_json(run().current
 std::string Live::scenario_toml() const {
   const Run& r = run();
   config::Configuration now = r.current();
-  if (r.finished_at && *r.finished_at < r.play->world.tick()) {
+  if (r.finished_at && *r.finished_at < r.world().tick()) {
     now.scenario.mission.stop_when_complete = false;
-    now.scenario.mission.time_limit_s = r.play->world.time_s();
+    now.scenario.mission.time_limit_s = r.world().time_s();
   }
   return config::config_toml(now);
 }
 
 std::string Live::recording() const {
   const Run& r = run();
-  Play again(r.configuration.scenario);
   const TemporaryFile file;
-  record::RecorderOptions options;
-  options.every_ticks = r.configuration.output.record_every;
-  options.messages = r.configuration.output.messages;
-  options.existing = record::Existing::replace;
-  record::Recorder recorder(file.path(), {config_json(), version(), git(), seed()}, options);
-  recorder.frame(again.world, again.last);
-  replay(again, r.interventions, r.play->world.tick(), [&] { recorder.frame(again.world, again.last); });
-  recorder.finish(again.observer.result(again.world), !finished());
+  const auto recording = record::open_recording(
+      file.path(), {{config_json(), version(), git(), seed()}, r.configuration.output, record::Existing::replace});
+  record::Simulation again(world::World(r.configuration.scenario), *recording);
+  world::Executor executor(1);
+  replay(again, r.interventions, r.world().tick(), [&] { again.step(executor); });
+  again.finish(!finished());
   return file.content();
 }
 

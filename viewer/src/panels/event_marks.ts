@@ -25,7 +25,7 @@ const marks: Record<string, Mark> = {
   target_moved: { color: '--target', height: 0.6, sign: '⊙' },
   obstacle_moved: { color: '--quiet', height: 0.6, sign: '▣' },
   line_of_sight: { color: '--quiet', height: 0.6, sign: '◐' },
-  interrupt: { color: '--quiet', height: 1, sign: '■' },
+  interrupted: { color: '--quiet', height: 1, sign: '■' },
 };
 
 /** null: too frequent and too small to be marked (phases). */

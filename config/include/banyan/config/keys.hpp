@@ -14,22 +14,15 @@
 #include <variant>
 #include <vector>
 
+#include "banyan/record/output_formats.hpp"
 #include "banyan/world/scenario.hpp"
 
 namespace banyan::config {
 
-// [output]: what a run keeps. Not part of the world: it never changes what happens.
-struct Output {
-  bool record = true;              // run.mcap
-  std::uint32_t record_every = 1;  // ticks
-  bool messages = true;            // in run.mcap: what each robot broadcast
-  bool series = false;             // series.csv
-};
-
 // What a file and the command line together stand for.
 struct Configuration {
   world::Scenario scenario;
-  Output output;
+  record::Output output;
 };
 
 // A scenario in the terms of its file, where a variant is a selector key ("layout", "kind") and

@@ -33,6 +33,10 @@ class Observer {
   std::unique_ptr<Impl> impl_;
 };
 
+// The start of a run, before its first step, as a tick; for pictures and plots. The run's own observer counts
+// ticks, and the start is none.
+[[nodiscard]] Tick at_start(const world::World& world, bool exact_fiedler = false);
+
 // For plots: whether this is a tick at which lambda_2 itself is worth its time, the first of each simulated
 // second, in swarms of at most 1,000 robots (1 ms with 94, 10 ms with 1,000).
 [[nodiscard]] bool is_plotted(const world::World& world) noexcept;

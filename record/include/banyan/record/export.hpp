@@ -21,11 +21,11 @@ struct ExportOptions {
 };
 
 // Gets the table in pieces of some 64 KiB, header first.
-using Sink = std::function<void(std::string_view)>;
+using WritePiece = std::function<void(std::string_view)>;
 
 // Columns: tick,time_s,robot,x_m,y_m,heading_rad,role,phase,parent,old_parent,alive,connected,target.
 // Roles and phases by name, alive and connected as 0 or 1, nobody as an empty field. Returns rows.
-std::uint64_t export_csv(Recording& recording, const Sink& sink, const ExportOptions& options = {});
+std::uint64_t export_csv(Recording& recording, const WritePiece& write, const ExportOptions& options = {});
 std::uint64_t export_csv(Recording& recording, const std::string& path, Existing existing = Existing::keep,
                          const ExportOptions& options = {});
 

@@ -72,16 +72,4 @@ void write_run_csv(const std::string& path, const RunRow& row, Existing existing
 void write_run_json(const std::string& path, const RunRow& row, std::string_view config_json,
                     Existing existing = Existing::keep);
 
-// --series: a row per tick.
-class SeriesWriter {
- public:
-  explicit SeriesWriter(std::string path, Existing existing = Existing::keep);
-  void row(const measure::Tick& tick);
-  void finish();             // without it the file does not appear
-
- private:
-  OutputFile file_;
-  std::string line_;
-};
-
 }  // namespace banyan::record

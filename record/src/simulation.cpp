@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Running a world to its end (simulation.hpp).
+#include "banyan/record/simulation.hpp"
+
+#include <utility>
+
+namespace banyan::record {
+
+Simulation::Simulation(world::World world, Sink& sink) : world_(std::move(world)), observer_(world_), sink_(sink) {
+  sink_.start(world_);
+}
+
+void Simulation::step(world::Executor& executor) {
+  world_.step(executor);
+  sink_.tick(world_, observer_.observe(world_, sink_.wants_fiedler(world_)));
+}
+
+RunEnd Simulation::finish(bool interrupted) {
+  const RunEnd end{result(), last(), interrupted};
+  sink_.finish(world_, end);
+  return end;
+}
+
+RunEnd run_scenario(world::World world, Sink& sink, world::Executor& executor, const GoOn& go_on) {
+  Simulation simulation(std::move(world), sink);
+  while (!simulation.finished()) {
+    if (go_on && !go_on(simulation)) return simulation.finish(true);
+    simulation.step(executor);
+  }
+  return simulation.finish(false);
+}
+
+}  // namespace banyan::record

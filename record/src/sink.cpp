@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Sinks, and that one that fails stays alone with it (sink.hpp).
+#include "banyan/record/sink.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "banyan/record/file.hpp"
+
+namespace banyan::record {
+
+void Sink::start(const world::World&) {}
+void Sink::tick(const world::World&, const measure::Tick&) {}
+void Sink::finish(const world::World&, const RunEnd&) {}
+bool Sink::wants_fiedler(const world::World&) const { return false; }
+
+void Sinks::add(std::string path, std::unique_ptr<Sink> sink) {
+  members_.push_back({std::move(path), std::move(sink)});
+}
+
+template <class Call> void Sinks::tell(const Call& call) {
+  for (auto& [path, sink] : members_) {
+    if (!sink) continue;
+    try {
+      call(*sink);
+    } catch (const FileError& error) {
+      failures_.push_back({path, error.what()});
+      sink.reset();
+    } catch (const std::exception& error) {
+      failures_.push_back({path, path + ": " + error.what()});
+      sink.reset();
+    }
+  }
+}
+
+void Sinks::start(const world::World& world) {
+  tell([&](Sink& sink) { sink.start(world); });
+}
+void Sinks::tick(const world::World& world, const measure::Tick& tick) {
+  tell([&](Sink& sink) { sink.tick(world, tick); });
+}
+void Sinks::finish(const world::World& world, const RunEnd& end) {
+  tell([&](Sink& sink) { sink.finish(world, end); });
+}
+bool Sinks::wants_fiedler(const world::World& world) const {
+  return std::any_of(members_.begin(), members_.end(),
+                     [&](const Member& member) { return member.sink && member.sink->wants_fiedler(world); });
+}
+
+}  // namespace banyan::record
