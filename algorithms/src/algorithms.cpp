@@ -39,7 +39,9 @@ class WithTable : public Algorithm {
     Params params = defaults_();
     const auto rows = bind(params);
     apply(setup, follows_range_, rows, params);
-    return first_fault(rows, params);
+    std::string text = range_fault(rows);
+    if (text.empty()) text = cross_fault(params);
+    return text;
   }
 
  protected:

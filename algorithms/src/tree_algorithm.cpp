@@ -41,10 +41,10 @@ void apply(const Setup& setup, bool follows_range, std::span<const BoundParamete
       if (row.info->key == key) *row.value = static_cast<float>(value);
 }
 
-std::string first_fault(std::span<const BoundParameter> rows, const TreeParams& params) {
+std::string range_fault(std::span<const BoundParameter> rows) {
   for (const BoundParameter& row : rows)
     if (!(*row.value >= row.info->minimum && *row.value <= row.info->maximum)) return std::string(row.info->key);  // NaN fails too
-  return std::string(tree_fault(params));
+  return {};
 }
 
 }  // namespace banyan

@@ -45,4 +45,10 @@ constexpr Parameter<P> of_convoy[] = {
 
 std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept { return of_convoy; }
 
+std::string_view convoy_fault(const ConvoyParams& params) noexcept {
+  if (!(params.pull_start * params.communication_range_m < params.ideal_distance_m)) return "pull_start must be below ideal_distance_m (delta) / C";
+  if (!(params.join_margin * params.communication_range_m < params.ideal_distance_m)) return "join_margin must be below ideal_distance_m (delta) / C";
+  return {};
+}
+
 }  // namespace banyan

@@ -83,7 +83,10 @@ void command(ConvoyRobot& robot) noexcept {
   if (self.plan_ticks > p.ticks(plan_limit_s)) return withdraw(self);
   const int since = self.settled_ticks - p.ticks(p.plan_after_s);
   const int period = p.ticks(plan_period_s);
-  const bool due = p.plan_after_s > 0.0F && since >= 0 && since % period == 0 && self.settled_ticks < UINT16_MAX;
+  // Of more targets than I remember, those that I do not know keep branches that no plan has counted.
+  const auto known = tasks(self);
+  const bool knows_all = self.subtree_workers <= std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; });
+  const bool due = knows_all && p.plan_after_s > 0.0F && since >= 0 && since % period == 0 && self.settled_ticks < UINT16_MAX;
   if (due && plan_tree(robot, 1 + since / period) >= self.subtree) withdraw(self);
 }
 

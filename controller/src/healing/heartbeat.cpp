@@ -22,7 +22,7 @@ void hear_heartbeat(HealingRobot& robot) noexcept {
   for (const Heard& h : robot.heard) {
     const HealingMessage& m = said(h);
     if (m.root != self.root) continue;
-    if (self.heart == self.root && ahead_by(m.heartbeat, self.heartbeat) <= 0) continue;
+    if (self.heart == self.root && !is_news(m.heartbeat, self.heartbeat, self.silence_ticks)) continue;
     self.heart = self.root;
     self.heartbeat = m.heartbeat;
     self.root_size = m.root_size;

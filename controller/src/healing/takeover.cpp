@@ -67,7 +67,7 @@ void hear_of_task(HealingRobot& robot, RobotId serves, RobotId holder, std::uint
     if (holder != self.id) settle_rivalry(robot, *task, holder, beat);
     return;
   }
-  const int ahead = ahead_by(beat, task->beat);
+  const bool news = is_news(beat, task->beat, task->age_ticks);
   // From somebody about as near to the worker. The worker silent, copies of copies would only drift, and
   // wheels slip in a crowd: the mean of what all around remember is the best there is.
   constexpr int stale_ticks = 3;
@@ -75,9 +75,9 @@ void hear_of_task(HealingRobot& robot, RobotId serves, RobotId holder, std::uint
   if (target != nullptr) {
     const bool silent = task->age_ticks > 2 * robot.liveness_ticks() + task_capacity;
     if (silent) task->target += (*target - task->target) * trust;
-    else if (ahead >= -stale_ticks) task->target = *target;
+    else if (news || ahead_by(beat, task->beat) >= -stale_ticks) task->target = *target;
   }
-  if (ahead <= 0) return;
+  if (!news) return;
   task->beat = beat;
   task->holder = holder;
   task->age_ticks = 0;

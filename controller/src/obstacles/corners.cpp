@@ -113,7 +113,7 @@ void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
     if (table.age(k) == 0 && (nearest < 0 || key(k) < key(nearest))) nearest = k;
   if (nearest < 0) return;
   const TreeStanding& m = table.message(nearest);
-  if (m.epoch == self.epoch && m.seqno > self.seqno) corners.seen_from = table.position(nearest);
+  if (m.epoch == self.epoch && is_newer(m.seqno, self.seqno)) corners.seen_from = table.position(nearest);
 }
 
 // How near obstacles come to the line of sight to a neighbour; sight_width_m if they do not.

@@ -18,6 +18,7 @@ void begin_epoch(TreeRobot& robot) noexcept {
   self.label_cm = unknown_label;
   self.label_wait_ticks = 0;
   self.seqno = 0;
+  self.seqno_ticks = 0;
   self.flood_parent = nobody;
   self.flood_done = false;
   self.flood_robots = self.flood_workers = 0;

@@ -120,8 +120,9 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
 void follow(TreeRobot& robot, int k) noexcept {
   TreeState& self = robot.self;
   const TreeStanding& m = robot.table().message(k);
-  if (m.epoch != self.epoch || m.label_cm >= largest_label || m.seqno <= self.seqno) return;
+  if (m.epoch != self.epoch || m.label_cm >= largest_label || !is_news(m.seqno, self.seqno, self.seqno_ticks)) return;
   self.seqno = m.seqno;
+  self.seqno_ticks = 0;
   if (self.label_cm == unknown_label || self.label_cm <= m.label_cm) self.label_cm = label_below(m.label_cm, robot.table().range(k));
 }
 
@@ -134,8 +135,12 @@ bool awaits_inserted(const TreeRobot& robot) noexcept {
 // While I wish for another parent my seqno rests: the other's overtakes it, unless it hangs on me.
 void update_seqno(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
+  if (self.seqno_ticks < UINT16_MAX) ++self.seqno_ticks;
+  // So old that others could take it for new: this robot has no place in the order any more (serial.hpp).
+  if (self.seqno_ticks == serial_half_range && !robot.is_root()) self.label_cm = unknown_label;
   if (robot.is_root()) {
-    if (self.seqno < UINT16_MAX) ++self.seqno;
+    ++self.seqno;
+    self.seqno_ticks = 0;
   } else if (robot.parent_alive() && !awaits_inserted(robot) && self.pending_parent == nobody) {
     follow(robot, robot.parent);
   }
@@ -166,7 +171,7 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
     if (!table.alive(k) || m.tree_hops > hops || m.tree_hops == unreachable) continue;
-    if (m.tree_hops == hops && nearest >= 0 && m.seqno <= table.message(nearest).seqno) continue;  // the freshest
+    if (m.tree_hops == hops && nearest >= 0 && !is_newer(m.seqno, table.message(nearest).seqno)) continue;  // the freshest
     hops = m.tree_hops;
     nearest = k;
   }
@@ -189,7 +194,7 @@ bool is_ahead(const TreeRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   const TreeState& self = robot.self;
   if (m.epoch != self.epoch || m.label_cm >= largest_label) return false;  // nothing fits behind the largest label
-  return m.seqno != self.seqno ? m.seqno > self.seqno : m.label_cm < self.label_cm;
+  return m.seqno != self.seqno ? is_news(m.seqno, self.seqno, self.seqno_ticks) : m.label_cm < self.label_cm;
 }
 
 bool is_named_parent(const TreeRobot& robot) noexcept {

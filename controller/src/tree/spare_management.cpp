@@ -145,8 +145,9 @@ void join_edge(TreeRobot& robot, int owner) noexcept {
   const TreeStanding& above = table.message(parent);
   auto label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + above.label_cm) / 2);
   if (label_cm <= above.label_cm) label_cm = label_below(above.label_cm, 0.0F);
-  self.label_cm = above.seqno > self.seqno ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
+  self.label_cm = is_newer(above.seqno, self.seqno) ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
   self.seqno = above.seqno;
+  self.seqno_ticks = 0;
   take_parent(robot, parent);
   self.inserted_child = self.request;
   self.inserted_ticks = 0;

@@ -23,6 +23,13 @@ struct BoundParameter {
 // Defaults, scaled; platform; the setup's own values. `follows_range`: the lengths among the defaults stand for
 // C = 2 m and grow with it; Table I's are absolute.
 void apply(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, TreeParams& params);
-[[nodiscard]] std::string first_fault(std::span<const BoundParameter> rows, const TreeParams& params);
+// The first value out of its range, by its key.
+[[nodiscard]] std::string range_fault(std::span<const BoundParameter> rows);
+// What does not fit together.
+[[nodiscard]] inline std::string_view cross_fault(const HealingParams& params) { return tree_fault(params); }
+[[nodiscard]] inline std::string_view cross_fault(const ConvoyParams& params) {
+  const std::string_view text = tree_fault(params);
+  return text.empty() ? convoy_fault(params) : text;
+}
 
 }  // namespace banyan

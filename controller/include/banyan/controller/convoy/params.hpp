@@ -30,4 +30,7 @@ struct ConvoyParams : HealingParams {
 
 [[nodiscard]] std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept;
 
+// Besides tree_fault(): an edge pulls before it is as long as it may be, and a spare can join one.
+[[nodiscard]] std::string_view convoy_fault(const ConvoyParams& params) noexcept;
+
 }  // namespace banyan

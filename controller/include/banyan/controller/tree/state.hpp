@@ -48,6 +48,7 @@ struct TreeState {
   std::uint16_t orphan_ticks = 0;        // depth invalid though I matter
   std::uint16_t childless_ticks = 0;     // connector without a child that is no spare
   Serial seqno = 0;
+  std::uint16_t seqno_ticks = 0;         // since it changed
   RobotId pending_parent = nobody;       // the robot I want as parent as soon as it is ahead of me
   std::uint16_t depth = invalid_depth;
   std::uint8_t tree_hops = unreachable;
@@ -101,7 +102,7 @@ constexpr void visit_tree_state(Visitor& visit, State& s) noexcept {
   visit(s.epoch), visit(s.phase), visit(s.phase_ticks), visit(s.root.sequence), visit(s.root.id), visit(s.done_ticks);
   visit(s.label_cm), visit(s.label_wait_ticks), visit(s.flood_parent), visit(s.flood_done), visit(s.flood_robots), visit(s.flood_workers);
   visit(s.parent), visit(s.old_parent), visit(s.committed), visit(s.search_ticks), visit(s.orphan_ticks), visit(s.childless_ticks);
-  visit(s.seqno), visit(s.pending_parent), visit(s.depth), visit(s.tree_hops);
+  visit(s.seqno), visit(s.seqno_ticks), visit(s.pending_parent), visit(s.depth), visit(s.tree_hops);
   visit(s.subtree), visit(s.subtree_workers), visit(s.count), visit(s.q), visit(s.want_m), visit(s.pull), visit(s.least_want_m), visit(s.stalled_ticks);
   visit(s.centroid), visit(s.centroid_known), visit(s.new_root), visit(s.offer_ticks);
   visit(s.need), visit(s.unserved_ticks), visit(s.call_hops), visit(s.grant), visit(s.grant_ticks), visit(s.inserted_child), visit(s.inserted_ticks);
