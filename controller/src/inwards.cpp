@@ -19,10 +19,10 @@ bool may_join(const TreeRobot& robot) noexcept { return robot.self.is_worker || 
 
 bool tree_complete(const TreeRobot& robot) noexcept { return robot.self.subtree_workers >= robot.self.flood_workers; }
 
-// SELECT PARENT: the smallest distance to the root, within S if there is one.
+// SELECT PARENT: the smallest distance to the root; corrected: within S if there is one.
 void select_inner_parent(TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  const auto is_safe = [&](int k) { return table.range(k) <= robot.params.safe_range_m; };
+  const auto is_safe = [&](int k) { return robot.reading.prefers_safe_parent && table.range(k) <= robot.params.safe_range_m; };
   select_parent(robot, {.may_join = may_join(robot),
                         .workers_relay = false,
                         .accepts = [](int) { return true; },

@@ -23,12 +23,20 @@ void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
     if (k != robot.parent && k != robot.old_parent) visit(k);
 }
 
+// In how many of the two trees neighbour k is at the other end of an edge of mine.
+int edges_to(const TreeRobot& robot, int k) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  const bool in_new = k == robot.parent || m.parent == robot.self.id;
+  const bool in_old = k == robot.old_parent || m.old_parent == robot.self.id;
+  return robot.reading.counts_edges_once ? 1 : static_cast<int>(in_new) + static_cast<int>(in_old);
+}
+
 // u^tree,new + u^tree,old. Each term is clamped: at 20 cm the law says -4000.
 Vec2 tree_force(const TreeRobot& robot) noexcept {
   Vec2 u;
   for_each_tree_neighbor(robot, [&](int k) {
     const float magnitude = std::clamp(interaction(robot.table().range(k), robot.params), -1.0F, 1.0F);
-    u += unit(robot.table().position(k)) * magnitude;
+    u += unit(robot.table().position(k)) * (magnitude * static_cast<float>(edges_to(robot, k)));
   });
   return u;
 }

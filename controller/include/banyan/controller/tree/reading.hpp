@@ -17,13 +17,17 @@ struct Reading {
   bool calls_spares;         // needs that nobody answers call spares from out of sight; printed: nothing of it
   bool spares_stand_still;   // near their reference; printed: they orbit it
   bool avoids_obstacles;     // printed: nothing of it
+  bool prefers_safe_parent;  // inwards: among candidates those within S first; printed: the smallest distance to the root
+  bool counts_edges_once;    // an edge of both trees has one force; printed: u_tree,old + u_tree,new
 };
 
 inline constexpr Reading literal_reading{
     .name = "literal", .keeps_margin = false, .guards_edges = false, .slides_beyond_safe = false, .asks_while_wanted = false,
-    .calls_spares = false, .spares_stand_still = false, .avoids_obstacles = false};
+    .calls_spares = false, .spares_stand_still = false, .avoids_obstacles = false, .prefers_safe_parent = false,
+    .counts_edges_once = false};
 inline constexpr Reading corrected_reading{
     .name = "corrected", .keeps_margin = true, .guards_edges = true, .slides_beyond_safe = true, .asks_while_wanted = true,
-    .calls_spares = true, .spares_stand_still = true, .avoids_obstacles = true};
+    .calls_spares = true, .spares_stand_still = true, .avoids_obstacles = true, .prefers_safe_parent = true,
+    .counts_edges_once = true};
 
 }  // namespace banyan
