@@ -127,9 +127,8 @@ struct ConvoyColumns : HealingColumns {
 };
 
 void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
-  const Carry carry(admitted.senses().odometry);
-  carry_memory(robot.self, carry);
-  update_table(robot, carry, ConvoyColumns(robot.self));
+  carry_memory(robot.self, robot.carry);
+  update_table(robot, ConvoyColumns(robot.self));
   follow_orders(robot, admitted.senses().orders);
 }
 

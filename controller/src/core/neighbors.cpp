@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/core/neighbors.hpp"
 
-#include "banyan/controller/core/edge_frame.hpp"
-#include "banyan/controller/core/fixed_point.hpp"
-
 namespace banyan {
 
 void Neighbors::prefetch(std::size_t entries) const noexcept {
@@ -14,7 +11,6 @@ void Neighbors::prefetch(std::size_t entries) const noexcept {
   fetch(ages_);
   fetch(ranges_m_);
   fetch(positions_);
-  fetch(before_);
 }
 
 // How many of the first `among` in by_id_ have a smaller id.
@@ -44,7 +40,6 @@ void Neighbors::enter(int k, RobotId id) noexcept {
   std::move_backward(at, by_id_.begin() + size_ - 1, by_id_.begin() + size_);
   *at = static_cast<std::uint8_t>(k);
   ids_[k] = id;
-  before_[k] = {};
   next_rank_ = static_cast<std::int16_t>(at - by_id_.begin() + 1);
 }
 
@@ -54,30 +49,22 @@ void Neighbors::leave(int k) noexcept {
   std::move(std::find(by_id_.begin(), end, k) + 1, end, std::find(by_id_.begin(), end, k));
 }
 
-void Neighbors::begin(const Carry& carry, int elapsed_ticks) noexcept {
-  expected_ = missed_ = 0;
-  next_rank_ = 0;
+void Neighbors::begin(int elapsed_ticks) noexcept {
   elapsed_ticks_ = static_cast<std::int16_t>(std::min(elapsed_ticks, INT16_MAX));
-  origin_ = carry.point({});
+  next_rank_ = 0;
+  missed_ = 0;
+  int expected = 0;
   for (int k = 0; k < size_; ++k) {
-    const bool heard = ages_[k] == 0;
-    before_[k] = heard ? carry.vector(positions_[k]) : Vec2{};
-    expected_ = static_cast<std::int16_t>(expected_ + (heard ? 1 : 0));
+    expected += static_cast<int>(ages_[k] == 0);
+    ages_[k] = static_cast<std::uint16_t>(std::min(ages_[k] + elapsed_ticks_, UINT16_MAX));
   }
-  for (int k = 0; k < size_; ++k) ages_[k] = static_cast<std::uint16_t>(std::min(ages_[k] + elapsed_ticks_, UINT16_MAX));
+  expected_ = static_cast<std::int16_t>(expected);
 }
 
 // Only the silent are dead-reckoned: who was heard just now has a fresh position.
 void Neighbors::reckon(int k, const Carry& carry) noexcept {
   positions_[k] = carry.point(positions_[k]);
   ranges_m_[k] = norm(positions_[k]);
-}
-
-bool Neighbors::read_point(int k, std::int16_t x_cm, std::int16_t y_cm, Vec2& point) const noexcept {
-  const Vec2 before = before_[k];
-  if (before == Vec2{}) return false;
-  point = origin_ + from_edge_frame({metres(x_cm), metres(y_cm)}, before);
-  return true;
 }
 
 // Order is kept: entries stand in the order in which they were first heard.
@@ -89,7 +76,6 @@ void Neighbors::remove(int k) noexcept {
   close_gap(ages_, k, size_);
   close_gap(ranges_m_, k, size_);
   close_gap(positions_, k, size_);
-  close_gap(before_, k, size_);
   --size_;
 }
 

@@ -45,9 +45,8 @@ void locate_root(HealingRobot& robot) noexcept {
     // The root silent, copies of copies would only drift.
     if (m.told != self.id || !m.root_told || ahead_by(m.heartbeat, self.heartbeat) < -stale_ticks) continue;
     if (self.root_known && self.silence_ticks > robot.liveness_ticks()) continue;
-    const int k = robot.table().find(m.id);
     Vec2 point;
-    if (k < 0 || !robot.table().read_point(k, m.root_x_cm, m.root_y_cm, point)) continue;
+    if (!robot.read_point(h, m.root_x_cm, m.root_y_cm, point)) continue;
     self.root_at = point;
     self.root_known = true;
   }

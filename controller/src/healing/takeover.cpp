@@ -87,9 +87,8 @@ void hear_of_tasks(HealingRobot& robot) noexcept {
   for (const Heard& h : robot.heard) {
     const HealingMessage& m = said(h);
     if (m.task_serves == nobody) continue;
-    const int k = m.told == robot.self.id ? robot.table().find(m.id) : -1;
     Vec2 target;
-    const bool told = k >= 0 && robot.table().read_point(k, m.task_x_cm, m.task_y_cm, target);
+    const bool told = m.told == robot.self.id && robot.read_point(h, m.task_x_cm, m.task_y_cm, target);
     hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, told ? &target : nullptr);
   }
 }

@@ -43,9 +43,8 @@ void carry_memory(HealingState& self, const Carry& carry) noexcept {
 }
 
 void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
-  const Carry carry(admitted.senses().odometry);
-  carry_memory(robot.self, carry);
-  update_table(robot, carry, HealingColumns(robot.self));
+  carry_memory(robot.self, robot.carry);
+  update_table(robot, HealingColumns(robot.self));
   follow_orders(robot, admitted.senses().orders);
 }
 

@@ -55,9 +55,8 @@ Admitted::Admitted(const Senses& senses, std::span<Heard> heard, const Platform&
 }
 
 void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
-  const Carry carry(admitted.senses().odometry);
-  carry_memory(robot.self, carry);
-  update_table(robot, carry, TreeColumns{robot.self});
+  carry_memory(robot.self, robot.carry);
+  update_table(robot, TreeColumns{robot.self});
   follow_orders(robot, admitted.senses().orders);
 }
 

@@ -28,6 +28,12 @@ struct ConvoyState : HealingState {
   Corners corners;                       // obstacles: lines of sight past them
   std::array<ConvoyStanding, neighbor_capacity> convoy_standings{};  // beside the neighbour table
 
+  void prefetch(std::size_t entries) const noexcept {
+    HealingState::prefetch(entries = std::min<std::size_t>(entries, neighbor_capacity));
+    prefetch_lines(&pending_ticks, static_cast<std::size_t>(reinterpret_cast<const char*>(corners.standings.data() + entries) - reinterpret_cast<const char*>(&pending_ticks)));
+    prefetch_lines(convoy_standings.data(), entries * sizeof(ConvoyStanding));
+  }
+
  private:
   static constexpr std::array<RobotId, task_capacity> none() noexcept {
     std::array<RobotId, task_capacity> hosts{};

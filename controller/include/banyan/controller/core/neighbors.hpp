@@ -34,21 +34,26 @@ constexpr void close_gap(std::array<T, neighbor_capacity>& array, int k, int siz
 class Neighbors {
  public:
   // One tick: begin(), file() for each packet in any order (of several of one sender the last counts), end().
-  void begin(const Carry& carry, int elapsed_ticks) noexcept;
+  void begin(int elapsed_ticks) noexcept;
   // `ties`: the sender must not be missed for want of room. When more robots are heard than the table holds,
-  // those that tie stay, and of the others the nearest.
+  // those that tie stay, and of the others the nearest. Returns where the sender was a tick ago, in the frame of
+  // then; zero if it was not heard then, or has been filed in this tick already.
   template <class Columns, class Packet>
-  void file(RobotId id, Vec2 position, bool ties, const Packet& packet, Columns& columns) noexcept {
+  Vec2 file(RobotId id, Vec2 position, bool ties, const Packet& packet, Columns& columns) noexcept {
     int k = find_next(id);
-    if (k < 0) {
+    Vec2 before;
+    if (k >= 0) {
+      if (ages_[k] == elapsed_ticks_) before = positions_[k];
+    } else {
       k = size_ < neighbor_capacity ? size_++ : evict(position, ties, columns);
-      if (k < 0) return;
+      if (k < 0) return before;
       enter(k, id);
     }
     positions_[k] = position;
     ranges_m_[k] = norm(position);
     ages_[k] = 0;
     columns.write(k, packet);
+    return before;
   }
   // Entries older than `liveness_ticks` go, except `keep`: neighbours whose silence matters.
   template <class Columns>
@@ -76,10 +81,6 @@ class Neighbors {
   [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
   [[nodiscard]] float range(int k) const noexcept { return ranges_m_[k]; }      // m
   [[nodiscard]] int age(int k) const noexcept { return ages_[k]; }            // ticks, 0: heard now
-  // A point, relative to me, that neighbour k has written for me in its edge frame (cm). False if it
-  // was not heard in the tick before: what it wrote then holds for where both were then, and over a
-  // distance a bearing that is a tick old makes an error of decimetres.
-  [[nodiscard]] bool read_point(int k, std::int16_t x_cm, std::int16_t y_cm, Vec2& point) const noexcept;
   // Of those heard in the tick before: how many they were, and how many were not heard in this one.
   [[nodiscard]] int expected() const noexcept { return expected_; }
   [[nodiscard]] int missed() const noexcept { return missed_; }
@@ -105,7 +106,6 @@ class Neighbors {
 
   template <class T>
   using Array = std::array<T, neighbor_capacity>;
-  Vec2 origin_;  // where I was a tick ago
   std::int16_t size_ = 0;
   std::int16_t next_rank_ = 0;  // behind the packet filed last: from many hosts they come in the order of ids
   std::int16_t liveness_ticks_ = 0;
@@ -117,7 +117,6 @@ class Neighbors {
   Array<std::uint16_t> ages_{};
   Array<float> ranges_m_{};
   Array<Vec2> positions_{};
-  Array<Vec2> before_{};  // where each was a tick ago, in the present frame but from where I was then; 0: not heard then
 };
 
 }  // namespace banyan

@@ -99,7 +99,8 @@ class SwarmOf final : public Swarm {
   [[nodiscard]] std::size_t size() const noexcept override { return states_.size(); }
 
   void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) override {
-    static thread_local std::vector<Heard> heard;
+    static thread_local std::vector<Heard> of_thread;
+    std::vector<Heard>& heard = of_thread;  // looked up once
     auto& now = slots_[slot_];
     const auto& last = slots_[slot_of(1)];
     for (std::size_t k = 0; k < sensed.size(); ++k) {

@@ -41,6 +41,11 @@ struct HealingState : TreeState {
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   Detour detour;                         // obstacles: the way round one
   std::array<HealingStanding, neighbor_capacity> healing_standings{};  // beside the neighbour table
+
+  void prefetch(std::size_t entries) const noexcept {
+    TreeState::prefetch(entries = std::min<std::size_t>(entries, neighbor_capacity));
+    prefetch_lines(&was_sent, static_cast<std::size_t>(reinterpret_cast<const char*>(healing_standings.data() + entries) - reinterpret_cast<const char*>(&was_sent)));
+  }
 };
 
 template <class Visitor, class State>

@@ -139,6 +139,7 @@ struct Heard {
   const TreeMessage* message;
   Vec2 position;
   float age_s = 0.0F;
+  Vec2 before{};       // the step's own note: where the sender was at the last step, in the frame of then; zero: not heard then
 };
 
 }  // namespace banyan

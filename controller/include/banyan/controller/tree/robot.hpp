@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/tree/params.hpp"
 #include "banyan/controller/tree/reading.hpp"
@@ -28,23 +29,24 @@ struct IndexList {
 class Admitted : public Gate {
  public:
   Admitted(const Senses& senses, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept;
-  [[nodiscard]] std::span<const Heard> heard() const noexcept { return heard_; }
+  [[nodiscard]] std::span<Heard> heard() const noexcept { return heard_; }
 
  private:
-  std::span<const Heard> heard_;
+  std::span<Heard> heard_;
 };
 
 struct TreeRobot {
   TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Admitted& admitted) noexcept
       : params(params_), reading(reading_), self(self_), heard(admitted.heard()), obstacles(admitted.senses().obstacles),
-        elapsed_ticks(admitted.elapsed_ticks()) {}
+        carry(admitted.senses().odometry), elapsed_ticks(admitted.elapsed_ticks()) {}
 
   const TreeParams& params;
   const Reading& reading;
   TreeState& self;
   const Vec2* target = nullptr;     // own frame, m; null unless a worker
-  std::span<const Heard> heard;
+  std::span<Heard> heard;
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
+  Carry carry;                      // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
   int loss_ticks = 0;               // so long a living neighbour may well be silent where packets are lost; 0: unknown
   bool carries_on = false;          // a connector that lost the last robot below it, and stays one (healing)
@@ -66,6 +68,14 @@ struct TreeRobot {
   // The longest edge a robot may choose (protocol 2, row 4).
   [[nodiscard]] float parent_range_m() const noexcept {
     return reading.keeps_margin ? params.ideal_distance_m - params.parent_margin_m : params.communication_range_m;
+  }
+  // A point, relative to me, that the sender has written for me in its edge frame (cm). False if it was not
+  // heard in the tick before: what it wrote then holds for where both were then, and over a distance a bearing
+  // that is a tick old makes an error of decimetres.
+  [[nodiscard]] bool read_point(const Heard& h, std::int16_t x_cm, std::int16_t y_cm, Vec2& point) const noexcept {
+    if (h.before == Vec2{}) return false;
+    point = carry.point({}) + from_edge_frame({metres(x_cm), metres(y_cm)}, carry.vector(h.before));
+    return true;
   }
   // Neighbour k is at the other end of an edge of mine, old or new.
   [[nodiscard]] bool is_tree_neighbor(int k) const noexcept {

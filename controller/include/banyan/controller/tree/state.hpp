@@ -2,6 +2,7 @@
 // All that the paper's algorithms remember between two steps. A plain value: copy it, compare it, hash it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -89,6 +90,7 @@ struct TreeState {
 
   // About `entries` entries of the table are needed soon, and all the rest.
   void prefetch(std::size_t entries) const noexcept {
+    entries = std::min<std::size_t>(entries, neighbor_capacity);
     prefetch_lines(this, static_cast<std::size_t>(reinterpret_cast<const char*>(&neighbors) - reinterpret_cast<const char*>(this)));
     neighbors.prefetch(entries);
     prefetch_lines(neighbors.standings.data(), entries * sizeof(TreeStanding));

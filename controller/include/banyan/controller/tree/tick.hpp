@@ -35,17 +35,17 @@ struct TreeColumns {
 
 // Brings the neighbour table and all arrays beside it up to date.
 template <class Columns>
-void update_table(TreeRobot& robot, const Carry& carry, Columns columns) noexcept {
+void update_table(TreeRobot& robot, Columns columns) noexcept {
   TreeState& self = robot.self;
   Neighbors& table = self.neighbors;
-  table.begin(carry, robot.elapsed_ticks);
-  for (const Heard& h : robot.heard) {
+  table.begin(robot.elapsed_ticks);
+  for (Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;
     if (m.id == self.id || m.id == nobody) continue;
     const bool ties = m.id == self.parent || m.id == self.old_parent || columns.names_me(m);
-    table.file(m.id, h.position, ties, m, columns);
+    h.before = table.file(m.id, h.position, ties, m, columns);
   }
-  table.end(carry, robot.liveness_ticks(), {self.parent, self.old_parent}, columns);
+  table.end(robot.carry, robot.liveness_ticks(), {self.parent, self.old_parent}, columns);
 }
 
 // The tree's part of the message, and what an observer may know of it.
