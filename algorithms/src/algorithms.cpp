@@ -23,16 +23,17 @@ class WithTable : public Algorithm {
   [[nodiscard]] std::string_view summary() const noexcept override { return summary_; }
   [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override {
     Params params = defaults_();
-    std::vector<const ParameterInfo*> rows;
-    for (const BoundParameter& row : bind(params)) rows.push_back(row.info);
+    const auto bound = bind(params);
+    std::vector<const ParameterInfo*> rows(bound.size());
+    std::transform(bound.begin(), bound.end(), rows.begin(), [](const BoundParameter& row) { return row.info; });
     return rows;
   }
   [[nodiscard]] std::vector<float> values(const Setup& setup) const override {
     Params params = defaults_();
     const auto rows = bind(params);
     apply(setup, follows_range_, rows, params);
-    std::vector<float> list;
-    for (const BoundParameter& row : rows) list.push_back(*row.value);
+    std::vector<float> list(rows.size());
+    std::transform(rows.begin(), rows.end(), list.begin(), [](const BoundParameter& row) { return *row.value; });
     return list;
   }
   [[nodiscard]] std::string fault(const Setup& setup) const override {

@@ -114,10 +114,10 @@ struct ConvoyColumns : HealingColumns {
 
   explicit ConvoyColumns(ConvoyState& state_) noexcept : HealingColumns(state_), state(state_) {}
   void write(int k, const TreeMessage& m) noexcept {
-    const auto& message = static_cast<const ConvoyMessage&>(m);
+    const ConvoyMessage& message = convoy_message(m);
     HealingColumns::write(k, m);
-    state.corners.standings[static_cast<std::size_t>(k)] = message;
-    state.convoy_standings[static_cast<std::size_t>(k)] = message;
+    state.corners.standings[static_cast<std::size_t>(k)] = static_cast<const CornerStanding&>(message);
+    state.convoy_standings[static_cast<std::size_t>(k)] = static_cast<const ConvoyStanding&>(message);
   }
   void close(int k, int size) noexcept {
     HealingColumns::close(k, size);

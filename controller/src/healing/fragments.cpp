@@ -36,7 +36,7 @@ void listen_among_fragments(HealingRobot& robot) noexcept {
 }
 
 void accept_offered_root(HealingRobot& robot) noexcept {
-  if (const TreeMessage* offer = accept_offer(robot)) robot.self.root_size = static_cast<const HealingMessage&>(*offer).root_size;
+  if (const TreeMessage* offer = accept_offer(robot)) robot.self.root_size = healing_message(*offer).root_size;
 }
 
 void advance_and_count(HealingRobot& robot, bool tree_complete, bool may_reconstruct) noexcept {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What only convoy reads (docs/convoy.md). Lengths in units of C as a designer sets them; resolved() has
-// them in metres.
+// What only convoy reads (docs/convoy.md). Every length is in units of C.
 #pragma once
 
 #include "banyan/controller/healing/params.hpp"

@@ -11,6 +11,11 @@
 
 namespace banyan {
 
+// What a robot of convoy hears is what robots of convoy say.
+inline const ConvoyMessage& convoy_message(const TreeMessage& m) noexcept {
+  return static_cast<const ConvoyMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): all of a swarm run the same
+}
+
 struct ConvoyRobot : HealingRobot {
   ConvoyRobot(const ConvoyParams& params_, ConvoyState& self_, const Admitted& admitted) noexcept
       : HealingRobot(params_, self_, admitted), params(params_), self(self_) {}
@@ -26,7 +31,7 @@ struct ConvoyRobot : HealingRobot {
   [[nodiscard]] const ConvoyMessage* parent_message() const noexcept {
     if (self.parent == nobody) return nullptr;
     const auto it = std::find_if(heard.begin(), heard.end(), [&](const Heard& h) { return h.message->id == self.parent; });
-    return it == heard.end() ? nullptr : static_cast<const ConvoyMessage*>(it->message);
+    return it == heard.end() ? nullptr : &convoy_message(*it->message);
   }
 };
 

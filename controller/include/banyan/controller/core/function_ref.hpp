@@ -16,7 +16,7 @@ class FunctionRef<Result(Arguments...)> {
  public:
   template <class F>
     requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef> && std::is_invocable_r_v<Result, F&, Arguments...>)
-  // NOLINTNEXTLINE(google-explicit-constructor): a lambda is passed where a rule is asked for
+  // A lambda is passed where a rule is asked for. NOLINTNEXTLINE(google-explicit-constructor,bugprone-forwarding-reference-overload)
   FunctionRef(F&& f) noexcept
       : object_(const_cast<void*>(static_cast<const void*>(&f))),
         call_([](void* object, Arguments... arguments) -> Result {

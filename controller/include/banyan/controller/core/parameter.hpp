@@ -11,7 +11,7 @@ namespace banyan {
 enum class Scaling : unsigned char {
   none,       // a time, a gain, or a length that is what it is
   mission,    // m; times mission.scale, and for algorithms made for any radio times C / 2 m
-  range,      // in units of C: times C, once, when a swarm is made
+  range,      // in units of C
 };
 
 struct ParameterInfo {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a designer sets about healing after deaths. Lengths in units of C stand here in metres once a swarm
-// has been made (resolve()).
+// What a designer sets about healing after deaths. Lengths are in units of C where the table says so.
 #pragma once
 
 #include "banyan/controller/tree/params.hpp"

@@ -21,6 +21,9 @@ struct HealingRobot : TreeRobot {
 [[nodiscard]] inline Vec2 bypass(const HealingRobot& robot, Vec2 goal) noexcept { return bypass(robot, robot.self.detour, goal); }
 
 // What a healing robot hears is what healing robots say.
-inline const HealingMessage& said(const Heard& h) noexcept { return static_cast<const HealingMessage&>(*h.message); }
+inline const HealingMessage& healing_message(const TreeMessage& m) noexcept {
+  return static_cast<const HealingMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): all of a swarm run the same
+}
+inline const HealingMessage& said(const Heard& h) noexcept { return healing_message(*h.message); }
 
 }  // namespace banyan

@@ -25,7 +25,7 @@ struct HealingColumns : TreeColumns {
   explicit HealingColumns(HealingState& state) noexcept : TreeColumns{state}, healing(state.healing_standings) {}
   void write(int k, const TreeMessage& m) noexcept {
     TreeColumns::write(k, m);
-    healing[static_cast<std::size_t>(k)] = static_cast<const HealingMessage&>(m);
+    healing[static_cast<std::size_t>(k)] = static_cast<const HealingStanding&>(healing_message(m));
   }
   void close(int k, int size) noexcept {
     TreeColumns::close(k, size);

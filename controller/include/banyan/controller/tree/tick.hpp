@@ -29,7 +29,7 @@ struct TreeColumns {
     const TreeStanding& m = self.neighbors.message(k);
     return m.id == self.parent || m.id == self.old_parent || names_me(m);
   }
-  void write(int k, const TreeMessage& m) noexcept { self.neighbors.standings[static_cast<std::size_t>(k)] = m; }
+  void write(int k, const TreeMessage& m) noexcept { self.neighbors.standings[static_cast<std::size_t>(k)] = static_cast<const TreeStanding&>(m); }
   void close(int k, int size) noexcept { close_gap(self.neighbors.standings, k, size); }
 };
 
