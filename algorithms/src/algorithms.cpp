@@ -13,57 +13,11 @@ namespace {
 
 // ---- The algorithms ----
 
-// A table of parameters, whatever the swarm.
-template <class Params>
-class WithTable : public Algorithm {
- public:
-  constexpr WithTable(std::string_view name, std::string_view summary, Params (*defaults)() noexcept, bool follows_range)
-      : name_(name), summary_(summary), defaults_(defaults), follows_range_(follows_range) {}
-  [[nodiscard]] std::string_view name() const noexcept override { return name_; }
-  [[nodiscard]] std::string_view summary() const noexcept override { return summary_; }
-  [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override {
-    Params params = defaults_();
-    const auto bound = bind(params);
-    std::vector<const ParameterInfo*> rows(bound.size());
-    std::transform(bound.begin(), bound.end(), rows.begin(), [](const BoundParameter& row) { return row.info; });
-    return rows;
-  }
-  [[nodiscard]] std::vector<float> values(const Setup& setup) const override {
-    Params params = defaults_();
-    const auto rows = bind(params);
-    apply(setup, follows_range_, rows, params);
-    std::vector<float> list(rows.size());
-    std::transform(rows.begin(), rows.end(), list.begin(), [](const BoundParameter& row) { return *row.value; });
-    return list;
-  }
-  [[nodiscard]] std::string fault(const Setup& setup) const override {
-    Params params = defaults_();
-    const auto rows = bind(params);
-    apply(setup, follows_range_, rows, params);
-    std::string text = range_fault(rows);
-    if (text.empty()) text = cross_fault(params);
-    return text;
-  }
-
- protected:
-  [[nodiscard]] Params params(const Setup& setup) const {
-    Params params = defaults_();
-    apply(setup, follows_range_, bind(params), params);
-    return params;
-  }
-
- private:
-  std::string_view name_;
-  std::string_view summary_;
-  Params (*defaults_)() noexcept;
-  bool follows_range_;
-};
-
 // One of the paper's: a step as printed and one as corrected.
 template <auto literal_step, auto corrected_step>
-class OfPaper final : public WithTable<HealingParams> {
+class OfPaper final : public TreeAlgorithm<HealingParams> {
  public:
-  using WithTable::WithTable;
+  using TreeAlgorithm::TreeAlgorithm;
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
     if (setup.reading == literal_reading_name) return std::make_unique<SwarmOf<LiteralSwarm<literal_step>>>(params(setup), members, setup.history);
     return std::make_unique<SwarmOf<CorrectedSwarm<corrected_step>>>(params(setup), members, setup.history);
@@ -71,14 +25,6 @@ class OfPaper final : public WithTable<HealingParams> {
 
  private:
   static constexpr std::string_view literal_reading_name = "literal";
-};
-
-class OfConvoy final : public WithTable<ConvoyParams> {
- public:
-  using WithTable::WithTable;
-  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
-    return std::make_unique<SwarmOf<ConvoySwarm>>(params(setup), members, setup.history);
-  }
 };
 
 }  // namespace
@@ -96,8 +42,8 @@ const Algorithm& inwards() noexcept {
 }
 
 const Algorithm& convoy() noexcept {
-  static constexpr OfConvoy algorithm("convoy", "a sparse tree that its workers tow; spares join near the root, without travelling",
-                                      convoy_defaults, true);
+  static constexpr TreeAlgorithmOf<ConvoySwarm> algorithm("convoy", "a sparse tree that its workers tow; spares join near the root, without travelling",
+                                                          convoy_defaults, true);
   return algorithm;
 }
 

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <vector>
 
-#include "banyan/controller/policies.hpp"
+#include "banyan/algorithms/swarms.hpp"
+#include "banyan/algorithms/tree_algorithm.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
@@ -276,26 +278,19 @@ TEST(Observer, HeldTimeCountsFromCompletionOn) {
 }
 
 // outwards, but robot 2 calls itself root now and then, and counts what nobody does here.
-class Pretender final : public Policy {
- public:
-  std::string_view name() const noexcept override { return "pretender"; }
-  std::string_view summary() const noexcept override { return "for this test"; }
-  Params defaults(Reading reading) const noexcept override { return outwards().defaults(reading); }
-  bool may_join(const Robot& robot) const noexcept override { return outwards().may_join(robot); }
-  bool accepts(const Robot& robot, int k) const noexcept override { return outwards().accepts(robot, k); }
-  bool prefers(const Robot& robot, int a, int b) const noexcept override { return outwards().prefers(robot, a, b); }
-  bool tree_complete(const Robot& robot) const noexcept override { return outwards().tree_complete(robot); }
-  bool leaves_branch(const Robot& robot) const noexcept override { return outwards().leaves_branch(robot); }
-  void tend_tree(Robot& robot) const noexcept override {
-    if (robot.self.id != 2 || robot.self.phase_ticks % 16 < 9) return;
-    robot.self.role = Role::root;
-    robot.self.tally.elections += 1;
-    robot.self.tally.replacements += 2;
+struct Pretending : CorrectedSwarm<outwards_step> {
+  static Output<HealingMessage> step(const HealingParams& params, HealingState& self, std::span<Heard> heard, const Senses& senses) {
+    Output<HealingMessage> output = outwards_step(params, self, heard, senses);
+    if (self.id != 2 || self.phase_ticks % 16 < 9) return output;
+    output.message.role = self.role = Role::root;
+    self.tally.elections += 1;
+    self.tally.replacements += 2;
+    return output;
   }
 };
+constexpr TreeAlgorithmOf<Pretending> pretender("pretender", "for this test", outwards_defaults);
 
 TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
-  const Pretender pretender;
   World world(chain(6, 1.1), pretender);
   Observer observer(world);
   std::uint64_t ticks = 0, streak = 0, longest = 0;
@@ -310,7 +305,7 @@ TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
   const measure::Run run = observer.result(world);
   EXPECT_EQ(run.two_roots_ticks, ticks);
   EXPECT_NEAR(run.longest_two_roots_s, 0.1 * static_cast<double>(longest), 1e-9);
-  EXPECT_EQ(run.elections, world.states()[2].tally.elections);
+  EXPECT_EQ(run.elections, world.reports()[2].tally.elections);
   EXPECT_EQ(run.replacements, 2 * run.elections);
   EXPECT_GT(run.elections, 0U);
 }
@@ -351,7 +346,7 @@ Event death(std::size_t robot, double time_s, Event::When when = Event::When::ti
 std::size_t last_with(const World& world, Role role) {
   std::size_t found = world.size();
   for (std::size_t i = 0; i < world.size(); ++i)
-    if (world.messages()[i].role == role) found = i;
+    if (world.reports()[i].role == role) found = i;
   return found;
 }
 
@@ -468,7 +463,7 @@ class Recount {
     const double range2 = world.scenario().radio.range_m * world.scenario().radio.range_m;
     std::uint32_t far = 0, hidden = 0, dead = 0, edges = 0, committed = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const State& s = world.states()[i];
+      const Report& s = world.reports()[i];
       if (world.alive()[i] == 0 || s.role == Role::spare) continue;
       ++committed;
       std::vector<RobotId> ups;
@@ -534,6 +529,7 @@ class Recount {
 TEST(Observer, AgreesWithARecountOfAHardRun) {
   for (const char* algorithm : {"outwards", "inwards"}) {
     for (const char* reading : {"literal", "corrected"}) {
+      const std::size_t message_bytes = std::string(reading) == "literal" ? wire_size<TreeMessage>() : wire_size<HealingMessage>();
       Scenario s = ring(30, 3, 6.0, 4);
       s.mission.algorithm = algorithm;
       s.mission.reading = reading;
@@ -562,12 +558,12 @@ TEST(Observer, AgreesWithARecountOfAHardRun) {
       EXPECT_NEAR(run.mean_committed, recount.committed_sum / 900, 1e-9);
       EXPECT_GT(run.broken_ticks, 0U) << "a run without trouble tests nothing";
       EXPECT_EQ(run.hash, world.hash());
-      EXPECT_NEAR(run.bytes_per_robot_s, static_cast<double>(world.packets_sent() * wire_size) / (30 * 90.0), 1e-9);
+      EXPECT_NEAR(run.bytes_per_robot_s, static_cast<double>(world.packets_sent() * message_bytes) / (30 * 90.0), 1e-9);
       std::uint64_t insertions = 0;
       std::uint64_t epochs = 0;
-      for (const State& state : world.states()) {
-        insertions += state.tally.insertions;
-        epochs = std::max<std::uint64_t>(epochs, state.epoch);
+      for (const Report& report : world.reports()) {
+        insertions += report.tally.insertions;
+        epochs = std::max<std::uint64_t>(epochs, report.epoch);
       }
       EXPECT_EQ(run.insertions, insertions);
       EXPECT_LE(run.epochs, epochs);

@@ -84,13 +84,13 @@ TEST(Capture, ShowsTheWorldAsItIs) {
     std::size_t connected = 0;
     for (std::size_t i = 0; i < world.size(); ++i) {
       const RobotFrame& robot = frame.robots[i];
-      const State& state = world.states()[i];
+      const Report& state = world.reports()[i];
       EXPECT_EQ(robot.position, world.positions()[i]);
       EXPECT_LT(distance(unit_vector(robot.heading_rad), world.headings()[i]), 1e-9);
       EXPECT_EQ(robot.role, state.role);
       EXPECT_EQ(robot.phase, state.phase);
       EXPECT_EQ(robot.parent, state.parent == nobody ? -1 : static_cast<int>(state.parent));
-      EXPECT_EQ(robot.label_cm, state.label_cm == unknown_label ? -1 : static_cast<int>(state.label_cm));
+      EXPECT_EQ(robot.label_cm, state.label_cm);
       EXPECT_EQ(robot.alive, world.alive()[i] != 0);
       EXPECT_TRUE(robot.alive || !robot.connected);
       connected += robot.connected ? 1 : 0;

@@ -7,10 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "banyan/controller/convoy/message.hpp"
 #include "frame_json.hpp"
 #include "message_json.hpp"
 #include "sample.hpp"
+#include "saying.hpp"
 
 namespace banyan::record {
 namespace {
@@ -50,28 +53,37 @@ TEST(Older, FieldsThatWereNotThereHaveTheirDefaults) {
   EXPECT_TRUE(read_setting(object.dump()).dead_bodies);
 }
 
+template <class Message>
+std::vector<double> shown(const Message& message) {
+  const auto swarm = test::saying(message);
+  MessageNumbers numbers;
+  capture_messages(*swarm, numbers);
+  return numbers.numbers;
+}
+
+template <class Message>
+class MessageFields : public ::testing::Test {};
+using MessageTypes = ::testing::Types<TreeMessage, HealingMessage, ConvoyMessage>;
+TYPED_TEST_SUITE(MessageFields, MessageTypes);
+
 // Each byte that travels must show in some field, and no field may be there twice.
-TEST(MessageFields, ShowEverythingThatTravels) {
+TYPED_TEST(MessageFields, ShowEverythingThatTravels) {
+  TypeParam message;
+  message.id = 1;
+  message.q = {0.5F, 0.5F};  // minus nothing is nothing
   std::set<std::string_view> names;
-  for (const MessageField& field : message_fields()) {
+  for (const FieldInfo& field : test::saying(message)->message_fields()) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name;
     EXPECT_FALSE(field.meaning.empty()) << field.name;
   }
-  const auto shown = [](const Message& message) {
-    std::vector<double> values;
-    for (const MessageField& field : message_fields()) values.push_back(field.get(message));
-    return values;
-  };
-  Message message;
-  message.id = 1;
-  message.q = {0.5F, 0.5F};  // minus nothing is nothing
-  const Wire wire = encode(message);
-  for (std::size_t at = 1; at < wire_size; ++at) {
+  std::vector<std::uint8_t> wire(wire_size<TypeParam>());
+  ASSERT_EQ(encode_fields(message, wire), wire.size());
+  for (std::size_t at = 1; at < wire.size(); ++at) {
     bool seen = false;
     for (unsigned bit = 0; bit < 8; ++bit) {
-      Wire other = wire;
+      std::vector<std::uint8_t> other = wire;
       other[at] = static_cast<std::uint8_t>(other[at] ^ (1U << bit));
-      const auto decoded = decode(other);
+      const auto decoded = decode_fields<TypeParam>(other);
       if (!decoded) continue;
       EXPECT_NE(shown(*decoded), shown(message)) << "byte " << at << ", bit " << bit;
       seen = true;
@@ -80,16 +92,17 @@ TEST(MessageFields, ShowEverythingThatTravels) {
   }
 }
 
-TEST(MessageFields, AsJsonRolePhaseAndNeedAreWords) {
-  Message message;
+TEST(MessageJson, HasRolePhaseAndNeedAsWords) {
+  HealingMessage message;
   message.id = 4;
   message.role = Role::connector;
   message.phase = Phase::grow_tree;
   message.need = Need::await;
   message.want_cm = 250;
   message.q = {0.5F, -0.25F};
-  const Json json = Json::parse(message_json(message));
-  EXPECT_EQ(json.size(), message_fields().size());
+  const auto swarm = test::saying(message);
+  const Json json = Json::parse(message_json(*swarm, 0));
+  EXPECT_EQ(json.size(), swarm->message_fields().size());
   EXPECT_EQ(json["id"], 4);
   EXPECT_EQ(json["role"], "connector");
   EXPECT_EQ(json["phase"], "grow_tree");

@@ -5,20 +5,22 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
+#include "banyan/controller/convoy/message.hpp"
 #include "banyan/measure/observer.hpp"
 #include "banyan/record/mcap.hpp"
 #include "banyan/world/world.hpp"
 #include "sample.hpp"
+#include "saying.hpp"
 
 namespace banyan::record {
 namespace {
 
 using nlohmann::json;
-using Kept = MessageField::Kept;
 
 world::Scenario scenario() {
   world::Scenario s;
@@ -45,7 +47,8 @@ TEST(MessageFields, HaveEachANameAMeaningAndTheDocumentsField) {
   std::ifstream in(BANYAN_SOURCE_DIR "/docs/protocol.md");
   const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   std::set<std::string_view> names;
-  for (const MessageField& field : message_fields()) {
+  const auto swarm = test::saying(ConvoyMessage());  // has all blocks
+  for (const FieldInfo& field : swarm->message_fields()) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name;
     EXPECT_FALSE(field.meaning.empty()) << field.name;
     // "centroid_x_cm" is "centroid" there, "flood_done" is "flood done".
@@ -56,25 +59,32 @@ TEST(MessageFields, HaveEachANameAMeaningAndTheDocumentsField) {
   EXPECT_EQ(names.size(), 54U);
 }
 
+// The numbers of a message, by name.
+std::map<std::string_view, double> numbers_of(const ConvoyMessage& message) {
+  const auto swarm = test::saying(message);
+  MessageNumbers captured;
+  capture_messages(*swarm, captured);
+  std::map<std::string_view, double> numbers;
+  for (std::size_t f = 0; f < captured.fields.size(); ++f) numbers[captured.fields[f].name] = captured.numbers[f];
+  return numbers;
+}
+
 TEST(MessageFields, NobodyAndUnknownAreMinusOne) {
-  const Message silent;
   const std::set<std::string_view> none{
       "id",           "root_id", "label_cm",    "tree_hops",      "call_hops", "parent",   "old_parent",
       "flood_parent", "grant",   "request",     "inserted_child", "warned",    "new_root", "serves",
       "told",         "task",    "task_holder", "task_host",      "above",     "below"};
-  for (const MessageField& field : message_fields())
-    EXPECT_EQ(field.get(silent), none.contains(field.name) ? -1.0 : 0.0) << field.name;
-  Message message;
+  for (const auto& [name, number] : numbers_of({})) EXPECT_EQ(number, none.contains(name) ? -1.0 : 0.0) << name;
+  ConvoyMessage message;
   message.pull_x = 8192;
   message.q = {1.5F, -2.0F};
   message.role = Role::worker;
   message.pinned = true;
-  for (const MessageField& field : message_fields()) {
-    if (field.name == "pull_x") { EXPECT_EQ(field.get(message), 0.5); }
-    if (field.name == "q_y_m") { EXPECT_EQ(field.get(message), -2.0); }
-    if (field.name == "role") { EXPECT_EQ(field.get(message), 2.0); }
-    if (field.name == "pinned") { EXPECT_EQ(field.get(message), 1.0); }
-  }
+  const auto numbers = numbers_of(message);
+  EXPECT_EQ(numbers.at("pull_x"), 0.5);
+  EXPECT_EQ(numbers.at("q_y_m"), -2.0);
+  EXPECT_EQ(numbers.at("role"), 2.0);
+  EXPECT_EQ(numbers.at("pinned"), 1.0);
 }
 
 class RecordedMessages : public ::testing::Test {
@@ -90,12 +100,12 @@ class RecordedMessages : public ::testing::Test {
     for (int t = 0; t < 100; ++t) {
       world.step();
       recorder.frame(world, observer.observe(world));
-      if (world.tick() % 2 == 0) sent_[world.tick()] = {world.messages().begin(), world.messages().end()};
+      if (world.tick() % 2 == 0) capture_messages(world.swarm(), sent_[world.tick()]);
     }
     recorder.finish(observer.result(world));
   }
   const test::TemporaryDirectory directory_;
-  std::map<std::uint64_t, std::vector<Message>> sent_;
+  std::map<std::uint64_t, MessageNumbers> sent_;
 };
 
 // What is left out of the messages stands in the frame of the same moment: the page puts both together.
@@ -105,18 +115,24 @@ TEST_F(RecordedMessages, AreWhatWasSentAtEveryRecordedFrame) {
   mcap::Reader reader(path);
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/messages")->id), sent_.size());
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/frame")->id), sent_.size());
+  const std::set<std::string> nowhere{"root_x_cm", "root_y_cm", "task_x_cm", "task_y_cm"};
+  const std::size_t robots = scenario().swarm.robots;
   for (const auto& [tick, sent] : sent_) {
     const json messages = object(reader, "/banyan/messages", tick);
     const json frame = object(reader, "/banyan/frame", tick);
     ASSERT_TRUE(messages.is_object() && frame.is_object()) << tick;
-    for (const MessageField& field : message_fields()) {
+    for (std::size_t f = 0; f < sent.fields.size(); ++f) {
+      const FieldInfo& field = sent.fields[f];
       const std::string name(field.name);
-      EXPECT_EQ(messages.contains(name), field.kept == Kept::in_messages) << name;
-      for (std::size_t i = 0; i < sent.size() && field.kept != Kept::nowhere && name != "id"; ++i) {
-        const bool centimetres = name == "want_cm";
-        const json& values = field.kept == Kept::in_messages ? messages[name] : frame[centimetres ? "want_m" : name];
+      const bool in_frame = !is_recorded(field) && !nowhere.contains(name);
+      EXPECT_EQ(messages.contains(name), is_recorded(field)) << name;
+      if (nowhere.contains(name) || name == "id") continue;
+      const bool centimetres = name == "want_cm";
+      const json& values = in_frame ? frame[centimetres ? "want_m" : name] : messages[name];
+      ASSERT_EQ(values.size(), robots) << name;
+      for (std::size_t i = 0; i < robots; ++i) {
         const double value = values.at(i).get<double>() * (centimetres ? 100.0 : 1.0);
-        EXPECT_NEAR(value, field.get(sent[i]), field.decimals == 0 ? 1e-6 : 0.51e-3)
+        EXPECT_NEAR(value, sent.numbers[i * sent.fields.size() + f], field.decimals == 0 ? 1e-6 : 0.51e-3)
             << name << " of " << i << " at " << tick;
       }
     }

@@ -78,7 +78,7 @@ TEST_F(LiveTest, ItsFrameIsTheWorld) {
   for (std::size_t i = 0; i < world.size(); ++i) {
     EXPECT_EQ(data[i], world.positions()[i].x);
     EXPECT_EQ(data[world.size() + i], world.positions()[i].y);
-    EXPECT_EQ(data[3 * world.size() + i], static_cast<double>(world.states()[i].role));
+    EXPECT_EQ(data[3 * world.size() + i], static_cast<double>(world.reports()[i].role));
     EXPECT_EQ(data[12 * world.size() + i], frame.robots[i].parent);
     EXPECT_EQ(data[17 * world.size() + i], frame.robots[i].target);
   }

@@ -20,7 +20,7 @@ TEST(Allocation, TheCounterCounts) {
 // Buffers grow while the swarm spreads, by a quarter at a time. Once nobody spreads out further none has
 // to grow any more: what is left would be an allocation in every tick.
 TEST(Allocation, ATickTakesNothingFromTheHeap) {
-  for (const char* algorithm : {"outwards", "inwards"}) {
+  for (const char* algorithm : {"outwards", "inwards", "convoy"}) {
     for (const std::size_t robots : {20U, 150U}) {
       Scenario s = hostile(algorithm, robots, 5);
       s.targets = RingTargets{3, 1.5};

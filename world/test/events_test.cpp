@@ -20,17 +20,18 @@ TEST(Events, TheDeadFallSilentAndStayWhereTheyAre) {
   for (int t = 0; t < 30; ++t) world.step();
   EXPECT_EQ(world.alive()[5], 1);
   const Vec2 here = world.positions()[5];
-  const Message last_words = world.messages()[5];
+  const std::vector<std::uint8_t> last_words = said(world, 5);
   for (int t = 0; t < 40; ++t) {
     world.step();
     EXPECT_EQ(world.alive()[5], 0);
     EXPECT_TRUE(world.links(5).empty());
-    EXPECT_EQ(world.messages()[5], last_words) << "at tick " << world.tick();
+    EXPECT_EQ(said(world, 5), last_words) << "at tick " << world.tick();
     for (std::size_t i = 0; i < world.size(); ++i) {
       const auto links = world.links(i);
       EXPECT_FALSE(std::binary_search(links.begin(), links.end(), 5U));
-      const int k = world.states()[i].neighbors.find(5);
-      EXPECT_TRUE(i == 5 || k < 0 || world.states()[i].neighbors.age(k) > t) << i;
+      const TreeTable& table = tree_state(world.swarm(), i).neighbors;
+      const int k = table.find(5);
+      EXPECT_TRUE(i == 5 || k < 0 || table.age(k) > t) << i;
     }
   }
   EXPECT_LT(distance(world.positions()[5], here), 0.05) << "others may push it, no more";
@@ -104,7 +105,7 @@ TEST(Events, ANewTargetGoesToTheNearestSpare) {
   ASSERT_EQ(world.targets().size(), 2U);
   std::size_t expected = world.size();
   for (std::size_t i = 0; i < world.size(); ++i) {
-    if (world.states()[i].role != Role::spare) continue;
+    if (world.reports()[i].role != Role::spare) continue;
     if (expected == world.size() || distance(world.positions()[i], where) < distance(world.positions()[expected], where)) expected = i;
   }
   ASSERT_LT(expected, world.size());
@@ -112,15 +113,15 @@ TEST(Events, ANewTargetGoesToTheNearestSpare) {
   ASSERT_EQ(world.targets().size(), 3U);
   EXPECT_EQ(world.targets()[2].position, where);
   EXPECT_EQ(world.targets()[2].worker, expected);
-  EXPECT_TRUE(world.states()[expected].is_worker);
-  EXPECT_EQ(world.states()[expected].role, Role::worker);
+  EXPECT_TRUE(tree_state(world.swarm(), expected).is_worker);
+  EXPECT_EQ(world.reports()[expected].role, Role::worker);
 }
 
 TEST(Events, WithNobodyLeftANewTargetIsNotAssigned) {
   Scenario s = ring("outwards", 4, 2, 1.5, 1);
   const World probe(s);
   std::size_t free_robot = 0;
-  while (probe.states()[free_robot].is_worker || probe.states()[free_robot].role == Role::root) ++free_robot;
+  while (tree_state(probe.swarm(), free_robot).is_worker || probe.reports()[free_robot].role == Role::root) ++free_robot;
   s.events = {event(0.2, Event::Kind::die, free_robot), event(0.5, Event::Kind::add_target, 0, 0.0, {0.0, 1.0})};
   World world(s);
   for (int t = 0; t < 10; ++t) world.step();
@@ -212,13 +213,13 @@ TEST(Events, ATargetThatIsGivenUpHasNoWorkerAnyMore) {
   const std::size_t worker = world.targets()[1].worker;
   for (int t = 0; t < 30; ++t) world.step();
   EXPECT_TRUE(world.targets()[1].active);
-  EXPECT_TRUE(world.states()[worker].is_worker);
+  EXPECT_TRUE(tree_state(world.swarm(), worker).is_worker);
   world.step();
   EXPECT_FALSE(world.targets()[1].active);
   EXPECT_TRUE(world.targets()[0].active);
-  EXPECT_FALSE(world.states()[worker].is_worker);
-  EXPECT_EQ(world.states()[worker].serves, nobody);
-  EXPECT_NE(world.messages()[worker].role, Role::worker);
+  EXPECT_FALSE(tree_state(world.swarm(), worker).is_worker);
+  EXPECT_EQ(world.reports()[worker].serves, nobody);
+  EXPECT_NE(world.reports()[worker].role, Role::worker);
   for (int t = 0; t < 300; ++t) {
     world.step();
     ASSERT_FALSE(world.holder(1)) << t;
@@ -233,7 +234,7 @@ TEST(Events, WhoeverGaveUpATargetCanBeSentToAnother) {
   for (int t = 0; t < 21; ++t) world.step();
   ASSERT_EQ(world.targets().size(), 3U);
   EXPECT_EQ(world.targets()[2].worker, worker);
-  EXPECT_EQ(world.states()[worker].serves, worker);
+  EXPECT_EQ(world.reports()[worker].serves, worker);
 }
 
 }  // namespace

@@ -144,7 +144,8 @@ TEST(Intervene, MovesTheObstacleForBodiesRadioAndSensors) {
     world.intervene({.kind = Kind::set_line_of_sight, .value = 0.0});
     world.step();
     EXPECT_EQ(world.links(0).size(), 1U) << "the radio goes through the wall now";
-    EXPECT_FALSE(world.params().line_of_sight);
+    EXPECT_FALSE(world.line_of_sight());
+    EXPECT_FALSE(tree_params(world.swarm()).line_of_sight) << "its robots know";
 
     world.intervene({.kind = Kind::move_obstacle, .index = 1, .position = world.positions()[1] + Vec2{0.1, 0.0}});
     for (int t = 0; t < 100; ++t) world.step();

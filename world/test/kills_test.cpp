@@ -32,7 +32,7 @@ std::set<std::size_t> dead(const World& world) {
 std::set<std::size_t> with_role(const World& world, Role role) {
   std::set<std::size_t> list;
   for (std::size_t i = 0; i < world.size(); ++i)
-    if (world.alive()[i] != 0 && world.messages()[i].role == role) list.insert(i);
+    if (world.alive()[i] != 0 && world.reports()[i].role == role) list.insert(i);
   return list;
 }
 
@@ -120,7 +120,7 @@ TEST(Kills, AWorkerTakesItsParentAlong) {
   run_until(world, 120);
   std::set<std::set<std::size_t>> couples;
   for (const std::size_t w : with_role(world, Role::worker)) {
-    const RobotId parent = up_of(world.messages()[w]);
+    const RobotId parent = up_of(world.reports()[w]);
     couples.insert(parent == nobody ? std::set{w} : std::set<std::size_t>{w, parent});
   }
   world.step();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "worlds.hpp"
@@ -55,12 +56,28 @@ Scenario random_scenario(const Conditions& c, std::uint64_t seed) {
 std::string chain(const World& world, std::size_t i) {
   std::string text;
   for (int hop = 0; hop < 8 && i < world.size(); ++hop) {
-    const State& s = world.states()[i];
-    text += std::to_string(i) + " [epoch " + std::to_string(s.epoch) + " pulse " + std::to_string(s.pulse) + " label " +
+    const TreeState& s = tree_state(world.swarm(), i);
+    text += std::to_string(i) + " [epoch " + std::to_string(s.epoch) + " seqno " + std::to_string(s.seqno) + " label " +
             std::to_string(s.label_cm) + "] -> ";
     i = s.parent;
   }
   return text;
+}
+
+std::vector<TreeState> memories(const World& world) {
+  return inside(world.swarm(), [&](const auto& swarm) {
+    std::vector<TreeState> list;
+    for (std::size_t i = 0; i < world.size(); ++i) list.push_back(swarm.state(i));
+    return list;
+  });
+}
+
+// All whom the message of robot i names as their part in the tree.
+std::vector<RobotId> named(const World& world, std::size_t i) {
+  const TreeMessage& m = tree_message(world.swarm(), i);
+  std::vector<RobotId> ids{m.parent, m.old_parent, m.flood_parent, m.grant, m.request, m.inserted_child, m.new_root, m.root.id};
+  if (world.algorithm().name() == "convoy") ids.push_back(swarm_as<ConvoySwarm>(world.swarm()).message(i).warned);
+  return ids;
 }
 
 class Protocol : public testing::TestWithParam<Conditions> {
@@ -81,46 +98,46 @@ class Protocol : public testing::TestWithParam<Conditions> {
   }
 };
 
-// The pairs (epoch, pulse, label) strictly rise along parents, so no chain of parents can close.
+// The triples (epoch, seqno, label) strictly rise along parents, so no chain of parents can close.
 TEST_P(Protocol, ParentsNeverFormACycleAndAreAheadOfTheirChildren) {
   watch([](const World& world) {
-    const auto states = world.states();
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (states[i].parent == nobody) continue;
-      ASSERT_LT(states[i].parent, states.size());
-      const State& child = states[i];
-      const State& parent = states[child.parent];
+    const std::size_t n = world.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const TreeState& child = tree_state(world.swarm(), i);
+      if (child.parent == nobody) continue;
+      ASSERT_LT(child.parent, n);
+      const TreeState& parent = tree_state(world.swarm(), child.parent);
       if (GetParam().algorithm != "convoy") {  // there workers relay
         ASSERT_FALSE(parent.is_worker) << chain(world, i);
       }
       ASSERT_GE(parent.epoch, child.epoch) << chain(world, i);
-      const bool ahead = parent.pulse > child.pulse || (parent.pulse == child.pulse && parent.label_cm < child.label_cm);
+      const bool ahead = parent.seqno > child.seqno || (parent.seqno == child.seqno && parent.label_cm < child.label_cm);
       ASSERT_TRUE(parent.epoch > child.epoch || ahead) << chain(world, i);
       std::size_t top = i;
       std::size_t hops = 0;
-      while (states[top].parent != nobody && hops <= states.size()) top = states[top].parent, ++hops;
-      ASSERT_LE(hops, states.size()) << "cycle: " << chain(world, i);
+      while (world.reports()[top].parent != nobody && hops <= n) top = world.reports()[top].parent, ++hops;
+      ASSERT_LE(hops, n) << "cycle: " << chain(world, i);
     }
   });
 }
 
 TEST_P(Protocol, GossipOnlyGrows) {
-  std::vector<State> before;
+  std::vector<TreeState> before;
   watch([&](const World& world) {
-    const auto states = world.states();
-    if (world.tick() == 1) before.assign(states.begin(), states.end());
+    const std::vector<TreeState> states = memories(world);
+    if (world.tick() == 1) before = states;
     for (std::size_t i = 0; i < states.size(); ++i) {
-      const State& now = states[i];
+      const TreeState& now = states[i];
       ASSERT_GE(now.epoch, before[i].epoch) << i;
       if (now.epoch == before[i].epoch) {
         ASSERT_GE(now.phase, before[i].phase) << i;
-        ASSERT_GE(now.pulse, before[i].pulse) << i;
+        ASSERT_GE(now.seqno, before[i].seqno) << i;
         // Within an epoch nobody falls back behind what it has sent.
-        ASSERT_TRUE(now.pulse > before[i].pulse || now.label_cm <= before[i].label_cm) << i;
+        ASSERT_TRUE(now.seqno > before[i].seqno || now.label_cm <= before[i].label_cm) << i;
       }
       ASSERT_FALSE(newer(before[i].root, now.root)) << i;
     }
-    before.assign(states.begin(), states.end());
+    before = states;
   }, 4);
 }
 
@@ -132,19 +149,19 @@ TEST_P(Protocol, ThereIsOneRootExceptDuringAHandOver) {
   int several = 0;
   watch([&](const World& world) {
     if (world.tick() == 1) several = 0;
-    const auto states = world.states();
-    const auto has_lost_heir = [&](const State& s) {
+    const std::vector<TreeState> states = memories(world);
+    const auto has_lost_heir = [&](const TreeState& s) {
       const auto links = world.links(s.id);
       return s.new_root != nobody && std::find(links.begin(), links.end(), s.new_root) == links.end();
     };
-    const auto believers = std::count_if(states.begin(), states.end(), [](const State& s) { return s.role == Role::root; });
-    const auto roots = std::count_if(states.begin(), states.end(), [&](const State& s) { return s.role == Role::root && !has_lost_heir(s); });
+    const auto believers = std::count_if(states.begin(), states.end(), [](const TreeState& s) { return s.role == Role::root; });
+    const auto roots = std::count_if(states.begin(), states.end(), [&](const TreeState& s) { return s.role == Role::root && !has_lost_heir(s); });
     ASSERT_GE(believers, 1);
     ASSERT_LE(calm ? roots : believers, calm ? 2 : 5);
     several = believers > 1 ? several + 1 : 0;
     ASSERT_LE(several, calm ? 5 : 25) << "ticks with several roots in a row";
     // Nobody believes in a root that does not exist, and the newest token's owner is root.
-    for (const State& s : states) ASSERT_LT(s.root.id == nobody ? RobotId{0} : s.root.id, states.size());
+    for (const TreeState& s : states) ASSERT_LT(s.root.id == nobody ? RobotId{0} : s.root.id, states.size());
   });
 }
 
@@ -152,15 +169,16 @@ TEST_P(Protocol, MessagesNameRobotsThatExist) {
   watch([](const World& world) {
     const auto n = static_cast<RobotId>(world.size());
     for (std::size_t i = 0; i < n; ++i) {
-      const Message& m = world.messages()[i];
+      const TreeMessage& m = tree_message(world.swarm(), i);
       ASSERT_EQ(m.id, i);
-      for (const RobotId id : {m.parent, m.old_parent, m.flood_parent, m.grant, m.request, m.inserted_child, m.warned, m.new_root, m.root.id})
-        ASSERT_TRUE(id == nobody || (id < n && (id != i || m.root.id == i))) << i;
+      for (const RobotId id : named(world, i)) ASSERT_TRUE(id == nobody || (id < n && (id != i || m.root.id == i))) << i;
       ASSERT_NE(m.parent, m.id);
       ASSERT_NE(m.old_parent, m.id);
       ASSERT_EQ(m.role == Role::root, m.root.id == i) << i;
-      const std::optional<Message> wire = decode(encode(m));
-      ASSERT_TRUE(wire && *wire == m) << i;
+      inside(world.swarm(), [&](const auto& swarm) {
+        const auto wire = decode_fields<std::decay_t<decltype(swarm.message(i))>>(said(world, i));
+        ASSERT_TRUE(wire && *wire == swarm.message(i)) << i;
+      });
     }
   }, 2);
 }
@@ -180,9 +198,9 @@ TEST_P(Guarded, TheGuardBoundsEveryEdgeOfTheTree) {
       parents.assign(world.size(), nobody);
       taken_at_m.assign(world.size(), 0.0);
     }
-    const double delta_m = static_cast<double>(world.params().ideal_distance_m);
+    const double delta_m = static_cast<double>(tree_params(world.swarm()).ideal_distance_m);
     for (std::size_t i = 0; i < world.size(); ++i) {
-      const State& s = world.states()[i];
+      const Report& s = world.reports()[i];
       const bool taken = s.parent != parents[i];
       parents[i] = s.parent;
       if (s.parent == nobody || s.role == Role::spare) continue;

@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-#include "banyan/controller/policy.hpp"
+#include "banyan/controller/core/algorithm.hpp"
 #include "banyan/world/names.hpp"
 #include "banyan/world/obstacles.hpp"
 
@@ -199,11 +199,11 @@ const std::vector<Case>& cases() {
 TEST(Faults, TheDefaultsAndTheirVariationsHaveNone) {
   Scenario scenario;
   EXPECT_EQ(shown(faults(scenario)), "");
-  for (const Policy* policy : policies())
+  for (const Algorithm* algorithm : algorithms())
     for (const char* reading : {"corrected", "literal"}) {
-      scenario.mission.algorithm = policy->name();
+      scenario.mission.algorithm = algorithm->name();
       scenario.mission.reading = reading;
-      EXPECT_EQ(shown(faults(scenario)), "") << policy->name() << reading;
+      EXPECT_EQ(shown(faults(scenario)), "") << algorithm->name() << reading;
     }
   scenario.targets = RandomTargets{};
   scenario.obstacles = {Disc{{4, 4}, 1.0}, Box{{-4, 0}, {1, 2}, 0.5}, Wall{{2, 2}, {3, 2}}};
@@ -297,27 +297,55 @@ TEST(Scenario, TimeLimitIsTenTimesTheDriveToTheFarthestTarget) {
   EXPECT_DOUBLE_EQ(time_limit_s(scenario), 77.0);
 }
 
-TEST(Scenario, ControllerParametersComeFromTableOverridesAndPlatform) {
+TEST(Scenario, AlgorithmsAreSetUpFromMissionAndPlatform) {
   Scenario scenario;
   scenario.mission.algorithm = "inwards";
   scenario.mission.reading = "literal";
+  scenario.mission.scale = 0.5;
+  scenario.mission.target_tolerance_m = 0.15;
   scenario.mission.parameters = {{"target_gain", 0.125}};
   scenario.radio.range_m = 2.5;
+  scenario.radio.line_of_sight = true;
   scenario.tick_s = 0.05;
   scenario.robot.wheel_limit_m_s = 0.3;
   scenario.robot.wheel_distance_m = 0.2;
-  Params expected = find_policy("inwards")->defaults(Reading::literal);
-  const Params params = controller_params(scenario);
-  EXPECT_EQ(params.target_gain, 0.125F);
-  EXPECT_EQ(params.recruitment_distance_m, expected.recruitment_distance_m);
-  EXPECT_EQ(params.reading, Reading::literal);
-  EXPECT_EQ(params.communication_range_m, 2.5F);
-  EXPECT_EQ(params.tick_s, 0.05F);
-  EXPECT_EQ(params.wheel_limit_m_s, 0.3F);
-  EXPECT_EQ(params.wheel_distance_m, 0.2F);
-  EXPECT_EQ(params.drive, Drive::differential);
+  const banyan::Setup setup = setup_of(scenario);
+  EXPECT_EQ(setup.reading, "literal");
+  EXPECT_EQ(setup.scale, 0.5);
+  EXPECT_EQ(setup.arrival_distance_m, 0.15);
+  EXPECT_EQ(setup.parameters, scenario.mission.parameters);
+  EXPECT_EQ(setup.platform.communication_range_m, 2.5F);
+  EXPECT_TRUE(setup.platform.line_of_sight);
+  EXPECT_EQ(setup.platform.tick_s, 0.05F);
+  EXPECT_EQ(setup.platform.wheel_limit_m_s, 0.3F);
+  EXPECT_EQ(setup.platform.wheel_distance_m, 0.2F);
+  EXPECT_EQ(setup.platform.drive, Drive::differential);
   scenario.robot.body = BodyModel::linear;
-  EXPECT_EQ(controller_params(scenario).drive, Drive::holonomic);
+  EXPECT_EQ(setup_of(scenario).platform.drive, Drive::holonomic);
+}
+
+TEST(Scenario, TheAlgorithmsValuesAreItsTableScaledAndThenTheScenariosOwn) {
+  Scenario scenario;
+  scenario.mission.algorithm = "inwards";
+  const Algorithm& inwards = *find_algorithm("inwards");
+  const auto value = [&](std::string_view key) {
+    const auto rows = inwards.parameters();
+    const auto values = inwards.values(setup_of(scenario));
+    EXPECT_EQ(rows.size(), values.size());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (rows[k]->key == key) return values[k];
+    ADD_FAILURE() << key;
+    return 0.0F;
+  };
+  const float recruitment_m = value("recruitment_distance_m");
+  const float patience_s = value("connector_patience_s");
+  const float gain = value("target_gain");
+  scenario.mission.scale = 0.5;
+  scenario.mission.parameters = {{"target_gain", 0.125}};
+  EXPECT_NE(gain, 0.125F);
+  EXPECT_EQ(value("target_gain"), 0.125F);
+  EXPECT_FLOAT_EQ(value("recruitment_distance_m"), 0.5F * recruitment_m);
+  EXPECT_EQ(value("connector_patience_s"), patience_s);
 }
 
 TEST(Scenario, LeastRobotsHoldsForAStraightLineAndAStar) {

@@ -40,6 +40,11 @@ Scenario fixed(const Scenario& s, bool moved) {
 
 Vec2 seen(const World& world, std::size_t i, Vec2 p) { return rotate_back(world.headings()[i], p - world.positions()[i]); }
 
+const HealingMessage& message_of(const World& world, std::size_t i) {
+  return world.algorithm().name() == "outwards" ? swarm_as<CorrectedSwarm<outwards_step>>(world.swarm()).message(i)
+                                                : swarm_as<CorrectedSwarm<inwards_step>>(world.swarm()).message(i);
+}
+
 void expect_near(Vec2 a, Vec2 b, const char* what) {
   ASSERT_NEAR(a.x, b.x, tolerance) << what;
   ASSERT_NEAR(a.y, b.y, tolerance) << what;
@@ -60,8 +65,8 @@ void expect_same(const World& here, const World& there, const std::vector<Vec2>&
   // Its motion since the last tick, and hence its commands and its odometry.
   expect_near(seen(here, i, last_here[i]), seen(there, i, last_there[i]), "motion");
 
-  const Message& a = here.messages()[i];
-  Message b = there.messages()[i];
+  const HealingMessage& a = message_of(here, i);
+  HealingMessage b = message_of(there, i);
   ASSERT_NEAR(a.q.x, b.q.x, tolerance);
   ASSERT_NEAR(a.q.y, b.q.y, tolerance);
   ASSERT_NEAR(a.pull_x, b.pull_x, tolerance * 16384);
@@ -77,8 +82,8 @@ void expect_same(const World& here, const World& there, const std::vector<Vec2>&
   b.centroid_y_cm = a.centroid_y_cm;
   b.want_cm = a.want_cm;
   ASSERT_EQ(a, b) << "says something else";
-  const State& s = here.states()[i];
-  const State& o = there.states()[i];
+  const TreeState& s = tree_state(here.swarm(), i);
+  const TreeState& o = tree_state(there.swarm(), i);
   ASSERT_EQ(s.role, o.role);
   ASSERT_EQ(s.spare_state, o.spare_state);
   ASSERT_NEAR(s.pull.x, o.pull.x, tolerance);

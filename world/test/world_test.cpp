@@ -35,7 +35,7 @@ Vec2 truth(const World& world, std::size_t receiver, std::size_t sender) {
 template <class Visit>
 void for_each_heard(const World& world, Visit visit) {
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const Neighborhood& table = world.states()[i].neighbors;
+    const TreeTable& table = tree_state(world.swarm(), i).neighbors;
     for (int k = 0; k < table.size(); ++k)
       if (table.age(k) == 0) visit(i, k);
   }
@@ -52,12 +52,13 @@ TEST(World, WithoutLossEverybodyHearsExactlyItsLinksWhereTheyAre) {
     std::size_t heard = 0;
     for_each_heard(world, [&](std::size_t i, int k) {
       ++heard;
-      const std::size_t sender = world.states()[i].neighbors.id(k);
+      const TreeTable& table = tree_state(world.swarm(), i).neighbors;
+      const std::size_t sender = table.id(k);
       const auto links = world.links(i);
       ASSERT_TRUE(std::binary_search(links.begin(), links.end(), static_cast<std::uint32_t>(sender)));
       const Vec2 d = truth(world, i, sender);
-      EXPECT_NEAR(d.x, world.states()[i].neighbors.position(k).x, 1e-6);
-      EXPECT_NEAR(d.y, world.states()[i].neighbors.position(k).y, 1e-6);
+      EXPECT_NEAR(d.x, table.position(k).x, 1e-6);
+      EXPECT_NEAR(d.y, table.position(k).y, 1e-6);
     });
     std::size_t links = 0;
     for (std::size_t i = 0; i < world.size(); ++i) links += world.links(i).size();
@@ -92,7 +93,7 @@ TEST(World, LossIsDrawnForEveryPacketAndReceiver) {
         links += static_cast<double>(world.links(i).size());
         for (const std::uint32_t j : world.links(i)) {
           const auto heard = [&](std::size_t a, std::size_t b) {
-            const Neighborhood& table = world.states()[a].neighbors;
+            const TreeTable& table = tree_state(world.swarm(), a).neighbors;
             const int k = table.find(static_cast<RobotId>(b));
             return k >= 0 && table.age(k) == 0;
           };
@@ -115,10 +116,12 @@ TEST(World, LatencyIsExact) {
     s.radio.latency_ticks = latency;
     s.radio.loss = 0.2;
     World world(s);
-    std::vector<std::vector<Message>> said;             // [tick][robot]
+    const auto swarm = [&]() -> const auto& { return swarm_as<CorrectedSwarm<outwards_step>>(world.swarm()); };
+    std::vector<std::vector<HealingMessage>> said;      // [tick][robot]
     std::vector<std::vector<Vec2>> positions, headings;
     const auto note = [&] {
-      said.emplace_back(world.messages().begin(), world.messages().end());
+      said.emplace_back();
+      for (std::size_t i = 0; i < world.size(); ++i) said.back().push_back(swarm().message(i));
       positions.emplace_back(world.positions().begin(), world.positions().end());
       headings.emplace_back(world.headings().begin(), world.headings().end());
     };
@@ -131,9 +134,11 @@ TEST(World, LatencyIsExact) {
         ++heard;
         ASSERT_GT(t, latency);
         const auto sent = static_cast<std::size_t>(t - latency);
-        const Neighborhood& table = world.states()[i].neighbors;
+        const HealingState& memory = swarm().state(i);
+        const TreeTable& table = memory.neighbors;
         const std::size_t sender = table.id(k);
         EXPECT_EQ(table.message(k), said[sent][sender]) << latency << " at " << t;
+        EXPECT_EQ(memory.healing_standings[static_cast<std::size_t>(k)], said[sent][sender]) << latency << " at " << t;
         // Where the sender was then, seen from where the receiver is now: its odometry carried it along.
         const auto now = static_cast<std::size_t>(t);
         const Vec2 d = rotate_back(headings[now][i], positions[sent + 1][sender] - positions[now][i]);
@@ -157,7 +162,7 @@ TEST(World, SlotsLimitWhatARobotHearsAndTreatAllSendersAlike) {
     std::vector<int> count(30, 0);
     for_each_heard(world, [&](std::size_t i, int k) {
       ++count[i];
-      ++heard[i][world.states()[i].neighbors.id(k)];
+      ++heard[i][tree_state(world.swarm(), i).neighbors.id(k)];
     });
     for (std::size_t i = 0; i < 30; ++i) ASSERT_EQ(count[i], std::min<int>(5, static_cast<int>(world.links(i).size())));
   }
@@ -178,7 +183,7 @@ TEST(World, RangeAndBearingNoiseHaveTheirSigma) {
   for (int t = 0; t < 100; ++t) {
     world.step();
     for_each_heard(world, [&](std::size_t i, int k) {
-      const Neighborhood& table = world.states()[i].neighbors;
+      const TreeTable& table = tree_state(world.swarm(), i).neighbors;
       const Vec2 d = truth(world, i, table.id(k));
       const Vec2 measured{table.position(k).x, table.position(k).y};
       const double range = norm(measured) - norm(d);
@@ -264,15 +269,15 @@ TEST(World, StartsAsTheScenarioSays) {
   EXPECT_EQ(world.size(), 16U);
   EXPECT_EQ(world.tick(), 0U);
   EXPECT_EQ(world.time_s(), 0.0);
-  EXPECT_EQ(world.policy().name(), "inwards");
+  EXPECT_EQ(world.algorithm().name(), "inwards");
   ASSERT_EQ(world.targets().size(), 3U);
   for (const Target& target : world.targets()) {
     EXPECT_NEAR(norm(target.position), 4.0, 1e-9);
-    EXPECT_TRUE(world.states()[target.worker].is_worker);
+    EXPECT_TRUE(tree_state(world.swarm(), target.worker).is_worker);
   }
   for (std::size_t i = 0; i < 16; ++i) {
-    EXPECT_EQ(world.states()[i].id, i);
-    EXPECT_EQ(world.states()[i].role == Role::root, i == 4);
+    EXPECT_EQ(tree_state(world.swarm(), i).id, i);
+    EXPECT_EQ(world.reports()[i].role == Role::root, i == 4);
     EXPECT_EQ(world.alive()[i], 1);
     EXPECT_NEAR(norm(world.headings()[i]), 1.0, 1e-9);
   }
@@ -285,11 +290,11 @@ TEST(World, TheScenarioSetsTheParameters) {
   s.radio.range_m = 2.5;
   s.robot.wheel_limit_m_s = 0.1;
   const World world(s);
-  EXPECT_EQ(world.params().reading, Reading::literal);
-  EXPECT_FLOAT_EQ(world.params().target_gain, 0.4F);
-  EXPECT_FLOAT_EQ(world.params().communication_range_m, 2.5F);
-  EXPECT_FLOAT_EQ(world.params().wheel_limit_m_s, 0.1F);
-  EXPECT_FLOAT_EQ(world.params().ideal_distance_m, 1.540841F);
+  EXPECT_NO_THROW(static_cast<void>(swarm_as<LiteralSwarm<inwards_literal_step>>(world.swarm())));
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).target_gain, 0.4F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).communication_range_m, 2.5F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).wheel_limit_m_s, 0.1F);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).ideal_distance_m, 1.540841F);
 }
 
 TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
@@ -305,14 +310,16 @@ TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
 }
 
 TEST(World, NeedsAtMostTenKilobytesPerRobot) {
-  for (const std::size_t robots : {94U, 1000U}) {
-    Scenario s = ring("outwards", robots, 4, 9.0, 1);
-    s.radio.line_of_sight = true;
-    s.swarm.start.pitch_m = 1.3;
-    World world(s);
-    for (int t = 0; t < 5; ++t) world.step();
-    EXPECT_LE(world.memory_bytes(), robots * 10'240) << robots;
-  }
+  for (const auto& [algorithm, reading, most] : {std::tuple{"outwards", "literal", 8'960U}, {"outwards", "corrected", 9'216U}, {"inwards", "corrected", 9'216U}, {"convoy", "corrected", 10'240U}})
+    for (const std::size_t robots : {94U, 1000U}) {
+      Scenario s = ring(algorithm, robots, 4, 9.0, 1);
+      s.mission.reading = reading;
+      s.radio.line_of_sight = true;
+      s.swarm.start.pitch_m = 1.3;
+      World world(s);
+      for (int t = 0; t < 5; ++t) world.step();
+      EXPECT_LE(world.memory_bytes(), robots * most) << algorithm << ", " << reading << ", " << robots << " robots";
+    }
 }
 
 TEST(World, WheelNoiseShowsInTheMotionButNotInTheOdometryOfIt) {
@@ -333,12 +340,13 @@ TEST(World, WheelNoiseShowsInTheMotionButNotInTheOdometryOfIt) {
   for (int t = 0; t < 70; ++t) without.step();
   int remembered = 0;
   for (std::size_t i = 0; i < 12; ++i) {
-    const int k = without.states()[i].neighbors.find(static_cast<RobotId>(lost));
+    const TreeTable& table = tree_state(without.swarm(), i).neighbors;
+    const int k = table.find(static_cast<RobotId>(lost));
     if (i == lost || k < 0) continue;
     ++remembered;
     const Vec2 d = truth(without, i, lost);
-    EXPECT_NEAR(d.x, without.states()[i].neighbors.position(k).x, 2e-3);
-    EXPECT_NEAR(d.y, without.states()[i].neighbors.position(k).y, 2e-3);
+    EXPECT_NEAR(d.x, table.position(k).x, 2e-3);
+    EXPECT_NEAR(d.y, table.position(k).y, 2e-3);
   }
   EXPECT_GT(remembered, 0);
 }
@@ -347,7 +355,7 @@ TEST(World, WheelNoiseShowsInTheMotionButNotInTheOdometryOfIt) {
 std::optional<std::size_t> holder_by_hand(const World& world, std::size_t t) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const Message& said = world.messages()[i];
+    const Report& said = world.reports()[i];
     const double away = distance(world.positions()[i], world.targets()[t].position);
     if (world.alive()[i] == 0 || said.role != Role::worker || said.serves != world.targets()[t].worker) continue;
     if (away > world.scenario().mission.target_tolerance_m) continue;

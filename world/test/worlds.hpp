@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdlib>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "banyan/algorithms/inside.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/random.hpp"
@@ -42,6 +45,13 @@ inline Scenario hostile(const std::string& algorithm, std::size_t robots, std::u
 
 inline Poses one_robot(Vec2 position = {}, double heading_rad = 0.0) {
   return {{position}, {unit_vector(heading_rad)}};
+}
+
+// What robot i broadcast last, as it travels.
+inline std::vector<std::uint8_t> said(const World& world, std::size_t i) {
+  std::vector<std::uint8_t> bytes(largest_wire);
+  bytes.resize(world.swarm().send(i, bytes));
+  return bytes;
 }
 
 inline void run_until(World& world, std::uint64_t tick) {

@@ -3,7 +3,10 @@
 // Algorithm. Whoever adds one that has a State and Message of these kinds needs nothing else.
 #pragma once
 
+#include <algorithm>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "banyan/controller/convoy/params.hpp"
@@ -31,5 +34,58 @@ void apply(const Setup& setup, bool follows_range, std::span<const BoundParamete
   const std::string_view text = tree_fault(params);
   return text.empty() ? convoy_fault(params) : text;
 }
+
+// An algorithm with these parameters; what is missing is make().
+template <class Params>
+class TreeAlgorithm : public Algorithm {
+ public:
+  constexpr TreeAlgorithm(std::string_view name, std::string_view summary, Params (*defaults)() noexcept, bool follows_range = false)
+      : name_(name), summary_(summary), defaults_(defaults), follows_range_(follows_range) {}
+  [[nodiscard]] std::string_view name() const noexcept override { return name_; }
+  [[nodiscard]] std::string_view summary() const noexcept override { return summary_; }
+  [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override {
+    Params params = defaults_();
+    const auto bound = bind(params);
+    std::vector<const ParameterInfo*> rows(bound.size());
+    std::transform(bound.begin(), bound.end(), rows.begin(), [](const BoundParameter& row) { return row.info; });
+    return rows;
+  }
+  [[nodiscard]] std::vector<float> values(const Setup& setup) const override {
+    Params params = this->params(setup);
+    const auto bound = bind(params);
+    std::vector<float> list(bound.size());
+    std::transform(bound.begin(), bound.end(), list.begin(), [](const BoundParameter& row) { return *row.value; });
+    return list;
+  }
+  [[nodiscard]] std::string fault(const Setup& setup) const override {
+    Params params = this->params(setup);
+    std::string text = range_fault(bind(params));
+    if (text.empty()) text = cross_fault(params);
+    return text;
+  }
+
+ protected:
+  [[nodiscard]] Params params(const Setup& setup) const {
+    Params params = defaults_();
+    apply(setup, follows_range_, bind(params), params);
+    return params;
+  }
+
+ private:
+  std::string_view name_;
+  std::string_view summary_;
+  Params (*defaults_)() noexcept;
+  bool follows_range_;
+};
+
+// The whole of it for an A (core/swarm_of.hpp) that has one reading.
+template <class A>
+class TreeAlgorithmOf final : public TreeAlgorithm<typename A::Params> {
+ public:
+  using TreeAlgorithm<typename A::Params>::TreeAlgorithm;
+  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
+    return std::make_unique<SwarmOf<A>>(this->params(setup), members, setup.history);
+  }
+};
 
 }  // namespace banyan

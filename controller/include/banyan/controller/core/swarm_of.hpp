@@ -163,6 +163,7 @@ class SwarmOf final : public Swarm {
   }
 
   // For tests that look into one robot.
+  [[nodiscard]] const Params& params() const noexcept { return params_; }
   [[nodiscard]] const State& state(std::size_t i) const noexcept { return states_[i]; }
   [[nodiscard]] const Message& message(std::size_t i) const noexcept { return slots_[slot_of(1)][i]; }
 

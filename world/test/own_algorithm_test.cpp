@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// A world that is given an algorithm instead of the name of one.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "banyan/algorithms/algorithms.hpp"
+#include "banyan/algorithms/tree_algorithm.hpp"
+#include "worlds.hpp"
+
+namespace banyan::world {
+namespace {
+
+// inwards with another S.
+constexpr TreeAlgorithmOf<CorrectedSwarm<inwards_step>> mine("mine", "for this test", []() noexcept {
+  HealingParams params = inwards_defaults();
+  params.safe_range_m = 1.45F;
+  return params;
+});
+
+std::uint64_t hash_after_100_ticks(World world) {
+  for (int t = 0; t < 100; ++t) world.step();
+  return world.hash();
+}
+
+TEST(OwnAlgorithm, ARegisteredOneByReferenceIsTheSameAsByName) {
+  Scenario scenario;
+  scenario.mission.algorithm = "inwards";
+  EXPECT_EQ(hash_after_100_ticks(World(scenario)), hash_after_100_ticks(World(Scenario{}, inwards())));
+  EXPECT_NE(hash_after_100_ticks(World(scenario)), hash_after_100_ticks(World(Scenario{})));
+}
+
+TEST(OwnAlgorithm, DecidesWithItsOwnParameters) {
+  const World world(Scenario{}, mine);
+  EXPECT_EQ(world.scenario().mission.algorithm, "mine");
+  EXPECT_EQ(&world.algorithm(), &mine);
+  EXPECT_FLOAT_EQ(tree_params(world.swarm()).safe_range_m, 1.45F);
+  EXPECT_NE(hash_after_100_ticks(world), hash_after_100_ticks(World(Scenario{}, inwards())));
+}
+
+TEST(OwnAlgorithm, IsWhatItsModelIsWithTheSameParameters) {
+  Scenario scenario;
+  scenario.mission.parameters = {{"safe_range_m", 1.45}};
+  EXPECT_EQ(hash_after_100_ticks(World(Scenario{}, mine)), hash_after_100_ticks(World(scenario, inwards())));
+}
+
+TEST(OwnAlgorithm, ItsWorldCanBeInterferedWith) {
+  World world(Scenario{}, mine);
+  world.intervene({.kind = Event::Kind::die, .index = 0});
+  world.step();
+  EXPECT_EQ(world.alive()[0], 0);
+}
+
+TEST(OwnAlgorithm, ImpossibleParametersAreToldWithItsName) {
+  Scenario scenario;
+  scenario.mission.parameters = {{"safe_range_m", 1.2}};  // S below E
+  try {
+    const World world(scenario, mine);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_STREQ(e.what(), "mine: recruitment_distance_m (E) must be below safe_range_m (S)");
+  }
+}
+
+}  // namespace
+}  // namespace banyan::world
