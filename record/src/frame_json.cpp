@@ -288,6 +288,7 @@ void write_messages(Text& out, std::uint64_t tick, double time_s, const MessageN
   for (std::size_t f = 0; f < count; ++f) {
     const FieldInfo& field = messages.fields[f];
     if (!is_recorded(field)) continue;
+    out.put(',');
     key(out, field.name);
     out.put('[');
     for (std::size_t at = f; at < messages.numbers.size(); at += count) {
