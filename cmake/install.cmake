@@ -90,7 +90,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libbanyan-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbox2d-dev, libzstd-dev, libtomlplusplus-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION} (development files)
- The robot's program (controller), the simulated world, its measures and the
+ The robot's program (controller), its algorithms, the simulated world, its measures and the
  writer of recordings, as static libraries with headers.")
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
 find_program(FILE_PROGRAM file)

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT
 // The controller alone, in a loop written by hand: what a robot's firmware does, with the geometry
-// of a world in ten lines. Robot 0 is the root and stands still; robot 1 is a worker.
+// of a world in ten lines. Robot 0 is the root and stands still; robot 1 is sent to a target.
 #include <cstdio>
 
-#include "banyan/controller/controller.hpp"
-#include "banyan/controller/policies.hpp"
-#include "banyan/controller/core/trig.hpp"
+#include "banyan/controller/healing/tick.hpp"
+#include "banyan/controller/outwards.hpp"
 
 using namespace banyan;
 
 int main() {
-  const Policy& policy = outwards();
-  const Params params = policy.defaults(Reading::corrected);
-  State states[2] = {initial_state(0, false, true), initial_state(1, true, false)};
-  Message sent[2];          // what each robot said in the last tick
+  const HealingParams params = outwards_defaults();
+  HealingState states[2] = {initial_healing_state(0, false, true), initial_healing_state(1, true, false)};
+  HealingMessage sent[2];   // what each robot said in the last tick
   Odometry odometry[2];     // how each moved since then; the root does not
   const Vec2 target{1.2F, 0.4F};
   Vec2 position[2] = {{0.0F, 0.0F}, {0.3F, 0.0F}};
   Vec2 heading[2] = {{1.0F, 0.0F}, {0.0F, 1.0F}};  // the worker looks past the target
 
   for (int tick = 0; tick < 150; ++tick) {
-    Output output[2];
+    Output<HealingMessage> output[2];
     for (int i = 0; i < 2; ++i) {
       // Situated communication: the message, and where its sender is in my own frame.
-      const Heard heard[] = {{&sent[1 - i], rotate_back(heading[i], position[1 - i] - position[i])}};
-      const Vec2 to_target = rotate_back(heading[i], target - position[i]);
-      const std::span<const Heard> inbox(heard, tick > 0 ? 1 : 0);
-      output[i] = step(params, policy, states[i], inbox, odometry[i], i == 1 ? &to_target : nullptr);
+      Heard heard[] = {{&sent[1 - i], rotate_back(heading[i], position[1 - i] - position[i])}};
+      Senses senses;
+      senses.odometry = odometry[i];
+      senses.orders.sent = i == 1;
+      senses.orders.target = rotate_back(heading[i], target - position[i]);
+      output[i] = outwards_step(params, states[i], std::span(heard, tick > 0 ? 1 : 0), senses);
     }
     sent[0] = output[0].message;
     sent[1] = output[1].message;

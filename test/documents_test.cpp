@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "banyan/controller/message.hpp"
+#include "banyan/controller/convoy/message.hpp"
 
 namespace {
 
@@ -163,16 +163,33 @@ TEST(Documents, LinksAndPathsLeadSomewhere) {
   EXPECT_GE(found, 50U);
 }
 
+// Each algorithm's, wherever they are given.
 TEST(Documents, AMessageIsAsLongAsTheySay) {
-  const std::regex bytes(R"((\d+) bytes (?:ten|per tick|can hold|and is not))");
+  const std::regex bytes(R"((\d+)(?:,| or| to) (?:(\d+) or )?(\d+) bytes (?:ten|per tick|can hold|and is not))");
   std::size_t found = 0;
   for (const Line& line : lines_of_documents()) {
     std::smatch match;
     if (!std::regex_search(line.text, match, bytes)) continue;
     ++found;
-    EXPECT_EQ(std::stoul(match[1]), banyan::wire_size) << line.where();
+    EXPECT_EQ(std::stoul(match[1]), banyan::wire_size<banyan::TreeMessage>()) << line.where();
+    if (match[2].matched) { EXPECT_EQ(std::stoul(match[2]), banyan::wire_size<banyan::HealingMessage>()) << line.where(); }
+    EXPECT_EQ(std::stoul(match[3]), banyan::wire_size<banyan::ConvoyMessage>()) << line.where();
   }
   EXPECT_EQ(found, 4U);
+}
+
+// protocol.md, section 1.
+TEST(Documents, EachAlgorithmsMessageIsAsLongAsTheTableSays) {
+  const std::vector<std::pair<std::string, std::size_t>> rows{{"literal", banyan::wire_size<banyan::TreeMessage>()},
+                                                              {"corrected", banyan::wire_size<banyan::HealingMessage>()},
+                                                              {"convoy", banyan::wire_size<banyan::ConvoyMessage>()}};
+  for (const auto& [name, bytes] : rows) {
+    const std::regex row("\\| .*" + name + " \\| [a-z, ]+ \\| " + std::to_string(bytes) + " \\|");
+    std::size_t found = 0;
+    for (const Line& line : lines_of_documents())
+      if (line.file.filename() == "protocol.md" && std::regex_match(line.text, row)) ++found;
+    EXPECT_EQ(found, 1U) << name;
+  }
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The arrows of the house: adapters -> cli -> study -> config -> record -> measure -> world -> controller,
-// and viewer -> config: a browser has no processes to start. Reads the include lines
-// of every source file and names each that points up.
+// and viewer -> config: a browser has no processes to start. Only algorithms -> controller knows the
+// algorithms; the others see them through controller/core. Reads the include lines of every source file and
+// names each that points up.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -25,6 +26,7 @@ using Names = std::set<std::string, std::less<>>;
 // Room -> the rooms it may include besides itself.
 const std::map<std::string, Names, std::less<>> may_include = {
     {"controller", {}},
+    {"algorithms", {"controller"}},
     {"world", {"controller"}},
     {"measure", {"controller", "world"}},
     {"record", {"controller", "world", "measure"}},
@@ -56,6 +58,11 @@ const std::map<std::string, Names, std::less<>> homes = {
 const Names on_the_robot = {"algorithm", "array",   "bit",    "cmath",       "compare",  "concepts",    "cstddef",
                             "cstdint",   "cstring", "limits", "numeric",     "optional", "span",        "string_view",
                             "tuple",     "utility", "version", "type_traits", "iterator", "initializer_list"};
+
+// The seam's side towards hosts, which have a heap. Nothing else in controller/ includes these.
+const Names for_hosts = {"swarm.hpp", "swarm_of.hpp", "algorithm.hpp"};
+const Names of_hosts = {"memory", "string", "vector", "new", "cstdlib", "sys/mman.h"};
+bool is_for_hosts(const fs::path& file) { return file.parent_path().filename() == "core" && for_hosts.contains(file.filename().string()); }
 
 struct Include {
   std::string name;
@@ -110,6 +117,10 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
     const std::size_t slash = name.find('/', 7);
     if (slash == std::string::npos) return room == "controller" ? std::optional("is not the controller's") : std::nullopt;
     const std::string other = name.substr(7, slash - 7);
+    if (other == "controller" && product && room != "controller" && room != "algorithms" && !name.starts_with("banyan/controller/core/"))
+      return "names an algorithm";
+    if (other == "controller" && room == "controller" && product && is_for_hosts(name) && !is_for_hosts(file)) return "is for hosts";
+    if (other == "algorithms" && !product && room != "controller") return std::nullopt;  // tests name them
     if (!may_include.contains(other)) return "names no room";
     if (other != room && !may_include.at(room).contains(other)) return "points up";
     return std::nullopt;
@@ -118,7 +129,8 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
   for (const auto& [prefix, rooms] : homes) {
     if (name.starts_with(prefix) && !rooms.contains(room)) return "belongs into another room";
   }
-  if (room == "controller" && product && !on_the_robot.contains(name)) return "has no place on a robot";
+  if (room == "controller" && product && !on_the_robot.contains(name) && !(is_for_hosts(file) && of_hosts.contains(name)))
+    return "has no place on a robot";
   return std::nullopt;
 }
 
@@ -175,6 +187,21 @@ TEST_F(WrongHouse, ControllerTestIncludesTheWorld) {
 TEST_F(WrongHouse, ControllerUsesTheHeap) { EXPECT_NE(faults_of("controller/src/x.cpp", "#include <vector>"), ""); }
 TEST_F(WrongHouse, ControllerKnowsTheVersion) {
   EXPECT_NE(faults_of("controller/src/x.cpp", "#include \"banyan/version.hpp\""), "");
+}
+TEST_F(WrongHouse, OnlyTheSeamKnowsHosts) {
+  EXPECT_EQ(faults_of("controller/include/banyan/controller/core/swarm.hpp", "#include <memory>\n#include \"banyan/controller/core/swarm_of.hpp\""), "");
+  EXPECT_NE(faults_of("controller/include/banyan/controller/core/swarm.hpp", "#include <iostream>"), "");
+  EXPECT_EQ(faults_of("controller/include/banyan/controller/core/swarm.hpp", ""), "");
+  EXPECT_EQ(faults_of("controller/src/x.cpp", "#include \"banyan/controller/core/swarm.hpp\""),
+            "controller/src/x.cpp: banyan/controller/core/swarm.hpp is for hosts\n");
+}
+TEST_F(WrongHouse, OnlyTheListAndTestsNameAlgorithms) {
+  EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/controller/outwards.hpp\""), "");
+  EXPECT_EQ(faults_of("world/test/x_test.cpp", "#include \"banyan/algorithms/algorithms.hpp\"\n#include \"banyan/controller/outwards.hpp\""), "");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/controller/outwards.hpp\""),
+            "world/src/x.cpp: banyan/controller/outwards.hpp names an algorithm\n");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/algorithms/algorithms.hpp\""),
+            "world/src/x.cpp: banyan/algorithms/algorithms.hpp points up\n");
 }
 TEST_F(WrongHouse, WorldIncludesMeasure) {
   EXPECT_NE(faults_of("world/include/banyan/world/x.hpp", "#include \"banyan/measure/metrics.hpp\""), "");

@@ -6,71 +6,111 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <span>
 
-#include "banyan/controller/controller.hpp"
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/convoy/convoy.hpp"
+#include "banyan/controller/core/digest.hpp"
+#include "banyan/controller/core/function_ref.hpp"
+#include "banyan/controller/core/trig.hpp"
+#include "banyan/controller/healing/tick.hpp"
+#include "banyan/controller/inwards.hpp"
+#include "banyan/controller/outwards.hpp"
 
 namespace banyan::embedded {
 
 // The neighbours of the exercise: enough to fill a part of the table, near enough to be edges.
 inline constexpr std::size_t neighbors = 8;
 
-// Steps `state` `ticks` times. Each tick two of three neighbours say over the wire what the robot
-// itself said last, under their own id and one hop nearer to the root, from a place on a slowly
-// turning ring. Returns a hash of all velocities and of the state at the end.
-inline std::uint64_t exercise(const Params& params, const Policy& policy, State& state, int ticks) noexcept {
-  std::array<Message, neighbors> messages;
+// What neighbour k broadcasts in a tick: what the robot itself said last, as somebody one hop nearer to the root.
+inline void speak_as(std::size_t k, int tick, TreeMessage& message) noexcept {
+  message.id = static_cast<RobotId>(k + 1);
+  message.phase = static_cast<Phase>((tick / 40) % 5);
+  message.epoch = static_cast<Serial>(tick / 200);
+  message.root = {1, 1};
+  message.label_cm = static_cast<std::uint16_t>(100 * k);
+  message.committed = k % 2 == 0;
+  message.depth = static_cast<std::uint16_t>(k + 1);
+  message.tree_hops = 0;
+  message.parent = static_cast<RobotId>(k);
+}
+
+// A thousand ticks of a robot. In each, two of three neighbours say something (`say`: what reaches the robot over
+// the wire; null if it is rejected) from places on a slowly turning ring, and it moves (`move`). Velocities go
+// to `digest`.
+inline void run(bool worker, Drive drive, FunctionRef<const TreeMessage*(std::size_t, int)> say,
+                FunctionRef<Velocity(std::span<Heard>, const Senses&)> move, Digest& digest) noexcept {
   std::array<Heard, neighbors> heard;
-  Message said{};
-  std::uint64_t digest = 0xCBF29CE484222325ULL;  // FNV-1a, by words
-  const auto add = [&digest](std::uint64_t word) { digest = (digest ^ word) * 0x100000001B3ULL; };
-  for (int tick = 0; tick < ticks; ++tick) {
+  for (int tick = 0; tick < 1000; ++tick) {
     std::size_t received = 0;
     for (std::size_t k = 0; k < neighbors; ++k) {
       if ((static_cast<std::size_t>(tick) + k) % 3 == 0) continue;  // unheard: remembered, carried along
-      Message sent = said;
-      sent.id = static_cast<RobotId>(k + 1);
-      sent.phase = static_cast<Phase>((tick / 40) % 5);
-      sent.epoch = static_cast<std::uint16_t>(tick / 200);
-      sent.root = {1, 1};
-      sent.label_cm = static_cast<std::uint16_t>(100 * k);
-      sent.committed = k % 2 == 0;
-      sent.depth = static_cast<std::uint16_t>(k + 1);
-      sent.tree_hops = 0;
-      sent.parent = static_cast<RobotId>(k);
-      const Wire wire = encode(sent);
-      const std::optional<Message> decoded = decode(wire);
-      if (!decoded) continue;
-      messages[received] = *decoded;
+      const TreeMessage* const message = say(k, tick);
+      if (message == nullptr) continue;
       const Vec2 bearing = unit_vector(0.7F * static_cast<float>(k) + 0.01F * static_cast<float>(tick));
-      heard[received] = {&messages[received], bearing * (0.5F + 0.15F * static_cast<float>(k))};
-      ++received;
+      heard[received++] = {message, bearing * (0.5F + 0.15F * static_cast<float>(k))};
     }
-    const Vec2 target{2.0F, 1.0F};
-    const Odometry odometry{0.01F, params.drive == Drive::holonomic ? 0.005F : 0.0F, 0.02F};
-    const Output output =
-        step(params, policy, state, std::span(heard).first(received), odometry, state.is_worker ? &target : nullptr);
-    said = output.message;
-    add(std::bit_cast<std::uint32_t>(output.velocity.forward_m_s));
-    add(std::bit_cast<std::uint32_t>(output.velocity.sideways_m_s));
-    add(std::bit_cast<std::uint32_t>(output.velocity.turn_rad_s));
+    Senses senses;
+    senses.odometry = {0.01F, drive == Drive::holonomic ? 0.005F : 0.0F, 0.02F};
+    senses.orders.sent = worker;
+    senses.orders.target = Vec2{2.0F, 1.0F};
+    const Velocity velocity = move(std::span(heard).first(received), senses);
+    digest.add(velocity.forward_m_s), digest.add(velocity.sideways_m_s), digest.add(velocity.turn_rad_s);
   }
-  add(hash(state));
-  return digest;
 }
 
+// The same for an algorithm. Returns a hash of all velocities and of the state at the end.
+template <class Message, class Params, class State>
+std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, std::span<Heard>, const Senses&) noexcept, const Params& params,
+                       State& state) noexcept {
+  std::array<std::optional<Message>, neighbors> received;
+  Message said{};
+  const auto say = [&](std::size_t k, int tick) -> const TreeMessage* {
+    speak_as(k, tick, said);
+    std::array<std::uint8_t, wire_size<Message>()> wire;
+    encode_fields(said, wire);
+    received[k] = decode_fields<Message>(wire);
+    return received[k] ? &*received[k] : nullptr;
+  };
+  const auto move = [&](std::span<Heard> heard, const Senses& senses) {
+    const Output<Message> output = step(params, state, heard, senses);
+    said = output.message;
+    return output.velocity;
+  };
+  Digest digest;
+  run(state.is_worker, params.drive, say, move, digest);
+  add_to(digest, state);
+  return digest.value();
+}
+
+// Room for one robot of any algorithm: a robot's memory is known when it is built.
+union Memory {
+  constexpr Memory() noexcept : tree() {}
+  TreeState tree;
+  HealingState healing;
+  ConvoyState convoy;
+};
+
 // Every algorithm with every drive, as connector and as worker; names and results go to `report`.
-inline void exercise_all(State& state, void (*report)(const char* name, std::uint64_t digest) noexcept) noexcept {
+inline void exercise_all(Memory& memory, void (*report)(const char* name, std::uint64_t digest) noexcept) noexcept {
   for (const Drive drive : {Drive::differential, Drive::holonomic}) {
     for (const bool worker : {false, true}) {
-      for (const Policy* policy : policies()) {
-        Params params = policy->defaults(Reading::corrected);
+      const auto as_tree = [&](const char* name, auto step, HealingParams params) {
         params.drive = drive;
-        state = initial_state(0, worker, false);
-        report(policy->name().data(), exercise(params, *policy, state, 1000));
-      }
+        report(name, exercise<TreeMessage, TreeParams>(step, params, *new (&memory.tree) TreeState(initial_tree_state(0, worker, false))));
+      };
+      const auto as_healing = [&](const char* name, auto step, HealingParams params) {
+        params.drive = drive;
+        report(name, exercise<HealingMessage>(step, params, *new (&memory.healing) HealingState(initial_healing_state(0, worker, false))));
+      };
+      as_tree("outwards, literal", outwards_literal_step, outwards_defaults());
+      as_healing("outwards", outwards_step, outwards_defaults());
+      as_tree("inwards, literal", inwards_literal_step, inwards_defaults());
+      as_healing("inwards", inwards_step, inwards_defaults());
+      ConvoyParams params = convoy_defaults();
+      params.drive = drive;
+      report("convoy", exercise<ConvoyMessage>(convoy_step, params, *new (&memory.convoy) ConvoyState(initial_convoy_state(0, worker, false))));
     }
   }
 }

@@ -6,7 +6,7 @@
 #include "exercise.hpp"
 
 int main() {
-  static banyan::State robot;
+  static banyan::embedded::Memory robot;
   banyan::embedded::exercise_all(robot, [](const char* name, std::uint64_t digest) noexcept {
     std::printf("%s %016" PRIx64 "\n", name, digest);
   });

@@ -27,7 +27,7 @@ namespace banyan::embedded {
 }  // namespace banyan::embedded
 
 namespace {
-constinit banyan::State robot;  // in RAM from the start: a robot's memory is known when it is built
+constinit banyan::embedded::Memory robot;  // in RAM from the start: a robot's memory is known when it is built
 }  // namespace
 
 int main() {

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: MIT
 // A study of its own: a scenario as a user writes it, some ticks of the installed world under the
-// installed observer; prints the version as the recordings carry it.
+// installed observer, by name and by an algorithm of its own; prints the version as the recordings carry it.
+#include <banyan/algorithms/swarms.hpp>
+#include <banyan/algorithms/tree_algorithm.hpp>
 #include <banyan/config/config.hpp>
 #include <banyan/measure/observer.hpp>
 #include <banyan/version.hpp>
 #include <banyan/world/world.hpp>
 #include <iostream>
+
+namespace {
+
+constexpr banyan::TreeAlgorithmOf<banyan::CorrectedSwarm<banyan::inwards_step>> slow("slow", "inwards with a weaker pull", []() noexcept {
+  banyan::HealingParams params = banyan::inwards_defaults();
+  params.target_gain = 0.1F;
+  return params;
+});
+
+}  // namespace
 
 int main() {
   const auto loaded = banyan::config::parse_configuration(
@@ -17,6 +29,9 @@ int main() {
     world.step();
     observer.observe(world);
   }
+  banyan::world::World own(loaded.configuration.scenario, slow);
+  for (int tick = 0; tick < 20; ++tick) own.step();
+  if (own.scenario().mission.algorithm != "slow" || own.hash() == world.hash()) return 3;
   std::cout << banyan::version << '\n';
   return observer.last().tick == 20 && observer.last().alive == 12 ? 0 : 1;
 }

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A robot of its own: one step of the installed controller without the rest of the house.
-#include <banyan/controller/controller.hpp>
+#include <banyan/controller/healing/tick.hpp>
+#include <banyan/controller/outwards.hpp>
+
+#include <array>
 
 int main() {
-  const banyan::Policy* policy = banyan::find_policy("outwards");
-  if (policy == nullptr) return 1;
-  const banyan::Params params = policy->defaults(banyan::Reading::corrected);
-  banyan::State state = banyan::initial_state(7, false, true);
-  const banyan::Output output = banyan::step(params, *policy, state, {}, {}, nullptr);
-  return output.message.id == 7 && banyan::decode(banyan::encode(output.message)) == output.message ? 0 : 2;
+  using Message = banyan::HealingMessage;
+  const banyan::HealingParams params = banyan::outwards_defaults();
+  banyan::HealingState state = banyan::initial_healing_state(7, false, true);
+  const auto output = banyan::outwards_step(params, state, {}, {});
+  std::array<std::uint8_t, banyan::wire_size<Message>()> wire;
+  banyan::encode_fields(output.message, wire);
+  return output.message.id == 7 && banyan::decode_fields<Message>(wire) == output.message ? 0 : 1;
 }

@@ -37,13 +37,13 @@ constexpr void visit_convoy_block(Visitor& visit, M& m) noexcept {
   visit.robot("below", "the only worker below, by its target, -1: none or branches", m.below);
 }
 
-template <class Visitor, class M>
-constexpr void visit_all_blocks(Visitor& visit, M& m) noexcept {
-  visit_tree_block(visit, m), visit_healing_block(visit, m), visit_corner_block(visit, m), visit_convoy_block(visit, m);
+template <class Visitor>
+constexpr void visit_fields(Visitor& visit, ConvoyMessage& m) noexcept {
+  visit_fields(visit, static_cast<HealingMessage&>(m)), visit_corner_block(visit, m), visit_convoy_block(visit, m);
 }
 template <class Visitor>
-constexpr void visit_fields(Visitor& visit, ConvoyMessage& m) noexcept { visit_all_blocks(visit, m); }
-template <class Visitor>
-constexpr void visit_fields(Visitor& visit, const ConvoyMessage& m) noexcept { visit_all_blocks(visit, m); }
+constexpr void visit_fields(Visitor& visit, const ConvoyMessage& m) noexcept {
+  visit_fields(visit, static_cast<const HealingMessage&>(m)), visit_corner_block(visit, m), visit_convoy_block(visit, m);
+}
 
 }  // namespace banyan

@@ -38,17 +38,19 @@ inline constexpr std::size_t largest_wire = 96;    // bytes
 
 namespace wire {
 
+// Visitors are inlined: on a chip nothing of the names and meanings is left.
+
 // First pass: what is packed into bits.
 class BitWriter {
  public:
   explicit BitWriter(std::uint8_t* out) noexcept : out_(out) {}
-  template <class E> void choice(const char*, const char*, const E& v, int bits, E) noexcept { put(static_cast<unsigned>(v), bits); }
-  void flag(const char*, const char*, bool v) noexcept { put(v ? 1U : 0U, 1); }
-  template <class T> void number(const char*, const char*, const T&) noexcept {}
-  template <class T> void known(const char*, const char*, const T&) noexcept {}
-  void robot(const char*, const char*, RobotId) noexcept {}
-  template <class T> void scaled(const char*, const char*, const T&, float) noexcept {}
-  void real(const char*, const char*, float, float) noexcept {}
+  template <class E> [[gnu::always_inline]] void choice(const char*, const char*, const E& v, int bits, E) noexcept { put(static_cast<unsigned>(v), bits); }
+  [[gnu::always_inline]] void flag(const char*, const char*, bool v) noexcept { put(v ? 1U : 0U, 1); }
+  template <class T> [[gnu::always_inline]] void number(const char*, const char*, const T&) noexcept {}
+  template <class T> [[gnu::always_inline]] void known(const char*, const char*, const T&) noexcept {}
+  [[gnu::always_inline]] void robot(const char*, const char*, RobotId) noexcept {}
+  template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, const T&, float) noexcept {}
+  [[gnu::always_inline]] void real(const char*, const char*, float, float) noexcept {}
   [[nodiscard]] std::uint8_t* end() const noexcept { return out_ + (used_ > 0 ? 1 : 0); }
 
  private:
@@ -69,17 +71,17 @@ class BitWriter {
 class BitReader {
  public:
   explicit BitReader(const std::uint8_t* in) noexcept : in_(in) {}
-  template <class E> void choice(const char*, const char*, E& v, int bits, E last) noexcept {
+  template <class E> [[gnu::always_inline]] void choice(const char*, const char*, E& v, int bits, E last) noexcept {
     const unsigned value = take(bits);
     ok_ = ok_ && value <= static_cast<unsigned>(last);
     v = static_cast<E>(value);
   }
-  void flag(const char*, const char*, bool& v) noexcept { v = take(1) != 0; }
-  template <class T> void number(const char*, const char*, T&) noexcept {}
-  template <class T> void known(const char*, const char*, T&) noexcept {}
-  void robot(const char*, const char*, RobotId&) noexcept {}
-  template <class T> void scaled(const char*, const char*, T&, float) noexcept {}
-  void real(const char*, const char*, float&, float) noexcept {}
+  [[gnu::always_inline]] void flag(const char*, const char*, bool& v) noexcept { v = take(1) != 0; }
+  template <class T> [[gnu::always_inline]] void number(const char*, const char*, T&) noexcept {}
+  template <class T> [[gnu::always_inline]] void known(const char*, const char*, T&) noexcept {}
+  [[gnu::always_inline]] void robot(const char*, const char*, RobotId&) noexcept {}
+  template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, T&, float) noexcept {}
+  [[gnu::always_inline]] void real(const char*, const char*, float&, float) noexcept {}
   // What is left of the last byte must be zero.
   [[nodiscard]] bool ok() const noexcept { return ok_ && (used_ == 0 || (*in_ >> used_) == 0); }
   [[nodiscard]] const std::uint8_t* end() const noexcept { return in_ + (used_ > 0 ? 1 : 0); }
@@ -105,13 +107,13 @@ class BitReader {
 class ByteWriter {
  public:
   explicit ByteWriter(std::uint8_t* out) noexcept : out_(out) {}
-  template <class E> void choice(const char*, const char*, const E&, int, E) noexcept {}
-  void flag(const char*, const char*, bool) noexcept {}
-  template <class T> void number(const char*, const char*, const T& v) noexcept { put(v); }
-  template <class T> void known(const char*, const char*, const T& v) noexcept { put(v); }
-  void robot(const char*, const char*, RobotId v) noexcept { put(v); }
-  template <class T> void scaled(const char*, const char*, const T& v, float) noexcept { put(v); }
-  void real(const char*, const char*, float v, float) noexcept { put(std::bit_cast<std::uint32_t>(v)); }
+  template <class E> [[gnu::always_inline]] void choice(const char*, const char*, const E&, int, E) noexcept {}
+  [[gnu::always_inline]] void flag(const char*, const char*, bool) noexcept {}
+  template <class T> [[gnu::always_inline]] void number(const char*, const char*, const T& v) noexcept { put(v); }
+  template <class T> [[gnu::always_inline]] void known(const char*, const char*, const T& v) noexcept { put(v); }
+  [[gnu::always_inline]] void robot(const char*, const char*, RobotId v) noexcept { put(v); }
+  template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, const T& v, float) noexcept { put(v); }
+  [[gnu::always_inline]] void real(const char*, const char*, float v, float) noexcept { put(std::bit_cast<std::uint32_t>(v)); }
   [[nodiscard]] std::uint8_t* end() const noexcept { return out_; }
 
  private:
@@ -125,13 +127,13 @@ class ByteWriter {
 class ByteReader {
  public:
   explicit ByteReader(const std::uint8_t* in) noexcept : in_(in) {}
-  template <class E> void choice(const char*, const char*, E&, int, E) noexcept {}
-  void flag(const char*, const char*, bool&) noexcept {}
-  template <class T> void number(const char*, const char*, T& v) noexcept { v = take<T>(); }
-  template <class T> void known(const char*, const char*, T& v) noexcept { v = take<T>(); }
-  void robot(const char*, const char*, RobotId& v) noexcept { v = take<RobotId>(); }
-  template <class T> void scaled(const char*, const char*, T& v, float) noexcept { v = take<T>(); }
-  void real(const char*, const char*, float& v, float limit) noexcept {
+  template <class E> [[gnu::always_inline]] void choice(const char*, const char*, E&, int, E) noexcept {}
+  [[gnu::always_inline]] void flag(const char*, const char*, bool&) noexcept {}
+  template <class T> [[gnu::always_inline]] void number(const char*, const char*, T& v) noexcept { v = take<T>(); }
+  template <class T> [[gnu::always_inline]] void known(const char*, const char*, T& v) noexcept { v = take<T>(); }
+  [[gnu::always_inline]] void robot(const char*, const char*, RobotId& v) noexcept { v = take<RobotId>(); }
+  template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, T& v, float) noexcept { v = take<T>(); }
+  [[gnu::always_inline]] void real(const char*, const char*, float& v, float limit) noexcept {
     v = std::bit_cast<float>(take<std::uint32_t>());
     ok_ = ok_ && std::fabs(v) <= limit;  // false for NaN too
   }

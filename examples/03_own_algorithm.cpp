@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// An algorithm of your own: what a robot says, what it remembers, and what it does in one tick. These
+// robots drive away from whoever is nearer than a metre. A World runs them like any other.
+#include <algorithm>
+#include <cstdio>
+
+#include "banyan/controller/core/output.hpp"
+#include "banyan/controller/core/swarm_of.hpp"
+#include "banyan/world/world.hpp"
+
+using namespace banyan;
+
+struct Hello {  // what is broadcast; list all fields below, and they travel, are hashed and recorded
+  static constexpr std::uint8_t blocks = 0;
+  RobotId id = nobody;
+};
+template <class Visitor, class Message>
+constexpr void visit_fields(Visitor& visit, Message& m) noexcept {
+  visit.robot("id", "of the sender", m.id);
+}
+
+struct Spread {
+  using Params = Platform;  // what every algorithm is told: range of the radio, tick, wheels
+  using Message = Hello;
+  struct State { RobotId id; };
+  struct Heard { const Hello* message; Vec2 position; float age_s; };  // where the sender is: x ahead, y to the left
+
+  static State initial(RobotId id, bool, bool) { return {id}; }
+  static Output<Hello> step(const Params&, State& self, std::span<Heard> heard, const Senses&) {
+    Output<Hello> output{{self.id}, {}};
+    const auto nearest = std::min_element(heard.begin(), heard.end(), [](auto& a, auto& b) { return norm(a.position) < norm(b.position); });
+    if (nearest == heard.end() || norm(nearest->position) >= 1.0F) return output;
+    output.velocity.forward_m_s = nearest->position.x > 0.0F ? -0.1F : 0.1F;
+    output.velocity.turn_rad_s = nearest->position.x * nearest->position.y > 0.0F ? 0.5F : -0.5F;
+    return output;
+  }
+  static Report report(const State&) { return {}; }  // what observers see: here neither roles nor parents
+  static void add_to(Digest& digest, const State& self) { digest.add(self.id); }
+};
+
+class SpreadAlgorithm final : public Algorithm {
+  std::string_view name() const noexcept override { return "spread"; }
+  std::string_view summary() const noexcept override { return "keeps a metre away from the nearest robot"; }
+  std::vector<const ParameterInfo*> parameters() const override { return {}; }
+  std::vector<float> values(const Setup&) const override { return {}; }
+  std::string fault(const Setup&) const override { return {}; }
+  std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
+    return std::make_unique<SwarmOf<Spread>>(setup.platform, members, setup.history);
+  }
+};
+
+int main() {
+  const SpreadAlgorithm spread;
+  world::World world(world::Scenario{}, spread);
+  world.step();
+  std::printf("%zu robots, the first with %zu neighbours", world.size(), world.links(0).size());
+  while (world.time_s() < 60.0) world.step();
+  std::printf(", after a minute with %zu\n", world.links(0).size());
+}
