@@ -23,23 +23,23 @@
 namespace banyan::cli {
 namespace {
 
-constexpr const char* header = "scenario,algorithm,reading,ticks,hash";
+constexpr const char* trajectory_header = "scenario,algorithm,reading,ticks,hash";
 
-struct Row {
+struct TrajectoryRow {
   std::string scenario, algorithm, reading;
   std::uint64_t ticks = 0;
   std::string hash;
 };
 
-std::vector<Row> read_table() {
-  std::vector<Row> rows;
+std::vector<TrajectoryRow> read_trajectories() {
+  std::vector<TrajectoryRow> rows;
   std::ifstream in(BANYAN_TRAJECTORIES);
   std::string line;
   std::getline(in, line);
-  EXPECT_EQ(line, header);
+  EXPECT_EQ(line, trajectory_header);
   while (std::getline(in, line)) {
     std::istringstream cells(line);
-    Row row;
+    TrajectoryRow row;
     std::string ticks;
     std::getline(cells, row.scenario, ',');
     std::getline(cells, row.algorithm, ',');
@@ -52,10 +52,11 @@ std::vector<Row> read_table() {
   return rows;
 }
 
-void write_table(const std::vector<Row>& rows) {
+void write_trajectories(const std::vector<TrajectoryRow>& rows) {
   std::ofstream out(BANYAN_TRAJECTORIES);
-  out << header << "\n";
-  for (const Row& r : rows) out << r.scenario << "," << r.algorithm << "," << r.reading << "," << r.ticks << "," << r.hash << "\n";
+  out << trajectory_header << "\n";
+  for (const TrajectoryRow& r : rows)
+    out << r.scenario << "," << r.algorithm << "," << r.reading << "," << r.ticks << "," << r.hash << "\n";
 }
 
 void add_robots(const world::World& world, Digest& digest) {
@@ -68,7 +69,7 @@ void add_robots(const world::World& world, Digest& digest) {
   }
 }
 
-std::string hash_of(const Row& row) {
+std::string hash_of(const TrajectoryRow& row) {
   const std::vector<config::Override> overrides{{"mission.algorithm=" + row.algorithm, "trajectory"},
                                                 {"mission.reading=" + row.reading, "trajectory"}};
   const auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + row.scenario + ".toml", overrides);
@@ -84,10 +85,10 @@ std::string hash_of(const Row& row) {
 }
 
 TEST(Trajectory, OfEveryAlgorithmInEveryScenario) {
-  auto rows = read_table();
+  auto rows = read_trajectories();
   const bool renew = std::getenv("BANYAN_RENEW_GOLDEN") != nullptr;
   std::map<std::string, int> covered;
-  for (Row& row : rows) {
+  for (TrajectoryRow& row : rows) {
     SCOPED_TRACE(row.scenario + " " + row.algorithm + " " + row.reading);
     ++covered[row.scenario];
     const std::string hash = hash_of(row);
@@ -96,7 +97,7 @@ TEST(Trajectory, OfEveryAlgorithmInEveryScenario) {
   }
   for (const auto& entry : std::filesystem::directory_iterator(BANYAN_SCENARIOS))
     EXPECT_GT(covered[entry.path().stem().string()], 0) << entry.path() << " has no row in " << BANYAN_TRAJECTORIES;
-  if (renew) write_table(rows);
+  if (renew) write_trajectories(rows);
 }
 
 }  // namespace

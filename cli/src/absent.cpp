@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// In the place of the commands that the small program (target banyan_first) is built without.
+// ./banyan knows which they are and then builds the whole one.
+#include "commands.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+[[noreturn]] int absent(const char* command) {
+  throw CommandError(exit_lost, std::string("this program was built without the command ") + command +
+                                    "; build the target banyan_cli, or call ./banyan");
+}
+
+}  // namespace
+
+int film_command(const FilmOptions& /*options*/) { absent("film"); }
+int view_command(const ViewOptions& /*options*/) { absent("view"); }
+int tune_command(const TuneOptions& /*options*/) { absent("tune"); }
+int study_command(const StudyOptions& /*options*/) { absent("study"); }
+int collect_command(const CollectOptions& /*options*/) { absent("collect"); }
+
+}  // namespace banyan::cli
