@@ -98,7 +98,7 @@ Vec2 repulsion(const ConvoyRobot& robot) noexcept {
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    if (d >= p.avoidance_range_m || d <= 0.0F || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+    if (d >= p.avoidance_range_m || d <= same_spot_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
     const float a = table.message(k).role == Role::spare ? p.spare_avoidance * p.communication_range_m : p.avoidance_range_m;
     if (d < a) u += table.position(k) * (-p.avoidance_gain * (a / d - 1.0F) / d);
   }

@@ -16,8 +16,12 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept : senses_(se
     senses_.orders.target.reset();
     ++rejected_;
   }
-  if (senses.elapsed_s >= 0.0F && senses.elapsed_s <= longest_step_s) elapsed_ticks_ = std::max(1, platform.ticks(senses.elapsed_s));
-  else ++rejected_;
+  if (senses.elapsed_s >= 0.0F && senses.elapsed_s <= longest_step_s) {
+    elapsed_ticks_ = std::max(1, platform.ticks(senses.elapsed_s));
+  } else {
+    senses_.elapsed_s = 0.0F;
+    ++rejected_;
+  }
   admit_obstacles(limit_m);
 }
 

@@ -67,13 +67,13 @@ Vec2 avoidance(const TreeRobot& robot) noexcept {
   Vec2 u;
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
-    if (d >= a || d <= 0.0F || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+    if (d >= a || d <= same_spot_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
     u += table.position(k) * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
   }
   if (!robot.reading.avoids_obstacles) return u;
   for (const Vec2 o : robot.obstacles) {
     const float d = norm(o);
-    if (d < a && d > 0.0F) u += o * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
+    if (d < a && d > same_spot_m) u += o * (-robot.params.avoidance_gain * (a / d - 1.0F) / d);
   }
   return u;
 }
@@ -102,7 +102,7 @@ float interaction(float distance_m, const TreeParams& params) noexcept {
   const float d = distance_m * 100.0F;
   const float s = params.ideal_distance_m / distance_m;
   const float s2 = s * s;
-  return d > 0.0F ? params.interaction_gain / d * (s2 - s2 * s2) : -1.0F;
+  return distance_m > same_spot_m ? params.interaction_gain / d * (s2 - s2 * s2) : -1.0F;
 }
 
 Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept {

@@ -47,9 +47,9 @@ void carry_memory(TreeState& self, const Carry& carry) noexcept {
   if (self.centroid_known) self.centroid = carry.point(self.centroid);
 }
 
-Admitted::Admitted(const Senses& senses, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept : Gate(senses, platform) {
+Admitted::Admitted(const Senses& sensed, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept : Gate(sensed, platform) {
   const std::span<Heard> passed = packets(heard, platform);
-  carry_packets(passed, this->senses().odometry, senses.elapsed_s > 0.0F ? senses.elapsed_s : platform.tick_s);
+  carry_packets(passed, senses().odometry, senses().elapsed_s > 0.0F ? senses().elapsed_s : platform.tick_s);
   heard_ = passed;
   tally.rejected += rejected();
 }

@@ -6,6 +6,9 @@
 
 namespace banyan {
 
+// Who is nearer than this stands where I am: there is no direction, and powers of 1 / d would overflow.
+inline constexpr float same_spot_m = 1e-6F;
+
 // The paper's u_i for a robot of the tree: springs along its edges, the target's pull within f.
 [[nodiscard]] Vec2 spring_motion(const TreeRobot& robot) noexcept;
 // A spare's: to the midpoint of the edge it was granted, else ADJUST POSITION.

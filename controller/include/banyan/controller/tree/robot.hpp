@@ -28,7 +28,7 @@ struct IndexList {
 // What passed the gate in this step: packets in the present frame, and the rest.
 class Admitted : public Gate {
  public:
-  Admitted(const Senses& senses, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept;
+  Admitted(const Senses& sensed, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept;
   [[nodiscard]] std::span<Heard> heard() const noexcept { return heard_; }
 
  private:
