@@ -3,20 +3,84 @@
 // say, and single rooms of the controller are called on it.
 #pragma once
 
+#include <array>
 #include <map>
 #include <vector>
 
-#include "banyan/controller/controller.hpp"
-#include "banyan/controller/policies.hpp"
-#include "banyan/controller/robot.hpp"
-#include "banyan/controller/survey.hpp"
+#include "banyan/controller/convoy/convoy.hpp"
+#include "banyan/controller/convoy/robot.hpp"
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tick.hpp"
+#include "banyan/controller/inwards.hpp"
+#include "banyan/controller/outwards.hpp"
+#include "banyan/controller/tree/tree_index.hpp"
 
 namespace banyan {
 
-class Bench {
+// ---- Kinds of robots: what an algorithm runs on ----
+
+template <auto defaults_function, auto step_function>
+struct LiteralKind {
+  using Params = TreeParams;
+  using State = TreeState;
+  using Message = TreeMessage;
+  using Robot = TreeRobot;
+  static Params defaults() { return defaults_function(); }
+  static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
+  static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, literal_reading, state, admitted}; }
+  using Columns = TreeColumns;
+  static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_function(params, state, heard, senses); }
+};
+
+template <auto defaults_function, auto step_function>
+struct CorrectedKind {
+  using Params = HealingParams;
+  using State = HealingState;
+  using Message = HealingMessage;
+  using Robot = HealingRobot;
+  static Params defaults() { return defaults_function(); }
+  static State initial(RobotId id, bool worker, bool root) { return initial_healing_state(id, worker, root); }
+  static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, state, admitted}; }
+  using Columns = HealingColumns;
+  static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_function(params, state, heard, senses); }
+};
+
+struct Convoy {
+  using Params = ConvoyParams;
+  using State = ConvoyState;
+  using Message = ConvoyMessage;
+  using Robot = ConvoyRobot;
+  static Params defaults() { return convoy_defaults(); }
+  static State initial(RobotId id, bool worker, bool root) { return initial_convoy_state(id, worker, root); }
+  static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, state, admitted}; }
+  using Columns = ConvoyColumns;
+  static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return convoy_step(params, state, heard, senses); }
+};
+
+using Outwards = CorrectedKind<outwards_defaults, outwards_step>;
+using Inwards = CorrectedKind<inwards_defaults, inwards_step>;
+using OutwardsLiteral = LiteralKind<outwards_defaults, outwards_literal_step>;
+using InwardsLiteral = LiteralKind<inwards_defaults, inwards_literal_step>;
+
+// visit.operator()<Kind>() for every algorithm, in both readings.
+template <class Visit>
+void for_each_kind(Visit visit) {
+  visit.template operator()<OutwardsLiteral>();
+  visit.template operator()<Outwards>();
+  visit.template operator()<InwardsLiteral>();
+  visit.template operator()<Inwards>();
+  visit.template operator()<Convoy>();
+}
+
+// ---- The workbench ----
+
+template <class Kind>
+class BenchOf {
  public:
-  explicit Bench(const Policy& policy_ = outwards(), Reading reading = Reading::corrected, RobotId id = 1)
-      : policy{&policy_}, params{policy_.defaults(reading)}, state{initial_state(id, false, false)} {}
+  using Message = typename Kind::Message;
+  using Robot = typename Kind::Robot;
+
+  explicit BenchOf(RobotId id = 1) : state{Kind::initial(id, false, false)} {}
 
   // A neighbour of the robot's own epoch and phase that belongs to the tree; it repeats its message
   // every tick until the test changes or silences it.
@@ -33,28 +97,37 @@ class Bench {
   void move(RobotId id, Vec2 position) { neighbors_.at(id).position = position; }
   void silence(RobotId id) { neighbors_.erase(id); }
 
-  // Packets of one tick go into the table and the table is surveyed, as step() does it.
+  // To a target at that place, from now on; its own frame.
+  void send(Vec2 target) {
+    orders.sent = true;
+    orders.target = target;
+  }
+  void call_back() { orders = {}; }
+
+  // Packets of one tick go into the table, orders are followed and neighbours indexed, as a step does it.
+  // No more obstacles than the gate lets pass: the robot refers to them here.
   Robot tick(const Odometry& odometry = {}) {
     listen();
-    Robot robot(params, *policy, state, heard_, target, obstacles);
-    state.neighbors.update(heard_, Carry(odometry), robot.liveness_ticks(), state.id, {state.parent, state.old_parent});
-    survey(robot);
+    const Admitted admitted(senses(odometry), heard_, params, state.tally);
+    Robot robot = Kind::robot(params, state, admitted);
+    update_table(robot, Carry(odometry), typename Kind::Columns{state});
+    follow_orders(robot, orders);
+    index_neighbors(robot);
     return robot;
   }
-  Output step(const Odometry& odometry = {}) {
+  Output<Message> step(const Odometry& odometry = {}) {
     listen();
-    return banyan::step(params, *policy, state, heard_, odometry, target, obstacles);
+    return Kind::step(params, state, heard_, senses(odometry));
   }
-  Output steps(int count) {
-    Output output;
+  Output<Message> steps(int count) {
+    Output<Message> output;
     for (int k = 0; k < count; ++k) output = step();
     return output;
   }
 
-  const Policy* policy;
-  Params params;
-  State state;
-  const Vec2* target = nullptr;
+  typename Kind::Params params = Kind::defaults();
+  typename Kind::State state;
+  Orders orders;
   std::vector<Vec2> obstacles;  // what the proximity sensor sees
 
  private:
@@ -63,13 +136,18 @@ class Bench {
     heard_.clear();
     for (const auto& [id, n] : neighbors_) heard_.push_back({&n.message, n.position});
   }
+  [[nodiscard]] Senses senses(const Odometry& odometry) const { return {.odometry = odometry, .orders = orders, .obstacles = obstacles}; }
   std::map<RobotId, Neighbor> neighbors_;
   std::vector<Heard> heard_;
 };
 
+using Bench = BenchOf<Outwards>;
+using ConvoyBench = BenchOf<Convoy>;
+
 // A member of the tree in GROW TREE, epoch 1, with robot 9 as root.
-inline Bench grown(const Policy& policy = outwards(), Reading reading = Reading::corrected) {
-  Bench bench(policy, reading);
+template <class Kind = Outwards>
+BenchOf<Kind> grown() {
+  BenchOf<Kind> bench;
   bench.state.epoch = 1;
   bench.state.phase = Phase::grow_tree;
   bench.state.root = {1, 9};

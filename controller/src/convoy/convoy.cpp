@@ -109,23 +109,6 @@ void carry_memory(ConvoyState& self, const Carry& carry) noexcept {
   carry_corners(self.corners, carry);
 }
 
-struct ConvoyColumns : HealingColumns {
-  ConvoyState& state;
-
-  explicit ConvoyColumns(ConvoyState& state_) noexcept : HealingColumns(state_), state(state_) {}
-  void write(int k, const TreeMessage& m) noexcept {
-    const ConvoyMessage& message = convoy_message(m);
-    HealingColumns::write(k, m);
-    state.corners.standings[static_cast<std::size_t>(k)] = static_cast<const CornerStanding&>(message);
-    state.convoy_standings[static_cast<std::size_t>(k)] = static_cast<const ConvoyStanding&>(message);
-  }
-  void close(int k, int size) noexcept {
-    HealingColumns::close(k, size);
-    close_gap(state.corners.standings, k, size);
-    close_gap(state.convoy_standings, k, size);
-  }
-};
-
 void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   update_table(robot, ConvoyColumns(robot.self));

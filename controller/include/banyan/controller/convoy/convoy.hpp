@@ -7,6 +7,7 @@
 #include "banyan/controller/convoy/state.hpp"
 #include "banyan/controller/core/digest.hpp"
 #include "banyan/controller/core/output.hpp"
+#include "banyan/controller/healing/tick.hpp"
 
 namespace banyan {
 
@@ -18,6 +19,24 @@ namespace banyan {
 // One tick of one robot, as outwards_step() (outwards.hpp).
 [[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard,
                                                 const Senses& senses) noexcept;
+
+// The arrays of convoy beside the neighbour table (Neighbors).
+struct ConvoyColumns : HealingColumns {
+  ConvoyState& state;
+
+  explicit ConvoyColumns(ConvoyState& state_) noexcept : HealingColumns(state_), state(state_) {}
+  void write(int k, const TreeMessage& m) noexcept {
+    const ConvoyMessage& message = convoy_message(m);
+    HealingColumns::write(k, m);
+    state.corners.standings[static_cast<std::size_t>(k)] = static_cast<const CornerStanding&>(message);
+    state.convoy_standings[static_cast<std::size_t>(k)] = static_cast<const ConvoyStanding&>(message);
+  }
+  void close(int k, int size) noexcept {
+    HealingColumns::close(k, size);
+    close_gap(state.corners.standings, k, size);
+    close_gap(state.convoy_standings, k, size);
+  }
+};
 
 void add_to(Digest& digest, const ConvoyState& state) noexcept;
 void add_to(Digest& digest, const ConvoyMessage& message) noexcept;

@@ -36,10 +36,10 @@ struct Orders {
 };
 
 struct Senses {
-  Odometry odometry;
-  Orders orders;
+  Odometry odometry{};
+  Orders orders{};
   // The nearest point of each obstacle within reach of the proximity sensor, m. No robots.
-  std::span<const Vec2> obstacles;
+  std::span<const Vec2> obstacles{};
   // Since the last step. Counted in whole ticks, at least one.
   float elapsed_s = 0.0F;   // 0: one tick
 };

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Convoy's rules for fewer robots: who re-parents to whom once all workers below have arrived, and
 // how a branch slides together (docs/convoy.md, rule 9).
+#include "banyan/controller/convoy/shortcut.hpp"
+
 #include <gtest/gtest.h>
 
 #include <deque>
 #include <initializer_list>
 
-#include "banyan/controller/convoy.hpp"
+#include "banyan/controller/convoy/towing.hpp"
 #include "bench.hpp"
 
 namespace banyan {
@@ -17,77 +19,74 @@ namespace {
 class Arrived : public testing::Test {
  protected:
   void SetUp() override {
-    bench.state.is_worker = true;
-    bench.state.serves = 1;
     bench.state.role = Role::worker;
     bench.state.label_cm = 900;
-    bench.state.pulse = 50;
+    bench.state.seqno = 50;
     bench.state.parent = 5;
     bench.state.committed = true;
-    bench.target = &target;
-    Message& parent = member(5, {1.5F, 0}, 700, 51);
+    bench.send({0.05F, 0});
+    auto& parent = member(5, {1.5F, 0}, 700, 51);
     parent.parent = 6;
     parent.child_count = 1;
   }
-  Message& member(RobotId id, Vec2 position, std::uint16_t label_cm, std::uint16_t pulse) {
-    Message& m = bench.put(id, position);
+  ConvoyMessage& member(RobotId id, Vec2 position, std::uint16_t label_cm, std::uint16_t seqno) {
+    auto& m = bench.put(id, position);
     m.role = Role::connector;
     m.committed = true;
     m.label_cm = label_cm;
-    m.pulse = pulse;
+    m.seqno = seqno;
     m.depth = 5;
     m.parent = 9;
     m.child_count = 2;
     return m;
   }
-  // All in the tree get the root's next pulse.
-  void pulse(std::initializer_list<RobotId> ids, int count) {
-    for (int k = 0; k < count; ++k) {
-      for (const RobotId id : ids) ++bench.say(id).pulse;
+  // All in the tree get the root's next seqno.
+  void count(std::initializer_list<RobotId> ids, int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      for (const RobotId id : ids) ++bench.say(id).seqno;
       bench.step();
     }
   }
-  Bench bench = grown(convoy());
-  Vec2 target{0.05F, 0};
+  ConvoyBench bench = grown<Convoy>();
 };
 
 TEST_F(Arrived, MergesWithTheRobotNearestToTheRoot) {
   member(20, {0, 1.7F}, 600, 55);
   member(21, {0, -1.8F}, 300, 55);
-  pulse({5, 20, 21}, 40);
+  count({5, 20, 21}, 40);
   EXPECT_EQ(bench.state.parent, 21);
 }
 
 TEST_F(Arrived, StaysWhileItTravels) {
-  target = {-3, 0};
+  bench.send({-3, 0});
   member(21, {0, -1.8F}, 300, 55);
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
 }
 
 TEST_F(Arrived, StaysWhenTheRulesAreOff) {
   bench.params.merge_distance = 0.0F;
   member(21, {0, -1.4F}, 300, 55);
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
 }
 
 TEST_F(Arrived, DoesNotMergeWithABranchThatStillTravels) {
   member(21, {0, -1.8F}, 300, 55).want_cm = 400;
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
 }
 
 TEST_F(Arrived, DoesNotMergeBeyondMergeDistance) {
   member(21, {0, -1.87F}, 300, 55);
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
 }
 
 TEST_F(Arrived, DoesNotMergePastARobotInTheWay) {
   member(21, {0, -1.8F}, 300, 55);
   bench.put(30, {0.05F, -0.9F}).role = Role::spare;
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
 }
 
@@ -95,67 +94,67 @@ TEST_F(Arrived, DoesNotMergePastARobotInTheWay) {
 TEST_F(Arrived, LeavesABusyParentOnlyForANearerOne) {
   bench.say(5).child_count = 2;
   member(21, {0, -1.45F}, 300, 55);
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
   bench.move(21, {0, -1.2F});
-  pulse({5, 21}, 80);
+  count({5, 21}, 80);
   EXPECT_EQ(bench.state.parent, 21);
 }
 
 TEST_F(Arrived, HangsOnAWorkerThatHasArrived) {
-  Message& other = member(21, {0, -1.0F}, 300, 55);
+  auto& other = member(21, {0, -1.0F}, 300, 55);
   other.role = Role::worker;
   other.child_count = 0;
   other.want_cm = 100;
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
   bench.say(21).want_cm = 0;
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 21);
 }
 
-// 21's label is larger and its pulse is as old as mine: it is behind me until my own pulse rests.
-TEST_F(Arrived, WishesForARobotOfAnotherBranchThatIsBehind) {
+// 21's label is larger and its seqno is as old as mine: it is behind me until my own seqno rests.
+TEST_F(Arrived, WaitsForARobotOfAnotherBranchThatIsBehind) {
   member(21, {0, -1.0F}, 1500, 47);
-  pulse({5, 21}, 40);
+  count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 21);
 }
 
-// 21 hangs on me over 22: its pulse is mine of two ticks ago. It must never become my parent.
+// 21 hangs on me over 22: its seqno is mine of two ticks ago. It must never become my parent.
 TEST_F(Arrived, NeverHangsOnItsOwnDescendant) {
   member(21, {0, -1.0F}, 1500, 40);
   member(22, {0, 0.5F}, 1400, 40).parent = 1;
   bench.say(21).parent = 22;
   std::deque<std::uint16_t> sent{40, 40};
   for (int k = 0; k < 200; ++k) {
-    ++bench.say(5).pulse;
-    bench.say(21).pulse = sent.front();
+    ++bench.say(5).seqno;
+    bench.say(21).seqno = sent.front();
     sent.pop_front();
-    sent.push_back(bench.step().message.pulse);
+    sent.push_back(bench.step().message.seqno);
     ASSERT_NE(bench.state.parent, 21) << k;
   }
-  EXPECT_GT(bench.state.pulse, 150);  // and the pulse goes on between two wishes
+  EXPECT_GT(bench.state.seqno, 150);  // and the seqno goes on between two waits
 }
 
 TEST_F(Arrived, ReleasesItsParentForAGrandparentInReach) {
   member(6, {1.84F, 0.2F}, 500, 52).child_count = 2;
   bench.move(5, {1.0F, -0.4F});
-  pulse({5, 6}, 3);
+  count({5, 6}, 3);
   EXPECT_EQ(bench.state.parent, 6);
 }
 
 // A connector between parent 5 and worker 7.
 TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
-  Bench bench = grown(convoy());
+  ConvoyBench bench = grown<Convoy>();
   bench.state.label_cm = 500;
   bench.state.parent = 5;
   bench.state.committed = true;
   bench.state.role = Role::connector;
   for (const RobotId id : {RobotId{5}, RobotId{7}}) {
-    Message& m = bench.put(id, {id == 5 ? 1.2F : -1.2F, 0});
+    auto& m = bench.put(id, {id == 5 ? 1.2F : -1.2F, 0});
     m.role = id == 5 ? Role::connector : Role::worker;
     m.label_cm = id == 5 ? 300 : 800;
-    m.pulse = id == 5 ? 9 : 0;
+    m.seqno = id == 5 ? 9 : 0;
     m.depth = id == 5 ? 4 : 6;
     m.parent = id == 5 ? RobotId{9} : RobotId{1};
     m.subtree_workers = 1;
@@ -164,11 +163,11 @@ TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
   }
   bench.say(7).want_cm = 0;
   bench.steps(2);
-  Robot robot = bench.tick();
+  auto robot = bench.tick();
   ASSERT_TRUE(has_arrived(robot));
   EXPECT_GT(towed_motion(robot).x, 0.5F);
   bench.move(7, {-bench.params.compact_distance * 2.0F - 0.04F, 0});
-  Robot stretched = bench.tick();
+  auto stretched = bench.tick();
   EXPECT_LT(towed_motion(stretched).x, 0.0F);
 }
 

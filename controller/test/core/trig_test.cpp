@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Our own sine, cosine and arc tangent against the C library's, to the accuracy that trig.hpp
 // states; vectors and edge frames built on them.
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "banyan/controller/edge_frame.hpp"
+#include "banyan/controller/core/edge_frame.hpp"
 
 namespace banyan {
 namespace {

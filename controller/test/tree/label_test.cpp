@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Labels are taken once, along the shortest hop, and the echo tells the root when all have one.
-#include "banyan/controller/label.hpp"
+#include "banyan/controller/tree/label.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(Label, TheEchoSumsTheFloodTree) {
   Bench bench = starting();
   bench.put(9, {1.0F, 0}).label_cm = 0;
   for (const RobotId id : {RobotId{5}, RobotId{6}}) {
-    Message& m = bench.put(id, {-0.5F, 0.1F * static_cast<float>(id)});
+    auto& m = bench.put(id, {-0.5F, 0.1F * static_cast<float>(id)});
     m.label_cm = 150;
     m.flood_parent = 1;
     m.flood_robots = 3;
@@ -65,7 +65,7 @@ TEST(Label, TheEchoSumsTheFloodTree) {
   bench.say(5).flood_done = true;
   EXPECT_FALSE(bench.step().message.flood_done);
   bench.say(6).flood_done = true;
-  const Output output = bench.step();
+  const auto output = bench.step();
   EXPECT_TRUE(output.message.flood_done);
   EXPECT_EQ(output.message.flood_robots, 7);
   EXPECT_EQ(output.message.flood_workers, 2);

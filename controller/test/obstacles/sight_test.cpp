@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lines of sight past known robots, against sampled points of the segment.
-#include "banyan/controller/sight.hpp"
+#include "banyan/controller/obstacles/sight.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -34,14 +34,14 @@ RC_GTEST_PROP(Sight, NearestPointOfASegmentIsNearest, ()) {
 
 RC_GTEST_PROP(Sight, ASegmentIsClearWhenNobodyIsBesideItsInside, ()) {
   constexpr float clearance_m = 0.16F;
-  Bench bench = grown();
+  ConvoyBench bench = grown<Convoy>();
   const int count = *rc::gen::inRange(2, 9);
   std::vector<Vec2> at;
   for (int k = 0; k < count; ++k) {
     at.push_back(arbitrary_point());
     bench.put(static_cast<RobotId>(10 + k), at.back());
   }
-  const Robot robot = bench.tick();
+  const auto robot = bench.tick();
   const Vec2 a = at[0];
   const Vec2 b = at[1];
   float nearest_m = 1e9F;
@@ -55,16 +55,16 @@ RC_GTEST_PROP(Sight, ASegmentIsClearWhenNobodyIsBesideItsInside, ()) {
   RC_PRE(std::fabs(nearest_m - clearance_m) > 0.005F);
   const int i = robot.table().find(10);
   const int j = robot.table().find(11);
-  RC_ASSERT(is_clear(robot, a, b, i, j, clearance_m) == (nearest_m > clearance_m));
+  RC_ASSERT(is_clear(robot, bench.state.corners, a, b, i, j, clearance_m) == (nearest_m > clearance_m));
 }
 
 TEST(Sight, ARobotBetweenHidesAndOneBehindDoesNot) {
-  Bench bench = grown();
+  ConvoyBench bench = grown<Convoy>();
   bench.put(2, {1.5F, 0.0F});
   bench.put(3, {0.8F, 0.05F});
   bench.put(4, {1.8F, 0.0F});
   bench.put(5, {-1.0F, 0.0F});
-  const Robot robot = bench.tick();
+  const auto robot = bench.tick();
   EXPECT_FALSE(sees_clearly(robot, robot.table().find(2), 0.1F));
   EXPECT_TRUE(sees_clearly(robot, robot.table().find(2), 0.04F));
   EXPECT_TRUE(sees_clearly(robot, robot.table().find(3), 0.1F));

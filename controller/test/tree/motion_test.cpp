@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The control law against the paper's equations, and the guard against what it promises.
-#include "banyan/controller/motion.hpp"
+#include "banyan/controller/tree/motion.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 #include "bench.hpp"
 #include "numbers.hpp"
 
@@ -20,19 +20,19 @@ Vec2 polar(float range, float angle) { return unit_vector(angle) * range; }
 // ---- u_tree ----
 
 TEST(Interaction, HasTheValuesOfTableI) {
-  const Params out = outwards().defaults(Reading::corrected);
+  const TreeParams out = outwards_defaults();
   EXPECT_NEAR(interaction(1.00F, out), -0.942F, 5e-4F);
   EXPECT_NEAR(interaction(1.39F, out), -0.117F, 5e-4F);
   EXPECT_NEAR(interaction(1.90F, out), 0.0F, 1e-6F);
   EXPECT_NEAR(interaction(0.20F, out), -4027.0F, 1.0F);
-  const Params in = inwards().defaults(Reading::corrected);
+  const TreeParams in = inwards_defaults();
   EXPECT_NEAR(interaction(1.00F, in), -0.326F, 5e-4F);
   EXPECT_NEAR(interaction(1.35F, in), -0.029F, 5e-4F);
   EXPECT_NEAR(interaction(0.20F, in), -1732.0F, 1.0F);
 }
 
 RC_GTEST_PROP(Interaction, IsThePapersFormulaInCentimeters, ()) {
-  const Params p = (*rc::gen::arbitrary<bool>() ? outwards() : inwards()).defaults(Reading::literal);
+  const TreeParams p = *rc::gen::arbitrary<bool>() ? outwards_defaults() : inwards_defaults();
   const float d_m = number(0.15F, 3.0F);
   const double d = 100.0 * static_cast<double>(d_m);
   const double delta = 100.0 * static_cast<double>(p.ideal_distance_m);
@@ -40,29 +40,29 @@ RC_GTEST_PROP(Interaction, IsThePapersFormulaInCentimeters, ()) {
   RC_ASSERT(std::fabs(static_cast<double>(interaction(d_m, p)) - expected) <= 1e-4 * std::fabs(expected) + 1e-5);
 }
 
-TEST(Interaction, IsFiniteOnTheSameSpot) { EXPECT_TRUE(std::isfinite(std::clamp(interaction(0.0F, Params{}), -1.0F, 1.0F))); }
+TEST(Interaction, IsFiniteOnTheSameSpot) { EXPECT_TRUE(std::isfinite(std::clamp(interaction(0.0F, TreeParams{}), -1.0F, 1.0F))); }
 
 // ---- f ----
 
 TEST(SafePart, IsAllOfItUpToS) {
-  for (const Reading reading : {Reading::literal, Reading::corrected}) {
-    const Params p = outwards().defaults(reading);
+  const TreeParams p = outwards_defaults();
+  for (const Reading& reading : {literal_reading, corrected_reading}) {
     const Vec2 u{-0.3F, 0.2F};
-    EXPECT_EQ(safe_part(u, {p.safe_range_m - 1e-4F, 0}, p), u);
-    EXPECT_EQ(safe_part(u, {0, 0.3F}, p), u);
+    EXPECT_EQ(safe_part(u, {p.safe_range_m - 1e-4F, 0}, p, reading), u);
+    EXPECT_EQ(safe_part(u, {0, 0.3F}, p, reading), u);
   }
 }
 
 TEST(SafePart, LiteralIsNothingBeyondS) {
-  const Params p = outwards().defaults(Reading::literal);
-  EXPECT_EQ(safe_part({0.5F, 0.5F}, {p.safe_range_m + 1e-3F, 0}, p), Vec2{});
+  const TreeParams p = outwards_defaults();
+  EXPECT_EQ(safe_part({0.5F, 0.5F}, {p.safe_range_m + 1e-3F, 0}, p, literal_reading), Vec2{});
 }
 
 RC_GTEST_PROP(SafePart, CorrectedTakesTheAwayPartAlone, ()) {
-  const Params p = inwards().defaults(Reading::corrected);
+  const TreeParams p = inwards_defaults();
   const Vec2 parent = polar(number(p.safe_range_m + 0.001F, 2.0F), number(-3, 3));
   const Vec2 u = polar(number(0, 1), number(-3, 3));
-  const Vec2 safe = safe_part(u, parent, p);
+  const Vec2 safe = safe_part(u, parent, p, corrected_reading);
   const Vec2 to = unit(parent);
   RC_ASSERT(dot(safe, to) >= -1e-6F);                                   // never away
   RC_ASSERT(std::fabs(cross(safe, to) - cross(u, to)) < 1e-6F);         // sideways untouched
@@ -76,7 +76,7 @@ struct Edges {
   std::vector<Vec2> neighbors;
 };
 
-Edges random_edges(const Params& p, float longest_m) {
+Edges random_edges(const TreeParams& p, float longest_m) {
   Edges edges;
   const int count = *rc::gen::inRange(1, 8);
   for (int k = 0; k < count; ++k) {
@@ -87,7 +87,7 @@ Edges random_edges(const Params& p, float longest_m) {
 }
 
 RC_GTEST_PROP(Guard, LengthensNoEdgeFasterThanItsShare, ()) {
-  const Params p = outwards().defaults(Reading::corrected);
+  const TreeParams p = outwards_defaults();
   const Edges edges = random_edges(p, p.ideal_distance_m);
   const Vec2 v = edges.guard.apply(polar(number(0, 0.2F), number(-3.14F, 3.14F)));
   for (const Vec2 n : edges.neighbors) {
@@ -97,7 +97,7 @@ RC_GTEST_PROP(Guard, LengthensNoEdgeFasterThanItsShare, ()) {
 }
 
 RC_GTEST_PROP(Guard, LeavesAnAllowedVelocityAlone, ()) {
-  const Params p = outwards().defaults(Reading::corrected);
+  const TreeParams p = outwards_defaults();
   const Edges edges = random_edges(p, p.ideal_distance_m);
   const Vec2 wish = polar(number(0, 0.2F), number(-3.14F, 3.14F));
   for (std::size_t k = 0; k < edges.neighbors.size(); ++k)
@@ -106,7 +106,7 @@ RC_GTEST_PROP(Guard, LeavesAnAllowedVelocityAlone, ()) {
 }
 
 RC_GTEST_PROP(Guard, NeverPushesWhileNoEdgeIsTooLong, ()) {
-  const Params p = outwards().defaults(Reading::corrected);
+  const TreeParams p = outwards_defaults();
   const Edges edges = random_edges(p, p.ideal_distance_m);
   RC_ASSERT(edges.guard.apply({}) == Vec2{});
   const Vec2 wish = polar(number(0, 0.2F), number(-3.14F, 3.14F));
@@ -114,7 +114,7 @@ RC_GTEST_PROP(Guard, NeverPushesWhileNoEdgeIsTooLong, ()) {
 }
 
 TEST(Guard, OneEdgeGivesTheNearestVelocity) {
-  const Params p = outwards().defaults(Reading::corrected);
+  const TreeParams p = outwards_defaults();
   Guard guard;
   guard.add({1.8F, 0}, p);  // may move away at 0.05 m/s
   const Vec2 v = guard.apply({-0.2F, 0.1F});
@@ -124,7 +124,7 @@ TEST(Guard, OneEdgeGivesTheNearestVelocity) {
 
 // Both ends of an edge wish at random and move at the velocity that the guard leaves of it.
 RC_GTEST_PROP(Guard, BothEndsTogetherKeepTheEdgeWithinDelta, ()) {
-  const Params p = (*rc::gen::arbitrary<bool>() ? outwards() : inwards()).defaults(Reading::corrected);
+  const TreeParams p = *rc::gen::arbitrary<bool>() ? outwards_defaults() : inwards_defaults();
   using W = BasicVec2<double>;
   W a{};
   W b = unit_vector(static_cast<double>(number(-3, 3))) * static_cast<double>(number(0.2F, p.ideal_distance_m));
@@ -144,7 +144,7 @@ RC_GTEST_PROP(Guard, BothEndsTogetherKeepTheEdgeWithinDelta, ()) {
 }
 
 TEST(Guard, AnEdgeBeyondDeltaMayOnlyShrink) {
-  const Params p = outwards().defaults(Reading::corrected);
+  const TreeParams p = outwards_defaults();
   Guard guard;
   guard.add({2.0F, 0}, p);
   EXPECT_LT(dot(guard.apply({-0.1F, 0}), Vec2{-1, 0}), 0.0F);
@@ -154,7 +154,7 @@ TEST(Guard, AnEdgeBeyondDeltaMayOnlyShrink) {
 // ---- Unicycle ----
 
 RC_GTEST_PROP(Drive, WheelsKeepTheirLimitAndTurnComesFirst, ()) {
-  const Params p = outwards().defaults(Reading::corrected);
+  const TreeParams p = outwards_defaults();
   const float speed = number(0.001F, 0.2F);
   const float theta = number(-3.1F, 3.1F);
   const Velocity v = drive(polar(speed, theta), Guard{}, p);
@@ -169,7 +169,7 @@ RC_GTEST_PROP(Drive, WheelsKeepTheirLimitAndTurnComesFirst, ()) {
 }
 
 RC_GTEST_PROP(Drive, TheGuardHoldsAlongTheTrueHeadingToo, ()) {
-  const Params p = outwards().defaults(Reading::corrected);
+  const TreeParams p = outwards_defaults();
   const Edges edges = random_edges(p, p.ideal_distance_m);
   const Velocity v = drive(polar(0.2F, number(-1, 1)), edges.guard, p);
   RC_ASSERT(v.forward_m_s >= 0.0F);
@@ -178,7 +178,7 @@ RC_GTEST_PROP(Drive, TheGuardHoldsAlongTheTrueHeadingToo, ()) {
 }
 
 TEST(Drive, AHolonomicRobotMovesAsTold) {
-  Params p;
+  TreeParams p;
   p.drive = Drive::holonomic;
   const Velocity v = drive({-0.1F, 0.05F}, Guard{}, p);
   EXPECT_EQ(v.forward_m_s, -0.1F);
@@ -187,7 +187,7 @@ TEST(Drive, AHolonomicRobotMovesAsTold) {
 }
 
 TEST(Drive, StandsStillForNothing) {
-  const Velocity v = drive({}, Guard{}, Params{});
+  const Velocity v = drive({}, Guard{}, TreeParams{});
   EXPECT_EQ(v.forward_m_s, 0.0F);
   EXPECT_EQ(v.turn_rad_s, 0.0F);
 }
@@ -199,10 +199,9 @@ class Moving : public testing::Test {
   Bench bench = grown();
   void become_worker(Vec2 parent) {
     bench.params.drive = Drive::holonomic;
-    bench.state.is_worker = true;
     bench.state.role = Role::worker;
     bench.state.parent = 9;
-    Message& m = bench.put(9, parent);
+    auto& m = bench.put(9, parent);
     m.role = Role::root;
     m.depth = 1;
     m.label_cm = 0;
@@ -214,8 +213,7 @@ class Moving : public testing::Test {
 TEST_F(Moving, BeyondDeltaARobotHurriesToItsParent) {
   become_worker({0, 1.95F});
   bench.params.communication_range_m = 2.0F;
-  const Vec2 target{0, -5};
-  bench.target = &target;
+  bench.send({0, -5});
   const Velocity v = bench.step().velocity;
   EXPECT_NEAR(v.sideways_m_s, 0.2F, 1e-5F);
   EXPECT_NEAR(v.forward_m_s, 0.0F, 1e-5F);
@@ -223,14 +221,12 @@ TEST_F(Moving, BeyondDeltaARobotHurriesToItsParent) {
 
 TEST_F(Moving, AWorkerGoesForItsTargetAndSlowsDownOnArrival) {
   become_worker({-1.3F, 0});
-  const Vec2 far{5, 0};
-  bench.target = &far;
-  const Params& p = bench.params;
+  bench.send({5, 0});
+  const auto& p = bench.params;
   const float expected = std::min(1.0F, p.target_gain - interaction(1.3F, p));
   EXPECT_NEAR(bench.step().velocity.forward_m_s, std::min(0.2F * expected, 0.5F * (p.ideal_distance_m - 1.3F)), 1e-4F);
   bench.move(9, {-1.9F, 0});
-  const Vec2 near{0.1F, 0};
-  bench.target = &near;
+  bench.send({0.1F, 0});
   bench.step();
   EXPECT_NEAR(norm(bench.state.pull), p.target_gain * 0.5F, 1e-4F) << "half-way into the arrival distance";
 }
@@ -238,10 +234,9 @@ TEST_F(Moving, AWorkerGoesForItsTargetAndSlowsDownOnArrival) {
 TEST_F(Moving, StrangersWithinARepel) {
   become_worker({0, 1.3F});
   bench.params.interaction_gain = 0.0F;
-  const Vec2 here{1e-3F, 0};
-  bench.target = &here;
+  bench.send({1e-3F, 0});
   bench.put(20, {0.2F, 0});
-  const Params& p = bench.params;
+  const auto& p = bench.params;
   EXPECT_NEAR(bench.step().velocity.forward_m_s, -0.2F * std::min(1.0F, p.avoidance_gain * (p.avoidance_range_m / 0.2F - 1)), 2e-3F);
   bench.move(20, {p.avoidance_range_m + 0.01F, 0});
   EXPECT_NEAR(bench.step().velocity.forward_m_s, 0.0F, 2e-3F);
@@ -249,12 +244,10 @@ TEST_F(Moving, StrangersWithinARepel) {
 
 TEST_F(Moving, ASilentParentIsSoughtWhereItMustBe) {
   become_worker({0, 1.0F});
-  const Vec2 target{0, -5};
-  bench.target = &target;
+  bench.send({0, -5});
   bench.step();
   bench.silence(9);
-  Output output;
-  for (int t = 0; t < 20; ++t) output = bench.step();
+  const auto output = bench.steps(20);
   EXPECT_NEAR(output.velocity.sideways_m_s, 0.2F, 1e-4F);
   EXPECT_TRUE(output.message.parent_silent);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Obstacles: the way round them in a plane world of points, and what is kept clear of corners.
-#include "banyan/controller/bypass.hpp"
+// The way round obstacles in a plane world of points.
+#include "banyan/controller/obstacles/bypass.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <vector>
 
-#include "banyan/controller/motion.hpp"
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
+#include "banyan/controller/tree/motion.hpp"
 #include "bench.hpp"
 #include "numbers.hpp"
 
@@ -31,7 +31,7 @@ struct Segment {
 struct Walker {
   std::vector<Segment> walls;
   Vec2 position;
-  Bench bench = grown(convoy());
+  ConvoyBench bench = grown<Convoy>();
   float nearest_m = 1e9F;
   float path_m = 0.0F;
 
@@ -48,7 +48,7 @@ struct Walker {
       }
       Detour& detour = bench.state.detour;
       for (Vec2* v : {&detour.contact, &detour.origin, &detour.goal}) *v -= moved;
-      Robot robot = bench.tick();
+      auto robot = bench.tick();
       moved = bypass(robot, goal - position) * step_m;
       position += moved;
       path_m += step_m;
@@ -61,7 +61,7 @@ struct Walker {
 // ---- The way round ----
 
 TEST(Bypass, LeadsStraightWhereNothingIsInTheWay) {
-  Bench bench = grown(convoy());
+  ConvoyBench bench = grown<Convoy>();
   EXPECT_EQ(bypass(bench.tick(), {3.0F, 4.0F}), (Vec2{0.6F, 0.8F}));
   EXPECT_EQ(bypass(bench.tick(), {}), Vec2{});
   bench.obstacles = {{-0.15F, 0.0F}};  // behind
@@ -71,9 +71,9 @@ TEST(Bypass, LeadsStraightWhereNothingIsInTheWay) {
 
 TEST(Bypass, TakesTheSideThatIsNearerToTheGoal) {
   for (const float y : {1.0F, -1.0F}) {
-    Bench bench = grown(convoy());
+    ConvoyBench bench = grown<Convoy>();
     bench.obstacles = {{0.11F, 0.0F}};
-    const Robot robot = bench.tick();
+    const auto robot = bench.tick();
     const Vec2 u = bypass(robot, {2.0F, y});
     EXPECT_GT(u.y * y, 0.9F);
     EXPECT_LT(u.x, 0.05F);
@@ -81,10 +81,10 @@ TEST(Bypass, TakesTheSideThatIsNearerToTheGoal) {
 }
 
 RC_GTEST_PROP(Bypass, NeverLeadsIntoAnObstacle, ()) {
-  Bench bench = grown(convoy());
+  ConvoyBench bench = grown<Convoy>();
   const Vec2 o = unit_vector(number(-3.1F, 3.1F)) * number(0.08F, 0.30F);
   bench.obstacles = {o};
-  const Robot robot = bench.tick();
+  const auto robot = bench.tick();
   const Vec2 u = bypass(robot, unit_vector(number(-3.1F, 3.1F)) * number(0.1F, 5.0F));
   RC_ASSERT(std::abs(norm(u) - 1.0F) < 1e-3F);
   // Straight on for 5 cm it is still a body away, unless it was nearer and leaves.
@@ -130,7 +130,7 @@ TEST(Bypass, DoesNotBreakThroughToAGoalThatIsWalledIn) {
 // ---- Guards ----
 
 TEST(Bypass, WhatIsAskedOfADetourShrinksWithTheWayDriven) {
-  Bench bench = grown(convoy());
+  ConvoyBench bench = grown<Convoy>();
   bench.obstacles = {{0.2F, 0.0F}};
   bench.state.detour.side = 1;
   bench.state.detour.leave_m = 1.0F;
@@ -138,26 +138,10 @@ TEST(Bypass, WhatIsAskedOfADetourShrinksWithTheWayDriven) {
   EXPECT_NEAR(bench.state.detour.leave_m, 1.05F, 1e-4F);
 }
 
-TEST(KeepSight, OnlyWhereTheRadioNeedsIt) {
-  for (const bool needed : {true, false}) {
-    Bench bench = grown(convoy());
-    bench.params.line_of_sight = needed;
-    bench.obstacles = {{0.2F, 0.08F}};
-    bench.put(9, {1.0F, 0.0F}).role = Role::root;
-    bench.state.parent = 9;
-    Robot robot = bench.tick();
-    remember_obstacles(robot);
-    Guard guard;
-    keep_sight(robot, guard);
-    EXPECT_EQ(guard.size > 0, needed);
-    EXPECT_EQ(clear_sight(robot) != Vec2{}, needed);
-  }
-}
-
 TEST(KeepOff, SlidesAlongAndDoesNotPush) {
-  Bench bench = grown(convoy());
+  ConvoyBench bench = grown<Convoy>();
   bench.obstacles = {{body_m + 0.02F, 0.0F}};
-  const Robot robot = bench.tick();
+  const auto robot = bench.tick();
   Guard guard;
   keep_off(robot, guard);
   const Vec2 v = guard.apply({0.15F, 0.1F});
@@ -166,100 +150,16 @@ TEST(KeepOff, SlidesAlongAndDoesNotPush) {
   EXPECT_EQ(guard.apply({-0.1F, 0.1F}), (Vec2{-0.1F, 0.1F}));
 }
 
-TEST(KeepOff, HoldsForThePapersPoliciesInTheCorrectedReadingOnly) {
-  const Vec2 target{3.0F, 0.0F};
-  for (const Reading reading : {Reading::corrected, Reading::literal}) {
-    Bench bench = grown(outwards(), reading);
-    bench.state.is_worker = true;
-    bench.target = &target;
+TEST(KeepOff, HoldsForThePapersAlgorithmsInTheCorrectedReadingOnly) {
+  const auto drives_on = []<class Kind>(BenchOf<Kind> bench) {
+    bench.send({3.0F, 0.0F});
     bench.state.parent = 9;
     bench.put(9, {-1.0F, 0.0F}).role = Role::root;
     bench.obstacles = {{0.09F, 0.0F}};
-    const Output output = bench.steps(3);
-    EXPECT_EQ(output.velocity.forward_m_s > 0.01F, reading == Reading::literal);
-  }
-}
-
-// A corner beside the edge to the parent: whatever the robot wants, in the next tick it does not cut it.
-RC_GTEST_PROP(KeepSight, NoMotionOfMyOwnBringsACornerIntoTheEdge, ()) {
-  Bench bench = grown(convoy());
-  bench.state.parent = 9;
-  const Vec2 parent{number(-1.8F, -0.5F), 0.0F};
-  bench.put(9, parent).role = Role::root;
-  const Vec2 corner{number(0.05F, 0.25F) * -1.0F, number(0.03F, 0.2F)};
-  bench.obstacles = {corner};
-  const Robot robot = bench.tick();
-  Guard guard;
-  keep_sight(robot, guard);
-  const Vec2 moved = guard.apply(unit_vector(number(-3.1F, 3.1F)) * 0.2F) * robot.params.tick_s;
-  const auto room = [&](Vec2 from) { return cross(parent - from, corner - from) / distance(parent, from) * -1.0F; };
-  RC_ASSERT(room(moved) > std::min(0.02F, room({})) - 2e-3F);
-}
-
-TEST(Landmarks, ACornerIsTakenAlongAndForgottenWhenItProvesWrong) {
-  Bench bench = grown(convoy());
-  bench.obstacles = {{0.1F, 0.05F}};
-  {
-    Robot robot = bench.tick();
-    remember_obstacles(robot);
-  }
-  ASSERT_EQ(bench.state.landmarks.size, 1);
-  bench.obstacles.clear();
-  Robot robot = bench.tick();
-  remember_obstacles(robot);
-  EXPECT_EQ(bench.state.landmarks.size, 0) << "0.11 m away, and the sensor sees nothing";
-  bench.state.landmarks = {{Vec2{0.5F, 0.0F}}, 1};
-  remember_obstacles(robot);
-  EXPECT_EQ(bench.state.landmarks.size, 1) << "out of the sensor's reach";
-  EXPECT_FALSE(is_free(robot, {}, {1.0F, 0.02F}, 0.05F));
-  EXPECT_TRUE(is_free(robot, {}, {1.0F, 0.3F}, 0.05F));
-  bench.state.landmarks = {{Vec2{2.5F, 0.0F}}, 1};
-  remember_obstacles(robot);
-  EXPECT_EQ(bench.state.landmarks.size, 0) << "no edge reaches so far";
-}
-
-// The child tells its parent of a corner that only the child can see; their frames differ.
-TEST(Landmarks, ParentsHearOfCornersFromTheirChildren) {
-  const float turn = 1.1F;  // the child's frame, seen from the parent's
-  const Vec2 child_at{1.2F, 0.7F};
-  const Vec2 corner{0.9F, 0.56F};  // parent's frame
-  Bench child = grown(convoy());
-  child.state.parent = 9;
-  child.state.is_worker = true;
-  const Vec2 target = rotate_back(unit_vector(turn), Vec2{3.0F, 0.0F});
-  child.target = &target;
-  Message& root = child.put(9, rotate_back(unit_vector(turn), -child_at));
-  root.role = Role::root;
-  child.obstacles = {rotate_back(unit_vector(turn), corner - child_at)};
-  const Output said = child.steps(2);
-  Bench parent = grown(convoy());
-  parent.state.id = 9;
-  parent.state.role = Role::root;
-  parent.state.root = {1, 9};
-  parent.put(1, child_at) = said.message;
-  Robot robot = parent.tick();
-  remember_obstacles(robot);
-  ASSERT_EQ(parent.state.landmarks.size, 1);
-  EXPECT_LT(distance(parent.state.landmarks.points[0], corner), 0.015F);
-  EXPECT_TRUE(said.message.pinned);
-}
-
-TEST(Pinned, OnlyWhoHasToGoOnAndHasACornerAtItsEdge) {
-  Bench bench = grown(convoy());
-  bench.state.parent = 9;
-  bench.put(9, {-1.0F, 0.0F}).role = Role::root;
-  bench.obstacles = {{-0.1F, 0.03F}};
-  bench.state.want_m = 2.0F;
-  bench.state.is_worker = true;
-  EXPECT_TRUE(is_pinned(bench.tick()));
-  bench.state.want_m = 0.0F;
-  EXPECT_FALSE(is_pinned(bench.tick()));
-  bench.state.want_m = 2.0F;
-  bench.obstacles = {{0.1F, 0.03F}};
-  EXPECT_FALSE(is_pinned(bench.tick())) << "ahead of me, not beside the edge";
-  bench.obstacles = {{-0.1F, 0.03F}};
-  bench.move(9, {-0.2F, 0.0F});
-  EXPECT_FALSE(is_pinned(bench.tick())) << "the parent is there";
+    return bench.steps(3).velocity.forward_m_s > 0.01F;
+  };
+  EXPECT_TRUE(drives_on(grown<OutwardsLiteral>()));
+  EXPECT_FALSE(drives_on(grown<Outwards>()));
 }
 
 }  // namespace

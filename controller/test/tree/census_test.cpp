@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Algorithms 1 and 2 of the paper on settled random trees of real controllers: counts and centroid
 // against the truth that only the test knows.
-#include "banyan/controller/census.hpp"
+#include "banyan/controller/tree/census.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,10 +9,11 @@
 #include <cmath>
 #include <vector>
 
-#include "banyan/controller/controller.hpp"
-#include "banyan/controller/policies.hpp"
-#include "banyan/controller/survey.hpp"
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
+#include "banyan/controller/outwards.hpp"
+#include "banyan/controller/tree/tick.hpp"
+#include "banyan/controller/tree/tree_index.hpp"
+#include "over_the_wire.hpp"
 
 namespace banyan {
 namespace {
@@ -23,9 +24,9 @@ using W = BasicVec2<double>;
 struct Tree {
   std::vector<W> position, heading;
   std::vector<int> parent, depth;
-  std::vector<State> states;
-  std::vector<Message> messages;
-  Params params = outwards().defaults(Reading::literal);
+  std::vector<TreeState> states;
+  std::vector<TreeMessage> messages;
+  TreeParams params = outwards_defaults();
 
   explicit Tree(int size) {
     const auto draw = [](double limit) { return limit * (*rc::gen::inRange(-10'000, 10'001)) / 10'000.0; };
@@ -34,7 +35,7 @@ struct Tree {
       depth.push_back(i == 0 ? 1 : depth[static_cast<std::size_t>(parent.back())] + 1);
       position.push_back(i == 0 ? W{draw(50), draw(50)} : position[static_cast<std::size_t>(parent.back())] + W{draw(1.2), draw(1.2)} + W{0.01, 0.02});
       heading.push_back(unit_vector(draw(3.14)));
-      State s = initial_state(static_cast<RobotId>(i), false, i == 0);
+      TreeState s = initial_tree_state(static_cast<RobotId>(i), false, i == 0);
       s.is_worker = i > 0 && i % 7 == 0;
       s.role = i == 0 ? Role::root : s.is_worker ? Role::worker : Role::connector;
       s.epoch = 1;
@@ -49,23 +50,24 @@ struct Tree {
 
   // Every robot hears its tree neighbours over the wire and takes the census.
   void tick() {
-    std::vector<Message> next = messages;
+    std::vector<TreeMessage> next = messages;
     for (std::size_t i = 0; i < states.size(); ++i) {
-      std::vector<Message> packets;
+      std::vector<TreeMessage> packets;
       std::vector<Vec2> from;
       for (std::size_t j = 0; j < states.size(); ++j) {
         const bool neighbors = parent[i] == static_cast<int>(j) || parent[j] == static_cast<int>(i);
         if (!neighbors || messages[j].id == nobody) continue;
-        packets.push_back(*decode(encode(messages[j])));
+        packets.push_back(*over_the_wire(messages[j]));
         from.push_back(seen(i, j));
       }
       std::vector<Heard> heard;
       for (std::size_t k = 0; k < packets.size(); ++k) heard.push_back({&packets[k], from[k]});
-      State& s = states[i];
-      s.neighbors.update(heard, Carry({}), 12, s.id, {s.parent, s.old_parent});
-      Robot robot(params, outwards(), s, heard, nullptr);
-      survey(robot);
-      take_census(robot);
+      TreeState& s = states[i];
+      const Admitted admitted({}, heard, params, s.tally);
+      TreeRobot robot(params, literal_reading, s, admitted);
+      update_table(robot, Carry({}), TreeColumns{s});
+      index_neighbors(robot);
+      take_census(robot, params.arrival_distance_m);
       next[i] = message(i);
     }
     messages = next;
@@ -76,9 +78,9 @@ struct Tree {
     return {static_cast<float>(d.x), static_cast<float>(d.y)};
   }
 
-  [[nodiscard]] Message message(std::size_t i) const {
-    const State& s = states[i];
-    Message m;
+  [[nodiscard]] TreeMessage message(std::size_t i) const {
+    const TreeState& s = states[i];
+    TreeMessage m;
     m.id = s.id;
     m.role = s.role;
     m.phase = s.phase;
@@ -111,7 +113,7 @@ RC_GTEST_PROP(Census, SumsAlgorithm2AndTheTruthAgreeOnSettledTrees, ()) {
       descendants += j != i ? 1 : 0;
       workers += tree.states[static_cast<std::size_t>(j)].is_worker ? 1 : 0;
     }
-    const State& s = tree.states[static_cast<std::size_t>(i)];
+    const TreeState& s = tree.states[static_cast<std::size_t>(i)];
     RC_ASSERT(s.subtree == descendants + 1);
     RC_ASSERT(s.subtree_workers == workers);
     RC_ASSERT(s.count == tree.depth[static_cast<std::size_t>(i)] + descendants);  // c_i = d_i + descendants

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Chains from target to target: what the root plans, how the plan travels down the tree, and how the
 // topmost robot of a branch leads it (docs/convoy.md, rule 11).
-#include "banyan/controller/plan.hpp"
+#include "banyan/controller/convoy/plan.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -16,7 +16,7 @@
 namespace banyan {
 namespace {
 
-void know(State& state, const std::vector<Vec2>& targets) {
+void know(ConvoyState& state, const std::vector<Vec2>& targets) {
   state.task_count = static_cast<std::uint8_t>(targets.size());
   for (std::size_t k = 0; k < targets.size(); ++k) {
     state.tasks[k] = {};
@@ -26,11 +26,11 @@ void know(State& state, const std::vector<Vec2>& targets) {
 }
 
 // A root whose only child carries all workers, with `robots` in its tree.
-Bench commander(const std::vector<Vec2>& targets, int robots) {
-  Bench bench = grown(convoy());
+ConvoyBench commander(const std::vector<Vec2>& targets, int robots) {
+  ConvoyBench bench = grown<Convoy>();
   bench.state.root = {1, 1};
   bench.state.role = Role::root;
-  Message& child = bench.put(5, {1.5F, 0});
+  auto& child = bench.put(5, {1.5F, 0});
   child.role = Role::connector;
   child.parent = 1;
   child.committed = true;
@@ -42,9 +42,9 @@ Bench commander(const std::vector<Vec2>& targets, int robots) {
 }
 
 // Ticks the census and the plan as step() does, without succession: nobody here speaks for the workers.
-void run(Bench& bench, int ticks) {
+void run(ConvoyBench& bench, int ticks) {
   for (int t = 0; t < ticks; ++t) {
-    Robot robot = bench.tick();
+    auto robot = bench.tick();
     bench.state.subtree = bench.say(5).subtree + 1;
     bench.state.subtree_workers = bench.say(5).subtree_workers;
     bench.state.want_m = static_cast<float>(bench.say(5).want_cm) * 0.01F;
@@ -52,7 +52,7 @@ void run(Bench& bench, int ticks) {
   }
 }
 
-int ticks_until_plan(const Bench& bench) { return bench.params.ticks(bench.params.plan_after_s); }
+int ticks_until_plan(const ConvoyBench& bench) { return bench.params.ticks(bench.params.plan_after_s); }
 
 // Kruskal's algorithm, as an independent judge.
 float shortest_tree(const std::vector<Vec2>& points) {
@@ -75,22 +75,23 @@ float shortest_tree(const std::vector<Vec2>& points) {
 RC_GTEST_PROP(Plan, IsAShortestTreeThroughTheTargets, ()) {
   std::vector<Vec2> targets(*rc::gen::inRange<std::size_t>(2, task_capacity + 1));
   for (Vec2& t : targets) t = {static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F, static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F};
-  Bench bench = commander(targets, 1000);
+  ConvoyBench bench = commander(targets, 1000);
   bench.state.settled_ticks = static_cast<std::uint16_t>(20 * 40 * 10);  // late: all levels are in the plan
   run(bench, ticks_until_plan(bench));
   float length = 0.0F;
   int hosted = 0;
-  for (const Task& task : std::span(bench.state.tasks).first(targets.size())) {
-    if (task.host == nobody) continue;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    const RobotId host = bench.state.hosts[k];
+    if (host == nobody) continue;
     ++hosted;
-    length += distance(task.target, targets[task.host - 100U]);
+    length += distance(targets[k], targets[host - 100U]);
   }
   RC_ASSERT(hosted == static_cast<int>(targets.size()) - 1);
   RC_ASSERT(std::abs(length - shortest_tree(targets)) < 1e-3F);
 }
 
 TEST(Plan, WaitsUntilAllHaveBeenThereForAWhileAndIsForgottenWhenOneLeaves) {
-  Bench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
+  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
   run(bench, ticks_until_plan(bench) - 1);
   EXPECT_FALSE(is_planned(bench.state));
   run(bench, 1);
@@ -103,20 +104,20 @@ TEST(Plan, WaitsUntilAllHaveBeenThereForAWhileAndIsForgottenWhenOneLeaves) {
 }
 
 TEST(Plan, NeverForATreeThatIsAsSmall) {
-  Bench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 10);  // 12 m and 3 m: seven and two edges
+  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 10);  // 12 m and 3 m: seven and two edges
   run(bench, 3000);
   EXPECT_FALSE(is_planned(bench.state));
 }
 
 TEST(Plan, NeverWhenSwitchedOff) {
-  Bench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
+  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
   bench.params.plan_after_s = 0.0F;
   run(bench, 3000);
   EXPECT_FALSE(is_planned(bench.state));
 }
 
 TEST(Plan, MayBeAskedForLaterThanItsPeriod) {
-  Bench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
+  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
   bench.params.plan_after_s = 100.0F;
   run(bench, ticks_until_plan(bench) - 1);
   EXPECT_FALSE(is_planned(bench.state));
@@ -125,29 +126,29 @@ TEST(Plan, MayBeAskedForLaterThanItsPeriod) {
 }
 
 TEST(Plan, GrowsLevelByLevel) {
-  Bench bench = commander({{2, 0}, {4, 0}, {6, 0}, {8, 0}}, 60);
+  ConvoyBench bench = commander({{2, 0}, {4, 0}, {6, 0}, {8, 0}}, 60);
   run(bench, ticks_until_plan(bench));
-  const auto hosted = [&] { return std::count_if(bench.state.tasks.begin(), bench.state.tasks.end(), [](const Task& t) { return t.host != nobody; }); };
+  const auto hosted = [&] { return std::count_if(bench.state.hosts.begin(), bench.state.hosts.end(), [](RobotId host) { return host != nobody; }); };
   EXPECT_EQ(hosted(), 1);
   run(bench, 400);
   EXPECT_EQ(hosted(), 2);
 }
 
 TEST(Plan, TravelsDownTheTreeFromTheParentOnly) {
-  Bench bench = grown(convoy());
+  ConvoyBench bench = grown<Convoy>();
   bench.state.role = Role::connector;
   bench.state.parent = 5;
   know(bench.state, {{6, 0}, {6, 3}});
   for (const RobotId id : {RobotId{5}, RobotId{6}}) {
-    Message& m = bench.put(id, {1.0F, id == 5 ? 0.5F : -0.5F});
+    auto& m = bench.put(id, {1.0F, id == 5 ? 0.5F : -0.5F});
     m.role = Role::connector;
     m.task_serves = 101;
     m.task_host = id == 5 ? RobotId{100} : RobotId{77};
   }
-  Robot robot = bench.tick();
+  auto robot = bench.tick();
   take_part_in_plan(robot);
-  EXPECT_EQ(bench.state.tasks[1].host, 100);
-  EXPECT_EQ(bench.state.tasks[0].host, nobody);
+  EXPECT_EQ(bench.state.hosts[1], 100);
+  EXPECT_EQ(bench.state.hosts[0], nobody);
 }
 
 // Robot 1 is the topmost of a branch that ends at target 101; its parent 5 is a junction, beside it the
@@ -155,30 +156,30 @@ TEST(Plan, TravelsDownTheTreeFromTheParentOnly) {
 class Leader : public testing::Test {
  protected:
   void SetUp() override {
-    State& s = bench.state;
+    ConvoyState& s = bench.state;
     s.role = Role::connector;
     s.parent = 5;
     s.committed = true;
     s.label_cm = 400;
-    s.pulse = 50;
+    s.seqno = 50;
     s.subtree_workers = 1;
     s.depth = 3;
     know(s, {{0, 6}, {4, 4}});
-    s.tasks[1].host = 100;
+    s.hosts[1] = 100;
     put(5, {-1.0F, 0}, nobody);
     put(6, {-0.5F, 1.5F}, 100);
-    Message& child = put(7, {1.2F, 1.2F}, 101);
+    auto& child = put(7, {1.2F, 1.2F}, 101);
     child.parent = 1;
     child.label_cm = 600;
     child.child_count = 1;
     child.subtree_workers = 1;
   }
-  Message& put(RobotId id, Vec2 position, RobotId below) {
-    Message& m = bench.put(id, position);
+  ConvoyMessage& put(RobotId id, Vec2 position, RobotId below) {
+    auto& m = bench.put(id, position);
     m.role = Role::connector;
     m.committed = true;
     m.label_cm = 200;
-    m.pulse = 60;
+    m.seqno = 60;
     m.depth = 2;
     m.parent = 9;
     m.child_count = 2;
@@ -186,17 +187,17 @@ class Leader : public testing::Test {
     return m;
   }
   void tick() {
-    Robot robot = bench.tick();
+    auto robot = bench.tick();
     take_part_in_plan(robot);
   }
-  Bench bench = grown(convoy());
+  ConvoyBench bench = grown<Convoy>();
 };
 
 TEST_F(Leader, LeadsToTheHostAndDrivesThere) {
   tick();
   EXPECT_EQ(bench.state.below, 101);
-  EXPECT_EQ(bench.state.errand, 100);
-  Robot robot = bench.tick();
+  EXPECT_EQ(bench.state.lead_to, 100);
+  auto robot = bench.tick();
   const Vec2 u = lead(robot);
   EXPECT_GT(u.y, 0.9F);
   EXPECT_LT(std::abs(u.x), 0.1F);
@@ -205,26 +206,26 @@ TEST_F(Leader, LeadsToTheHostAndDrivesThere) {
 TEST_F(Leader, IsOnlyTheTopmostOfItsBranch) {
   bench.say(5).below = 101;
   tick();
-  EXPECT_EQ(bench.state.errand, nobody);
+  EXPECT_EQ(bench.state.lead_to, nobody);
 }
 
 TEST_F(Leader, IsDoneOnceItsBranchBeginsAtTheHost) {
   bench.say(5).above = 100;
   tick();
-  EXPECT_EQ(bench.state.errand, nobody);
+  EXPECT_EQ(bench.state.lead_to, nobody);
 }
 
 TEST_F(Leader, HasNoBranchOfItsOwnAtAJunction) {
-  Message& other = put(8, {1.2F, -1.2F}, 102);
+  auto& other = put(8, {1.2F, -1.2F}, 102);
   other.parent = 1;
   tick();
   EXPECT_EQ(bench.state.below, nobody);
-  EXPECT_EQ(bench.state.errand, nobody);
+  EXPECT_EQ(bench.state.lead_to, nobody);
 }
 
 TEST_F(Leader, StepsToTheNextRobotOnTheWay) {
   for (int t = 0; t < 60 && bench.state.parent == 5; ++t) {
-    for (const RobotId id : {RobotId{5}, RobotId{6}}) ++bench.say(id).pulse;
+    for (const RobotId id : {RobotId{5}, RobotId{6}}) ++bench.say(id).seqno;
     bench.say(5).task_serves = 101;  // the plan keeps being told
     bench.say(5).task_host = 100;
     bench.step();
@@ -238,7 +239,7 @@ TEST_F(Leader, AsksForASpareWhenItIsHeldBack) {
   EXPECT_FALSE(is_held_back(bench.tick()));
   for (int t = 0; t < 80; ++t) tick();
   EXPECT_TRUE(is_held_back(bench.tick()));
-  EXPECT_TRUE(convoy().needs_spare(bench.tick()));
+  EXPECT_EQ(bench.step().message.need, Need::need);
 }
 
 }  // namespace

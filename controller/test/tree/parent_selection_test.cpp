@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who may be a parent, whom each policy prefers, and what becomes of robots that lose theirs.
-#include "banyan/controller/parent_selection.hpp"
+// Who may be a parent, whom each algorithm prefers, and what becomes of robots that lose theirs.
+#include "banyan/controller/tree/parent_selection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,9 @@
 namespace banyan {
 namespace {
 
-Bench selecting(const Policy& policy, Reading reading = Reading::corrected) {
-  Bench bench(policy, reading);
+template <class Kind = Outwards>
+BenchOf<Kind> selecting() {
+  BenchOf<Kind> bench;
   bench.state.epoch = 1;
   bench.state.phase = Phase::select_parent;
   bench.state.root = {1, 9};
@@ -19,8 +20,9 @@ Bench selecting(const Policy& policy, Reading reading = Reading::corrected) {
 }
 
 // A neighbour in the tree.
-Message& committed(Bench& bench, RobotId id, Vec2 position, std::uint16_t label_cm) {
-  Message& m = bench.put(id, position);
+template <class Kind>
+auto& committed(BenchOf<Kind>& bench, RobotId id, Vec2 position, std::uint16_t label_cm) {
+  auto& m = bench.put(id, position);
   m.committed = true;
   m.role = Role::connector;
   m.label_cm = label_cm;
@@ -30,11 +32,11 @@ Message& committed(Bench& bench, RobotId id, Vec2 position, std::uint16_t label_
 }
 
 TEST(Candidate, IsAliveNoWorkerOfThisEpochNearEnoughAndAhead) {
-  Bench bench = selecting(outwards());
+  Bench bench = selecting();
   committed(bench, 5, {1.0F, 0}, 100);
   const auto is = [&] {
-    const Robot robot = bench.tick();
-    return is_candidate(robot, robot.table().find(5));
+    const auto robot = bench.tick();
+    return is_candidate(robot, robot.table().find(5), false);
   };
   EXPECT_TRUE(is());
   bench.say(5).role = Role::worker;
@@ -51,25 +53,25 @@ TEST(Candidate, IsAliveNoWorkerOfThisEpochNearEnoughAndAhead) {
   EXPECT_FALSE(is()) << "2 cm must be left";
   bench.move(5, {bench.params.ideal_distance_m - 0.021F, 0});
   EXPECT_TRUE(is());
-  bench.state.pulse = 7;
+  bench.state.seqno = 7;
   EXPECT_FALSE(is()) << "staler than what I have sent: it may hang on me";
 }
 
 TEST(Candidate, LiteralReachesToC) {
-  Bench bench = selecting(outwards(), Reading::literal);
+  BenchOf<OutwardsLiteral> bench = selecting<OutwardsLiteral>();
   committed(bench, 5, {1.99F, 0}, 100);
-  const Robot robot = bench.tick();
-  EXPECT_TRUE(is_candidate(robot, 0));
+  const auto robot = bench.tick();
+  EXPECT_TRUE(is_candidate(robot, 0, false));
 }
 
 TEST(Ahead, IsFresherOrAsFreshAndNearerToTheRoot) {
-  Bench bench = selecting(outwards());
-  bench.state.pulse = 10;
-  Message& m = committed(bench, 5, {1.0F, 0}, 100);
-  const auto ahead = [&](std::uint16_t pulse, std::uint16_t label) {
-    m.pulse = pulse;
+  Bench bench = selecting();
+  bench.state.seqno = 10;
+  auto& m = committed(bench, 5, {1.0F, 0}, 100);
+  const auto ahead = [&](std::uint16_t seqno, std::uint16_t label) {
+    m.seqno = seqno;
     m.label_cm = label;
-    const Robot robot = bench.tick();
+    const auto robot = bench.tick();
     return is_ahead(robot, 0);
   };
   EXPECT_TRUE(ahead(10, 199));
@@ -80,7 +82,7 @@ TEST(Ahead, IsFresherOrAsFreshAndNearerToTheRoot) {
 }
 
 TEST(Outwards, TakesTheClosestCommittedCandidate) {
-  Bench bench = selecting(outwards());
+  Bench bench = selecting();
   committed(bench, 5, {1.5F, 0}, 50);
   committed(bench, 6, {1.0F, 0}, 150);
   committed(bench, 7, {0.2F, 0}, 180).committed = false;
@@ -92,20 +94,20 @@ TEST(Outwards, TakesTheClosestCommittedCandidate) {
 }
 
 TEST(Inwards, OnlyWorkersAndTheNamedJoinAndTheyTakeTheSmallestLabelWithinS) {
-  Bench bench = selecting(inwards());
+  BenchOf<Inwards> bench = selecting<Inwards>();
   committed(bench, 5, {1.45F, 0}, 20);   // beyond S
   committed(bench, 6, {1.3F, 0}, 60);
   committed(bench, 7, {0.2F, 0}, 180);
   bench.steps(3);
   EXPECT_EQ(bench.state.parent, nobody) << "nobody needs me";
-  Message& child = bench.put(20, {-1.0F, 0});
+  auto& child = bench.put(20, {-1.0F, 0});
   child.parent = 1;
   child.role = Role::worker;
   child.label_cm = 300;
   bench.step();
   EXPECT_EQ(bench.state.parent, 6);
 
-  Bench worker = selecting(inwards());
+  BenchOf<Inwards> worker = selecting<Inwards>();
   worker.state.is_worker = true;
   committed(worker, 5, {1.45F, 0}, 20);
   worker.step();
@@ -113,7 +115,7 @@ TEST(Inwards, OnlyWorkersAndTheNamedJoinAndTheyTakeTheSmallestLabelWithinS) {
 }
 
 TEST(Join, TheFloodParentWillDoAfterFourTicks) {
-  Bench bench = selecting(outwards());
+  Bench bench = selecting();
   bench.state.flood_parent = 5;
   committed(bench, 5, {1.89F, 0}, 50).committed = false;
   bench.steps(4);
@@ -123,14 +125,14 @@ TEST(Join, TheFloodParentWillDoAfterFourTicks) {
 }
 
 TEST(Join, AChildlessRobotMaySortItselfInBehindWhoeverIsFresher) {
-  Bench bench = selecting(outwards());
-  committed(bench, 5, {1.0F, 0}, 400).pulse = 3;
+  Bench bench = selecting();
+  committed(bench, 5, {1.0F, 0}, 400).seqno = 3;
   bench.steps(7);
   EXPECT_EQ(bench.state.parent, nobody);
   bench.step();
   EXPECT_EQ(bench.state.parent, 5);
   EXPECT_EQ(bench.state.label_cm, 500);
-  EXPECT_EQ(bench.state.pulse, 3);
+  EXPECT_EQ(bench.state.seqno, 3);
 }
 
 // A worker in GROW TREE that hangs on 5, and 6 beside it.
@@ -168,12 +170,12 @@ TEST(Repair, WithoutReplacementTheParentIsKept) {
 
 TEST(Orphan, StandsStillAndThenAttachesToWhoeverIsFresherAndNearestToTheTree) {
   Bench bench = working();
-  bench.state.pulse = 5;
+  bench.state.seqno = 5;
   bench.say(5).depth = invalid_depth;  // the chain broke above
-  bench.say(5).pulse = 5;
+  bench.say(5).seqno = 5;
   bench.say(5).tree_hops = unreachable;
-  bench.say(6).pulse = 4;              // stale: may be below me
-  committed(bench, 7, {0.5F, 1.0F}, 700).pulse = 9;
+  bench.say(6).seqno = 4;              // stale: may be below me
+  committed(bench, 7, {0.5F, 1.0F}, 700).seqno = 9;
   bench.steps(6);
   EXPECT_TRUE(is_orphan(bench.tick()));
   EXPECT_EQ(bench.state.parent, 5);
@@ -188,36 +190,36 @@ TEST(Orphan, CanDraftAFreeSpareThatIsNearerToTheTree) {
   bench.say(5).depth = invalid_depth;
   bench.say(5).tree_hops = unreachable;
   bench.silence(6);
-  Message& spare = bench.put(8, {0.0F, 1.0F});
+  auto& spare = bench.put(8, {0.0F, 1.0F});
   spare.label_cm = 50;
-  spare.pulse = 9;
+  spare.seqno = 9;
   spare.tree_hops = 1;
   bench.steps(25);
   EXPECT_EQ(bench.state.parent, 8);
 }
 
-TEST(Pulse, FlowsFromTheParentAndTakesTheLabelAlongIfNeeded) {
+TEST(Seqno, FlowsFromTheParentAndTakesTheLabelAlongIfNeeded) {
   Bench bench = working();
-  bench.say(5).pulse = 4;
+  bench.say(5).seqno = 4;
   bench.step();
-  EXPECT_EQ(bench.state.pulse, 4);
+  EXPECT_EQ(bench.state.seqno, 4);
   EXPECT_EQ(bench.state.label_cm, 200) << "still behind its parent's";
-  bench.say(5).label_cm = 260;  // the same pulse: nothing moves
+  bench.say(5).label_cm = 260;  // the same seqno: nothing moves
   bench.step();
   EXPECT_EQ(bench.state.label_cm, 200);
-  bench.say(5).pulse = 5;
+  bench.say(5).seqno = 5;
   bench.step();
   EXPECT_EQ(bench.state.label_cm, 360);
 }
 
-TEST(Pulse, TheRootCounts) {
+TEST(Seqno, TheRootCounts) {
   Bench bench = grown();
   bench.state.root = {1, 1};
   bench.state.role = Role::root;
   bench.state.label_cm = 0;
-  EXPECT_EQ(bench.steps(10).message.pulse, 10);
-  bench.state.pulse = UINT16_MAX;
-  EXPECT_EQ(bench.step().message.pulse, UINT16_MAX) << "it does not wrap";
+  EXPECT_EQ(bench.steps(10).message.seqno, 10);
+  bench.state.seqno = UINT16_MAX;
+  EXPECT_EQ(bench.step().message.seqno, UINT16_MAX) << "it does not wrap";
 }
 
 TEST(Prune, ASpareLeafLeavesItsBranchAndOneWithChildrenStays) {
@@ -226,7 +228,7 @@ TEST(Prune, ASpareLeafLeavesItsBranchAndOneWithChildrenStays) {
   bench.state.parent = 5;
   bench.state.committed = true;
   committed(bench, 5, {1.0F, 0}, 100);
-  Message& child = bench.put(8, {-0.5F, 0});
+  auto& child = bench.put(8, {-0.5F, 0});
   child.parent = 1;
   child.label_cm = 300;
   bench.steps(3);
@@ -241,7 +243,7 @@ TEST(Prune, ASpareLeafLeavesItsBranchAndOneWithChildrenStays) {
 TEST(Root, HasNoParentAndDepthOne) {
   Bench bench = grown();
   bench.state.root = {1, 1};
-  committed(bench, 5, {1.0F, 0}, 0).pulse = 100;
+  committed(bench, 5, {1.0F, 0}, 0).seqno = 100;
   bench.steps(30);
   EXPECT_EQ(bench.state.parent, nobody);
   EXPECT_EQ(bench.state.depth, 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The two state machines of the paper's Fig. 5: the owner of a stretched edge and the spare that
-// joins it, and the roles that follow from the tree.
-#include "banyan/controller/spare_management.hpp"
+// joins it.
+#include "banyan/controller/tree/spare_management.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,43 +13,43 @@ namespace banyan {
 namespace {
 
 // A worker at the origin whose parent 5 is `range_m` away; its target is far.
-class Owner : public testing::Test {
+template <class Kind>
+class OwnerOf : public testing::Test {
  protected:
   void SetUp() override {
-    bench.state.is_worker = true;
+    bench.send({-5, 0});
     bench.state.label_cm = 300;
     bench.state.parent = 5;
     bench.state.committed = true;
-    bench.target = &target;
-    Message& m = bench.put(5, {1.5F, 0});
+    auto& m = bench.put(5, {1.5F, 0});
     m.role = Role::connector;
     m.committed = true;
     m.label_cm = 100;
     m.depth = 2;
     m.parent = 9;
   }
-  Message& spare(RobotId id, Vec2 position) {
-    Message& m = bench.put(id, position);
+  auto& spare(RobotId id, Vec2 position) {
+    auto& m = bench.put(id, position);
     m.role = Role::spare;
     m.request = 1;
     return m;
   }
-  Bench bench = grown();
-  Vec2 target{-5, 0};
+  BenchOf<Kind> bench = grown<Kind>();
 };
+using Owner = OwnerOf<Outwards>;
+using LiteralOwner = OwnerOf<OutwardsLiteral>;
 
 TEST_F(Owner, NeedsASpareBeyondEWhileItsWorkerTravels) {
   EXPECT_EQ(bench.step().message.need, Need::need);
   bench.move(5, {bench.params.recruitment_distance_m - 0.01F, 0});
   EXPECT_EQ(bench.step().message.need, Need::no_need);
   bench.move(5, {1.5F, 0});
-  target = {-0.1F, 0};  // arrived
+  bench.send({-0.1F, 0});  // arrived
   EXPECT_EQ(bench.step().message.need, Need::no_need);
 }
 
-TEST_F(Owner, LiteralNeedsASpareEvenWhenEverybodyHasArrived) {
-  bench.params.reading = Reading::literal;
-  target = {-0.1F, 0};
+TEST_F(LiteralOwner, NeedsASpareEvenWhenEverybodyHasArrived) {
+  bench.send({-0.1F, 0});
   EXPECT_EQ(bench.step().message.need, Need::need);
 }
 
@@ -58,7 +58,7 @@ TEST_F(Owner, GrantsTheSpareNearestToTheMidpointAndWaits) {
   spare(20, {0.5F, 0.5F});
   spare(21, {0.75F, 0.3F});
   spare(22, {0.75F, 0.1F}).request = 8;  // asks somebody else
-  const Message m = bench.step().message;
+  const auto m = bench.step().message;
   EXPECT_EQ(m.grant, 21);
   EXPECT_EQ(m.need, Need::await);
   spare(23, {0.75F, 0.0F});
@@ -74,7 +74,7 @@ TEST_F(Owner, GrantsInGrowTreeOnly) {
 
 TEST_F(Owner, TakesTheInsertedSpareAsParent) {
   bench.step();
-  Message& m = spare(20, {0.75F, 0});
+  auto& m = spare(20, {0.75F, 0});
   bench.steps(2);
   ASSERT_EQ(bench.state.grant, 20);
   m.request = nobody;
@@ -84,28 +84,28 @@ TEST_F(Owner, TakesTheInsertedSpareAsParent) {
   m.inserted_child = 1;
   m.label_cm = 200;
   m.depth = 3;
-  const Message said = bench.step().message;
+  const auto said = bench.step().message;
   EXPECT_EQ(said.parent, 20);
   EXPECT_EQ(said.grant, nobody);
   EXPECT_EQ(said.need, Need::no_need);
 }
 
-TEST_F(Owner, WaitsForAnInsertedSpareThatIsBehindItsOwnPulse) {
-  bench.say(5).pulse = 6;
+TEST_F(Owner, WaitsForAnInsertedSpareThatIsBehindItsOwnSeqno) {
+  bench.say(5).seqno = 6;
   bench.step();
-  Message& m = spare(20, {0.75F, 0});
+  auto& m = spare(20, {0.75F, 0});
   bench.steps(2);
   m.request = nobody;
   m.role = Role::connector;
   m.parent = 5;
   m.inserted_child = 1;
   m.label_cm = 200;
-  m.pulse = 5;
-  bench.say(5).pulse = 7;
+  m.seqno = 5;
+  bench.say(5).seqno = 7;
   EXPECT_EQ(bench.steps(10).message.parent, 5);
-  EXPECT_EQ(bench.state.pulse, 6) << "it must not run ahead meanwhile";
+  EXPECT_EQ(bench.state.seqno, 6) << "it must not run ahead meanwhile";
   EXPECT_EQ(bench.state.grant, 20);
-  m.pulse = 6;
+  m.seqno = 6;
   EXPECT_EQ(bench.step().message.parent, 20);
 }
 
@@ -117,7 +117,7 @@ TEST_F(Owner, EndsTheGrantWhenTheSpareFallsSilentOrThinksBetter) {
   bench.silence(20);
   bench.steps(bench.params.ticks(bench.params.liveness_period_s) + 1);
   EXPECT_EQ(bench.state.grant, nobody);
-  Message& m = spare(21, {0.75F, 0});
+  auto& m = spare(21, {0.75F, 0});
   bench.steps(3);
   ASSERT_EQ(bench.state.grant, 21);
   m.request = 8;
@@ -139,9 +139,8 @@ TEST_F(Owner, WaitsWhileItsParentInsertsAboveItself) {
 
 TEST_F(Owner, PassesAChildsNeedUp) {
   bench.move(5, {0.5F, 0});
-  bench.state.is_worker = false;
-  bench.target = nullptr;
-  Message& child = bench.put(7, {-1.0F, 0});
+  bench.call_back();
+  auto& child = bench.put(7, {-1.0F, 0});
   child.role = Role::worker;
   child.parent = 1;
   child.label_cm = 400;
@@ -152,28 +151,31 @@ TEST_F(Owner, PassesAChildsNeedUp) {
 }
 
 // A free spare at the origin; 7 owns a stretched edge to 5.
-class Spare : public testing::Test {
+template <class Kind>
+class SpareOf : public testing::Test {
  protected:
   void SetUp() override {
     bench.params.drive = Drive::holonomic;
-    Message& parent = bench.put(5, {1.0F, 1.0F});
+    auto& parent = bench.put(5, {1.0F, 1.0F});
     parent.role = Role::connector;
     parent.committed = true;
     parent.label_cm = 100;
     parent.depth = 2;
     parent.tree_hops = 0;
-    parent.pulse = 5;
-    Message& owner = bench.put(7, {1.0F, -0.6F});
+    parent.seqno = 5;
+    auto& owner = bench.put(7, {1.0F, -0.6F});
     owner.role = Role::worker;
     owner.committed = true;
     owner.label_cm = 260;
     owner.depth = 3;
-    owner.pulse = 5;
+    owner.seqno = 5;
     owner.parent = 5;
     owner.need = Need::need;
   }
-  Bench bench = grown();
+  BenchOf<Kind> bench = grown<Kind>();
 };
+using Spare = SpareOf<Outwards>;
+using LiteralSpare = SpareOf<OutwardsLiteral>;
 
 TEST_F(Spare, AsksForTheEdgeInNeed) {
   EXPECT_EQ(bench.step().message.request, 7);
@@ -191,18 +193,18 @@ TEST_F(Spare, OnceGrantedDrivesToTheMidpointAndJoins) {
   bench.step();
   bench.say(7).grant = 1;
   bench.say(7).need = Need::await;
-  const Output output = bench.steps(2);
+  const auto output = bench.steps(2);
   EXPECT_EQ(bench.state.spare_state, SpareState::extend_edge);
   EXPECT_GT(output.velocity.forward_m_s, 0.15F);
-  bench.say(5).pulse = 9;  // what I follow as a free spare may be fresher than the edge
+  bench.say(5).seqno = 9;  // what I follow as a free spare may be fresher than the edge
   bench.move(5, {0.0F, 0.8F});
   bench.move(7, {0.05F, -0.8F});
-  const Message m = bench.step().message;
+  const auto m = bench.step().message;
   EXPECT_EQ(m.parent, 5);
   EXPECT_EQ(m.inserted_child, 7);
   EXPECT_EQ(m.role, Role::connector);
   EXPECT_EQ(m.label_cm, 180) << "the mean of both ends";
-  EXPECT_EQ(m.pulse, 9);
+  EXPECT_EQ(m.seqno, 9);
   EXPECT_EQ(bench.state.tally.insertions, 1U);
   bench.say(7).parent = 1;
   bench.step();
@@ -227,14 +229,13 @@ TEST_F(Spare, StaysWithTheTree) {
   bench.say(7).need = Need::no_need;
   bench.move(5, {1.8F, 0});
   bench.move(7, {1.9F, 0.3F});
-  const Output output = bench.step();
+  const auto output = bench.step();
   EXPECT_EQ(bench.state.spare_state, SpareState::adjust_position);
   EXPECT_EQ(bench.state.reference, 5) << "the nearest of the tree";
   EXPECT_NEAR(output.velocity.forward_m_s, 0.2F, 1e-3F);
 }
 
-TEST_F(Spare, LiteralOrbitsItsReference) {
-  bench.params.reading = Reading::literal;
+TEST_F(LiteralSpare, OrbitsItsReference) {
   bench.say(7).need = Need::no_need;
   bench.silence(7);
   bench.move(5, {1.0F, 0});
@@ -254,30 +255,6 @@ TEST(Call, AnUnansweredNeedSpreadsHopByHop) {
   bench.silence(6);
   bench.steps(20);
   EXPECT_EQ(bench.state.call_hops, nobody_calls);
-}
-
-TEST(Role, FollowsFromTheTree) {
-  Bench bench = grown();
-  bench.step();
-  EXPECT_EQ(bench.state.role, Role::spare);
-  Message& child = bench.put(7, {1.0F, 0});
-  child.parent = 1;
-  bench.step();
-  EXPECT_EQ(bench.state.role, Role::spare) << "a spare child makes no connector";
-  child.role = Role::worker;
-  bench.step();
-  EXPECT_EQ(bench.state.role, Role::connector);
-  child.parent = 9;
-  child.old_parent = 1;
-  bench.step();
-  EXPECT_EQ(bench.state.role, Role::connector) << "an old child counts";
-  child.old_parent = nobody;
-  bench.steps(bench.params.ticks(bench.params.connector_patience_s));
-  EXPECT_EQ(bench.state.role, Role::connector);
-  bench.step();
-  EXPECT_EQ(bench.state.role, Role::spare);
-  bench.state.root = {9, 1};
-  EXPECT_EQ(bench.step().message.role, Role::root);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The neighbour table: who stays in it, for how long, and where the silent ones are thought to be.
-#include "banyan/controller/neighborhood.hpp"
+#include "banyan/controller/core/neighbors.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "banyan/controller/trig.hpp"
+#include "banyan/controller/core/trig.hpp"
 
 namespace banyan {
 namespace {
@@ -18,25 +18,49 @@ namespace {
 constexpr RobotId me = 500;
 constexpr std::array<RobotId, 2> none{nobody, nobody};
 
-struct Packets {
-  std::vector<Message> messages;
-  std::vector<Vec2> positions;
-  void add(RobotId id, Vec2 position, RobotId parent = nobody, RobotId old_parent = nobody) {
-    Message m;
-    m.id = id;
-    m.parent = parent;
-    m.old_parent = old_parent;
-    messages.push_back(m);
-    positions.push_back(position);
+// What neighbours say, kept in an array of its own beside the table.
+struct Said {
+  RobotId parent = nobody;
+  RobotId old_parent = nobody;
+  int number = 0;  // of the packet
+  friend bool operator==(const Said&, const Said&) = default;
+};
+
+class Table : public Neighbors {
+ public:
+  struct Packet {
+    RobotId id;
+    Vec2 position;
+    Said said;
+  };
+  void update(const std::vector<Packet>& packets, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) {
+    Columns columns{*this, keep};
+    begin(carry, 1);
+    for (const Packet& p : packets) file(p.id, p.position, columns.must_stay(p.id, p.said), p.said, columns);
+    end(carry, liveness_ticks, keep, columns);
   }
-  [[nodiscard]] std::vector<Heard> heard() const {
-    std::vector<Heard> all;
-    for (std::size_t k = 0; k < messages.size(); ++k) all.push_back({&messages[k], positions[k]});
-    return all;
+  [[nodiscard]] const Said& said(int k) const { return said_[static_cast<std::size_t>(k)]; }
+
+ private:
+  struct Columns {
+    Table& table;
+    std::array<RobotId, 2> keep;
+    [[nodiscard]] bool must_stay(RobotId id, const Said& said) const { return id == keep[0] || id == keep[1] || said.parent == me || said.old_parent == me; }
+    [[nodiscard]] bool ties(int k) const { return must_stay(table.id(k), table.said(k)); }
+    void write(int k, const Said& said) { table.said_[static_cast<std::size_t>(k)] = said; }
+    void close(int k, int size) { close_gap(table.said_, k, size); }
+  };
+  std::array<Said, neighbor_capacity> said_{};
+};
+
+struct Packets {
+  std::vector<Table::Packet> heard;
+  void add(RobotId id, Vec2 position, RobotId parent = nobody, RobotId old_parent = nobody) {
+    heard.push_back({id, position, {parent, old_parent, static_cast<int>(heard.size())}});
   }
 };
 
-std::set<RobotId> ids(const Neighborhood& table) {
+std::set<RobotId> ids(const Neighbors& table) {
   std::set<RobotId> all;
   for (int k = 0; k < table.size(); ++k) all.insert(table.id(k));
   return all;
@@ -49,92 +73,82 @@ Packets crowd(int count, float from_m = 0.2F) {
   return packets;
 }
 
-TEST(Neighborhood, AnEntryLivesAsLongAsTheLivenessPeriod) {
+TEST(Neighbors, AnEntryLivesAsLongAsTheLivenessPeriod) {
   constexpr int liveness = 5;
-  Neighborhood table;
+  Table table;
   Packets packets;
   packets.add(3, {1, 0});
-  table.update(packets.heard(), Carry({}), liveness, me, none);
+  table.update(packets.heard, Carry({}), liveness, none);
   ASSERT_EQ(table.size(), 1);
   EXPECT_EQ(table.age(0), 0);
   for (int age = 1; age <= liveness; ++age) {
-    table.update({}, Carry({}), liveness, me, none);
+    table.update({}, Carry({}), liveness, none);
     ASSERT_EQ(table.size(), 1) << age;
     EXPECT_EQ(table.age(0), age);
     EXPECT_TRUE(table.alive(0));
   }
-  table.update({}, Carry({}), liveness, me, none);
+  table.update({}, Carry({}), liveness, none);
   EXPECT_EQ(table.size(), 0);
 }
 
-TEST(Neighborhood, ASilentTreeNeighborIsKeptButNotAlive) {
-  Neighborhood table;
+TEST(Neighbors, ASilentTreeNeighborIsKeptButNotAlive) {
+  Table table;
   Packets packets;
   packets.add(3, {1, 0});
   packets.add(4, {0, 1});
   packets.add(5, {1, 1});
-  table.update(packets.heard(), Carry({}), 2, me, none);
-  for (int k = 0; k < 50; ++k) table.update({}, Carry({}), 2, me, {3, 4});
+  table.update(packets.heard, Carry({}), 2, none);
+  for (int k = 0; k < 50; ++k) table.update({}, Carry({}), 2, {3, 4});
   EXPECT_EQ(ids(table), (std::set<RobotId>{3, 4}));
   EXPECT_FALSE(table.alive(table.find(3)));
   EXPECT_EQ(table.find(5), -1);
 }
 
-TEST(Neighborhood, HearingAgainMakesYoung) {
-  Neighborhood table;
+TEST(Neighbors, HearingAgainMakesYoung) {
+  Table table;
   Packets packets;
   packets.add(3, {1, 0});
-  table.update(packets.heard(), Carry({}), 5, me, none);
-  table.update({}, Carry({}), 5, me, none);
-  packets.positions[0] = {2, 0};
-  table.update(packets.heard(), Carry({}), 5, me, none);
+  table.update(packets.heard, Carry({}), 5, none);
+  table.update({}, Carry({}), 5, none);
+  packets.heard[0].position = {2, 0};
+  table.update(packets.heard, Carry({}), 5, none);
   EXPECT_EQ(table.size(), 1);
   EXPECT_EQ(table.age(0), 0);
   EXPECT_FLOAT_EQ(table.range(0), 2.0F);
 }
 
-TEST(Neighborhood, OfSeveralPacketsOfOneSenderTheLastCounts) {
-  Neighborhood table;
+TEST(Neighbors, OfSeveralPacketsOfOneSenderTheLastCounts) {
+  Table table;
   Packets packets;
   packets.add(3, {1, 0});
   packets.add(4, {0, 1});
   packets.add(3, {2, 0}, 8);
-  table.update(packets.heard(), Carry({}), 5, me, none);
+  table.update(packets.heard, Carry({}), 5, none);
   ASSERT_EQ(table.size(), 2);
-  EXPECT_EQ(table.message(table.find(3)).parent, 8);
+  EXPECT_EQ(table.said(table.find(3)).parent, 8);
   EXPECT_FLOAT_EQ(table.range(table.find(3)), 2.0F);
 }
 
-TEST(Neighborhood, NeitherItselfNorNobodyIsANeighbor) {
-  Neighborhood table;
-  Packets packets;
-  packets.add(me, {1, 0});
-  packets.add(nobody, {1, 0});
-  table.update(packets.heard(), Carry({}), 5, me, none);
-  EXPECT_EQ(table.size(), 0);
-}
-
-TEST(Neighborhood, BeyondItsCapacityItKeepsTheNearest) {
-  Neighborhood table;
+TEST(Neighbors, BeyondItsCapacityItKeepsTheNearest) {
+  Table table;
   Packets packets = crowd(3 * neighbor_capacity);
-  std::reverse(packets.messages.begin(), packets.messages.end());
-  std::reverse(packets.positions.begin(), packets.positions.end());
-  table.update(packets.heard(), Carry({}), 5, me, none);
+  std::reverse(packets.heard.begin(), packets.heard.end());
+  table.update(packets.heard, Carry({}), 5, none);
   ASSERT_EQ(table.size(), neighbor_capacity);
   for (int k = 0; k < neighbor_capacity; ++k) EXPECT_GE(table.find(static_cast<RobotId>(k)), 0) << k;
 }
 
-TEST(Neighborhood, TreeNeighborsAreNeverEvicted) {
+TEST(Neighbors, TreeNeighborsAreNeverEvicted) {
   Packets packets = crowd(neighbor_capacity, 0.2F);
   packets.add(300, {1.9F, 0});               // my parent
   packets.add(301, {1.9F, 0.1F});            // my old parent
   packets.add(302, {1.8F, 0.2F}, me);        // a child
   packets.add(303, {1.8F, 0.3F}, 7, me);     // an old child
   packets.add(304, {1.85F, 0.3F}, 7, 8);     // far, and nobody to me
-  std::vector<Heard> heard = packets.heard();
+  std::vector<Table::Packet> heard = packets.heard;
   for (int turn = 0; turn < 7; ++turn) {
-    Neighborhood table;
-    table.update(heard, Carry({}), 5, me, {300, 301});
+    Table table;
+    table.update(heard, Carry({}), 5, {300, 301});
     ASSERT_EQ(table.size(), neighbor_capacity);
     for (const RobotId id : std::array<RobotId, 4>{300, 301, 302, 303}) EXPECT_GE(table.find(id), 0) << id << " in turn " << turn;
     EXPECT_EQ(table.find(304), -1);
@@ -142,45 +156,50 @@ TEST(Neighborhood, TreeNeighborsAreNeverEvicted) {
   }
 }
 
-TEST(Neighborhood, ATableFullOfTreeNeighborsTakesNobodyElse) {
-  Neighborhood table;
+TEST(Neighbors, ATableFullOfTreeNeighborsTakesNobodyElse) {
+  Table table;
   Packets packets;
   for (int k = 0; k < neighbor_capacity; ++k) packets.add(static_cast<RobotId>(k), {1.5F, 0}, me);
   packets.add(400, {0.1F, 0});
-  table.update(packets.heard(), Carry({}), 5, me, none);
+  table.update(packets.heard, Carry({}), 5, none);
   EXPECT_EQ(table.size(), neighbor_capacity);
   EXPECT_EQ(table.find(400), -1);
 }
 
 // Who is known, and what is known of each, does not depend on the order of arrival.
-RC_GTEST_PROP(Neighborhood, TheOrderOfArrivalDoesNotMatter, ()) {
+RC_GTEST_PROP(Neighbors, TheOrderOfArrivalDoesNotMatter, ()) {
   const int count = *rc::gen::inRange(0, 2 * neighbor_capacity);
   Packets packets;
   for (int k = 0; k < count; ++k) {
     const float far = 0.1F + 0.001F * static_cast<float>((k * 7919) % 1777);  // no two ranges are equal
     packets.add(static_cast<RobotId>(k), unit_vector(static_cast<float>(k)) * far, k % 50 == 49 ? me : nobody);
   }
-  std::vector<Heard> heard = packets.heard();
-  Neighborhood in_order;
-  in_order.update(heard, Carry({}), 5, me, {3, 4});
+  std::vector<Table::Packet> heard = packets.heard;
+  Table in_order;
+  in_order.update(heard, Carry({}), 5, {3, 4});
   const auto shift = *rc::gen::inRange(0, count + 1);
   std::rotate(heard.begin(), heard.begin() + shift, heard.end());
   if (*rc::gen::arbitrary<bool>()) std::reverse(heard.begin(), heard.end());
-  Neighborhood shuffled;
-  shuffled.update(heard, Carry({}), 5, me, {3, 4});
+  Table shuffled;
+  shuffled.update(heard, Carry({}), 5, {3, 4});
   RC_ASSERT(ids(in_order) == ids(shuffled));
   for (int k = 0; k < in_order.size(); ++k) {
     const int same = shuffled.find(in_order.id(k));
     RC_ASSERT(shuffled.position(same) == in_order.position(k));
-    RC_ASSERT(shuffled.message(same) == in_order.message(k));
+    RC_ASSERT(shuffled.said(same) == in_order.said(k));
   }
 }
 
 // Random comings and goings against a plain map from id to (position, age).
-RC_GTEST_PROP(Neighborhood, AgreesWithAMap, ()) {
+RC_GTEST_PROP(Neighbors, AgreesWithAMap, ()) {
   constexpr int liveness = 4;
-  std::map<RobotId, std::pair<Vec2, int>> expected;
-  Neighborhood table;
+  struct Entry {
+    Vec2 position;
+    int age;
+    int number;
+  };
+  std::map<RobotId, Entry> expected;
+  Table table;
   const int ticks = *rc::gen::inRange(1, 40);
   for (int t = 0; t < ticks; ++t) {
     Packets packets;
@@ -189,16 +208,17 @@ RC_GTEST_PROP(Neighborhood, AgreesWithAMap, ()) {
       packets.add(static_cast<RobotId>(id), at);
     }
     const std::array<RobotId, 2> keep{static_cast<RobotId>(*rc::gen::inRange(0, 30)), nobody};
-    table.update(packets.heard(), Carry({}), liveness, me, keep);
-    for (auto& [id, entry] : expected) ++entry.second;
-    for (std::size_t k = 0; k < packets.messages.size(); ++k) expected[packets.messages[k].id] = {packets.positions[k], 0};
-    std::erase_if(expected, [&](const auto& entry) { return entry.second.second > liveness && entry.first != keep[0]; });
+    table.update(packets.heard, Carry({}), liveness, keep);
+    for (auto& [id, entry] : expected) ++entry.age;
+    for (const auto& p : packets.heard) expected[p.id] = {p.position, 0, p.said.number};
+    std::erase_if(expected, [&](const auto& entry) { return entry.second.age > liveness && entry.first != keep[0]; });
     RC_ASSERT(table.size() == static_cast<int>(expected.size()));
     for (const auto& [id, entry] : expected) {
       const int k = table.find(id);
       RC_ASSERT(k >= 0);
-      RC_ASSERT(table.position(k) == entry.first);
-      RC_ASSERT(table.age(k) == entry.second);
+      RC_ASSERT(table.position(k) == entry.position);
+      RC_ASSERT(table.age(k) == entry.age);
+      RC_ASSERT(table.said(k).number == entry.number);
     }
   }
 }
@@ -232,15 +252,14 @@ RC_GTEST_PROP(Carry, DeadReckoningFollowsTheTruth, (bool holonomic)) {
   RC_ASSERT(std::fabs(arrow.x - expected.x) + std::fabs(arrow.y - expected.y) < 2e-4);
 }
 
-TEST(Neighborhood, OnlyTheSilentAreDeadReckoned) {
-  Neighborhood table;
+TEST(Neighbors, OnlyTheSilentAreDeadReckoned) {
+  Table table;
   Packets packets;
   packets.add(3, {1, 0});
   packets.add(4, {1, 0});
-  table.update(packets.heard(), Carry({}), 5, me, none);
-  packets.messages.pop_back();
-  packets.positions.pop_back();
-  table.update(packets.heard(), Carry({0.25F, 0, pi<float> / 2}), 5, me, none);
+  table.update(packets.heard, Carry({}), 5, none);
+  packets.heard.pop_back();
+  table.update(packets.heard, Carry({0.25F, 0, pi<float> / 2}), 5, none);
   EXPECT_EQ(table.position(table.find(3)), (Vec2{1, 0}));
   EXPECT_NEAR(table.position(table.find(4)).x, 0.0F, 1e-6F);
   EXPECT_NEAR(table.position(table.find(4)).y, -0.75F, 1e-6F);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Convoy's rules (docs/convoy.md) about parents and spares, seen from outside.
+#include "banyan/controller/convoy/convoy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "chain.hpp"
+
+namespace banyan {
+namespace {
+
+TEST_F(ConvoyChain, AskForASpareWhenLongWithWorkLeftOrWhenHidden) {
+  const auto needs = [&] { return bench.step().message.need == Need::need; };
+  EXPECT_FALSE(needs());
+  bench.move(2, {-1.7F, 0.0F});
+  EXPECT_TRUE(needs());
+  bench.say(3).want_cm = 0;
+  EXPECT_FALSE(needs());
+  bench.move(2, {-1.0F, 0.0F});
+  bench.step();
+  bench.silence(2);
+  for (int t = 0; t < 2; ++t) EXPECT_FALSE(needs());
+  EXPECT_TRUE(needs());
+}
+
+TEST_F(ConvoyChain, OnlyAnEdgeNearItsLimitCallsSparesFromAfar) {
+  const auto calls = [&] { return bench.steps(30).message.call_hops == 0; };  // longer than a need waits for an answer
+  bench.move(2, {-1.7F, 0.0F});
+  EXPECT_FALSE(calls());
+  bench.move(2, {-1.85F, 0.0F});
+  EXPECT_TRUE(calls());
+}
+
+// Whether a spare joins the edge from `owner` to `parent` that it is granted, with somebody else about.
+bool joins(Vec2 owner, Vec2 parent, std::optional<Vec2> other = std::nullopt) {
+  ConvoyBench bench = grown<Convoy>();
+  auto& above = bench.put(3, parent);
+  above.role = Role::connector;
+  above.label_cm = 100;
+  above.depth = 2;
+  auto& below = bench.put(2, owner);
+  below.role = Role::worker;
+  below.label_cm = 300;
+  below.depth = 3;
+  below.parent = 3;
+  below.need = Need::need;
+  if (other) bench.put(4, *other).role = Role::spare;
+  EXPECT_EQ(bench.step().message.request, 2);
+  below.grant = 1;
+  below.need = Need::await;
+  return bench.steps(2).message.parent == 3;
+}
+
+TEST(Convoy, ASpareJoinsWhereItStandsIfItSeesBothEnds) {
+  EXPECT_TRUE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}));
+  EXPECT_FALSE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, Vec2{0.5F, 0.1F}));
+  EXPECT_FALSE(joins({-1.0F, 0.2F}, {1.81F, 0.2F}));
+}
+
+TEST(Convoy, ASpareInTheWayJoinsIfNobodyHidesAnEndFromIt) {
+  EXPECT_TRUE(joins({-1.0F, 0.0F}, {1.0F, 0.0F}, Vec2{0.5F, 0.12F}));
+  EXPECT_FALSE(joins({-1.0F, 0.0F}, {1.0F, 0.0F}, Vec2{0.5F, 0.06F}));
+}
+
+// Both are blocked, but 3 can be heard past 5; 4 hides 2, which is nearer to me and to the root.
+TEST(Convoy, PrefersABlockedParentThatItStillSees) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.state.phase = Phase::select_parent;
+  bench.state.label_cm = 200;
+  bench.send({-5.0F, 0.0F});
+  bench.put(2, {1.0F, 0.0F}).label_cm = 50;
+  bench.put(3, {0.0F, 1.2F}).label_cm = 100;
+  bench.put(4, {0.5F, 0.02F}).role = Role::spare;
+  bench.put(5, {0.12F, 0.6F}).role = Role::spare;
+  EXPECT_EQ(bench.step().message.parent, 3);
+}
+
+}  // namespace
+}  // namespace banyan

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// How robots of convoy move.
+#include "banyan/controller/convoy/towing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "chain.hpp"
+
+namespace banyan {
+namespace {
+
+TEST_F(ConvoyChain, AStretchedChildTowsItsParentAlong) {
+  EXPECT_GT(motion().x, 0.5F);
+  bench.say(3).want_cm = 0;  // arrived: nothing but the tension of both edges is left
+  EXPECT_LT(motion().x, 0.3F);
+  bench.say(3).want_cm = 400;
+  bench.move(3, {1.0F, 0.0F});  // slack
+  EXPECT_LT(motion().x, 0.3F);
+}
+
+TEST_F(ConvoyChain, WhileRobotsAreShortWhoIsAsGoodAsThereDoesNotTow) {
+  bench.say(3).want_cm = 15;
+  EXPECT_GT(motion().x, 0.5F);
+  bench.state.call_hops = 3;  // an edge waits in vain for a spare
+  const float gives_way = motion().x;
+  bench.say(3).want_cm = 400;
+  EXPECT_GT(motion().x, gives_way + 0.5F);
+}
+
+TEST_F(ConvoyChain, AJunctionStaysUntilItsEdgesAreNearTheirLimit) {
+  auto& other = bench.put(4, {0.0F, 1.6F});
+  other = bench.say(3);
+  other.id = 4;
+  const Vec2 waits = motion();
+  EXPECT_LT(norm(waits), 0.7F);
+  bench.move(3, {1.88F, 0.0F});
+  bench.move(4, {0.0F, 1.88F});
+  EXPECT_GT(norm(motion()), norm(waits) + 0.2F);
+}
+
+TEST_F(ConvoyChain, HoldsStillInAReconstructionWhenAllHaveArrived) {
+  bench.move(3, {0.8F, 1.0F});  // not in line with the parent: tension
+  bench.state.phase = Phase::start_tree;
+  EXPECT_GT(norm(motion()), 0.0F);
+  bench.say(3).want_cm = 0;
+  EXPECT_EQ(norm(motion()), 0.0F);
+  bench.state.phase = Phase::grow_tree;
+  EXPECT_GT(norm(motion()), 0.0F);
+}
+
+// A spare 0.2 m beside the middle of the edge 2-3.
+class SpareBesideAnEdge : public ::testing::Test {
+ protected:
+  SpareBesideAnEdge() {
+    bench.put(2, {-0.8F, 0.2F}).role = Role::connector;
+    bench.put(3, {0.8F, 0.2F}).role = Role::root;
+  }
+  Vec2 motion() {
+    return waiting_motion(bench.tick());
+  }
+  ConvoyBench bench = grown<Convoy>();
+};
+
+TEST_F(SpareBesideAnEdge, MakesWayForItAlsoWhenOneEndIsHiddenFromIt) {
+  EXPECT_EQ(norm(motion()), 0.0F);
+  bench.say(2).parent = 3;
+  EXPECT_LT(motion().y, 0.0F);
+  bench.silence(2);
+  EXPECT_LT(motion().y, 0.0F);
+}
+
+TEST_F(SpareBesideAnEdge, MakesWayForAnEdgeOfTheOldTree) {
+  bench.say(2).old_parent = 3;
+  EXPECT_LT(motion().y, 0.0F);
+}
+
+// While the tree is reconstructed nobody can mend a line of sight.
+TEST_F(SpareBesideAnEdge, HoldsStillInAReconstructionWhenAllHaveArrived) {
+  bench.say(2).old_parent = 3;
+  bench.state.phase = Phase::start_tree;
+  EXPECT_EQ(norm(motion()), 0.0F);
+  bench.say(2).want_cm = 100;
+  EXPECT_LT(motion().y, 0.0F);
+}
+
+// Spare 5 has passed the call on and stands next to me; the tree's nearest robot 2 drives away.
+TEST(Convoy, ACalledSpareKeepsUpWithTheTree) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.put(5, {-0.3F, 0.0F}).role = Role::spare;
+  bench.put(2, {1.4F, 0.0F}).role = Role::connector;
+  bench.state.called = true;
+  bench.state.reference = 5;
+  const auto towards_tree = [&] {
+    return waiting_motion(bench.tick()).x;
+  };
+  EXPECT_LT(towards_tree(), 0.5F);
+  bench.move(2, {1.6F, 0.0F});
+  EXPECT_GT(towards_tree(), 0.5F);
+}
+
+}  // namespace
+}  // namespace banyan

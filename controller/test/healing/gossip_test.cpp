@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Points told to a neighbour: exact although both move and turn between writing and reading.
+#include "banyan/controller/healing/healing.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "banyan/controller/core/edge_frame.hpp"
+#include "watch.hpp"
+
+namespace banyan {
+namespace {
+
+RC_GTEST_PROP(Gossip, APointArrivesWhereItIs, ()) {
+  const auto number = [](int low, int high) { return static_cast<float>(*rc::gen::inRange(low, high)) * 0.001F; };
+  const auto rotation = [&] { const float a = number(-3141, 3142); return Vec2{std::cos(a), std::sin(a)}; };
+  // World coordinates: the sender writes at t, the reader has moved by `odometry` at t + 1.
+  const Vec2 sender{number(300, 1800), number(-900, 900)};
+  const Vec2 sender_heading = rotation();
+  const Vec2 reader_heading = rotation();
+  const Vec2 point{number(-9000, 9000), number(-9000, 9000)};
+  const Odometry odometry{number(0, 20), 0.0F, number(-400, 400)};
+  // Written as gossip.cpp does: point - addressee, in the sender's frame, in the edge frame.
+  const Vec2 addressee = rotate_back(sender_heading, -sender);
+  const Vec2 v = to_edge_frame(rotate_back(sender_heading, point - sender) - addressee, addressee);
+
+  ConvoyBench bench = grown<Convoy>();
+  bench.put(5, rotate_back(reader_heading, sender));
+  bench.tick();
+  const Vec2 reader = rotate(reader_heading, {odometry.forward_m, 0.0F});
+  const Vec2 heading = rotate(reader_heading, {std::cos(odometry.turn_rad), std::sin(odometry.turn_rad)});
+  const Vec2 sender_moved = sender + Vec2{0.02F, -0.01F};
+  bench.move(5, rotate_back(heading, sender_moved - reader));
+  bench.tick(odometry);
+
+  Vec2 read;
+  const auto cm = [](float x) { return static_cast<std::int16_t>(std::lround(x * 100.0F)); };
+  RC_ASSERT(bench.state.neighbors.read_point(bench.state.neighbors.find(5), cm(v.x), cm(v.y), read));
+  RC_ASSERT(distance(read, rotate_back(heading, point - reader)) < 0.012F);
+}
+
+TEST(Gossip, NoPointFromWhomIHaveNotHeardTheTickBefore) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.put(5, {1.0F, 0.0F});
+  bench.tick();
+  Vec2 point;
+  EXPECT_FALSE(bench.state.neighbors.read_point(0, 100, 0, point));
+  bench.tick();
+  EXPECT_TRUE(bench.state.neighbors.read_point(0, 100, 0, point));
+}
+
+TEST(Gossip, EveryPairOfNeighbourAndTargetHasItsTurn) {
+  Watch watch;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, 50, 1);
+  watch.bench.steps(2);
+  watch.tell_of_target(21, {0.0F, 1.0F}, {0.0F, 3.0F}, 51, 1);
+  watch.bench.steps(2);
+  ASSERT_EQ(watch.bench.state.task_count, 2);
+  watch.bench.put(22, {0.0F, -1.0F});
+  watch.bench.step();
+  std::map<std::pair<RobotId, RobotId>, int> told;
+  for (int k = 0; k < 8; ++k) {
+    const auto m = watch.bench.step().message;
+    ++told[{m.told, m.task_serves}];
+  }
+  EXPECT_EQ(told.size(), 8U);  // 4 neighbours, 2 targets
+}
+
+}  // namespace
+}  // namespace banyan

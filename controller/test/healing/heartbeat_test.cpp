@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The root counts; whoever is near to where it fell silent becomes root.
+#include "banyan/controller/healing/healing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "watch.hpp"
+
+namespace banyan {
+namespace {
+
+TEST(Heartbeat, OnlyALargerCountIsASignOfLife) {
+  Watch watch;
+  watch.hear_root(5);
+  EXPECT_EQ(watch.bench.state.silence_ticks, 0);
+  watch.bench.steps(7);  // the same count again and again
+  EXPECT_EQ(watch.bench.state.silence_ticks, 7);
+  watch.bench.say(root_id).heartbeat = static_cast<std::uint16_t>(watch.count - 3);
+  watch.bench.step();
+  EXPECT_EQ(watch.bench.state.silence_ticks, 8);
+  watch.hear_root(1);
+  EXPECT_EQ(watch.bench.state.silence_ticks, 0);
+}
+
+TEST(Heartbeat, CountsGoRound) {
+  Watch watch;
+  watch.count = 65530;
+  watch.hear_root(20);
+  EXPECT_EQ(watch.bench.state.silence_ticks, 0);
+  EXPECT_EQ(watch.bench.state.heartbeat, static_cast<std::uint16_t>(watch.count - 1));
+}
+
+TEST(Heartbeat, TheRootItselfBeats) {
+  ConvoyBench bench;
+  bench.state = initial_convoy_state(1, false, true);
+  const std::uint16_t before = bench.step().message.heartbeat;
+  EXPECT_EQ(bench.step().message.heartbeat, before + 1);
+  EXPECT_EQ(bench.state.silence_ticks, 0);
+}
+
+int claim_ticks(const ConvoyBench& bench, float away_m) {
+  const auto& p = bench.params;
+  return 2 * p.ticks(p.liveness_period_s) + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
+}
+
+TEST(Election, WhoIsNearClaimsAfterItsTurnAndOpensAnEpoch) {
+  Watch watch;
+  watch.hear_root(200);
+  watch.bench.silence(root_id);
+  auto& state = watch.bench.state;
+  watch.bench.steps(claim_ticks(watch.bench, 0.5F));
+  EXPECT_EQ(state.tally.elections, 0U);
+  watch.bench.step();
+  EXPECT_EQ(state.tally.elections, 1U);
+  EXPECT_EQ(state.root, (RootToken{2, state.id}));
+  EXPECT_EQ(state.role, Role::root);
+  EXPECT_EQ(state.epoch, 2);
+  EXPECT_EQ(state.phase, Phase::start_tree);
+}
+
+// Two that may claim hear each other: so two fragments never keep a root each at one place.
+TEST(Election, TheCircleOfClaimantsIsSmallerThanTheRange) {
+  const ConvoyParams p = convoy_defaults();
+  EXPECT_LT(2.0F * p.claim_radius, 1.0F);
+}
+
+TEST(Election, NeitherTheFarNorWorkersNorWhoDoesNotHealClaim) {
+  for (const int who : {0, 1, 2}) {
+    Watch watch(who == 0 ? Vec2{1.5F, 0.0F} : Vec2{0.3F, 0.0F});
+    if (who == 2) watch.bench.params.healing = 0.0F;
+    watch.hear_root(3);
+    if (who == 1) watch.bench.send({1.0F, 0.0F});
+    if (who == 0) watch.bench.state.root_at = {1.5F, 0.0F};
+    watch.bench.silence(root_id);
+    watch.bench.steps(30);
+    EXPECT_EQ(watch.bench.state.tally.elections, 0U) << who;
+  }
+}
+
+}  // namespace
+}  // namespace banyan

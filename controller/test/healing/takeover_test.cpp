@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// A target whose worker fell silent gets another.
+#include "banyan/controller/healing/healing.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "watch.hpp"
+
+namespace banyan {
+namespace {
+
+int takeover_ticks(const ConvoyBench& bench, float away_m) {
+  const auto& p = bench.params;
+  return 2 * p.ticks(p.liveness_period_s) + p.ticks(p.succession_after_s + p.succession_spread_s_m * away_m);
+}
+
+TEST(Takeover, ASpareTakesOverTheTargetOfAWorkerThatFellSilent) {
+  Watch watch;
+  watch.hear_root(2);
+  const Vec2 target{2.0F, 1.0F};
+  for (std::uint16_t beat = 10; beat < 15; ++beat) {
+    watch.tell_of_target(20, {1.0F, 0.0F}, target, 50, beat);
+    watch.hear_root(1);
+  }
+  auto& state = watch.bench.state;
+  watch.hear_root(takeover_ticks(watch.bench, norm(target)) - 1);
+  EXPECT_EQ(state.tally.replacements, 0U);
+  watch.hear_root(3);
+  EXPECT_EQ(state.tally.replacements, 1U);
+  EXPECT_TRUE(state.is_worker);
+  EXPECT_EQ(state.serves, 50);
+  EXPECT_GT(state.want_m, 1.5F);  // it knows where to go without being told from outside
+}
+
+TEST(Takeover, OfASilentWorkersTargetTheMeanIsRemembered) {
+  Watch watch;
+  watch.hear_root(2);
+  const float patience_s = watch.bench.params.succession_after_s;
+  watch.bench.params.succession_after_s = 1000.0F;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, 50, 10);
+  watch.hear_root(2);
+  EXPECT_NEAR(watch.bench.state.tasks[0].target.x, 2.0F, 0.01F) << "the worker alive, as it is told";
+  watch.hear_root(watch.bench.params.ticks(patience_s) + 40);
+  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, 50, 10);
+  watch.hear_root(1);
+  EXPECT_GT(watch.bench.state.tasks[0].target.x, 2.05F);
+  EXPECT_LT(watch.bench.state.tasks[0].target.x, 2.5F);
+}
+
+TEST(Takeover, WhoBeatsIsNotReplaced) {
+  Watch watch;
+  watch.hear_root(2);
+  for (std::uint16_t beat = 10; beat < 150; ++beat) {
+    watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 1.0F}, 50, beat);
+    watch.hear_root(1);
+  }
+  EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
+}
+
+TEST(Takeover, ATargetThatWasGivenUpHasNoSuccessor) {
+  Watch watch;
+  watch.hear_root(2);
+  watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 1.0F}, 50, 10);
+  watch.hear_root(3);
+  watch.bench.say(20).task_holder = nobody;
+  watch.bench.say(20).task_beat = 80;
+  watch.hear_root(120);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
+}
+
+TEST(Takeover, AWorkerRelievedFromOutsideSaysSo) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.state = initial_convoy_state(1, true, false);
+  bench.send({2.0F, 0.0F});
+  bench.put(20, {1.0F, 0.0F});
+  bench.steps(3);
+  bench.call_back();
+  const auto m = bench.step().message;
+  EXPECT_EQ(m.task_serves, 1);
+  EXPECT_EQ(m.task_holder, nobody);
+}
+
+// Two successors with equal counts, each hearing what the other said a tick ago.
+RC_GTEST_PROP(Takeover, OfTwoRivalsOneStays, ()) {
+  const RobotId serves = *rc::gen::element<RobotId>(1, 2, 50);
+  std::array<ConvoyBench, 2> pair{grown<Convoy>(), grown<Convoy>()};
+  for (int i : {0, 1}) {
+    ConvoyState& s = pair[i].state;
+    s.id = static_cast<RobotId>(i + 1);
+    s.is_worker = true;
+    s.role = Role::worker;
+    s.serves = serves;
+    s.task_count = 1;
+    s.tasks[0] = {serves, s.id, static_cast<std::uint16_t>(65530 + *rc::gen::inRange(0, 20)), 0, {3.0F, 0.0F}};
+  }
+  std::array<ConvoyMessage, 2> said{pair[0].step().message, pair[1].step().message};
+  for (int tick = 0; tick < 60; ++tick) {
+    std::array<ConvoyMessage, 2> next;
+    for (int i : {0, 1}) {
+      pair[i].put(static_cast<RobotId>(2 - i), {1.0F, 0.0F}) = said[1 - i];
+      next[i] = pair[i].step().message;
+    }
+    said = next;
+  }
+  const bool second_first = serves == 2;
+  RC_ASSERT(pair[0].state.is_worker == !second_first);
+  RC_ASSERT(pair[1].state.is_worker == second_first);
+}
+
+}  // namespace
+}  // namespace banyan

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// What a robot that heals makes of its orders: sent, called back, given up, resigned, taken over.
+#include "banyan/controller/healing/tick.hpp"
+
+#include <gtest/gtest.h>
+
+#include "watch.hpp"
+
+namespace banyan {
+namespace {
+
+RobotId serves(const ConvoyBench& bench) { return healing_report(bench.state).serves; }
+
+TEST(Orders, WhoIsSentServesItsTarget) {
+  ConvoyBench bench = grown<Convoy>();
+  EXPECT_EQ(serves(bench), nobody);
+  bench.send({3.0F, 4.0F});
+  const auto m = bench.step().message;
+  EXPECT_EQ(m.role, Role::worker);
+  EXPECT_EQ(m.serves, 1);
+  EXPECT_EQ(m.want_cm, 500);
+  EXPECT_EQ(serves(bench), 1);
+}
+
+TEST(Orders, WhoIsCalledBackIsNoWorkerAnyMore) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.send({3.0F, 4.0F});
+  bench.steps(3);
+  bench.call_back();
+  const auto m = bench.step().message;
+  EXPECT_NE(m.role, Role::worker);
+  EXPECT_EQ(m.serves, nobody);
+  EXPECT_EQ(m.want_cm, 0);
+  EXPECT_EQ(serves(bench), nobody);
+}
+
+TEST(Orders, ATargetIsCarriedAlongWhileItIsNotSensed) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.send({3.0F, 4.0F});
+  bench.step();
+  bench.orders.target.reset();
+  for (int k = 0; k < 10; ++k) bench.step({.forward_m = 0.1F});
+  EXPECT_EQ(bench.step().message.want_cm, static_cast<int>(100.0 * std::hypot(2.0, 4.0) + 0.5));
+  const auto m = bench.step({.turn_rad = 1.5F}).message;
+  EXPECT_EQ(m.want_cm, static_cast<int>(100.0 * std::hypot(2.0, 4.0) + 0.5)) << "a turn leads no nearer";
+  bench.call_back();
+  bench.step();
+  bench.orders.sent = true;
+  bench.step();
+  EXPECT_FALSE(bench.state.target_known) << "another target, perhaps";
+}
+
+TEST(Orders, ATargetThatIsGivenUpHasNoWorkerUntilSomebodyIsSentAgain) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.send({3.0F, 4.0F});
+  bench.steps(3);
+  bench.orders = {.sent = false, .target = std::nullopt, .given_up = 1};
+  const auto m = bench.step().message;
+  EXPECT_EQ(serves(bench), nobody);
+  EXPECT_EQ(m.task_serves, 1);
+  EXPECT_EQ(m.task_holder, nobody) << "and everybody is told";
+  bench.orders = {};
+  bench.steps(3);
+  bench.send({0.0F, 2.0F});
+  EXPECT_EQ(bench.step().message.want_cm, 200);
+  EXPECT_EQ(serves(bench), 1);
+}
+
+TEST(Orders, WhoIsSentElsewhereInTheSameTickGoesOnWithTheNewTarget) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.send({3.0F, 4.0F});
+  bench.steps(3);
+  bench.send({0.0F, 2.0F});
+  bench.orders.given_up = 1;
+  EXPECT_EQ(bench.step().message.want_cm, 200);
+  EXPECT_EQ(serves(bench), 1);
+}
+
+// Robot 50 was sent first, and is back.
+TEST(Orders, WhoHasResignedStaysSoUntilItIsCalledBackAndSentAgain) {
+  Watch watch;
+  ConvoyBench& bench = watch.bench;
+  bench.send({3.0F, 0.0F});
+  watch.hear_root(3);
+  auto& rival = bench.put(50, {1.0F, 0.5F});
+  rival.task_serves = 1;
+  rival.task_holder = 0;  // smaller than mine, but not the first: I stay
+  rival.task_beat = 100;
+  watch.hear_root(2);
+  EXPECT_EQ(serves(bench), 1);
+  bench.state.serves = 50;  // as a successor I yield to the worker first sent there
+  bench.state.tasks[0].serves = 50;
+  rival.task_serves = 50;
+  rival.task_holder = 50;
+  rival.task_beat = static_cast<Serial>(bench.state.tasks[0].beat + 5);
+  watch.hear_root(2);
+  EXPECT_EQ(serves(bench), nobody);
+  watch.hear_root(20);
+  EXPECT_EQ(serves(bench), nobody) << "still sent, but that is no news";
+  bench.call_back();
+  watch.hear_root(1);
+  bench.send({0.0F, 2.0F});
+  watch.hear_root(1);
+  EXPECT_EQ(serves(bench), 1);
+}
+
+// A successor of worker 50 that nobody has sent anywhere.
+struct Successor : Watch {
+  Successor() {
+    hear_root(2);
+    for (std::uint16_t beat = 10; beat < 15; ++beat) {
+      tell_of_target(20, {1.0F, 0.0F}, {2.0F, 1.0F}, 50, beat);
+      hear_root(1);
+    }
+    hear_root(120);
+  }
+};
+
+TEST(Orders, ATakenOverTargetIsServedWithoutAnyOrder) {
+  Successor successor;
+  ASSERT_EQ(serves(successor.bench), 50);
+  successor.hear_root(20);
+  EXPECT_EQ(serves(successor.bench), 50);
+}
+
+TEST(Orders, ASuccessorStopsWhenItsTargetIsGivenUp) {
+  Successor successor;
+  successor.bench.orders.given_up = 49;
+  successor.hear_root(1);
+  EXPECT_EQ(serves(successor.bench), 50) << "another's";
+  successor.bench.orders.given_up = 50;
+  successor.hear_root(1);
+  EXPECT_EQ(serves(successor.bench), nobody);
+  successor.bench.orders = {};
+  successor.hear_root(150);
+  EXPECT_EQ(serves(successor.bench), nobody) << "nor does it take it over again";
+}
+
+TEST(Orders, ASuccessorThatIsSentItselfServesItsOwn) {
+  Successor successor;
+  successor.bench.send({-2.0F, 0.0F});
+  successor.hear_root(1);
+  EXPECT_EQ(serves(successor.bench), 1);
+  EXPECT_NEAR(successor.bench.state.want_m, 2.0F, 0.01F);
+}
+
+}  // namespace
+}  // namespace banyan

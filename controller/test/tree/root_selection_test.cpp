@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The root token moves from neighbour to neighbour towards the centroid.
+#include "banyan/controller/tree/root_selection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+// A root with its centroid at x = 2, and neighbour 5 on the way there.
+Bench handing_over() {
+  Bench bench = grown();
+  bench.state.root = {1, 1};
+  bench.state.role = Role::root;
+  bench.state.phase = Phase::select_root;
+  bench.state.centroid = {2, 0};
+  bench.state.centroid_known = true;
+  bench.put(5, {1.0F, 0});
+  return bench;
+}
+
+TEST(RootSelection, OffersTheTokenToTheNeighborNearestToTheCentroid) {
+  Bench bench = handing_over();
+  bench.put(6, {0.5F, 0});
+  bench.put(7, {1.9F, 0}).role = Role::worker;
+  const auto m = bench.step().message;
+  EXPECT_EQ(m.new_root, 5);
+  EXPECT_EQ(m.centroid_x_cm, 100) << "from the addressee, along the edge";
+  EXPECT_EQ(m.centroid_y_cm, 0);
+  EXPECT_EQ(bench.steps(5).message.new_root, 5) << "until it is acknowledged";
+}
+
+TEST(RootSelection, WhoIsOfferedTheTokenTakesItOnce) {
+  Bench bench = grown();
+  bench.state.phase = Phase::select_root;
+  bench.state.parent = 9;
+  bench.state.role = Role::connector;
+  auto& m = bench.put(9, {-1.0F, 0});
+  m.root = {4, 9};
+  m.new_root = 1;
+  m.centroid_x_cm = 100;
+  bench.step();
+  EXPECT_EQ(bench.state.root, (RootToken{5, 1}));
+  EXPECT_EQ(bench.state.role, Role::root);
+  EXPECT_EQ(bench.state.parent, nobody);
+  EXPECT_EQ(bench.state.old_parent, 9) << "the edge stays an edge of the tree";
+  EXPECT_EQ(bench.state.tally.handovers, 1U);
+  EXPECT_NEAR(bench.state.centroid.x, 1.0F, 1e-5F);
+  bench.step();
+  EXPECT_EQ(bench.state.tally.handovers, 1U) << "a repeated offer is no news";
+
+  Bench worker = grown();
+  worker.send({1.0F, 0});
+  worker.put(9, {-1.0F, 0}) = m;
+  worker.step();
+  EXPECT_NE(worker.state.root.id, 1) << "a worker never takes it";
+}
+
+TEST(RootSelection, TheHeirsGossipEndsTheOldRoot) {
+  Bench bench = handing_over();
+  bench.step();
+  bench.say(5).root = {2, 5};
+  bench.step();
+  EXPECT_EQ(bench.state.root, (RootToken{2, 5}));
+  EXPECT_NE(bench.state.role, Role::root);
+  EXPECT_EQ(bench.state.new_root, nobody);
+}
+
+TEST(RootSelection, AnUnansweredOfferIsTakenBackWithALargerToken) {
+  Bench bench = handing_over();
+  bench.steps(bench.params.ticks(bench.params.handover_timeout_s) + 1);
+  EXPECT_EQ(bench.state.root, (RootToken{1, 1}));
+  bench.step();
+  EXPECT_EQ(bench.state.root, (RootToken{3, 1}));
+  EXPECT_EQ(bench.state.epoch, 2);
+  EXPECT_TRUE(newer(bench.state.root, {2, 5})) << "beats an acceptance that was never heard";
+}
+
+TEST(RootSelection, WithoutABetterNeighborTheNextEpochOpens) {
+  Bench bench = handing_over();
+  bench.state.centroid = {0.52F, 0};  // the neighbour is nearer by less than 5 cm
+  bench.step();
+  EXPECT_EQ(bench.state.epoch, 2);
+  EXPECT_EQ(bench.state.phase, Phase::start_tree);
+  EXPECT_EQ(bench.state.root, (RootToken{1, 1}));
+}
+
+}  // namespace
+}  // namespace banyan
