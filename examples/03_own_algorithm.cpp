@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An algorithm of your own: what a robot says, what it remembers, and what it does in one tick. These
-// robots drive away from whoever is nearer than a metre. A World runs them like any other.
+// robots drive away from all that are nearer than a metre. A World runs them like any other.
 #include <algorithm>
 #include <cstdio>
 
@@ -15,9 +15,7 @@ struct Hello {  // what is broadcast; list all fields below, and they travel, ar
   RobotId id = nobody;
 };
 template <class Visitor, class Message>
-constexpr void visit_fields(Visitor& visit, Message& m) noexcept {
-  visit.robot("id", "of the sender", m.id);
-}
+constexpr void visit_fields(Visitor& visit, Message& m) noexcept { visit.robot("id", "of the sender", m.id); }
 
 struct Spread {
   using Params = Platform;  // what every algorithm is told: range of the radio, tick, wheels
@@ -27,12 +25,10 @@ struct Spread {
 
   static State initial(RobotId id, bool, bool) { return {id}; }
   static Output<Hello> step(const Params&, State& self, std::span<Heard> heard, const Senses&) {
-    Output<Hello> output{{self.id}, {}};
-    const auto nearest = std::min_element(heard.begin(), heard.end(), [](auto& a, auto& b) { return norm(a.position) < norm(b.position); });
-    if (nearest == heard.end() || norm(nearest->position) >= 1.0F) return output;
-    output.velocity.forward_m_s = nearest->position.x > 0.0F ? -0.1F : 0.1F;
-    output.velocity.turn_rad_s = nearest->position.x * nearest->position.y > 0.0F ? 0.5F : -0.5F;
-    return output;
+    Vec2 away;
+    for (const Heard& h : heard)
+      if (const float d = norm(h.position); d < 1.0F && d > 0.0F) away -= h.position * ((1.0F - d) / d);
+    return {{self.id}, {std::clamp(away.x, 0.0F, 0.1F), 0.0F, std::clamp(4.0F * away.y, -1.0F, 1.0F)}};
   }
   static Report report(const State&) { return {}; }  // what observers see: here neither roles nor parents
   static void add_to(Digest& digest, const State& self) { digest.add(self.id); }
@@ -40,7 +36,7 @@ struct Spread {
 
 class SpreadAlgorithm final : public Algorithm {
   std::string_view name() const noexcept override { return "spread"; }
-  std::string_view summary() const noexcept override { return "keeps a metre away from the nearest robot"; }
+  std::string_view summary() const noexcept override { return "keeps a metre away from other robots"; }
   std::vector<const ParameterInfo*> parameters() const override { return {}; }
   std::vector<float> values(const Setup&) const override { return {}; }
   std::string fault(const Setup&) const override { return {}; }
@@ -52,8 +48,13 @@ class SpreadAlgorithm final : public Algorithm {
 int main() {
   const SpreadAlgorithm spread;
   world::World world(world::Scenario{}, spread);
-  world.step();
-  std::printf("%zu robots, the first with %zu neighbours", world.size(), world.links(0).size());
+  const auto nearest_m = [&] {
+    double least = 1e9;
+    for (const auto& a : world.positions())
+      for (const auto& b : world.positions()) least = &a == &b ? least : std::min(least, distance(a, b));
+    return least;
+  };
+  std::printf("%zu robots, the two nearest %.2f m apart", world.size(), nearest_m());
   while (world.time_s() < 60.0) world.step();
-  std::printf(", after a minute with %zu\n", world.links(0).size());
+  std::printf(", after a minute %.2f m\n", nearest_m());
 }
