@@ -79,6 +79,8 @@ struct Claim {
   double factor = 1.0;   // from the code's unit to the page's
 };
 
+void PrintTo(const Claim& claim, std::ostream* out) { *out << claim.page << ' ' << claim.constant; }
+
 // A page may say a number in several places; it must say it in one at least.
 class Constants : public testing::TestWithParam<Claim> {};
 

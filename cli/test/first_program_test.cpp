@@ -19,7 +19,7 @@ std::set<std::string> commands_of(const std::string& help) {
   std::istringstream lines(help.substr(help.find("Commands:")));
   const std::regex command("^  ([a-z]+) +[a-z].*");
   std::smatch match;
-  for (std::string line; std::getline(lines, line);)
+  for (std::string line; std::getline(lines, line) && !line.empty();)
     if (std::regex_match(line, match, command)) names.insert(match[1]);
   return names;
 }

@@ -110,7 +110,7 @@ class BenchOf {
     listen();
     const Admitted admitted(senses(odometry), heard_, params, state.tally);
     Robot robot = Kind::robot(params, state, admitted);
-    update_table(robot, Carry(odometry), typename Kind::Columns{state});
+    update_table(robot, typename Kind::Columns{state});
     follow_orders(robot, orders);
     index_neighbors(robot);
     return robot;

@@ -35,7 +35,7 @@ class Table : public Neighbors {
   };
   void update(const std::vector<Packet>& packets, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) {
     Columns columns{*this, keep};
-    begin(carry, 1);
+    begin(1);
     for (const Packet& p : packets) file(p.id, p.position, columns.must_stay(p.id, p.said), p.said, columns);
     end(carry, liveness_ticks, keep, columns);
   }

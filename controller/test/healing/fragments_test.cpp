@@ -35,7 +35,7 @@ TEST(Election, TheLesserOfTwoRootsSteps) {
 }
 
 // A root with its centroid at x = 2, and neighbour 5 on the way there.
-Bench handing_over() {
+Bench root_about_to_hand_over() {
   Bench bench = grown();
   bench.state.root = {1, 1};
   bench.state.role = Role::root;
@@ -47,7 +47,7 @@ Bench handing_over() {
 }
 
 TEST(RootSelection, TheLargerFragmentKeepsItsRoot) {
-  Bench bench = handing_over();
+  Bench bench = root_about_to_hand_over();
   bench.state.phase = Phase::grow_tree;
   bench.state.root_size = 20;
   bench.say(5).root = {7, 30};
@@ -62,7 +62,7 @@ TEST(RootSelection, TheLargerFragmentKeepsItsRoot) {
 }
 
 TEST(RootSelection, NobodyContestsItsOwnHandOver) {
-  Bench bench = handing_over();
+  Bench bench = root_about_to_hand_over();
   bench.state.root_size = 20;
   EXPECT_EQ(bench.step().message.root_size, 20);
   bench.say(5).root = {2, 5};

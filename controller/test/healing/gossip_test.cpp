@@ -34,22 +34,22 @@ RC_GTEST_PROP(Gossip, APointArrivesWhereItIs, ()) {
   const Vec2 heading = rotate(reader_heading, {std::cos(odometry.turn_rad), std::sin(odometry.turn_rad)});
   const Vec2 sender_moved = sender + Vec2{0.02F, -0.01F};
   bench.move(5, rotate_back(heading, sender_moved - reader));
-  bench.tick(odometry);
+  const ConvoyRobot robot = bench.tick(odometry);
 
   Vec2 read;
   const auto cm = [](float x) { return static_cast<std::int16_t>(std::lround(x * 100.0F)); };
-  RC_ASSERT(bench.state.neighbors.read_point(bench.state.neighbors.find(5), cm(v.x), cm(v.y), read));
+  RC_ASSERT(robot.read_point(robot.heard[0], cm(v.x), cm(v.y), read));
   RC_ASSERT(distance(read, rotate_back(heading, point - reader)) < 0.012F);
 }
 
 TEST(Gossip, NoPointFromWhomIHaveNotHeardTheTickBefore) {
   ConvoyBench bench = grown<Convoy>();
   bench.put(5, {1.0F, 0.0F});
-  bench.tick();
   Vec2 point;
-  EXPECT_FALSE(bench.state.neighbors.read_point(0, 100, 0, point));
-  bench.tick();
-  EXPECT_TRUE(bench.state.neighbors.read_point(0, 100, 0, point));
+  const ConvoyRobot first = bench.tick();
+  EXPECT_FALSE(first.read_point(first.heard[0], 100, 0, point));
+  const ConvoyRobot second = bench.tick();
+  EXPECT_TRUE(second.read_point(second.heard[0], 100, 0, point));
 }
 
 TEST(Gossip, EveryPairOfNeighbourAndTargetHasItsTurn) {

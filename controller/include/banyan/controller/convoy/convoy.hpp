@@ -4,6 +4,7 @@
 #pragma once
 
 #include "banyan/controller/convoy/params.hpp"
+#include "banyan/controller/convoy/robot.hpp"
 #include "banyan/controller/convoy/state.hpp"
 #include "banyan/controller/core/digest.hpp"
 #include "banyan/controller/core/output.hpp"
