@@ -30,6 +30,21 @@ TEST(Heartbeat, CountsGoRound) {
   EXPECT_EQ(watch.bench.state.heartbeat, static_cast<std::uint16_t>(watch.count - 1));
 }
 
+// Its count has gone half round meanwhile, and is behind the one I know.
+TEST(Heartbeat, IsBelievedAgainAfterMoreThanHalfTheRangeOfSilence) {
+  for (const int silence : {serial_half_range - 10, serial_half_range + 10}) {
+    Watch watch;
+    watch.hear_root(5);
+    watch.bench.params.claim_radius = 0.01F;  // or it would take the root's place
+    watch.bench.silence(root_id);
+    watch.bench.steps(silence);
+    watch.count = static_cast<std::uint16_t>(watch.count + 40000);
+    watch.bench.put(root_id, {0.5F, 0.0F}).root = {1, root_id};
+    watch.hear_root(1);
+    EXPECT_EQ(watch.bench.state.silence_ticks == 0, silence > serial_half_range);
+  }
+}
+
 TEST(Heartbeat, TheRootItselfBeats) {
   ConvoyBench bench;
   bench.state = initial_convoy_state(1, false, true);

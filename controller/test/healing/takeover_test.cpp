@@ -48,6 +48,22 @@ TEST(Takeover, OfASilentWorkersTargetTheMeanIsRemembered) {
   EXPECT_LT(watch.bench.state.tasks[0].target.x, 2.5F);
 }
 
+TEST(Takeover, AWorkerIsBelievedAgainAfterMoreThanHalfTheRangeOfSilence) {
+  for (const int silence : {serial_half_range - 10, serial_half_range + 10}) {
+    Watch watch;
+    watch.hear_root(2);
+    watch.bench.params.succession_after_s = 1e5F;
+    watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, 50, 10);
+    watch.hear_root(2);
+    Task& task = watch.bench.state.tasks[0];
+    ASSERT_EQ(task.beat, 10);
+    task.age_ticks = static_cast<std::uint16_t>(silence);
+    watch.bench.say(20).task_beat = 10 + 40000;
+    watch.hear_root(1);
+    EXPECT_EQ(task.age_ticks == 0, silence > serial_half_range);
+  }
+}
+
 TEST(Takeover, WhoBeatsIsNotReplaced) {
   Watch watch;
   watch.hear_root(2);

@@ -40,7 +40,21 @@ RC_GTEST_PROP(Interaction, IsThePapersFormulaInCentimeters, ()) {
   RC_ASSERT(std::fabs(static_cast<double>(interaction(d_m, p)) - expected) <= 1e-4 * std::fabs(expected) + 1e-5);
 }
 
-TEST(Interaction, IsFiniteOnTheSameSpot) { EXPECT_TRUE(std::isfinite(std::clamp(interaction(0.0F, TreeParams{}), -1.0F, 1.0F))); }
+TEST(Interaction, IsFiniteOnTheSameSpot) {
+  for (const float d_m : {0.0F, 1e-30F, 1e-23F, 1e-19F, 1e-10F, 1e-6F, 1.1e-6F, 1e-5F}) {
+    EXPECT_EQ(std::clamp(interaction(d_m, TreeParams{}), -1.0F, 1.0F), -1.0F) << d_m;
+  }
+}
+
+TEST(Avoidance, IsFiniteOnTheSameSpot) {
+  for (const float d_m : {0.0F, 1e-30F, 1e-23F, 1e-19F, 1e-10F, 1e-6F, 1.1e-6F, 1e-5F}) {
+    Bench bench = grown();
+    bench.put(5, {0.0F, d_m});
+    bench.obstacles = {{d_m, 0.0F}};
+    const Vec2 u = avoidance(bench.tick());
+    EXPECT_TRUE(std::isfinite(u.x) && std::isfinite(u.y)) << d_m;
+  }
+}
 
 // ---- f ----
 
