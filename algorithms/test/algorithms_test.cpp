@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Algorithms as a host meets them: by name, with a table of parameters, defaults and faults.
+#include "banyan/algorithms/algorithms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+namespace banyan {
+namespace {
+
+float value_of(const Algorithm& algorithm, const Setup& setup, std::string_view key) {
+  const auto rows = algorithm.parameters();
+  const auto values = algorithm.values(setup);
+  EXPECT_EQ(rows.size(), values.size());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (rows[k]->key == key) return values[k];
+  ADD_FAILURE() << key;
+  return 0.0F;
+}
+
+TEST(Algorithms, AreFoundByName) {
+  EXPECT_EQ(algorithms().front(), &outwards()) << "what a scenario runs that names none";
+  for (const Algorithm* algorithm : algorithms()) {
+    EXPECT_EQ(find_algorithm(algorithm->name()), algorithm);
+    EXPECT_FALSE(algorithm->summary().empty());
+    EXPECT_EQ(algorithm->fault({}), "");
+  }
+  EXPECT_EQ(find_algorithm("sideways"), nullptr);
+}
+
+TEST(Algorithms, TheTableHasEveryKeyOnce) {
+  std::set<std::string_view> keys;
+  for (const ParameterInfo& row : parameter_table()) EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+  for (const Algorithm* algorithm : algorithms())
+    for (const ParameterInfo* row : algorithm->parameters()) EXPECT_EQ(keys.count(row->key), 1U) << row->key;
+}
+
+TEST(Algorithms, EveryParameterIsCheckedAgainstItsRange) {
+  for (const Algorithm* algorithm : algorithms()) {
+    const auto rows = algorithm->parameters();
+    const auto defaults = algorithm->values({});
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const ParameterInfo& row = *rows[k];
+      EXPECT_GE(defaults[k], row.minimum) << row.key;
+      EXPECT_LE(defaults[k], row.maximum) << row.key;
+      for (const float bad : {row.minimum - 1.0F, row.maximum * 2.0F, std::numeric_limits<float>::quiet_NaN()}) {
+        banyan::Setup setup;
+        setup.parameters = {{std::string(row.key), static_cast<double>(bad)}};
+        EXPECT_NE(algorithm->fault(setup), "") << row.key << " = " << bad;
+      }
+    }
+  }
+}
+
+TEST(Algorithms, ValuesOfTheSetupCountAndUnknownKeysDoNot) {
+  banyan::Setup setup;
+  setup.parameters = {{"target_gain", 0.25}, {"nonsense", 7.0}};
+  setup.arrival_distance_m = 0.3;
+  for (const Algorithm* algorithm : algorithms()) {
+    EXPECT_EQ(value_of(*algorithm, setup, "target_gain"), 0.25F);
+    EXPECT_EQ(value_of(*algorithm, setup, "arrival_distance_m"), 0.3F);
+    EXPECT_EQ(algorithm->fault(setup), "");
+  }
+}
+
+TEST(Algorithms, TableIsLengthsAreAbsoluteAndConvoysGrowWithTheRadio) {
+  banyan::Setup wide;
+  wide.platform.communication_range_m = 4.0F;
+  EXPECT_FLOAT_EQ(value_of(outwards(), wide, "ideal_distance_m"), 1.90F);
+  EXPECT_FLOAT_EQ(value_of(inwards(), wide, "ideal_distance_m"), 1.540841F);
+  EXPECT_FLOAT_EQ(value_of(convoy(), wide, "ideal_distance_m"), 3.80F);
+  EXPECT_FLOAT_EQ(value_of(convoy(), wide, "communication_range_m"), 4.0F);
+}
+
+TEST(Algorithms, TheScaleOfAMissionActsOnTheLengthsOfTableI) {
+  banyan::Setup half;
+  half.scale = 0.5;
+  EXPECT_FLOAT_EQ(value_of(outwards(), half, "ideal_distance_m"), 0.95F);
+  EXPECT_FLOAT_EQ(value_of(outwards(), half, "insertion_distance_m"), 0.04895F);
+  EXPECT_FLOAT_EQ(value_of(outwards(), half, "parent_margin_m"), 0.02F) << "no row of Table I";
+  EXPECT_FLOAT_EQ(value_of(outwards(), half, "target_gain"), 0.49F) << "no length";
+}
+
+TEST(Algorithms, DistancesOutOfOrderAreAFault) {
+  banyan::Setup setup;
+  setup.parameters = {{"safe_range_m", 1.95}};
+  for (const Algorithm* algorithm : {&outwards(), &inwards()}) EXPECT_NE(algorithm->fault(setup).find("safe_range_m"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace banyan
