@@ -28,7 +28,6 @@ struct LiteralKind {
   static Params defaults() { return defaults_function(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
   static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, literal_reading, state, admitted}; }
-  using Columns = TreeColumns;
   static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_function(params, state, heard, senses); }
 };
 
@@ -41,7 +40,6 @@ struct CorrectedKind {
   static Params defaults() { return defaults_function(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_healing_state(id, worker, root); }
   static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, state, admitted}; }
-  using Columns = HealingColumns;
   static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_function(params, state, heard, senses); }
 };
 
@@ -53,7 +51,6 @@ struct Convoy {
   static Params defaults() { return convoy_defaults(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_convoy_state(id, worker, root); }
   static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, state, admitted}; }
-  using Columns = ConvoyColumns;
   static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return convoy_step(params, state, heard, senses); }
 };
 
@@ -110,8 +107,7 @@ class BenchOf {
     listen();
     const Admitted admitted(senses(odometry), heard_, params, state.tally);
     Robot robot = Kind::robot(params, state, admitted);
-    update_table(robot, typename Kind::Columns{state});
-    follow_orders(robot, orders);
+    begin_tick(robot, admitted);
     index_neighbors(robot);
     return robot;
   }

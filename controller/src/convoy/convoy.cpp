@@ -109,12 +109,6 @@ void carry_memory(ConvoyState& self, const Carry& carry) noexcept {
   carry_corners(self.corners, carry);
 }
 
-void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
-  carry_memory(robot.self, robot.carry);
-  update_table(robot, ConvoyColumns(robot.self));
-  follow_orders(robot, admitted.senses().orders);
-}
-
 void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
   const ConvoyState& self = robot.self;
   const int spoken_of = write_healing(robot, m);
@@ -151,6 +145,25 @@ ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept {
   ConvoyState state;
   static_cast<HealingState&>(state) = initial_healing_state(id, worker, root);
   return state;
+}
+
+void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
+  carry_memory(robot.self, robot.carry);
+  ConvoyState& self = robot.self;
+  const auto write = [&](int k, const TreeMessage& heard) {
+    const auto n = static_cast<std::size_t>(k);
+    const ConvoyMessage& m = convoy_message(heard);
+    self.healing_standings[n] = static_cast<const HealingStanding&>(m);
+    self.corners.standings[n] = static_cast<const CornerStanding&>(m);
+    self.convoy_standings[n] = static_cast<const ConvoyStanding&>(m);
+  };
+  const auto close = [&](int k, int size) {
+    close_gap(self.healing_standings, k, size);
+    close_gap(self.corners.standings, k, size);
+    close_gap(self.convoy_standings, k, size);
+  };
+  update_table(robot, write, close);
+  follow_orders(robot, admitted.senses().orders);
 }
 
 Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard, const Senses& senses) noexcept {

@@ -61,10 +61,44 @@ void Neighbors::begin(int elapsed_ticks) noexcept {
   expected_ = static_cast<std::int16_t>(expected);
 }
 
+int Neighbors::file(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties, Vec2& before) noexcept {
+  int k = find_next(id);
+  if (k >= 0) {
+    if (ages_[k] == elapsed_ticks_) before = positions_[k];
+  } else {
+    k = size_ < neighbor_capacity ? size_++ : evict(position, must, ties);
+    if (k < 0) return k;
+    enter(k, id);
+  }
+  positions_[k] = position;
+  ranges_m_[k] = norm(position);
+  ages_[k] = 0;
+  return k;
+}
+
+int Neighbors::evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept {
+  int farthest = -1;
+  for (int j = 0; j < size_; ++j)
+    if (!ties(j) && (farthest < 0 || range(j) > range(farthest))) farthest = j;
+  if (farthest < 0 || (!must && norm(position) >= range(farthest))) return -1;
+  leave(farthest);
+  return farthest;
+}
+
 // Only the silent are dead-reckoned: who was heard just now has a fresh position.
-void Neighbors::reckon(int k, const Carry& carry) noexcept {
-  positions_[k] = carry.point(positions_[k]);
-  ranges_m_[k] = norm(positions_[k]);
+int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) noexcept {
+  liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
+  for (int k = from; k < size_; ++k) {
+    if (ages_[k] == 0) continue;
+    if (ages_[k] == elapsed_ticks_) ++missed_;  // it was heard in the tick before
+    if (ages_[k] > liveness_ticks_ && ids_[k] != keep[0] && ids_[k] != keep[1]) {
+      remove(k);
+      return k;
+    }
+    positions_[k] = carry.point(positions_[k]);
+    ranges_m_[k] = norm(positions_[k]);
+  }
+  return -1;
 }
 
 // Order is kept: entries stand in the order in which they were first heard.

@@ -4,25 +4,23 @@
 namespace banyan {
 namespace {
 
-using P = HealingParams;
-
-constexpr Parameter<P> of_healing[] = {
+constexpr Parameter<HealingParams> of_healing[] = {
     {{"healing", "", "", "1: the living take the place of the dead (corrected); 0: nobody does",
-      "0 to see what the algorithm does alone.", "protocol 12", 0.0F, 1.0F}, &P::healing},
+      "0 to see what the algorithm does alone.", "protocol 12", 0.0F, 1.0F}, &HealingParams::healing},
     {{"claim_radius", "", "C", "healing: who is this near to where the root fell silent may become root",
-      "Larger finds an heir in a thin crowd; too large, and two may claim at once.", "protocol 12", 0.01F, 10.0F, Scaling::range}, &P::claim_radius},
+      "Larger finds an heir in a thin crowd; too large, and two may claim at once.", "protocol 12", 0.01F, 10.0F, Scaling::range}, &HealingParams::claim_radius},
     {{"claim_after_s", "", "s", "healing: silence of the root, beyond 2 I, before it is replaced",
-      "Longer where the radio falls silent now and then.", "protocol 12", 0.0F, 600.0F}, &P::claim_after_s},
+      "Longer where the radio falls silent now and then.", "protocol 12", 0.0F, 600.0F}, &HealingParams::claim_after_s},
     {{"claim_spread_s_m", "", "s/m", "healing: and so much longer per metre from where the root was",
-      "More than a message takes to come that far, so that the first claim is heard.", "protocol 12", 0.0F, 100.0F}, &P::claim_spread_s_m},
+      "More than a message takes to come that far, so that the first claim is heard.", "protocol 12", 0.0F, 100.0F}, &HealingParams::claim_spread_s_m},
     {{"retreat_after_s", "", "s", "healing: silence of the root before all drive to where it was",
-      "More than an election takes.", "protocol 12", 0.5F, 600.0F}, &P::retreat_after_s},
+      "More than an election takes.", "protocol 12", 0.5F, 600.0F}, &HealingParams::retreat_after_s},
     {{"succession_after_s", "", "s", "healing: silence of a worker, beyond 2 I, before it is replaced",
-      "More than its count takes to spread; longer where the radio falls silent now and then.", "protocol 12", 0.0F, 600.0F}, &P::succession_after_s},
+      "More than its count takes to spread; longer where the radio falls silent now and then.", "protocol 12", 0.0F, 600.0F}, &HealingParams::succession_after_s},
     {{"succession_spread_s_m", "", "s/m", "healing: and so much longer per metre from its target",
-      "So that the nearest spare goes.", "protocol 12", 0.0F, 100.0F}, &P::succession_spread_s_m},
+      "So that the nearest spare goes.", "protocol 12", 0.0F, 100.0F}, &HealingParams::succession_spread_s_m},
     {{"largest_loss", "", "", "healing: I grows with the share of packets lost, up to this share",
-      "Lower it to notice deaths sooner on a radio that loses much.", "protocol 12", 0.0F, 0.99F}, &P::largest_loss},
+      "Lower it to notice deaths sooner on a radio that loses much.", "protocol 12", 0.0F, 0.99F}, &HealingParams::largest_loss},
 };
 
 }  // namespace

@@ -56,8 +56,31 @@ Admitted::Admitted(const Senses& sensed, std::span<Heard> heard, const Platform&
 
 void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
-  update_table(robot, TreeColumns{robot.self});
+  update_table(robot, [](int, const TreeMessage&) {}, [](int, int) {});
   follow_orders(robot, admitted.senses().orders);
+}
+
+void update_table(TreeRobot& robot, FunctionRef<void(int, const TreeMessage&)> write, FunctionRef<void(int, int)> close) noexcept {
+  TreeState& self = robot.self;
+  TreeTable& table = self.neighbors;
+  const std::array<RobotId, 2> keep{self.parent, self.old_parent};
+  const auto ties = [&](const TreeStanding& m) {
+    return m.id == keep[0] || m.id == keep[1] || m.parent == self.id || m.old_parent == self.id;
+  };
+  table.begin(robot.elapsed_ticks);
+  for (Heard& h : robot.heard) {
+    const TreeMessage& m = *h.message;
+    if (m.id == self.id || m.id == nobody) continue;
+    h.before = {};
+    const int k = table.file(m.id, h.position, ties(m), [&](int j) { return ties(table.message(j)); }, h.before);
+    if (k < 0) continue;
+    table.standings[static_cast<std::size_t>(k)] = static_cast<const TreeStanding&>(m);
+    write(k, m);
+  }
+  for (int k = 0; (k = table.remove_next(k, robot.carry, robot.liveness_ticks(), keep)) >= 0;) {
+    close_gap(table.standings, k, table.size() + 1);
+    close(k, table.size() + 1);
+  }
 }
 
 void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {

@@ -34,22 +34,20 @@ class Table : public Neighbors {
     Said said;
   };
   void update(const std::vector<Packet>& packets, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) {
-    Columns columns{*this, keep};
+    const auto must_stay = [&](RobotId id, const Said& said) {
+      return id == keep[0] || id == keep[1] || said.parent == me || said.old_parent == me;
+    };
     begin(1);
-    for (const Packet& p : packets) file(p.id, p.position, columns.must_stay(p.id, p.said), p.said, columns);
-    end(carry, liveness_ticks, keep, columns);
+    for (const Packet& p : packets) {
+      Vec2 before;
+      const int k = file(p.id, p.position, must_stay(p.id, p.said), [&](int j) { return must_stay(id(j), said(j)); }, before);
+      if (k >= 0) said_[static_cast<std::size_t>(k)] = p.said;
+    }
+    for (int k = 0; (k = remove_next(k, carry, liveness_ticks, keep)) >= 0;) close_gap(said_, k, size() + 1);
   }
   [[nodiscard]] const Said& said(int k) const { return said_[static_cast<std::size_t>(k)]; }
 
  private:
-  struct Columns {
-    Table& table;
-    std::array<RobotId, 2> keep;
-    [[nodiscard]] bool must_stay(RobotId id, const Said& said) const { return id == keep[0] || id == keep[1] || said.parent == me || said.old_parent == me; }
-    [[nodiscard]] bool ties(int k) const { return must_stay(table.id(k), table.said(k)); }
-    void write(int k, const Said& said) { table.said_[static_cast<std::size_t>(k)] = said; }
-    void close(int k, int size) { close_gap(table.said_, k, size); }
-  };
   std::array<Said, neighbor_capacity> said_{};
 };
 

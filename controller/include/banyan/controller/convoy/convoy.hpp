@@ -21,23 +21,8 @@ namespace banyan {
 [[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard,
                                                 const Senses& senses) noexcept;
 
-// The arrays of convoy beside the neighbour table (Neighbors).
-struct ConvoyColumns : HealingColumns {
-  ConvoyState& state;
-
-  explicit ConvoyColumns(ConvoyState& state_) noexcept : HealingColumns(state_), state(state_) {}
-  void write(int k, const TreeMessage& m) noexcept {
-    const ConvoyMessage& message = convoy_message(m);
-    HealingColumns::write(k, m);
-    state.corners.standings[static_cast<std::size_t>(k)] = static_cast<const CornerStanding&>(message);
-    state.convoy_standings[static_cast<std::size_t>(k)] = static_cast<const ConvoyStanding&>(message);
-  }
-  void close(int k, int size) noexcept {
-    HealingColumns::close(k, size);
-    close_gap(state.corners.standings, k, size);
-    close_gap(state.convoy_standings, k, size);
-  }
-};
+// The begin of a tick (tree/tick.hpp): memory is carried, the table brought up to date, orders followed.
+void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept;
 
 void add_to(Digest& digest, const ConvoyState& state) noexcept;
 void add_to(Digest& digest, const ConvoyMessage& message) noexcept;

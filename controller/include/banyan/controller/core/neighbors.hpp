@@ -2,10 +2,7 @@
 // The neighbour table: who has been heard, when, and where it is relative to me (protocol 1). Nothing
 // here is known in any frame but the robot's own. What neighbours said is kept beside it, in one array
 // per block of their messages: an algorithm has the arrays that it uses, and keeps them in step with the
-// table through a `Columns` of
-//   write(k, packet)   entry k is new: keep the blocks of its message
-//   close(k, size)     entry k goes: those behind it, up to `size`, move up by one
-//   ties(k)            entry k must not be dropped for want of room
+// table by what file() and remove_next() return.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "banyan/controller/core/function_ref.hpp"
 #include "banyan/controller/core/inputs.hpp"
 
 namespace banyan {
@@ -33,43 +31,17 @@ constexpr void close_gap(std::array<T, neighbor_capacity>& array, int k, int siz
 
 class Neighbors {
  public:
-  // One tick: begin(), file() for each packet in any order (of several of one sender the last counts), end().
+  // One tick: begin(), file() for each packet in any order (of several of one sender the last counts), then
+  // remove_next() until there is nothing to remove.
   void begin(int elapsed_ticks) noexcept;
-  // `ties`: the sender must not be missed for want of room. When more robots are heard than the table holds,
-  // those that tie stay, and of the others the nearest. Returns where the sender was a tick ago, in the frame of
-  // then; zero if it was not heard then, or has been filed in this tick already.
-  template <class Columns, class Packet>
-  Vec2 file(RobotId id, Vec2 position, bool ties, const Packet& packet, Columns& columns) noexcept {
-    int k = find_next(id);
-    Vec2 before;
-    if (k >= 0) {
-      if (ages_[k] == elapsed_ticks_) before = positions_[k];
-    } else {
-      k = size_ < neighbor_capacity ? size_++ : evict(position, ties, columns);
-      if (k < 0) return before;
-      enter(k, id);
-    }
-    positions_[k] = position;
-    ranges_m_[k] = norm(position);
-    ages_[k] = 0;
-    columns.write(k, packet);
-    return before;
-  }
-  // Entries older than `liveness_ticks` go, except `keep`: neighbours whose silence matters.
-  template <class Columns>
-  void end(const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep, Columns& columns) noexcept {
-    liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
-    for (int k = 0; k < size_;) {
-      if (ages_[k] == elapsed_ticks_) ++missed_;  // it was heard in the tick before
-      if (ages_[k] > liveness_ticks && ids_[k] != keep[0] && ids_[k] != keep[1]) {
-        remove(k);
-        columns.close(k, size_ + 1);
-        continue;
-      }
-      if (ages_[k] > 0) reckon(k, carry);
-      ++k;
-    }
-  }
+  // Where the sender comes to stand; -1 if there is no room for it. When more robots are heard than the table
+  // holds, those that tie stay (`must`: the sender does; `ties(k)`: entry k does), and of the others the nearest.
+  // `before`: where it was a tick ago, in the frame of then; left alone if it was not heard then, or has been
+  // filed in this tick already.
+  int file(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties, Vec2& before) noexcept;
+  // From entry `from` on: removes the first that is older than `liveness_ticks` and none of `keep`, neighbours
+  // whose silence matters; those behind it move up by one. Where it was; -1 if there is none.
+  int remove_next(int from, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) noexcept;
 
   // About `entries` entries are needed soon.
   void prefetch(std::size_t entries) const noexcept;
@@ -92,17 +64,8 @@ class Neighbors {
   int find_next(RobotId id) noexcept;
   void enter(int k, RobotId id) noexcept;
   void leave(int k) noexcept;
-  template <class Columns>
-  int evict(Vec2 position, bool must, const Columns& columns) noexcept {
-    int farthest = -1;
-    for (int j = 0; j < size_; ++j)
-      if (!columns.ties(j) && (farthest < 0 || range(j) > range(farthest))) farthest = j;
-    if (farthest < 0 || (!must && norm(position) >= range(farthest))) return -1;
-    leave(farthest);
-    return farthest;
-  }
+  int evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
   void remove(int k) noexcept;
-  void reckon(int k, const Carry& carry) noexcept;
 
   template <class T>
   using Array = std::array<T, neighbor_capacity>;

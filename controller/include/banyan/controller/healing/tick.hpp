@@ -19,20 +19,6 @@ void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept;
 int write_healing(const HealingRobot& robot, HealingMessage& message) noexcept;
 [[nodiscard]] Report healing_report(const HealingState& state) noexcept;
 
-struct HealingColumns : TreeColumns {
-  std::array<HealingStanding, neighbor_capacity>& healing;
-
-  explicit HealingColumns(HealingState& state) noexcept : TreeColumns{state}, healing(state.healing_standings) {}
-  void write(int k, const TreeMessage& m) noexcept {
-    TreeColumns::write(k, m);
-    healing[static_cast<std::size_t>(k)] = static_cast<const HealingStanding&>(healing_message(m));
-  }
-  void close(int k, int size) noexcept {
-    TreeColumns::close(k, size);
-    close_gap(healing, k, size);
-  }
-};
-
 void add_to(Digest& digest, const HealingState& state) noexcept;
 void add_to(Digest& digest, const HealingMessage& message) noexcept;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "banyan/controller/core/digest.hpp"
+#include "banyan/controller/core/function_ref.hpp"
 #include "banyan/controller/tree/robot.hpp"
 
 namespace banyan {
@@ -20,33 +21,10 @@ void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept;
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept;
 void carry_memory(TreeState& self, const Carry& carry) noexcept;
 
-// The tree's array beside the neighbour table (Neighbors). Who heals adds its own.
-struct TreeColumns {
-  TreeState& self;
-
-  [[nodiscard]] bool names_me(const TreeStanding& m) const noexcept { return m.parent == self.id || m.old_parent == self.id; }
-  [[nodiscard]] bool ties(int k) const noexcept {
-    const TreeStanding& m = self.neighbors.message(k);
-    return m.id == self.parent || m.id == self.old_parent || names_me(m);
-  }
-  void write(int k, const TreeMessage& m) noexcept { self.neighbors.standings[static_cast<std::size_t>(k)] = static_cast<const TreeStanding&>(m); }
-  void close(int k, int size) noexcept { close_gap(self.neighbors.standings, k, size); }
-};
-
-// Brings the neighbour table and all arrays beside it up to date.
-template <class Columns>
-void update_table(TreeRobot& robot, Columns columns) noexcept {
-  TreeState& self = robot.self;
-  Neighbors& table = self.neighbors;
-  table.begin(robot.elapsed_ticks);
-  for (Heard& h : robot.heard) {
-    const TreeMessage& m = *h.message;
-    if (m.id == self.id || m.id == nobody) continue;
-    const bool ties = m.id == self.parent || m.id == self.old_parent || columns.names_me(m);
-    h.before = table.file(m.id, h.position, ties, m, columns);
-  }
-  table.end(robot.carry, robot.liveness_ticks(), {self.parent, self.old_parent}, columns);
-}
+// Brings the neighbour table and the tree's array beside it up to date. Who heals keeps arrays of its own in
+// step: `write(k, m)`, entry k is new or has spoken; `close(k, size)`, entry k has gone, and those behind it, up
+// to `size`, move up by one.
+void update_table(TreeRobot& robot, FunctionRef<void(int k, const TreeMessage& m)> write, FunctionRef<void(int k, int size)> close) noexcept;
 
 // The tree's part of the message, and what an observer may know of it.
 void write_tree(const TreeRobot& robot, TreeMessage& message) noexcept;
