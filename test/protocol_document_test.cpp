@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <ostream>
 #include <regex>
 #include <set>
 #include <string>
@@ -78,6 +79,7 @@ struct Claim {
   std::string constant;
   double factor = 1.0;   // from the code's unit to the page's
 };
+void PrintTo(const Claim& claim, std::ostream* out) { *out << claim.file << ": " << claim.constant; }
 
 void PrintTo(const Claim& claim, std::ostream* out) { *out << claim.page << ' ' << claim.constant; }
 
