@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What docs/protocol.md and the pages beside it say of the controller in numbers and names is what the code
 // has. Constants that a source file keeps to itself are read from its text. The tables of the message are
-// compared with its list of fields in record/test/message_json_test.cpp.
+// compared with its list of fields in record/test/message_json_test.cpp, its length in documents_test.cpp.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -181,18 +181,6 @@ TEST(ProtocolDocument, SaysWhatHeadersSay) {
   expect(protocol, R"(all points within ([\d.]+) m of the body)", static_cast<double>(banyan::near_m));
   expect(protocol, R"(\*\*Message\*\*, version (\d+))", banyan::wire_version);
   expect(convoy, R"(rest for at most (\d+) ticks)", banyan::pending_limit_ticks);
-}
-
-TEST(ProtocolDocument, SaysHowLongMessagesAre) {
-  const std::string text = text_of("docs/protocol.md");
-  const auto size_of = [&](const std::string& algorithm) {
-    const auto found = all(text, "\\| " + algorithm + R"( \| [a-z, ]+ \| (\d+) \|)");
-    EXPECT_EQ(found.size(), 1U) << algorithm;
-    return found.size() == 1 ? std::stoul(found[0]) : 0UL;
-  };
-  EXPECT_EQ(size_of("outwards and inwards, literal"), banyan::wire_size<banyan::TreeMessage>());
-  EXPECT_EQ(size_of("outwards and inwards, corrected"), banyan::wire_size<banyan::HealingMessage>());
-  EXPECT_EQ(size_of("convoy"), banyan::wire_size<banyan::ConvoyMessage>());
 }
 
 // ---- Parameters ----
