@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Algorithms over the tree's blocks as hosts meet them: how their tables, readings and steps become an
-// Algorithm. Whoever adds one that has a State and Message of these kinds needs nothing else.
+// Algorithm. One that has a State and Message of these kinds needs nothing else.
 #pragma once
 
 #include <algorithm>

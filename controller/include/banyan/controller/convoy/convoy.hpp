@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Convoy (docs/convoy.md), our own: the inwards tree, but towed by the workers instead of pushed by
+// Convoy (docs/convoy.md), our own: the tree of inwards, but towed by the workers instead of pushed by
 // springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace banyan {
 
-// For C = 2 m; lengths grow with C. There is nothing printed to be read in two ways.
+// For C = 2 m; lengths scale with C. There is only one reading.
 [[nodiscard]] ConvoyParams convoy_defaults() noexcept;
 
 [[nodiscard]] ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept;

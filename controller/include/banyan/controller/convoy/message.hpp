@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a robot of convoy broadcasts besides (docs/convoy.md).
+// What a robot of convoy broadcasts in addition (docs/convoy.md).
 #pragma once
 
 #include "banyan/controller/healing/message.hpp"
@@ -15,7 +15,7 @@ struct ConvoyStanding {
 };
 
 struct ConvoyNews {
-  RobotId warned = nobody;            // the child whose line of sight to me is about to be cut, for all it can see
+  RobotId warned = nobody;            // the child whose line of sight to me is about to be cut, perhaps unseen by it
   RobotId above = nobody;             // the next worker above me in the tree, by its target (plan.cpp)
   RobotId task_host = nobody;         // the root's plan: at which target the branch of `task` is to begin; nobody: none
 

@@ -8,7 +8,7 @@ namespace banyan {
 
 struct ConvoyParams : HealingParams {
   float pull_start = 0.675F;        // a child farther than this pulls its parent along
-  float pull_width = 0.15F;         // and with full strength so much farther
+  float pull_width = 0.15F;         // and with full strength from so much farther on
   float tension_gain = 0.4F;        // edges are taut strings: straight chains, junctions of 120 degrees
   float tension_start = 0.15F;
   float tension_width = 0.15F;

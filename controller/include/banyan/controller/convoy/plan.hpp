@@ -5,8 +5,8 @@
 // tree has: for each target a host, the target where its branch is to begin. The plan travels down the
 // tree. The topmost robot of a branch that serves one target alone leads it there: from robot to robot
 // of the other branch, with its own in tow. The distance from a point on one side of a triangle to the
-// opposite corner is longest at one of the ends, so a branch that is to be no longer in the end than it
-// was at first is long enough all the way.
+// opposite corner is largest at one of that side's ends, so a branch that is to be no longer in the end
+// than it was at first is long enough all the way.
 #pragma once
 
 #include "banyan/controller/convoy/robot.hpp"
@@ -22,7 +22,7 @@ namespace banyan {
 // I lead, and my branch is too short to go on: a spare between my parent and me would lead it farther.
 [[nodiscard]] bool is_held_back(const ConvoyRobot& robot) noexcept;
 
-// How a robot moves that leads its branch, in units of speed_gain.
+// How a robot that leads its branch moves, in units of speed_gain.
 [[nodiscard]] Vec2 lead(const ConvoyRobot& robot) noexcept;
 
 // My part in it, whatever my role; once a tick, before the census.

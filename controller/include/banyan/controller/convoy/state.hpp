@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a robot of convoy remembers besides.
+// What a robot of convoy remembers in addition.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct ConvoyState : HealingState {
   RobotId led_from = nobody;             // the parent it had then
   std::uint16_t lead_ticks = 0;          // since its parent changed
   std::uint16_t settled_ticks = 0;       // the root: all workers have arrived
-  std::uint16_t unsettled_ticks = 0;     // or have not any more
+  std::uint16_t unsettled_ticks = 0;     // or no longer have
   std::uint16_t plan_ticks = 0;          // of the plan that is being carried out
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rules of convoy (docs/convoy.md) that need more than a line: how it moves, and what
-// has arrived. shortcut.hpp has what changes its tree between two reconstructions.
+// The rules of convoy (docs/convoy.md) about motion, and about which branches have arrived. shortcut.hpp has
+// what changes its tree between two reconstructions.
 #pragma once
 
 #include "banyan/controller/convoy/robot.hpp"
@@ -11,7 +11,7 @@ namespace banyan {
 [[nodiscard]] bool prunes(const ConvoyParams& params) noexcept;
 // All workers below me stand at their targets, and there is one: my branch may save robots.
 [[nodiscard]] bool has_arrived(const ConvoyRobot& robot) noexcept;
-// Neighbour k is a worker that has arrived: others whose workers have arrived may hang on it.
+// Neighbour k is a worker that has arrived: it may be the parent of others whose workers have arrived.
 [[nodiscard]] bool is_relay(const ConvoyRobot& robot, int k) noexcept;
 
 // A robot of the tree: a worker drives to its target, a connector follows the children that tow it;

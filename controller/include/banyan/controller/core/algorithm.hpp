@@ -42,7 +42,7 @@ class Algorithm {
   // The rows of its table, in the order in which they are listed. Static lifetime.
   [[nodiscard]] virtual std::vector<const ParameterInfo*> parameters() const = 0;
   // Their values in that setup, one per row, in the units of the table. Keys that the algorithm does not
-  // know are left out of account.
+  // know are ignored.
   [[nodiscard]] virtual std::vector<float> values(const Setup& setup) const = 0;
   // The first fault in words ("recruitment_distance_m (E) must be below safe_range_m (S)"), or nothing.
   [[nodiscard]] virtual std::string fault(const Setup& setup) const = 0;
@@ -54,9 +54,8 @@ class Algorithm {
   ~Algorithm() = default;
 };
 
-// The algorithms of the program, in the order in which they are listed; the first is what a scenario runs
-// that names none. Who composes a program decides what it has: the part algorithms/ defines this, or the
-// program does.
+// The algorithms of the program, in the order in which they are listed. A program decides which it has:
+// algorithms/ defines this function, or the program itself does.
 [[nodiscard]] std::span<const Algorithm* const> algorithms() noexcept;
 // The rows of all their tables, each key once. Static lifetime.
 [[nodiscard]] std::span<const ParameterInfo> parameter_table() noexcept;

@@ -27,7 +27,7 @@ class Gate {
   Gate(const Gate&) = delete;
   Gate& operator=(const Gate&) = delete;
 
-  // Drops packets whose sender cannot be where it was measured, in place; the order stays.
+  // Drops packets whose sender cannot be where it was measured to be, in place; the order stays.
   template <class Heard>
   std::span<Heard> packets(std::span<Heard> heard, const Platform& platform) noexcept {
     const float limit_m = farthest_ranges * platform.communication_range_m;

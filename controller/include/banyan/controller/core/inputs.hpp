@@ -16,8 +16,8 @@ using RobotId = std::uint16_t;
 inline constexpr RobotId nobody = 0xFFFF;
 
 // The robot's own motion since its last step, in the body frame it had then, as its wheels measure it.
-// A differential robot that has turned while it drove reports the chord: `sideways_m` is what the arc
-// left of the straight line, zero if it does not measure it.
+// A differential robot that has turned while it drove reports the chord: `sideways_m` is by how much the
+// arc has left the straight line, zero if the robot does not measure it.
 struct Odometry {
   float forward_m = 0.0F;
   float sideways_m = 0.0F;
@@ -31,7 +31,8 @@ struct Orders {
   bool sent = false;
   // While it is sent: from the robot to that target, m. None: not sensed in this tick.
   std::optional<Vec2> target;
-  // A target that has been given up, named by the robot first sent there: who serves it stops. Told once.
+  // A target that has been given up, named by the robot first sent there: the robot that serves it stops.
+  // Said once.
   RobotId given_up = nobody;
 };
 
@@ -44,7 +45,7 @@ struct Senses {
   float elapsed_s = 0.0F;   // 0: one tick
 };
 
-// What the motors shall do until the next step. A differential robot is never given `sideways_m_s`;
+// What the motors are to do until the next step. A differential robot is never given `sideways_m_s`;
 // its two wheels never exceed Platform::wheel_limit_m_s.
 struct Velocity {
   float forward_m_s = 0.0F;

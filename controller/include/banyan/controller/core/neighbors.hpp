@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The neighbour table: who has been heard, when, and where it is relative to me (protocol 1). Nothing
-// here is known in any frame but the robot's own. What neighbours said is kept beside it, in one array
+// The neighbour table: which robots have been heard, when, and where they are relative to me (protocol 1).
+// All of it is in the robot's own frame. What neighbours said is kept beside it, in one array
 // per block of their messages: an algorithm has the arrays that it uses, and keeps them in step with the
 // table by what file() and remove_next() return.
 #pragma once

@@ -37,7 +37,7 @@ struct Report {
   RobotId parent = nobody;         // the edges that it promises to keep
   RobotId old_parent = nobody;
   RobotId serves = nobody;         // a worker: whose target, by the robot first sent there
-  RobotId root = nobody;           // whom it takes for the root,
+  RobotId root = nobody;           // the robot that it believes to be root,
   Serial root_sequence = 0;        // by a token with this number: the newest names the root
 
   // Algorithms that build a tree again and again (paper Fig. 1, Fig. 5)
@@ -57,7 +57,7 @@ struct Report {
 // The robot at the upper end of its edge: the parent or, while trees are switched and there is none, the old one.
 constexpr RobotId up_of(const Report& r) noexcept { return r.role == Role::root ? nobody : r.parent != nobody ? r.parent : r.old_parent; }
 
-// Of two that take themselves for the root, `a` has the newer token.
+// Of two robots that believe in different roots, `a` knows the newer token.
 constexpr bool has_newer_root(const Report& a, const Report& b) noexcept {
   return a.root_sequence != b.root_sequence ? is_newer(a.root_sequence, b.root_sequence) : a.root > b.root;
 }

@@ -2,8 +2,8 @@
 // Counters that wrap (epochs, root tokens, sequence numbers, heartbeats): serial numbers of 16 bits,
 // compared as in RFC 1982. Of two numbers the one is newer that is ahead by less than half the range.
 //
-// The one rule for silence: who has heard nothing of a counter for more than half its range of ticks
-// cannot tell old from new any more, and takes whatever it hears as newer (`is_news`).
+// The one rule for silence: a robot that has heard nothing of a counter for half its range of ticks cannot
+// tell old from new any more, and takes whatever it hears as newer (`is_news`).
 #pragma once
 
 #include <cstdint>

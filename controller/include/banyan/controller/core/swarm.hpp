@@ -34,7 +34,7 @@ struct Sensed {
   bool steps = true;                // false: dead or asleep. It repeats its last message.
 };
 
-// A number of a message, for whoever looks at it.
+// A number in a message, for recordings and inspectors.
 struct FieldInfo {
   std::string_view name;
   std::string_view meaning;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Healing (protocol 12): any robot may die at any moment, the root included, and nobody is told. The
 // root and the workers count ticks, everybody passes on the largest counts heard, and where the root
-// and the targets are: whoever falls silent is replaced by somebody who knows what to do.
+// and the targets are: a robot that falls silent is replaced by one that knows what to do.
 #pragma once
 
 #include "banyan/controller/healing/robot.hpp"
@@ -17,7 +17,7 @@ void estimate_loss(HealingRobot& robot) noexcept;
 // ---- heartbeat.cpp: is there a root, and where? ----
 
 void follow_heartbeat(HealingRobot& robot) noexcept;
-// Near to where the root fell silent: makes itself root and opens an epoch.
+// Close to where the root fell silent: makes itself root and opens an epoch.
 void claim_root(HealingRobot& robot) noexcept;
 
 // ---- takeover.cpp: does every target have its worker? ----
@@ -30,16 +30,16 @@ void watch_tasks(HealingRobot& robot) noexcept;
 
 // ---- dangling_branch.cpp: the end of a torn branch ----
 
-// Notes that the only robot that hung on this connector has fallen silent for good. It stays in the
-// tree and goes where that one was, as a worker would, to meet whoever hung on it.
+// Notes that this connector's only child has fallen silent for good. It stays in the tree and goes where the
+// child was, as a worker would, to meet the robots below it.
 void watch_branch(HealingRobot& robot) noexcept;
 // Until it is there: robot.carries_on.
 
 // ---- retreat.cpp: back to where the others must be ----
 
-// A worker whose edge has waited in vain for a spare: the branch that it hangs on does not reach. Where a
-// branch can change its hold between reconstructions (convoy) it drives home, joins whoever is nearest to
-// the root, and sets out anew from there: it regroups.
+// A worker whose edge has waited in vain for a spare: its branch does not reach. Where robots can change their
+// parents between reconstructions (convoy) it drives home, joins the robots nearest to the root, and sets out
+// anew from there: it regroups.
 [[nodiscard]] bool is_left_waiting(const HealingRobot& robot) noexcept;
 // The ticks that its edge has waited, or would have while it is on its way.
 void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
@@ -48,21 +48,21 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
 // Towards where the root was, in units of speed_gain.
 [[nodiscard]] Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept;
 
-// How far this robot goes of its own accord, m: to where the last one below it was.
+// How far this robot goes for a reason of its own, m: to where the last robot below it was.
 [[nodiscard]] inline float own_want_m(const HealingRobot& robot) noexcept { return robot.carries_on ? norm(robot.self.lost_child) : 0.0F; }
 
 // ---- fragments.cpp: two networks meet ----
 
-// What listen() does in a swarm that may have been torn apart: of two roots that meet, the one of the larger
+// What listen() does, in a swarm that may have been torn apart: of two roots that meet, the one of the larger
 // fragment stays.
 void listen_among_fragments(HealingRobot& robot) noexcept;
 // accept_offer() and advance(), with the size of the root's fragment.
 void accept_offered_root(HealingRobot& robot) noexcept;
 void advance_and_count(HealingRobot& robot, bool tree_complete, bool may_reconstruct = true) noexcept;
 
-// ---- What of it is broadcast ----
+// ---- gossip.cpp: what of it is broadcast ----
 
-// The counts, and in turn what one neighbour is to know of root and targets. Index of the target spoken of;
+// The counts, and for one neighbour at a time where root and targets are. Index of the target spoken of;
 // -1: none.
 int gossip(const HealingRobot& robot, HealingMessage& message) noexcept;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a robot broadcasts besides so that the living can take the place of the dead (protocol 12): everybody
-// passes on where the root and the targets are, a target and an addressee a tick in turn. Who is no
-// addressee makes use of the counts alone.
+// What a robot also broadcasts so that the living can take the place of the dead (protocol 12): everybody
+// passes on where the root and the targets are, at each tick one target to one addressee. All others use
+// the counts alone.
 #pragma once
 
 #include "banyan/controller/tree/message.hpp"

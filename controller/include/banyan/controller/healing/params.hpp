@@ -8,9 +8,9 @@ namespace banyan {
 
 struct HealingParams : TreeParams {
   float healing = 1.0F;                // 0: nobody takes the place of the dead
-  float claim_radius = 0.45F;          // who is nearer to where the root fell silent may become root
+  float claim_radius = 0.45F;          // a robot nearer than this to where the root fell silent may become root
   float claim_after_s = 0.5F;          // without heartbeat, beyond 2 I
-  float claim_spread_s_m = 1.0F;       // and so much longer per metre from that place: one claims first
+  float claim_spread_s_m = 1.0F;       // and so much longer per metre from that place, so that one claims first
   float retreat_after_s = 2.5F;        // without heartbeat: all drive to where the root was
   float succession_after_s = 3.0F;     // without a sign of a target's worker, beyond 2 I
   float succession_spread_s_m = 0.5F;  // and so much longer per metre from the target

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an algorithm that heals remembers besides.
+// What an algorithm that heals remembers in addition.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace banyan {
 
 inline constexpr int task_capacity = 12;  // further targets have no successor for their worker
 
-// A target, as everybody knows it who may have to take it over (takeover.cpp).
+// A target, as all robots know it that may have to take it over (takeover.cpp).
 struct Task {
   RobotId serves = nobody;       // the worker first sent there: the target's name
   RobotId holder = nobody;       // who serves it; nobody: it has been given up
@@ -25,9 +25,9 @@ struct Task {
 struct HealingState : TreeState {
   bool was_sent = false;                 // to a target, at the last step
   RobotId serves = nobody;               // worker: whose target this is, the id of the worker first sent there
-  float expected_packets = 0.0F;         // of the last ticks, fading: to be heard
-  float missed_packets = 0.0F;           // and of these, not heard
-  std::uint16_t loss_ticks = 0;          // what that loss asks for in place of I; 0: I will do
+  float expected_packets = 0.0F;         // packets that were to be heard in the last ticks, fading
+  float missed_packets = 0.0F;           // and those of them that were not heard
+  std::uint16_t loss_ticks = 0;          // what this loss requires in place of I; 0: I will do
   std::uint16_t root_size = 0;           // robots that this root counted last; 0: none yet
   Serial heartbeat = 0;
   std::uint16_t silence_ticks = 0;       // since the heartbeat grew
@@ -35,7 +35,7 @@ struct HealingState : TreeState {
   Vec2 root_at;                          // m, own frame: where that root is or was
   bool root_known = false;
   std::uint16_t turn = 0;                // whom I tell next
-  std::uint16_t dangling_ticks = 0;      // the last robot below me has died: so long I still go after it
+  std::uint16_t dangling_ticks = 0;      // the last robot below me has died: for so long I still go after it
   Vec2 lost_child;                       // m, own frame: where it was
   std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid

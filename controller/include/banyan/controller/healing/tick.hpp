@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The begin and the end of a tick for robots that heal (tree/tick.hpp).
+// The beginning and the end of a tick for robots that heal (tree/tick.hpp).
 #pragma once
 
 #include "banyan/controller/healing/robot.hpp"
@@ -9,7 +9,7 @@ namespace banyan {
 
 [[nodiscard]] HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept;
 
-// Who has resigned from its target, or serves another's, goes on with that, however long it is sent.
+// A robot that has resigned from its target, or serves another's, goes on with that, however long it is sent.
 void follow_orders(HealingRobot& robot, const Orders& orders) noexcept;
 
 void carry_memory(HealingState& self, const Carry& carry) noexcept;

@@ -9,7 +9,7 @@ namespace banyan {
 
 struct Guard;  // motion.hpp
 
-// A way round an obstacle that is being driven; vectors in the own frame, m.
+// A way round an obstacle that a robot is driving; vectors in its own frame, m.
 struct Detour {
   std::int8_t side = 0;  // +1: the obstacle is to the right, -1: to the left, 0: no detour
   Vec2 contact;          // where the obstacle was touched last
@@ -19,7 +19,7 @@ struct Detour {
   float span_m = 0.0F;   // the other side is tried so far from the origin
 };
 
-// A body's radius is not among the parameters; the wheels stand on about 1.5 of it.
+// A body's radius is not among the parameters; the distance between the wheels is about 1.5 of it.
 [[nodiscard]] inline float body_m(const TreeRobot& robot) noexcept { return 0.67F * robot.params.wheel_distance_m; }
 inline constexpr float near_m = 0.19F;  // between body and obstacle, when it begins to matter
 
@@ -31,8 +31,8 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept;
 // each time twice as far. Remembers it in `detour`. Zero for a zero goal.
 [[nodiscard]] Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept;
 
-// Half-planes that keep the robot off obstacles: it slides along them, and never pushes, because
-// wheels that slip tell lies.
+// Half-planes that keep the robot off obstacles: it slides along them and never pushes, because odometry is
+// wrong when wheels slip.
 void keep_off(const TreeRobot& robot, Guard& guard) noexcept;
 
 }  // namespace banyan

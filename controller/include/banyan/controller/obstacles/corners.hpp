@@ -44,7 +44,7 @@ struct Corners {
 
 void carry_corners(Corners& corners, const Carry& carry) noexcept;
 
-// Files what is sensed this tick among the remembered points, and forgets those that proved wrong.
+// Adds what is sensed this tick to the remembered points, and forgets those that have proved wrong.
 // Once a tick, after the memory has been carried along.
 void remember_corners(const TreeRobot& robot, Corners& corners) noexcept;
 
@@ -57,8 +57,8 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
 // Away from obstacles that are about to cut one of the robot's tree edges. In units of speed_gain.
 [[nodiscard]] Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept;
 
-// An obstacle is about to cut the edge to the parent and holds this robot back, which must go on, or tows a
-// child beyond `towing_start_m`: the parent has to come up to the corner.
+// An obstacle is about to cut the edge to the parent, and this robot has to go on, or is towed by a child farther
+// than `towing_start_m`: the parent has to come up to the corner.
 [[nodiscard]] bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start_m) noexcept;
 
 // No obstacle known to me is nearer than `clearance_m` to the inside of segment a-b (own frame, m).

@@ -10,8 +10,8 @@ namespace banyan {
 // Adopts the newest root token and the largest (epoch, phase) among the packets just heard.
 void listen(TreeRobot& robot) noexcept;
 
-// Its two halves, for who listens otherwise (healing/fragments.cpp): the largest (epoch, phase) of mine and
-// those just heard; and the step into it.
+// Its two halves, for those that listen in another way (healing/fragments.cpp): the largest (epoch, phase) of
+// mine and those just heard; and the step into it.
 struct EpochPhase {
   Serial epoch;
   Phase phase;
@@ -21,8 +21,8 @@ struct EpochPhase {
 void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept;
 
 // The root's barriers: opens the next phase when its condition holds, or its time is over.
-// `tree_complete`: everybody who should be in the tree is (barrier of SELECT PARENT); `may_reconstruct`: once
-// R is over.
+// `tree_complete`: everybody who should be in the tree is (barrier of SELECT PARENT); `may_reconstruct`: a new
+// epoch may begin once R is over.
 void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct = true) noexcept;
 
 // Enters (epoch, phase): a new epoch makes the parent the old parent and forgets labels and grants;

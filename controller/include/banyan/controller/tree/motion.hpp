@@ -37,11 +37,11 @@ struct Guard {
   [[nodiscard]] Vec2 apply(Vec2 v) const noexcept;
 };
 
-// Corrected: adds the edges of both trees. `lets_go`: not those to neighbours that have fallen silent, which
-// may have been lost for good.
+// Corrected: adds the edges of both trees. `lets_go`: except those to neighbours that have fallen silent and
+// may be lost for good.
 void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
 
-// What the motors shall do: `u` in units of speed_gain, own frame, within the guard and the wheels' limits.
+// The command to the motors: `u` in units of speed_gain, own frame, within the guard and the wheels' limits.
 [[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;
 
 // Wheels or holonomic base: the velocity nearest to `v` (m/s, own frame) that the drive can do now.

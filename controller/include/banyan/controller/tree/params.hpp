@@ -38,7 +38,7 @@ struct TreeParams : Platform {
 };
 
 [[nodiscard]] std::span<const Parameter<TreeParams>> tree_parameters() noexcept;
-// What robot and radio settle, not the designer: C, tick, wheels.
+// What robot and radio decide, not the designer: C, tick, wheels.
 [[nodiscard]] std::span<const Parameter<TreeParams>> platform_parameters() noexcept;
 
 // The first fault among the values that depend on each other, in words; nothing if there is none:

@@ -8,8 +8,8 @@
 
 namespace banyan {
 
-// What differs between the algorithms in SELECT PARENT. What a candidate is at all, is_candidate() decides
-// for every rule: its label order keeps the tree free of cycles.
+// What differs between the algorithms in SELECT PARENT. Whether a neighbour is a candidate at all is decided
+// by is_candidate() for every rule: its order keeps the tree free of cycles.
 struct ParentRule {
   bool may_join;                            // a robot without parent may join the tree now
   bool workers_relay;                       // a worker may be somebody's parent (protocol 5: not in the paper)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How the paper's misprints and gaps are read (protocol 2, docs/algorithms.md). Its two values are all
-// the difference between `literal` and `corrected` within the rooms of the tree; that `corrected` heals
-// and goes round obstacles besides is seen in the steps of the algorithms.
+// the difference between `literal` and `corrected` within the rooms of the tree. That `corrected` also heals
+// and keeps off obstacles can be seen in the steps of the algorithms.
 #pragma once
 
 #include <string_view>

@@ -48,8 +48,8 @@ struct TreeRobot {
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
   Carry carry;                      // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
-  int loss_ticks = 0;               // so long a living neighbour may well be silent where packets are lost; 0: unknown
-  bool carries_on = false;          // a connector that lost the last robot below it, and stays one (healing)
+  int loss_ticks = 0;               // for so long lost packets may silence a living neighbour; 0: unknown
+  bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
 
   // The index (tree_index.hpp)
   int parent = -1;             // index of the parent in the table

@@ -33,8 +33,8 @@ void count_unserved(TreeState& self, bool unserved) noexcept;
 // False if it does not know both ends.
 [[nodiscard]] bool edge_midpoint(const TreeRobot& robot, RobotId owner, Vec2& midpoint) noexcept;
 
-// The robot a spare stays with: the nearest of the tree, else the one by which the tree is nearest. It
-// keeps the one it has while that is as good: who turns to another every tick gets nowhere.
+// The robot a spare stays with: the nearest of the tree, else the one through which the tree is nearest. It
+// keeps the one it has while that is as good: a robot that turns to another every tick gets nowhere.
 [[nodiscard]] RobotId nearest_reference(const TreeRobot& robot) noexcept;
 
 }  // namespace banyan

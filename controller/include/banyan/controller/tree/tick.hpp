@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The begin and the end of a tick, the same for every algorithm of the tree: what was remembered and heard
-// comes in, the message goes out.
+// The beginning and the end of a tick, the same for every algorithm of the tree: what was remembered and
+// heard comes in, the message goes out.
 #pragma once
 
 #include "banyan/controller/core/digest.hpp"
@@ -9,15 +9,15 @@
 
 namespace banyan {
 
-// A robot before its first step. Exactly one robot of a swarm starts as root; who is sent to a target is
-// told so at every step (Orders).
+// A robot before its first step. Exactly one robot of a swarm starts as root; a robot that is sent to a target
+// is told so at every step (Orders).
 [[nodiscard]] TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept;
 
-// What is remembered moves with the robot's own frame, the neighbour table is brought up to date, and the
-// orders are followed.
+// What is remembered is carried into the robot's present frame, the neighbour table is brought up to date, and
+// the orders are followed.
 void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept;
 
-// Its parts. Who is sent to a target is a worker, until it is called back.
+// Its parts. A robot that is sent to a target is a worker until it is called back.
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept;
 void carry_memory(TreeState& self, const Carry& carry) noexcept;
 

@@ -8,8 +8,8 @@ namespace banyan {
 
 void index_neighbors(TreeRobot& robot) noexcept;
 
-// spare, connector, worker or root (protocol 3), from the survey. Turning spare leaves the tree, unless
-// spares still hang on this robot.
+// spare, connector, worker or root (protocol 3), from the index. A robot that turns spare leaves the tree,
+// unless spares still have it as parent.
 void update_role(TreeRobot& robot) noexcept;
 
 }  // namespace banyan
