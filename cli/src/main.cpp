@@ -34,7 +34,7 @@ constexpr const char* main_footer =
     "  banyan run scenarios/paper-large.toml --set mission.algorithm=inwards --seed 7\n"
     "  banyan validate scenarios/*.toml\n"
     "  banyan COMMAND --help\n\n"
-    "Exit codes: 0 done, whether or not the mission completed; 1 lost: a file cannot be read or\n"
+    "Exit codes: 0 done, whether or not the mission completed; 1 failed: a file cannot be read or\n"
     "written, or an internal error; 2 bad options or a bad scenario, nothing was started; 130 or 143\n"
     "stopped by Ctrl-C or SIGTERM, with valid files of what was done.";
 
@@ -49,7 +49,7 @@ constexpr const char* run_footer =
     "`banyan keys` lists what can be set, `banyan algorithms` the algorithms and their parameters.";
 
 constexpr const char* validate_footer =
-    "Tells everything that is wrong at once, as file:line. Exit code 2 if anything is.\n\n"
+    "Reports everything that is wrong at once, as file:line. The exit code is 2 if anything is.\n\n"
     "Examples:\n"
     "  banyan validate scenarios/*.toml\n"
     "  banyan validate my.toml --set swarm.robots=12 --show toml";
@@ -70,7 +70,7 @@ constexpr const char* draw_footer =
 constexpr const char* film_footer =
     "Made by ffmpeg. MP4 plays everywhere, WebM in browsers, GIF in a README. Without --speed the film\n"
     "is at most 20 s long (a GIF 12 s), 1 to 64 times as fast as the run; the last frame stays for a\n"
-    "second. The view is the same over the whole film.\n\n"
+    "second. The view stays the same throughout the film.\n\n"
     "Examples:\n"
     "  banyan film out/three-targets-convoy-1/run.mcap -o three.mp4\n"
     "  banyan film run.mcap -o slow.mp4 --from 10 --to 20 --speed 1 --ids\n"
@@ -78,7 +78,7 @@ constexpr const char* film_footer =
 
 constexpr const char* view_footer =
     "Serves the page at an address of this machine, prints it and opens the browser if there is a\n"
-    "desktop. Only this machine can reach it, whoever is logged in there. Ctrl-C ends it.\n\n"
+    "desktop. Only users of this machine can reach it. Ctrl-C ends it.\n\n"
     "Examples:\n"
     "  banyan view out/three-targets-convoy-1/run.mcap\n"
     "  banyan view scenarios/three-targets.toml --set radio.loss=0.3\n"
@@ -91,15 +91,15 @@ constexpr const char* keys_footer =
 
 constexpr const char* tune_footer =
     "Writes best.toml (parameters for a scenario), tune.json, generations.csv and the figure fitness;\n"
-    "nsga2 also front.csv. Stopped at any moment, the same command goes on where it was, to the same\n"
+    "nsga2 also front.csv. If it is stopped, the same command resumes where it was and ends with the same\n"
     "result. docs/tuning.md describes the file. Over several machines: mpirun banyan tune FILE.\n\n"
     "Examples:\n"
     "  banyan tune studies/tune-outwards-small.toml --dry-run\n"
     "  banyan tune studies/tune-outwards-small.toml --out results/tuned";
 
 constexpr const char* study_footer =
-    "Writes runs.csv (a row per run), statistics.csv, comparisons.csv, figures/ and study.json. Stopped\n"
-    "at any moment, the same command goes on where it was. docs/studies.md describes the file.\n\n"
+    "Writes runs.csv (a row per run), statistics.csv, comparisons.csv, figures/ and study.json. If it is\n"
+    "stopped, the same command resumes where it was. docs/studies.md describes the file.\n\n"
     "Examples:\n"
     "  banyan study studies/first.toml --dry-run\n"
     "  banyan study studies/first.toml\n"
@@ -209,7 +209,7 @@ void add_run(CLI::App& app, std::function<int()>& action) {
 
 void add_validate(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<ValidateOptions>();
-  auto* command = app.add_subcommand("validate", "tell everything that is wrong with scenarios, without running them")
+  auto* command = app.add_subcommand("validate", "report everything that is wrong with scenarios, without running them")
                       ->group(command_group);
   command->footer(validate_footer);
   command->add_option("files", options->files, "scenarios")->required()->type_name("FILE");
@@ -275,7 +275,7 @@ void add_draw(CLI::App& app, std::function<int()>& action) {
   command->add_option("--at", options->at_s, "the moment, s; default the end")->type_name("S")->check(moment);
   command->add_option("-o,--output", options->output, "file to write (.svg or .png), default standard output")
       ->type_name("FILE");
-  command->add_option("--format", options->format, "instead of what the ending of the file says; default svg")
+  command->add_option("--format", options->format, "instead of the file's extension; default svg")
       ->type_name("svg|png")
       ->check(CLI::IsMember({"svg", "png"}).description(""));
   command->add_option("--trail", options->trail_s, "how far back trails go, s; default 10")
@@ -368,7 +368,7 @@ void add_keys(CLI::App& app, std::function<int()>& action) {
   auto* command =
       app.add_subcommand("keys", "list every key of a scenario: type, range, default, meaning")->group(command_group);
   command->footer(keys_footer);
-  command->add_option("prefix", options->prefix, "only keys that begin so")->type_name("PREFIX");
+  command->add_option("prefix", options->prefix, "only keys that begin with this")->type_name("PREFIX");
   command->add_flag("--json", options->json, "as JSON");
   command->add_flag("--markdown", options->markdown, "as the page docs/scenario-keys.md");
   command->callback([options, &action] { action = [options] { return keys_command(*options); }; });
@@ -403,7 +403,7 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
   command.add_option("-o,--out", options.out, "directory for everything, default out/<name>")->type_name("DIR");
   command.add_flag("-f,--force", options.force, "throw away what is there and start over");
   command.add_flag("--extend", options.extend,
-                   "the study has changed since it finished there: keep the runs both have");
+                   "the study has changed since it finished: keep the runs that both have");
   command.add_flag("--mix-versions", options.mix_versions, "go on with results of another version of banyan");
   command.add_flag("-y,--yes", options.yes, "do not ask, however many runs it is");
   command.add_flag("-q,--quiet", options.quiet, "no plan, no progress, no summary; warnings and errors only");
@@ -425,7 +425,7 @@ void add_study(CLI::App& app, std::function<int()>& action) {
       ->type_name("I/N");
   command
       ->add_option("--sbatch", options->sbatch,
-                   "write a job array for Slurm to this file (-: standard output) and leave")
+                   "write a job array for Slurm to this file (-: standard output) and exit")
       ->type_name("FILE");
   command->add_option("--shards", options->shards, "tasks of that array, default 16")
       ->type_name("N")

@@ -39,7 +39,7 @@ std::string sbatch_script(const StudyOptions& options, const std::string& name, 
          ")\n"
          "#   sbatch --dependency=afterany:$job --wrap \"$(tail -n 1 " +
          script + ")\"\n" +
-         "# A task that was cut off goes on where it stopped when the array is submitted again.\n"
+         "# A task that was cut off resumes where it stopped when the array is submitted again.\n"
          "#SBATCH --job-name=banyan-" +
          name +
          "\n"
