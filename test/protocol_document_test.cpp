@@ -79,8 +79,6 @@ struct Claim {
   std::string constant;
   double factor = 1.0;   // from the code's unit to the page's
 };
-void PrintTo(const Claim& claim, std::ostream* out) { *out << claim.file << ": " << claim.constant; }
-
 void PrintTo(const Claim& claim, std::ostream* out) { *out << claim.page << ' ' << claim.constant; }
 
 // A page may say a number in several places; it must say it in one at least.
