@@ -196,8 +196,8 @@ TEST_F(Program, RefusesBadValuesByOption) {
   };
   bad("radio.los=true", "radio.los: there is no such key; did you mean radio.loss?");
   bad("radio.loss=high", "radio.loss: must be a number (0 to 1), not the text \"high\"");
-  bad("radio.range_m=nan", "radio.range_m: is nan; allowed: above 0");
-  bad("radio.range_m=inf", "radio.range_m: is inf; allowed: above 0");
+  bad("radio.range_m=nan", "radio.range_m: is nan; allowed: 0.05 to 100 m");
+  bad("radio.range_m=inf", "radio.range_m: is inf; allowed: 0.05 to 100 m");
   bad("targets.radius_m=-1", "targets.radius_m: is -1; allowed: 0 to");
   bad("swarm.robots=0", "swarm.robots: is 0; allowed: 2 to 65535");
   bad("swarm.robots=2", "swarm.robots: 2 robots cannot serve 2 targets");
@@ -458,7 +458,7 @@ TEST_F(Program, BenchRunsAWholeMissionWithAnyAlgorithm) {
   EXPECT_EQ(json::parse(other.out)["spread-94-los"]["algorithm"], "inwards");
   const auto unknown = run({"bench", "spread-94-los", "--algorithm", "inward"});
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_TRUE(has(unknown.err, "--algorithm: \"inward\" is unknown")) << unknown.err;
+  EXPECT_TRUE(has(unknown.err, "--algorithm: must be \"outwards\", \"inwards\" or \"convoy\", not the text \"inward\"")) << unknown.err;
 }
 
 // --------------------------------------------------------------------------------------- completion

@@ -10,23 +10,16 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
-
-#include "banyan/world/decimal.hpp"
-#include "banyan/world/names.hpp"
 
 namespace banyan::config {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{64} << 20;
-constexpr std::size_t deepest_nesting = 16;  // the scenario's tree needs five
 
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -218,63 +211,6 @@ Node parse_json(const std::shared_ptr<const std::string>& origin, std::string_vi
   return std::move(builder.root);
 }
 
-// ---------------------------------------------------------------------------------------- --set --
-
-// A step of "events[0].time_s": a name, or an index into a list.
-struct Step {
-  std::string name;
-  std::optional<std::size_t> index;
-};
-
-std::optional<std::vector<Step>> split_path(std::string_view path) {
-  std::vector<Step> steps;
-  while (true) {
-    const auto end = path.find_first_of(".[");
-    if (end == 0 || path.empty()) return std::nullopt;
-    steps.push_back({std::string(path.substr(0, end)), {}});
-    if (end == std::string_view::npos) return steps;
-    path.remove_prefix(end);
-    while (path.starts_with('[')) {
-      std::size_t index = 0;
-      const auto [stop, error] = std::from_chars(path.data() + 1, path.data() + path.size(), index);
-      if (error != std::errc{} || stop == path.data() + path.size() || *stop != ']') return std::nullopt;
-      steps.push_back({"", index});
-      path.remove_prefix(static_cast<std::size_t>(stop - path.data()) + 1);
-    }
-    if (path.empty()) return steps;
-    if (path.front() != '.') return std::nullopt;
-    path.remove_prefix(1);
-  }
-}
-
-bool valid_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    int more = lead < 0x80                   ? 0
-               : lead >= 0xC2 && lead < 0xE0 ? 1
-               : lead >= 0xE0 && lead < 0xF0 ? 2
-               : lead >= 0xF0 && lead < 0xF5 ? 3
-                                             : -1;
-    if (more < 0) return false;
-    for (; more > 0; --more, ++i) {
-      if (i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
-    }
-  }
-  return true;
-}
-
-// The value of an override: TOML if it is some, else bare text, so that quotes may be left out.
-Node override_value(std::string_view text, const std::shared_ptr<const std::string>& origin) {
-  if (text.find_first_of("\r\n") == std::string_view::npos && !has_endless_key(text)) {
-    try {
-      const auto parsed = toml::parse("v = " + std::string(text));
-      if (parsed.size() == 1) return from_toml(*parsed.get("v"), origin, false);
-    } catch (const toml::parse_error&) {  // not TOML: bare text
-    }
-  }
-  return {std::string(text), {origin, 0}};
-}
-
 }  // namespace
 
 std::string Place::text() const {
@@ -305,10 +241,7 @@ std::string Node::describe() const {
     std::string operator()(bool v) const { return v ? "true" : "false"; }
     std::string operator()(std::int64_t v) const { return "the number " + std::to_string(v); }
     std::string operator()(double v) const { return "the number " + number_text(v); }
-    std::string operator()(const std::string& v) const {
-      if (v.size() > 40) return "the text \"" + v.substr(0, 37) + "...\"";
-      return "the text \"" + v + "\"";
-    }
+    std::string operator()(const std::string& v) const { return world::the_text(v); }
     std::string operator()(const Array& v) const {
       return "a list of " + std::to_string(v.size()) + (v.size() == 1 ? " value" : " values");
     }
@@ -356,87 +289,15 @@ Node parse_document(const std::string& path, std::string_view text) {
   return root;
 }
 
-std::vector<Problem> assign(Node& root, std::string_view key, Node value) {
-  const auto place = value.place;
-  const auto steps = split_path(key);
-  if (!steps || steps->size() > deepest_nesting) {
-    return {{place, "", "\"" + std::string(key) + "\" is no key; keys look like radio.loss or events[0].time_s"}};
-  }
-  Node* at = &root;
-  for (const auto& step : *steps) {
-    if (step.index) {
-      auto* items = at->array();
-      if (!items) return {{place, std::string(key), "has an index, but there is no list to reach into"}};
-      if (*step.index >= items->size()) {
-        return {
-            {place, std::string(key),
-             "the list has " + std::to_string(items->size()) + " entries, counted from 0; this one does not exist"}};
-      }
-      at = &(*items)[*step.index];
-      continue;
+Node parse_value(std::string_view text, const std::shared_ptr<const std::string>& origin) {
+  if (text.find_first_of("\r\n") == std::string_view::npos && !has_endless_key(text)) {
+    try {
+      const auto parsed = toml::parse("v = " + std::string(text));
+      if (parsed.size() == 1) return from_toml(*parsed.get("v"), origin, false);
+    } catch (const toml::parse_error&) {  // not TOML: bare text
     }
-    // A section that is missing, or a value in the way: the reader judges the result.
-    if (!at->table()) *at = {Node::Table{}, place};
-    Node* next = at->find(step.name);
-    if (!next) {
-      at->table()->push_back({step.name, Node{Node::Table{}, place}});
-      next = &at->table()->back().value;
-    }
-    at = next;
   }
-  *at = std::move(value);
-  return {};
-}
-
-Node as_option(Node node) {
-  node.place = {shared(node.place.text()), 0};
-  if (auto* members = node.table()) {
-    for (auto& member : *members) member.value = as_option(std::move(member.value));
-  }
-  if (auto* items = node.array()) {
-    for (auto& item : *items) item = as_option(std::move(item));
-  }
-  return node;
-}
-
-void overlay(Node& root, Node changes) {
-  if (!root.table() || !changes.table()) {
-    root = std::move(changes);
-    return;
-  }
-  for (auto& [name, value] : *changes.table()) {
-    if (Node* there = root.find(name))
-      overlay(*there, std::move(value));
-    else
-      root.table()->push_back({std::move(name), std::move(value)});
-  }
-}
-
-std::vector<Problem> apply_override(Node& root, std::string_view assignment, const std::string& origin) {
-  const auto place = Place{shared(origin), 0};
-  const auto equals = assignment.find('=');
-  if (equals == std::string_view::npos) { return {{place, "", "expects key=value, such as radio.loss=0.3"}}; }
-  if (!valid_utf8(assignment)) return {{place, "", "is not valid UTF-8 text"}};
-  auto trim = [](std::string_view s) {
-    while (s.starts_with(' ')) s.remove_prefix(1);
-    while (s.ends_with(' ')) s.remove_suffix(1);
-    return s;
-  };
-  const auto key = trim(assignment.substr(0, equals));
-  return assign(root, key, override_value(trim(assignment.substr(equals + 1)), place.origin));
-}
-
-std::string number_text(double value) {
-  if (std::abs(value) >= 1e5 && std::abs(value) < 1e16 && value == std::trunc(value))
-    return std::to_string(static_cast<std::int64_t>(value));
-  std::array<char, world::longest_shortest> buffer;
-  return {buffer.data(), world::write_shortest(buffer.data(), value)};
-}
-
-double widened(float value) {
-  std::array<char, world::longest_shortest + 1> text;
-  *world::write_shortest(text.data(), value) = '\0';
-  return world::read_decimal(text.data());
+  return {std::string(text), {origin, 0}};
 }
 
 bool good_name(std::string_view name) {
@@ -455,22 +316,6 @@ std::string name_from(const std::string& path, std::string_view fallback) {
   if (name.starts_with('.')) name[0] = '-';
   name.resize(std::min<std::size_t>(name.size(), 100));
   return name.empty() ? std::string(fallback) : name;
-}
-
-std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
-  word = word.substr(0, 100);  // a very long word is like nothing anyway
-  std::string_view best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
-  for (const auto candidate : candidates) {
-    // A unit left out ("range" for "range_m") or a word cut short is a near miss, however long.
-    const bool shortened = word.size() >= 3 && candidate.starts_with(word);
-    const auto distance = shortened ? 1 : world::edit_distance(word, candidate);
-    if (distance < best_distance) {
-      best = candidate;
-      best_distance = distance;
-    }
-  }
-  return best;
 }
 
 }  // namespace banyan::config

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reference of keys, as rows and as Markdown.
-#include <algorithm>
-#include <nlohmann/json.hpp>
+#include <array>
 
-#include "banyan/config/config.hpp"
 #include "banyan/config/document.hpp"
 #include "banyan/config/keys.hpp"
 #include "banyan/controller/core/algorithm.hpp"
@@ -11,71 +9,78 @@
 namespace banyan::config {
 namespace {
 
-template <class Owner> struct TypeName {
-  std::string operator()(bool& (*)(Owner&)) const { return "true or false"; }
-  std::string operator()(double& (*)(Owner&)) const { return "number"; }
-  std::string operator()(int& (*)(Owner&)) const { return "whole number"; }
-  std::string operator()(std::uint32_t& (*)(Owner&)) const { return "whole number"; }
-  std::string operator()(std::size_t& (*)(Owner&)) const { return "whole number"; }
-  std::string operator()(std::optional<std::size_t>& (*)(Owner&)) const { return "whole number"; }
-  std::string operator()(std::optional<double>& (*)(Owner&)) const { return "number"; }
-  std::string operator()(std::string& (*)(Owner&)) const { return "text"; }
-  std::string operator()(world::Vec2& (*)(Owner&)) const { return "[x, y]"; }
-  std::string operator()(std::vector<world::Vec2>& (*)(Owner&)) const { return "[[x, y], ...]"; }
-  std::string operator()(std::vector<double>& (*)(Owner&)) const { return "list of numbers"; }
-  std::string operator()(const ChoiceAccess<Owner>&) const { return "name"; }
-  std::string operator()(const SeedAccess<Owner>&) const { return "whole number"; }
+using world::Type;
+
+std::string_view type_name(Type type) {
+  constexpr std::array<std::string_view, 8> names = {"true or false", "whole number",  "number",         "name", "text",
+                                                     "[x, y]",        "[[x, y], ...]", "list of numbers"};
+  return names.at(static_cast<std::size_t>(type));
+}
+
+struct ValueText {
+  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(bool truth) const { return truth ? "true" : "false"; }
+  std::string operator()(std::int64_t n) const { return std::to_string(n); }
+  std::string operator()(double x) const { return number_text(x); }
+  std::string operator()(const std::string& text) const { return text; }
+  std::string operator()(world::Vec2 p) const { return "[" + number_text(p.x) + ", " + number_text(p.y) + "]"; }
+  template <class Element> std::string operator()(const std::vector<Element>& list) const {
+    std::string text;
+    for (const Element& element : list) text += (text.empty() ? "[" : ", ") + (*this)(element);
+    return text + "]";
+  }
 };
 
-template <class Owner> KeyRow row_of(const Key<Owner>& key) {
+// What holds without the key.
+template <class Owner>
+std::string fallback_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> keys,
+                        const std::vector<std::string_view>& with) {
+  if (key.terms.required) return "required";
+  if (!key.terms.otherwise.empty()) return std::string(key.terms.otherwise);
+  Owner owner{};
+  if (!key.access.applies(owner)) set(*find_key(keys, selector_of(key)), owner, std::string(with.front()));
+  return std::visit(ValueText{}, get(key, owner));
+}
+
+template <class Owner> KeyRow row_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> keys) {
+  const auto with = applies_with(key, keys);
   KeyRow row;
-  row.path = (key.section.empty() ? "" : std::string(key.section) + ".") + std::string(key.name);
-  row.type = std::visit(TypeName<Owner>{}, key.access);
+  row.path = key.path;
+  row.type = type_name(key.access.type);
   row.meaning = key.meaning;
-  row.when = key.when;
-  row.fallback = key.required ? "required" : std::string(key.fallback);
-  if (const auto* choice = std::get_if<ChoiceAccess<Owner>>(&key.access)) {
-    for (const auto name : choice->names()) {
+  row.selector = selector_of(key);
+  for (const auto name : with) row.when += (row.when.empty() ? "" : " ") + std::string(name);
+  row.fallback = fallback_of(key, keys, with);
+  if (key.access.type == Type::name) {
+    for (const auto name : key.access.names()) {
       row.allowed += (row.allowed.empty() ? "" : ", ") + std::string(name);
       row.choices.emplace_back(name);
     }
-  } else if (row.type == "true or false") {
+  } else if (key.access.type == Type::truth) {
     row.choices = {"true", "false"};
-  } else if (row.type != "text") {
+  } else if (key.access.type != Type::text) {
     row.allowed = range_text(key.range, key.unit);
   }
   return row;
 }
 
-// What a scenario without the key has, as it would be written in a file.
-std::string default_of(const nlohmann::ordered_json& defaults, std::string_view section, std::string_view name) {
-  const nlohmann::ordered_json* at = &defaults;
-  while (!section.empty()) {
-    const auto end = std::min(section.find('.'), section.size());
-    at = &at->at(std::string(section.substr(0, end)));
-    section.remove_prefix(std::min(end + 1, section.size()));
-  }
-  const auto found = at->find(std::string(name));
-  if (found == at->end()) return "";
-  return found->is_string()   ? found->get<std::string>()
-         : found->is_number() ? number_text(found->get<double>())
-                              : found->dump();
+template <class Owner>
+void add_rows(std::vector<KeyRow>& rows, std::string_view section, std::span<const world::Key<Owner>> keys) {
+  for (const auto& key : keys)
+    if (key.section() == section) rows.push_back(row_of(key, keys));
 }
 
-std::vector<KeyRow> parameter_rows() {
-  std::vector<KeyRow> rows;
+void add_parameter_rows(std::vector<KeyRow>& rows) {
   for (const auto& info : parameter_table()) {
     if (!platform_key(info.key).empty()) continue;
     KeyRow row;
     row.path = "mission.parameters." + std::string(info.key);
-    row.type = "number";
-    row.allowed = number_text(widened(info.minimum)) + " to " + number_text(widened(info.maximum)) +
-                  (info.unit.empty() ? "" : " " + std::string(info.unit));
+    row.type = type_name(Type::number);
+    row.allowed = range_text({widened(info.minimum), widened(info.maximum)}, info.unit);
     row.fallback = "see `banyan algorithms`";
     row.meaning = (info.symbol.empty() ? "" : std::string(info.symbol) + ": ") + std::string(info.meaning);
     rows.push_back(std::move(row));
   }
-  return rows;
 }
 
 std::string section_of(const std::string& path) {
@@ -88,27 +93,29 @@ std::string escaped(std::string text) {
   return text;
 }
 
+std::string title_of(const world::Section& section) {
+  const std::string path(section.path);
+  if (path.empty()) return "At the top";
+  return section.repeated ? "[[" + path + "]]" : "[" + path + "]";
+}
+
+// With its condition, the selector named as seen from the section: "layout", "start.layout".
+std::string meaning_of(const KeyRow& row, const std::string& section) {
+  if (row.when.empty()) return row.meaning;
+  const std::string selector = row.selector.substr(section.size() + 1);
+  return row.meaning + " (only with " + selector + " " + row.when + ")";
+}
+
 }  // namespace
 
 std::vector<KeyRow> key_rows() {
-  Configuration standard;
-  standard.scenario.name = "";
-  const auto defaults = nlohmann::ordered_json::parse(config_json(standard));
+  const Configuration standard;
   std::vector<KeyRow> rows;
   for (const auto& section : sections()) {
-    if (section.path == "mission.parameters") {
-      for (auto& row : parameter_rows()) rows.push_back(std::move(row));
-      continue;
-    }
-    for (const auto& key : scenario_keys()) {
-      if (key.section != section.path) continue;
-      rows.push_back(row_of(key));
-      if (rows.back().fallback.empty()) rows.back().fallback = default_of(defaults, key.section, key.name);
-    }
-    if (section.path == "obstacles")
-      for (const auto& key : obstacle_keys()) rows.push_back(row_of(key));
-    if (section.path == "events")
-      for (const auto& key : event_keys()) rows.push_back(row_of(key));
+    each_part(standard, [&](const auto& keys, const auto&) { add_rows(rows, section.path, keys); });
+    world::each_list(standard.scenario,
+                     [&](auto, const auto& keys, const auto&) { add_rows(rows, section.path, keys); });
+    if (section.path == "mission.parameters") add_parameter_rows(rows);
   }
   return rows;
 }
@@ -125,20 +132,13 @@ std::string key_reference_markdown() {
       "into lists.\n";
   const auto rows = key_rows();
   for (const auto& section : sections()) {
-    const bool repeated = section.path == "obstacles" || section.path == "events";
     const std::string path(section.path);
-    text += "\n## " +
-            (path.empty() ? "At the top"
-             : repeated   ? "[[" + path + "]]"
-                          : "[" + path + "]") +
-            "\n\n" + std::string(section.meaning) +
+    text += "\n## " + title_of(section) + "\n\n" + std::string(section.meaning) +
             "\n\n| key | value | allowed | default | meaning |\n|---|---|---|---|---|\n";
     for (const auto& row : rows) {
       if (section_of(row.path) != path) continue;
-      std::string meaning = row.meaning;
-      if (!row.when.empty()) meaning += " (only with " + std::string(section.selector) + " " + row.when + ")";
       text += "| `" + row.path.substr(path.empty() ? 0 : path.size() + 1) + "` | " + row.type + " | " +
-              escaped(row.allowed) + " | " + escaped(row.fallback) + " | " + escaped(meaning) + " |\n";
+              escaped(row.allowed) + " | " + escaped(row.fallback) + " | " + escaped(meaning_of(row, path)) + " |\n";
     }
   }
   return text;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <set>
 
 namespace banyan::config {
@@ -90,9 +89,8 @@ std::optional<double> TableReader::number(std::string_view name, const Range& ra
     report(name, "must be a number (" + range_text(range, "") + "), not " + node->describe());
     return std::nullopt;
   }
-  const bool inside = (range.above ? value > range.minimum : value >= range.minimum) && value <= range.maximum;
-  if (!std::isfinite(value) || !inside) {
-    report(name, "is " + number_text(value) + "; allowed: " + range_text(range, ""));
+  if (auto fault = world::range_fault(value, range, "")) {
+    report(name, std::move(*fault));
     return std::nullopt;
   }
   return value;

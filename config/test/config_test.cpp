@@ -9,36 +9,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
 
-#include "banyan/controller/core/algorithm.hpp"
+#include "loading.hpp"
 
 namespace banyan::config {
 namespace {
-
-using nlohmann::json;
-
-std::string all_problems(const Loaded& loaded) {
-  std::string text;
-  for (const auto& p : loaded.problems) text += to_string(p) + "\n";
-  return text;
-}
-
-Loaded parse(const std::string& text, const std::vector<std::string>& sets = {}) {
-  std::vector<Override> overrides;
-  overrides.reserve(sets.size());
-  for (const auto& s : sets) overrides.push_back({s, "--set " + s});
-  return parse_configuration("w.toml", text, overrides);
-}
-
-::testing::AssertionResult says(const Loaded& loaded, const std::string& part) {
-  const auto text = all_problems(loaded);
-  if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "\"" << part << "\" is not in:\n" << text;
-}
-
-const std::string small = "[targets]\ncount = 2\nradius_m = 2.0\n";  // line 1 to 3
 
 TEST(Config, ReadsEveryKindOfValue) {
   const auto loaded = parse(R"(
@@ -106,9 +81,9 @@ series = true
   EXPECT_EQ(box.size, (world::Vec2{1.0, 2.0}));
   EXPECT_DOUBLE_EQ(box.angle_rad, 0.78539816339744831);
   EXPECT_EQ(std::get<world::Wall>(s.obstacles.at(1)).from, (world::Vec2{8.0, 8.0}));
-  EXPECT_EQ(s.events.at(0).kind, world::Event::Kind::freeze);
-  EXPECT_EQ(s.events.at(0).index, 3U);
-  EXPECT_EQ(s.events.at(0).value, 2.0);
+  const auto& freeze = std::get<world::Freeze>(s.events.at(0).action);
+  EXPECT_EQ(freeze.robot, 3U);
+  EXPECT_EQ(freeze.duration_s, 2.0);
   EXPECT_TRUE(loaded.configuration.output["series"]);
 }
 
@@ -155,7 +130,7 @@ kind = "die"
 )");
   EXPECT_TRUE(says(loaded, "w.toml:1: error: nme: there is no such key; did you mean name?"));
   EXPECT_TRUE(says(loaded, "w.toml:2: error: seed: is -1; allowed: 0 to"));
-  EXPECT_TRUE(says(loaded, "w.toml:3: error: tick_s: is nan; allowed: above 0, at most 1 s"));
+  EXPECT_TRUE(says(loaded, "w.toml:3: error: tick_s: is nan; allowed: 0.01 to 1 s"));
   EXPECT_TRUE(says(loaded, "w.toml:5: error: mission.algorithm: must be \"outwards\""));
   EXPECT_TRUE(says(loaded, "did you mean \"outwards\"?"));
   EXPECT_TRUE(says(loaded,
@@ -166,7 +141,7 @@ kind = "die"
                    "mission.parameters.target_gain?"));
   EXPECT_TRUE(says(loaded, "w.toml:9: error: mission.parameters.tick_s: follows from the key tick_s"));
   EXPECT_TRUE(says(loaded, "w.toml:11: error: swarm.robots: is 0; allowed: 2 to 65535"));
-  EXPECT_TRUE(says(loaded, "w.toml:13: error: radio.range_m: is -inf; allowed: above 0"));
+  EXPECT_TRUE(says(loaded, "w.toml:13: error: radio.range_m: is -inf; allowed: 0.05 to 100 m"));
   EXPECT_TRUE(says(loaded, "w.toml:14: error: radio.loss: is 1.5; allowed: 0 to 1"));
   EXPECT_TRUE(says(loaded, "w.toml:15: error: radio.line_of_sight: must be true or false, not the number 1"));
   EXPECT_TRUE(says(loaded, "w.toml:16: error: radio.latency_ticks: must be a whole number"));
@@ -259,32 +234,33 @@ from_m = [9, -9]
 to_m = [9, -8]
 )");
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
-  using Event = world::Event;
+  using world::Event;
+  using world::Kill;
   const auto& events = loaded.configuration.scenario.events;
   ASSERT_EQ(events.size(), 7U);
-  EXPECT_EQ(events[0].kind, Event::Kind::kill);
+  const auto& some = std::get<Kill>(events[0].action);
+  EXPECT_EQ(events[0].time_s, 5.0);
   EXPECT_EQ(events[0].when, Event::When::half_way);
-  EXPECT_EQ(events[0].of, Event::Of::connectors);
-  EXPECT_EQ(events[0].share, 0.33);
-  EXPECT_FALSE(events[0].count);
-  EXPECT_EQ(events[0].every_s, 0.0);
+  EXPECT_EQ(some.of, Kill::Of::connectors);
+  EXPECT_EQ(some.share, 0.33);
+  EXPECT_FALSE(some.count);
+  EXPECT_EQ(some.every_s, 0.0);
+  const auto& two = std::get<Kill>(events[1].action);
   EXPECT_EQ(events[1].when, Event::When::complete);
-  EXPECT_EQ(events[1].of, Event::Of::worker_and_parent);
-  EXPECT_EQ(events[1].count, std::size_t{2});
-  EXPECT_EQ(events[1].every_s, 10.0);
-  EXPECT_FALSE(events[1].share);
-  EXPECT_EQ(events[2].kind, Event::Kind::blackout);
-  EXPECT_EQ(events[2].value, 1.5);
+  EXPECT_EQ(two.of, Kill::Of::worker_and_parent);
+  EXPECT_EQ(two.count, std::size_t{2});
+  EXPECT_EQ(two.every_s, 10.0);
+  EXPECT_FALSE(two.share);
+  EXPECT_EQ(std::get<world::Blackout>(events[2].action).duration_s, 1.5);
   EXPECT_EQ(events[2].when, Event::When::time);
-  EXPECT_EQ(events[3].kind, Event::Kind::remove_target);
-  EXPECT_EQ(events[3].index, 1U);
-  EXPECT_EQ(events[4].value, 0.05);
-  EXPECT_EQ(events[4].position, (world::Vec2{1.0, -1.0}));
-  EXPECT_EQ(events[5].kind, Event::Kind::set_line_of_sight);
-  EXPECT_EQ(events[5].value, 1.0);
-  EXPECT_EQ(events[6].kind, Event::Kind::move_obstacle);
-  EXPECT_EQ(events[6].index, 1U);
-  EXPECT_EQ(events[6].position, (world::Vec2{-3.0, 4.5}));
+  EXPECT_EQ(std::get<world::RemoveTarget>(events[3].action).target, 1U);
+  const auto& drive = std::get<world::MoveTarget>(events[4].action);
+  EXPECT_EQ(drive.speed_m_s, 0.05);
+  EXPECT_EQ(drive.position, (world::Vec2{1.0, -1.0}));
+  EXPECT_TRUE(std::get<world::SetLineOfSight>(events[5].action).line_of_sight);
+  const auto& shift = std::get<world::MoveObstacle>(events[6].action);
+  EXPECT_EQ(shift.obstacle, 1U);
+  EXPECT_EQ(shift.position, (world::Vec2{-3.0, 4.5}));
   // And back, and read again.
   const auto again = parse(config_toml(loaded.configuration));
   ASSERT_TRUE(again.ok()) << all_problems(again);
@@ -340,7 +316,7 @@ kind = "blackout"
 time_s = 1
 )");
   EXPECT_TRUE(says(loaded, "w.toml:7: error: events[0].share: give share or count, not both"));
-  EXPECT_TRUE(says(loaded, "w.toml:13: error: events[2].duration_s: must be a number above 0"));
+  EXPECT_TRUE(says(loaded, "w.toml:13: error: events[2].duration_s: must be above 0"));
   EXPECT_TRUE(says(parse(small + "[[events]]\nkind = \"move_obstacle\"\ntime_s = 1\nobstacle = 2\n"
                                  "position_m = [1, 1]\n"),
                    "w.toml:7: error: events[0].obstacle: there is no obstacle 2"));
@@ -354,6 +330,12 @@ TEST(Config, TheSameKeyElsewhereIsNamed) {
   EXPECT_TRUE(says(parse(small + "[robot]\nrange_m = 3\n"),
                    "robot.range_m: there is no such key; did you mean radio.range_m?"));
   EXPECT_TRUE(says(parse(small + "[raido]\nloss = 0.3\n"), "raido: there is no such key; did you mean radio?"));
+}
+
+TEST(Config, AQuotedNameWithADotIsNoPath) {
+  EXPECT_TRUE(says(parse(small, {"\"radio.loss\"=0.5"}), "there is no such key"));
+  EXPECT_TRUE(says(parse("\"radio.loss\" = 0.5\n" + small), "w.toml:1: error: radio.loss: there is no such key"));
+  EXPECT_TRUE(says(parse("\"swarm.start\" = { pitch_m = 0.5 }\n" + small), "w.toml:1: error: swarm.start: there is no such key"));
 }
 
 TEST(Config, SectionsAndListsMustBeSuch) {
@@ -398,6 +380,28 @@ TEST(Config, AnotherLayoutByOptionLeavesTheOldKeysBehind) {
   EXPECT_EQ(std::get<world::RingTargets>(loaded.configuration.scenario.targets).count, 2U);
 }
 
+TEST(Config, OfTwoKeysThatExcludeEachOtherAnOptionBeatsTheFile) {
+  const std::string half = small + "[[events]]\nkind = \"kill\"\ntime_s = 1\nshare = 0.5\n";
+  const auto loaded = parse(half, {"events[0].count=2"});
+  ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
+  const auto& kill = std::get<world::Kill>(loaded.configuration.scenario.events[0].action);
+  EXPECT_EQ(kill.count, std::size_t{2});
+  EXPECT_FALSE(kill.share);
+  EXPECT_TRUE(says(parse(small, {"swarm.robots=9", "swarm.redundancy=2"}),
+                   "--set swarm.redundancy=2: error: swarm.redundancy: give robots or redundancy, not both"));
+  EXPECT_TRUE(says(parse(small + "[swarm]\nrobots = \"many\"\n", {"swarm.redundancy=2"}),
+                   "w.toml:5: error: swarm.robots: must be a whole number"))
+      << "it does not count, but it is no number";
+}
+
+TEST(Config, AListOfRobotsNeedsNoRedundancy) {
+  const std::string listed = "layout = \"list\"\npositions_m = [[0, 0], [0.5, 0], [0, 0.5]]\n";
+  EXPECT_TRUE(says(parse(small + "[swarm]\nredundancy = 2\n[swarm.start]\n" + listed),
+                   "w.toml:5: error: swarm.redundancy: has no meaning with start.layout = \"list\", only with "
+                   "\"hexagonal\" or \"grid\""));
+  EXPECT_TRUE(parse(small + "[swarm.start]\n" + listed).ok());
+}
+
 TEST(Config, WrongOptionsAreNamedAsGiven) {
   const auto loaded = parse(small, {"radio.los=true", "radio.loss=2", "x.y.z=1", "radio"});
   EXPECT_TRUE(says(loaded, "--set radio.los=true: error: radio.los: there is no such key; did you mean radio.loss?"));
@@ -415,193 +419,11 @@ TEST(Config, RunsTheResultOfAnEarlierRunAgain) {
   EXPECT_EQ(config_json(again.configuration), config_json(first.configuration));
 }
 
-// ------------------------------------------------------------------------------- every key, both ways
-
-json* member(json& root, const std::string& path) {
-  json* at = &root;
-  for (std::size_t from = 0; from <= path.size();) {
-    const auto dot = std::min(path.find('.', from), path.size());
-    at = &(*at)[path.substr(from, dot - from)];
-    from = dot + 1;
-  }
-  return at;
-}
-
-// A value within the range of the key that is not its default. Types come from the table's row.
-template <class Owner> rc::Gen<json> value_of(const Key<Owner>& key) {
-  const auto low = std::isfinite(key.range.minimum) ? key.range.minimum : -100.0;
-  const auto high = std::isfinite(key.range.maximum) ? key.range.maximum : 100.0;
-  const auto real = rc::gen::map(rc::gen::inRange<std::int64_t>(1, 1'000'000'000), [low, high](std::int64_t k) {
-    return low + (high - low) * (static_cast<double>(k) / 1e9);
-  });
-  const auto whole = rc::gen::map(real, [](double v) { return static_cast<std::int64_t>(std::ceil(v)); });
-  const auto point = rc::gen::map(rc::gen::pair(real, real), [](auto p) { return json::array({p.first, p.second}); });
-  struct Pick {
-    rc::Gen<json> real, whole, point;
-    const Key<Owner>& key;
-    rc::Gen<json> operator()(bool& (*)(Owner&)) const {
-      return rc::gen::map(rc::gen::arbitrary<bool>(), [](bool b) { return json(b); });
-    }
-    rc::Gen<json> operator()(double& (*)(Owner&)) const { return real; }
-    rc::Gen<json> operator()(int& (*)(Owner&)) const { return whole; }
-    rc::Gen<json> operator()(std::uint32_t& (*)(Owner&)) const { return whole; }
-    rc::Gen<json> operator()(std::size_t& (*)(Owner&)) const { return whole; }
-    rc::Gen<json> operator()(const SeedAccess<Owner>&) const { return whole; }
-    rc::Gen<json> operator()(std::optional<std::size_t>& (*)(Owner&)) const { return whole; }
-    rc::Gen<json> operator()(std::optional<double>& (*)(Owner&)) const { return real; }
-    rc::Gen<json> operator()(std::string& (*)(Owner&)) const {
-      const auto text = rc::gen::nonEmpty(rc::gen::string<std::string>());
-      if (key.name != "name") {
-        return rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange(' ', '\x7f')),
-                            [](const std::string& s) { return json(s + "\t\"\\"); });
-      }
-      return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange('a', 'z'))),
-                          [](const std::string& s) { return json(s.substr(0, 100)); });
-    }
-    rc::Gen<json> operator()(world::Vec2& (*)(Owner&)) const { return point; }
-    rc::Gen<json> operator()(std::vector<world::Vec2>& (*)(Owner&)) const { return list(point); }
-    rc::Gen<json> operator()(std::vector<double>& (*)(Owner&)) const { return list(real); }
-    rc::Gen<json> operator()(const ChoiceAccess<Owner>& choice) const {
-      const auto names = choice.names();
-      return rc::gen::map(rc::gen::inRange<std::size_t>(0, names.size()),
-                          [names](std::size_t i) { return json(names[i]); });
-    }
-    static rc::Gen<json> list(const rc::Gen<json>& item) {
-      return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::vector<json>>(item)),
-                          [](const std::vector<json>& v) { return json(v); });
-    }
-  };
-  const auto as_json = [](const auto& gen) { return rc::gen::map(gen, [](auto v) { return json(v); }); };
-  return std::visit(Pick{as_json(real), as_json(whole), as_json(point), key}, key.access);
-}
-
-// The keys of a section that have a meaning together, with random values.
-template <class Owner> json random_section(const Section& section, std::span<const Key<Owner>> keys) {
-  json table = json::object();
-  std::string choice;
-  for (const auto& key : keys) {
-    if (key.section == section.path && key.name == section.selector)
-      choice = (table[std::string(key.name)] = *value_of(key)).template get<std::string>();
-  }
-  for (const auto& key : keys) {
-    if (key.section != section.path || key.name == section.selector) continue;
-    if (key.when.empty() || applies(key.when, choice)) table[std::string(key.name)] = *value_of(key);
-  }
-  return table;
-}
-
-json random_tree() {
-  json root = json::object();
-  for (const auto& section : sections()) {
-    const std::string path(section.path);
-    if (path == "obstacles" || path == "events") {
-      const auto n = *rc::gen::inRange(0, 4);
-      root[path] = json::array();
-      for (int i = 0; i < n; ++i) {
-        root[path].push_back(path == "obstacles" ? random_section(section, obstacle_keys())
-                                                 : random_section(section, event_keys()));
-      }
-    } else if (path == "mission.parameters") {
-      for (const auto& info : parameter_table()) {
-        if (!platform_key(info.key).empty() || *rc::gen::arbitrary<bool>()) continue;
-        root["mission"]["parameters"][std::string(info.key)] =
-            0.5 * (static_cast<double>(info.minimum) + static_cast<double>(info.maximum));
-      }
-    } else {
-      const auto table = random_section(section, scenario_keys());
-      json& place = path.empty() ? root : *member(root, path);
-      for (const auto& [key, value] : table.items()) place[key] = value;
-    }
-  }
-  const bool listed = root["swarm"]["start"]["layout"] == "list";
-  root["swarm"].erase(*rc::gen::arbitrary<bool>() || listed ? "redundancy" : "robots");
-  return root;
-}
-
-// Only complaints about single keys; whether random values fit together is another matter.
-std::string complaints_about_keys(const Loaded& loaded) {
-  std::string text;
-  for (const auto& p : loaded.problems) {
-    for (const char* part :
-         {"there is no such key", "has no meaning", "; allowed: ", "is missing", "not the ", "not a "}) {
-      if (p.text.find(part) != std::string::npos && p.text.find("must be a number") == std::string::npos)
-        text += to_string(p) + "\n";
-    }
-  }
-  return text;
-}
-
-RC_GTEST_PROP(ConfigProperty, EveryKeyComesBackFromTheDump, ()) {
-  const json tree = random_tree();
-
-  const auto loaded = parse_configuration("w.json", tree.dump());
-  RC_ASSERT(complaints_about_keys(loaded) == "");
-  const auto dump = json::parse(config_json(loaded.configuration));
-
-  // Whatever was given is in the dump with the same value, angles up to rounding.
-  const auto flat_tree = tree.flatten();
-  const auto flat_dump = dump.flatten();
-  for (const auto& [path, value] : flat_tree.items()) {
-    if (value.is_null() || (value.is_structured() && value.empty())) continue;
-    RC_ASSERT(flat_dump.contains(path));
-    const json& back = flat_dump[path];
-    if (value.is_number_float() && path.find("_deg") != std::string::npos) {
-      RC_ASSERT(std::abs(back.get<double>() - value.get<double>()) <= 1e-13 * std::abs(value.get<double>()));
-    } else if (value.is_number()) {
-      RC_ASSERT(back.get<double>() == value.get<double>());
-    } else {
-      RC_ASSERT(back == value);
-    }
-  }
-}
-
-RC_GTEST_PROP(ConfigProperty, TheDumpReadsBackAsTheSameScenarioToTheBit, ()) {
-  const auto loaded = parse_configuration("w.json", random_tree().dump());
-
-  const auto from_json = parse_configuration("w.json", config_json(loaded.configuration));
-  const auto from_toml = parse_configuration("w.toml", config_toml(loaded.configuration));
-
-  RC_ASSERT(complaints_about_keys(from_json) == "");
-  RC_ASSERT(complaints_about_keys(from_toml) == "");
-  for (const auto* back : {&from_json, &from_toml}) {
-    RC_ASSERT(config_json(back->configuration) == config_json(loaded.configuration));
-    const auto& a = loaded.configuration.scenario;
-    const auto& b = back->configuration.scenario;
-    RC_ASSERT(a.swarm.start.headings_rad == b.swarm.start.headings_rad);  // angles: the same radians
-    RC_ASSERT(a.radio.bearing_noise_rad == b.radio.bearing_noise_rad);
-    RC_ASSERT(a.robot.wheel_limit_m_s == b.robot.wheel_limit_m_s);
-    if (const auto* ring = std::get_if<world::RingTargets>(&a.targets))
-      RC_ASSERT(ring->phase_rad == std::get<world::RingTargets>(b.targets).phase_rad);
-    for (std::size_t i = 0; i < a.obstacles.size(); ++i) {
-      if (const auto* box = std::get_if<world::Box>(&a.obstacles[i]))
-        RC_ASSERT(box->angle_rad == std::get<world::Box>(b.obstacles[i]).angle_rad);
-    }
-  }
-}
-
 RC_GTEST_PROP(ConfigProperty, NoTextWhateverIsTooMuch, ()) {
   const auto text = *rc::gen::container<std::string>(rc::gen::elementOf(std::string("[]{}=.,\"'#\n \\axt_0-9ne+:")));
   (void)parse_configuration("w.toml", text);
   (void)parse_configuration("w.json", text);
   (void)parse_configuration("w.toml", small, {{text, "--set"}});
-}
-
-TEST(Config, EveryKeyIsInTheTableOnceAndExplained) {
-  std::set<std::string> paths;
-  for (const auto& row : key_rows()) {
-    EXPECT_TRUE(paths.insert(row.path).second) << row.path;
-    EXPECT_FALSE(row.meaning.empty()) << row.path;
-    EXPECT_FALSE(row.type.empty()) << row.path;
-  }
-  EXPECT_TRUE(paths.contains("radio.loss"));
-  EXPECT_TRUE(paths.contains("mission.parameters.target_gain"));
-  EXPECT_TRUE(paths.contains("events.time_s"));
-}
-
-TEST(Config, TheReferenceOfKeysIsUpToDate) {
-  std::ifstream in(std::string(BANYAN_DOCS) + "/scenario-keys.md");
-  const std::string page((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  EXPECT_EQ(page, key_reference_markdown()) << "renew it: banyan keys --markdown > docs/scenario-keys.md";
 }
 
 TEST(Scenarios, AllAreValidWithoutAWarning) {

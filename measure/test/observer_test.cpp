@@ -39,10 +39,7 @@ Scenario chain(std::size_t robots, double pitch_m) {
   s.swarm.start.layout = world::Layout::list;
   for (std::size_t i = 0; i < robots; ++i) {
     s.swarm.start.positions.push_back({static_cast<double>(i) * pitch_m, 0.0});
-    Event freeze;
-    freeze.kind = Event::Kind::freeze;
-    freeze.index = i;
-    s.events.push_back(freeze);
+    s.events.push_back({.action = world::Freeze{i}});
   }
   s.swarm.robots = robots;
   s.swarm.root = 0;
@@ -90,10 +87,7 @@ TEST(Observer, ComputesTheFiedlerValueOfAPath) {
 
 TEST(Observer, ADeadConnectorBreaksEdgesAndSplitsTheGraph) {
   Scenario s = chain(6, 1.1);
-  Event die;
-  die.time_s = 15.0;
-  die.index = 2;
-  s.events.push_back(die);
+  s.events.push_back({.time_s = 15.0, .action = world::Die{2}});
   World world(s);
   Observer observer(world);
   EXPECT_EQ(after(world, observer, 150).broken_by_death, 0U);
@@ -189,9 +183,7 @@ TEST(Observer, AtTheTimeLimitARunIsOverAndNotComplete) {
 TEST(Observer, ADeadWorkerReachesNothing) {
   Scenario s = ring(12, 2, 1.0);
   World probe(s);
-  Event die;
-  die.index = probe.targets()[0].worker;
-  s.events = {die};
+  s.events = {{.action = world::Die{probe.targets()[0].worker}}};
   World world(s);
   Observer observer(world);
   for (int t = 0; t < 400; ++t) EXPECT_LE(after(world, observer, 1).targets_reached, 1U);
@@ -215,10 +207,7 @@ TEST(Observer, KnowsTheBounds) {
 
 TEST(Observer, MeasuresTheNetworkThatIsLeft) {
   Scenario s = chain(6, 1.1);
-  Event die;
-  die.time_s = 15.0;
-  die.index = 2;
-  s.events.push_back(die);
+  s.events.push_back({.time_s = 15.0, .action = world::Die{2}});
   World world(s);
   Observer observer(world);
   after(world, observer, 150);
@@ -252,12 +241,7 @@ TEST(Observer, HeldTimeCountsFromCompletionOn) {
   Scenario s = ring(16, 2, 2.0);
   s.mission.stop_when_complete = false;
   s.mission.time_limit_s = 60.0;
-  Event away;  // out of everybody's reach
-  away.kind = Event::Kind::move_target;
-  away.time_s = 40.0;
-  away.index = 1;
-  away.position = {0.0, 50.0};
-  s.events.push_back(away);
+  s.events.push_back({.time_s = 40.0, .action = world::MoveTarget{1, {0.0, 50.0}}});  // out of everybody's reach
   World world(s);
   Observer observer(world);
   double held = 0.0;
@@ -335,11 +319,7 @@ TEST(Observer, SettlesAfterCompletionEvenBeyondTheLimit) {
 // ---- Deaths ----
 
 Event death(std::size_t robot, double time_s, Event::When when = Event::When::time) {
-  Event e;
-  e.index = robot;
-  e.time_s = time_s;
-  e.when = when;
-  return e;
+  return {time_s, when, world::Die{robot}};
 }
 
 // A robot of the given role at the end of a run, the last of them.
@@ -438,11 +418,7 @@ TEST(Observer, SurvivorsAreComparedWithWhatTheTargetsLeftNeed) {
   s.mission.target_tolerance_m = 0.2;
   s.events.push_back(death(2, 1.0));
   s.events.push_back(death(3, 2.0));
-  Event give_up;
-  give_up.time_s = 3.0;
-  give_up.kind = Event::Kind::remove_target;
-  give_up.index = 1;
-  s.events.push_back(give_up);
+  s.events.push_back({.time_s = 3.0, .action = world::RemoveTarget{1}});
   World world(s);
   Observer observer(world);
   EXPECT_EQ(observer.run().robots_bound, 6U);
@@ -536,10 +512,7 @@ TEST(Observer, AgreesWithARecountOfAHardRun) {
       s.radio.line_of_sight = true;
       s.radio.loss = 0.3;
       for (std::size_t k = 0; k < 6; ++k) {
-        Event die;
-        die.time_s = 20.0 + 5.0 * static_cast<double>(k);
-        die.index = 3 * k;
-        s.events.push_back(die);
+        s.events.push_back({.time_s = 20.0 + 5.0 * static_cast<double>(k), .action = world::Die{3 * k}});
       }
       World world(s);
       Observer observer(world);

@@ -238,8 +238,8 @@ Identification identify(const world::Scenario& scenario, std::string_view versio
     id.target_radius_m = std::max(id.target_radius_m, far_m);
   }
   constexpr double paper_spacing_m = 1.540841;  // delta of inwards (protocol 2, row 10)
-  const double given = static_cast<double>(scenario.swarm.robots) * paper_spacing_m;
-  id.redundancy = scenario.swarm.robots == 0 ? scenario.swarm.redundancy : sum_m > 0.0 ? given / sum_m : 0.0;
+  const double given = static_cast<double>(scenario.swarm.robots.value_or(0)) * paper_spacing_m;
+  id.redundancy = !scenario.swarm.robots ? scenario.swarm.redundancy : sum_m > 0.0 ? given / sum_m : 0.0;
   id.range_m = scenario.radio.range_m;
   id.tick_s = scenario.tick_s;
   id.seed = scenario.seed;

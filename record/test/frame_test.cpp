@@ -22,7 +22,7 @@ world::Scenario scenario(std::size_t robots, bool line_of_sight) {
   s.targets = world::RingTargets{3, 3.0, 0.0, {}};
   s.radio.line_of_sight = line_of_sight;
   s.obstacles = {world::Disc{{1.5, 0.8}, 0.2}};
-  s.events = {{5.0, world::Event::Kind::die, 3, 0.0, {}}, {6.0, world::Event::Kind::move_target, 1, 0.0, {-2.0, 2.0}}};
+  s.events = {{.time_s = 5.0, .action = world::Die{3}}, {.time_s = 6.0, .action = world::MoveTarget{1, {-2.0, 2.0}}}};
   return s;
 }
 
@@ -60,14 +60,14 @@ TEST(Capture, TheSettingIsTheWorldsOfNow) {
   world::World world(scenario(10, true));
   const Setting before = setting_of(world);
   EXPECT_TRUE(still_holds(before, world));
-  world.intervene({.kind = world::Event::Kind::move_obstacle, .index = 0, .position = {-7.0, 2.0}});
+  world.intervene({.action = world::MoveObstacle{0, {-7.0, 2.0}}});
   EXPECT_TRUE(still_holds(before, world)) << "in the next step";
   world.step();
   EXPECT_FALSE(still_holds(before, world));
   const Setting moved = setting_of(world);
   EXPECT_EQ(std::get<world::Disc>(moved.obstacles[0]).center, (Vec2{-7.0, 2.0}));
   EXPECT_TRUE(moved.line_of_sight);
-  world.intervene({.kind = world::Event::Kind::set_line_of_sight, .value = 0.0});
+  world.intervene({.action = world::SetLineOfSight{false}});
   world.step();
   EXPECT_FALSE(still_holds(moved, world));
   EXPECT_FALSE(setting_of(world).line_of_sight);
@@ -113,7 +113,7 @@ TEST(Capture, WhoServesATargetIsWhoHoldsItNow) {
   world::Scenario s = scenario(40, false);
   s.obstacles.clear();
   s.robot.dead_bodies = false;
-  s.events = {{.time_s = 15.0, .kind = world::Event::Kind::remove_target, .index = 2}};
+  s.events = {{.time_s = 15.0, .action = world::RemoveTarget{2}}};
   world::World world(s);
   measure::Observer observer(world);
   const test::TemporaryDirectory directory;
@@ -122,7 +122,7 @@ TEST(Capture, WhoServesATargetIsWhoHoldsItNow) {
   Frame frame;
   std::int32_t successor = -1;
   while (world.tick() < 900) {
-    if (world.tick() == 60) world.intervene({.kind = world::Event::Kind::die, .index = world.targets()[0].worker});
+    if (world.tick() == 60) world.intervene({.action = world::Die{world.targets()[0].worker}});
     world.step();
     recorder.frame(world, observer.observe(world));
     capture(world, frame);
@@ -155,7 +155,7 @@ TEST(Capture, LinksOfAPictureAreTheRadios) {
     world::Scenario s = scenario(60, line_of_sight);
     s.robot.dead_bodies = dead_bodies;
     for (std::size_t robot = 5; robot < 20; ++robot)
-      s.events.push_back({.time_s = 1.0, .kind = world::Event::Kind::die, .index = robot});
+      s.events.push_back({.time_s = 1.0, .action = world::Die{robot}});
     world::World world(s);
     const Setting setting = setting_of(world);
     Frame frame;

@@ -28,7 +28,7 @@ world::Scenario scenario() {
   s.swarm.robots = 20;
   s.targets = world::RingTargets{3, 3.0, 0.0, {}};
   s.radio.line_of_sight = true;
-  s.events = {{4.0, world::Event::Kind::die, 3, 0.0, {}}};
+  s.events = {{.time_s = 4.0, .action = world::Die{3}}};
   return s;
 }
 
@@ -140,7 +140,7 @@ TEST_F(RecordedMessages, AreWhatWasSentAtEveryRecordedFrame) {
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/messages")->id), sent_.size());
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/frame")->id), sent_.size());
   const std::set<std::string> nowhere{"root_x_cm", "root_y_cm", "task_x_cm", "task_y_cm"};
-  const std::size_t robots = scenario().swarm.robots;
+  const std::size_t robots = *scenario().swarm.robots;
   for (const auto& [tick, sent] : sent_) {
     const json messages = object(reader, "/banyan/messages", tick);
     const json frame = object(reader, "/banyan/frame", tick);

@@ -91,7 +91,7 @@ world::Scenario crowd() {
   s.radio.line_of_sight = true;
   s.radio.loss = 0.2;
   s.radio.latency_ticks = 2;
-  s.events = {{.time_s = 3.0, .kind = world::Event::Kind::die, .index = 7}};
+  s.events = {{.time_s = 3.0, .action = world::Die{7}}};
   return s;
 }
 

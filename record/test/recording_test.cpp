@@ -98,8 +98,8 @@ TEST(Recording, ProvenanceSettingAndResultComeBack) {
 TEST(Recording, ObstaclesAndSightAreThoseOfTheTime) {
   world::Scenario scenario;
   scenario.obstacles = {world::Disc{{9.0, 9.0}, 0.5}};
-  scenario.events = {{.time_s = 1.0, .kind = world::Event::Kind::move_obstacle, .position = {7.0, -7.0}},
-                     {.time_s = 2.0, .kind = world::Event::Kind::set_line_of_sight, .value = 1.0}};
+  scenario.events = {{.time_s = 1.0, .action = world::MoveObstacle{0, {7.0, -7.0}}},
+                     {.time_s = 2.0, .action = world::SetLineOfSight{true}}};
   world::World world(scenario);
   measure::Observer observer(world);
   const std::string path = ::testing::TempDir() + "/settings.mcap";

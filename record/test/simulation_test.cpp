@@ -93,7 +93,7 @@ TEST(Simulation, StepsBeyondTheEndAndInterferes) {
   Simulation simulation(world::World(test::small_world()), onlooker);
   while (!simulation.finished()) simulation.step(one);
   const std::uint64_t end = simulation.world().tick();
-  simulation.intervene({.kind = world::Event::Kind::die, .index = 3});
+  simulation.intervene({.action = world::Die{3}});
   simulation.step(one);
   EXPECT_EQ(simulation.last().tick, end + 1);
   EXPECT_EQ(simulation.last().alive, 5U);

@@ -493,7 +493,7 @@ class StudyReader {
     key.erase(key.find_last_not_of(' ') + 1);
     Node tree{Node::Table{}, {}};
     const bool whole = key.empty() || equals == o.assignment.size();  // not of that form: to be told so
-    auto found = config::apply_override(tree, whole ? o.assignment : "value" + o.assignment.substr(equals), o.origin);
+    auto found = config::apply(tree, {whole ? o.assignment : "value" + o.assignment.substr(equals), o.origin});
     if (key == "seed") {
       Problem problem;
       problem.place.origin = std::make_shared<const std::string>(o.origin);

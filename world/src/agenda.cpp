@@ -11,7 +11,7 @@ bool later(const Agenda::Entry& a, const Agenda::Entry& b) noexcept {
 }
 
 bool deadly(const Agenda::Entry& entry) noexcept {
-  return entry.event.kind == Event::Kind::die || entry.event.kind == Event::Kind::kill;
+  return std::holds_alternative<Die>(entry.event.action) || std::holds_alternative<Kill>(entry.event.action);
 }
 
 }  // namespace

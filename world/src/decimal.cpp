@@ -5,10 +5,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace banyan::world {
@@ -151,5 +153,18 @@ char* write_fixed(char* at, double value, int decimals) noexcept {
 }
 double read_decimal(const char* text) noexcept { return std::strtod(text, nullptr); }
 #endif
+
+std::string number_text(double value) {
+  if (std::abs(value) >= 1e5 && std::abs(value) < 1e16 && value == std::trunc(value))
+    return std::to_string(static_cast<std::int64_t>(value));
+  std::array<char, longest_shortest> buffer;
+  return {buffer.data(), write_shortest(buffer.data(), value)};
+}
+
+double widened(float value) {
+  std::array<char, longest_shortest + 1> text;
+  *write_shortest(text.data(), value) = '\0';
+  return read_decimal(text.data());
+}
 
 }  // namespace banyan::world

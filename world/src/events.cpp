@@ -92,41 +92,33 @@ std::optional<std::size_t> World::Impl::holder(std::size_t target) const noexcep
 
 // ---- What an event does ----
 
-void World::Impl::apply(Agenda::Entry entry) {
-  const Event& event = entry.event;
-  const auto until = [&] { return tick + static_cast<std::uint64_t>(event.value / scenario.tick_s + 0.5); };
-  switch (event.kind) {
-    case Event::Kind::die:
-      die(event.index);
-      break;
-    case Event::Kind::freeze:
-      frozen_until[event.index] = event.value > 0.0 ? until() : forever;
-      break;
-    case Event::Kind::set_loss:
-      loss = event.value;
-      break;
-    case Event::Kind::move_target:
-      move_target(event.index, event.position, event.value);
-      break;
-    case Event::Kind::add_target:
-      assign_target(event.position);
-      break;
-    case Event::Kind::kill:
-      kill(entry);
-      break;
-    case Event::Kind::blackout:
-      silent_until = std::max(silent_until, until());
-      break;
-    case Event::Kind::remove_target:
-      give_up(event.index);
-      break;
-    case Event::Kind::set_line_of_sight:
-      set_line_of_sight(event.value != 0.0);
-      break;
-    case Event::Kind::move_obstacle:
-      move_obstacle(event.index, event.position);
-      break;
-  }
+namespace {
+
+template <class... Functions> struct Overloaded : Functions... { using Functions::operator()...; };
+template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions...>;
+
+}  // namespace
+
+void World::Impl::apply(const Agenda::Entry& entry) {
+  std::visit(Overloaded{
+                 [&](const Die& e) { die(e.robot); },
+                 [&](const Freeze& e) {
+                   frozen_until[e.robot] = e.duration_s > 0.0 ? tick_after(e.duration_s) : forever;
+                 },
+                 [&](const SetLoss& e) { loss = e.loss; },
+                 [&](const MoveTarget& e) { move_target(e.target, e.position, e.speed_m_s); },
+                 [&](const AddTarget& e) { assign_target(e.position); },
+                 [&](const Kill& e) { kill(e, entry); },
+                 [&](const Blackout& e) { silent_until = std::max(silent_until, tick_after(e.duration_s)); },
+                 [&](const RemoveTarget& e) { give_up(e.target); },
+                 [&](const SetLineOfSight& e) { set_line_of_sight(e.line_of_sight); },
+                 [&](const MoveObstacle& e) { move_obstacle(e.obstacle, e.position); },
+             },
+             entry.event.action);
+}
+
+std::uint64_t World::Impl::tick_after(double duration_s) const noexcept {
+  return tick + static_cast<std::uint64_t>(duration_s / scenario.tick_s + 0.5);
 }
 
 void World::Impl::die(std::size_t i) {
@@ -140,8 +132,7 @@ void World::Impl::die(std::size_t i) {
 }
 
 // How many is settled when the event begins, who is drawn anew each time.
-void World::Impl::kill(Agenda::Entry entry) {
-  const Event& event = entry.event;
+void World::Impl::kill(const Kill& event, Agenda::Entry entry) {
   if (!entry.begun) {
     entry.begun = true;
     entry.begin_s = entry.due_s;
@@ -151,7 +142,7 @@ void World::Impl::kill(Agenda::Entry entry) {
   }
   do {
     if (entry.left == 0) return;
-    draw_victim(entry);
+    draw_victim(event.of, entry);
     ++entry.drawn;
     --entry.left;
   } while (event.every_s == 0.0);
@@ -160,36 +151,35 @@ void World::Impl::kill(Agenda::Entry entry) {
   agenda.again(entry);
 }
 
-bool World::Impl::among(Event::Of of, std::size_t i) const noexcept {
+bool World::Impl::among(Kill::Of of, std::size_t i) const noexcept {
   if (alive[i] == 0) return false;
   switch (of) {
-    case Event::Of::robots:
+    case Kill::Of::robots:
       return true;
-    case Event::Of::connectors:
+    case Kill::Of::connectors:
       return reports[i].role == Role::connector;
-    case Event::Of::root:
+    case Kill::Of::root:
       return reports[i].role == Role::root;
     default:
       return reports[i].role == Role::worker;
   }
 }
 
-std::size_t World::Impl::count_among(Event::Of of) const noexcept {
+std::size_t World::Impl::count_among(Kill::Of of) const noexcept {
   std::size_t count = 0;
   for (std::size_t i = 0; i < alive.size(); ++i) count += among(of, i) ? 1 : 0;
   return count;
 }
 
 // Every one of them with the same chance. With nobody left to draw from, nobody dies.
-void World::Impl::draw_victim(const Agenda::Entry& entry) {
-  const Event::Of of = entry.event.of;
+void World::Impl::draw_victim(Kill::Of of, const Agenda::Entry& entry) {
   const double u = to_uniform(bits(scenario.seed, Purpose::kill, entry.number, entry.drawn));
   auto rank = static_cast<std::size_t>(u * static_cast<double>(count_among(of)));
   for (std::size_t i = 0; i < alive.size(); ++i) {
     if (!among(of, i) || rank-- > 0) continue;
     const RobotId parent = up_of(reports[i]);
     die(i);
-    if (of == Event::Of::worker_and_parent && parent != nobody) die(parent);
+    if (of == Kill::Of::worker_and_parent && parent != nobody) die(parent);
     return;
   }
 }

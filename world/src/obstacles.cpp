@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "banyan/controller/core/trig.hpp"
 
@@ -168,6 +169,11 @@ double gap(const Obstacle& obstacle, Vec2 a, Vec2 b) noexcept {
 
 double clearance(const Obstacle& obstacle, Vec2 p) noexcept {
   return std::visit([&](const auto& o) { return clearance_of(o, p); }, obstacle);
+}
+double clearance(std::span<const Obstacle> obstacles, Vec2 p) noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Obstacle& o : obstacles) least = std::min(least, clearance(o, p));
+  return least;
 }
 
 Vec2 nearest_surface_point(const Obstacle& obstacle, Vec2 p) noexcept {

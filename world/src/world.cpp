@@ -279,8 +279,8 @@ void World::step() {
 std::vector<Fault> World::faults_now(const Event& event) const {
   Present present{impl_->targets.size(), impl_->obstacles};
   impl_->agenda.each_due(time_s() + 1e-9, [&](const Event& sooner) {
-    if (sooner.kind == Event::Kind::move_obstacle)
-      present.obstacles[sooner.index] = moved(present.obstacles[sooner.index], sooner.position);
+    if (const auto* move = std::get_if<MoveObstacle>(&sooner.action))
+      present.obstacles[move->obstacle] = moved(present.obstacles[move->obstacle], move->position);
   });
   std::vector<Fault> found = event_faults(impl_->with(event), &present);
   std::erase_if(found, [](const Fault& fault) { return fault.warning; });

@@ -82,12 +82,13 @@ struct World::Impl {
   // Events (events.cpp)
   void drive_targets();
   void watch_for_moments(double now_s);
-  void apply(Agenda::Entry entry);
-  void kill(Agenda::Entry entry);
-  void draw_victim(const Agenda::Entry& entry);
-  [[nodiscard]] bool among(Event::Of of, std::size_t i) const noexcept;
-  [[nodiscard]] std::size_t count_among(Event::Of of) const noexcept;
+  void apply(const Agenda::Entry& entry);
+  void kill(const Kill& event, Agenda::Entry entry);
+  void draw_victim(Kill::Of of, const Agenda::Entry& entry);
+  [[nodiscard]] bool among(Kill::Of of, std::size_t i) const noexcept;
+  [[nodiscard]] std::size_t count_among(Kill::Of of) const noexcept;
   void die(std::size_t i);
+  [[nodiscard]] std::uint64_t tick_after(double duration_s) const noexcept;
   void move_target(std::size_t target, Vec2 position, double speed_m_s);
   void assign_target(Vec2 position);
   void give_up(std::size_t target);

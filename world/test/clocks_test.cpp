@@ -41,10 +41,7 @@ TEST(Clocks, EachStrikesOncePerPeriodOfItsOwn) {
 TEST(Clocks, WithoutLossEverybodyInLinkHearsEveryMessageOnceItSteps) {
   Scenario s = clocked(0.0);
   for (std::size_t i = 0; i < 16; ++i) {
-    Event freeze;
-    freeze.kind = Event::Kind::freeze;
-    freeze.index = i;
-    s.events.push_back(freeze);
+    s.events.push_back({.action = Freeze{i}});
   }
   s.radio.range_m = 2.0;
   World world(s);
@@ -117,11 +114,7 @@ TEST(Clocks, SlotsHoldForEachStep) {
 
 TEST(Clocks, ABlackoutSilencesThem) {
   Scenario s = clocked(0.0);
-  Event e;
-  e.kind = Event::Kind::blackout;
-  e.time_s = 2.0;
-  e.value = 1.0;
-  s.events = {e};
+  s.events = {{.time_s = 2.0, .action = Blackout{1.0}}};
   World world(s);
   run_until(world, 21);  // what had arrived before is still taken in
   const std::uint64_t before = world.packets_received();
@@ -147,16 +140,7 @@ Scenario everything(std::uint64_t seed) {
   s.clocks.drift = 0.1;
   s.radio.latency_ticks = 3;
   s.radio.slots = 12;
-  Event kill;
-  kill.kind = Event::Kind::kill;
-  kill.time_s = 6.0;
-  kill.count = 4;
-  kill.every_s = 1.0;
-  Event blackout;
-  blackout.kind = Event::Kind::blackout;
-  blackout.time_s = 8.0;
-  blackout.value = 0.6;
-  s.events = {kill, blackout};
+  s.events = {{.time_s = 6.0, .action = Kill{.count = 4, .every_s = 1.0}}, {.time_s = 8.0, .action = Blackout{0.6}}};
   return s;
 }
 

@@ -9,13 +9,11 @@
 namespace banyan::world {
 namespace {
 
-Event event(double time_s, Event::Kind kind, std::size_t index = 0, double value = 0.0, Vec2 position = {}) {
-  return {.time_s = time_s, .kind = kind, .index = index, .value = value, .position = position};
-}
+Event event(double time_s, const Action& action) { return {.time_s = time_s, .action = action}; }
 
 TEST(Events, TheDeadFallSilentAndStayWhereTheyAre) {
   Scenario s = ring("outwards", 16, 2, 4.0, 1);
-  s.events = {event(3.0, Event::Kind::die, 5)};
+  s.events = {event(3.0, Die{5})};
   World world(s);
   for (int t = 0; t < 30; ++t) world.step();
   EXPECT_EQ(world.alive()[5], 1);
@@ -43,7 +41,7 @@ TEST(Events, AFrozenRobotTalksButDoesNotMove) {
   s.swarm.start.pitch_m = 0.8;  // nobody is pushed
   World probe(s);
   const std::size_t worker = probe.targets()[0].worker;
-  s.events = {event(2.0, Event::Kind::freeze, worker, 3.0)};
+  s.events = {event(2.0, Freeze{worker, 3.0})};
   World world(s);
   for (int t = 0; t < 20; ++t) world.step();
   const Vec2 here = world.positions()[worker];
@@ -61,7 +59,7 @@ TEST(Events, WithoutDurationARobotStaysFrozen) {
   Scenario s = ring("outwards", 16, 2, 4.0, 1);
   s.swarm.start.pitch_m = 0.8;
   const std::size_t worker = World(s).targets()[0].worker;
-  s.events = {event(2.0, Event::Kind::freeze, worker)};
+  s.events = {event(2.0, Freeze{worker})};
   World world(s);
   for (int t = 0; t < 20; ++t) world.step();
   const Vec2 here = world.positions()[worker];
@@ -71,7 +69,7 @@ TEST(Events, WithoutDurationARobotStaysFrozen) {
 
 TEST(Events, LossChangesAtItsTime) {
   Scenario s = ring("outwards", 20, 2, 4.0, 1);
-  s.events = {event(1.0, Event::Kind::set_loss, 0, 1.0), event(2.0, Event::Kind::set_loss, 0, 0.0)};
+  s.events = {event(1.0, SetLoss{1.0}), event(2.0, SetLoss{0.0})};
   World world(s);
   for (int t = 0; t < 10; ++t) world.step();
   const std::uint64_t before = world.packets_received();
@@ -86,7 +84,7 @@ TEST(Events, LossChangesAtItsTime) {
 
 TEST(Events, ATargetMovesAndItsWorkerFollows) {
   Scenario s = ring("inwards", 14, 2, 2.0, 1);
-  s.events = {event(2.0, Event::Kind::move_target, 1, 0.0, {0.5, -2.5})};
+  s.events = {event(2.0, MoveTarget{1, {0.5, -2.5}, 0.0})};
   World world(s);
   for (int t = 0; t < 20; ++t) world.step();
   EXPECT_NEAR(norm(world.targets()[1].position), 2.0, 1e-9);
@@ -99,7 +97,7 @@ TEST(Events, ATargetMovesAndItsWorkerFollows) {
 TEST(Events, ANewTargetGoesToTheNearestSpare) {
   Scenario s = ring("outwards", 20, 2, 2.0, 1);
   const Vec2 where{0.3, 2.4};
-  s.events = {event(1.0, Event::Kind::add_target, 0, 0.0, where)};
+  s.events = {event(1.0, AddTarget{where})};
   World world(s);
   for (int t = 0; t < 10; ++t) world.step();
   ASSERT_EQ(world.targets().size(), 2U);
@@ -122,7 +120,7 @@ TEST(Events, WithNobodyLeftANewTargetIsNotAssigned) {
   const World probe(s);
   std::size_t free_robot = 0;
   while (tree_state(probe.swarm(), free_robot).is_worker || probe.reports()[free_robot].role == Role::root) ++free_robot;
-  s.events = {event(0.2, Event::Kind::die, free_robot), event(0.5, Event::Kind::add_target, 0, 0.0, {0.0, 1.0})};
+  s.events = {event(0.2, Die{free_robot}), event(0.5, AddTarget{{0.0, 1.0}})};
   World world(s);
   for (int t = 0; t < 10; ++t) world.step();
   EXPECT_EQ(world.targets().size(), 2U);
@@ -130,8 +128,8 @@ TEST(Events, WithNobodyLeftANewTargetIsNotAssigned) {
 
 TEST(Events, EqualTimesActInFileOrderAndOrderInTheFileDoesNotMatterOtherwise) {
   Scenario s = ring("outwards", 16, 2, 4.0, 1);
-  s.events = {event(2.0, Event::Kind::move_target, 0, 0.0, {1, 1}), event(1.0, Event::Kind::die, 3),
-              event(2.0, Event::Kind::move_target, 0, 0.0, {2, 2})};
+  s.events = {event(2.0, MoveTarget{0, {1, 1}, 0.0}), event(1.0, Die{3}),
+              event(2.0, MoveTarget{0, {2, 2}, 0.0})};
   World world(s);
   for (int t = 0; t < 11; ++t) world.step();
   EXPECT_EQ(world.alive()[3], 0);
@@ -141,7 +139,7 @@ TEST(Events, EqualTimesActInFileOrderAndOrderInTheFileDoesNotMatterOtherwise) {
 
 TEST(Events, AnEventAtTimeZeroActsBeforeTheFirstTick) {
   Scenario s = ring("outwards", 16, 2, 4.0, 1);
-  s.events = {event(0.0, Event::Kind::die, 2)};
+  s.events = {event(0.0, Die{2})};
   World world(s);
   world.step();
   EXPECT_EQ(world.alive()[2], 0);
@@ -153,7 +151,7 @@ TEST(Events, InABlackoutNobodyHearsAnything) {
   for (const int latency : {1, 3}) {
     Scenario s = ring("outwards", 20, 2, 4.0, 1);
     s.radio.latency_ticks = latency;
-    s.events = {event(1.0, Event::Kind::blackout, 0, 0.7)};
+    s.events = {event(1.0, Blackout{0.7})};
     World world(s);
     for (int t = 0; t < 10; ++t) world.step();
     const std::uint64_t before = world.packets_received();
@@ -170,9 +168,9 @@ TEST(Events, InABlackoutNobodyHearsAnything) {
 
 TEST(Events, AnInterruptedBlackoutIsInTheHash) {
   Scenario s = ring("outwards", 20, 2, 4.0, 1);
-  s.events = {event(1.0, Event::Kind::blackout, 0, 0.7)};
+  s.events = {event(1.0, Blackout{0.7})};
   World a(s);
-  s.events[0].value = 0.8;
+  s.events[0] = event(1.0, Blackout{0.8});
   World b(s);
   for (int t = 0; t < 12; ++t) {
     a.step();
@@ -184,7 +182,7 @@ TEST(Events, AnInterruptedBlackoutIsInTheHash) {
 TEST(Events, ATargetDrivesInAStraightLineAtItsSpeed) {
   Scenario s = ring("inwards", 14, 2, 2.0, 1);
   const Vec2 goal{0.5, -2.5};
-  s.events = {event(2.0, Event::Kind::move_target, 1, 0.15, goal)};
+  s.events = {event(2.0, MoveTarget{1, goal, 0.15})};
   World world(s);
   const Vec2 from = world.targets()[1].position;
   const double way = distance(from, goal);
@@ -200,7 +198,7 @@ TEST(Events, ATargetDrivesInAStraightLineAtItsSpeed) {
 
 TEST(Events, AJumpEndsADrive) {
   Scenario s = ring("inwards", 14, 2, 2.0, 1);
-  s.events = {event(1.0, Event::Kind::move_target, 1, 0.1, {0.5, -2.5}), event(2.0, Event::Kind::move_target, 1, 0.0, {1.0, 1.0})};
+  s.events = {event(1.0, MoveTarget{1, {0.5, -2.5}, 0.1}), event(2.0, MoveTarget{1, {1.0, 1.0}, 0.0})};
   World world(s);
   for (int t = 0; t < 40; ++t) world.step();
   EXPECT_EQ(world.targets()[1].position, (Vec2{1.0, 1.0}));
@@ -208,7 +206,7 @@ TEST(Events, AJumpEndsADrive) {
 
 TEST(Events, ATargetThatIsGivenUpHasNoWorkerAnyMore) {
   Scenario s = ring("inwards", 14, 2, 2.0, 1);
-  s.events = {event(3.0, Event::Kind::remove_target, 1)};
+  s.events = {event(3.0, RemoveTarget{1})};
   World world(s);
   const std::size_t worker = world.targets()[1].worker;
   for (int t = 0; t < 30; ++t) world.step();
@@ -228,7 +226,7 @@ TEST(Events, ATargetThatIsGivenUpHasNoWorkerAnyMore) {
 
 TEST(Events, WhoeverGaveUpATargetCanBeSentToAnother) {
   Scenario s = ring("inwards", 3, 2, 2.0, 1);  // nobody else is left: the third is root
-  s.events = {event(1.0, Event::Kind::remove_target, 1), event(2.0, Event::Kind::add_target, 0, 0.0, {0.0, 1.0})};
+  s.events = {event(1.0, RemoveTarget{1}), event(2.0, AddTarget{{0.0, 1.0}})};
   World world(s);
   const std::size_t worker = world.targets()[1].worker;
   for (int t = 0; t < 21; ++t) world.step();

@@ -13,7 +13,6 @@
 namespace banyan::world {
 namespace {
 
-using Kind = Event::Kind;
 using Random = std::mt19937;
 
 std::size_t below(Random& random, std::size_t n) { return random() % n; }
@@ -35,36 +34,32 @@ Scenario arena(Random& random, BodyModel body) {
   s.clocks.asynchronous = body != BodyModel::box2d && below(random, 4) == 0;
   s.radio.latency_ticks = 1 + static_cast<int>(below(random, 2));
   s.obstacles = {Disc{{-3.0, 3.0}, 0.3}, Box{{3.0, 3.0}, {0.5, 0.3}, 0.4}, Wall{{-1.0, -3.0}, {1.0, -3.2}}};
-  s.events = {{.time_s = 4.0, .kind = Kind::set_loss, .value = 0.1},
-              {.time_s = 1.0, .kind = Kind::kill, .when = Event::When::half_way}};
+  s.events = {{.time_s = 4.0, .action = SetLoss{0.1}}, {1.0, Event::When::half_way, Kill{}}};
   return s;
 }
 
+Action any_action(Random& random, const World& world) {
+  const Vec2 position{between(random, -3.0, 3.0), between(random, -3.0, 3.0)};
+  const std::size_t robot = below(random, world.size());
+  const std::size_t target = below(random, world.targets().size());
+  switch (below(random, std::variant_size_v<Action>)) {
+    case 0: return Die{robot};
+    case 1: return Freeze{robot, between(random, 0.1, 2.0)};
+    case 2: return SetLoss{between(random, 0.0, 0.5)};
+    case 3: return MoveTarget{target, position, below(random, 2) == 0 ? 0.0 : 0.1};
+    case 4: return AddTarget{position};
+    case 5:
+      return Kill{.of = static_cast<Kill::Of>(below(random, 5)),
+                  .count = 1 + below(random, 2),
+                  .every_s = below(random, 2) == 0 ? 0.0 : 0.7};
+    case 6: return Blackout{between(random, 0.1, 2.0)};
+    case 7: return RemoveTarget{target};
+    case 8: return SetLineOfSight{below(random, 2) == 0};
+    default: return MoveObstacle{below(random, world.obstacles().size()), position};
+  }
+}
 Event anything(Random& random, const World& world) {
-  Event event{.kind = static_cast<Kind>(below(random, 10))};
-  event.time_s = -7.0;  // is ignored
-  event.position = {between(random, -3.0, 3.0), between(random, -3.0, 3.0)};
-  switch (event.kind) {
-    case Kind::die:
-    case Kind::freeze:
-      event.index = below(random, world.size());
-      break;
-    case Kind::move_obstacle:
-      event.index = below(random, world.obstacles().size());
-      break;
-    default:
-      event.index = below(random, world.targets().size());
-  }
-  if (event.kind == Kind::freeze || event.kind == Kind::blackout) event.value = between(random, 0.1, 2.0);
-  if (event.kind == Kind::set_loss) event.value = between(random, 0.0, 0.5);
-  if (event.kind == Kind::move_target) event.value = below(random, 2) == 0 ? 0.0 : 0.1;
-  if (event.kind == Kind::set_line_of_sight) event.value = static_cast<double>(below(random, 2));
-  if (event.kind == Kind::kill) {
-    event.of = static_cast<Event::Of>(below(random, 5));
-    event.count = 1 + below(random, 2);
-    event.every_s = below(random, 2) == 0 ? 0.0 : 0.7;
-  }
-  return event;
+  return {.time_s = -7.0, .action = any_action(random, world)};  // when it says is ignored
 }
 
 bool finite(const World& world) {
@@ -76,7 +71,7 @@ bool finite(const World& world) {
 
 TEST(Intervene, IsAsIfTheScenarioHadHadTheEventFromTheStart) {
   const int worlds = long_search() ? 300 : 30;
-  std::size_t happened[10] = {};
+  std::size_t happened[std::variant_size_v<Action>] = {};
   for (int k = 0; k < worlds; ++k) {
     Random random(static_cast<std::uint32_t>(k));
     World live(arena(random, bodies[k % 3]));
@@ -88,7 +83,7 @@ TEST(Intervene, IsAsIfTheScenarioHadHadTheEventFromTheStart) {
         const std::uint64_t before = live.hash();
         live.intervene(event);
         ASSERT_EQ(live.hash(), before) << "it has not happened yet";
-        ++happened[static_cast<std::size_t>(event.kind)];
+        ++happened[event.action.index()];
       }
       live.step();
       hashes.push_back(live.hash());
@@ -103,15 +98,16 @@ TEST(Intervene, IsAsIfTheScenarioHadHadTheEventFromTheStart) {
     for (std::size_t o = 0; o < live.obstacles().size(); ++o)
       EXPECT_EQ(center_of(planned.obstacles()[o]), center_of(live.obstacles()[o]));
   }
-  for (std::size_t kind = 0; kind < 10; ++kind) EXPECT_GT(happened[kind], 0U) << "no event of kind " << kind;
+  for (std::size_t kind = 0; kind < std::variant_size_v<Action>; ++kind)
+    EXPECT_GT(happened[kind], 0U) << "no event of kind " << kind;
 }
 
 TEST(Intervene, ACopyGoesOnAlikeWithObstaclesAndSightAsTheyAre) {
   for (const BodyModel body : bodies) {
     Random random(7 + static_cast<unsigned>(body));
     World world(arena(random, body));
-    world.intervene({.kind = Kind::move_obstacle, .index = 1, .position = {0.4, 0.2}});
-    world.intervene({.kind = Kind::set_line_of_sight, .value = world.line_of_sight() ? 0.0 : 1.0});
+    world.intervene({.action = MoveObstacle{1, {0.4, 0.2}}});
+    world.intervene({.action = SetLineOfSight{!world.line_of_sight()}});
     for (int t = 0; t < 10; ++t) world.step();
     World copy(world);
     for (int t = 0; t < 40; ++t) {
@@ -132,7 +128,7 @@ TEST(Intervene, MovesTheObstacleForBodiesRadioAndSensors) {
     World world(s);
     world.step();
     ASSERT_EQ(world.links(0).size(), 1U);
-    world.intervene({.kind = Kind::move_obstacle, .index = 0, .position = {0.0, 0.0}});
+    world.intervene({.action = MoveObstacle{0, {0.0, 0.0}}});
     world.step();
     EXPECT_TRUE(world.links(0).empty()) << "the wall stands between them";
     EXPECT_EQ(world.blocked().size(), 1U);
@@ -141,13 +137,13 @@ TEST(Intervene, MovesTheObstacleForBodiesRadioAndSensors) {
     EXPECT_EQ(wall.to, (Vec2{0.0, 1.0}));
     EXPECT_EQ(std::get<Wall>(world.scenario().obstacles[0]).from, (Vec2{-9.0, -1.0})) << "where it began";
 
-    world.intervene({.kind = Kind::set_line_of_sight, .value = 0.0});
+    world.intervene({.action = SetLineOfSight{false}});
     world.step();
     EXPECT_EQ(world.links(0).size(), 1U) << "the radio goes through the wall now";
     EXPECT_FALSE(world.line_of_sight());
     EXPECT_FALSE(tree_params(world.swarm()).line_of_sight) << "its robots know";
 
-    world.intervene({.kind = Kind::move_obstacle, .index = 1, .position = world.positions()[1] + Vec2{0.1, 0.0}});
+    world.intervene({.action = MoveObstacle{1, world.positions()[1] + Vec2{0.1, 0.0}}});
     for (int t = 0; t < 100; ++t) world.step();
     EXPECT_GT(clearance(world.obstacles()[1], world.positions()[1]), s.robot.radius_m - 0.01)
         << "it is pushed out of the disc";
@@ -166,9 +162,7 @@ TEST(Intervene, ObstaclesMayJumpOntoRobots) {
     for (int t = 0; t < 60; ++t) {
       if (t % 5 == 0)
         for (std::size_t o = 0; o < 3; ++o)
-          world.intervene({.kind = Kind::move_obstacle,
-                           .index = o,
-                           .position = world.positions()[(static_cast<std::size_t>(t) + o) % 16]});
+          world.intervene({.action = MoveObstacle{o, world.positions()[(static_cast<std::size_t>(t) + o) % 16]}});
       world.step();
       ASSERT_TRUE(finite(world)) << t;
     }
@@ -181,8 +175,8 @@ TEST(Intervene, IsHashedWhileItLasts) {
   s.obstacles = {Disc{{50.0, 50.0}, 0.6}};
   World a(s);
   World b(s);
-  a.intervene({.kind = Kind::move_obstacle, .index = 0, .position = {60.0, 50.0}});
-  b.intervene({.kind = Kind::move_obstacle, .index = 0, .position = {70.0, 50.0}});
+  a.intervene({.action = MoveObstacle{0, {60.0, 50.0}}});
+  b.intervene({.action = MoveObstacle{0, {70.0, 50.0}}});
   a.step();
   b.step();
   EXPECT_EQ(a.positions()[0], b.positions()[0]) << "nobody has met it yet";
@@ -193,24 +187,20 @@ TEST(Intervene, RefusesWhatCannotHappenInTheWordsOfFaults) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Scenario s = ring("outwards", 5, 2, 3.0, 1);
   s.obstacles = {Disc{{5.0, 5.0}, 0.6}};
-  s.events = {{.time_s = 100.0, .kind = Kind::set_loss}};
+  s.events = {{.time_s = 100.0, .action = SetLoss{}}};
   World world(s);
   world.step();
   const std::uint64_t before = world.hash();
   const std::pair<Event, std::string> cases[] = {
-      {{.kind = Kind::die, .index = 5}, "events[1].robot: there is no robot 5; the last one is 4"},
-      {{.kind = Kind::move_target, .index = 2},
-       "events[1].target: there is no target 2 at that time; the last one is 1"},
-      {{.kind = Kind::remove_target, .index = 2}, "events[1].target: there is no target 2"},
-      {{.kind = Kind::move_obstacle, .index = 1}, "events[1].obstacle: there is no obstacle 1; the last one is 0"},
-      {{.kind = Kind::move_obstacle, .position = {nan, 0.0}}, "events[1].position: must lie within"},
-      {{.kind = Kind::add_target, .position = {5.0, 5.0}},
-       "events[1].position: the target at (5, 5) lies inside an obstacle"},
-      {{.kind = Kind::set_loss, .value = nan}, "events[1].loss: must be a number between 0 and 1, not nan"},
-      {{.kind = Kind::set_line_of_sight, .value = nan}, "events[1].line_of_sight: must be 0 or 1, not nan"},
-      {{.kind = Kind::blackout}, "events[1].duration_s: must be a number above 0"},
-      {{.kind = Kind::set_loss, .when = Event::When::complete}, "events[1].when: what somebody does happens now"},
-      {{.kind = static_cast<Kind>(77)}, "events[1].kind: there is no such kind"},
+      {{.action = Die{5}}, "events[1].robot: there is no robot 5; the last one is 4"},
+      {{.action = MoveTarget{2}}, "events[1].target: there is no target 2 at that time; the last one is 1"},
+      {{.action = RemoveTarget{2}}, "events[1].target: there is no target 2"},
+      {{.action = MoveObstacle{1}}, "events[1].obstacle: there is no obstacle 1; the last one is 0"},
+      {{.action = MoveObstacle{0, {nan, 0.0}}}, "events[1].position_m[0]: is nan; allowed: -10000 to 10000 m"},
+      {{.action = AddTarget{{5.0, 5.0}}}, "events[1].position_m: the target at (5, 5) lies inside an obstacle"},
+      {{.action = SetLoss{nan}}, "events[1].loss: is nan; allowed: 0 to 1"},
+      {{.action = Blackout{}}, "events[1].duration_s: must be above 0"},
+      {{.when = Event::When::complete, .action = SetLoss{}}, "events[1].when: what somebody does happens now"},
   };
   for (const auto& [event, words] : cases) {
     std::string said;
@@ -222,14 +212,14 @@ TEST(Intervene, RefusesWhatCannotHappenInTheWordsOfFaults) {
   EXPECT_EQ(world.hash(), before);
   EXPECT_EQ(world.scenario().events.size(), 1U);
 
-  world.intervene({.kind = Kind::add_target, .position = {1.0, 1.0}});
-  world.intervene({.kind = Kind::add_target, .position = {1.0, 1.0}});
-  EXPECT_THROW(world.intervene({.kind = Kind::add_target, .position = {1.0, 1.0}}), std::invalid_argument)
+  world.intervene({.action = AddTarget{{1.0, 1.0}}});
+  world.intervene({.action = AddTarget{{1.0, 1.0}}});
+  EXPECT_THROW(world.intervene({.action = AddTarget{{1.0, 1.0}}}), std::invalid_argument)
       << "5 robots cannot serve 5 targets";
-  EXPECT_THROW(world.intervene({.kind = Kind::move_target, .index = 2}), std::invalid_argument)
+  EXPECT_THROW(world.intervene({.action = MoveTarget{2}}), std::invalid_argument)
       << "it is there from the next step on";
   world.step();
-  world.intervene({.kind = Kind::move_target, .index = 2, .position = {1.0, -1.0}});
+  world.intervene({.action = MoveTarget{2, {1.0, -1.0}}});
 }
 
 // A target may be put where an obstacle was, and not where one is by now.
@@ -240,10 +230,10 @@ TEST(Intervene, ObstaclesCountWhereTheyAre) {
   for (int k = 0; k < 2; ++k) {
     const Vec2 was = k == 0 ? Vec2{5.0, 5.0} : Vec2{-5.0, 5.0};
     const Vec2 is = k == 0 ? Vec2{-5.0, 5.0} : Vec2{6.0, 6.0};
-    world.intervene({.kind = Kind::move_obstacle, .index = 0, .position = is});
+    world.intervene({.action = MoveObstacle{0, is}});
     for (int t = 0; t < 2; ++t) {  // in the same tick, and later
-      EXPECT_TRUE(world.faults_now({.kind = Kind::add_target, .position = was}).empty()) << t;
-      EXPECT_FALSE(world.faults_now({.kind = Kind::add_target, .position = is}).empty()) << t;
+      EXPECT_TRUE(world.faults_now({.action = AddTarget{was}}).empty()) << t;
+      EXPECT_FALSE(world.faults_now({.action = AddTarget{is}}).empty()) << t;
       world.step();
     }
   }

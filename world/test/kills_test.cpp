@@ -14,13 +14,8 @@
 namespace banyan::world {
 namespace {
 
-Event kill(double time_s, Event::Of of = Event::Of::robots) {
-  Event e;
-  e.time_s = time_s;
-  e.kind = Event::Kind::kill;
-  e.of = of;
-  return e;
-}
+Event kill(double time_s, const Kill& whom = {}) { return {.time_s = time_s, .action = whom}; }
+Event kill_at(Event::When moment, double time_s, const Kill& whom = {}) { return {time_s, moment, whom}; }
 
 std::set<std::size_t> dead(const World& world) {
   std::set<std::size_t> list;
@@ -44,8 +39,7 @@ TEST(Kills, AShareOfAllIsRoundedAndDrawnAtOnce) {
   for (const auto& [share, expected] :
        std::map<double, std::size_t>{{0.0, 0}, {0.09, 1}, {0.33, 5}, {0.5, 8}, {1.0, 16}}) {
     Scenario s = ring("outwards", 16, 2, 3.0, 1);
-    s.events = {kill(1.0)};
-    s.events[0].share = share;
+    s.events = {kill(1.0, {.share = share})};
     World world(s);
     run_until(world, 10);
     EXPECT_EQ(world.deaths(), 0U);
@@ -60,12 +54,11 @@ TEST(Kills, AShareOfAllIsRoundedAndDrawnAtOnce) {
 }
 
 TEST(Kills, TakeTheRoleTheyName) {
-  const std::map<Event::Of, Role> roles{
-      {Event::Of::connectors, Role::connector}, {Event::Of::root, Role::root}, {Event::Of::worker, Role::worker}};
+  const std::map<Kill::Of, Role> roles{
+      {Kill::Of::connectors, Role::connector}, {Kill::Of::root, Role::root}, {Kill::Of::worker, Role::worker}};
   for (const auto& [of, role] : roles) {
     Scenario s = ring("inwards", 20, 3, 4.0, 2);
-    s.events = {kill(12.0, of)};
-    s.events[0].share = 0.5;
+    s.events = {kill(12.0, {.of = of, .share = 0.5})};
     World world(s);
     run_until(world, 120);
     const auto before = with_role(world, role);
@@ -86,8 +79,7 @@ TEST(Kills, WithoutANumberOneDies) {
 
 TEST(Kills, MoreThanThereAreIsAllOfThem) {
   Scenario s = ring("outwards", 16, 3, 3.0, 1);
-  s.events = {kill(1.0, Event::Of::worker)};
-  s.events[0].count = 10;
+  s.events = {kill(1.0, {.of = Kill::Of::worker, .count = 10})};
   World world(s);
   run_until(world, 10);
   const auto workers = with_role(world, Role::worker);
@@ -98,9 +90,7 @@ TEST(Kills, MoreThanThereAreIsAllOfThem) {
 
 TEST(Kills, OneByOneTheyDieInTurnsAndTheirNumberIsThatOfTheBegin) {
   Scenario s = ring("outwards", 20, 2, 3.0, 1);
-  s.events = {kill(2.0)};
-  s.events[0].share = 0.2;
-  s.events[0].every_s = 1.5;
+  s.events = {kill(2.0, {.share = 0.2, .every_s = 1.5})};
   World world(s);
   for (int t = 0; t < 100; ++t) {
     // 4 of 20, at 2.0, 3.5, 5.0 and 6.5 s
@@ -115,7 +105,7 @@ TEST(Kills, OneByOneTheyDieInTurnsAndTheirNumberIsThatOfTheBegin) {
 
 TEST(Kills, AWorkerTakesItsParentAlong) {
   Scenario s = ring("inwards", 20, 3, 4.0, 2);
-  s.events = {kill(12.0, Event::Of::worker_and_parent)};
+  s.events = {kill(12.0, {.of = Kill::Of::worker_and_parent})};
   World world(s);
   run_until(world, 120);
   std::set<std::set<std::size_t>> couples;
@@ -132,8 +122,7 @@ TEST(Kills, EveryRobotHasTheSameChance) {
   std::vector<int> deaths(16, 0);
   for (std::uint64_t seed = 0; seed < 1600; ++seed) {
     Scenario s = ring("outwards", 16, 2, 3.0, seed);
-    s.events = {kill(0.0)};
-    s.events[0].count = 4;
+    s.events = {kill(0.0, {.count = 4})};
     World world(s);
     world.step();
     for (const std::size_t i : dead(world)) ++deaths[i];
@@ -159,12 +148,8 @@ TEST(Kills, TwoEventsOfAKindDrawApart) {
 
 TEST(Kills, AreTheSameForAnyNumberOfThreadsAndInACopyMadeMidway) {
   Scenario s = hostile("inwards", 30, 5);
-  s.events = {kill(3.0, Event::Of::connectors), kill(8.0)};
-  s.events[0].when = Event::When::half_way;
-  s.events[0].share = 0.3;
-  s.events[0].every_s = 2.0;
-  s.events[1].count = 5;
-  s.events[1].every_s = 1.0;
+  s.events = {kill_at(Event::When::half_way, 3.0, {.of = Kill::Of::connectors, .share = 0.3, .every_s = 2.0}),
+              kill(8.0, {.count = 5, .every_s = 1.0})};
   World world(s);
   World on_three(s);
   Executor three(3);
@@ -183,11 +168,9 @@ TEST(Kills, AreTheSameForAnyNumberOfThreadsAndInACopyMadeMidway) {
 
 TEST(Kills, WhatIsStillToComeIsInTheHash) {
   Scenario s = ring("outwards", 16, 2, 3.0, 1);
-  s.events = {kill(1.0)};
-  s.events[0].count = 3;
-  s.events[0].every_s = 5.0;
+  s.events = {kill(1.0, {.count = 3, .every_s = 5.0})};
   World three(s);
-  s.events[0].count = 4;
+  s.events = {kill(1.0, {.count = 4, .every_s = 5.0})};
   World four(s);
   run_until(three, 12);
   run_until(four, 12);
@@ -205,8 +188,7 @@ double remaining(const World& world) {
 
 TEST(Moments, HalfWayIsWhenHalfOfTheWorkersDistancesIsLeft) {
   Scenario s = ring("inwards", 20, 3, 4.0, 2);
-  s.events = {kill(1.3)};
-  s.events[0].when = Event::When::half_way;
+  s.events = {kill_at(Event::When::half_way, 1.3)};
   World world(s);
   const double at_first = remaining(world);
   std::uint64_t half_way = 0;
@@ -220,8 +202,7 @@ TEST(Moments, HalfWayIsWhenHalfOfTheWorkersDistancesIsLeft) {
 
 TEST(Moments, CompleteIsWhenAllTargetsAreHeldForTheFirstTime) {
   Scenario s = ring("inwards", 20, 3, 4.0, 2);
-  s.events = {kill(0.0), kill(2.0)};
-  for (Event& e : s.events) e.when = Event::When::complete;
+  s.events = {kill_at(Event::When::complete, 0.0), kill_at(Event::When::complete, 2.0)};
   World world(s);
   std::uint64_t complete = 0;
   for (int t = 0; t < 1500 && complete == 0; ++t) {
@@ -244,12 +225,7 @@ TEST(Moments, CompleteIsWhenAllTargetsAreHeldForTheFirstTime) {
 
 TEST(Moments, ThatNeverComeLetNothingHappen) {
   Scenario s = ring("inwards", 20, 3, 4.0, 2);
-  s.events = {kill(0.0)};
-  s.events[0].when = Event::When::complete;
-  Event freeze;
-  freeze.kind = Event::Kind::freeze;
-  freeze.index = World(s).targets()[0].worker;
-  s.events.push_back(freeze);
+  s.events = {kill_at(Event::When::complete, 0.0), {.action = Freeze{World(s).targets()[0].worker}}};
   World world(s);
   run_until(world, 900);
   EXPECT_EQ(world.deaths(), 0U);
@@ -258,15 +234,9 @@ TEST(Moments, ThatNeverComeLetNothingHappen) {
 
 TEST(Moments, CompleteDoesNotWaitForATargetThatWasGivenUp) {
   Scenario s = ring("inwards", 20, 2, 3.0, 2);
-  Event freeze;  // the other worker never arrives
-  freeze.kind = Event::Kind::freeze;
-  freeze.index = World(s).targets()[1].worker;
-  Event remove;
-  remove.kind = Event::Kind::remove_target;
-  remove.index = 1;
-  remove.time_s = 90.0;
-  s.events = {kill(0.0), freeze, remove};
-  s.events[0].when = Event::When::complete;
+  s.events = {kill_at(Event::When::complete, 0.0),
+              {.action = Freeze{World(s).targets()[1].worker}},  // the other worker never arrives
+              {.time_s = 90.0, .action = RemoveTarget{1}}};
   World world(s);
   run_until(world, 901);
   EXPECT_EQ(world.deaths(), 0U);

@@ -46,7 +46,7 @@ TEST(OwnAlgorithm, IsWhatItsModelIsWithTheSameParameters) {
 
 TEST(OwnAlgorithm, ItsWorldCanBeInterferedWith) {
   World world(Scenario{}, mine);
-  world.intervene({.kind = Event::Kind::die, .index = 0});
+  world.intervene({.action = Die{0}});
   world.step();
   EXPECT_EQ(world.alive()[0], 0);
 }

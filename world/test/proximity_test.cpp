@@ -121,9 +121,7 @@ Scenario row(bool dead_bodies, BodyModel body) {
   s.radio.line_of_sight = true;
   s.robot.dead_bodies = dead_bodies;
   s.robot.body = body;
-  Event die;
-  die.index = 1;
-  s.events = {die};
+  s.events = {{.action = Die{1}}};
   return s;
 }
 

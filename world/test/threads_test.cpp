@@ -55,8 +55,8 @@ std::vector<Scenario> scenarios() {
     Scenario hard = hostile(algorithm, 30, 12);
     hard.radio.latency_ticks = 3;
     hard.radio.slots = 12;
-    hard.events.push_back({5.0, Event::Kind::die, 7, 0.0, {}});
-    hard.events.push_back({6.0, Event::Kind::add_target, 0, 0.0, {1.0, 3.0}});
+    hard.events.push_back({.time_s = 5.0, .action = Die{7}});
+    hard.events.push_back({.time_s = 6.0, .action = AddTarget{{1.0, 3.0}}});
     hard.obstacles = {Disc{{2.0, 0.4}, 0.3}, Box{{-2.0, 1.0}, {0.4, 0.6}, 0.5}, Wall{{0.0, -2.0}, {1.0, -2.0}}};
     hard.targets = std::vector<Vec2>{{3.5, 1.5}, {-3.0, -1.0}, {0.5, 3.5}};
     all.push_back(hard);
@@ -80,14 +80,14 @@ TEST(Threads, NeverChangeTheHash) {
       World world(s);
       Executor executor(threads);
       std::vector<std::uint64_t> hashes;
-      const int ticks = s.swarm.robots > 100 ? 120 : 300;
+      const int ticks = *s.swarm.robots > 100 ? 120 : 300;
       for (int t = 1; t <= ticks; ++t) {
         world.step(executor);
         if (t % 20 == 0) hashes.push_back(world.hash());
       }
       hashes.push_back(world.packets_received());
       if (expected.empty()) expected = hashes;
-      EXPECT_EQ(hashes, expected) << threads << " threads, " << s.mission.algorithm << ", " << s.swarm.robots << " robots";
+      EXPECT_EQ(hashes, expected) << threads << " threads, " << s.mission.algorithm << ", " << *s.swarm.robots << " robots";
     }
   }
 }

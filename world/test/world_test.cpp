@@ -19,10 +19,7 @@ namespace {
 Scenario statue(std::size_t robots, std::uint64_t seed = 1) {
   Scenario s = ring("outwards", robots, 2, 3.0, seed);
   for (std::size_t i = 0; i < robots; ++i) {
-    Event event;
-    event.kind = Event::Kind::freeze;
-    event.index = i;
-    s.events.push_back(event);
+    s.events.push_back({.action = Freeze{i}});
   }
   return s;
 }
@@ -332,10 +329,7 @@ TEST(World, WheelNoiseShowsInTheMotionButNotInTheOdometryOfIt) {
   for (int t = 0; t < 60; ++t) world.step();
   const std::size_t lost = (world.targets()[0].worker + 1) % 12;
   Scenario dying = s;
-  Event event;
-  event.time_s = 6.0;
-  event.index = lost;
-  dying.events.push_back(event);
+  dying.events.push_back({.time_s = 6.0, .action = Die{lost}});
   World without(dying);
   for (int t = 0; t < 70; ++t) without.step();
   int remembered = 0;
@@ -383,10 +377,7 @@ TEST(Holder, IsTheWorkerOnceItHasArrived) {
 
 TEST(Holder, IsNoneOnceTheWorkerIsDead) {
   Scenario s = ring("inwards", 14, 2, 2.0, 1);
-  Event death;
-  death.time_s = 60.0;
-  death.index = World(s).targets()[1].worker;
-  s.events = {death};
+  s.events = {{.time_s = 60.0, .action = Die{World(s).targets()[1].worker}}};
   World world(s);
   while (world.tick() < 600) world.step();
   ASSERT_TRUE(world.holder(1));

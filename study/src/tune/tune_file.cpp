@@ -8,6 +8,7 @@
 #include "banyan/config/table_reader.hpp"
 #include "banyan/controller/core/algorithm.hpp"
 #include "banyan/study/tune.hpp"
+#include "banyan/world/faults.hpp"
 #include "tune_point.hpp"
 
 namespace banyan::study {

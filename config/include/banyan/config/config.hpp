@@ -8,16 +8,9 @@
 
 #include "banyan/config/document.hpp"
 #include "banyan/config/keys.hpp"
+#include "banyan/config/override.hpp"
 
 namespace banyan::config {
-
-// An option that changes a key: "radio.loss=0.3", named "--set radio.loss=0.3" in messages; or a
-// file whose keys are laid over the scenario's, such as tuned parameters.
-struct Override {
-  std::string assignment;
-  std::string origin;
-  std::string file = {};  // instead of an assignment
-};
 
 struct Loaded {
   Configuration configuration;    // complete only if ok()

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A configuration file as a tree of plain values, each knowing where it was written. TOML and JSON
-// and `--set key=value` all become this one tree, so that everything after it (keys, ranges,
-// messages) exists once. Knows nothing about scenarios.
+// and `--set key=value` (override.hpp) all become this one tree, so that everything after it (keys,
+// ranges, messages) exists once. Knows nothing about scenarios.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -12,6 +13,9 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "banyan/world/decimal.hpp"
+#include "banyan/world/names.hpp"
 
 namespace banyan::config {
 
@@ -68,28 +72,17 @@ class DocumentError : public std::runtime_error {
 // what is wrong: missing, a directory, not permitted, empty, binary.
 [[nodiscard]] std::string read_text_file(const std::string& path);
 
+inline constexpr std::size_t deepest_nesting = 16;  // the scenario's tree needs five
+
 // JSON if the name ends in .json or the text starts with '{', else TOML. The result is a table.
 [[nodiscard]] Node parse_document(const std::string& path, std::string_view text);
 
-// Puts `value` where `key`, a dotted path, says: "radio.loss", "events[0].time_s". Sections that are
-// missing are made. Returns what is wrong with the key, if anything.
-[[nodiscard]] std::vector<Problem> assign(Node& root, std::string_view key, Node value);
+// A value as TOML, or else the bare text, so that quotes may be left out on a command line.
+[[nodiscard]] Node parse_value(std::string_view text, const std::shared_ptr<const std::string>& origin);
 
-// The same tree as if it came from an option: where a file's keys contradict it, it wins silently.
-// Its places still name the file and line.
-[[nodiscard]] Node as_option(Node node);
-
-// Lays `changes` over `root`: tables are merged key by key, anything else is replaced.
-void overlay(Node& root, Node changes);
-
-// assign() of "key=value": the value as in TOML, or else taken as bare text. `origin` is how
-// messages name it.
-[[nodiscard]] std::vector<Problem> apply_override(Node& root, std::string_view assignment, const std::string& origin);
-
-// For messages: the shortest decimal text of a number; "1" rather than "1.0", "10000000" for 1e7.
-[[nodiscard]] std::string number_text(double value);
-// 1.9F as the double 1.9.
-[[nodiscard]] double widened(float value);
+// For messages (world/decimal.hpp).
+using world::number_text;
+using world::widened;
 
 // Names become parts of paths: of scenarios, studies, tunings.
 inline constexpr std::string_view name_rule = "1 to 100 letters, digits, '-', '_' and '.', no '.' at the start";
@@ -98,6 +91,8 @@ inline constexpr std::string_view name_rule = "1 to 100 letters, digits, '-', '_
 [[nodiscard]] std::string name_from(const std::string& path, std::string_view fallback);
 
 // The candidate nearest to `word`, or nothing when none is near enough to be meant.
-[[nodiscard]] std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
+[[nodiscard]] inline std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
+  return world::nearest_name(word, candidates);
+}
 
 }  // namespace banyan::config

@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Every key of a scenario file, once: where it goes, what it may be, what it means. Reading,
-// messages, `--set`, completion, the dump into outputs and docs/scenario-keys.md all follow from
-// these tables. Keys of [mission.parameters] come from the controller's own parameter_table().
+// The keys of a configuration: those of a scenario (world/schema.hpp) and those of [output], which say
+// what is kept of a run and follow from record/'s table of formats; and their reference, for completion and documents.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "banyan/record/output_formats.hpp"
-#include "banyan/world/scenario.hpp"
+#include "banyan/world/schema.hpp"
 
 namespace banyan::config {
+
+using world::platform_key;
+using world::Range;
+using world::range_text;
 
 // What a file and the command line together stand for.
 struct Configuration {
@@ -25,108 +23,26 @@ struct Configuration {
   record::Output output;
 };
 
-// A scenario in the terms of its file, where a variant is a selector key ("layout", "kind") and
-// keys that have a meaning for some of its values only. Angles are in rad as in the scenario.
-struct ObstacleForm {
-  std::size_t kind = 0;  // disc, box, wall
-  world::Vec2 center{}, size{}, from{}, to{};
-  double radius_m = 0.0;
-  double angle_rad = 0.0;
-};
-struct EventForm {
-  std::size_t kind = 0;  // as Event::Kind
-  double time_s = 0.0;
-  std::size_t robot = 0;
-  std::size_t target = 0;
-  double loss = 0.0;
-  double duration_s = 0.0;
-  double speed_m_s = 0.0;
-  bool line_of_sight = false;
-  std::size_t obstacle = 0;
-  world::Vec2 position{};
-  std::size_t when = 0;  // as Event::When
-  std::size_t of = 0;    // as Event::Of
-  std::optional<double> share;
-  std::optional<std::size_t> count;
-  double every_s = 0.0;
-};
-struct Form {
-  Configuration configuration;     // targets, obstacles and events are below instead
-  std::size_t targets_layout = 1;  // list, ring, random
-  std::vector<world::Vec2> target_positions;
-  std::size_t target_count = 3;
-  double target_radius_m = 3.0;
-  double target_phase_rad = 0.0;
-  world::Vec2 target_center{};
-  std::vector<ObstacleForm> obstacles;
-  std::vector<EventForm> events;
-};
-[[nodiscard]] Form to_form(const Configuration& configuration);
-[[nodiscard]] Configuration to_configuration(const Form& form);
+[[nodiscard]] std::span<const world::Key<record::Output>> output_keys() noexcept;
 
-// A key whose value is one of a few names.
-template <class Owner> struct ChoiceAccess {
-  std::span<const std::string_view> (*names)();
-  std::size_t (*get)(const Owner&);
-  void (*set)(Owner&, std::size_t);
-};
+// In the order of a file, those that are lists of tables included.
+[[nodiscard]] std::span<const world::Section> sections() noexcept;
+// Null if there is none.
+[[nodiscard]] const world::Section* find_section(std::string_view path) noexcept;
 
-// A key with more bits than std::size_t has everywhere.
-template <class Owner> struct SeedAccess {
-  std::uint64_t& (*member)(Owner&);
-};
+// visit(keys, owner) for all keys that stand once in a file: those of the scenario, then of [output].
+template <class AnyConfiguration, class Visit> void each_part(AnyConfiguration& configuration, const Visit& visit) {
+  visit(world::scenario_keys(), configuration.scenario);
+  visit(output_keys(), configuration.output);
+}
 
-// How to reach the member behind a key; the alternative is the key's type.
-template <class Owner>
-using Access =
-    std::variant<bool& (*)(Owner&), double& (*)(Owner&), int& (*)(Owner&), std::uint32_t& (*)(Owner&),
-                 std::size_t& (*)(Owner&), std::optional<std::size_t>& (*)(Owner&), std::optional<double>& (*)(Owner&),
-                 std::string& (*)(Owner&), world::Vec2& (*)(Owner&), std::vector<world::Vec2>& (*)(Owner&),
-                 std::vector<double>& (*)(Owner&), ChoiceAccess<Owner>, SeedAccess<Owner>>;
-
-struct Range {
-  double minimum = -std::numeric_limits<double>::infinity();
-  double maximum = std::numeric_limits<double>::infinity();
-  bool above = false;  // the minimum itself is not allowed
-};
-
-template <class Owner> struct Key {
-  std::string_view section;  // "radio"; "" at the top
-  std::string_view name;     // "loss"
-  std::string_view unit;     // "m", "deg": angles are in degrees in files
-  Range range;               // in the file's unit
-  std::string_view meaning;  // a phrase
-  Access<Owner> access;
-  std::string_view when = "";      // values of the section's selector with which it has a meaning; "": all
-  bool required = false;           // where it has a meaning
-  std::string_view fallback = "";  // what holds without the key, where that is not the member's default
-};
-
-[[nodiscard]] std::span<const Key<Form>> scenario_keys() noexcept;
-[[nodiscard]] std::span<const Key<ObstacleForm>> obstacle_keys() noexcept;
-[[nodiscard]] std::span<const Key<EventForm>> event_keys() noexcept;
-
-struct Section {
-  std::string_view path;  // "swarm.start"
-  std::string_view meaning;
-  std::string_view selector = "";  // the key its other keys' `when` is about
-};
-[[nodiscard]] std::span<const Section> sections() noexcept;  // in the order of a file, arrays of tables included
-
-// Parameters of the controller that other keys of a scenario decide; "" if it is none of them.
-[[nodiscard]] std::string_view platform_key(std::string_view parameter) noexcept;
-
-// Whether `name` is a word of `when`.
-[[nodiscard]] bool applies(std::string_view when, std::string_view name) noexcept;
-
-// "0 to 1", "above 0", "at least 1": what a range allows.
-[[nodiscard]] std::string range_text(const Range& range, std::string_view unit);
-
-// One row of the reference of keys, for completion and documents.
+// One row of the reference of keys.
 struct KeyRow {
-  std::string path, type, allowed, fallback, meaning, when;
+  std::string path, type, allowed, fallback, meaning;
+  std::string selector, when;  // the key that decides whether it applies, and its names with which it does
   std::vector<std::string> choices;
 };
+// All that a file may have, in its order: "events.loss" stands for events[0].loss, events[1].loss, ...
 [[nodiscard]] std::vector<KeyRow> key_rows();
 [[nodiscard]] std::string key_reference_markdown();
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 namespace banyan::world {
 
@@ -18,6 +19,11 @@ char* write_shortest(char* at, float value) noexcept;
 char* write_fixed(char* at, double value, int decimals) noexcept;
 // The number that `text` begins with. Correctly rounded. `text` must end in '\0'.
 [[nodiscard]] double read_decimal(const char* text) noexcept;
+
+// For messages: the shortest decimal text of a number; "1" rather than "1.0", "10000000" for 1e7.
+[[nodiscard]] std::string number_text(double value);
+// 1.9F as the double 1.9.
+[[nodiscard]] double widened(float value);
 
 // What stands in where std::to_chars is missing; here so that tests can compare the two.
 namespace without_to_chars {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "Did you mean": the known name nearest to a misspelt one.
+// Names in messages: which are allowed, and "did you mean", the known one nearest to a misspelt one.
 #pragma once
 
 #include <algorithm>
@@ -27,13 +27,15 @@ namespace banyan::world {
   return row[b.size()];
 }
 
-// The first of the nearest names; empty if `known` is empty or none is even half like `word`.
+// The first of the nearest names; nothing if none is near enough to be meant.
 [[nodiscard]] inline std::string_view nearest_name(std::string_view word, std::span<const std::string_view> known) {
-  const std::string_view shown = word.substr(0, 100);  // a very long word is like nothing anyway
+  word = word.substr(0, 100);  // a very long word is like nothing anyway
   std::string_view best;
-  std::size_t best_distance = shown.size() / 2 + 2;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
   for (const std::string_view name : known) {
-    const std::size_t d = edit_distance(shown, name);
+    // A unit left out ("range" for "range_m") or a word cut short is a near miss, however long.
+    const bool shortened = word.size() >= 3 && name.starts_with(word);
+    const std::size_t d = shortened ? 1 : edit_distance(word, name);
     if (d < best_distance) {
       best = name;
       best_distance = d;
@@ -42,14 +44,20 @@ namespace banyan::world {
   return best;
 }
 
-// "a, b or c".
-[[nodiscard]] inline std::string listed(std::span<const std::string_view> names) {
+// "\"a\", \"b\" or \"c\"".
+[[nodiscard]] inline std::string alternatives(std::span<const std::string_view> names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
-    text += names[i];
+    text += "\"" + std::string(names[i]) + "\"";
   }
   return text;
+}
+
+// A user's text in a message: the text "fast", cut short if it is long.
+[[nodiscard]] inline std::string the_text(std::string_view text) {
+  if (text.size() > 40) return "the text \"" + std::string(text.substr(0, 37)) + "...\"";
+  return "the text \"" + std::string(text) + "\"";
 }
 
 }  // namespace banyan::world

@@ -17,6 +17,8 @@ namespace banyan::world {
 
 // Distance of p to the obstacle's surface; negative inside a disc or box.
 [[nodiscard]] double clearance(const Obstacle& obstacle, Vec2 p) noexcept;
+// To the nearest of several; infinity if there are none.
+[[nodiscard]] double clearance(std::span<const Obstacle> obstacles, Vec2 p) noexcept;
 
 // The point of the obstacle's surface nearest to p, also from inside; the first of several in a
 // fixed order (the side to the right, the positive x axis).

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A world as a user describes it: pure data with defaults, no file format. cli/ reads it from
-// TOML or JSON; tests and studies build it directly. Lengths in m, angles in rad, times in s.
+// A world as a user describes it: pure data with defaults, no file format. config/ reads it from
+// TOML or JSON by the table of keys in schema.hpp; tests and programs build it directly. Lengths in
+// m, angles in rad, times in s. Below the data: what it stands for.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -42,7 +43,7 @@ struct Start {
 };
 
 struct SwarmModel {
-  std::size_t robots = 0;               // 0: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
+  std::optional<std::size_t> robots;    // none: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
   double redundancy = 2.0;              // k
   Start start;
   std::optional<std::size_t> root;      // index; none: a random robot that is no worker
@@ -76,50 +77,105 @@ struct RadioModel {
   int slots = 0;                        // packets a robot can receive in one tick; 0: no limit
 };
 
-struct RingTargets { std::size_t count = 3; double radius_m = 3.0; double phase_rad = 0.0; Vec2 center{}; };
+// The alternatives of a variant carry the name by which a file chooses them.
+struct RingTargets {
+  static constexpr std::string_view kind = "ring";
+  std::size_t count = 3;
+  double radius_m = 3.0;
+  double phase_rad = 0.0;
+  Vec2 center{};
+};
 // |p| = radius sqrt(0.1 + 0.9 u): uniform in an annulus, drawn from the run's seed.
-struct RandomTargets { std::size_t count = 4; double radius_m = 9.0; Vec2 center{}; };
-using Targets = std::variant<std::vector<Vec2>, RingTargets, RandomTargets>;
+struct RandomTargets {
+  static constexpr std::string_view kind = "random";
+  std::size_t count = 3;
+  double radius_m = 3.0;
+  Vec2 center{};
+};
+using Targets = std::variant<std::vector<Vec2>, RingTargets, RandomTargets>;  // the first: "list"
 
 struct Disc {
+  static constexpr std::string_view kind = "disc";
   Vec2 center;
   double radius_m = 0.0;
   friend bool operator==(const Disc&, const Disc&) = default;
 };
 struct Box {
+  static constexpr std::string_view kind = "box";
   Vec2 center;
   Vec2 size;
   double angle_rad = 0.0;
   friend bool operator==(const Box&, const Box&) = default;
 };
 struct Wall {                            // a segment without thickness
+  static constexpr std::string_view kind = "wall";
   Vec2 from;
   Vec2 to;
   friend bool operator==(const Wall&, const Wall&) = default;
 };
 using Obstacle = std::variant<Disc, Box, Wall>;
 
+// What can happen to a world.
+struct Die {
+  static constexpr std::string_view kind = "die";
+  std::size_t robot = 0;
+};
+struct Freeze {
+  static constexpr std::string_view kind = "freeze";
+  std::size_t robot = 0;
+  double duration_s = 0.0;              // 0: for good
+};
+struct SetLoss {
+  static constexpr std::string_view kind = "set_loss";
+  double loss = 0.0;
+};
+struct MoveTarget {
+  static constexpr std::string_view kind = "move_target";
+  std::size_t target = 0;
+  Vec2 position{};
+  double speed_m_s = 0.0;               // 0: it jumps
+};
+struct AddTarget {
+  static constexpr std::string_view kind = "add_target";
+  Vec2 position{};
+};
+struct Kill {
+  static constexpr std::string_view kind = "kill";
+  // Whom it draws from: the living who broadcast the role when it acts.
+  enum class Of : std::uint8_t { robots, connectors, root, worker, worker_and_parent };
+  Of of = Of::robots;
+  std::optional<double> share{};        // of those it draws from when it begins, rounded; not beside count
+  std::optional<std::size_t> count{};   // how many; neither: one
+  double every_s = 0.0;                 // one by one, so far apart; 0: all at once
+};
+struct Blackout {                        // nobody hears anything
+  static constexpr std::string_view kind = "blackout";
+  double duration_s = 0.0;              // above 0
+};
+struct RemoveTarget {
+  static constexpr std::string_view kind = "remove_target";
+  std::size_t target = 0;
+};
+struct SetLineOfSight {
+  static constexpr std::string_view kind = "set_line_of_sight";
+  bool line_of_sight = false;
+};
+struct MoveObstacle {
+  static constexpr std::string_view kind = "move_obstacle";
+  std::size_t obstacle = 0;
+  Vec2 position{};                      // of its centre, or of a wall's middle
+};
+using Action = std::variant<Die, Freeze, SetLoss, MoveTarget, AddTarget, Kill, Blackout, RemoveTarget, SetLineOfSight,
+                            MoveObstacle>;
+
 struct Event {
-  enum class Kind : std::uint8_t {
-    die, freeze, set_loss, move_target, add_target, kill, blackout, remove_target, set_line_of_sight, move_obstacle
-  };
   // What time_s counts from: the start, the moment at which the workers' remaining distances have
   // fallen to half of what they were at the start, or the first at which all targets are held at
   // once (docs/model.md). An event whose moment never comes never happens.
   enum class When : std::uint8_t { time, half_way, complete };
-  // Whom a kill is drawn from: the living who broadcast the role when it acts.
-  enum class Of : std::uint8_t { robots, connectors, root, worker, worker_and_parent };
   double time_s = 0.0;
-  Kind kind = Kind::die;
-  std::size_t index = 0;                // robot (die, freeze), target (move_target, remove_target), obstacle (move_obstacle)
-  double value = 0.0;                   // loss (set_loss); seconds (freeze, 0: for good; blackout); m/s (move_target,
-                                        // 0: it jumps); 1 or 0 (set_line_of_sight)
-  Vec2 position{};                      // move_target, add_target; move_obstacle: of its centre, or of a wall's middle
   When when = When::time;
-  Of of = Of::robots;                   // kill, and the rest of this struct
-  std::optional<double> share{};        // of those it is drawn from when it begins, rounded; not beside count
-  std::optional<std::size_t> count{};   // how many; neither: one
-  double every_s = 0.0;                 // one by one, so far apart; 0: all at once
+  Action action{};
 };
 
 // Without it all robots step at the begin of every tick. With it each has its own phase, uniform in
@@ -145,29 +201,7 @@ struct Scenario {
   std::vector<Event> events;            // any order; equal times act in file order
 };
 
-// One thing that is wrong or doubtful, in a user's words. `key` is the path of the field it is
-// about, array elements counted from 0: "radio.loss", "swarm.start.positions[3]", "robot.radius_m",
-// "mission.parameters.target_gain", "targets.radius_m", "targets.positions[1]",
-// "obstacles[0].size", "events[2].time_s"; cli/ adds file and line.
-struct Fault {
-  std::string key;
-  std::string text;
-  bool warning = false;                 // a run is still possible
-};
-
-// Everything that makes `scenario` impossible or doubtful, none if it is fine: ranges, NaN,
-// counts, targets in obstacles, robots that do not fit, targets out of reach of the swarm. Safe
-// for any content; the functions below need a scenario without faults (warnings do not matter).
-[[nodiscard]] std::vector<Fault> faults(const Scenario& scenario);
-
-// What an event of a running world meets.
-struct Present {
-  std::size_t targets = 0;              // that have been there, given up or not
-  std::vector<Obstacle> obstacles;      // where they are
-};
-// The part of faults() that is about events and how many robots they need, for a scenario whose other
-// parts are without faults. With `now` its last event is also held against that.
-[[nodiscard]] std::vector<Fault> event_faults(const Scenario& scenario, const Present* now = nullptr);
+// The functions below need a scenario without faults (faults.hpp; warnings do not matter).
 
 // The target positions that `scenario` and its seed stand for. Random ones keep clear of obstacles.
 [[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "banyan/controller/core/algorithm.hpp"
+#include "banyan/world/faults.hpp"
 #include "banyan/world/scenario.hpp"
 
 namespace banyan::world {
@@ -23,7 +24,7 @@ using Pairs = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
 struct Target {
   Vec2 position{};
   std::size_t worker = 0;   // index of the robot first sent there; its id is what `serves` names
-  bool active = true;       // false once it has been given up (Event::Kind::remove_target)
+  bool active = true;       // false once it has been given up (RemoveTarget)
 };
 
 class World {
@@ -75,7 +76,7 @@ class World {
   [[nodiscard]] std::size_t deaths() const noexcept;               // since the start
   // tick() at the begin of the step in which the last of them died; none if all live.
   [[nodiscard]] std::optional<std::uint64_t> last_death_tick() const noexcept;
-  // Whether events are still to come that make robots die (Event::Kind::die, kill), those that
+  // Whether events are still to come that make robots die (Die, Kill), those that
   // wait for a moment of the mission included.
   [[nodiscard]] bool pending_kills() const noexcept;
   // Robots that robot i could hear and be heard by at the current positions: in range, line of

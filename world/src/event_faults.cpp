@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// What can be wrong with the events of a scenario together: each is looked at in the world that those
+// before it leave behind.
+#include <algorithm>
+#include <numeric>
+
+#include "banyan/world/obstacles.hpp"
+#include "banyan/world/schema.hpp"
+#include "fault_list.hpp"
+
+namespace banyan::world {
+namespace {
+
+// What the events before one leave behind, as far as that can be told beforehand.
+struct Sequel {
+  std::size_t targets;  // that have been there, given up or not
+  std::size_t served;   // those that are not given up
+  std::size_t most;     // the largest of `served` so far
+  std::vector<std::size_t> removed;
+  std::vector<Obstacle> obstacles;
+};
+
+// Whom and what an event refers to exists when it happens.
+class CheckEventFits {
+ public:
+  CheckEventFits(FaultList& list, const Scenario& scenario, std::size_t index, std::size_t robots, const Sequel& before)
+      : list_(list), scenario_(scenario), key_(element("events", index)), robots_(robots), before_(before) {
+    const Event& event = scenario.events[index];
+    if (const double limit = time_limit_s(scenario); event.time_s >= limit)
+      list.warn(key_ + ".time_s", "the run ends before: its limit is " + short_text(limit) + " s");
+    std::visit(*this, event.action);
+  }
+  void operator()(const Die& die) const { robot(die.robot); }
+  void operator()(const Freeze& freeze) const { robot(freeze.robot); }
+  void operator()(const MoveTarget& move) const {
+    target(move.target);
+    room(move.position);
+  }
+  void operator()(const RemoveTarget& remove) const { target(remove.target); }
+  void operator()(const AddTarget& add) const { room(add.position); }
+  void operator()(const MoveObstacle& move) const {
+    const std::size_t count = before_.obstacles.size();
+    if (move.obstacle >= count)
+      list_.fail(key_ + ".obstacle", "there is no obstacle " + std::to_string(move.obstacle) +
+                                         (count == 0 ? "" : "; the last one is " + std::to_string(count - 1)));
+  }
+  template <class Other> void operator()(const Other& refers_to_nothing) const { static_cast<void>(refers_to_nothing); }
+
+ private:
+  void robot(std::size_t i) const {
+    if (i >= robots_)
+      list_.fail(key_ + ".robot",
+                 "there is no robot " + std::to_string(i) + "; the last one is " + std::to_string(robots_ - 1));
+  }
+  void target(std::size_t i) const {
+    if (i >= before_.targets)
+      list_.fail(key_ + ".target", "there is no target " + std::to_string(i) + " at that time; the last one is " +
+                                       std::to_string(before_.targets - 1));
+  }
+  void room(Vec2 p) const {
+    check_target_room(list_, scenario_, before_.obstacles, key_ + ".position_m", "the target", p);
+  }
+
+  FaultList& list_;
+  const Scenario& scenario_;
+  const std::string key_;
+  std::size_t robots_;
+  const Sequel& before_;
+};
+
+void follow(Sequel& sequel, const Event& event) {
+  if (const auto* move = std::get_if<MoveObstacle>(&event.action);
+      move != nullptr && move->obstacle < sequel.obstacles.size())
+    sequel.obstacles[move->obstacle] = moved(sequel.obstacles[move->obstacle], move->position);
+  if (std::holds_alternative<AddTarget>(event.action)) {
+    ++sequel.targets;
+    sequel.most = std::max(sequel.most, ++sequel.served);
+  }
+  const auto* remove = std::get_if<RemoveTarget>(&event.action);
+  if (remove == nullptr || remove->target >= sequel.targets) return;
+  if (std::find(sequel.removed.begin(), sequel.removed.end(), remove->target) != sequel.removed.end()) return;
+  sequel.removed.push_back(remove->target);
+  --sequel.served;
+}
+
+// Returns the largest number of targets at a time. Events that wait for a moment of the mission are
+// taken as late as possible: after all the others, and adding to the most there has been.
+std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_t targets, std::size_t robots) {
+  const std::vector<Event>& events = scenario.events;
+  std::vector<std::size_t> order(events.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return events[a].time_s < events[b].time_s; });
+  const auto waits = [&](std::size_t i) { return events[i].when != Event::When::time; };
+  const auto adds_late = static_cast<std::size_t>(std::count_if(order.begin(), order.end(), [&](std::size_t i) {
+    return waits(i) && std::holds_alternative<AddTarget>(events[i].action);
+  }));
+  Sequel sequel{targets + adds_late, targets, targets, {}, scenario.obstacles};
+  for (const std::size_t i : order) {
+    if (waits(i)) continue;
+    CheckEventFits(list, scenario, i, robots, sequel);
+    follow(sequel, events[i]);
+  }
+  for (const std::size_t i : order)
+    if (waits(i)) CheckEventFits(list, scenario, i, robots, sequel);
+  return sequel.most + adds_late;
+}
+
+}  // namespace
+
+bool check_events_fit(FaultList& list, const Scenario& scenario, std::size_t targets, std::size_t robots) {
+  const std::size_t at_most = check_in_order(list, scenario, targets, robots);
+  if (at_most + 1 <= robots) return true;
+  list.fail("swarm.robots", std::to_string(robots) + " robots cannot serve " + std::to_string(at_most) +
+                                " targets: each needs a worker, and the root is none of them");
+  return false;
+}
+
+std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
+  FaultList list;
+  check_event_values(list, scenario.events);
+  const std::size_t robots = robot_count(scenario);
+  if (!list.failed()) check_events_fit(list, scenario, target_positions(scenario).size(), robots);
+  if (list.failed() || now == nullptr || scenario.events.empty()) return list.take();
+  const std::size_t last = scenario.events.size() - 1;
+  if (scenario.events[last].when != Event::When::time)
+    list.fail(element("events", last) + ".when", "what somebody does happens now");
+  CheckEventFits(list, scenario, last, robots, {now->targets, 0, 0, {}, now->obstacles});
+  return list.take();
+}
+
+}  // namespace banyan::world

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What the checks of a scenario share: the list they fill, and the checks that parts have in common.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "banyan/world/faults.hpp"
+
+namespace banyan::world {
+
+// A computed number, in six digits.
+[[nodiscard]] inline std::string short_text(double x) {
+  char text[32];
+  static_cast<void>(std::snprintf(text, sizeof text, "%g", x));  // %g always fits
+  return text;
+}
+[[nodiscard]] inline std::string at(Vec2 p) { return "(" + short_text(p.x) + ", " + short_text(p.y) + ")"; }
+[[nodiscard]] inline std::string element(const std::string& list, std::size_t i) {
+  return list + "[" + std::to_string(i) + "]";
+}
+
+class FaultList {
+ public:
+  void fail(std::string key, std::string text) { list_.push_back({std::move(key), std::move(text), false}); }
+  void warn(std::string key, std::string text) { list_.push_back({std::move(key), std::move(text), true}); }
+  // A list of `n` entries has at least one and not too many.
+  void check_length(const std::string& key, std::size_t n, std::size_t most) {
+    if (n < 1 || n > most) fail(key, "must have 1 to " + std::to_string(most) + " entries, not " + std::to_string(n));
+  }
+  [[nodiscard]] bool failed() const noexcept {
+    return std::any_of(list_.begin(), list_.end(), [](const Fault& f) { return !f.warning; });
+  }
+  [[nodiscard]] std::vector<Fault> take() { return std::move(list_); }
+
+ private:
+  std::vector<Fault> list_;
+};
+
+// Every value of every event, on its own.
+void check_event_values(FaultList& list, const std::vector<Event>& events);
+// Whom and what events refer to exists when they happen. False if there are more targets than robots
+// that can be sent.
+bool check_events_fit(FaultList& list, const Scenario& scenario, std::size_t targets, std::size_t robots);
+// A robot gets near enough to a target at p, which a fault names and finds at `key`.
+void check_target_room(FaultList& list, const Scenario& scenario, const std::vector<Obstacle>& obstacles,
+                       const std::string& key, const std::string& name, Vec2 p);
+
+}  // namespace banyan::world

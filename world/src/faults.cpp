@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+// Everything that can be wrong with a scenario. Checks run in two rounds: values one by one, as the
+// table of keys has them, then, only if these are sane, how they fit together.
+#include "banyan/world/faults.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/world/bodies.hpp"
+#include "banyan/world/decimal.hpp"
+#include "banyan/world/names.hpp"
+#include "banyan/world/obstacles.hpp"
+#include "banyan/world/placement.hpp"
+#include "banyan/world/schema.hpp"
+#include "fault_list.hpp"
+
+namespace banyan::world {
+namespace {
+
+// ---- Round one: every value ----
+
+void check_range(FaultList& list, const std::string& key, double x, const Range& range, std::string_view unit) {
+  if (const auto text = range_fault(x, range, unit)) list.fail(key, *text);
+}
+
+// A value against the row of its key; `path` as users write it.
+struct CheckValue {
+  FaultList& list;
+  const std::string& path;
+  const Range& range;
+  std::string_view unit;
+  Names names;
+  void operator()(std::monostate) const {}
+  void operator()(bool) const {}
+  void operator()(std::int64_t n) const { (*this)(static_cast<double>(n)); }
+  void operator()(double x) const { check_range(list, path, x, range, unit); }
+  void operator()(const std::string& word) const {
+    if (names.empty()) return;
+    if (const auto text = name_fault(word, names)) list.fail(path, *text);
+  }
+  void operator()(Vec2 p) const {
+    check_range(list, path + "[0]", p.x, range, unit);
+    check_range(list, path + "[1]", p.y, range, unit);
+  }
+  template <class Element> void operator()(const std::vector<Element>& elements) const {
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      CheckValue{list, element(path, i), range, unit, names}(elements[i]);
+  }
+};
+
+// `shown` is the section as users write it: "events[2]" for "events".
+template <class Owner>
+void check_keys(FaultList& list, const std::string& shown, std::span<const Key<Owner>> keys, const Owner& owner) {
+  for (const Key<Owner>& key : keys) {
+    if (key.terms.only_in_files) continue;
+    const std::string path = shown.empty() ? std::string(key.path) : shown + "." + std::string(key.name());
+    const Value value = effective(key, keys, owner);
+    std::visit(CheckValue{list, path, key.range, key.unit, key.access.names()}, value);
+    if (value.index() == 0 && key.access.optional && get(key, owner).index() != 0)
+      list.fail(path, "give " + std::string(key.name()) + " or " + std::string(key.terms.not_beside) + ", not both");
+  }
+}
+
+void check_parameter(FaultList& list, const std::string& name, double value) {
+  const std::string key = "mission.parameters." + name;
+  if (const std::string_view owner = platform_key(name); !owner.empty()) {
+    list.fail(key, "follows from the key " + std::string(owner) + ": set that instead");
+    return;
+  }
+  std::vector<std::string_view> known;
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.key == name) {
+      check_range(list, key, value, {widened(info.minimum), widened(info.maximum)}, info.unit);
+      return;
+    }
+    if (platform_key(info.key).empty()) known.push_back(info.key);
+  }
+  const std::string_view near = nearest_name(name, known);
+  list.fail(
+      key, "there is no such parameter" + (near.empty() ? std::string() : "; did you mean " + std::string(near) + "?"));
+}
+
+// The largest value that a key may have.
+std::size_t most(std::string_view path) {
+  return static_cast<std::size_t>(find_key(scenario_keys(), path)->range.maximum);
+}
+
+// What a list start leaves out, and what needs one.
+void check_layout(FaultList& list, const SwarmModel& swarm) {
+  const Start& start = swarm.start;
+  if (start.layout != Layout::list) {
+    if (!start.positions.empty()) list.fail("swarm.start.positions_m", "needs swarm.start.layout = \"list\"");
+    if (!start.headings_rad.empty()) list.fail("swarm.start.headings_deg", "needs swarm.start.layout = \"list\"");
+    return;
+  }
+  list.check_length("swarm.start.positions_m", start.positions.size(), most("swarm.robots"));
+  if (swarm.robots && *swarm.robots != start.positions.size())
+    list.fail("swarm.robots", "is " + std::to_string(*swarm.robots) + ", but swarm.start.positions_m lists " +
+                                  std::to_string(start.positions.size()) + "; leave it out");
+  if (!start.headings_rad.empty() && start.headings_rad.size() != start.positions.size())
+    list.fail("swarm.start.headings_deg", "must have one entry per position (" +
+                                              std::to_string(start.positions.size()) + "), not " +
+                                              std::to_string(start.headings_rad.size()));
+}
+
+void check_values(FaultList& list, const Scenario& scenario) {
+  check_keys(list, "", scenario_keys(), scenario);
+  for (const auto& [name, value] : scenario.mission.parameters) check_parameter(list, name, value);
+  check_layout(list, scenario.swarm);
+  if (const auto* listed = std::get_if<std::vector<Vec2>>(&scenario.targets))
+    list.check_length("targets.positions_m", listed->size(), most("targets.count"));
+  if (scenario.robot.body == BodyModel::box2d && !has_box2d())
+    list.fail("robot.body", "the body model box2d is not in the browser's build; use disks or linear");
+  if (!scenario.clocks.asynchronous && scenario.clocks.drift != 0.0)
+    list.warn("clocks.drift", "has no effect without clocks.asynchronous");
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    check_keys(list, element("obstacles", i), obstacle_keys(), scenario.obstacles[i]);
+    const Wall* wall = std::get_if<Wall>(&scenario.obstacles[i]);
+    if (wall != nullptr && wall->from == wall->to)
+      list.fail(element("obstacles", i) + ".to_m", "must differ from the wall's other end");
+  }
+  check_event_values(list, scenario.events);
+}
+
+// ---- Round two: how they fit ----
+
+std::string target_key(const Scenario& scenario, std::size_t i) {
+  return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions_m", i) : "targets";
+}
+
+void check_platform(FaultList& list, const Scenario& scenario) {
+  const double reach = scenario.robot.wheel_limit_m_s * scenario.tick_s;
+  if (!scenario.obstacles.empty() && reach >= scenario.robot.radius_m)
+    list.fail("tick_s", "a robot covers " + short_text(reach) +
+                            " m in one tick and could pass through an obstacle;"
+                            " tick_s * robot.wheel_limit_m_s must be below robot.radius_m");
+  if (2.0 * scenario.robot.radius_m >= scenario.radio.range_m)
+    list.fail("radio.range_m", "must exceed two robot radii (" + short_text(2.0 * scenario.robot.radius_m) +
+                                   " m), else no robot can hear another");
+  if (time_limit_s(scenario) < scenario.tick_s)
+    list.fail("mission.time_limit_s", "must be given when no target is away from swarm.start.center_m");
+  if (const std::string text = find_algorithm(scenario.mission.algorithm)->fault(setup_of(scenario)); !text.empty())
+    list.fail("mission.parameters", text);
+}
+
+std::size_t find(std::vector<std::size_t>& leader, std::size_t i) noexcept {
+  while (leader[i] != i) i = leader[i] = leader[leader[i]];
+  return i;
+}
+
+// Overlaps and connected components of a list start, by a sweep along x.
+void check_listed_cluster(FaultList& list, const Scenario& scenario) {
+  const std::vector<Vec2>& p = scenario.swarm.start.positions;
+  const double range = scenario.radio.range_m;
+  const double touch = 2.0 * scenario.robot.radius_m;
+  std::vector<std::size_t> order(p.size());
+  std::vector<std::size_t> leader(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::iota(leader.begin(), leader.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return p[a].x != p[b].x ? p[a].x < p[b].x : a < b; });
+  std::size_t parts = p.size();
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    for (std::size_t b = a + 1; b < p.size() && p[order[b]].x - p[order[a]].x < std::max(range, touch); ++b) {
+      const std::size_t i = std::min(order[a], order[b]);
+      const std::size_t j = std::max(order[a], order[b]);
+      const double d = distance(p[i], p[j]);
+      if (d < touch)
+        list.fail(element("swarm.start.positions_m", j), "overlaps position " + std::to_string(i) + ": " +
+                                                             short_text(d) + " m apart, two radii are " +
+                                                             short_text(touch) + " m");
+      const std::size_t left = find(leader, i);
+      const std::size_t right = find(leader, j);
+      if (d < range && left != right) {
+        leader[right] = left;
+        --parts;
+      }
+    }
+  }
+  if (parts > 1)
+    list.fail("swarm.start.positions_m", "the start is not connected: " + std::to_string(parts) +
+                                             " groups are farther than radio.range_m = " + short_text(range) +
+                                             " m from each other");
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (clearance(scenario.obstacles, p[i]) < scenario.robot.radius_m)
+      list.fail(element("swarm.start.positions_m", i), "a robot at " + at(p[i]) + " touches an obstacle");
+}
+
+void check_lattice_cluster(FaultList& list, const Scenario& scenario) {
+  const Start& start = scenario.swarm.start;
+  const double touch = 2.0 * scenario.robot.radius_m;
+  if (start.pitch_m - 2.0 * start.jitter_m < touch)
+    list.fail("swarm.start.pitch_m",
+              "robots do not fit: pitch_m - 2 jitter_m = " + short_text(start.pitch_m - 2.0 * start.jitter_m) +
+                  " m must be at least two radii, " + short_text(touch) + " m");
+  if (start.pitch_m + 2.0 * start.jitter_m >= scenario.radio.range_m)
+    list.fail(
+        "swarm.start.pitch_m",
+        "the start would not be connected: pitch_m + 2 jitter_m = " + short_text(start.pitch_m + 2.0 * start.jitter_m) +
+            " m must be below radio.range_m = " + short_text(scenario.radio.range_m) + " m");
+  if (list.failed() || scenario.obstacles.empty()) return;
+  const std::size_t wanted = robot_count(scenario);
+  const std::size_t placed = place(scenario).position.size();
+  if (placed == 0)
+    list.fail("swarm.start.center_m", "there is no room for a robot at " + at(start.center) +
+                                          ": an obstacle is closer"
+                                          " than robot.radius_m + swarm.start.jitter_m");
+  else if (placed < wanted)
+    list.fail("swarm.start", "only " + std::to_string(placed) + " of " + std::to_string(wanted) +
+                                 " robots fit between the obstacles around the start");
+}
+
+void check_swarm_fits(FaultList& list, const Scenario& scenario) {
+  const std::size_t robots = robot_count(scenario);
+  if (robots > most("swarm.robots")) {
+    list.fail("swarm.redundancy", "asks for " + std::to_string(robots) + " robots; at most " +
+                                      std::to_string(most("swarm.robots")) + " are possible");
+    return;
+  }
+  if (scenario.swarm.root && *scenario.swarm.root >= robots)
+    list.fail("swarm.root", "there is no robot " + std::to_string(*scenario.swarm.root) + "; the last one is " +
+                                std::to_string(robots - 1));
+  if (scenario.swarm.start.layout == Layout::list)
+    check_listed_cluster(list, scenario);
+  else
+    check_lattice_cluster(list, scenario);
+}
+
+void check_targets_fit(FaultList& list, const Scenario& scenario) {
+  const std::vector<Vec2> targets = target_positions(scenario);
+  const std::size_t robots = robot_count(scenario);
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    check_target_room(list, scenario, scenario.obstacles, target_key(scenario, i), "target " + std::to_string(i),
+                      targets[i]);
+  if (!check_events_fit(list, scenario, targets.size(), robots)) return;
+  const std::size_t needed = least_robots(targets, scenario.mission.target_tolerance_m, scenario.radio.range_m);
+  if (needed > robots)
+    list.warn("targets", "out of reach: no connected network of fewer than " + std::to_string(needed) +
+                             " robots spans the targets at radio.range_m = " + short_text(scenario.radio.range_m) +
+                             " m, and there are " + std::to_string(robots));
+}
+
+}  // namespace
+
+void check_event_values(FaultList& list, const std::vector<Event>& events) {
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const std::string path = element("events", i);
+    check_keys(list, path, event_keys(), events[i]);
+    const Blackout* blackout = std::get_if<Blackout>(&events[i].action);
+    if (blackout != nullptr && blackout->duration_s == 0.0)
+      list.fail(path + ".duration_s", "must be above 0 for a blackout");
+  }
+}
+
+void check_target_room(FaultList& list, const Scenario& scenario, const std::vector<Obstacle>& obstacles,
+                       const std::string& key, const std::string& name, Vec2 p) {
+  const double room = clearance(obstacles, p);
+  if (room <= 0.0) {
+    list.fail(key, name + " at " + at(p) + " lies inside an obstacle");
+  } else if (room + scenario.mission.target_tolerance_m < scenario.robot.radius_m) {
+    list.fail(key, name + " at " + at(p) + " is so close to an obstacle that no robot of radius " +
+                       short_text(scenario.robot.radius_m) + " m gets within mission.target_tolerance_m of it");
+  }
+}
+
+std::vector<Fault> faults(const Scenario& scenario) {
+  FaultList list;
+  check_values(list, scenario);
+  if (!list.failed()) check_platform(list, scenario);
+  if (!list.failed()) {
+    check_swarm_fits(list, scenario);
+    check_targets_fit(list, scenario);
+  }
+  return list.take();
+}
+
+}  // namespace banyan::world

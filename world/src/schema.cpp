@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/world/schema.hpp"
+
+#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/world/decimal.hpp"
+
+namespace banyan::world {
+
+// ---- Names of enums and of the alternatives of variants ----
+
+template <> struct NamesOf<Layout> { static constexpr std::string_view list[] = {"hexagonal", "grid", "list"}; };
+template <> struct NamesOf<BodyModel> { static constexpr std::string_view list[] = {"disks", "box2d", "linear"}; };
+template <> struct NamesOf<Event::When> {
+  static constexpr std::string_view list[] = {"time", "half-way", "complete"};
+};
+template <> struct NamesOf<Kill::Of> {
+  static constexpr std::string_view list[] = {"robots", "connectors", "root", "worker", "worker_and_parent"};
+};
+template <> struct NamesOf<Targets> {
+  static constexpr std::string_view list[] = {"list", RingTargets::kind, RandomTargets::kind};
+};
+template <class... Alternatives> struct NamesOf<std::variant<Alternatives...>> {
+  static constexpr std::string_view list[] = {Alternatives::kind...};
+};
+
+// ---- Where the parts are ----
+
+template <> struct Parts<Scenario> {
+  template <class Part> static Part* find(Scenario& s) noexcept {
+    if constexpr (std::is_same_v<Part, Scenario>)
+      return &s;
+    else if constexpr (std::is_same_v<Part, Mission>)
+      return &s.mission;
+    else if constexpr (std::is_same_v<Part, SwarmModel>)
+      return &s.swarm;
+    else if constexpr (std::is_same_v<Part, Start>)
+      return &s.swarm.start;
+    else if constexpr (std::is_same_v<Part, RobotModel>)
+      return &s.robot;
+    else if constexpr (std::is_same_v<Part, RadioModel>)
+      return &s.radio;
+    else if constexpr (std::is_same_v<Part, Clocks>)
+      return &s.clocks;
+    else
+      return std::get_if<Part>(&s.targets);
+  }
+};
+template <> struct Parts<Obstacle> {
+  template <class Part> static Part* find(Obstacle& o) noexcept { return std::get_if<Part>(&o); }
+};
+template <> struct Parts<Event> {
+  template <class Part> static Part* find(Event& e) noexcept {
+    if constexpr (std::is_same_v<Part, Event>)
+      return &e;
+    else
+      return std::get_if<Part>(&e.action);
+  }
+};
+
+namespace {
+
+Names algorithm_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> list;
+    for (const Algorithm* algorithm : algorithms()) list.push_back(algorithm->name());
+    return list;
+  }();
+  return names;
+}
+Names reading_names() {
+  static constexpr std::string_view names[] = {"corrected", "literal"};
+  return names;
+}
+
+bool is_listed(const Scenario& s) noexcept { return s.swarm.start.layout == Layout::list; }
+double* redundancy_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.redundancy; }
+double* pitch_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.start.pitch_m; }
+double* jitter_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.start.jitter_m; }
+std::vector<Vec2>* positions_of(Scenario& s) noexcept { return is_listed(s) ? &s.swarm.start.positions : nullptr; }
+std::vector<double>* headings_of(Scenario& s) noexcept { return is_listed(s) ? &s.swarm.start.headings_rad : nullptr; }
+std::vector<Vec2>* listed_targets_of(Scenario& s) noexcept { return std::get_if<std::vector<Vec2>>(&s.targets); }
+Obstacle* itself(Obstacle& o) noexcept { return &o; }
+
+constexpr double world_size = 1e4;        // m; beyond it single precision on robots loses the millimetre
+constexpr double most_ids = nobody;  // ids are 16 bits, the last one means nobody
+constexpr double long_time = 1e7;       // s
+constexpr Range any_value;
+constexpr Range anywhere{-world_size, world_size};
+constexpr Range any_length{0.0, world_size, true};
+constexpr Range any_time{0.0, long_time};
+constexpr Range any_share{0.0, 1.0};
+constexpr Range any_angle{-360.0, 360.0};
+// Seeds stay below 2^53, so that every reader of JSON, the viewer among them, sees them exactly.
+constexpr Range any_seed{0.0, 9007199254740992.0};
+
+constexpr Section section_list[] = {
+    {"", "The world as a whole."},
+    {"mission", "What the swarm is to do, and by which algorithm."},
+    {"mission.parameters",
+     "Overrides of the algorithm's parameters, the paper's Table I among them. `banyan algorithms` lists their "
+     "defaults, which depend on algorithm and reading."},
+    {"swarm", "How many robots. Give `robots` or `redundancy`, not both."},
+    {"swarm.start", "Where the robots begin: a compact connected cluster.", "layout"},
+    {"robot", "One robot's body and wheels. The defaults are a Khepera IV."},
+    {"radio", "Who hears whom, and how well."},
+    {"clocks", "When robots step: all together, or each by its own clock."},
+    {"targets", "Where the workers have to go.", "layout"},
+    {"obstacles",
+     "An obstacle each: `[[obstacles]]` as often as needed. They block motion and, with "
+     "`radio.line_of_sight`, the radio. Robots see them only within `robot.proximity_m`.",
+     "kind", true},
+    {"events", "What happens to the world at a given time or moment of the mission: `[[events]]` as often as needed.",
+     "kind", true},
+};
+
+// A row: key, member, unit, range, meaning, and what else is to be said. Keys whose parameter is named
+// have the parameter's range.
+// clang-format off
+constexpr Key<Scenario> scenario_rows[] = {
+    {"name", of<&Scenario::name>, "", any_value,
+     "names the run and its output directory; letters, digits, '-', '_' and '.'", {.otherwise = "the file's name"}},
+    {"description", of<&Scenario::description>, "", any_value, "what this world is about, for readers"},
+    {"tick_s", of<&Scenario::tick_s>, "s", any_value,
+     "length of a tick; robots broadcast, decide and move once a tick", {.parameter = "tick_s"}},
+    {"seed", of<&Scenario::seed>, "", any_seed, "decides everything random; the same seed gives the same run",
+     {.only_in_files = true}},
+
+    {"mission.algorithm", word<&Mission::algorithm, algorithm_names>, "", any_value, "how the tree grows"},
+    {"mission.reading", word<&Mission::reading, reading_names>, "", any_value,
+     "the paper as printed (literal), or with its gaps closed (corrected)"},
+    {"mission.scale", of<&Mission::scale>, "", {0.0, 1000.0, true},
+     "factor on Table I's lengths S, A, delta, E and J (paper Sec. IV-C)"},
+    {"mission.target_tolerance_m", of<&Mission::target_tolerance_m>, "m", any_length,
+     "a target is reached when its worker is this near"},
+    {"mission.time_limit_s", of<&Mission::time_limit_s>, "s", any_time,
+     "the run ends then; 0: ten times a straight drive to the farthest target"},
+    {"mission.stop_when_complete", of<&Mission::stop_when_complete>, "", any_value,
+     "end the run as soon as all targets are reached at once"},
+    {"mission.settle_s", of<&Mission::settle_s>, "s", any_time,
+     "with stop_when_complete: go on this long after completion, so that the tree can settle"},
+
+    {"swarm.robots", of<&SwarmModel::robots>, "", {2.0, most_ids}, "number of robots",
+     {.otherwise = "from redundancy, or the length of start.positions_m"}},
+    {"swarm.redundancy", by<redundancy_of>, "", {0.0, 1000.0, true},
+     "the paper's k: ceil(k * sum of target distances / 1.540841 m) robots",
+     {.not_beside = "robots", .selector = "swarm.start.layout"}},
+    {"swarm.root", of<&SwarmModel::root>, "", {0.0, most_ids - 1},
+     "index of the first root, counted from 0 at the centre of the start",
+     {.otherwise = "a random robot that is no worker"}},
+
+    {"swarm.start.layout", of<&Start::layout>, "", any_value, "hexagonal or square lattice, or a list of positions"},
+    {"swarm.start.center_m", of<&Start::center>, "m", anywhere, "centre of the cluster"},
+    {"swarm.start.pitch_m", by<pitch_of>, "m", {0.0, 1000.0, true}, "distance between neighbours of the lattice"},
+    {"swarm.start.jitter_m", by<jitter_of>, "m", {0.0, 1000.0}, "each robot is off its lattice point by up to this"},
+    {"swarm.start.positions_m", by<positions_of>, "m", anywhere, "one [x, y] per robot", {.required = true}},
+    {"swarm.start.headings_deg", by<headings_of>, "deg", any_angle,
+     "one angle per robot, counter-clockwise from the x axis", {.otherwise = "random"}},
+
+    {"robot.body", of<&RobotModel::body>, "", any_value,
+     "disks: wheels and contacts, fast; box2d: with mass and force limits; linear: the paper's point masses, "
+     "holonomic"},
+    {"robot.radius_m", of<&RobotModel::radius_m>, "m", {0.0, 100.0, true}, "radius of the body"},
+    {"robot.wheel_distance_m", of<&RobotModel::wheel_distance_m>, "m", any_value,
+     "distance between the wheels", {.parameter = "wheel_distance_m"}},
+    {"robot.wheel_limit_m_s", of<&RobotModel::wheel_limit_m_s>, "m/s", any_value,
+     "largest speed of a wheel", {.parameter = "wheel_limit_m_s"}},
+    {"robot.wheel_noise", of<&RobotModel::wheel_noise>, "", any_share,
+     "sigma of the factor on each wheel's speed, drawn every tick"},
+    {"robot.wheel_bias", of<&RobotModel::wheel_bias>, "", any_share,
+     "sigma of a factor on each wheel's speed, drawn once"},
+    {"robot.odometry_noise", of<&RobotModel::odometry_noise>, "", any_share,
+     "sigma of the factor on each odometry reading"},
+    {"robot.mass_kg", of<&RobotModel::mass_kg>, "kg", {0.0, 1e4, true}, "mass (body box2d)"},
+    {"robot.max_force_n", of<&RobotModel::max_force_n>, "N", {0.0, 1e6, true},
+     "largest force of the wheels (body box2d)"},
+    {"robot.max_torque_nm", of<&RobotModel::max_torque_nm>, "N m", {0.0, 1e6, true},
+     "largest torque of the wheels (body box2d)"},
+    {"robot.max_acceleration_m_s2", of<&RobotModel::max_acceleration_m_s2>, "m/s^2", {0.0, 1e4, true},
+     "bound on the acceleration |u| (body linear)"},
+    {"robot.dead_bodies", of<&RobotModel::dead_bodies>, "", any_value,
+     "the dead stay where they are and block motion and sight; false: they vanish"},
+    {"robot.proximity_m", of<&RobotModel::proximity_m>, "m", {0.0, 100.0},
+     "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none"},
+
+    {"radio.range_m", of<&RadioModel::range_m>, "m", any_value,
+     "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
+    {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
+     "robots and obstacles in between block a packet"},
+    {"radio.loss", of<&RadioModel::loss>, "", any_share,
+     "probability that a packet does not arrive, per packet and receiver"},
+    {"radio.range_noise_m", of<&RadioModel::range_noise_m>, "m", {0.0, 1000.0}, "sigma of the measured range"},
+    {"radio.bearing_noise_deg", of<&RadioModel::bearing_noise_rad>, "deg", {0.0, 180.0},
+     "sigma of the measured bearing"},
+    {"radio.latency_ticks", of<&RadioModel::latency_ticks>, "ticks", {1.0, 100.0},
+     "a message is heard so many ticks after it was sent"},
+    {"radio.slots", of<&RadioModel::slots>, "", {0.0, 65535.0}, "packets a robot can receive in one tick; 0: no limit"},
+
+    {"clocks.asynchronous", of<&Clocks::asynchronous>, "", any_value,
+     "each robot steps at its own moments, not all of them at the begin of every tick"},
+    {"clocks.drift", of<&Clocks::drift>, "", {0.0, 0.5}, "each clock's rate is 1 + uniform(-drift, drift), drawn once"},
+    {"clocks.substeps", of<&Clocks::substeps>, "", {2.0, 100.0},
+     "parts of a tick after each of which bodies move and packets fly (asynchronous)"},
+
+    {"targets.layout", of<&Scenario::targets>, "", any_value,
+     "a list of positions, equal angles on a circle, or random in an annulus"},
+    {"targets.positions_m", by<listed_targets_of>, "m", anywhere, "one [x, y] per target", {.required = true}},
+    {"targets.count", of<&RingTargets::count, &RandomTargets::count>, "", {1.0, 10000.0}, "number of targets"},
+    {"targets.radius_m", of<&RingTargets::radius_m, &RandomTargets::radius_m>, "m", {0.0, world_size},
+     "distance of the targets from the centre; the largest one if random"},
+    {"targets.phase_deg", of<&RingTargets::phase_rad>, "deg", any_angle,
+     "direction of the first target, counter-clockwise from the x axis"},
+    {"targets.center_m", of<&RingTargets::center, &RandomTargets::center>, "m", anywhere,
+     "centre of the circle or annulus"},
+};
+
+constexpr Key<Obstacle> obstacle_rows[] = {
+    {"obstacles.kind", by<itself>, "", any_value, "shape of the obstacle", {.required = true}},
+    {"obstacles.center_m", of<&Disc::center, &Box::center>, "m", anywhere, "centre", {.required = true}},
+    {"obstacles.radius_m", of<&Disc::radius_m>, "m", any_length, "radius", {.required = true}},
+    {"obstacles.size_m", of<&Box::size>, "m", any_length, "length and width", {.required = true}},
+    {"obstacles.angle_deg", of<&Box::angle_rad>, "deg", any_angle,
+     "direction of the length, counter-clockwise from the x axis"},
+    {"obstacles.from_m", of<&Wall::from>, "m", anywhere, "one end", {.required = true}},
+    {"obstacles.to_m", of<&Wall::to>, "m", anywhere, "the other end", {.required = true}},
+};
+
+constexpr Key<Event> event_rows[] = {
+    {"events.time_s", of<&Event::time_s>, "s", any_time, "when: so long after what `when` says", {.required = true}},
+    {"events.when", of<&Event::when>, "", any_value,
+     "what time_s counts from: time, the start; half-way, the workers' remaining distances have fallen to half; "
+     "complete, all targets are held at once for the first time. An event whose moment never comes never happens"},
+    {"events.kind", of<&Event::action>, "", any_value, "what happens", {.required = true}},
+    {"events.robot", of<&Die::robot, &Freeze::robot>, "", {0.0, most_ids - 1},
+     "index of the robot, counted from 0", {.required = true}},
+    {"events.duration_s", of<&Freeze::duration_s, &Blackout::duration_s>, "s", any_time,
+     "how long it stands still (freeze; 0: for good) or nobody hears anything (blackout; above 0)"},
+    {"events.loss", of<&SetLoss::loss>, "", any_share, "the new radio.loss", {.required = true}},
+    {"events.line_of_sight", of<&SetLineOfSight::line_of_sight>, "", any_value,
+     "the new radio.line_of_sight; the robots are told", {.required = true}},
+    {"events.target", of<&MoveTarget::target, &RemoveTarget::target>, "", {0.0, 1e5},
+     "index of the target, counted from 0", {.required = true}},
+    {"events.obstacle", of<&MoveObstacle::obstacle>, "", {0.0, 1e6},
+     "index of the obstacle, counted from 0", {.required = true}},
+    {"events.position_m", of<&MoveTarget::position, &AddTarget::position, &MoveObstacle::position>, "m", anywhere,
+     "where the target is from then on, or drives to; where the centre of the obstacle is, of a wall its middle",
+     {.required = true}},
+    {"events.speed_m_s", of<&MoveTarget::speed_m_s>, "m/s", {0.0, 100.0},
+     "the target drives there in a straight line; 0: it jumps"},
+    {"events.of", of<&Kill::of>, "", any_value,
+     "whom the dead are drawn from: the living, by the role they broadcast when it acts; worker_and_parent: a worker "
+     "and its parent in the tree"},
+    {"events.share", of<&Kill::share>, "", any_share,
+     "how many die: so much of those they are drawn from when it begins, rounded",
+     {.otherwise = "count counts", .not_beside = "count"}},
+    {"events.count", of<&Kill::count>, "", {1.0, most_ids}, "how many die; not beside share", {.otherwise = "1"}},
+    {"events.every_s", of<&Kill::every_s>, "s", any_time, "they die one by one, so far apart; 0: all at once"},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Section> scenario_sections() noexcept { return section_list; }
+std::span<const Key<Obstacle>> obstacle_keys() noexcept { return obstacle_rows; }
+std::span<const Key<Event>> event_keys() noexcept { return event_rows; }
+
+std::span<const Key<Scenario>> scenario_keys() noexcept {
+  static const auto keys = [] {
+    auto rows = std::to_array(scenario_rows);
+    for (Key<Scenario>& key : rows)
+      for (const ParameterInfo& info : parameter_table())
+        if (info.key == key.terms.parameter) key.range = {widened(info.minimum), widened(info.maximum)};
+    return rows;
+  }();
+  return keys;
+}
+
+std::string_view platform_key(std::string_view parameter) noexcept {
+  for (const Key<Scenario>& key : scenario_rows)
+    if (!parameter.empty() && key.terms.parameter == parameter) return key.path;
+  return {};
+}
+
+}  // namespace banyan::world
