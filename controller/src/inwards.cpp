@@ -15,15 +15,15 @@
 namespace banyan {
 namespace {
 
-bool may_join(const TreeRobot& robot) noexcept { return robot.self.is_worker || is_named_parent(robot); }
+bool may_join_inwards(const TreeRobot& robot) noexcept { return robot.self.is_worker || is_named_parent(robot); }
 
-bool tree_complete(const TreeRobot& robot) noexcept { return robot.self.subtree_workers >= robot.self.flood_workers; }
+bool all_workers_counted(const TreeRobot& robot) noexcept { return robot.self.subtree_workers >= robot.self.flood_workers; }
 
 // SELECT PARENT: the smallest distance to the root; corrected: within S if there is one.
 void select_inner_parent(TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const auto is_safe = [&](int k) { return robot.reading.prefers_safe_parent && table.range(k) <= robot.params.safe_range_m; };
-  select_parent(robot, {.may_join = may_join(robot),
+  select_parent(robot, {.may_join = may_join_inwards(robot),
                         .workers_relay = false,
                         .accepts = [](int) { return true; },
                         .prefers = [&](int a, int b) {
@@ -55,7 +55,7 @@ Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& st
   accept_offer(robot);                                 // Select Root, the heir's side
   index_neighbors(robot);                              // who are my parent and children
   update_role(robot);
-  advance(robot, tree_complete(robot));                // the root's barriers
+  advance(robot, all_workers_counted(robot));                // the root's barriers
   update_label(robot);                                 // Start Tree
   select_inner_parent(robot);                          // Select Parent, repair
   take_census(robot, params.arrival_distance_m);       // Alg. 1 and 2
@@ -85,7 +85,7 @@ Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& s
   index_neighbors(robot);
   watch_branch(robot);                                 // has the last below me died?
   update_role(robot);
-  advance_and_count(robot, tree_complete(robot));      // the root's barriers
+  advance_and_count(robot, all_workers_counted(robot));      // the root's barriers
   update_label(robot);                                 // Start Tree
   select_inner_parent(robot);                          // Select Parent, repair
   take_census(robot, params.arrival_distance_m, own_want_m(robot));

@@ -16,14 +16,14 @@ namespace banyan {
 namespace {
 
 // Everybody joins in SELECT PARENT; later only who still matters to the tree.
-bool may_join(const TreeRobot& robot) noexcept { return robot.self.phase == Phase::select_parent || robot.self.role != Role::spare; }
+bool may_join_outwards(const TreeRobot& robot) noexcept { return robot.self.phase == Phase::select_parent || robot.self.role != Role::spare; }
 
 // Never equality: with motion and occlusion the flood under-counts (protocol 4).
-bool tree_complete(const TreeRobot& robot) noexcept { return robot.self.subtree >= robot.self.flood_robots; }
+bool all_robots_counted(const TreeRobot& robot) noexcept { return robot.self.subtree >= robot.self.flood_robots; }
 
 // SELECT PARENT: the nearest robot that has joined already.
 void select_nearest_parent(TreeRobot& robot) noexcept {
-  select_parent(robot, {.may_join = may_join(robot),
+  select_parent(robot, {.may_join = may_join_outwards(robot),
                         .workers_relay = false,
                         .accepts = [&](int k) { return robot.table().message(k).committed; },
                         .prefers = [&](int a, int b) { return robot.table().range(a) < robot.table().range(b); }});
@@ -41,7 +41,7 @@ Output<TreeMessage> outwards_literal_step(const TreeParams& params, TreeState& s
   accept_offer(robot);                                 // Select Root, the heir's side
   index_neighbors(robot);                              // who are my parent and children
   update_role(robot);
-  advance(robot, tree_complete(robot));                // the root's barriers
+  advance(robot, all_robots_counted(robot));                // the root's barriers
   update_label(robot);                                 // Start Tree
   select_nearest_parent(robot);                        // Select Parent, repair
   take_census(robot, params.arrival_distance_m);       // Alg. 1 and 2
@@ -71,7 +71,7 @@ Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& 
   index_neighbors(robot);
   watch_branch(robot);                                 // has the last below me died?
   update_role(robot);
-  advance_and_count(robot, tree_complete(robot));      // the root's barriers
+  advance_and_count(robot, all_robots_counted(robot));      // the root's barriers
   update_label(robot);                                 // Start Tree
   select_nearest_parent(robot);                        // Select Parent, repair
   take_census(robot, params.arrival_distance_m, own_want_m(robot));

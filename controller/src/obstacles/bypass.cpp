@@ -15,8 +15,6 @@ constexpr float progress_m = 0.05F;
 constexpr float first_span = 0.35F;        // of C
 constexpr float goal_moved_m = 0.30F;
 
-Vec2 left_of(Vec2 v) noexcept { return {-v.y, v.x}; }
-
 // ---- One obstacle point: which directions it leaves ----
 
 // The largest cosine between a direction of motion and that of an obstacle `d` away: along it where it

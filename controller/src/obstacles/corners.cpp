@@ -21,8 +21,6 @@ constexpr float pin_shortest_m = 0.30F;   // a parent nearer than this need not 
 constexpr float spacing_m = 0.06F;        // of remembered points
 constexpr float forget = 1.0F;            // of C: an edge is no longer
 
-Vec2 left_of(Vec2 v) noexcept { return {-v.y, v.x}; }
-
 template <class Visit>
 void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit visit) noexcept {
   for (const Vec2 o : robot.obstacles) visit(o);

@@ -46,6 +46,9 @@ BasicVec2<T> clamped(BasicVec2<T> a, T limit) noexcept {
   return n > limit ? a * (limit / n) : a;
 }
 
+// A quarter turn to the left.
+template <class T> constexpr BasicVec2<T> left_of(BasicVec2<T> v) noexcept { return {-v.y, v.x}; }
+
 // A rotation is a unit vector (cos, sin): composing two is complex multiplication, no trigonometry.
 template <class T> constexpr BasicVec2<T> rotate(BasicVec2<T> rotation, BasicVec2<T> v) noexcept {
   return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};
