@@ -3,6 +3,7 @@
 // code, what it says and the files it leaves. What the tests of its commands have in common.
 #pragma once
 
+#include <algorithm>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -59,23 +60,38 @@ class StartedProgram : public ::testing::Test {
   [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(home_ / name); }
 
   pid_t start(const Arguments& arguments, const Circumstances& how = {}) {
+    // All that takes memory comes before the fork: another thread of this process may hold the heap's lock,
+    // and in the child nobody would ever let it go.
+    const std::string out = how.out ? how.out : (home_ / "stdout.txt").string();
+    const std::string err = (home_ / "stderr.txt").string();
+    const std::string directory = (home_ / how.directory).string();
+    std::vector<std::string> variables;
+    for (char** at = environ; *at != nullptr; ++at) {
+      const std::string variable = *at;
+      const std::string known = variable.substr(0, variable.find('='));
+      const auto is_given = [&](const auto& given) { return given.first == known; };
+      if (std::none_of(how.environment.begin(), how.environment.end(), is_given)) variables.push_back(variable);
+    }
+    for (const auto& [name, value] : how.environment) variables.push_back(name + "=" + value);
+    std::vector<char*> environment;
+    for (std::string& variable : variables) environment.push_back(variable.data());
+    environment.push_back(nullptr);
+    std::vector<char*> argv{const_cast<char*>(how.program.c_str())};
+    for (const auto& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+
     const pid_t child = ::fork();
     if (child != 0) return child;
-    const std::string out = how.out ? how.out : (home_ / "stdout.txt").string();
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
-    ::dup2(::open((home_ / "stderr.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
+    ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
     ::dup2(how.input >= 0 ? how.input : ::open("/dev/null", O_RDONLY), 0);
-    if (::chdir((home_ / how.directory).c_str()) != 0) ::_exit(99);
-    for (const auto& [name, value] : how.environment) ::setenv(name.c_str(), value.c_str(), 1);
+    if (::chdir(directory.c_str()) != 0) ::_exit(99);
     if (how.largest_file != RLIM_INFINITY) {
       const rlimit limit{how.largest_file, how.largest_file};
       ::setrlimit(RLIMIT_FSIZE, &limit);
     }
     if (how.ignores_children) ::signal(SIGCHLD, SIG_IGN);
-    std::vector<char*> argv{const_cast<char*>(how.program.c_str())};
-    for (const auto& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-    argv.push_back(nullptr);
-    ::execvp(how.program.c_str(), argv.data());
+    ::execvpe(how.program.c_str(), argv.data(), environment.data());
     ::_exit(98);
   }
   Outcome finish(pid_t child) {

@@ -259,8 +259,10 @@ banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noe
 
 // ---- The view from outside ----
 
-World::World(const Scenario& scenario)
-    : impl_(std::make_unique<Impl>(checked(scenario, nullptr), *find_algorithm(scenario.mission.algorithm))) {}
+World::World(const Scenario& scenario) {
+  const Scenario sound = checked(scenario, nullptr);  // before anybody asks for its algorithm
+  impl_ = std::make_unique<Impl>(sound, *find_algorithm(sound.mission.algorithm));
+}
 World::World(const Scenario& scenario, const Algorithm& algorithm) : impl_(std::make_unique<Impl>(checked(scenario, &algorithm), algorithm)) {}
 World::World(const World& o) : impl_(std::make_unique<Impl>(*o.impl_)) {}
 World::World(World&&) noexcept = default;
