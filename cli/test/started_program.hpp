@@ -3,7 +3,6 @@
 // code, what it says and the files it leaves. What the tests of its commands have in common.
 #pragma once
 
-#include <algorithm>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -11,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
