@@ -71,7 +71,7 @@ struct Choice {
 
 class EverySwarm : public testing::TestWithParam<Choice> {
  protected:
-  [[nodiscard]] Row row(std::size_t history = 1) const { return {*GetParam().algorithm, GetParam().reading, history}; }
+  [[nodiscard]] static Row row(std::size_t history = 1) { return {*GetParam().algorithm, GetParam().reading, history}; }
 };
 
 INSTANTIATE_TEST_SUITE_P(Algorithms, EverySwarm,

@@ -74,6 +74,7 @@ class StartedProgram : public ::testing::Test {
     }
     for (const auto& [name, value] : how.environment) variables.push_back(name + "=" + value);
     std::vector<char*> environment;
+    environment.reserve(variables.size() + 1);
     for (std::string& variable : variables) environment.push_back(variable.data());
     environment.push_back(nullptr);
     std::vector<char*> argv{const_cast<char*>(how.program.c_str())};

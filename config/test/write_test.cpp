@@ -31,10 +31,10 @@ template <class Owner> rc::Gen<json> value_of(const world::Key<Owner>& key) {
   using world::Type;
   const auto low = std::isfinite(key.range.minimum) ? key.range.minimum : -100.0;
   const auto high = std::isfinite(key.range.maximum) ? key.range.maximum : 100.0;
-  const auto real = rc::gen::map(rc::gen::inRange<std::int64_t>(1, 1'000'000'000), [low, high](std::int64_t k) {
+  auto real = rc::gen::map(rc::gen::inRange<std::int64_t>(1, 1'000'000'000), [low, high](std::int64_t k) {
     return json(low + (high - low) * (static_cast<double>(k) / 1e9));
   });
-  const auto point = rc::gen::map(rc::gen::pair(real, real), [](auto p) { return json::array({p.first, p.second}); });
+  auto point = rc::gen::map(rc::gen::pair(real, real), [](auto p) { return json::array({p.first, p.second}); });
   const auto list = [](const rc::Gen<json>& item) {
     return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::vector<json>>(item)),
                         [](const std::vector<json>& v) { return json(v); });

@@ -25,7 +25,7 @@ struct LiteralKind {
   using State = TreeState;
   using Message = TreeMessage;
   using Robot = TreeRobot;
-  static Params defaults() { return defaults_function(); }
+  static Params defaults() { return defaults_function(); }  // NOLINT(cppcoreguidelines-slicing): the tree's share of them
   static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
   static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, literal_reading, state, admitted}; }
   static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_function(params, state, heard, senses); }

@@ -161,7 +161,7 @@ class EndSink final : public Sink {
     file_.write(std::to_string(world.tick()) + "\n");
     file_.commit();
   }
-  static inline std::uint64_t fails_at = 0;
+  static inline std::uint64_t fails_at = 0;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
  private:
   OutputFile file_;

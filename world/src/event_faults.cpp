@@ -98,7 +98,7 @@ std::size_t check_in_order(FaultList& list, const Scenario& scenario, std::size_
   Sequel sequel{targets + adds_late, targets, targets, {}, scenario.obstacles};
   for (const std::size_t i : order) {
     if (waits(i)) continue;
-    CheckEventFits(list, scenario, i, robots, sequel);
+    CheckEventFits(list, scenario, i, robots, sequel);  // NOLINT(bugprone-unused-raii): its constructor is the check
     follow(sequel, events[i]);
   }
   for (const std::size_t i : order)
@@ -125,7 +125,7 @@ std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
   const std::size_t last = scenario.events.size() - 1;
   if (scenario.events[last].when != Event::When::time)
     list.fail(element("events", last) + ".when", "what somebody does happens now");
-  CheckEventFits(list, scenario, last, robots, {now->targets, 0, 0, {}, now->obstacles});
+  CheckEventFits(list, scenario, last, robots, {now->targets, 0, 0, {}, now->obstacles});  // NOLINT(bugprone-unused-raii): its constructor is the check
   return list.take();
 }
 

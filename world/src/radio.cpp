@@ -232,7 +232,7 @@ bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s
     return false;
   }
   row.written = clock(i);
-  std::copy(begin, first, lower_.of(i).begin());
+  std::copy(begin, first, lower_.of(i).begin());  // NOLINT(readability-suspicious-call-argument)
   auto old = s.old.cbegin();
   auto other = first;
   const auto counted = [](const Pair& pair) { return (pair.linked | pair.blocked | pair.near) != 0; };
@@ -429,7 +429,7 @@ void Radio::merge() {
 }
 
 std::size_t Radio::memory_bytes() const noexcept {
-  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };  // NOLINT(bugprone-sizeof-expression)
   std::size_t total = bytes(last_) + bytes(alive_) + lower_.memory_bytes() + pairs_.memory_bytes() + bytes(path_) + bytes(around_) + bytes(rows_) +
                       bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(motion_) + bytes(across_) + bytes(offsets_) +
                       bytes(fill_) + bytes(links_) + bytes(blocked_) + bytes(near_);

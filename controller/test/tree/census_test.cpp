@@ -26,7 +26,7 @@ struct Tree {
   std::vector<int> parent, depth;
   std::vector<TreeState> states;
   std::vector<TreeMessage> messages;
-  TreeParams params = outwards_defaults();
+  HealingParams params = outwards_defaults();
 
   explicit Tree(int size) {
     const auto draw = [](double limit) { return limit * (*rc::gen::inRange(-10'000, 10'001)) / 10'000.0; };

@@ -20,12 +20,12 @@ Vec2 polar(float range, float angle) { return unit_vector(angle) * range; }
 // ---- u_tree ----
 
 TEST(Interaction, HasTheValuesOfTableI) {
-  const TreeParams out = outwards_defaults();
+  const HealingParams out = outwards_defaults();
   EXPECT_NEAR(interaction(1.00F, out), -0.942F, 5e-4F);
   EXPECT_NEAR(interaction(1.39F, out), -0.117F, 5e-4F);
   EXPECT_NEAR(interaction(1.90F, out), 0.0F, 1e-6F);
   EXPECT_NEAR(interaction(0.20F, out), -4027.0F, 1.0F);
-  const TreeParams in = inwards_defaults();
+  const HealingParams in = inwards_defaults();
   EXPECT_NEAR(interaction(1.00F, in), -0.326F, 5e-4F);
   EXPECT_NEAR(interaction(1.35F, in), -0.029F, 5e-4F);
   EXPECT_NEAR(interaction(0.20F, in), -1732.0F, 1.0F);
@@ -59,7 +59,7 @@ TEST(Avoidance, IsFiniteOnTheSameSpot) {
 // ---- f ----
 
 TEST(SafePart, IsAllOfItUpToS) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   for (const Reading& reading : {literal_reading, corrected_reading}) {
     const Vec2 u{-0.3F, 0.2F};
     EXPECT_EQ(safe_part(u, {p.safe_range_m - 1e-4F, 0}, p, reading), u);
@@ -68,12 +68,12 @@ TEST(SafePart, IsAllOfItUpToS) {
 }
 
 TEST(SafePart, LiteralIsNothingBeyondS) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   EXPECT_EQ(safe_part({0.5F, 0.5F}, {p.safe_range_m + 1e-3F, 0}, p, literal_reading), Vec2{});
 }
 
 RC_GTEST_PROP(SafePart, CorrectedTakesTheAwayPartAlone, ()) {
-  const TreeParams p = inwards_defaults();
+  const HealingParams p = inwards_defaults();
   const Vec2 parent = polar(number(p.safe_range_m + 0.001F, 2.0F), number(-3, 3));
   const Vec2 u = polar(number(0, 1), number(-3, 3));
   const Vec2 safe = safe_part(u, parent, p, corrected_reading);
@@ -101,7 +101,7 @@ Edges random_edges(const TreeParams& p, float longest_m) {
 }
 
 RC_GTEST_PROP(Guard, LengthensNoEdgeFasterThanItsShare, ()) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   const Edges edges = random_edges(p, p.ideal_distance_m);
   const Vec2 v = edges.guard.apply(polar(number(0, 0.2F), number(-3.14F, 3.14F)));
   for (const Vec2 n : edges.neighbors) {
@@ -111,7 +111,7 @@ RC_GTEST_PROP(Guard, LengthensNoEdgeFasterThanItsShare, ()) {
 }
 
 RC_GTEST_PROP(Guard, LeavesAnAllowedVelocityAlone, ()) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   const Edges edges = random_edges(p, p.ideal_distance_m);
   const Vec2 wish = polar(number(0, 0.2F), number(-3.14F, 3.14F));
   for (std::size_t k = 0; k < edges.neighbors.size(); ++k)
@@ -120,7 +120,7 @@ RC_GTEST_PROP(Guard, LeavesAnAllowedVelocityAlone, ()) {
 }
 
 RC_GTEST_PROP(Guard, NeverPushesWhileNoEdgeIsTooLong, ()) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   const Edges edges = random_edges(p, p.ideal_distance_m);
   RC_ASSERT(edges.guard.apply({}) == Vec2{});
   const Vec2 wish = polar(number(0, 0.2F), number(-3.14F, 3.14F));
@@ -128,7 +128,7 @@ RC_GTEST_PROP(Guard, NeverPushesWhileNoEdgeIsTooLong, ()) {
 }
 
 TEST(Guard, OneEdgeGivesTheNearestVelocity) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   Guard guard;
   guard.add({1.8F, 0}, p);  // may move away at 0.05 m/s
   const Vec2 v = guard.apply({-0.2F, 0.1F});
@@ -158,7 +158,7 @@ RC_GTEST_PROP(Guard, BothEndsTogetherKeepTheEdgeWithinDelta, ()) {
 }
 
 TEST(Guard, AnEdgeBeyondDeltaMayOnlyShrink) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   Guard guard;
   guard.add({2.0F, 0}, p);
   EXPECT_LT(dot(guard.apply({-0.1F, 0}), Vec2{-1, 0}), 0.0F);
@@ -168,7 +168,7 @@ TEST(Guard, AnEdgeBeyondDeltaMayOnlyShrink) {
 // ---- Unicycle ----
 
 RC_GTEST_PROP(Drive, WheelsKeepTheirLimitAndTurnComesFirst, ()) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   const float speed = number(0.001F, 0.2F);
   const float theta = number(-3.1F, 3.1F);
   const Velocity v = drive(polar(speed, theta), Guard{}, p);
@@ -183,7 +183,7 @@ RC_GTEST_PROP(Drive, WheelsKeepTheirLimitAndTurnComesFirst, ()) {
 }
 
 RC_GTEST_PROP(Drive, TheGuardHoldsAlongTheTrueHeadingToo, ()) {
-  const TreeParams p = outwards_defaults();
+  const HealingParams p = outwards_defaults();
   const Edges edges = random_edges(p, p.ideal_distance_m);
   const Velocity v = drive(polar(0.2F, number(-1, 1)), edges.guard, p);
   RC_ASSERT(v.forward_m_s >= 0.0F);

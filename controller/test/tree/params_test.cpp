@@ -10,12 +10,12 @@ namespace banyan {
 namespace {
 
 TEST(Params, DefaultsAreTableI) {
-  const TreeParams out = outwards_defaults();
+  const HealingParams out = outwards_defaults();
   EXPECT_FLOAT_EQ(out.ideal_distance_m, 1.90F);
   EXPECT_FLOAT_EQ(out.target_gain, 0.49F);
   EXPECT_FLOAT_EQ(out.reconfiguration_period_s, 38.8F);
   EXPECT_FLOAT_EQ(out.liveness_period_s, 1.2F);
-  const TreeParams in = inwards_defaults();
+  const HealingParams in = inwards_defaults();
   EXPECT_FLOAT_EQ(in.ideal_distance_m, 1.540841F);
   EXPECT_FLOAT_EQ(in.target_gain, 0.2539F);
   EXPECT_FLOAT_EQ(BenchOf<InwardsLiteral>().tick().parent_range_m(), 2.0F) << "literal: parents up to C";

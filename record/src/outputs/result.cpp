@@ -9,7 +9,7 @@ namespace {
 
 class ResultSink final : public Sink {
  public:
-  ResultSink(std::string path, const SinkOptions& options) : path_(std::move(path)), options_(options) {}
+  ResultSink(std::string path, SinkOptions options) : path_(std::move(path)), options_(std::move(options)) {}
 
   void finish(const world::World& world, const RunEnd& end) override {
     const Provenance& from = options_.provenance;

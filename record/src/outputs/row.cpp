@@ -9,7 +9,7 @@ namespace {
 
 class RowSink final : public Sink {
  public:
-  RowSink(std::string path, const SinkOptions& options) : path_(std::move(path)), options_(options) {}
+  RowSink(std::string path, SinkOptions options) : path_(std::move(path)), options_(std::move(options)) {}
 
   void finish(const world::World& world, const RunEnd& end) override {
     const Provenance& from = options_.provenance;

@@ -205,18 +205,21 @@ template <auto first, auto... more> struct Of {
     (look(more), ...);
     return found;
   }
+  // NOLINTNEXTLINE(google-explicit-constructor): a row of the table names the member, and it is for any owner
   template <class Owner> constexpr operator Access<Owner>() const { return access_by<Owner, &find<Owner>>(); }
 };
 template <auto first, auto... more> inline constexpr Of<first, more...> of{};
 
 // The same for a function that finds the member.
 template <auto function> struct By {
+  // NOLINTNEXTLINE(google-explicit-constructor): a row of the table names the member, and it is for any owner
   template <class Owner> constexpr operator Access<Owner>() const { return access_by<Owner, function>(); }
 };
 template <auto function> inline constexpr By<function> by{};
 
 // A text that is one of a few names.
 template <auto member, Names (*words)()> struct Word {
+  // NOLINTNEXTLINE(google-explicit-constructor): a row of the table names the member, and it is for any owner
   template <class Owner> constexpr operator Access<Owner>() const {
     Access<Owner> access = of<member>;
     access.type = Type::name;
