@@ -150,4 +150,16 @@ BenchOf<Kind> grown() {
   return bench;
 }
 
+// A root with its centroid at x = 2, and neighbour 5 on the way there.
+inline Bench handing_over() {
+  Bench bench = grown();
+  bench.state.root = {1, 1};
+  bench.state.role = Role::root;
+  bench.state.phase = Phase::select_root;
+  bench.state.centroid = {2, 0};
+  bench.state.centroid_known = true;
+  bench.put(5, {1.0F, 0});
+  return bench;
+}
+
 }  // namespace banyan

@@ -89,6 +89,8 @@ void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m) noex
   if (!selecting || robot.children.size == 0)
     for (const int k : robot.old_children) add_child(robot, k, !selecting, sums);
   if (self.is_worker && robot.target != nullptr) add_own_target(robot, rest_distance_m, sums);
+  // Sent, but never yet told where to: it has not arrived.
+  else if (self.is_worker) sums.want_m = std::max(sums.want_m, robot.params.communication_range_m);
   sums.want_m = std::max(sums.want_m, own_want_m);
 
   self.subtree = saturate(sums.robots);

@@ -132,7 +132,8 @@ bool awaits_inserted(const TreeRobot& robot) noexcept {
   return k >= 0 && robot.table().alive(k) && robot.table().message(k).inserted_child == robot.self.id;
 }
 
-// While I wish for another parent my seqno rests: the other's overtakes it, unless it hangs on me.
+// While I wait for another parent to get ahead, my seqno rests: the other's overtakes it, unless that one
+// is below me.
 void update_seqno(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   if (self.seqno_ticks < UINT16_MAX) ++self.seqno_ticks;

@@ -10,7 +10,7 @@
 namespace banyan {
 namespace {
 
-// Protocol 7 has 6: too few for a question and an answer at five ticks of latency, or where packets are lost.
+// Enough for a question and an answer at five ticks of latency; longer where packets are lost.
 int ungranted_limit_ticks(const TreeRobot& robot) noexcept { return std::max(14, robot.loss_ticks); }
 
 constexpr float call_after_s = 2.0F;      // a need unanswered for so long calls spares from afar

@@ -109,6 +109,13 @@ TEST(Plan, NeverForATreeThatIsAsSmall) {
   EXPECT_FALSE(is_planned(bench.state));
 }
 
+TEST(Plan, NeverForMoreTargetsThanAreKnown) {
+  ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
+  bench.say(5).subtree_workers = 4;
+  run(bench, 3000);
+  EXPECT_FALSE(is_planned(bench.state));
+}
+
 TEST(Plan, NeverWhenSwitchedOff) {
   ConvoyBench bench = commander({{6, 0}, {6, 3}, {-6, 0}}, 60);
   bench.params.plan_after_s = 0.0F;

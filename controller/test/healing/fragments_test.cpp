@@ -34,20 +34,8 @@ TEST(Election, TheLesserOfTwoRootsSteps) {
   EXPECT_EQ(bench.state.root, (RootToken{3, 77}));
 }
 
-// A root with its centroid at x = 2, and neighbour 5 on the way there.
-Bench root_about_to_hand_over() {
-  Bench bench = grown();
-  bench.state.root = {1, 1};
-  bench.state.role = Role::root;
-  bench.state.phase = Phase::select_root;
-  bench.state.centroid = {2, 0};
-  bench.state.centroid_known = true;
-  bench.put(5, {1.0F, 0});
-  return bench;
-}
-
 TEST(RootSelection, TheLargerFragmentKeepsItsRoot) {
-  Bench bench = root_about_to_hand_over();
+  Bench bench = handing_over();
   bench.state.phase = Phase::grow_tree;
   bench.state.root_size = 20;
   bench.say(5).root = {7, 30};
@@ -62,7 +50,7 @@ TEST(RootSelection, TheLargerFragmentKeepsItsRoot) {
 }
 
 TEST(RootSelection, NobodyContestsItsOwnHandOver) {
-  Bench bench = root_about_to_hand_over();
+  Bench bench = handing_over();
   bench.state.root_size = 20;
   EXPECT_EQ(bench.step().message.root_size, 20);
   bench.say(5).root = {2, 5};

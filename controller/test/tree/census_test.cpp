@@ -13,6 +13,7 @@
 #include "banyan/controller/outwards.hpp"
 #include "banyan/controller/tree/tick.hpp"
 #include "banyan/controller/tree/tree_index.hpp"
+#include "bench.hpp"
 #include "over_the_wire.hpp"
 
 namespace banyan {
@@ -138,6 +139,15 @@ TEST(Census, TheSpecsChainOfThree) {
   const Vec2 q1 = algorithm1_contribution(q2, 1, {-1, 0});
   EXPECT_EQ(q1, (Vec2{3, 0}));
   EXPECT_EQ(q1 / 3.0F, (Vec2{1, 0}));
+}
+
+TEST(Census, AWorkerThatHasNotBeenToldWhereToHasNotArrived) {
+  Bench bench = grown();
+  bench.orders.sent = true;
+  bench.step();
+  EXPECT_TRUE(bench.state.is_worker);
+  EXPECT_GT(bench.state.want_m, bench.params.arrival_distance_m);
+  EXPECT_EQ(bench.state.pull, Vec2{}) << "nowhere to go yet";
 }
 
 TEST(Census, Algorithm2HasThreeCasesThatAreOne) {

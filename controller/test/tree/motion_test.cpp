@@ -32,7 +32,7 @@ TEST(Interaction, HasTheValuesOfTableI) {
 }
 
 RC_GTEST_PROP(Interaction, IsThePapersFormulaInCentimeters, ()) {
-  const TreeParams p = *rc::gen::arbitrary<bool>() ? outwards_defaults() : inwards_defaults();
+  const HealingParams p = *rc::gen::arbitrary<bool>() ? outwards_defaults() : inwards_defaults();
   const float d_m = number(0.15F, 3.0F);
   const double d = 100.0 * static_cast<double>(d_m);
   const double delta = 100.0 * static_cast<double>(p.ideal_distance_m);
@@ -54,6 +54,26 @@ TEST(Avoidance, IsFiniteOnTheSameSpot) {
     const Vec2 u = avoidance(bench.tick());
     EXPECT_TRUE(std::isfinite(u.x) && std::isfinite(u.y)) << d_m;
   }
+}
+
+// u_tree,new + u_tree,old: as printed an edge of both trees counts twice, as corrected once.
+template <class Kind>
+float pull_of_an_edge(bool old_too) {
+  BenchOf<Kind> bench = grown<Kind>();
+  bench.state.role = Role::connector;
+  bench.state.parent = 5;
+  if (old_too) bench.state.old_parent = 5;
+  auto& parent = bench.put(5, {1.35F, 0.0F});  // beyond A, within S: the spring alone
+  parent.committed = true;
+  parent.depth = 1;
+  return spring_motion(bench.tick()).x;
+}
+
+TEST(TreeForce, AnEdgeOfBothTreesCountsTwiceAsPrinted) {
+  const float printed = pull_of_an_edge<OutwardsLiteral>(false);
+  ASSERT_NE(printed, 0.0F);
+  EXPECT_FLOAT_EQ(pull_of_an_edge<OutwardsLiteral>(true), 2.0F * printed);
+  EXPECT_FLOAT_EQ(pull_of_an_edge<Outwards>(true), pull_of_an_edge<Outwards>(false));
 }
 
 // ---- f ----

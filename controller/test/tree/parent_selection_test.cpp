@@ -222,6 +222,33 @@ TEST(Seqno, TheRootCounts) {
   EXPECT_EQ(bench.step().message.seqno, 0) << "it wraps, and is compared as a serial number";
 }
 
+TEST(Seqno, WhoHasNotFollowedTheRootForHalfTheRangeHasNoPlaceInTheOrder) {
+  Bench bench = grown();
+  bench.state.label_cm = 200;
+  bench.state.seqno = 7;
+  bench.state.seqno_ticks = serial_half_range - 2;
+  bench.step();
+  EXPECT_EQ(bench.state.label_cm, 200);
+  bench.step();
+  EXPECT_EQ(bench.state.label_cm, unknown_label);
+  committed(bench, 5, {1.0F, 0}, 100).seqno = 7 + 40000;  // behind, by the numbers alone
+  EXPECT_TRUE(is_ahead(bench.tick(), 0));
+}
+
+TEST(InwardsLiteral, TakesTheSmallestLabelAlsoBeyondS) {
+  const auto parent = [](auto bench) {
+    bench.state.phase = Phase::select_parent;
+    bench.state.label_cm = 300;
+    bench.send({5.0F, 0.0F});
+    committed(bench, 5, {1.2F, 0}, 150);   // within S = 1.35 m
+    committed(bench, 6, {0, 1.45F}, 100);  // beyond
+    bench.step();
+    return bench.state.parent;
+  };
+  EXPECT_EQ(parent(grown<InwardsLiteral>()), 6);
+  EXPECT_EQ(parent(grown<Inwards>()), 5);
+}
+
 TEST(Prune, ASpareLeafLeavesItsBranchAndOneWithChildrenStays) {
   Bench bench = grown();
   bench.state.label_cm = 200;

@@ -9,18 +9,6 @@
 namespace banyan {
 namespace {
 
-// A root with its centroid at x = 2, and neighbour 5 on the way there.
-Bench handing_over() {
-  Bench bench = grown();
-  bench.state.root = {1, 1};
-  bench.state.role = Role::root;
-  bench.state.phase = Phase::select_root;
-  bench.state.centroid = {2, 0};
-  bench.state.centroid_known = true;
-  bench.put(5, {1.0F, 0});
-  return bench;
-}
-
 TEST(RootSelection, OffersTheTokenToTheNeighborNearestToTheCentroid) {
   Bench bench = handing_over();
   bench.put(6, {0.5F, 0});
