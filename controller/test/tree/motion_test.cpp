@@ -158,7 +158,7 @@ TEST(Guard, OneEdgeGivesTheNearestVelocity) {
 
 // Both ends of an edge wish at random and move at the velocity that the guard leaves of it.
 RC_GTEST_PROP(Guard, BothEndsTogetherKeepTheEdgeWithinDelta, ()) {
-  const TreeParams p = *rc::gen::arbitrary<bool>() ? outwards_defaults() : inwards_defaults();
+  const HealingParams p = *rc::gen::arbitrary<bool>() ? outwards_defaults() : inwards_defaults();
   using W = BasicVec2<double>;
   W a{};
   W b = unit_vector(static_cast<double>(number(-3, 3))) * static_cast<double>(number(0.2F, p.ideal_distance_m));
