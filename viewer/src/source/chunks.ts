@@ -2,7 +2,7 @@
 // The messages in a stretch of a file, decompressed and checked; the last used stretches are kept.
 import { crc32 } from '@foxglove/crc';
 import type { Bytes } from './bytes';
-import type { Stretch } from './mcap';
+import type { Stretch } from './contents';
 import type { Warnings } from './problem';
 import { Fields, type MessagePlace, op, readChunk, walk } from './records';
 import type { Decompress } from './zstd';

@@ -3,29 +3,11 @@
 // sound, else by walking through the file (scan.ts).
 import { McapIndexedReader } from '@mcap/core';
 import type { Bytes } from './bytes';
+import type { Mcap, Stretch } from './contents';
 import { Problem, Warnings } from './problem';
-import { type Channel, magic, startsWithMagic } from './records';
+import { magic, startsWithMagic } from './records';
 import { scan } from './scan';
 import type { Decompress } from './zstd';
-
-/** A chunk, or messages that stand outside of any. */
-export interface Stretch {
-  offset: number; // bytes
-  length: number;
-  chunk: boolean;
-  start: number; // ns
-  end: number;
-  /** What is in it; empty: unknown. */
-  channels: Set<number>;
-}
-
-export interface Mcap {
-  indexed: boolean;
-  channels: Map<number, Channel>;
-  metadata: Map<string, Map<string, string>>;
-  /** By start. */
-  stretches: Stretch[];
-}
 
 /** Throws a Problem for what is no MCAP file; damage that can be read around is a warning. */
 export async function openMcap(bytes: Bytes, decompress: Decompress, warnings: Warnings): Promise<Mcap> {

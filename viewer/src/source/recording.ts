@@ -4,8 +4,9 @@
 import type { Frame, RunEvent, Series } from '../frame';
 import type { Bytes } from './bytes';
 import { Chunks, type Loaded } from './chunks';
+import type { Mcap, Stretch } from './contents';
 import { Malformed } from './json';
-import { type Mcap, openMcap, type Stretch } from './mcap';
+import { openMcap } from './mcap';
 import { messageOf } from './message';
 import { noTargets, parseEvent, parseFrame, parseTargets, peekTick } from './parse';
 import { Problem, Warnings } from './problem';

@@ -4,7 +4,7 @@
 // header, so that its megabyte need not be decompressed now; if they do not, its messages are asked.
 import type { Bytes } from './bytes';
 import { chunkRecords } from './chunks';
-import type { Mcap, Stretch } from './mcap';
+import type { Mcap, Stretch } from './contents';
 import type { Warnings } from './problem';
 import { Fields, magic, op, readChannel, readChunk, readMessageIndex, readMetadata, recordHeaderBytes, walk } from './records';
 import type { Decompress } from './zstd';

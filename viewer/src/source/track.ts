@@ -2,7 +2,7 @@
 // The messages of one channel in order of time, forwards or backwards from any moment, loading no more
 // chunks than are asked for.
 import { type Chunks, type Loaded, textAt } from './chunks';
-import type { Stretch } from './mcap';
+import type { Stretch } from './contents';
 import type { MessagePlace } from './records';
 
 /** As in a message's log time; the same rounding as Banyan's (record/src/frame_json.cpp). */
