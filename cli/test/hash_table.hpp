@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// A table of hashes that runs must have: golden_hashes.csv, trajectories.csv. Each row says what is run, for how
+// many ticks, and its hash; every shared scenario has a row.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "banyan/config/config.hpp"
+
+namespace banyan::cli {
+
+struct HashRow {
+  std::vector<std::string> run;  // the scenario's name, and what else the table says of the run
+  std::uint64_t ticks = 0;
+  std::string hash;
+};
+
+inline std::vector<std::string> split_at(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+// Columns `run`, then ticks and hash.
+inline std::vector<HashRow> read_hashes(const char* path, const std::string& run_columns) {
+  std::vector<HashRow> rows;
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line, run_columns + ",ticks,hash") << path;
+  const std::size_t columns = split_at(line, ',').size();
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = split_at(line, ',');
+    if (cells.size() != columns) {
+      ADD_FAILURE() << path << ": " << line;
+      continue;
+    }
+    rows.push_back({{cells.begin(), cells.end() - 2}, std::stoull(cells[columns - 2]), cells[columns - 1]});
+  }
+  return rows;
+}
+
+inline void write_hashes(const char* path, const std::string& run_columns, const std::vector<HashRow>& rows) {
+  std::ofstream out(path);
+  out << run_columns << ",ticks,hash\n";
+  for (const HashRow& row : rows) {
+    for (const std::string& cell : row.run) out << cell << ",";
+    out << row.ticks << "," << row.hash << "\n";
+  }
+}
+
+inline config::Loaded load_shared(const std::string& scenario, const std::vector<std::string>& overrides) {
+  std::vector<config::Override> list;
+  for (const std::string& text : overrides) list.push_back({text, "hashes"});
+  return config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + scenario + ".toml", list);
+}
+
+// Runs every row and compares. With BANYAN_RENEW_GOLDEN in the environment, it also writes what came out.
+template <class HashOf>
+void check_hashes(const char* path, const std::string& run_columns, const HashOf& hash_of) {
+  std::vector<HashRow> rows = read_hashes(path, run_columns);
+  std::set<std::string> covered;
+  for (HashRow& row : rows) {
+    std::string name;
+    for (const std::string& cell : row.run) name += cell + " ";
+    SCOPED_TRACE(name);
+    covered.insert(row.run.front());
+    const std::string hash = hash_of(row);
+    EXPECT_EQ(hash, row.hash);
+    row.hash = hash;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(BANYAN_SCENARIOS))
+    EXPECT_TRUE(covered.contains(entry.path().stem().string())) << entry.path() << " has no row in " << path;
+  if (std::getenv("BANYAN_RENEW_GOLDEN") != nullptr) write_hashes(path, run_columns, rows);
+}
+
+}  // namespace banyan::cli
