@@ -20,7 +20,7 @@ void World::Impl::happen() {
   drive_targets();
   const double now_s = static_cast<double>(tick) * scenario.tick_s;
   watch_for_moments(now_s);
-  while (const auto entry = agenda.take(now_s + 1e-9)) apply(*entry);
+  while (const auto entry = event_queue.take(now_s + 1e-9)) apply(*entry);
 }
 
 void World::Impl::drive_targets() {
@@ -38,8 +38,8 @@ void World::Impl::drive_targets() {
 // ---- Moments of the mission ----
 
 void World::Impl::watch_for_moments(double now_s) {
-  if (agenda.waits_for(Event::When::half_way) && half_way()) agenda.come(Event::When::half_way, now_s);
-  if (agenda.waits_for(Event::When::complete) && complete()) agenda.come(Event::When::complete, now_s);
+  if (event_queue.waits_for(Event::When::half_way) && half_way()) event_queue.come(Event::When::half_way, now_s);
+  if (event_queue.waits_for(Event::When::complete) && complete()) event_queue.come(Event::When::complete, now_s);
 }
 
 // From the target to the nearest living robot that serves it; to its first worker if none does.
@@ -99,7 +99,7 @@ template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions..
 
 }  // namespace
 
-void World::Impl::apply(const Agenda::Entry& entry) {
+void World::Impl::apply(const EventQueue::Entry& entry) {
   std::visit(Overloaded{
                  [&](const Die& e) { die(e.robot); },
                  [&](const Freeze& e) {
@@ -132,7 +132,7 @@ void World::Impl::die(std::size_t i) {
 }
 
 // How many is settled when the event begins, who is drawn anew each time.
-void World::Impl::kill(const Kill& event, Agenda::Entry entry) {
+void World::Impl::kill(const Kill& event, EventQueue::Entry entry) {
   if (!entry.begun) {
     entry.begun = true;
     entry.begin_s = entry.due_s;
@@ -148,7 +148,7 @@ void World::Impl::kill(const Kill& event, Agenda::Entry entry) {
   } while (event.every_s == 0.0);
   if (entry.left == 0) return;
   entry.due_s = entry.begin_s + static_cast<double>(entry.drawn) * event.every_s;
-  agenda.again(entry);
+  event_queue.again(entry);
 }
 
 bool World::Impl::among(Kill::Of of, std::size_t i) const noexcept {
@@ -172,7 +172,7 @@ std::size_t World::Impl::count_among(Kill::Of of) const noexcept {
 }
 
 // Every one of them with the same chance. With nobody left to draw from, nobody dies.
-void World::Impl::draw_victim(Kill::Of of, const Agenda::Entry& entry) {
+void World::Impl::draw_victim(Kill::Of of, const EventQueue::Entry& entry) {
   const double u = to_uniform(bits(scenario.seed, Purpose::kill, entry.number, entry.drawn));
   auto rank = static_cast<std::size_t>(u * static_cast<double>(count_among(of)));
   for (std::size_t i = 0; i < alive.size(); ++i) {
@@ -251,7 +251,7 @@ void World::Impl::add_events(Digest& digest) const noexcept {
     digest.add(k);
     digest.add(center);
   }
-  const bool half_way_counts = agenda.waits_for(Event::When::half_way);
+  const bool half_way_counts = event_queue.waits_for(Event::When::half_way);
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (!targets[t].active) digest.add(t);
     if (half_way_counts) digest.add(courses[t].start_m);

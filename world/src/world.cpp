@@ -70,7 +70,7 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
       bodies(make_bodies(s, poses)),
       radio(s, poses.position.size()),
       proximity(s),
-      agenda(s.events) {
+      event_queue(s.events) {
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
   const Assignment assignment = assign(s, poses, positions);
@@ -99,7 +99,7 @@ World::Impl::Impl(const Impl& o)
       line_of_sight(o.line_of_sight), obstacles(o.obstacles), tick(o.tick), poses(o.poses),
       bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
       target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), commands(o.commands),
-      moving(o.moving), odometry(o.odometry), agenda(o.agenda), silent_until(o.silent_until), deaths(o.deaths),
+      moving(o.moving), odometry(o.odometry), event_queue(o.event_queue), silent_until(o.silent_until), deaths(o.deaths),
       last_death(o.last_death), flights(o.flights), arriving(o.arriving), clocked(o.clocked),
       received(o.received), sent(o.sent) {}
 
@@ -280,7 +280,7 @@ void World::step() {
 
 std::vector<Fault> World::faults_now(const Event& event) const {
   Present present{impl_->targets.size(), impl_->obstacles};
-  impl_->agenda.each_due(time_s() + 1e-9, [&](const Event& sooner) {
+  impl_->event_queue.each_due(time_s() + 1e-9, [&](const Event& sooner) {
     if (const auto* move = std::get_if<MoveObstacle>(&sooner.action))
       present.obstacles[move->obstacle] = moved(present.obstacles[move->obstacle], move->position);
   });
@@ -292,7 +292,7 @@ std::vector<Fault> World::faults_now(const Event& event) const {
 void World::intervene(const Event& event) {
   refuse(faults_now(event));
   impl_->scenario = impl_->with(event);
-  impl_->agenda.add(impl_->scenario.events.back());
+  impl_->event_queue.add(impl_->scenario.events.back());
 }
 
 const Scenario& World::scenario() const noexcept { return impl_->scenario; }
@@ -311,7 +311,7 @@ bool World::line_of_sight() const noexcept { return impl_->line_of_sight; }
 std::optional<std::size_t> World::holder(std::size_t target) const noexcept { return impl_->holder(target); }
 std::size_t World::deaths() const noexcept { return impl_->deaths; }
 std::optional<std::uint64_t> World::last_death_tick() const noexcept { return impl_->last_death; }
-bool World::pending_kills() const noexcept { return impl_->agenda.deaths_to_come(); }
+bool World::pending_kills() const noexcept { return impl_->event_queue.deaths_to_come(); }
 std::span<const std::uint32_t> World::links(std::size_t i) const noexcept { return impl_->radio.links(i); }
 Pairs World::blocked() const noexcept { return impl_->radio.blocked(); }
 std::uint64_t World::packets_received() const noexcept { return impl_->received; }
@@ -322,7 +322,7 @@ std::uint64_t World::hash() const noexcept {
   Digest d;
   d.add(w.tick);
   d.add(w.loss);
-  w.agenda.add_to(d);
+  w.event_queue.add_to(d);
   for (std::size_t i = 0; i < w.alive.size(); ++i) {
     d.add(w.poses.position[i]);
     d.add(w.poses.heading[i]);

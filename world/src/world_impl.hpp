@@ -11,11 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "agenda.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/radio.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"
+#include "event_queue.hpp"
 #include "proximity.hpp"
 
 namespace banyan::world {
@@ -82,9 +82,9 @@ struct World::Impl {
   // Events (events.cpp)
   void drive_targets();
   void watch_for_moments(double now_s);
-  void apply(const Agenda::Entry& entry);
-  void kill(const Kill& event, Agenda::Entry entry);
-  void draw_victim(Kill::Of of, const Agenda::Entry& entry);
+  void apply(const EventQueue::Entry& entry);
+  void kill(const Kill& event, EventQueue::Entry entry);
+  void draw_victim(Kill::Of of, const EventQueue::Entry& entry);
   [[nodiscard]] bool among(Kill::Of of, std::size_t i) const noexcept;
   [[nodiscard]] std::size_t count_among(Kill::Of of) const noexcept;
   void die(std::size_t i);
@@ -126,7 +126,7 @@ struct World::Impl {
   std::vector<Report> reports;                 // of the last step
   std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
   std::vector<Odometry> odometry;
-  Agenda agenda;
+  EventQueue event_queue;
   std::uint64_t silent_until = 0;              // tick; nobody hears anything before
   std::size_t deaths = 0;
   std::optional<std::uint64_t> last_death;     // tick

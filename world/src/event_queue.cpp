@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "agenda.hpp"
+#include "event_queue.hpp"
 
 #include <algorithm>
 
 namespace banyan::world {
 namespace {
 
-bool later(const Agenda::Entry& a, const Agenda::Entry& b) noexcept {
+bool later(const EventQueue::Entry& a, const EventQueue::Entry& b) noexcept {
   return a.due_s != b.due_s ? a.due_s > b.due_s : a.number > b.number;
 }
 
-bool deadly(const Agenda::Entry& entry) noexcept {
+bool deadly(const EventQueue::Entry& entry) noexcept {
   return std::holds_alternative<Die>(entry.event.action) || std::holds_alternative<Kill>(entry.event.action);
 }
 
 }  // namespace
 
-Agenda::Agenda(const std::vector<Event>& events) {
+EventQueue::EventQueue(const std::vector<Event>& events) {
   due_.reserve(events.size());
   waiting_.reserve(events.size());
   for (std::size_t i = 0; i < events.size(); ++i)
@@ -26,17 +26,17 @@ Agenda::Agenda(const std::vector<Event>& events) {
   size_ = events.size();
 }
 
-void Agenda::add(const Event& event) {
+void EventQueue::add(const Event& event) {
   ++size_;
   due_.reserve(size_);  // again() must find room for all
   insert({.event = event, .number = size_ - 1, .due_s = event.time_s});
 }
 
-bool Agenda::waits_for(Event::When moment) const noexcept {
+bool EventQueue::waits_for(Event::When moment) const noexcept {
   return std::any_of(waiting_.begin(), waiting_.end(), [&](const Entry& e) { return e.event.when == moment; });
 }
 
-void Agenda::come(Event::When moment, double now_s) {
+void EventQueue::come(Event::When moment, double now_s) {
   for (Entry& entry : waiting_) {
     if (entry.event.when != moment) continue;
     entry.due_s = now_s + entry.event.time_s;
@@ -45,7 +45,7 @@ void Agenda::come(Event::When moment, double now_s) {
   std::erase_if(waiting_, [&](const Entry& e) { return e.event.when == moment; });
 }
 
-std::optional<Agenda::Entry> Agenda::take(double now_s) {
+std::optional<EventQueue::Entry> EventQueue::take(double now_s) {
   if (due_.empty() || due_.back().due_s > now_s) return std::nullopt;
   const Entry entry = due_.back();
   due_.pop_back();
@@ -53,20 +53,20 @@ std::optional<Agenda::Entry> Agenda::take(double now_s) {
   return entry;
 }
 
-void Agenda::again(const Entry& entry) {
+void EventQueue::again(const Entry& entry) {
   insert(entry);
   --acted_;
 }
 
-void Agenda::insert(const Entry& entry) {
+void EventQueue::insert(const Entry& entry) {
   due_.insert(std::upper_bound(due_.begin(), due_.end(), entry, later), entry);
 }
 
-bool Agenda::deaths_to_come() const noexcept {
+bool EventQueue::deaths_to_come() const noexcept {
   return std::any_of(due_.begin(), due_.end(), deadly) || std::any_of(waiting_.begin(), waiting_.end(), deadly);
 }
 
-void Agenda::add_to(Digest& digest) const noexcept {
+void EventQueue::add_to(Digest& digest) const noexcept {
   digest.add(acted_);
   for (const Entry& entry : due_) {
     if (!entry.begun && entry.event.when == Event::When::time) continue;

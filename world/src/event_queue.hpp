@@ -12,7 +12,7 @@
 
 namespace banyan::world {
 
-class Agenda {
+class EventQueue {
  public:
   struct Entry {
     Event event;
@@ -25,7 +25,7 @@ class Agenda {
     std::uint64_t left = 0;   // and still to be drawn
   };
 
-  explicit Agenda(const std::vector<Event>& events);
+  explicit EventQueue(const std::vector<Event>& events);
 
   // One more event of the scenario's list, the last one so far, due at its time_s. Allocates.
   void add(const Event& event);
