@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "banyan/record/file.hpp"
-#include "banyan/study/conduct.hpp"
+#include "banyan/study/execute.hpp"
 #include "banyan/study/folder.hpp"
 #include "banyan/study/journal.hpp"
 #include "banyan/study/plan.hpp"
@@ -252,7 +252,7 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
     Journal journal(folder.journal(shard), prepared.study.name, std::string(version), std::string(git_id()));
     const auto workers = processes.workers(simulate, threads);
     Progress progress(!options.quiet);
-    standing = conduct(prepared.plan, todo, *workers, journal, folder.runs(), progress_watch(progress));
+    standing = execute(prepared.plan, todo, *workers, journal, folder.runs(), progress_watch(progress));
   }
   if (standing.stopped) {
     complain(format("stopped by %s after %zu of %zu runs; the same command goes on from there",

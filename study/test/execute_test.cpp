@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every run is done once and written down, whoever stops it, whatever fails.
-#include "banyan/study/conduct.hpp"
+#include "banyan/study/execute.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -64,17 +64,17 @@ std::vector<std::size_t> all_of(const Plan& plan) {
 
 bool go_on(const Standing&) { return true; }
 
-class ConductTest : public TemporaryFolder {
+class ExecuteTest : public TemporaryFolder {
  protected:
   void SetUp() override {
     TemporaryFolder::SetUp();
     seen().tasks.clear();
   }
-  Standing conduct_with(Work work, const Plan& plan, const std::vector<std::size_t>& todo, int threads = 3,
+  Standing execute_with(Work work, const Plan& plan, const std::vector<std::size_t>& todo, int threads = 3,
                         const Watch& watch = go_on) {
     Journal journal(path("j"), "s", "v", "g");
     const auto workers = thread_workers(work, threads);
-    return conduct(plan, todo, *workers, journal, path("runs"), watch);
+    return execute(plan, todo, *workers, journal, path("runs"), watch);
   }
   [[nodiscard]] std::vector<std::string> journaled() const {
     std::vector<std::string> ids;
@@ -93,9 +93,9 @@ class ConductTest : public TemporaryFolder {
   }
 };
 
-TEST_F(ConductTest, DoesEachRunOnce) {
+TEST_F(ExecuteTest, DoesEachRunOnce) {
   const auto plan = plan_of(500);
-  const auto standing = conduct_with(good, plan, all_of(plan));
+  const auto standing = execute_with(good, plan, all_of(plan));
   EXPECT_EQ(standing.wanted, 500U);
   EXPECT_EQ(standing.done, 500U);
   EXPECT_EQ(standing.failed, 0U);
@@ -104,29 +104,29 @@ TEST_F(ConductTest, DoesEachRunOnce) {
   expect_each_once(plan);
 }
 
-TEST_F(ConductTest, NothingToDoIsDone) {
-  const auto standing = conduct_with(good, plan_of(3), {});
+TEST_F(ExecuteTest, NothingToDoIsDone) {
+  const auto standing = execute_with(good, plan_of(3), {});
   EXPECT_EQ(standing.done, 0U);
   EXPECT_FALSE(standing.stopped);
   EXPECT_TRUE(journaled().empty());
 }
 
-TEST_F(ConductTest, DoesOnlyWhatItIsTold) {
+TEST_F(ExecuteTest, DoesOnlyWhatItIsTold) {
   const auto plan = plan_of(10);
-  conduct_with(good, plan, {7, 2, 4}, 1);
+  execute_with(good, plan, {7, 2, 4}, 1);
   EXPECT_EQ(journaled(), (std::vector<std::string>{"id7", "id2", "id4"}));
 }
 
-TEST_F(ConductTest, BeginsWithTheLongest) {
+TEST_F(ExecuteTest, BeginsWithTheLongest) {
   auto plan = plan_of(5);
   for (std::size_t i = 0; i < 5; ++i) plan.runs[i].cost = i == 3 ? 9.0 : 1.0 + static_cast<double>(i % 2);
-  conduct_with(good, plan, all_of(plan), 1);
+  execute_with(good, plan, all_of(plan), 1);
   EXPECT_EQ(journaled(), (std::vector<std::string>{"id3", "id1", "id0", "id2", "id4"}));
 }
 
-TEST_F(ConductTest, StopsWhenToldAndGoesOnFromThere) {
+TEST_F(ExecuteTest, StopsWhenToldAndGoesOnFromThere) {
   const auto plan = plan_of(2000);
-  const auto stopped = conduct_with(slow, plan, all_of(plan), 2, [](const Standing& now) { return now.done == 0; });
+  const auto stopped = execute_with(slow, plan, all_of(plan), 2, [](const Standing& now) { return now.done == 0; });
   EXPECT_TRUE(stopped.stopped);
   EXPECT_GT(stopped.done, 0U);
   ASSERT_LT(stopped.done, 2000U);
@@ -138,27 +138,27 @@ TEST_F(ConductTest, StopsWhenToldAndGoesOnFromThere) {
   std::vector<std::size_t> left;
   for (std::size_t i = 0; i < 2000; ++i)
     if (std::find(done.begin(), done.end(), plan.runs[i].id) == done.end()) left.push_back(i);
-  const auto rest = conduct_with(good, plan, left);
+  const auto rest = execute_with(good, plan, left);
   EXPECT_FALSE(rest.stopped);
   expect_each_once(plan);
 }
 
-TEST_F(ConductTest, CountsWhatFails) {
+TEST_F(ExecuteTest, CountsWhatFails) {
   const auto plan = plan_of(40);
-  const auto standing = conduct_with(bad, plan, all_of(plan));
+  const auto standing = execute_with(bad, plan, all_of(plan));
   EXPECT_EQ(standing.done, 40U);
   EXPECT_EQ(standing.failed, 40U);
   EXPECT_FALSE(standing.stopped);
   for (const auto& entry : read_journal(path("j")).entries) EXPECT_EQ(entry.outcome.error, "it failed");
 }
 
-TEST_F(ConductTest, AWorkerThatTalksNonsenseIsAFailedRun) {
+TEST_F(ExecuteTest, AWorkerThatTalksNonsenseIsAFailedRun) {
   const auto plan = plan_of(4);
-  EXPECT_EQ(conduct_with(garbage, plan, all_of(plan)).failed, 4U);
+  EXPECT_EQ(execute_with(garbage, plan, all_of(plan)).failed, 4U);
   EXPECT_EQ(read_journal(path("j")).entries.at(0).outcome.error, "a worker sent what is no outcome");
 }
 
-TEST_F(ConductTest, AJournalThatCannotBeWrittenEndsIt) {
+TEST_F(ExecuteTest, AJournalThatCannotBeWrittenEndsIt) {
   const auto plan = plan_of(300);
   const pid_t child = ::fork();
   if (child == 0) {
@@ -166,7 +166,7 @@ TEST_F(ConductTest, AJournalThatCannotBeWrittenEndsIt) {
     const rlimit limit{5000, 5000};
     ::setrlimit(RLIMIT_FSIZE, &limit);
     try {
-      conduct_with(good, plan, all_of(plan));
+      execute_with(good, plan, all_of(plan));
     } catch (const record::FileError& e) { ::_exit(e.error_number() == EFBIG ? 0 : 2); }
     ::_exit(1);
   }
@@ -180,19 +180,19 @@ TEST_F(ConductTest, AJournalThatCannotBeWrittenEndsIt) {
   std::vector<std::size_t> left;
   for (std::size_t i = 0; i < 300; ++i)
     if (std::find(done.begin(), done.end(), plan.runs[i].id) == done.end()) left.push_back(i);
-  conduct_with(good, plan, left);
+  execute_with(good, plan, left);
   done = journaled();
   std::sort(done.begin(), done.end());
   EXPECT_EQ(done.size(), 300U);
   EXPECT_EQ(std::unique(done.begin(), done.end()), done.end());
 }
 
-TEST_F(ConductTest, OnlyRunsThatKeepFilesGetAFolder) {
+TEST_F(ExecuteTest, OnlyRunsThatKeepFilesGetAFolder) {
   auto plan = plan_of(2);
   plan.combinations.push_back(plan.combinations[0]);
   plan.combinations[1].output["record"] = true;
   plan.runs[1].combination = 1;
-  conduct_with(good, plan, all_of(plan), 1);
+  execute_with(good, plan, all_of(plan), 1);
   for (const auto& [task, times] : seen().tasks) {
     const bool keeps = task.find(path("runs") + "/all/seed=1") != std::string::npos;
     EXPECT_EQ(keeps, task.find("\"record\":true") != std::string::npos);
@@ -200,7 +200,7 @@ TEST_F(ConductTest, OnlyRunsThatKeepFilesGetAFolder) {
   }
 }
 
-TEST_F(ConductTest, EstimatesFromRealRuns) {
+TEST_F(ExecuteTest, EstimatesFromRealRuns) {
   auto plan = plan_of(100);
   auto& scenario = plan.combinations[0].scenario;
   scenario.swarm.robots = 6;

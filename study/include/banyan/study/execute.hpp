@@ -28,7 +28,7 @@ using Watch = std::function<bool(const Standing&)>;
 // Does the runs with the indices `todo` of the plan, the longest first, and adds each to the journal.
 // `runs_folder`: where recordings go. Throws record::FileError if the journal cannot be written
 // (disk full): everything that was written stays.
-Standing conduct(const Plan& plan, const std::vector<std::size_t>& todo, Workers& workers, Journal& journal,
+Standing execute(const Plan& plan, const std::vector<std::size_t>& todo, Workers& workers, Journal& journal,
                  const std::string& runs_folder, const Watch& watch);
 
 // Seconds of one core that the runs `todo` may take, from a few of them that are really run, for at

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/study/conduct.hpp"
+#include "banyan/study/execute.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -19,9 +19,9 @@ std::string task_of(const Plan& plan, const PlannedRun& run, const std::string& 
       Task{config::config_json(configuration), keeps_files(configuration) ? runs_folder + "/" + run.directory : ""});
 }
 
-class Conductor {
+class Execution {
  public:
-  Conductor(const Plan& plan, std::vector<std::size_t> todo, Workers& workers, Journal& journal,
+  Execution(const Plan& plan, std::vector<std::size_t> todo, Workers& workers, Journal& journal,
             std::string runs_folder)
       : plan_(plan),
         todo_(std::move(todo)),
@@ -32,10 +32,10 @@ class Conductor {
     for (const auto run : todo_) work_ += plan_.runs[run].cost;
   }
 
-  Conductor(const Conductor&) = delete;
-  Conductor& operator=(const Conductor&) = delete;
+  Execution(const Execution&) = delete;
+  Execution& operator=(const Execution&) = delete;
   // What still runs refers to this: an exception of run() must not leave it behind.
-  ~Conductor() {
+  ~Execution() {
     {
       const std::lock_guard lock(mutex_);
       stopping_ = true;
@@ -131,12 +131,12 @@ class Conductor {
 
 }  // namespace
 
-Standing conduct(const Plan& plan, const std::vector<std::size_t>& todo, Workers& workers, Journal& journal,
+Standing execute(const Plan& plan, const std::vector<std::size_t>& todo, Workers& workers, Journal& journal,
                  const std::string& runs_folder, const Watch& watch) {
   auto order = todo;
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return plan.runs[a].cost > plan.runs[b].cost; });
-  return Conductor(plan, std::move(order), workers, journal, runs_folder).run(watch);
+  return Execution(plan, std::move(order), workers, journal, runs_folder).run(watch);
 }
 
 double estimate_s(const Plan& plan, const std::vector<std::size_t>& todo, double patience_s) {
