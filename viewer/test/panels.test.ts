@@ -12,6 +12,19 @@ describe('the inspector', () => {
     const frame = frameOf({ x_m: [0, 1, 2, 3], role: [3, 1, 1, 0], parent: [-1, 0, 0, 0], alive: [1, 1, 0, 1] });
     expect(facts(frame, 0).find(({ name }) => name === 'children')?.value).toBe('1');
   });
+  it('shows of a report only what the algorithm has', () => {
+    const names = (columns: Parameters<typeof frameOf>[0]) => facts(frameOf(columns), 0).map(({ name }) => name);
+    const nothing = names({ x_m: [0, 1] });
+    expect(nothing).toEqual(['position', 'heading', 'alive']);
+    expect(names({ x_m: [0, 1], role: [0, 3] })).toEqual(['position', 'heading', 'role', 'target', 'alive', 'connected']);
+    expect(names({ x_m: [0, 1], target: [-1, 2] })).toEqual(['position', 'heading', 'target', 'alive']);
+    for (const tree of [{ parent: [-1, 0] }, { old_parent: [-1, 0] }, { epoch: [0, 1] }, { phase: [0, 1] }, { depth: [0, 1] }, { label_cm: [-1, 0] }]) {
+      const rows = names({ x_m: [0, 1], ...tree });
+      expect(rows, JSON.stringify(tree)).toContain('parent');
+      expect(rows).not.toContain('role');
+      expect(rows.length).toBe(nothing.length + 12);
+    }
+  });
   it('says why there is no message', () => {
     const words = (live: boolean, problem = '') => messageFacts({ tick: 3, fields: null, problem }, live)[0].value;
     expect(words(true)).toBe('not kept for this moment');

@@ -13,8 +13,21 @@ export interface Fact {
 
 const nobody = '–';
 
-/** What the frame says of a robot, in the order of the inspector. */
+/** What a frame has where the algorithm has no such thing: of these columns, whatever no report has touched. */
+const untouched: Partial<Record<Column, number>> = {
+  role: 0, target: -1, phase: 0, epoch: 0, label_cm: -1, depth: 0, parent: -1, old_parent: -1,
+};
+
+/** Whether some robot's report has something in one of these columns. */
+function reported(frame: Frame, ...names: Column[]): boolean {
+  return names.some((name) => column(frame, name).some((value) => value !== untouched[name]));
+}
+
+/** What the frame says of a robot, in the order of the inspector: of an algorithm without roles or without a
+ *  tree, neither. */
 export function facts(frame: Frame, robot: number): Fact[] {
+  const hasRoles = reported(frame, 'role');
+  const hasTree = reported(frame, 'phase', 'epoch', 'label_cm', 'depth', 'parent', 'old_parent');
   const get = (name: Column) => column(frame, name)[robot];
   const who = (name: Column, help: string): Fact => {
     const other = get(name);
@@ -27,10 +40,7 @@ export function facts(frame: Frame, robot: number): Fact[] {
   const allRoles = column(frame, 'role');
   const alive = column(frame, 'alive');
   for (let i = 0; i < frame.robots; ++i) if (parents[i] === robot && allRoles[i] !== 0 && alive[i] === 1) children.push(i);
-  return [
-    { name: 'position', value: `${get('x_m').toFixed(4)}, ${get('y_m').toFixed(4)} m`, help: 'The truth; the robot does not know it' },
-    { name: 'heading', value: `${get('heading_rad').toFixed(4)} rad`, help: 'The truth' },
-    { name: 'role', value: role },
+  const ofTree: Fact[] = [
     { name: 'phase', value: phases[get('phase')] ?? 'unknown', help: 'Of the reconstruction of the tree, as this robot knows it' },
     { name: 'epoch', value: String(get('epoch')), help: 'Counts the trees' },
     { name: 'label', value: get('label_cm') < 0 ? nobody : `${(get('label_cm') / 100).toFixed(2)} m`, help: 'Distance to the root along hops when the epoch began' },
@@ -43,9 +53,15 @@ export function facts(frame: Frame, robot: number): Fact[] {
     { name: 'spare_state', value: role === 'spare' ? (spareStates[get('spare_state')] ?? 'unknown') : nobody },
     who('request', 'The owner of the edge that this spare wants to join'),
     { name: 'want', value: `${get('want_m').toFixed(2)} m`, help: 'Largest remaining distance of a worker below' },
-    { name: 'target', value: target < 0 ? nobody : `T${target}`, help: 'That it was sent to' },
+  ];
+  return [
+    { name: 'position', value: `${get('x_m').toFixed(4)}, ${get('y_m').toFixed(4)} m`, help: 'The truth; the robot does not know it' },
+    { name: 'heading', value: `${get('heading_rad').toFixed(4)} rad`, help: 'The truth' },
+    ...(hasRoles ? [{ name: 'role', value: role }] : []),
+    ...(hasTree ? ofTree : []),
+    ...(hasRoles || reported(frame, 'target') ? [{ name: 'target', value: target < 0 ? nobody : `T${target}`, help: 'That it was sent to' }] : []),
     { name: 'alive', value: get('alive') === 1 ? 'yes' : 'no' },
-    { name: 'connected', value: get('connected') === 1 ? 'yes' : 'no', help: 'Alive and in one radio component with the root' },
+    ...(hasRoles ? [{ name: 'connected', value: get('connected') === 1 ? 'yes' : 'no', help: 'Alive and in one radio component with the root' }] : []),
   ];
 }
 
