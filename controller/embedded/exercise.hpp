@@ -60,8 +60,10 @@ inline void run(bool worker, Drive drive, FunctionRef<const TreeMessage*(std::si
   }
 }
 
-// The same for an algorithm. Returns a hash of all velocities and of every byte that travels. A state has its own
-// (add_to), but no robot needs that, and it would count as its code.
+// The state's hash belongs to the comparison of two machines, but no robot needs it: firmware is measured without.
+inline constexpr bool hashes_state = BANYAN_EXERCISE_HASHES_STATE;
+
+// The same for an algorithm. Returns a hash of all velocities, of every byte that travels and of the state at the end.
 template <class Message, class Params, class State>
 std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, std::span<Heard>, const Senses&) noexcept, const Params& params,
                        State& state) noexcept {
@@ -82,6 +84,7 @@ std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, std::span<
     return output.velocity;
   };
   run(state.is_worker, params.drive, say, move, digest);
+  if constexpr (hashes_state) add_to(digest, state);
   return digest.value();
 }
 
