@@ -46,6 +46,8 @@ void check_event_values(FaultList& list, const std::vector<Event>& events);
 // Whom and what events refer to exists when they happen. False if there are more targets than robots
 // that can be sent.
 bool check_events_fit(FaultList& list, const Scenario& scenario, std::size_t targets, std::size_t robots);
+// The body model can hold this obstacle where it is.
+void check_obstacle_body(FaultList& list, const Scenario& scenario, const std::string& key, const Obstacle& obstacle);
 // A robot gets near enough to a target at p, which a fault names and finds at `key`.
 void check_target_room(FaultList& list, const Scenario& scenario, const std::vector<Obstacle>& obstacles,
                        const std::string& key, const std::string& name, Vec2 p);

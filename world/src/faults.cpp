@@ -140,6 +140,8 @@ void check_platform(FaultList& list, const Scenario& scenario) {
                                    " m), else no robot can hear another");
   if (time_limit_s(scenario) < scenario.tick_s)
     list.fail("mission.time_limit_s", "must be given when no target is away from swarm.start.center_m");
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
+    check_obstacle_body(list, scenario, element("obstacles", i) + ".size_m", scenario.obstacles[i]);
   if (const std::string text = find_algorithm(scenario.mission.algorithm)->fault(setup_of(scenario)); !text.empty())
     list.fail("mission.parameters", text);
 }
@@ -251,6 +253,15 @@ void check_event_values(FaultList& list, const std::vector<Event>& events) {
     if (blackout != nullptr && blackout->duration_s == 0.0)
       list.fail(path + ".duration_s", "must be above 0 for a blackout");
   }
+}
+
+void check_obstacle_body(FaultList& list, const Scenario& scenario, const std::string& key, const Obstacle& obstacle) {
+  const Box* box = std::get_if<Box>(&obstacle);
+  if (box == nullptr || scenario.robot.body != BodyModel::box2d) return;
+  const double least_m = least_side_in_box2d_m(*box);
+  if (std::min(box->size.x, box->size.y) < least_m)
+    list.fail(key, "the box is too thin for robot.body = \"box2d\": at " + at(box->center) +
+                       " both sides must be at least " + short_text(least_m) + " m; a wall has no thickness");
 }
 
 void check_target_room(FaultList& list, const Scenario& scenario, const std::vector<Obstacle>& obstacles,

@@ -9,6 +9,8 @@ namespace banyan::world {
 
 bool has_box2d() noexcept { return false; }
 
+double least_side_in_box2d_m(const Box&) noexcept { return 0.0; }
+
 std::unique_ptr<Bodies> make_box2d(const Scenario&, const Poses&) {
   throw std::logic_error("this program was built without Box2D");
 }

@@ -2,6 +2,8 @@
 // Rigid discs: motors within their bounds, contact, and a clone that goes on bit by bit alike.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/obstacles.hpp"
@@ -179,6 +181,25 @@ TEST(Box2d, CloneGoesOnBitByBitAlike) {
   EXPECT_EQ(copy.poses.position, original.poses.position);
   EXPECT_EQ(copy.poses.heading, original.poses.heading);
   EXPECT_EQ(copy.bodies->hash(0), original.bodies->hash(0));
+}
+
+// Thinner than that, or so far out that its corners fall together, a box ends the program (an assertion of Box2D).
+TEST(Box2d, TakesBoxesAsThinAsTheChecksAllow) {
+  const auto draw = [](std::uint64_t i, std::uint64_t k) { return to_uniform(bits(3, Purpose::loss, i, k)); };
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    Scenario scenario;
+    Box box;
+    box.center = std::pow(10.0, 4.0 * draw(i, 0)) * unit_vector(6.28 * draw(i, 1));
+    box.angle_rad = i % 3 == 0 ? 0.0 : 6.28 * draw(i, 2);
+    const double length_m = std::pow(10.0, -3.0 + 7.0 * draw(i, 3));
+    box.size = {length_m, 1e-9};
+    box.size = {length_m, least_side_in_box2d_m(box) * 1.0001};  // with its own breadth it reaches a little farther
+    box.size.x = std::max(box.size.x, box.size.y);
+    scenario.obstacles = {box};
+    Box2dBench bench(scenario, one_robot());
+    bench.step();
+    EXPECT_EQ(bench.tick, 1U) << i;
+  }
 }
 
 TEST(Box2d, HashSeesVelocities) {

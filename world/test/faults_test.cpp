@@ -132,6 +132,17 @@ const std::vector<Case>& cases() {
       {"obstacles[0].angle_deg", "nan", [](Scenario& s) { s.obstacles = {Box{{5, 5}, {1, 1}, nan}}; }},
       {"obstacles[0].to_m", "must differ", [](Scenario& s) { s.obstacles = {Wall{{5, 5}, {5, 5}}}; }},
       {"obstacles[0].from_m[0]", "is nan", [](Scenario& s) { s.obstacles = {Wall{{nan, 5}, {5, 5}}}; }},
+      {"obstacles[1].size_m", "too thin for robot.body = \"box2d\": at (5, 5) both sides must be at least 0.000406",
+       [](Scenario& s) {
+         s.robot.body = BodyModel::box2d;
+         s.obstacles = {Disc{{-5, 5}, 1}, Box{{5, 5}, {0.0003, 2}, 0}};
+       }},
+      {"events[0].position_m", "too thin for robot.body",
+       [](Scenario& s) {
+         s.robot.body = BodyModel::box2d;
+         s.obstacles = {Box{{5, 5}, {2, 0.005}, 0}};
+         s.events = {event(MoveObstacle{0, {9000, 9000}})};
+       }},
       {"tick_s", "pass through an obstacle", [](Scenario& s) { s.obstacles = {Disc{{5, 5}, 1}}, s.tick_s = 0.5; }},
       {"events[0].time_s", "-1", [](Scenario& s) { s.events = {event(Die{0}, -1)}; }},
       {"events[0].robot", "there is no robot 99", [](Scenario& s) { s.events = {event(Die{99})}; }},

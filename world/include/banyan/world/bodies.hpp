@@ -47,5 +47,7 @@ class Bodies {
 [[nodiscard]] std::unique_ptr<Bodies> make_linear(const Scenario& scenario, std::size_t robots);
 // False in the browser's build: make_box2d() throws there.
 [[nodiscard]] bool has_box2d() noexcept;
+// The least side that box2d needs this box to have where it is, m: thinner, it would end the program.
+[[nodiscard]] double least_side_in_box2d_m(const Box& box) noexcept;
 
 }  // namespace banyan::world
