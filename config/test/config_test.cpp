@@ -398,7 +398,7 @@ TEST(Config, AListOfRobotsNeedsNoRedundancy) {
   const std::string listed = "layout = \"list\"\npositions_m = [[0, 0], [0.5, 0], [0, 0.5]]\n";
   EXPECT_TRUE(says(parse(small + "[swarm]\nredundancy = 2\n[swarm.start]\n" + listed),
                    "w.toml:5: error: swarm.redundancy: has no meaning with start.layout = \"list\", only with "
-                   "\"hexagonal\" or \"grid\""));
+                   "\"hexagonal\", \"grid\", \"line\", \"ring\", \"cross\", \"bridge\" or \"random\""));
   EXPECT_TRUE(parse(small + "[swarm.start]\n" + listed).ok());
 }
 

@@ -81,7 +81,12 @@ template <class Owner> json random_section(const world::Section& section, std::s
     if (!conditional || std::find(with.begin(), with.end(), choice) != with.end())
       table[std::string(key.name())] = *value_of(key);
   }
-  if (table.contains("share") && table.contains("count")) table.erase(*rc::gen::arbitrary<bool>() ? "share" : "count");
+  for (const auto& key : keys) {
+    const std::string name(key.name());
+    const std::string other(key.terms.not_beside);
+    if (key.section() == section.path && table.contains(name) && table.contains(other))
+      table.erase(*rc::gen::arbitrary<bool>() ? name : other);
+  }
   return table;
 }
 

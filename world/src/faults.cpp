@@ -146,42 +146,61 @@ void check_platform(FaultList& list, const Scenario& scenario) {
     list.fail("mission.parameters", text);
 }
 
-std::size_t find(std::vector<std::size_t>& leader, std::size_t i) noexcept {
-  while (leader[i] != i) i = leader[i] = leader[leader[i]];
-  return i;
+// Visits every pair nearer than `reach` once, by a sweep along x.
+template <class Visit> void each_pair(const std::vector<Vec2>& p, double reach, const Visit& visit) {
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return p[a].x != p[b].x ? p[a].x < p[b].x : a < b; });
+  for (std::size_t a = 0; a < p.size(); ++a) {
+    for (std::size_t b = a + 1; b < p.size() && p[order[b]].x - p[order[a]].x < reach; ++b) {
+      const std::size_t i = std::min(order[a], order[b]);
+      const std::size_t j = std::max(order[a], order[b]);
+      const double d = distance(p[i], p[j]);
+      if (d < reach) visit(i, j, d);
+    }
+  }
 }
 
-// Overlaps and connected components of a list start, by a sweep along x.
+// Groups of robots, joined link by link.
+class Groups {
+ public:
+  explicit Groups(std::size_t robots) : leader_(robots), count_{robots} {
+    std::iota(leader_.begin(), leader_.end(), std::size_t{0});
+  }
+  void join(std::size_t i, std::size_t j) noexcept {
+    const std::size_t left = find(i);
+    const std::size_t right = find(j);
+    if (left == right) return;
+    leader_[right] = left;
+    --count_;
+  }
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+
+ private:
+  [[nodiscard]] std::size_t find(std::size_t i) noexcept {
+    while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
+    return i;
+  }
+  std::vector<std::size_t> leader_;
+  std::size_t count_;
+};
+
+// Overlaps and connected components of a list start.
 void check_listed_cluster(FaultList& list, const Scenario& scenario) {
   const std::vector<Vec2>& p = scenario.swarm.start.positions;
   const double range = scenario.radio.range_m;
   const double touch = 2.0 * scenario.robot.radius_m;
-  std::vector<std::size_t> order(p.size());
-  std::vector<std::size_t> leader(p.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::iota(leader.begin(), leader.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return p[a].x != p[b].x ? p[a].x < p[b].x : a < b; });
-  std::size_t parts = p.size();
-  for (std::size_t a = 0; a < p.size(); ++a) {
-    for (std::size_t b = a + 1; b < p.size() && p[order[b]].x - p[order[a]].x < std::max(range, touch); ++b) {
-      const std::size_t i = std::min(order[a], order[b]);
-      const std::size_t j = std::max(order[a], order[b]);
-      const double d = distance(p[i], p[j]);
-      if (d < touch)
-        list.fail(element("swarm.start.positions_m", j), "overlaps position " + std::to_string(i) + ": " +
-                                                             short_text(d) + " m apart, two radii are " +
-                                                             short_text(touch) + " m");
-      const std::size_t left = find(leader, i);
-      const std::size_t right = find(leader, j);
-      if (d < range && left != right) {
-        leader[right] = left;
-        --parts;
-      }
-    }
-  }
-  if (parts > 1)
-    list.fail("swarm.start.positions_m", "the start is not connected: " + std::to_string(parts) +
+  Groups groups(p.size());
+  each_pair(p, std::max(range, touch), [&](std::size_t i, std::size_t j, double d) {
+    if (d < touch)
+      list.fail(element("swarm.start.positions_m", j), "overlaps position " + std::to_string(i) + ": " +
+                                                           short_text(d) + " m apart, two radii are " +
+                                                           short_text(touch) + " m");
+    if (d < range) groups.join(i, j);
+  });
+  if (groups.count() > 1)
+    list.fail("swarm.start.positions_m", "the start is not connected: " + std::to_string(groups.count()) +
                                              " groups are farther than radio.range_m = " + short_text(range) +
                                              " m from each other");
   for (std::size_t i = 0; i < p.size(); ++i)
@@ -189,28 +208,72 @@ void check_listed_cluster(FaultList& list, const Scenario& scenario) {
       list.fail(element("swarm.start.positions_m", i), "a robot at " + at(p[i]) + " touches an obstacle");
 }
 
-void check_lattice_cluster(FaultList& list, const Scenario& scenario) {
+// Neighbours of the layout have room beside each other and are linked.
+void check_spacing(FaultList& list, const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
+  const bool random = start.layout == Layout::random;
+  const std::string key = start.pitch_share ? "swarm.start.pitch_share" : "swarm.start.pitch_m";
+  const std::string jitter = random ? "" : " 2 jitter_m";
+  const double off = random ? 0.0 : 2.0 * start.jitter_m;
+  const double range = scenario.radio.range_m;
   const double touch = 2.0 * scenario.robot.radius_m;
-  if (start.pitch_m - 2.0 * start.jitter_m < touch)
-    list.fail("swarm.start.pitch_m",
-              "robots do not fit: pitch_m - 2 jitter_m = " + short_text(start.pitch_m - 2.0 * start.jitter_m) +
-                  " m must be at least two radii, " + short_text(touch) + " m");
-  if (start.pitch_m + 2.0 * start.jitter_m >= scenario.radio.range_m)
-    list.fail(
-        "swarm.start.pitch_m",
-        "the start would not be connected: pitch_m + 2 jitter_m = " + short_text(start.pitch_m + 2.0 * start.jitter_m) +
-            " m must be below radio.range_m = " + short_text(scenario.radio.range_m) + " m");
-  if (list.failed() || scenario.obstacles.empty()) return;
-  const std::size_t wanted = robot_count(scenario);
-  const std::size_t placed = place(scenario).position.size();
-  if (placed == 0)
-    list.fail("swarm.start.center_m", "there is no room for a robot at " + at(start.center) +
-                                          ": an obstacle is closer"
-                                          " than robot.radius_m + swarm.start.jitter_m");
-  else if (placed < wanted)
-    list.fail("swarm.start", "only " + std::to_string(placed) + " of " + std::to_string(wanted) +
-                                 " robots fit between the obstacles around the start");
+  const double pitch = start_pitch_m(scenario);
+  const double link = start.link_share * range;
+  if (pitch - off < touch)
+    list.fail(key, "robots do not fit: " + (random ? "the pitch" : "pitch_m -" + jitter) + " = " +
+                       short_text(pitch - off) + " m must be at least two radii, " + short_text(touch) + " m");
+  if (!random && pitch + off >= range)
+    list.fail(key, "the start would not be connected: pitch_m +" + jitter + " = " + short_text(pitch + off) +
+                       " m must be below radio.range_m = " + short_text(range) + " m");
+  if (!random && start.layout != Layout::bridge) return;
+  if (link + off >= range)
+    list.fail("swarm.start.link_share", "the start would not be connected: link_share * range_m" +
+                                            (random ? "" : " +" + jitter) + " = " + short_text(link + off) +
+                                            " m must be below radio.range_m = " + short_text(range) + " m");
+  if (link < pitch)
+    list.fail("swarm.start.link_share", "link_share * range_m = " + short_text(link) +
+                                            " m must be at least the distance between neighbours, " +
+                                            short_text(pitch) + " m");
+}
+
+// Obstacles and the edge of the world leave the start whole.
+void check_placed(FaultList& list, const Scenario& scenario) {
+  const Start& start = scenario.swarm.start;
+  const std::vector<Vec2> p = place(scenario).position;
+  if (p.empty() && start.layout != Layout::ring && start.layout != Layout::bridge)
+    return list.fail("swarm.start.center_m", "there is no room for a robot at " + at(start.center) +
+                                                 ": an obstacle is closer than robot.radius_m" +
+                                                 (start.layout == Layout::random ? "" : " + swarm.start.jitter_m"));
+  if (p.size() < robot_count(scenario))
+    return list.fail("swarm.start", "only " + std::to_string(p.size()) + " of " +
+                                        std::to_string(robot_count(scenario)) +
+                                        " robots fit between the obstacles around the start");
+  const Range& allowed = find_key(scenario_keys(), "swarm.start.center_m")->range;
+  for (const Vec2 q : p)
+    if (!allowed.holds(q.x) || !allowed.holds(q.y))
+      return list.fail("swarm.start", "reaches to " + at(q) + "; allowed: " + range_text(allowed, "m"));
+  if (scenario.obstacles.empty() || (start.layout != Layout::ring && start.layout != Layout::bridge)) return;
+  Groups groups(p.size());
+  each_pair(p, scenario.radio.range_m, [&](std::size_t i, std::size_t j, double /*distance*/) {
+    const auto cuts = [&](const Obstacle& o) { return blocks(o, p[i], p[j]); };
+    if (std::none_of(scenario.obstacles.begin(), scenario.obstacles.end(), cuts)) groups.join(i, j);
+  });
+  if (groups.count() > 1)
+    list.fail("swarm.start", "the start is not connected: obstacles cut it into " + std::to_string(groups.count()) +
+                                 " groups");
+}
+
+// A start that a layout stands for.
+void check_laid_out(FaultList& list, const Scenario& scenario) {
+  const Start& start = scenario.swarm.start;
+  check_spacing(list, scenario);
+  const std::size_t robots = robot_count(scenario);
+  if (start.layout == Layout::bridge && start.bridge_robots + 2 > robots)
+    list.fail("swarm.start.bridge_robots", "is " + std::to_string(start.bridge_robots) + " of " +
+                                               std::to_string(robots) +
+                                               " robots; at least one must be left for each cluster");
+  const bool compact = start.layout == Layout::hexagonal || start.layout == Layout::grid;
+  if (!list.failed() && !(compact && scenario.obstacles.empty())) check_placed(list, scenario);
 }
 
 void check_swarm_fits(FaultList& list, const Scenario& scenario) {
@@ -226,7 +289,7 @@ void check_swarm_fits(FaultList& list, const Scenario& scenario) {
   if (scenario.swarm.start.layout == Layout::list)
     check_listed_cluster(list, scenario);
   else
-    check_lattice_cluster(list, scenario);
+    check_laid_out(list, scenario);
 }
 
 void check_targets_fit(FaultList& list, const Scenario& scenario) {

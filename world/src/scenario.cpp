@@ -83,6 +83,11 @@ std::size_t robot_count(const Scenario& scenario) {
   return std::max(robots_for(swarm.redundancy * length / delta_inwards), targets.size() + 1);
 }
 
+double start_pitch_m(const Scenario& scenario) {
+  const Start& start = scenario.swarm.start;
+  return start.pitch_share ? *start.pitch_share * scenario.radio.range_m : start.pitch_m;
+}
+
 // A packet is heard so many steps of the swarm after it was composed, at most: it flies, and waits until its
 // receiver's clock strikes.
 static std::size_t longest_way(const Scenario& scenario) {

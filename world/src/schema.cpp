@@ -8,7 +8,9 @@ namespace banyan::world {
 
 // ---- Names of enums and of the alternatives of variants ----
 
-template <> struct NamesOf<Layout> { static constexpr std::string_view list[] = {"hexagonal", "grid", "list"}; };
+template <> struct NamesOf<Layout> {
+  static constexpr std::string_view list[] = {"hexagonal", "grid", "line", "ring", "cross", "bridge", "random", "list"};
+};
 template <> struct NamesOf<BodyModel> { static constexpr std::string_view list[] = {"disks", "box2d", "linear"}; };
 template <> struct NamesOf<Event::When> {
   static constexpr std::string_view list[] = {"time", "half-way", "complete"};
@@ -74,8 +76,17 @@ Names reading_names() {
 
 bool is_listed(const Scenario& s) noexcept { return s.swarm.start.layout == Layout::list; }
 double* redundancy_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.redundancy; }
+bool is_bridge(const Scenario& s) noexcept { return s.swarm.start.layout == Layout::bridge; }
+bool is_random(const Scenario& s) noexcept { return s.swarm.start.layout == Layout::random; }
 double* pitch_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.start.pitch_m; }
-double* jitter_of(Scenario& s) noexcept { return is_listed(s) ? nullptr : &s.swarm.start.jitter_m; }
+std::optional<double>* pitch_share_of(Scenario& s) noexcept {
+  return is_listed(s) ? nullptr : &s.swarm.start.pitch_share;
+}
+double* jitter_of(Scenario& s) noexcept { return is_listed(s) || is_random(s) ? nullptr : &s.swarm.start.jitter_m; }
+double* link_share_of(Scenario& s) noexcept {
+  return is_bridge(s) || is_random(s) ? &s.swarm.start.link_share : nullptr;
+}
+std::size_t* bridge_robots_of(Scenario& s) noexcept { return is_bridge(s) ? &s.swarm.start.bridge_robots : nullptr; }
 std::vector<Vec2>* positions_of(Scenario& s) noexcept { return is_listed(s) ? &s.swarm.start.positions : nullptr; }
 std::vector<double>* headings_of(Scenario& s) noexcept { return is_listed(s) ? &s.swarm.start.headings_rad : nullptr; }
 std::vector<Vec2>* listed_targets_of(Scenario& s) noexcept { return std::get_if<std::vector<Vec2>>(&s.targets); }
@@ -89,6 +100,7 @@ constexpr Range anywhere{-world_size, world_size};
 constexpr Range any_length{0.0, world_size, true};
 constexpr Range any_time{0.0, long_time};
 constexpr Range any_share{0.0, 1.0};
+constexpr Range any_part{0.0, 1.0, true};
 constexpr Range any_angle{-360.0, 360.0};
 // Seeds stay below 2^53, so that every reader of JSON, the viewer among them, sees them exactly.
 constexpr Range any_seed{0.0, 9007199254740992.0};
@@ -100,7 +112,7 @@ constexpr Section section_list[] = {
      "Overrides of the algorithm's parameters, the paper's Table I among them. `banyan algorithms` lists their "
      "defaults, which depend on algorithm and reading."},
     {"swarm", "How many robots. Give `robots` or `redundancy`, not both."},
-    {"swarm.start", "Where the robots begin: a compact connected cluster.", "layout"},
+    {"swarm.start", "Where the robots begin: connected, by default a compact cluster.", "layout"},
     {"robot", "One robot's body and wheels. The defaults are a Khepera IV."},
     {"radio", "Who hears whom, and how well."},
     {"clocks", "When robots step: all together, or each by its own clock."},
@@ -148,10 +160,20 @@ constexpr Key<Scenario> scenario_rows[] = {
      "index of the first root, counted from 0 at the centre of the start",
      {.otherwise = "a random robot that is no worker"}},
 
-    {"swarm.start.layout", of<&Start::layout>, "", any_value, "hexagonal or square lattice, or a list of positions"},
-    {"swarm.start.center_m", of<&Start::center>, "m", anywhere, "centre of the cluster"},
-    {"swarm.start.pitch_m", by<pitch_of>, "m", {0.0, 1000.0, true}, "distance between neighbours of the lattice"},
-    {"swarm.start.jitter_m", by<jitter_of>, "m", {0.0, 1000.0}, "each robot is off its lattice point by up to this"},
+    {"swarm.start.layout", of<&Start::layout>, "", any_value,
+     "a compact cluster on a hexagonal or square lattice, a line along the x axis, a ring, a cross, two clusters with "
+     "a bridge, a random connected graph, or a list of positions"},
+    {"swarm.start.center_m", of<&Start::center>, "m", anywhere,
+     "centre of the start; of a random one the robot from which it grows"},
+    {"swarm.start.pitch_m", by<pitch_of>, "m", {0.0, 1000.0, true},
+     "distance between neighbours, within the clusters of a bridge; in a random start the least between any two",
+     {.not_beside = "pitch_share"}},
+    {"swarm.start.pitch_share", by<pitch_share_of>, "", any_part,
+     "the same as a share of radio.range_m; not beside pitch_m", {.otherwise = "pitch_m counts"}},
+    {"swarm.start.jitter_m", by<jitter_of>, "m", {0.0, 1000.0}, "each robot is off its point by up to this"},
+    {"swarm.start.link_share", by<link_share_of>, "", any_part,
+     "spacing of the bridge, or longest link over which a random start grows, as a share of radio.range_m"},
+    {"swarm.start.bridge_robots", by<bridge_robots_of>, "", {1.0, most_ids}, "robots between the two clusters"},
     {"swarm.start.positions_m", by<positions_of>, "m", anywhere, "one [x, y] per robot", {.required = true}},
     {"swarm.start.headings_deg", by<headings_of>, "deg", any_angle,
      "one angle per robot, counter-clockwise from the x axis", {.otherwise = "random"}},

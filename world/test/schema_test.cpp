@@ -106,8 +106,10 @@ TEST(Schema, TellsWithWhichAlternativesAKeyApplies) {
   EXPECT_EQ(with("events.position_m"), (Words{"move_target", "add_target", "move_obstacle"}));
   EXPECT_EQ(with("events.time_s"), Words{});
   const auto keys = scenario_keys();
-  EXPECT_EQ(applies_with(*find_key(keys, "swarm.start.pitch_m"), keys), (Words{"hexagonal", "grid"}));
-  EXPECT_EQ(applies_with(*find_key(keys, "swarm.redundancy"), keys), (Words{"hexagonal", "grid"}));
+  const Words all_but_list{"hexagonal", "grid", "line", "ring", "cross", "bridge", "random"};
+  EXPECT_EQ(applies_with(*find_key(keys, "swarm.start.pitch_m"), keys), all_but_list);
+  EXPECT_EQ(applies_with(*find_key(keys, "swarm.redundancy"), keys), all_but_list);
+  EXPECT_EQ(applies_with(*find_key(keys, "swarm.start.link_share"), keys), (Words{"bridge", "random"}));
   EXPECT_EQ(applies_with(*find_key(keys, "targets.count"), keys), (Words{"ring", "random"}));
 }
 

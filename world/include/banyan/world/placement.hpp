@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where robots begin: a compact connected cluster, random headings (docs/model.md).
+// Where robots begin: a connected start, random headings (docs/model.md).
 #pragma once
 
 #include <vector>
@@ -8,11 +8,10 @@
 
 namespace banyan::world {
 
-// The `robot_count(scenario)` lattice points nearest to start.center that are free of obstacles and
-// reached from it over free lattice neighbours (so nobody starts behind a wall), jittered, in
-// O(N (log N + obstacles)). Robots never overlap as long as pitch - 2 jitter >= 2 radius, which
-// faults() checks. Index order: by distance from the centre. Fewer poses than robots when
-// obstacles enclose the start too narrowly: faults() tells.
+// The `robot_count(scenario)` points of the layout, free of obstacles, jittered. A lattice grows over free
+// neighbours (so nobody starts behind a wall), in O(N (log N + obstacles)). Robots never overlap and are
+// connected as long as faults() finds nothing. Index order: by distance from the centre; a random start: in the
+// order in which it grew. Fewer poses than robots when obstacles leave no room: faults() tells.
 [[nodiscard]] Poses place(const Scenario& scenario);
 
 struct Assignment {

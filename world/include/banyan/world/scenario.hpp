@@ -31,13 +31,16 @@ struct Mission {
   std::vector<std::pair<std::string, double>> parameters;  // overrides, keys of parameter_table()
 };
 
-enum class Layout : std::uint8_t { hexagonal, grid, list };
+enum class Layout : std::uint8_t { hexagonal, grid, line, ring, cross, bridge, random, list };
 
 struct Start {
   Layout layout = Layout::hexagonal;
   Vec2 center{};
   double pitch_m = 0.32;
-  double jitter_m = 0.02;               // uniform in a disc of this radius around each lattice point
+  std::optional<double> pitch_share{};  // of radio.range_m, instead of pitch_m
+  double jitter_m = 0.02;               // uniform in a disc of this radius around each point; not in a random start
+  double link_share = 0.9;              // of radio.range_m: spacing of the bridge, longest link of a random start
+  std::size_t bridge_robots = 3;        // layout bridge: between the two clusters
   std::vector<Vec2> positions;          // layout list
   std::vector<double> headings_rad;     // layout list, optional: random if empty
 };
@@ -209,6 +212,9 @@ struct Scenario {
 // Number of robots: swarm.robots, or the paper's redundancy factor (protocol 2, row 10).
 // At least one more than targets.
 [[nodiscard]] std::size_t robot_count(const Scenario& scenario);
+
+// Between neighbours of the start; in a random one the least between any two robots.
+[[nodiscard]] double start_pitch_m(const Scenario& scenario);
 
 // mission.time_limit_s, or 10 r / v_max (paper Sec. IV-B).
 [[nodiscard]] double time_limit_s(const Scenario& scenario);
