@@ -4,12 +4,14 @@
 #include <cinttypes>
 #include <cstdio>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/measure/observer.hpp"
 
 using namespace banyan;
 
 int main() {
-  world::Scenario scenario;   // every field has a default
+  world::Scenario scenario;   // every other field has a default
+  scenario.algorithms = &algorithms();
   scenario.seed = 1;
   scenario.mission.algorithm = "inwards";
   scenario.swarm.redundancy = 3.0;

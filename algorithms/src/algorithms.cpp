@@ -2,9 +2,6 @@
 // The one list. An algorithm is a line here and a folder of its own.
 #include "banyan/algorithms/algorithms.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "banyan/algorithms/swarms.hpp"
 #include "banyan/algorithms/tree_algorithm.hpp"
 
@@ -47,31 +44,9 @@ const Algorithm& convoy() noexcept {
   return algorithm;
 }
 
-std::span<const Algorithm* const> algorithms() noexcept {
-  static const std::array<const Algorithm*, 3> all{&outwards(), &inwards(), &convoy()};
+const AlgorithmList& algorithms() noexcept {
+  static const AlgorithmList all{&outwards(), &inwards(), &convoy()};
   return all;
-}
-
-// In the order of the longest table, so that the texts of configurations keep theirs.
-std::span<const ParameterInfo> parameter_table() noexcept {
-  static const std::vector<ParameterInfo> table = [] {
-    std::vector<ParameterInfo> rows;
-    const auto add = [&](const Algorithm& algorithm) {
-      for (const ParameterInfo* info : algorithm.parameters())
-        if (std::none_of(rows.begin(), rows.end(), [&](const ParameterInfo& row) { return row.key == info->key; })) rows.push_back(*info);
-    };
-    const auto all = algorithms();
-    add(**std::max_element(all.begin(), all.end(), [](const Algorithm* a, const Algorithm* b) { return a->parameters().size() < b->parameters().size(); }));
-    for (const Algorithm* algorithm : all) add(*algorithm);
-    return rows;
-  }();
-  return table;
-}
-
-const Algorithm* find_algorithm(std::string_view name) noexcept {
-  for (const Algorithm* algorithm : algorithms())
-    if (algorithm->name() == name) return algorithm;
-  return nullptr;
 }
 
 }  // namespace banyan

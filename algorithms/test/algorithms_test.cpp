@@ -21,18 +21,18 @@ float value_of(const Algorithm& algorithm, const Setup& setup, std::string_view 
 }
 
 TEST(Algorithms, AreFoundByName) {
-  EXPECT_EQ(algorithms().front(), &outwards()) << "what a scenario runs that names none";
   for (const Algorithm* algorithm : algorithms()) {
-    EXPECT_EQ(find_algorithm(algorithm->name()), algorithm);
+    EXPECT_EQ(algorithms().find(algorithm->name()), algorithm);
     EXPECT_FALSE(algorithm->summary().empty());
     EXPECT_EQ(algorithm->fault({}), "");
   }
-  EXPECT_EQ(find_algorithm("sideways"), nullptr);
+  EXPECT_EQ(algorithms().find("sideways"), nullptr);
+  EXPECT_EQ(AlgorithmList({&outwards()}).find("inwards"), nullptr);
 }
 
 TEST(Algorithms, TheTableHasEveryKeyOnce) {
   std::set<std::string_view> keys;
-  for (const ParameterInfo& row : parameter_table()) EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+  for (const ParameterInfo& row : algorithms().parameters()) EXPECT_TRUE(keys.insert(row.key).second) << row.key;
   for (const Algorithm* algorithm : algorithms())
     for (const ParameterInfo* row : algorithm->parameters()) EXPECT_EQ(keys.count(row->key), 1U) << row->key;
 }

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/algorithms/algorithms.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -24,12 +24,10 @@ std::string value_text(float value) {
 double as_written(float value) { return std::stod(value_text(value)); }
 
 std::vector<const Algorithm*> chosen(const std::string& name) {
-  const auto all = algorithms();
+  const AlgorithmList& all = algorithms();
   if (name.empty()) return {all.begin(), all.end()};
-  if (const Algorithm* algorithm = find_algorithm(name)) return {algorithm};
-  std::vector<std::string_view> names;
-  for (const Algorithm* algorithm : all) names.push_back(algorithm->name());
-  const auto near = nearest(name, names);
+  if (const Algorithm* algorithm = all.find(name)) return {algorithm};
+  const auto near = nearest(name, {all.names().begin(), all.names().end()});
   std::string text = "there is no algorithm \"" + name + "\"";
   text += near.empty() ? "; `banyan algorithms` lists them" : "; did you mean " + std::string(near) + "?";
   throw CommandError(exit_usage, text);
@@ -69,7 +67,7 @@ std::string table_text(const std::vector<const Algorithm*>& list) {
   std::string head = format("%-26s %-8s %-4s", "parameter", "symbol", "unit");
   for (const Algorithm* algorithm : list) head += format("  %-9s", std::string(algorithm->name()).c_str());
   std::string text = head + "  source\n";
-  for (const auto& info : parameter_table()) {
+  for (const auto& info : algorithms().parameters()) {
     text += format("%-26s %-8s %-4s", std::string(info.key).c_str(), std::string(info.symbol).c_str(),
                    std::string(info.unit).c_str());
     for (const Algorithm* algorithm : list) text += format("  %-9s", default_text(*algorithm, info.key).c_str());

@@ -18,6 +18,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/measure/observer.hpp"
@@ -55,6 +56,7 @@ constexpr double dense_pitch_m = 0.21;
 
 world::Scenario standing_scenario(const BenchLayout& layout) {
   world::Scenario s;
+  s.algorithms = &algorithms();
   s.name = layout.name;
   s.mission.reading = "literal";
   s.mission.time_limit_s = 1e6;
@@ -80,7 +82,7 @@ world::Scenario standing_scenario(const BenchLayout& layout) {
 
 world::Scenario mission_scenario(const BenchLayout& layout) {
   const std::string file = shipped_scenarios() + "/" + layout.scenario + ".toml";
-  const auto loaded = load_configuration(file);
+  const auto loaded = load_configuration(file, algorithms());
   if (!loaded.ok()) throw CommandError(exit_lost, to_string(loaded.problems.front()));
   world::Scenario s = loaded.configuration.scenario;
   s.mission.algorithm = "convoy";

@@ -2,6 +2,7 @@
 // `banyan keys` and the hidden `banyan complete-keys`.
 #include <nlohmann/json.hpp>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -27,12 +28,12 @@ nlohmann::ordered_json json_of(const std::vector<KeyRow>& rows) {
 
 int keys_command(const KeysOptions& options) {
   if (options.markdown) {
-    print(key_reference_markdown());
+    print(key_reference_markdown(algorithms()));
     return exit_done;
   }
   std::vector<KeyRow> rows;
   std::vector<std::string_view> known;
-  const auto all = key_rows();
+  const auto all = key_rows(algorithms());
   for (const auto& row : all) {
     if (row.path.starts_with(options.prefix)) rows.push_back(row);
     known.push_back(row.path);
@@ -61,7 +62,7 @@ int keys_command(const KeysOptions& options) {
 int complete_keys_command(const std::string& word) {
   std::string text;
   const auto equals = word.find('=');
-  for (const auto& row : key_rows()) {
+  for (const auto& row : key_rows(algorithms())) {
     if (row.path.starts_with("obstacles.") || row.path.starts_with("events.")) continue;  // need an index
     if (equals == std::string::npos) {
       if (row.path.starts_with(word)) text += row.path + "=\n";

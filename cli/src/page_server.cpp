@@ -16,6 +16,7 @@
 #include <system_error>
 #include <thread>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "banyan/record/file.hpp"
 #include "terminal.hpp"
@@ -92,7 +93,7 @@ std::string scenarios_json(const fs::path& folder) {
     const auto text = text_of(file);
     if (!text) continue;
     // One with faults is offered too: the page says what they are.
-    const auto loaded = config::parse_configuration(file.filename(), *text);
+    const auto loaded = config::parse_configuration(file.filename(), *text, algorithms());
     const std::string name = loaded.ok() ? loaded.configuration.scenario.name : file.stem().string();
     list.push_back({{"name", name}, {"description", loaded.configuration.scenario.description}, {"text", *text}});
   }

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/outputs.hpp"
 #include "banyan/record/simulation.hpp"
 #include "banyan/record/table.hpp"
@@ -76,7 +77,7 @@ class Complaints {
 };
 
 Loaded load_or_leave(const RunOptions& options) {
-  auto loaded = load_configuration(options.scenario, options.overrides);
+  auto loaded = load_configuration(options.scenario, algorithms(), options.overrides);
   print_problems(loaded.problems);
   return loaded;
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <thread>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/file.hpp"
 #include "banyan/study/execute.hpp"
 #include "banyan/study/folder.hpp"
@@ -21,6 +22,7 @@
 #include "commands.hpp"
 #include "outputs.hpp"
 #include "sbatch.hpp"
+#include "simulate_run.hpp"
 #include "study_summary.hpp"
 #include "terminal.hpp"
 
@@ -76,7 +78,7 @@ bool prepare(const StudyOptions& options, Prepared& prepared) {
   }
   prepared.study = std::move(loaded.study);
   confirm_number(count_rows(prepared.study), options.yes || options.dry_run);
-  prepared.plan = make_plan(prepared.study);
+  prepared.plan = make_plan(prepared.study, algorithms());
   print_problems(prepared.plan.problems);
   return prepared.plan.ok();
 }
@@ -250,7 +252,7 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
   study::Standing standing;
   {
     Journal journal(folder.journal(shard), prepared.study.name, std::string(version), std::string(git_id()));
-    const auto workers = processes.workers(simulate, threads);
+    const auto workers = processes.workers(simulate_run, threads);
     Progress progress(!options.quiet);
     standing = execute(prepared.plan, todo, *workers, journal, folder.runs(), progress_watch(progress));
   }
@@ -280,7 +282,7 @@ void keep_collected(const Prepared& prepared, const Gathered& all, const Folder&
 int study_command(const StudyOptions& options) {
   Processes processes;
   if (processes.rank() > 0) {
-    processes.serve(simulate, std::max(1, options.threads));
+    processes.serve(simulate_run, std::max(1, options.threads));
     return exit_done;
   }
   const auto shard = shard_of(options.shard);

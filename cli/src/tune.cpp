@@ -8,10 +8,11 @@
 #include <memory>
 #include <thread>
 
-#include "banyan/study/simulate.hpp"
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/study/tune.hpp"
 #include "commands.hpp"
 #include "outputs.hpp"
+#include "simulate_run.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -158,10 +159,10 @@ int tune_command(const TuneOptions& options) {
   study::Processes processes;
   const int threads = threads_of(options, processes);
   if (processes.rank() != 0) {
-    processes.serve(study::simulate, threads);
+    processes.serve(simulate_run, threads);
     return exit_done;
   }
-  const auto loaded = study::load_tune(options.file);
+  const auto loaded = study::load_tune(options.file, algorithms());
   print_problems(loaded.problems);
   if (!loaded.ok()) return exit_usage;
   const TunePlan& plan = loaded.plan;
@@ -174,7 +175,7 @@ int tune_command(const TuneOptions& options) {
   const auto lock = claim(directory, options.force);
   catch_stop_signals();
   Progress progress(!options.quiet);
-  const auto workers = processes.workers(study::simulate, threads);
+  const auto workers = processes.workers(simulate_run, threads);
   const auto result = search(plan, *workers, directory, progress);
   progress.clear();
   if (result.interrupted) {

@@ -2,6 +2,7 @@
 // `banyan validate`: everything that is wrong with some scenarios, without running them.
 #include <nlohmann/json.hpp>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "commands.hpp"
 #include "terminal.hpp"
 
@@ -47,7 +48,7 @@ int validate_command(const ValidateOptions& options) {
   std::vector<Problem> problems;
   std::string text;
   for (const auto& file : options.files) {
-    const auto loaded = load_configuration(file, options.overrides);
+    const auto loaded = load_configuration(file, algorithms(), options.overrides);
     all_ok = all_ok && loaded.ok();
     problems.insert(problems.end(), loaded.problems.begin(), loaded.problems.end());
     if (options.json) report.push_back(json_of(file, loaded));

@@ -14,6 +14,7 @@
 #include <optional>
 #include <thread>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/recording.hpp"
 #include "commands.hpp"
 #include "page_server.hpp"
@@ -96,7 +97,7 @@ std::optional<json> checked_start(const ViewOptions& options) {
     print_problems({error.problem});
     return std::nullopt;
   }
-  const auto loaded = parse_configuration(options.file, text, options.overrides);
+  const auto loaded = parse_configuration(options.file, text, algorithms(), options.overrides);
   print_problems(loaded.problems);
   if (!loaded.ok()) return std::nullopt;
   return scenario_start(options, std::move(text), loaded.configuration);

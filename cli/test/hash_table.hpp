@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 
 namespace banyan::cli {
@@ -61,7 +62,7 @@ inline void write_hashes(const char* path, const std::string& run_columns, const
 inline config::Loaded load_shared(const std::string& scenario, const std::vector<std::string>& overrides) {
   std::vector<config::Override> list;
   for (const std::string& text : overrides) list.push_back({text, "hashes"});
-  return config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + scenario + ".toml", list);
+  return config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + scenario + ".toml", algorithms(), list);
 }
 
 // Runs every row and compares. With BANYAN_RENEW_GOLDEN in the environment, it also writes what came out.

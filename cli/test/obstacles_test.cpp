@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "banyan/measure/observer.hpp"
 #include "banyan/world/obstacles.hpp"
@@ -14,7 +15,7 @@ namespace banyan::cli {
 namespace {
 
 world::Scenario load(const std::string& name, std::uint64_t seed) {
-  const auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + name + ".toml", {{"mission.algorithm=convoy", "test"}});
+  const auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + name + ".toml", algorithms(), {{"mission.algorithm=convoy", "test"}});
   EXPECT_TRUE(loaded.ok()) << name;
   world::Scenario scenario = loaded.configuration.scenario;
   scenario.seed = seed;

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "started_program.hpp"
 
@@ -242,7 +243,7 @@ TEST_F(Program, ValidateSpeaksJsonAndShowsWhatAScenarioStandsFor) {
   EXPECT_EQ(report[1]["config"]["swarm"]["robots"], 8);
 
   const auto shown = run({"validate", "small.toml", "--show", "toml", "--set", "radio.loss=0.5"});
-  const auto again = config::parse_configuration("shown.toml", shown.out);
+  const auto again = config::parse_configuration("shown.toml", shown.out, algorithms());
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(again.configuration.scenario.radio.loss, 0.5);
 }

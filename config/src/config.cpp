@@ -53,10 +53,10 @@ std::size_t Loaded::errors() const noexcept {
       std::count_if(problems.begin(), problems.end(), [](const Problem& p) { return !p.warning; }));
 }
 
-Loaded configure(Node root, const std::string& path, std::vector<Problem> problems) {
+Loaded configure(Node root, const std::string& path, const AlgorithmList& algorithms, std::vector<Problem> problems) {
   Loaded loaded{{}, std::move(problems)};
   root.place.line = 0;
-  ScenarioReader reader(loaded.problems);
+  ScenarioReader reader(loaded.problems, algorithms);
   loaded.configuration = reader.read(root);
   if (loaded.configuration.scenario.name.empty()) loaded.configuration.scenario.name = name_from(path, "scenario");
   add_semantic_problems(loaded.configuration, reader, loaded.problems);
@@ -75,19 +75,20 @@ Node parse_scenario(const std::string& path, std::string_view text) {
   return root;
 }
 
-Loaded parse_configuration(const std::string& path, std::string_view text, const std::vector<Override>& overrides) {
+Loaded parse_configuration(const std::string& path, std::string_view text, const AlgorithmList& algorithms,
+                           const std::vector<Override>& overrides) {
   try {
     Node root = parse_scenario(path, text);
     std::vector<Problem> problems;
     for (const auto& change : overrides)
       for (auto& problem : apply(root, change)) problems.push_back(std::move(problem));
-    return configure(std::move(root), path, std::move(problems));
+    return configure(std::move(root), path, algorithms, std::move(problems));
   } catch (const DocumentError& e) { return {{}, {e.problem}}; }
 }
 
-Loaded load_configuration(const std::string& path, const std::vector<Override>& overrides) {
+Loaded load_configuration(const std::string& path, const AlgorithmList& algorithms, const std::vector<Override>& overrides) {
   try {
-    return parse_configuration(path, read_text_file(path), overrides);
+    return parse_configuration(path, read_text_file(path), algorithms, overrides);
   } catch (const DocumentError& e) { return {{}, {e.problem}}; }
 }
 

@@ -42,7 +42,9 @@ std::string fallback_of(const world::Key<Owner>& key, std::span<const world::Key
   return std::visit(ValueText{}, get(key, owner));
 }
 
-template <class Owner> KeyRow row_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> keys) {
+// `owner` says what else the choices depend on.
+template <class Owner>
+KeyRow row_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> keys, const Owner& owner) {
   const auto with = applies_with(key, keys);
   KeyRow row;
   row.path = key.path;
@@ -52,7 +54,7 @@ template <class Owner> KeyRow row_of(const world::Key<Owner>& key, std::span<con
   for (const auto name : with) row.when += (row.when.empty() ? "" : " ") + std::string(name);
   row.fallback = fallback_of(key, keys, with);
   if (key.access.type == Type::name) {
-    for (const auto name : key.access.names()) {
+    for (const auto name : key.access.names(owner)) {
       row.allowed += (row.allowed.empty() ? "" : ", ") + std::string(name);
       row.choices.emplace_back(name);
     }
@@ -65,13 +67,13 @@ template <class Owner> KeyRow row_of(const world::Key<Owner>& key, std::span<con
 }
 
 template <class Owner>
-void add_rows(std::vector<KeyRow>& rows, std::string_view section, std::span<const world::Key<Owner>> keys) {
+void add_rows(std::vector<KeyRow>& rows, std::string_view section, std::span<const world::Key<Owner>> keys, const Owner& owner) {
   for (const auto& key : keys)
-    if (key.section() == section) rows.push_back(row_of(key, keys));
+    if (key.section() == section) rows.push_back(row_of(key, keys, owner));
 }
 
-void add_parameter_rows(std::vector<KeyRow>& rows) {
-  for (const auto& info : parameter_table()) {
+void add_parameter_rows(std::vector<KeyRow>& rows, const AlgorithmList& algorithms) {
+  for (const auto& info : algorithms.parameters()) {
     if (!platform_key(info.key).empty()) continue;
     KeyRow row;
     row.path = "mission.parameters." + std::string(info.key);
@@ -108,19 +110,21 @@ std::string meaning_of(const KeyRow& row, const std::string& section) {
 
 }  // namespace
 
-std::vector<KeyRow> key_rows() {
-  const Configuration standard;
+std::vector<KeyRow> key_rows(const AlgorithmList& algorithms) {
+  Configuration standard;
+  standard.scenario.algorithms = &algorithms;
   std::vector<KeyRow> rows;
   for (const auto& section : sections()) {
-    each_part(standard, [&](const auto& keys, const auto&) { add_rows(rows, section.path, keys); });
-    world::each_list(standard.scenario,
-                     [&](auto, const auto& keys, const auto&) { add_rows(rows, section.path, keys); });
-    if (section.path == "mission.parameters") add_parameter_rows(rows);
+    each_part(std::as_const(standard), [&](const auto& keys, const auto& owner) { add_rows(rows, section.path, keys, owner); });
+    world::each_list(standard.scenario, [&](auto, const auto& keys, const auto& list) {
+      add_rows(rows, section.path, keys, typename std::decay_t<decltype(list)>::value_type{});
+    });
+    if (section.path == "mission.parameters") add_parameter_rows(rows, algorithms);
   }
   return rows;
 }
 
-std::string key_reference_markdown() {
+std::string key_reference_markdown(const AlgorithmList& algorithms) {
   std::string text =
       "# The keys of a scenario\n\n"
       "Written by `banyan keys --markdown`; a test keeps it so. A scenario is TOML, or JSON with the same tree. Every "
@@ -130,7 +134,7 @@ std::string key_reference_markdown() {
       "from 0. On the command line `--set section.key=value` changes any of them, and `--set events[0].time_s=3` "
       "reaches "
       "into lists.\n";
-  const auto rows = key_rows();
+  const auto rows = key_rows(algorithms);
   for (const auto& section : sections()) {
     const std::string path(section.path);
     text += "\n## " + title_of(section) + "\n\n" + std::string(section.meaning) +

@@ -51,7 +51,7 @@ const Node* find_path(const Node& root, std::string_view path) {
 }
 
 // Every name that may stand in a file, as (section, name): what a misspelt one may have meant.
-std::vector<std::pair<std::string, std::string>> known_names() {
+std::vector<std::pair<std::string, std::string>> known_names(const AlgorithmList& algorithms) {
   std::vector<std::pair<std::string, std::string>> names;
   const auto add = [&](const auto& keys) {
     for (const auto& key : keys) names.emplace_back(key.section(), key.name());
@@ -66,7 +66,7 @@ std::vector<std::pair<std::string, std::string>> known_names() {
     const bool nested = dot != std::string_view::npos;
     names.emplace_back(nested ? section.path.substr(0, dot) : "", nested ? section.path.substr(dot + 1) : section.path);
   }
-  for (const auto& info : parameter_table())
+  for (const auto& info : algorithms.parameters())
     if (platform_key(info.key).empty()) names.emplace_back("mission.parameters", info.key);
   return names;
 }
@@ -97,6 +97,7 @@ bool ScenarioReader::faulty(const std::string& key) const {
 
 Configuration ScenarioReader::read(const Node& root) {
   Configuration configuration;
+  configuration.scenario.algorithms = &algorithms_;
   places_.emplace("", root.place);
   const Part part{root, "", ""};
   Choices choices;
@@ -163,7 +164,7 @@ void ScenarioReader::read_selectors(const Part& part, std::span<const Key<Owner>
     const auto name = within(part.section, key.path);
     Choice choice;
     if (const Node* given = find_path(part.node, name)) {
-      const Value value = read_value(*given, join(part.shown, name), key);
+      const Value value = read_value(*given, join(part.shown, name), key, owner);
       choice.known = value.index() != 0;
       choice.overridden = !given->place.from_file();
       if (choice.known) set(key, owner, value);
@@ -203,7 +204,7 @@ void ScenarioReader::read_key(const Part& part, const Node::Member& member, std:
     return;
   }
   const bool counts = applies && !excluded(part, node, *key, keys);
-  const Value value = read_value(node, join(part.shown, name), *key);
+  const Value value = read_value(node, join(part.shown, name), *key, owner);
   if (value.index() != 0 && counts) set(*key, owner, value);
 }
 
@@ -247,7 +248,7 @@ void ScenarioReader::require(const Part& part, std::span<const Key<Owner>> keys,
 }
 
 void ScenarioReader::report_unknown(const Place& place, const Part& part, const std::string& name) {
-  const auto known = known_names();
+  const auto known = known_names(algorithms_);
   std::vector<std::string_view> here, elsewhere;
   std::vector<std::string> elsewhere_paths;
   for (const auto& [section, key] : known) {
@@ -283,7 +284,7 @@ void ScenarioReader::report_unknown(const Place& place, const Part& part, const 
 
 void ScenarioReader::read_parameters(const Node& node, world::Mission& mission) {
   const Part part{node, "mission.parameters", "mission.parameters"};
-  const auto table = parameter_table();
+  const auto table = algorithms_.parameters();
   for (const auto& [name, child] : *node.table()) {
     const std::string shown = join(part.shown, name);
     places_.emplace(shown, child.place);
@@ -310,7 +311,7 @@ void ScenarioReader::read_parameters(const Node& node, world::Mission& mission) 
 // ---- Values ----
 
 template <class Owner>
-Value ScenarioReader::read_value(const Node& node, const std::string& path, const Key<Owner>& key) {
+Value ScenarioReader::read_value(const Node& node, const std::string& path, const Key<Owner>& key, const Owner& owner) {
   places_.emplace(path, node.place);
   switch (key.access.type) {
     case Type::truth:
@@ -322,7 +323,7 @@ Value ScenarioReader::read_value(const Node& node, const std::string& path, cons
     case Type::number:
       return read_number(node, path, key.range, key.unit);
     case Type::name:
-      return read_name(node, path, key.access.names());
+      return read_name(node, path, key.access.names(owner));
     case Type::point:
       return read_point(node, path, key.range, key.unit);
     case Type::points:

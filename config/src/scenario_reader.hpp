@@ -17,7 +17,7 @@ namespace banyan::config {
 
 class ScenarioReader {
  public:
-  explicit ScenarioReader(std::vector<Problem>& problems) : problems_(problems) {}
+  ScenarioReader(std::vector<Problem>& problems, const AlgorithmList& algorithms) : problems_(problems), algorithms_(algorithms) {}
 
   [[nodiscard]] Configuration read(const Node& root);
   // Where a key was written, or else the nearest section around it.
@@ -64,7 +64,7 @@ class ScenarioReader {
 
   // A value of the key's type and range; none, and a problem, if it is not.
   template <class Owner>
-  world::Value read_value(const Node& node, const std::string& path, const world::Key<Owner>& key);
+  world::Value read_value(const Node& node, const std::string& path, const world::Key<Owner>& key, const Owner& owner);
   world::Value read_number(const Node& node, const std::string& path, const Range& range, std::string_view unit);
   world::Value read_whole(const Node& node, const std::string& path, const Range& range, std::string_view unit);
   world::Value read_name(const Node& node, const std::string& path, world::Names names);
@@ -73,6 +73,7 @@ class ScenarioReader {
   world::Value read_numbers(const Node& node, const std::string& path, const Range& range, std::string_view unit);
 
   std::vector<Problem>& problems_;
+  const AlgorithmList& algorithms_;
   std::map<std::string, Place> places_;  // by key
   std::set<std::string> faulty_;         // keys
 };

@@ -414,23 +414,23 @@ TEST(Config, WrongOptionsAreNamedAsGiven) {
 TEST(Config, RunsTheResultOfAnEarlierRunAgain) {
   const auto first = parse(small, {"radio.loss=0.25"});
   const auto again = parse_configuration("run.json", R"({"format": "banyan.run", "result": {"name": "w"}, "config": )" +
-                                                         config_json(first.configuration, 2) + "}");
+                                                         config_json(first.configuration, 2) + "}", algorithms());
   ASSERT_TRUE(again.ok()) << all_problems(again);
   EXPECT_EQ(config_json(again.configuration), config_json(first.configuration));
 }
 
 RC_GTEST_PROP(ConfigProperty, NoTextWhateverIsTooMuch, ()) {
   const auto text = *rc::gen::container<std::string>(rc::gen::elementOf(std::string("[]{}=.,\"'#\n \\axt_0-9ne+:")));
-  (void)parse_configuration("w.toml", text);
-  (void)parse_configuration("w.json", text);
-  (void)parse_configuration("w.toml", small, {{text, "--set"}});
+  (void)parse_configuration("w.toml", text, algorithms());
+  (void)parse_configuration("w.json", text, algorithms());
+  (void)parse_configuration("w.toml", small, algorithms(), {{text, "--set"}});
 }
 
 TEST(Scenarios, AllAreValidWithoutAWarning) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(BANYAN_SCENARIOS)) {
     ++count;
-    const auto loaded = load_configuration(entry.path().string());
+    const auto loaded = load_configuration(entry.path().string(), algorithms());
     EXPECT_TRUE(loaded.problems.empty()) << all_problems(loaded);
     EXPECT_EQ(loaded.configuration.scenario.name, entry.path().stem().string());
     EXPECT_FALSE(loaded.configuration.scenario.description.empty());
@@ -441,7 +441,7 @@ TEST(Scenarios, AllAreValidWithoutAWarning) {
 TEST(Scenarios, AreTheWorldsTheyAreNamedAfter) {
   const auto robots = [](const std::string& name) {
     return world::robot_count(
-        load_configuration(std::string(BANYAN_SCENARIOS) + "/" + name + ".toml").configuration.scenario);
+        load_configuration(std::string(BANYAN_SCENARIOS) + "/" + name + ".toml", algorithms()).configuration.scenario);
   };
   EXPECT_EQ(robots("khepera-two-targets"), 9U);
   EXPECT_EQ(robots("khepera-three-targets"), 9U);
@@ -464,7 +464,7 @@ class Laid : public ::testing::Test {
 };
 
 TEST_F(Laid, ItsKeysWinOverTheScenarioAndTheRestStays) {
-  const auto loaded = parse_configuration("w.toml", small + "[radio]\nrange_m = 2.0\nloss = 0.1\n", {laid()});
+  const auto loaded = parse_configuration("w.toml", small + "[radio]\nrange_m = 2.0\nloss = 0.1\n", algorithms(), {laid()});
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
   EXPECT_EQ(loaded.configuration.scenario.radio.range_m, 3.0);
   EXPECT_EQ(loaded.configuration.scenario.radio.loss, 0.1);
@@ -475,29 +475,29 @@ TEST_F(Laid, ItsKeysWinOverTheScenarioAndTheRestStays) {
 
 TEST_F(Laid, TheLaterOptionWins) {
   const Override set{"radio.range_m=4", "--set"};
-  EXPECT_EQ(parse_configuration("w.toml", small, {laid(), set}).configuration.scenario.radio.range_m, 4.0);
-  EXPECT_EQ(parse_configuration("w.toml", small, {set, laid()}).configuration.scenario.radio.range_m, 3.0);
+  EXPECT_EQ(parse_configuration("w.toml", small, algorithms(), {laid(), set}).configuration.scenario.radio.range_m, 4.0);
+  EXPECT_EQ(parse_configuration("w.toml", small, algorithms(), {set, laid()}).configuration.scenario.radio.range_m, 3.0);
 }
 
 TEST_F(Laid, ItsFaultsNameItsLine) {
   std::ofstream(file_) << "\nradio.rnage_m = 3.0\n[radio.x]\n";
-  EXPECT_TRUE(says(parse_configuration("w.toml", small, {laid()}), file_.string() + ":2: error: radio.rnage_m: "));
+  EXPECT_TRUE(says(parse_configuration("w.toml", small, algorithms(), {laid()}), file_.string() + ":2: error: radio.rnage_m: "));
   std::ofstream(file_) << "x = = 1\n";
-  EXPECT_TRUE(says(parse_configuration("w.toml", small, {laid()}), file_.string() + ":1: error: this is not TOML"));
+  EXPECT_TRUE(says(parse_configuration("w.toml", small, algorithms(), {laid()}), file_.string() + ":1: error: this is not TOML"));
   const Override missing{"", "--with", file_.string() + "-none"};
-  EXPECT_TRUE(says(parse_configuration("w.toml", small, {missing}), "-none: error: there is no such file"));
+  EXPECT_TRUE(says(parse_configuration("w.toml", small, algorithms(), {missing}), "-none: error: there is no such file"));
 }
 
 TEST(Trees, OfAnEarlierRunAreItsConfiguration) {
   const auto loaded = parse(small);
   const auto document = R"({"format": "banyan.run", "config": )" + config_json(loaded.configuration) + "}";
-  const auto again = configure(parse_scenario("run.json", document), "run.json");
+  const auto again = configure(parse_scenario("run.json", document), "run.json", algorithms());
   ASSERT_TRUE(again.ok()) << all_problems(again);
   EXPECT_EQ(config_json(again.configuration), config_json(loaded.configuration));
 }
 
 TEST(Trees, KeepProblemsFoundBefore) {
-  const auto loaded = configure(parse_scenario("w.toml", small), "w.toml", {{{}, "key", "was wrong"}});
+  const auto loaded = configure(parse_scenario("w.toml", small), "w.toml", algorithms(), {{{}, "key", "was wrong"}});
   EXPECT_FALSE(loaded.ok());
   EXPECT_TRUE(says(loaded, "key: was wrong"));
 }

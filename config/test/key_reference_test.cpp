@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/keys.hpp"
 
 namespace banyan::config {
@@ -14,7 +15,7 @@ namespace {
 
 TEST(Config, EveryKeyIsInTheTableOnceAndExplained) {
   std::set<std::string> paths;
-  for (const auto& row : key_rows()) {
+  for (const auto& row : key_rows(algorithms())) {
     EXPECT_TRUE(paths.insert(row.path).second) << row.path;
     EXPECT_FALSE(row.meaning.empty()) << row.path;
     EXPECT_FALSE(row.type.empty()) << row.path;
@@ -26,7 +27,7 @@ TEST(Config, EveryKeyIsInTheTableOnceAndExplained) {
 
 TEST(Config, ARowSaysWithWhatTheKeyAppliesAndWhatHoldsWithoutIt) {
   std::map<std::string, KeyRow> rows;
-  for (const auto& row : key_rows()) rows[row.path] = row;
+  for (const auto& row : key_rows(algorithms())) rows[row.path] = row;
   EXPECT_EQ(rows["events.duration_s"].when, "freeze blackout");
   EXPECT_EQ(rows["events.duration_s"].selector, "events.kind");
   EXPECT_EQ(rows["events.duration_s"].fallback, "0");
@@ -42,7 +43,7 @@ TEST(Config, ARowSaysWithWhatTheKeyAppliesAndWhatHoldsWithoutIt) {
 TEST(Config, TheReferenceOfKeysIsUpToDate) {
   std::ifstream in(std::string(BANYAN_DOCS) + "/scenario-keys.md");
   const std::string page((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  EXPECT_EQ(page, key_reference_markdown()) << "renew it: banyan keys --markdown > docs/scenario-keys.md";
+  EXPECT_EQ(page, key_reference_markdown(algorithms())) << "renew it: banyan keys --markdown > docs/scenario-keys.md";
 }
 
 }  // namespace

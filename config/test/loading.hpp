@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 
 namespace banyan::config {
@@ -21,7 +22,7 @@ inline Loaded parse(const std::string& text, const std::vector<std::string>& set
   std::vector<Override> overrides;
   overrides.reserve(sets.size());
   for (const auto& s : sets) overrides.push_back({s, "--set " + s});
-  return parse_configuration("w.toml", text, overrides);
+  return parse_configuration("w.toml", text, algorithms(), overrides);
 }
 
 inline ::testing::AssertionResult says(const Loaded& loaded, const std::string& part) {

@@ -26,6 +26,13 @@ json* member(json& root, const std::string& path) {
   return at;
 }
 
+// With the algorithms that a scenario may name.
+template <class Owner> Owner blank() {
+  Owner owner{};
+  if constexpr (std::is_same_v<Owner, world::Scenario>) owner.algorithms = &algorithms();
+  return owner;
+}
+
 // A value within the range of the key, as its type is written.
 template <class Owner> rc::Gen<json> value_of(const world::Key<Owner>& key) {
   using world::Type;
@@ -54,8 +61,8 @@ template <class Owner> rc::Gen<json> value_of(const world::Key<Owner>& key) {
     case Type::numbers:
       return list(real);
     case Type::name:
-      return rc::gen::map(rc::gen::inRange<std::size_t>(0, key.access.names().size()),
-                          [names = key.access.names()](std::size_t i) { return json(names[i]); });
+      return rc::gen::map(rc::gen::inRange<std::size_t>(0, key.access.names(blank<Owner>()).size()),
+                          [names = key.access.names(blank<Owner>())](std::size_t i) { return json(names[i]); });
     case Type::text:
       break;
   }
@@ -101,7 +108,7 @@ json random_tree() {
                                                  : random_section(section, world::event_keys()));
       }
     } else if (path == "mission.parameters") {
-      for (const auto& info : parameter_table()) {
+      for (const auto& info : algorithms().parameters()) {
         if (!platform_key(info.key).empty() || *rc::gen::arbitrary<bool>()) continue;
         root["mission"]["parameters"][std::string(info.key)] =
             0.5 * (static_cast<double>(info.minimum) + static_cast<double>(info.maximum));
@@ -134,7 +141,7 @@ std::string complaints_about_keys(const Loaded& loaded) {
 RC_GTEST_PROP(ConfigProperty, EveryKeyComesBackFromTheDump, ()) {
   const json tree = random_tree();
 
-  const auto loaded = parse_configuration("w.json", tree.dump());
+  const auto loaded = parse_configuration("w.json", tree.dump(), algorithms());
   RC_ASSERT(complaints_about_keys(loaded) == "");
   const auto dump = json::parse(config_json(loaded.configuration));
 
@@ -156,10 +163,10 @@ RC_GTEST_PROP(ConfigProperty, EveryKeyComesBackFromTheDump, ()) {
 }
 
 RC_GTEST_PROP(ConfigProperty, TheDumpReadsBackAsTheSameScenarioToTheBit, ()) {
-  const auto loaded = parse_configuration("w.json", random_tree().dump());
+  const auto loaded = parse_configuration("w.json", random_tree().dump(), algorithms());
 
-  const auto from_json = parse_configuration("w.json", config_json(loaded.configuration));
-  const auto from_toml = parse_configuration("w.toml", config_toml(loaded.configuration));
+  const auto from_json = parse_configuration("w.json", config_json(loaded.configuration), algorithms());
+  const auto from_toml = parse_configuration("w.toml", config_toml(loaded.configuration), algorithms());
 
   RC_ASSERT(complaints_about_keys(from_json) == "");
   RC_ASSERT(complaints_about_keys(from_toml) == "");
@@ -306,7 +313,7 @@ TEST(Write, TheTextStaysAsItIs) {
   const auto loaded = parse(everything);
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
   EXPECT_EQ(config_json(loaded.configuration), as_written);
-  const auto again = parse_configuration("run.json", as_written);
+  const auto again = parse_configuration("run.json", as_written, algorithms());
   ASSERT_TRUE(again.ok()) << all_problems(again);
   EXPECT_EQ(config_json(again.configuration), as_written);
 }

@@ -16,6 +16,7 @@
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
 #include "banyan/measure/steiner.hpp"
+#include "plain_scenario.hpp"
 
 namespace banyan::measure {
 namespace {
@@ -26,7 +27,7 @@ using world::Vec2;
 using world::World;
 
 Scenario ring(std::size_t robots, std::size_t targets, double radius_m, std::uint64_t seed = 1) {
-  Scenario s;
+  Scenario s = world::plain_scenario();
   s.swarm.robots = robots;
   s.targets = world::RingTargets{targets, radius_m};
   s.seed = seed;
@@ -35,7 +36,7 @@ Scenario ring(std::size_t robots, std::size_t targets, double radius_m, std::uin
 
 // Robots in a row along x, all frozen; the last one is the worker of a target 3 m further on.
 Scenario chain(std::size_t robots, double pitch_m) {
-  Scenario s;
+  Scenario s = world::plain_scenario();
   s.swarm.start.layout = world::Layout::list;
   for (std::size_t i = 0; i < robots; ++i) {
     s.swarm.start.positions.push_back({static_cast<double>(i) * pitch_m, 0.0});

@@ -10,13 +10,14 @@
 #include "banyan/record/draw.hpp"
 #include "banyan/record/export.hpp"
 #include "banyan/world/world.hpp"
+#include "plain_scenario.hpp"
 #include "sample.hpp"
 
 namespace banyan::record {
 namespace {
 
 world::Scenario scenario(std::size_t robots, bool line_of_sight) {
-  world::Scenario s;
+  world::Scenario s = world::plain_scenario();
   s.name = "frame test";
   s.swarm.robots = robots;
   s.targets = world::RingTargets{3, 3.0, 0.0, {}};

@@ -14,6 +14,7 @@
 #include "banyan/measure/observer.hpp"
 #include "banyan/record/mcap.hpp"
 #include "banyan/world/world.hpp"
+#include "plain_scenario.hpp"
 #include "sample.hpp"
 #include "saying.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 using nlohmann::json;
 
 world::Scenario scenario() {
-  world::Scenario s;
+  world::Scenario s = world::plain_scenario();
   s.name = "messages";
   s.swarm.robots = 20;
   s.targets = world::RingTargets{3, 3.0, 0.0, {}};

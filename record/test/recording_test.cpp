@@ -14,6 +14,7 @@
 #include "banyan/record/export.hpp"
 #include "banyan/record/mcap.hpp"
 #include "banyan/world/world.hpp"
+#include "plain_scenario.hpp"
 #include "sample.hpp"
 
 namespace banyan::record {
@@ -96,7 +97,7 @@ TEST(Recording, ProvenanceSettingAndResultComeBack) {
 }
 
 TEST(Recording, ObstaclesAndSightAreThoseOfTheTime) {
-  world::Scenario scenario;
+  world::Scenario scenario = world::plain_scenario();
   scenario.obstacles = {world::Disc{{9.0, 9.0}, 0.5}};
   scenario.events = {{.time_s = 1.0, .action = world::MoveObstacle{0, {7.0, -7.0}}},
                      {.time_s = 2.0, .action = world::SetLineOfSight{true}}};

@@ -15,6 +15,7 @@
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/record/recording.hpp"
 #include "banyan/world/random.hpp"
+#include "plain_scenario.hpp"
 
 namespace banyan::record::test {
 
@@ -141,7 +142,7 @@ inline void record_sample(const std::string& path, std::size_t robots, std::uint
 
 // A world whose run is over in a moment.
 inline world::Scenario small_world() {
-  world::Scenario scenario;
+  world::Scenario scenario = world::plain_scenario();
   scenario.name = "small";
   scenario.swarm.robots = 6;
   scenario.targets = world::RingTargets{2, 0.9};

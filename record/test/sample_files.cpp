@@ -10,6 +10,7 @@
 #include "banyan/measure/observer.hpp"
 #include "banyan/record/export.hpp"
 #include "banyan/world/world.hpp"
+#include "plain_scenario.hpp"
 #include "sample.hpp"
 
 namespace {
@@ -25,7 +26,7 @@ void write_samples(const std::string& directory) {
   Recording recording(file("sample.mcap"));
   export_csv(recording, file("sample.csv"), Existing::replace);
 
-  banyan::world::Scenario scenario;
+  banyan::world::Scenario scenario = banyan::world::plain_scenario();
   scenario.swarm.robots = 12;
   banyan::world::World world(scenario);
   banyan::measure::Observer observer(world);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "banyan/record/file.hpp"
+#include "plain_scenario.hpp"
 
 namespace banyan::record {
 namespace {
@@ -36,7 +37,7 @@ class Noting final : public Sink {
 };
 
 void tell_a_run(Sinks& sinks) {
-  const world::World world{world::Scenario{}};
+  const world::World world{world::plain_scenario()};
   measure::Tick tick;
   sinks.start(world);
   for (tick.tick = 1; tick.tick <= 3; ++tick.tick) sinks.tick(world, tick);
@@ -79,7 +80,7 @@ TEST(Sinks, FailuresComeInTheirOrderAndNameTheFileOnce) {
 }
 
 TEST(Sinks, WhatHasFailedWantsNothing) {
-  const world::World world{world::Scenario{}};
+  const world::World world{world::plain_scenario()};
   Notes notes;
   Sinks sinks;
   EXPECT_FALSE(sinks.wants_fiedler(world));

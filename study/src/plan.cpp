@@ -31,7 +31,7 @@ std::string id_of(const config::Configuration& configuration) {
 
 class Planner {
  public:
-  explicit Planner(const Study& study) : study_(study) {}
+  Planner(const Study& study, const AlgorithmList& algorithms) : study_(study), algorithms_(algorithms) {}
 
   Plan plan() {
     for (std::size_t p = 0; p < study_.parts.size(); ++p) plan_part(p);
@@ -124,7 +124,7 @@ class Planner {
     for (std::size_t a = 0; a < values.size(); ++a) {
       for (const auto& c : part.axes[a].values[values[a]].changes) change(c);
     }
-    return config::configure(std::move(root), scenario, std::move(problems));
+    return config::configure(std::move(root), scenario, algorithms_, std::move(problems));
   }
 
   // Each file is read once.
@@ -187,6 +187,7 @@ class Planner {
   }
 
   const Study& study_;
+  const AlgorithmList& algorithms_;
   Plan plan_;
   std::map<std::string, Node> trees_;
   std::map<std::string, std::size_t, std::less<>> index_;  // id -> run
@@ -220,6 +221,6 @@ double count_rows(const Study& study) noexcept {
   return rows;
 }
 
-Plan make_plan(const Study& study) { return Planner(study).plan(); }
+Plan make_plan(const Study& study, const AlgorithmList& algorithms) { return Planner(study, algorithms).plan(); }
 
 }  // namespace banyan::study

@@ -54,8 +54,8 @@ Task decode_task(std::string_view bytes) {
   return {task.at("config").get<std::string>(), task.at("directory").get<std::string>()};
 }
 
-Outcome outcome_of(const Task& task) {
-  const auto loaded = config::parse_configuration("run.json", task.config_json);
+Outcome outcome_of(const Task& task, const AlgorithmList& algorithms) {
+  const auto loaded = config::parse_configuration("run.json", task.config_json, algorithms);
   if (!loaded.ok()) {
     for (const auto& problem : loaded.problems) {
       if (!problem.warning) return {"", one_line(problem.key + ": " + problem.text)};
@@ -86,11 +86,11 @@ Outcome decode_outcome(std::string_view bytes) {
   } catch (const json::exception&) { return {"", "a worker sent what is no outcome"}; }
 }
 
-std::string simulate(std::string_view task) {
+std::string simulate(std::string_view task, const AlgorithmList& algorithms) {
   const auto start = std::chrono::steady_clock::now();
   Outcome outcome;
   try {
-    outcome = outcome_of(decode_task(task));
+    outcome = outcome_of(decode_task(task), algorithms);
   } catch (const std::bad_alloc&) { outcome.error = "out of memory"; } catch (const std::exception& e) {
     outcome.error = one_line(e.what());
   }

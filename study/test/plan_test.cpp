@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "temporary_folder.hpp"
 
 namespace banyan::study {
@@ -33,7 +34,7 @@ class PlanTest : public TemporaryFolder {
     std::string problems;
     for (const auto& p : loaded.problems) problems += config::to_string(p) + "\n";
     EXPECT_TRUE(loaded.ok()) << problems;
-    return make_plan(loaded.study);
+    return make_plan(loaded.study, algorithms());
   }
   [[nodiscard]] Plan good(const std::string& text) const {
     auto plan = plan_of(text);
@@ -80,7 +81,7 @@ TEST_F(PlanTest, LaterChangesWin) {
   EXPECT_EQ(loss("set.radio.loss = 0.2\n[[parts]]\nname = \"p\"\nset = { radio.loss = 0.3 }\n"), 0.3);
   EXPECT_EQ(loss("set.radio.loss = 0.2\n" + axis("l", "radio.loss", "[0.4]")), 0.4);
   auto loaded = parse_study(path("s.toml"), plan_head + "set.radio.loss = 0.2\n", {{"radio.loss=0.6", "--set"}});
-  EXPECT_EQ(make_plan(loaded.study).combinations.at(0).scenario.radio.loss, 0.6);
+  EXPECT_EQ(make_plan(loaded.study, algorithms()).combinations.at(0).scenario.radio.loss, 0.6);
 }
 
 TEST_F(PlanTest, AScenarioAxisChoosesTheWorld) {
@@ -224,7 +225,7 @@ RC_GTEST_FIXTURE_PROP(PlanTest, HoldsEveryCombinationOnce, ()) {
   }
   const auto loaded = parse_study(path("s.toml"), text);
   RC_ASSERT(loaded.ok());
-  const auto plan = make_plan(loaded.study);
+  const auto plan = make_plan(loaded.study, algorithms());
   RC_ASSERT(plan.ok());
 
   // Counted by nested loops, the last axis and then the seed fastest.

@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/table.hpp"
 #include "banyan/study/statistics.hpp"
 #include "banyan/version.hpp"
@@ -80,7 +81,7 @@ class ReportTest : public TemporaryFolder {
             by);
     ASSERT_TRUE(loaded.ok()) << config::to_string(loaded.problems.front());
     study_ = std::move(loaded.study);
-    plan_ = make_plan(study_);
+    plan_ = make_plan(study_, algorithms());
     ASSERT_TRUE(plan_.ok()) << config::to_string(plan_.problems.front());
     outcomes_.clear();
     for (std::size_t i = 0; i < plan_.runs.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/table.hpp"
 #include "banyan/version.hpp"
 #include "temporary_folder.hpp"
@@ -43,7 +44,7 @@ class ResultsTest : public TemporaryFolder {
                          "values = [0, 0.1]\nlabels = [\"none, at all\", \"some\"]\n"
                          "[[parts]]\nname = \"q\"\n")
                  .study;
-    plan_ = make_plan(study_);
+    plan_ = make_plan(study_, algorithms());
     ASSERT_TRUE(plan_.ok());
     ASSERT_EQ(plan_.rows.size(), 12U);
     ASSERT_EQ(plan_.runs.size(), 8U);  // those of q are the ones without noise of p

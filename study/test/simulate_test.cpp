@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "banyan/measure/observer.hpp"
 #include "banyan/record/table.hpp"
@@ -19,13 +20,13 @@ namespace {
 config::Configuration small_world() {
   auto loaded = config::parse_configuration("small.toml",
                                             "seed = 3\n[mission]\ntime_limit_s = 5.0\n[swarm]\nrobots = 6\n"
-                                            "[targets]\ncount = 2\nradius_m = 0.9\n[output]\nrecord = false\n");
+                                            "[targets]\ncount = 2\nradius_m = 0.9\n[output]\nrecord = false\n", algorithms());
   EXPECT_TRUE(loaded.ok());
   return loaded.configuration;
 }
 
 Outcome outcome_of(const config::Configuration& configuration, const std::string& directory = "") {
-  return decode_outcome(simulate(encode(Task{config::config_json(configuration), directory})));
+  return decode_outcome(simulate(encode(Task{config::config_json(configuration), directory}), algorithms()));
 }
 
 class SimulateTest : public TemporaryFolder {};
@@ -54,12 +55,12 @@ TEST_F(SimulateTest, MalformedTasksAreFailedRuns) {
   for (const std::string& task :
        {std::string(), std::string("{}"), std::string("\xff\xff"), whole.substr(0, whole.size() / 2),
         encode(Task{"", ""}), encode(Task{"{\"radio\": {\"loss\": 2}}", ""}), encode(Task{"{\"no\": 1}", ""})}) {
-    const auto outcome = decode_outcome(simulate(task));
+    const auto outcome = decode_outcome(simulate(task, algorithms()));
     EXPECT_NE(outcome.error, "");
     EXPECT_EQ(outcome.error.find('\n'), std::string::npos);
     EXPECT_EQ(outcome.row, "");
   }
-  EXPECT_NE(decode_outcome(simulate(encode(Task{"{\"radio\": {\"loss\": 2}}", ""}))).error.find("radio.loss: "),
+  EXPECT_NE(decode_outcome(simulate(encode(Task{"{\"radio\": {\"loss\": 2}}", ""}), algorithms())).error.find("radio.loss: "),
             std::string::npos);
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "live.hpp"
 
 namespace {
@@ -83,13 +84,15 @@ val recording(const Live& live) {
     return val(emscripten::typed_memory_view(bytes.size(), data)).call<val>("slice");
   });
 }
+// The page has all algorithms.
+Live* make() { return new Live(banyan::algorithms()); }  // the page deletes it
 val columns() { return lines(Live::columns()); }
 
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(banyan_live) {
   emscripten::class_<Live>("Live")
-      .constructor<>()
+      .constructor(&make, emscripten::allow_raw_pointers())
       .function("load", &load)
       .function("loaded", &Live::loaded)
       .function("step", &step)

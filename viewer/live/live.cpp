@@ -138,7 +138,7 @@ struct Live::Run {
   std::optional<std::uint64_t> finished_at;  // tick
 };
 
-Live::Live() = default;
+Live::Live(const AlgorithmList& algorithms) : algorithms_(algorithms) {}
 Live::~Live() = default;
 
 Live::Run& Live::run() const {
@@ -152,7 +152,7 @@ std::vector<std::string> Live::load(const std::string& name, std::string_view te
   std::vector<config::Override> changes;
   changes.reserve(overrides.size());
   for (const std::string& change : overrides) changes.push_back({change, "--set " + change});
-  config::Loaded loaded = config::parse_configuration(name, text, changes);
+  config::Loaded loaded = config::parse_configuration(name, text, algorithms_, changes);
   std::vector<std::string> lines = in_words(loaded.problems);
   if (!loaded.ok()) return lines;
   try {
@@ -190,7 +190,7 @@ config::Loaded with_event(const config::Configuration& current, double now_s, co
   config::Node root = config::parse_document("intervention", config_json(current));
   if (root.find("events") == nullptr) root.table()->push_back({"events", config::Node{config::Node::Array{}, place}});
   root.find("events")->array()->push_back(std::move(event));
-  return configure(std::move(root), current.scenario.name);
+  return configure(std::move(root), current.scenario.name, *current.scenario.algorithms);
 }
 
 // "loss: is 3; allowed: 0 to 1" instead of "intervention:1: error: events[4].loss: is 3; ...".

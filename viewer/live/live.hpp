@@ -12,11 +12,16 @@
 #include <string_view>
 #include <vector>
 
+namespace banyan {
+class AlgorithmList;  // controller/core/algorithm.hpp
+}
+
 namespace banyan::viewer {
 
 class Live {
  public:
-  Live();
+  // What mission.algorithm chooses from; must outlive this.
+  explicit Live(const AlgorithmList& algorithms);
   ~Live();
   Live(const Live&) = delete;
   Live& operator=(const Live&) = delete;
@@ -81,6 +86,7 @@ class Live {
   struct Run;
   [[nodiscard]] Run& run() const;
 
+  const AlgorithmList& algorithms_;
   std::unique_ptr<Run> run_;
 };
 

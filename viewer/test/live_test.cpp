@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "banyan/record/json.hpp"
 #include "banyan/record/recording.hpp"
@@ -49,7 +50,7 @@ class LiveTest : public ::testing::Test {
   }
 
   using Lines = std::vector<std::string>;
-  Live live;
+  Live live{algorithms()};
 };
 
 // One line of columns in src/frame.ts, one table in record/.
@@ -67,7 +68,7 @@ TEST(Frame, ThePageNamesTheColumnsThatTheSimulationPacks) {
 
 TEST_F(LiveTest, ItsFrameIsTheWorld) {
   live.step(40);
-  world::World world(config::parse_configuration("rooms.toml", file("scenarios/rooms.toml")).configuration.scenario);
+  world::World world(config::parse_configuration("rooms.toml", file("scenarios/rooms.toml"), algorithms()).configuration.scenario);
   for (int t = 0; t < 40; ++t) world.step();
   EXPECT_EQ(live.hash(), hexadecimal(world.hash()));
   record::Frame frame;
@@ -92,7 +93,7 @@ TEST_F(LiveTest, ItsFrameIsTheWorld) {
 
 TEST_F(LiveTest, WhatAVisitorDidIsInTheSavedScenario) {
   play();
-  const auto saved = config::parse_configuration("saved.toml", live.scenario_toml());
+  const auto saved = config::parse_configuration("saved.toml", live.scenario_toml(), algorithms());
   ASSERT_TRUE(saved.ok());
   world::World world(saved.configuration.scenario);
   while (world.tick() < live.tick()) world.step();
@@ -105,7 +106,7 @@ TEST_F(LiveTest, WhatAVisitorDidIsInTheSavedScenario) {
 // 0.1 has no exact binary form: times of ticks must come back to the last bit, whatever the tick.
 TEST(Saved, TimesComeBackExactly) {
   for (const char* tick_s : {"tick_s=0.1", "tick_s=0.07", "tick_s=0.033333333333333333"}) {
-    Live live;
+    Live live(algorithms());
     static_cast<void>(live.load("a.toml", file("scenarios/three-targets.toml"), {tick_s}));  // warnings are fine
     ASSERT_TRUE(live.loaded());
     for (int k = 0; k < 60; ++k) {
@@ -113,7 +114,7 @@ TEST(Saved, TimesComeBackExactly) {
       ASSERT_TRUE(live.intervene(R"({"kind": "set_loss", "loss": 0.)" + std::to_string(k) + "}").empty());
     }
     live.step(1);
-    const auto saved = config::parse_configuration("saved.toml", live.scenario_toml());
+    const auto saved = config::parse_configuration("saved.toml", live.scenario_toml(), algorithms());
     ASSERT_TRUE(saved.ok());
     world::World world(saved.configuration.scenario);
     while (world.tick() < live.tick()) world.step();
@@ -205,7 +206,7 @@ TEST_F(LiveTest, TheSettingHasAnotherNumberWhenItChanges) {
 }
 
 TEST(Unloaded, SaysSo) {
-  Live live;
+  Live live(algorithms());
   EXPECT_FALSE(live.loaded());
   EXPECT_THROW(live.step(), std::logic_error);
   EXPECT_THROW(static_cast<void>(live.hash()), std::logic_error);

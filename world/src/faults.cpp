@@ -56,20 +56,20 @@ void check_keys(FaultList& list, const std::string& shown, std::span<const Key<O
     if (key.terms.only_in_files) continue;
     const std::string path = shown.empty() ? std::string(key.path) : shown + "." + std::string(key.name());
     const Value value = effective(key, keys, owner);
-    std::visit(CheckValue{list, path, key.range, key.unit, key.access.names()}, value);
+    std::visit(CheckValue{list, path, key.range, key.unit, key.access.names(owner)}, value);
     if (value.index() == 0 && key.access.optional && get(key, owner).index() != 0)
       list.fail(path, "give " + std::string(key.name()) + " or " + std::string(key.terms.not_beside) + ", not both");
   }
 }
 
-void check_parameter(FaultList& list, const std::string& name, double value) {
+void check_parameter(FaultList& list, const AlgorithmList& algorithms, const std::string& name, double value) {
   const std::string key = "mission.parameters." + name;
   if (const std::string_view owner = platform_key(name); !owner.empty()) {
     list.fail(key, "follows from the key " + std::string(owner) + ": set that instead");
     return;
   }
   std::vector<std::string_view> known;
-  for (const ParameterInfo& info : parameter_table()) {
+  for (const ParameterInfo& info : algorithms.parameters()) {
     if (info.key == name) {
       check_range(list, key, value, {widened(info.minimum), widened(info.maximum)}, info.unit);
       return;
@@ -106,7 +106,10 @@ void check_layout(FaultList& list, const SwarmModel& swarm) {
 
 void check_values(FaultList& list, const Scenario& scenario) {
   check_keys(list, "", scenario_keys(), scenario);
-  for (const auto& [name, value] : scenario.mission.parameters) check_parameter(list, name, value);
+  if (scenario.algorithms == nullptr)
+    list.fail("mission.algorithm", "the program has given no list of algorithms to choose from");
+  else
+    for (const auto& [name, value] : scenario.mission.parameters) check_parameter(list, *scenario.algorithms, name, value);
   check_layout(list, scenario.swarm);
   if (const auto* listed = std::get_if<std::vector<Vec2>>(&scenario.targets))
     list.check_length("targets.positions_m", listed->size(), most("targets.count"));
@@ -142,7 +145,7 @@ void check_platform(FaultList& list, const Scenario& scenario) {
     list.fail("mission.time_limit_s", "must be given when no target is away from swarm.start.center_m");
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     check_obstacle_body(list, scenario, element("obstacles", i) + ".size_m", scenario.obstacles[i]);
-  if (const std::string text = find_algorithm(scenario.mission.algorithm)->fault(setup_of(scenario)); !text.empty())
+  if (const std::string text = algorithm_of(scenario).fault(setup_of(scenario)); !text.empty())
     list.fail("mission.parameters", text);
 }
 

@@ -106,6 +106,8 @@ double time_limit_s(const Scenario& scenario) {
   return 10.0 * farthest / scenario.robot.wheel_limit_m_s;
 }
 
+const Algorithm& algorithm_of(const Scenario& scenario) { return *scenario.algorithms->find(scenario.mission.algorithm); }
+
 Setup setup_of(const Scenario& scenario) {
   Setup setup;
   setup.reading = scenario.mission.reading;

@@ -61,15 +61,8 @@ template <> struct Parts<Event> {
 
 namespace {
 
-Names algorithm_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> list;
-    for (const Algorithm* algorithm : algorithms()) list.push_back(algorithm->name());
-    return list;
-  }();
-  return names;
-}
-Names reading_names() {
+Names algorithm_names(const Scenario& s) noexcept { return s.algorithms == nullptr ? Names() : s.algorithms->names(); }
+Names reading_names(const Scenario&) noexcept {
   static constexpr std::string_view names[] = {"corrected", "literal"};
   return names;
 }
@@ -125,14 +118,13 @@ constexpr Section section_list[] = {
      "kind", true},
 };
 
-// A row: key, member, unit, range, meaning, and what else is to be said. Keys whose parameter is named
-// have the parameter's range.
+// A row: key, member, unit, range, meaning, and what else is to be said.
 // clang-format off
 constexpr Key<Scenario> scenario_rows[] = {
     {"name", of<&Scenario::name>, "", any_value,
      "names the run and its output directory; letters, digits, '-', '_' and '.'", {.otherwise = "the file's name"}},
     {"description", of<&Scenario::description>, "", any_value, "what this world is about, for readers"},
-    {"tick_s", of<&Scenario::tick_s>, "s", any_value,
+    {"tick_s", of<&Scenario::tick_s>, "s", {0.01, 1.0},
      "length of a tick; robots broadcast, decide and move once a tick", {.parameter = "tick_s"}},
     {"seed", of<&Scenario::seed>, "", any_seed, "decides everything random; the same seed gives the same run",
      {.only_in_files = true}},
@@ -182,9 +174,9 @@ constexpr Key<Scenario> scenario_rows[] = {
      "disks: wheels and contacts, fast; box2d: with mass and force limits; linear: the paper's point masses, "
      "holonomic"},
     {"robot.radius_m", of<&RobotModel::radius_m>, "m", {0.0, 100.0, true}, "radius of the body"},
-    {"robot.wheel_distance_m", of<&RobotModel::wheel_distance_m>, "m", any_value,
+    {"robot.wheel_distance_m", of<&RobotModel::wheel_distance_m>, "m", {0.01, 2.0},
      "distance between the wheels", {.parameter = "wheel_distance_m"}},
-    {"robot.wheel_limit_m_s", of<&RobotModel::wheel_limit_m_s>, "m/s", any_value,
+    {"robot.wheel_limit_m_s", of<&RobotModel::wheel_limit_m_s>, "m/s", {0.001, 10.0},
      "largest speed of a wheel", {.parameter = "wheel_limit_m_s"}},
     {"robot.wheel_noise", of<&RobotModel::wheel_noise>, "", any_share,
      "sigma of the factor on each wheel's speed, drawn every tick"},
@@ -204,7 +196,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"robot.proximity_m", of<&RobotModel::proximity_m>, "m", {0.0, 100.0},
      "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none"},
 
-    {"radio.range_m", of<&RadioModel::range_m>, "m", any_value,
+    {"radio.range_m", of<&RadioModel::range_m>, "m", {0.05, 100.0},
      "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
      "robots and obstacles in between block a packet"},
@@ -285,16 +277,7 @@ std::span<const Section> scenario_sections() noexcept { return section_list; }
 std::span<const Key<Obstacle>> obstacle_keys() noexcept { return obstacle_rows; }
 std::span<const Key<Event>> event_keys() noexcept { return event_rows; }
 
-std::span<const Key<Scenario>> scenario_keys() noexcept {
-  static const auto keys = [] {
-    auto rows = std::to_array(scenario_rows);
-    for (Key<Scenario>& key : rows)
-      for (const ParameterInfo& info : parameter_table())
-        if (info.key == key.terms.parameter) key.range = {widened(info.minimum), widened(info.maximum)};
-    return rows;
-  }();
-  return keys;
-}
+std::span<const Key<Scenario>> scenario_keys() noexcept { return scenario_rows; }
 
 std::string_view platform_key(std::string_view parameter) noexcept {
   for (const Key<Scenario>& key : scenario_rows)

@@ -36,18 +36,21 @@ void refuse(const std::vector<Fault>& faults) {
   if (!text.empty()) throw std::invalid_argument(text);
 }
 
-// faults() judges the parameters of the algorithm that the scenario names, not those of one of your own.
-Scenario checked(Scenario scenario, const Algorithm* own) {
-  if (own == nullptr) {
-    refuse(faults(scenario));
-    return scenario;
-  }
-  std::vector<Fault> found = faults(scenario);
-  std::erase_if(found, [](const Fault& fault) { return fault.key == "mission.algorithm" || fault.key == "mission.parameters"; });
-  refuse(found);
-  if (const std::string text = own->fault(setup_of(scenario)); !text.empty())
-    throw std::invalid_argument(std::string(own->name()) + ": " + text);
-  scenario.mission.algorithm = own->name();
+Scenario checked(const Scenario& scenario) {
+  refuse(faults(scenario));
+  return scenario;
+}
+
+// With an algorithm of one's own: parameters are its business, and keys that it does not know are ignored.
+Scenario checked(Scenario scenario, const Algorithm& own) {
+  const AlgorithmList only{&own};
+  scenario.mission.algorithm = own.name();
+  Scenario without_parameters = scenario;
+  without_parameters.algorithms = &only;
+  without_parameters.mission.parameters.clear();
+  refuse(faults(without_parameters));
+  if (const std::string text = own.fault(setup_of(scenario)); !text.empty())
+    throw std::invalid_argument(std::string(own.name()) + ": " + text);
   return scenario;
 }
 
@@ -260,10 +263,10 @@ banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noe
 // ---- The view from outside ----
 
 World::World(const Scenario& scenario) {
-  const Scenario sound = checked(scenario, nullptr);  // before anybody asks for its algorithm
-  impl_ = std::make_unique<Impl>(sound, *find_algorithm(sound.mission.algorithm));
+  const Scenario sound = checked(scenario);  // before anybody asks for its algorithm
+  impl_ = std::make_unique<Impl>(sound, algorithm_of(sound));
 }
-World::World(const Scenario& scenario, const Algorithm& algorithm) : impl_(std::make_unique<Impl>(checked(scenario, &algorithm), algorithm)) {}
+World::World(const Scenario& scenario, const Algorithm& algorithm) : impl_(std::make_unique<Impl>(checked(scenario, algorithm), algorithm)) {}
 World::World(const World& o) : impl_(std::make_unique<Impl>(*o.impl_)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(const World& o) {

@@ -12,7 +12,7 @@ namespace banyan::world {
 namespace {
 
 struct Floor {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   Poses poses;
   std::vector<Velocity> command;
   std::vector<Odometry> odometry;
@@ -75,7 +75,7 @@ TEST(Disks, CannotMoveSideways) {
 
 // Each wheel's factor is normal with the given sigma: the forward speed, their mean, has sigma / sqrt 2.
 TEST(Disks, WheelNoiseHasItsSigma) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.robot.wheel_noise = 0.1;
   Floor floor(s, one());
   double sum = 0, squares = 0, turns = 0;
@@ -94,7 +94,7 @@ TEST(Disks, WheelNoiseHasItsSigma) {
 }
 
 TEST(Disks, WheelBiasStaysTheSameThroughARun) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.robot.wheel_bias = 0.1;
   Floor floor(s, {{{0, 0}, {5, 0}}, {{1, 0}, {1, 0}}});
   floor.command = {{0.1F, 0, 0}, {0.1F, 0, 0}};
@@ -109,7 +109,7 @@ TEST(Disks, WheelBiasStaysTheSameThroughARun) {
 }
 
 TEST(Disks, OdometryNoiseChangesWhatIsMeasuredAndNotTheMotion) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.robot.odometry_noise = 0.2;
   Floor floor(s, one());
   floor.command[0] = {0.1F, 0, 0};
@@ -142,7 +142,7 @@ TEST(Disks, RobotsOnTheSameSpotComeApart) {
 }
 
 TEST(Disks, ObstaclesAreNotEntered) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.obstacles = {Disc{{1, 0}, 0.3}, Box{{-1, 0}, {0.4, 0.4}, 0.4}, Wall{{0, 1}, {2, 1.5}}};
   Floor floor(s, one());
   for (int t = 0; t < 4000; ++t) {

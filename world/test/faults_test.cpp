@@ -10,6 +10,7 @@
 
 #include "banyan/controller/core/algorithm.hpp"
 #include "banyan/world/schema.hpp"
+#include "plain_scenario.hpp"
 
 namespace banyan::world {
 namespace {
@@ -200,7 +201,7 @@ const std::vector<Case>& cases() {
 }
 
 TEST(Faults, TheDefaultsAndTheirVariationsHaveNone) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   EXPECT_EQ(shown(faults(scenario)), "");
   for (const Algorithm* algorithm : algorithms())
     for (const char* reading : {"corrected", "literal"}) {
@@ -216,14 +217,14 @@ TEST(Faults, TheDefaultsAndTheirVariationsHaveNone) {
 }
 
 TEST(Faults, AProgramMayHaveASeedThatNoFileCanHold) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.seed = std::numeric_limits<std::uint64_t>::max();
   EXPECT_EQ(shown(faults(scenario)), "");
 }
 
 TEST(Faults, EachIsFoundOnceWhereItIs) {
   for (const Case& c : cases()) {
-    Scenario scenario;
+    Scenario scenario = plain_scenario();
     c.change(scenario);
     const std::vector<Fault> found = faults(scenario);
     int hits = 0;
@@ -246,7 +247,7 @@ bool is_known(std::string key) {
 
 TEST(Faults, NameKeysAsUsersWriteThem) {
   for (const Case& c : cases()) {
-    Scenario scenario;
+    Scenario scenario = plain_scenario();
     c.change(scenario);
     for (const Fault& f : faults(scenario)) EXPECT_TRUE(is_known(f.key)) << f.key << ": " << f.text;
   }
@@ -254,7 +255,7 @@ TEST(Faults, NameKeysAsUsersWriteThem) {
 }
 
 TEST(Faults, AllWrongNumbersAreReportedAtOnce) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.tick_s = nan;
   scenario.radio.loss = 2.0;
   scenario.mission.algorithm = "sideways";
@@ -268,7 +269,7 @@ bool possible(const Scenario& s) {
 }
 
 TEST(Faults, WhoeverServedATargetThatIsGivenUpIsFreeForAnother) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.swarm.robots = 4;  // three workers and the root
   s.events = {event(RemoveTarget{0}, 1.0), event(AddTarget{}, 2.0)};
   EXPECT_TRUE(possible(s));
@@ -277,7 +278,7 @@ TEST(Faults, WhoeverServedATargetThatIsGivenUpIsFreeForAnother) {
 }
 
 TEST(Faults, ATargetThatIsAddedAtSomeMomentMayBeNamed) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.swarm.robots = 9;
   s.events = {{0.0, Event::When::half_way, AddTarget{}}, event(MoveTarget{3})};
   EXPECT_TRUE(possible(s));

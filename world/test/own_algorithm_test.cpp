@@ -24,10 +24,28 @@ std::uint64_t hash_after_100_ticks(World world) {
 }
 
 TEST(OwnAlgorithm, ARegisteredOneByReferenceIsTheSameAsByName) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.mission.algorithm = "inwards";
   EXPECT_EQ(hash_after_100_ticks(World(scenario)), hash_after_100_ticks(World(Scenario{}, inwards())));
-  EXPECT_NE(hash_after_100_ticks(World(scenario)), hash_after_100_ticks(World(Scenario{})));
+  EXPECT_NE(hash_after_100_ticks(World(scenario)), hash_after_100_ticks(World(plain_scenario())));
+}
+
+TEST(OwnAlgorithm, ItsListIsWhatAScenarioChoosesFrom) {
+  const AlgorithmList list{&outwards(), &mine};
+  Scenario scenario;
+  scenario.algorithms = &list;
+  scenario.mission.algorithm = "mine";
+  EXPECT_EQ(hash_after_100_ticks(World(scenario)), hash_after_100_ticks(World(Scenario{}, mine)));
+  scenario.mission.algorithm = "inwards";  // one of Banyan's, but not of this program
+  EXPECT_THROW(World{scenario}, std::invalid_argument);
+  EXPECT_THROW(World{Scenario{}}, std::invalid_argument) << "nothing to choose from";
+}
+
+TEST(OwnAlgorithm, TheRestOfItsScenarioIsCheckedToo) {
+  Scenario scenario;
+  scenario.targets = std::vector<Vec2>{{1, 0}};
+  scenario.obstacles = {Disc{{1, 0}, 0.5}};
+  EXPECT_THROW(World(scenario, mine), std::invalid_argument) << "a target in an obstacle";
 }
 
 TEST(OwnAlgorithm, DecidesWithItsOwnParameters) {

@@ -62,7 +62,7 @@ TEST(Surface, NearestPointIsThatOfTheOutlineFromInsideAndOutside) {
 }
 
 TEST(ProximitySensor, SeesTheNearestEightWithinReachInOrder) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.robot.proximity_m = 0.5;
   for (std::uint64_t k = 0; k < 60; ++k)
     s.obstacles.push_back(Disc{{draw(2, 2 * k, -1, 1), draw(2, 2 * k + 1, -1, 1)}, 0.05});
@@ -98,7 +98,7 @@ TEST(ProximitySensor, SeesTheNearestEightWithinReachInOrder) {
 }
 
 TEST(ProximitySensor, VectorsAreInTheBodyFrameAndReachIsFromTheCentre) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.obstacles = {Wall{{-5.0, 0.25}, {5.0, 0.25}}, Wall{{0.35, -5.0}, {0.35, 5.0}}};
   Poses poses{{{0.0, 0.0}}, {unit_vector(pi<double> / 2)}};
   Proximity::Seen seen;
@@ -112,7 +112,7 @@ TEST(ProximitySensor, VectorsAreInTheBodyFrameAndReachIsFromTheCentre) {
 // ---- Bodies of the dead ----
 
 Scenario row(bool dead_bodies, BodyModel body) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.swarm.start.layout = Layout::list;
   s.swarm.start.positions = {{0, 0}, {0.4, 0}, {0.8, 0}};
   s.swarm.start.headings_rad = {0, 0, 0};

@@ -8,12 +8,13 @@
 
 #include "banyan/controller/core/algorithm.hpp"
 #include "banyan/world/obstacles.hpp"
+#include "plain_scenario.hpp"
 
 namespace banyan::world {
 namespace {
 
 TEST(Scenario, RedundancyGivesThePapersNinetyFour) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.swarm.redundancy = 4;
   scenario.targets = RingTargets{4, 9.0, 0.7, {}};
   EXPECT_EQ(robot_count(scenario), 94U);  // protocol 2, row 10
@@ -31,7 +32,7 @@ TEST(Scenario, RedundancyGivesThePapersNinetyFour) {
 }
 
 TEST(Scenario, RingTargetsStandAtEqualAngles) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   std::get<RingTargets>(scenario.targets) = {5, 6.0, 0.25, {1, 2}};
   const std::vector<Vec2> ring = target_positions(scenario);
   ASSERT_EQ(ring.size(), 5U);
@@ -42,7 +43,7 @@ TEST(Scenario, RingTargetsStandAtEqualAngles) {
 }
 
 TEST(Scenario, RandomTargetsFillAnAnnulusEvenly) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.targets = RandomTargets{2000, 9.0, {1, 2}};
   const std::vector<Vec2> random = target_positions(scenario);
   EXPECT_EQ(random, target_positions(scenario));
@@ -59,7 +60,7 @@ TEST(Scenario, RandomTargetsFillAnAnnulusEvenly) {
 }
 
 TEST(Scenario, RandomTargetsKeepClearOfObstacles) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.targets = RandomTargets{500, 9.0, {}};
   scenario.obstacles = {Box{{6, 0}, {12, 30}, 0.0}, Disc{{-5, 0}, 2}};  // the box takes all of x > 0
   for (const Vec2 p : target_positions(scenario))
@@ -67,7 +68,7 @@ TEST(Scenario, RandomTargetsKeepClearOfObstacles) {
 }
 
 TEST(Scenario, TimeLimitIsTenTimesTheDriveToTheFarthestTarget) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.targets = std::vector<Vec2>{{3, 4}, {1, 0}};
   EXPECT_DOUBLE_EQ(time_limit_s(scenario), 250.0);
   scenario.mission.time_limit_s = 77;
@@ -75,7 +76,7 @@ TEST(Scenario, TimeLimitIsTenTimesTheDriveToTheFarthestTarget) {
 }
 
 TEST(Scenario, AlgorithmsAreSetUpFromMissionAndPlatform) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.mission.algorithm = "inwards";
   scenario.mission.reading = "literal";
   scenario.mission.scale = 0.5;
@@ -102,9 +103,9 @@ TEST(Scenario, AlgorithmsAreSetUpFromMissionAndPlatform) {
 }
 
 TEST(Scenario, TheAlgorithmsValuesAreItsTableScaledAndThenTheScenariosOwn) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.mission.algorithm = "inwards";
-  const Algorithm& inwards = *find_algorithm("inwards");
+  const Algorithm& inwards = algorithm_of(scenario);
   const auto value = [&](std::string_view key) {
     const auto rows = inwards.parameters();
     const auto values = inwards.values(setup_of(scenario));

@@ -12,6 +12,7 @@
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"
+#include "plain_scenario.hpp"
 
 namespace banyan::world {
 
@@ -23,7 +24,7 @@ inline bool long_search() {
 
 // The paper's conditions (Sec. IV-B): a compact cluster of robots, targets on a ring.
 inline Scenario ring(const std::string& algorithm, std::size_t robots, std::size_t targets, double radius_m, std::uint64_t seed) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.mission.algorithm = algorithm;
   s.swarm.robots = robots;
   s.targets = RingTargets{targets, radius_m};

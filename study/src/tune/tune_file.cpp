@@ -32,8 +32,8 @@ bool sound(const std::vector<Problem>& problems) {
 
 class Reader {
  public:
-  Reader(const Node& root, const std::string& path, std::vector<Problem>& problems)
-      : path_(path), problems_(problems), top_(root, "", problems) {}
+  Reader(const Node& root, const std::string& path, const AlgorithmList& algorithms, std::vector<Problem>& problems)
+      : path_(path), algorithms_(algorithms), problems_(problems), top_(root, "", problems) {}
 
   TunePlan read() {
     plan_.name = top_.text("name", config::name_from(path_, "tuning"));
@@ -81,7 +81,7 @@ class Reader {
   // The parameter of a key of [bounds] or [initial]; null, and a problem, if there is none to search.
   const ParameterInfo* searchable(const Place& place, const std::string& section, const std::string& name) {
     std::vector<std::string_view> known;
-    for (const auto& info : parameter_table()) {
+    for (const auto& info : algorithms_.parameters()) {
       const auto owner = config::platform_key(info.key);
       if (info.key == name && owner.empty()) return &info;
       if (info.key == name) {
@@ -215,7 +215,7 @@ class Reader {
       for (const auto& [key, value] : changes) {
         for (auto& fault : config::assign(scenario, key, value)) faults.push_back(std::move(fault));
       }
-      auto loaded = config::configure(std::move(scenario), where, std::move(faults));
+      auto loaded = config::configure(std::move(scenario), where, algorithms_, std::move(faults));
       if (loaded.ok()) check_random_targets(loaded, table);
       for (auto& problem : loaded.problems) add_once(std::move(problem));
       plan_.worlds.push_back(std::move(loaded.configuration));
@@ -276,7 +276,7 @@ class Reader {
     if (!sound(problems_)) return;
     for (const auto& world : plan_.worlds) {
       const auto scenario = with_parameters(world.scenario, plan_.bounds, point);
-      const auto why = find_algorithm(scenario.mission.algorithm)->fault(world::setup_of(scenario));
+      const auto why = world::algorithm_of(scenario).fault(world::setup_of(scenario));
       if (!why.empty()) return table.report("", "cannot be run: " + why);
     }
     plan_.initial = point;
@@ -301,6 +301,7 @@ class Reader {
   }
 
   const std::string& path_;
+  const AlgorithmList& algorithms_;
   std::vector<Problem>& problems_;
   TableReader top_;
   std::set<std::string> told_;
@@ -312,12 +313,12 @@ class Reader {
 
 bool LoadedTune::ok() const noexcept { return sound(problems); }
 
-LoadedTune parse_tune(const std::string& path, std::string_view text) {
+LoadedTune parse_tune(const std::string& path, std::string_view text, const AlgorithmList& algorithms) {
   LoadedTune loaded;
   try {
     Node root = config::parse_document(path, text);
     root.place.line = 0;
-    Reader reader(root, path, loaded.problems);
+    Reader reader(root, path, algorithms, loaded.problems);
     loaded.plan = reader.read();
     // What is in the scenarios comes after.
     const auto rank = [&](const Problem& p) {
@@ -329,9 +330,9 @@ LoadedTune parse_tune(const std::string& path, std::string_view text) {
   return loaded;
 }
 
-LoadedTune load_tune(const std::string& path) {
+LoadedTune load_tune(const std::string& path, const AlgorithmList& algorithms) {
   try {
-    return parse_tune(path, config::read_text_file(path));
+    return parse_tune(path, config::read_text_file(path), algorithms);
   } catch (const config::DocumentError& e) {
     LoadedTune loaded;
     loaded.problems.push_back(e.problem);

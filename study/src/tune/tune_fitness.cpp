@@ -94,7 +94,7 @@ double infeasibility(const TunePlan& plan, std::span<const double> point) {
   double worst = 0.0;
   for (const auto& world : plan.worlds) {
     const auto scenario = with_parameters(world.scenario, plan.bounds, point);
-    const Algorithm& algorithm = *find_algorithm(scenario.mission.algorithm);
+    const Algorithm& algorithm = world::algorithm_of(scenario);
     const Setup setup = world::setup_of(scenario);
     if (algorithm.fault(setup).empty()) continue;
     const auto distance = disorder(algorithm, setup);

@@ -38,7 +38,7 @@ world::Scenario with_parameters(world::Scenario scenario, const std::vector<Tune
 
 std::vector<double> untuned_point(const TunePlan& plan) {
   const world::Scenario& scenario = plan.worlds.front().scenario;
-  const Algorithm& algorithm = *find_algorithm(scenario.mission.algorithm);
+  const Algorithm& algorithm = world::algorithm_of(scenario);
   const auto rows = algorithm.parameters();
   const auto values = algorithm.values(world::setup_of(scenario));
   std::vector<double> point;

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "../temporary_folder.hpp"
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/file.hpp"
 #include "banyan/record/table.hpp"
 #include "banyan/study/simulate.hpp"
@@ -144,7 +145,7 @@ class Tune : public ::testing::Test {
     return worlds + "[seeds]\n" + seeds + "[optimizer]\n" + optimizer + "[bounds]\n" + bounds + rest;
   }
   [[nodiscard]] LoadedTune load(const std::string& text) const {
-    return parse_tune((home_ / "tune.toml").string(), text);
+    return parse_tune((home_ / "tune.toml").string(), text, algorithms());
   }
   [[nodiscard]] TunePlan plan(const std::string& text) const {
     auto loaded = load(text);
@@ -198,7 +199,7 @@ TEST_F(Tune, ReadsJsonToTheSamePlan) {
   const auto loaded =
       parse_tune((home_ / "tune.json").string(),
                  R"({"worlds": [{"scenario": "world.toml"}], "seeds": {"training": "1-2", "test": [11, 12, 13]},
-                                     "optimizer": {"generations": 3}, "bounds": {"target_gain": [0.1, 1.1]}})");
+                                     "optimizer": {"generations": 3}, "bounds": {"target_gain": [0.1, 1.1]}})", algorithms());
   ASSERT_TRUE(loaded.ok());
   EXPECT_EQ(tune_json(loaded.plan), tune_json(toml));
   EXPECT_EQ(tune_digest(loaded.plan), tune_digest(toml));
@@ -290,7 +291,7 @@ TEST_F(Tune, TellsAllFaultsAtOnceInTheOrderOfTheFile) {
 }
 
 TEST_F(Tune, AMissingFileIsAProblem) {
-  const auto loaded = load_tune((home_ / "none.toml").string());
+  const auto loaded = load_tune((home_ / "none.toml").string(), algorithms());
   ASSERT_EQ(loaded.problems.size(), 1U);
   EXPECT_TRUE(has(config::to_string(loaded.problems[0]), "none.toml"));
 }
@@ -413,11 +414,13 @@ TEST_P(TuneSearch, InterruptedAgainAndAgainEndsWithTheSameFiles) {
   EXPECT_EQ(outcome_of(bits), outcome_of(whole));
 }
 
+std::string really(std::string_view task) { return simulate(task, algorithms()); }
+
 TEST_P(TuneSearch, AnyNumberOfThreadsGivesTheSame) {
   const auto p = plan(file(optimizer(GetParam(), 2)));
   const auto one = folder("one"), three = folder("three");
-  run_through(p, one, simulate, 1);  // real runs
-  run_through(p, three, simulate, 3);
+  run_through(p, one, really, 1);  // real runs
+  run_through(p, three, really, 3);
   EXPECT_EQ(outcome_of(one), outcome_of(three));
 }
 
@@ -500,7 +503,7 @@ TEST_F(Tune, BestTomlIsAFragmentOfAScenario) {
   const auto workers = thread_workers(bowl, 2);
   const auto result = tune(p, *workers, directory);
   const auto loaded = config::parse_configuration("with-best.toml",
-                                                  contents(home_ / "world.toml") + contents(directory + "/best.toml"));
+                                                  contents(home_ / "world.toml") + contents(directory + "/best.toml"), algorithms());
   ASSERT_TRUE(loaded.ok());
   const auto& parameters = loaded.configuration.scenario.mission.parameters;
   ASSERT_EQ(parameters.size(), 2U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The algorithms that come with Banyan. Static lifetime. All of them, by name: core/algorithm.hpp.
+// The algorithms that come with Banyan, one by one and as a list. Static lifetime.
 #pragma once
 
 #include "banyan/controller/core/algorithm.hpp"
@@ -9,5 +9,6 @@ namespace banyan {
 [[nodiscard]] const Algorithm& outwards() noexcept;
 [[nodiscard]] const Algorithm& inwards() noexcept;
 [[nodiscard]] const Algorithm& convoy() noexcept;
+[[nodiscard]] const AlgorithmList& algorithms() noexcept;
 
 }  // namespace banyan

@@ -21,17 +21,20 @@ struct Loaded {
 
 // Reads `path` (TOML, JSON, or the run.json of an earlier run; "-" is standard input), applies the
 // overrides, then checks keys, types and ranges and what world::faults() finds. Never throws for
-// bad input. Without a key `name` the scenario is named after its file.
-[[nodiscard]] Loaded load_configuration(const std::string& path, const std::vector<Override>& overrides = {});
+// bad input. Without a key `name` the scenario is named after its file. `algorithms` is what mission.algorithm
+// chooses from; it must outlive the scenario.
+[[nodiscard]] Loaded load_configuration(const std::string& path, const AlgorithmList& algorithms,
+                                        const std::vector<Override>& overrides = {});
 // The same for text that is already in memory.
-[[nodiscard]] Loaded parse_configuration(const std::string& path, std::string_view text,
+[[nodiscard]] Loaded parse_configuration(const std::string& path, std::string_view text, const AlgorithmList& algorithms,
                                          const std::vector<Override>& overrides = {});
 
 // The steps in between, for who changes the tree himself: the tree of a scenario file (of the
 // configuration in a run.json); throws DocumentError. And from a tree to a Configuration, with
 // `problems` found before; `path` names the scenario if it has no name.
 [[nodiscard]] Node parse_scenario(const std::string& path, std::string_view text);
-[[nodiscard]] Loaded configure(Node root, const std::string& path, std::vector<Problem> problems = {});
+[[nodiscard]] Loaded configure(Node root, const std::string& path, const AlgorithmList& algorithms,
+                               std::vector<Problem> problems = {});
 
 // The complete effective configuration. Read back, it gives the same scenario, bit for bit.
 [[nodiscard]] std::string config_json(const Configuration& configuration, int indent = -1);

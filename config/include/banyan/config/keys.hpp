@@ -43,7 +43,7 @@ struct KeyRow {
   std::vector<std::string> choices;
 };
 // All that a file may have, in its order: "events.loss" stands for events[0].loss, events[1].loss, ...
-[[nodiscard]] std::vector<KeyRow> key_rows();
-[[nodiscard]] std::string key_reference_markdown();
+[[nodiscard]] std::vector<KeyRow> key_rows(const AlgorithmList& algorithms);
+[[nodiscard]] std::string key_reference_markdown(const AlgorithmList& algorithms);
 
 }  // namespace banyan::config

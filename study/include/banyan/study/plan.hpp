@@ -52,7 +52,7 @@ struct Plan {
 
 // Builds and checks every configuration. Problems: scenarios that cannot be read or are at fault,
 // each named with the combination that made it; two runs of one part that are the same.
-[[nodiscard]] Plan make_plan(const Study& study);
+[[nodiscard]] Plan make_plan(const Study& study, const AlgorithmList& algorithms);
 
 // A shard of the work, "3/8": the runs whose index is 2, 10, 18 ... {1, 1} is everything.
 struct Shard {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "banyan/controller/core/algorithm.hpp"
 #include "banyan/measure/metrics.hpp"
 
 namespace banyan::study {
@@ -26,8 +27,8 @@ struct Outcome {
 [[nodiscard]] std::string encode(const Outcome& outcome);
 [[nodiscard]] Outcome decode_outcome(std::string_view bytes);
 
-// The Work of studies and tuning: an encoded Task to an encoded Outcome. Never throws: what goes
-// wrong is the outcome's error.
-[[nodiscard]] std::string simulate(std::string_view task);
+// The Work of studies and tuning, once a program has given it its algorithms: an encoded Task to an encoded
+// Outcome. Never throws: what goes wrong is the outcome's error.
+[[nodiscard]] std::string simulate(std::string_view task, const AlgorithmList& algorithms);
 
 }  // namespace banyan::study

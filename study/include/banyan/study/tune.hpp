@@ -37,7 +37,7 @@ struct TuneOptimizer {
 
 // One parameter that is searched, in the parameter's own unit.
 struct TuneBound {
-  std::string parameter;         // key of parameter_table()
+  std::string parameter;         // key of a parameter of the algorithms
   double low = 0.0, high = 0.0;  // low < high
 };
 
@@ -68,9 +68,9 @@ struct LoadedTune {
 };
 // Reads a tune file (TOML or JSON) and the scenarios it names, relative to its own place. Strict,
 // all problems at once, as for scenarios; never throws for bad input.
-[[nodiscard]] LoadedTune load_tune(const std::string& path);
+[[nodiscard]] LoadedTune load_tune(const std::string& path, const AlgorithmList& algorithms);
 // The same for text that is already in memory.
-[[nodiscard]] LoadedTune parse_tune(const std::string& path, std::string_view text);
+[[nodiscard]] LoadedTune parse_tune(const std::string& path, std::string_view text, const AlgorithmList& algorithms);
 
 // Everything that decides the result, as one JSON object; and 16 hexadecimal digits that differ
 // when it does. Comments and the layout of files do not count, the scenarios' content does.

@@ -46,7 +46,7 @@ struct Range {
 template <class Owner> struct Access {
   Type type;
   bool optional;                      // there may be no value
-  Names (*names)();                   // Type::name
+  Names (*names)(const Owner&);       // Type::name
   bool (*applies)(const Owner&);      // whether the owner has a place for the value
   Value (*get)(const Owner&);         // none where the key does not apply
   void (*set)(Owner&, const Value&);  // a value of the key's type, where the key applies
@@ -177,7 +177,7 @@ template <class Owner, auto find> constexpr Access<Owner> access_by() {
   using C = Conversion<T>;
   return {C::type,
           C::optional,
-          C::names,
+          [](const Owner&) { return C::names(); },
           [](const Owner& owner) { return find(const_cast<Owner&>(owner)) != nullptr; },
           [](const Owner& owner) {
             const T* member = find(const_cast<Owner&>(owner));
@@ -217,8 +217,8 @@ template <auto function> struct By {
 };
 template <auto function> inline constexpr By<function> by{};
 
-// A text that is one of a few names.
-template <auto member, Names (*words)()> struct Word {
+// A text that is one of a few names, which the owner may know.
+template <auto member, auto words> struct Word {
   // NOLINTNEXTLINE(google-explicit-constructor): a row of the table names the member, and it is for any owner
   template <class Owner> constexpr operator Access<Owner>() const {
     Access<Owner> access = of<member>;
@@ -227,6 +227,6 @@ template <auto member, Names (*words)()> struct Word {
     return access;
   }
 };
-template <auto member, Names (*words)()> inline constexpr Word<member, words> word{};
+template <auto member, auto words> inline constexpr Word<member, words> word{};
 
 }  // namespace banyan::world

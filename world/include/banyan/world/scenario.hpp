@@ -21,14 +21,14 @@ namespace banyan::world {
 using Vec2 = BasicVec2<double>;
 
 struct Mission {
-  std::string algorithm = "convoy";     // a name in the list of algorithms
+  std::string algorithm = "convoy";     // a name in Scenario::algorithms
   std::string reading = "corrected";    // or "literal"
   double scale = 1.0;                   // on Table I's lengths (paper Sec. IV-C, "rescaled")
   double target_tolerance_m = 0.20;
   double time_limit_s = 0.0;            // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
   double settle_s = 0.0;                // with stop_when_complete: how long to go on after completion
-  std::vector<std::pair<std::string, double>> parameters;  // overrides, keys of parameter_table()
+  std::vector<std::pair<std::string, double>> parameters;  // overrides, by their keys
 };
 
 enum class Layout : std::uint8_t { hexagonal, grid, line, ring, cross, bridge, random, list };
@@ -190,6 +190,8 @@ struct Clocks {
 };
 
 struct Scenario {
+  // What mission.algorithm chooses from: the program's list, which must outlive the scenario and its worlds.
+  const AlgorithmList* algorithms = nullptr;
   std::string name;
   std::string description;
   double tick_s = 0.1;
@@ -218,6 +220,9 @@ struct Scenario {
 
 // mission.time_limit_s, or 10 r / v_max (paper Sec. IV-B).
 [[nodiscard]] double time_limit_s(const Scenario& scenario);
+
+// The one that mission.algorithm names.
+[[nodiscard]] const Algorithm& algorithm_of(const Scenario& scenario);
 
 // What the swarm is made for: reading, scale, mission.parameters, and the platform (range, tick, wheels, drive)
 // from `robot`, `radio` and `tick_s`.

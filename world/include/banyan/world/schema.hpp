@@ -2,7 +2,7 @@
 // Every key of a scenario, once: where its value is kept, what it may be, what it means. Reading,
 // messages, `--set`, completion, the dump into outputs and docs/scenario-keys.md (all in config/) and
 // the checks of single values (faults.hpp) follow from these tables. Keys of [mission.parameters] come
-// from the controller's own parameter_table().
+// from the tables of the algorithms.
 #pragma once
 
 #include <span>
@@ -48,12 +48,13 @@ template <class Owner>
   const Key<Owner>* selector = find_key(keys, selector_of(key));
   std::vector<std::string_view> names;
   if (selector == nullptr) return names;
-  for (const std::string_view name : selector->access.names()) {
+  const Names all = selector->access.names(Owner{});
+  for (const std::string_view name : all) {
     Owner owner{};
     set(*selector, owner, std::string(name));
     if (key.access.applies(owner)) names.push_back(name);
   }
-  if (names.size() == selector->access.names().size()) names.clear();
+  if (names.size() == all.size()) names.clear();
   return names;
 }
 

@@ -2,6 +2,8 @@
 // An algorithm as a host meets it: a name, a table of parameters, and swarms.
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -54,12 +56,42 @@ class Algorithm {
   ~Algorithm() = default;
 };
 
-// The algorithms of the program, in the order in which they are listed. A program decides which it has:
-// algorithms/ defines this function, or the program itself does.
-[[nodiscard]] std::span<const Algorithm* const> algorithms() noexcept;
-// The rows of all their tables, each key once. Static lifetime.
-[[nodiscard]] std::span<const ParameterInfo> parameter_table() noexcept;
-// By name; null if there is none.
-[[nodiscard]] const Algorithm* find_algorithm(std::string_view name) noexcept;
+// The algorithms that a program has, in the order in which they are listed. Whoever composes the program hands
+// its list down: algorithms/ has the list of those that come with Banyan.
+class AlgorithmList {
+ public:
+  // They must outlive the list.
+  AlgorithmList(std::initializer_list<const Algorithm*> algorithms) : algorithms_(algorithms) {
+    for (const Algorithm* algorithm : algorithms_) names_.push_back(algorithm->name());
+    // In the order of the longest table, so that the texts of configurations keep theirs.
+    const auto longest = std::max_element(algorithms_.begin(), algorithms_.end(), [](const Algorithm* a, const Algorithm* b) {
+      return a->parameters().size() < b->parameters().size();
+    });
+    if (longest != algorithms_.end()) add_parameters(**longest);
+    for (const Algorithm* algorithm : algorithms_) add_parameters(*algorithm);
+  }
+
+  [[nodiscard]] auto begin() const noexcept { return algorithms_.begin(); }
+  [[nodiscard]] auto end() const noexcept { return algorithms_.end(); }
+  [[nodiscard]] std::span<const std::string_view> names() const noexcept { return names_; }
+  // By name; null if there is none.
+  [[nodiscard]] const Algorithm* find(std::string_view name) const noexcept {
+    const auto at = std::find(names_.begin(), names_.end(), name);
+    return at == names_.end() ? nullptr : algorithms_[static_cast<std::size_t>(at - names_.begin())];
+  }
+  // The rows of all their tables, each key once.
+  [[nodiscard]] std::span<const ParameterInfo> parameters() const noexcept { return parameters_; }
+
+ private:
+  void add_parameters(const Algorithm& algorithm) {
+    for (const ParameterInfo* info : algorithm.parameters())
+      if (std::none_of(parameters_.begin(), parameters_.end(), [&](const ParameterInfo& row) { return row.key == info->key; }))
+        parameters_.push_back(*info);
+  }
+
+  std::vector<const Algorithm*> algorithms_;
+  std::vector<std::string_view> names_;
+  std::vector<ParameterInfo> parameters_;
+};
 
 }  // namespace banyan
