@@ -150,19 +150,20 @@ ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept {
 void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   ConvoyState& self = robot.self;
-  const auto write = [&](int k, const TreeMessage& heard) {
-    const auto n = static_cast<std::size_t>(k);
-    const ConvoyMessage& m = convoy_message(heard);
-    self.healing_standings[n] = static_cast<const HealingStanding&>(m);
-    self.corners.standings[n] = static_cast<const CornerStanding&>(m);
-    self.convoy_standings[n] = static_cast<const ConvoyStanding&>(m);
-  };
-  const auto close = [&](int k, int size) {
+  file_heard(robot);
+  for (const Heard& h : robot.heard) {
+    if (h.place < 0) continue;
+    const auto k = static_cast<std::size_t>(h.place);
+    const ConvoyMessage& m = convoy_message(*h.message);
+    self.healing_standings[k] = static_cast<const HealingStanding&>(m);
+    self.corners.standings[k] = static_cast<const CornerStanding&>(m);
+    self.convoy_standings[k] = static_cast<const ConvoyStanding&>(m);
+  }
+  forget_silent(robot, [&](int k, int size) {
     close_gap(self.healing_standings, k, size);
     close_gap(self.corners.standings, k, size);
     close_gap(self.convoy_standings, k, size);
-  };
-  update_table(robot, write, close);
+  });
   follow_orders(robot, admitted.senses().orders);
 }
 

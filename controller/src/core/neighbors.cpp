@@ -34,15 +34,6 @@ int Neighbors::find_next(RobotId id) noexcept {
   return found ? by_id_[rank] : -1;
 }
 
-// Entry k is new, behind next_rank_; size_ counts it.
-void Neighbors::enter(int k, RobotId id) noexcept {
-  const auto at = by_id_.begin() + rank_of(id, size_ - 1);
-  std::move_backward(at, by_id_.begin() + size_ - 1, by_id_.begin() + size_);
-  *at = static_cast<std::uint8_t>(k);
-  ids_[k] = id;
-  next_rank_ = static_cast<std::int16_t>(at - by_id_.begin() + 1);
-}
-
 // Entry k is to be another's.
 void Neighbors::leave(int k) noexcept {
   const auto end = by_id_.begin() + size_;
@@ -61,18 +52,15 @@ void Neighbors::begin(int elapsed_ticks) noexcept {
   expected_ = static_cast<std::int16_t>(expected);
 }
 
-int Neighbors::file(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties, Vec2& before) noexcept {
-  int k = find_next(id);
-  if (k >= 0) {
-    if (ages_[k] == elapsed_ticks_) before = positions_[k];
-  } else {
-    k = size_ < neighbor_capacity ? size_++ : evict(position, must, ties);
-    if (k < 0) return k;
-    enter(k, id);
-  }
-  positions_[k] = position;
-  ranges_m_[k] = norm(position);
-  ages_[k] = 0;
+int Neighbors::enter(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept {
+  const int k = size_ < neighbor_capacity ? size_++ : evict(position, must, ties);
+  if (k < 0) return k;
+  const auto at = by_id_.begin() + rank_of(id, size_ - 1);
+  std::move_backward(at, by_id_.begin() + size_ - 1, by_id_.begin() + size_);
+  *at = static_cast<std::uint8_t>(k);
+  next_rank_ = static_cast<std::int16_t>(at - by_id_.begin() + 1);
+  ids_[k] = id;
+  put(k, position);
   return k;
 }
 

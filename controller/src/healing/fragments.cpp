@@ -27,7 +27,7 @@ void listen_among_fragments(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   bool contested = false;
   for (const Heard& h : robot.heard)
-    if (newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
+    if (h.message->root != self.root && newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
   const EpochPhase newest = newest_phase(robot);
   // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
   const bool ahead = is_newer(newest.epoch, self.epoch) && robot.params.heals();

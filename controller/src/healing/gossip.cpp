@@ -16,10 +16,12 @@ void write(Vec2 point, Vec2 addressee, std::int16_t& x_cm, std::int16_t& y_cm) n
 
 // Only who was heard this tick can be told a point: it is written relative to where that robot is.
 int next_heard(const TreeTable& table, int turn) noexcept {
-  for (int k = 0; k < table.size(); ++k) {
-    const int candidate = (turn + k) % table.size();
-    if (table.age(candidate) == 0) return candidate;
-  }
+  const int size = table.size();
+  const int first = size > 0 ? turn % size : 0;
+  for (int k = first; k < size; ++k)
+    if (table.age(k) == 0) return k;
+  for (int k = 0; k < first; ++k)
+    if (table.age(k) == 0) return k;
   return -1;
 }
 

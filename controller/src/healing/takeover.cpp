@@ -83,12 +83,22 @@ void hear_of_task(HealingRobot& robot, RobotId serves, RobotId holder, std::uint
   task->age_ticks = 0;
 }
 
+// Most of what is heard is known: a count no newer than mine, of a target that others serve, and told to somebody
+// else. hear_of_task() would change nothing.
+bool is_known(const HealingState& self, const HealingMessage& m) noexcept {
+  const RobotId own = self.is_worker ? self.serves : nobody;
+  for (const Task* task = self.tasks.data(), *end = task + self.task_count; task != end; ++task)
+    if (task->serves == m.task_serves) return m.task_serves != own && m.told != self.id && !is_news(m.task_beat, task->beat, task->age_ticks);
+  return m.told != self.id;
+}
+
 void hear_of_tasks(HealingRobot& robot) noexcept {
+  const HealingState& self = robot.self;
   for (const Heard& h : robot.heard) {
     const HealingMessage& m = said(h);
-    if (m.task_serves == nobody) continue;
+    if (m.task_serves == nobody || is_known(self, m)) continue;
     Vec2 target;
-    const bool told = m.told == robot.self.id && robot.read_point(h, m.task_x_cm, m.task_y_cm, target);
+    const bool told = m.told == self.id && robot.read_point(h, m.task_x_cm, m.task_y_cm, target);
     hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, told ? &target : nullptr);
   }
 }
@@ -127,11 +137,12 @@ void succeed(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const HealingParams& p = robot.params;
   const bool free = self.role == Role::spare || self.dangling_ticks > 0;
-  if (!free || self.is_worker || robot.is_root() || self.silence_ticks > 2 * robot.liveness_ticks()) return;
+  const int least_ticks = 2 * robot.liveness_ticks();
+  if (!free || self.is_worker || robot.is_root() || self.silence_ticks > least_ticks) return;
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
-    if (task.holder == nobody) continue;
-    const int patience_ticks = 2 * robot.liveness_ticks() + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target));
+    if (task.holder == nobody || task.age_ticks <= least_ticks) continue;
+    const int patience_ticks = least_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target));
     if (task.age_ticks > patience_ticks) return take_over(robot, task);
   }
 }

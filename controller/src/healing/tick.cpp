@@ -45,9 +45,10 @@ void carry_memory(HealingState& self, const Carry& carry) noexcept {
 void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   auto& kept = robot.self.healing_standings;
-  update_table(
-      robot, [&](int k, const TreeMessage& m) { kept[static_cast<std::size_t>(k)] = static_cast<const HealingStanding&>(healing_message(m)); },
-      [&](int k, int size) { close_gap(kept, k, size); });
+  file_heard(robot);
+  for (const Heard& h : robot.heard)
+    if (h.place >= 0) kept[static_cast<std::size_t>(h.place)] = static_cast<const HealingStanding&>(said(h));
+  forget_silent(robot, [&](int k, int size) { close_gap(kept, k, size); });
   follow_orders(robot, admitted.senses().orders);
 }
 

@@ -2,8 +2,8 @@
 #include "banyan/controller/obstacles/corners.hpp"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
-#include <utility>
 
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
@@ -106,9 +106,15 @@ void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
   }
   // By way of whom the root's count comes, there is the tree.
   int nearest = -1;
-  const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
-  for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == 0 && (nearest < 0 || key(k) < key(nearest))) nearest = k;
+  int hops = INT_MAX;
+  float range_m = 0.0F;
+  for (int k = 0, size = table.size(); k < size; ++k) {
+    const int hops_k = table.message(k).tree_hops;
+    if (hops_k > hops || table.age(k) > 0 || (hops_k == hops && table.range(k) >= range_m)) continue;
+    nearest = k;
+    hops = hops_k;
+    range_m = table.range(k);
+  }
   if (nearest < 0) return;
   const TreeStanding& m = table.message(nearest);
   if (m.epoch == self.epoch && is_newer(m.seqno, self.seqno)) corners.seen_from = table.position(nearest);

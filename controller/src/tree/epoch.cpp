@@ -52,8 +52,10 @@ bool barrier_holds(const TreeRobot& robot, bool tree_complete) noexcept {
 
 void listen(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
+  RootToken newest = self.root;
   for (const Heard& h : robot.heard)
-    if (newer(h.message->root, self.root)) self.root = h.message->root;
+    if (h.message->root != newest && newer(h.message->root, newest)) newest = h.message->root;
+  self.root = newest;
   follow_phase(robot, newest_phase(robot));
 }
 
@@ -61,7 +63,7 @@ EpochPhase newest_phase(const TreeRobot& robot) noexcept {
   EpochPhase newest{robot.self.epoch, robot.self.phase};
   for (const Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;
-    if (is_newer(m.epoch, newest.epoch) || (m.epoch == newest.epoch && m.phase > newest.phase)) newest = {m.epoch, m.phase};
+    if (m.epoch == newest.epoch ? m.phase > newest.phase : is_newer(m.epoch, newest.epoch)) newest = {m.epoch, m.phase};
   }
   return newest;
 }

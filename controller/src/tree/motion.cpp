@@ -116,14 +116,12 @@ Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& rea
 void Guard::add(Vec2 neighbor, const TreeParams& params) noexcept {
   const float d = norm(neighbor);
   if (d <= 0.0F) return;
-  away[size] = -neighbor / d;
-  limit[size++] = 0.5F * (params.ideal_distance_m - d) * params.guard_rate_per_s;
+  add_limit(-neighbor / d, 0.5F * (params.ideal_distance_m - d) * params.guard_rate_per_s);
 }
 
 void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
   if (size == capacity) return;
-  away[size] = direction;
-  limit[size++] = limit_m_s;
+  planes[size++] = {direction.x, direction.y, limit_m_s};
 }
 
 Vec2 Guard::apply(Vec2 v) const noexcept {
@@ -131,9 +129,9 @@ Vec2 Guard::apply(Vec2 v) const noexcept {
   for (int round = 0; round < 4; ++round) {
     bool violated = false;
     for (int k = 0; k < size; ++k) {
-      const float excess = dot(v, away[k]) - limit[k];
+      const float excess = dot(v, planes[k].away()) - planes[k].limit_m_s;
       if (excess <= 0.0F) continue;
-      v -= away[k] * excess;
+      v -= planes[k].away() * excess;
       violated = true;
     }
     if (!violated) return v;
@@ -141,8 +139,9 @@ Vec2 Guard::apply(Vec2 v) const noexcept {
   // What is left is cut by standing still as far as needed: 0 is allowed while no edge is too long.
   float scale = 1.0F;
   for (int k = 0; k < size; ++k) {
-    const float along = dot(v, away[k]);
-    if (along > limit[k] && along > 0.0F) scale = std::min(scale, std::max(0.0F, limit[k]) / along);
+    const float limit = planes[k].limit_m_s;
+    const float along = dot(v, planes[k].away());
+    if (along > limit && along > 0.0F) scale = std::min(scale, std::max(0.0F, limit) / along);
   }
   return v * scale;
 }
@@ -156,9 +155,10 @@ Velocity drive(Vec2 v, const Guard& guard, const TreeParams& params) noexcept {
   float forward = std::max(0.0F, v.x);  // |u| max(0, cos theta)
   forward = std::min(forward, params.wheel_limit_m_s - 0.5F * (turn < 0 ? -turn : turn) * params.wheel_distance_m);
   // The guard again, along the true heading (1, 0).
-  for (int k = 0; k < guard.size; ++k)
-    if (guard.away[k].x > 0.0F && forward * guard.away[k].x > guard.limit[k])
-      forward = std::max(0.0F, guard.limit[k]) / guard.away[k].x;
+  for (int k = 0; k < guard.size; ++k) {
+    const Guard::HalfPlane& plane = guard.planes[k];
+    if (plane.x > 0.0F && forward * plane.x > plane.limit_m_s) forward = std::max(0.0F, plane.limit_m_s) / plane.x;
+  }
   return {std::max(0.0F, forward), 0.0F, turn};
 }
 

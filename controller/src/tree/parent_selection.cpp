@@ -168,10 +168,10 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   if (self.depth != invalid_depth || self.role != Role::spare || self.parent != nobody) return;
   const TreeTable& table = robot.table();
   int nearest = -1;
-  int hops = unreachable - 1;  // the most that is passed on
-  for (int k = 0; k < table.size(); ++k) {
+  int hops = unreachable - 1;  // the most that is passed on: whoever knows no way has more
+  for (int k = 0, size = table.size(); k < size; ++k) {
     const TreeStanding& m = table.message(k);
-    if (!table.alive(k) || m.tree_hops > hops || m.tree_hops == unreachable) continue;
+    if (m.tree_hops > hops || !table.alive(k)) continue;
     if (m.tree_hops == hops && nearest >= 0 && !is_newer(m.seqno, table.message(nearest).seqno)) continue;  // the freshest
     hops = m.tree_hops;
     nearest = k;

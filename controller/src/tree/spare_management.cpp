@@ -2,7 +2,7 @@
 #include "banyan/controller/tree/spare_management.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <climits>
 
 #include "banyan/controller/tree/label.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
@@ -195,16 +195,18 @@ void watch_inserted_child(TreeRobot& robot) noexcept {
 RobotId nearest_reference(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
-  const auto hops = [&](int k) {
+  // Hops, and among free spares any other counts half a hop more than the one it has.
+  int best_hops = INT_MAX;
+  float best_m = 0.0F;
+  for (int k = 0, size = table.size(); k < size; ++k) {
+    if (!table.alive(k)) continue;
     const TreeStanding& m = table.message(k);
-    return m.role != Role::spare ? -1 : static_cast<int>(m.tree_hops);
-  };
-  const auto key = [&](int k) {
-    const bool other = table.id(k) != robot.self.reference;
-    return std::tuple(hops(k), hops(k) >= 0 && other, table.range(k));
-  };
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && (best < 0 || key(k) < key(best))) best = k;
+    const int hops = m.role != Role::spare ? -1 : 2 * m.tree_hops + (table.id(k) != robot.self.reference ? 1 : 0);
+    if (hops > best_hops || (hops == best_hops && table.range(k) >= best_m)) continue;
+    best = k;
+    best_hops = hops;
+    best_m = table.range(k);
+  }
   return best < 0 ? nobody : table.id(best);
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 // `odometry` is in the frame at the last step; what is left of it is turned into the frame of the packet.
 void carry_packets(std::span<Heard> heard, const Odometry& odometry, float elapsed_s) noexcept {
-  if (std::all_of(heard.begin(), heard.end(), [](const Heard& h) { return !(h.age_s > 0.0F); })) return;
   for (Heard& h : heard) {
     if (!(h.age_s > 0.0F) || !(elapsed_s > 0.0F)) continue;
     const float share = std::min(h.age_s / elapsed_s, 1.0F);
@@ -56,28 +55,36 @@ Admitted::Admitted(const Senses& sensed, std::span<Heard> heard, const Platform&
 
 void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
-  update_table(robot, [](int, const TreeMessage&) {}, [](int, int) {});
+  file_heard(robot);
+  forget_silent(robot, [](int, int) {});
   follow_orders(robot, admitted.senses().orders);
 }
 
-void update_table(TreeRobot& robot, FunctionRef<void(int, const TreeMessage&)> write, FunctionRef<void(int, int)> close) noexcept {
-  TreeState& self = robot.self;
-  TreeTable& table = self.neighbors;
-  const std::array<RobotId, 2> keep{self.parent, self.old_parent};
+void file_heard(TreeRobot& robot) noexcept {
+  const TreeState& self = robot.self;
+  TreeTable& table = robot.self.neighbors;
   const auto ties = [&](const TreeStanding& m) {
-    return m.id == keep[0] || m.id == keep[1] || m.parent == self.id || m.old_parent == self.id;
+    return m.id == self.parent || m.id == self.old_parent || m.parent == self.id || m.old_parent == self.id;
   };
   table.begin(robot.elapsed_ticks);
   for (Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;
+    h.place = -1;
     if (m.id == self.id || m.id == nobody) continue;
     h.before = {};
-    const int k = table.file(m.id, h.position, ties(m), [&](int j) { return ties(table.message(j)); }, h.before);
+    int k = table.file(m.id, h.position, h.before);
+    if (k < 0) k = table.enter(m.id, h.position, ties(m), [&](int j) { return ties(table.message(j)); });
     if (k < 0) continue;
+    h.place = static_cast<std::int16_t>(k);
     table.standings[static_cast<std::size_t>(k)] = static_cast<const TreeStanding&>(m);
-    write(k, m);
   }
-  for (int k = 0; (k = table.remove_next(k, robot.carry, robot.liveness_ticks(), keep)) >= 0;) {
+}
+
+void forget_silent(TreeRobot& robot, FunctionRef<void(int, int)> close) noexcept {
+  TreeTable& table = robot.self.neighbors;
+  const std::array<RobotId, 2> keep{robot.self.parent, robot.self.old_parent};
+  const int liveness_ticks = robot.liveness_ticks();
+  for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keep)) >= 0;) {
     close_gap(table.standings, k, table.size() + 1);
     close(k, table.size() + 1);
   }

@@ -10,24 +10,24 @@ namespace banyan {
 void index_neighbors(TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();
-  robot.parent = robot.old_parent = -1;
+  const RobotId me = self.id;
+  robot.parent = self.parent == nobody ? -1 : table.find(self.parent);
+  robot.old_parent = self.old_parent == nobody ? -1 : table.find(self.old_parent);
   robot.children.size = robot.old_children.size = 0;
   robot.useful_children = 0;
-  robot.call_hops = nobody_calls;
-  for (int k = 0; k < table.size(); ++k) {
-    const RobotId id = table.id(k);
-    if (id == self.parent) robot.parent = k;
-    if (id == self.old_parent) robot.old_parent = k;
+  std::uint8_t call_hops = nobody_calls;
+  for (int k = 0, size = table.size(); k < size; ++k) {
     if (!table.alive(k)) continue;
     const TreeStanding& m = table.message(k);
-    robot.call_hops = std::min(robot.call_hops, m.call_hops);
-    const bool names_me = m.parent == self.id;
-    if (!names_me && m.old_parent != self.id) continue;
+    call_hops = std::min(call_hops, m.call_hops);
+    const bool names_me = m.parent == me;
+    if (!names_me && m.old_parent != me) continue;
     // Whoever has not entered this epoch yet names the parent of the last one.
     (names_me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
     if (m.role == Role::spare) continue;
     ++robot.useful_children;
   }
+  robot.call_hops = call_hops;
 }
 
 void update_role(TreeRobot& robot) noexcept {

@@ -40,7 +40,8 @@ class Table : public Neighbors {
     begin(1);
     for (const Packet& p : packets) {
       Vec2 before;
-      const int k = file(p.id, p.position, must_stay(p.id, p.said), [&](int j) { return must_stay(id(j), said(j)); }, before);
+      int k = file(p.id, p.position, before);
+      if (k < 0) k = enter(p.id, p.position, must_stay(p.id, p.said), [&](int j) { return must_stay(id(j), said(j)); });
       if (k >= 0) said_[static_cast<std::size_t>(k)] = p.said;
     }
     for (int k = 0; (k = remove_next(k, carry, liveness_ticks, keep)) >= 0;) close_gap(said_, k, size() + 1);

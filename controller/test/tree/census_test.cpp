@@ -66,7 +66,8 @@ struct Tree {
       TreeState& s = states[i];
       const Admitted admitted({}, heard, params, s.tally);
       TreeRobot robot(params, literal_reading, s, admitted);
-      update_table(robot, [](int, const TreeMessage&) {}, [](int, int) {});
+      file_heard(robot);
+      forget_silent(robot, [](int, int) {});
       index_neighbors(robot);
       take_census(robot, params.arrival_distance_m);
       next[i] = message(i);

@@ -135,7 +135,7 @@ RC_GTEST_PROP(Guard, LeavesAnAllowedVelocityAlone, ()) {
   const Edges edges = random_edges(p, p.ideal_distance_m);
   const Vec2 wish = polar(number(0, 0.2F), number(-3.14F, 3.14F));
   for (std::size_t k = 0; k < edges.neighbors.size(); ++k)
-    if (dot(wish, edges.guard.away[k]) > edges.guard.limit[k]) return;
+    if (dot(wish, edges.guard.planes[k].away()) > edges.guard.planes[k].limit_m_s) return;
   RC_ASSERT(edges.guard.apply(wish) == wish);
 }
 
@@ -207,8 +207,10 @@ RC_GTEST_PROP(Drive, TheGuardHoldsAlongTheTrueHeadingToo, ()) {
   const Edges edges = random_edges(p, p.ideal_distance_m);
   const Velocity v = drive(polar(0.2F, number(-1, 1)), edges.guard, p);
   RC_ASSERT(v.forward_m_s >= 0.0F);
-  for (int k = 0; k < edges.guard.size; ++k)
-    RC_ASSERT(v.forward_m_s * edges.guard.away[static_cast<std::size_t>(k)].x <= edges.guard.limit[static_cast<std::size_t>(k)] + 1e-5F);
+  for (int k = 0; k < edges.guard.size; ++k) {
+    const Guard::HalfPlane& plane = edges.guard.planes[static_cast<std::size_t>(k)];
+    RC_ASSERT(v.forward_m_s * plane.x <= plane.limit_m_s + 1e-5F);
+  }
 }
 
 TEST(Drive, AHolonomicRobotMovesAsTold) {

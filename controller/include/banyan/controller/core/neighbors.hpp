@@ -31,14 +31,21 @@ constexpr void close_gap(std::array<T, neighbor_capacity>& array, int k, int siz
 
 class Neighbors {
  public:
-  // One tick: begin(), file() for each packet in any order (of several of one sender the last counts), then
-  // remove_next() until there is nothing to remove.
+  // One tick: begin(), file() or else enter() for each packet in any order (of several of one sender the last
+  // counts), then remove_next() until there is nothing to remove.
   void begin(int elapsed_ticks) noexcept;
-  // Where the sender comes to stand; -1 if there is no room for it. When more robots are heard than the table
+  // Where the sender stands; -1 if it is new. `before`: where it was a tick ago, in the frame of then; left alone
+  // if it was not heard then, or has been filed in this tick already.
+  int file(RobotId id, Vec2 position, Vec2& before) noexcept {
+    const int k = next_rank_ < size_ && ids_[by_id_[next_rank_]] == id ? by_id_[next_rank_++] : find_next(id);
+    if (k < 0) return k;
+    if (ages_[k] == elapsed_ticks_) before = positions_[k];
+    put(k, position);
+    return k;
+  }
+  // Where a new one comes to stand; -1 if there is no room for it. When more robots are heard than the table
   // holds, those that tie stay (`must`: the sender does; `ties(k)`: entry k does), and of the others the nearest.
-  // `before`: where it was a tick ago, in the frame of then; left alone if it was not heard then, or has been
-  // filed in this tick already.
-  int file(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties, Vec2& before) noexcept;
+  int enter(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
   // From entry `from` on: removes the first that is older than `liveness_ticks` and none of `keep`, neighbours
   // whose silence matters; those behind it move up by one. Where it was; -1 if there is none.
   int remove_next(int from, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) noexcept;
@@ -62,7 +69,11 @@ class Neighbors {
  private:
   [[nodiscard]] int rank_of(RobotId id, int among) const noexcept;
   int find_next(RobotId id) noexcept;
-  void enter(int k, RobotId id) noexcept;
+  void put(int k, Vec2 position) noexcept {
+    positions_[k] = position;
+    ranges_m_[k] = norm(position);
+    ages_[k] = 0;
+  }
   void leave(int k) noexcept;
   int evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
   void remove(int k) noexcept;

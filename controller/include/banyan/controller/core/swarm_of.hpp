@@ -99,21 +99,19 @@ class SwarmOf final : public Swarm {
   [[nodiscard]] std::size_t size() const noexcept override { return states_.size(); }
 
   void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) override {
-    static thread_local std::vector<Heard> of_thread;
-    std::vector<Heard>& heard = of_thread;  // looked up once
+    static thread_local std::array<std::vector<Heard>, 2> of_thread;
+    std::array<std::vector<Heard>, 2>& heard = of_thread;  // of this robot and of the next; looked up once
     auto& now = slots_[slot_];
     const auto& last = slots_[slot_of(1)];
+    if (!sensed.empty()) fetch(first, sensed[0], heard[0]);
     for (std::size_t k = 0; k < sensed.size(); ++k) {
       const std::size_t i = first + k;
-      if (k + 1 < sensed.size()) fetch(i + 1, sensed[k + 1]);
+      if (k + 1 < sensed.size()) fetch(i + 1, sensed[k + 1], heard[(k + 1) % 2]);
       if (!sensed[k].steps) {
         now[i] = last[i];
         continue;
       }
-      const std::span<const Packet> packets = sensed[k].packets;
-      if (heard.size() < packets.size()) heard.resize(packets.size() + packets.size() / 4);
-      for (std::size_t p = 0; p < packets.size(); ++p) heard[p] = {message_of(packets[p]), packets[p].position, packets[p].age_s};
-      const auto output = A::step(params_, states_[i], std::span<Heard>(heard).first(packets.size()), sensed[k].senses);
+      const auto output = A::step(params_, states_[i], std::span<Heard>(heard[k % 2]).first(sensed[k].packets.size()), sensed[k].senses);
       now[i] = output.message;
       commands[k] = output.velocity;
       reports[k] = A::report(states_[i]);
@@ -170,20 +168,22 @@ class SwarmOf final : public Swarm {
  private:
   // Where the messages of `age` ticks ago are; those of this tick are written to slot_.
   [[nodiscard]] std::size_t slot_of(std::size_t age) const noexcept { return (slot_ + slots_.size() - age) % slots_.size(); }
-  [[nodiscard]] const Message* message_of(const Packet& packet) const noexcept {
-    if (packet.sender >= states_.size()) return &foreign_[packet.sender - states_.size()];
-    const std::size_t slot = slot_ >= packet.age_ticks ? slot_ - packet.age_ticks : slot_ + slots_.size() - packet.age_ticks;
-    return &slots_[slot][packet.sender];
-  }
-  // Robot i is next: asks for the memory that its step will touch while the one before it computes. States
-  // lie too far apart for the processor to guess; in large swarms this is worth a third.
-  void fetch(std::size_t i, const Sensed& sensed) const noexcept {
-    constexpr std::size_t line = 64;
-    const auto prefetch = [](const void* from, std::size_t bytes) {
-      for (std::size_t at = 0; at < bytes; at += line) __builtin_prefetch(static_cast<const char*>(from) + at);
-    };
+  // Robot i is next: finds the messages that it hears, and asks for the memory that its step will touch while the
+  // one before it computes. States lie too far apart for the processor to guess; in large swarms this is worth a third.
+  void fetch(std::size_t i, const Sensed& sensed, std::vector<Heard>& heard) const {
     if constexpr (requires(const State& s) { s.prefetch(std::size_t{}); }) states_[i].prefetch(sensed.packets.size());
-    for (const Packet& packet : sensed.packets) prefetch(message_of(packet), sizeof(Message));
+    if (heard.size() < sensed.packets.size()) heard.resize(sensed.packets.size() + sensed.packets.size() / 4);
+    constexpr std::size_t line = 64;
+    const std::size_t robots = states_.size();
+    const Message* const last = slots_[slot_of(1)].data();
+    Heard* to = heard.data();
+    for (const Packet& packet : sensed.packets) {
+      const Message* message = packet.sender >= robots     ? &foreign_[packet.sender - robots]
+                               : packet.age_ticks == 1 ? last + packet.sender
+                                                       : &slots_[slot_of(packet.age_ticks)][packet.sender];
+      for (std::size_t at = 0; at < sizeof(Message); at += line) __builtin_prefetch(reinterpret_cast<const char*>(message) + at);
+      *to++ = {message, packet.position, packet.age_s};
+    }
   }
 
   Params params_;

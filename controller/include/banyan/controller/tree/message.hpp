@@ -139,7 +139,9 @@ struct Heard {
   const TreeMessage* message;
   Vec2 position;
   float age_s = 0.0F;
-  Vec2 before{};       // the step's own note: where the sender was at the last step, in the frame of then; zero: not heard then
+  // The step's own notes
+  Vec2 before{};            // where the sender was at the last step, in the frame of then; zero: not heard then
+  std::int16_t place = -1;  // where it stands in the neighbour table, until somebody is removed from there; -1: nowhere
 };
 
 }  // namespace banyan

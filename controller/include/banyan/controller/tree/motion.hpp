@@ -28,8 +28,12 @@ inline constexpr float same_spot_m = 1e-6F;
 // frame) faster than (delta - d)/2 x guard rate. With both ends doing so no edge outgrows delta.
 struct Guard {
   static constexpr int capacity = neighbor_capacity + 64;  // tree neighbours, then obstacles
-  std::array<Vec2, capacity> away;     // unit vectors from the neighbour to me
-  std::array<float, capacity> limit;  // m/s along it
+  struct HalfPlane {
+    float x, y;       // unit vector, from the neighbour to me
+    float limit_m_s;  // along it
+    [[nodiscard]] Vec2 away() const noexcept { return {x, y}; }
+  };
+  std::array<HalfPlane, capacity> planes;  // the first `size` are valid
   int size = 0;
   void add(Vec2 neighbor, const TreeParams& params) noexcept;
   // Not faster than `limit_m_s` along `direction` (unit). What exceeds the capacity is dropped.

@@ -21,10 +21,12 @@ void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept;
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept;
 void carry_memory(TreeState& self, const Carry& carry) noexcept;
 
-// Brings the neighbour table and the tree's array beside it up to date. Who heals keeps arrays of its own in
-// step: `write(k, m)`, entry k is new or has spoken; `close(k, size)`, entry k has gone, and those behind it, up
-// to `size`, move up by one.
-void update_table(TreeRobot& robot, FunctionRef<void(int k, const TreeMessage& m)> write, FunctionRef<void(int k, int size)> close) noexcept;
+// The neighbour table and the tree's array beside it are brought up to date in two steps: who has spoken comes to
+// stand in it (Heard::place), and who has been silent for too long goes. Who heals keeps arrays of its own in
+// step, and writes them in between. `close(k, size)`: entry k has gone, and those behind it, up to `size`, move
+// up by one.
+void file_heard(TreeRobot& robot) noexcept;
+void forget_silent(TreeRobot& robot, FunctionRef<void(int k, int size)> close) noexcept;
 
 // The tree's part of the message, and what an observer may know of it.
 void write_tree(const TreeRobot& robot, TreeMessage& message) noexcept;
