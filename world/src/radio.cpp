@@ -6,11 +6,13 @@
 //
 // The clock of a pair is the sum of three ways: the robot's, the other's, and the farthest that anybody
 // around the robot has moved in each tick. The first two bound how far the ends of the line of sight
-// have come, the last how far a body beside it has.
+// have come, the last how far a body beside it has. Mostly one body matters, the one in the way or the
+// one nearest to it: the clock of the three has its way instead of everybody's, and is far slower.
 #include "banyan/world/radio.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -25,15 +27,56 @@ constexpr double skin_share = 0.1;      // of the range
 constexpr double units_per_reach = 1 << 20;
 
 // What a body that blocks the segment from the origin to `d` may do until it is out of the way, as a
-// way by the clock of the pair. Across the segment nobody gets out faster than the clock goes. Along it
+// way by the clock of the three. Across the segment nobody gets out faster than the clock goes. Along it
 // the turning of the segment counts too, by less than a third, since it is no shorter than four radii.
-double depth(Vec2 k, Vec2 d, double length, double radius) noexcept {
-  if (length < 4.0 * radius) return 0.0;
+double depth(Vec2 k, Vec2 d, double d2, double radius) noexcept {
+  if (d2 < 16.0 * radius * radius) return 0.0;
+  const double length = std::sqrt(d2);
   const double per_m = 1.0 / length;
   const double along = dot(k, d) * per_m;
   const double across = std::fabs(cross(k, d)) * per_m;
-  return std::min(std::min(along, length - along) / 1.5, radius - across);
+  return std::min(std::min(along, length - along) * 0.66, radius - across);
 }
+
+// How far a body is from touching that segment.
+double distance_beside(Vec2 k, Vec2 d, double d2, double radius) noexcept {
+  const double along = std::clamp(dot(k, d) / d2, 0.0, 1.0);
+  return norm(k - d * along) - radius;
+}
+
+// Four at a time. The compilers make them of loops too, but not of all that follow.
+using Four = float __attribute__((vector_size(16)));
+Four four(float v) noexcept { return Four{v, v, v, v}; }
+Four load(const float* from) noexcept {
+  Four v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+Four smaller(Four a, Four b) noexcept { return a < b ? a : b; }
+Four larger(Four a, Four b) noexcept { return a < b ? b : a; }
+
+// The least and the next of what has been offered, in each of four lanes.
+struct TwoLeast {
+  Four least = four(far_away);
+  Four second = four(far_away);
+  void offer(Four v) noexcept {
+    second = smaller(second, larger(least, v));
+    least = smaller(least, v);
+  }
+  void offer(const TwoLeast& other) noexcept {
+    second = smaller(smaller(second, other.second), larger(least, other.least));
+    least = smaller(least, other.least);
+  }
+  // The lanes joined: in the first one what is least in all.
+  [[nodiscard]] TwoLeast joined() const noexcept {
+    TwoLeast all = *this;
+    all.offer(TwoLeast{Four{least[2], least[3], least[0], least[1]}, Four{second[2], second[3], second[0], second[1]}});
+    const Four l = all.least;
+    const Four s = all.second;
+    all.offer(TwoLeast{Four{l[1], l[0], l[3], l[2]}, Four{s[1], s[0], s[3], s[2]}});
+    return all;
+  }
+};
 
 }  // namespace
 
@@ -44,21 +87,22 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       line_of_sight_(scenario.radio.line_of_sight),
       dead_vanish_(!scenario.robot.dead_bodies),
       obstacles_(scenario.obstacles),
-      path_(robots, 0),
+      nobody_(static_cast<std::uint32_t>(robots)),
+      path_(robots + 1, 0),
       around_(robots, 0),
       rows_(robots),
       lower_(robots),
       pairs_(robots),
       cell_of_(robots, 0),
       sorted_(robots, 0),
-      offsets_(robots + 1, 0),
-      fill_(robots, 0) {
+      links_(robots) {
   // Who blocks a pair is within its range and a radius of both. What is beyond that in the reach may be used up
   // until the row is written anew: the skin, and what two robots move in the tick in which it is.
   const double skin_m = skin_share * range_m_;
   const double tick_m = 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s;
   reach_m_ = std::max(range_m_, near_m_) + radius_m_ + skin_m + tick_m;
   unit_m_ = reach_m_ / units_per_reach;
+  units_per_m_ = units_per_reach / reach_m_;
   skin_ = static_cast<Way>(skin_m / unit_m_);
   valid_ = static_cast<Way>(0.99 * (skin_m + tick_m) / unit_m_);
 }
@@ -73,14 +117,17 @@ void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t
         if (all_anew_ || !rows_[i].known || past(fast_clock(i), rows_[i].quiet_until)) refresh(i, positions, s);
     });
   };
-  for (Scratch& s : scratch_) s.changed = s.no_room = false;
+  for (Scratch& s : scratch_) {
+    s.rebuild = s.no_room = false;
+    s.changes.clear();
+  }
   refresh_all();
   if (std::any_of(scratch_.begin(), scratch_.end(), [](const Scratch& s) { return s.no_room; })) {
     make_room(positions);
     refresh_all();
   }
   all_anew_ = false;
-  if (std::any_of(scratch_.begin(), scratch_.end(), [](const Scratch& s) { return s.changed; })) merge();
+  apply_changes();
 }
 
 void Radio::forget(std::uint32_t i) {
@@ -225,24 +272,28 @@ bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s
   const bool valid = row.known && clock(i) - row.written <= valid_;
   s.old.clear();
   if (valid) s.old.insert(s.old.end(), pairs_.of(i).begin(), pairs_.of(i).end());
-  s.changed |= !valid;
+  s.rebuild |= !valid;
   row.known = lower_.resize(i, static_cast<std::size_t>(first - begin)) && pairs_.resize(i, static_cast<std::size_t>(end - first));
   if (!row.known) {
-    s.changed = s.no_room = true;
+    s.rebuild = s.no_room = true;
     return false;
   }
   row.written = clock(i);
   std::copy(begin, first, lower_.of(i).begin());  // NOLINT(readability-suspicious-call-argument)
   auto old = s.old.cbegin();
   auto other = first;
-  const auto counted = [](const Pair& pair) { return (pair.linked | pair.blocked | pair.near) != 0; };
+  const auto leave = [&](const Pair& pair) {
+    Pair gone = pair;
+    gone.linked = gone.near = 0;
+    note(i, pair, gone, s);
+  };
   for (Pair& pair : pairs_.of(i)) {
-    for (; old != s.old.cend() && old->other < *other; ++old) s.changed |= counted(*old);
+    for (; old != s.old.cend() && old->other < *other; ++old) leave(*old);
     if (old != s.old.cend() && old->other == *other) pair = *old++;
-    else pair = {*other & nobody_blocks, 0, 0, 0, nobody_blocks, clock(i, *other) - 1};
+    else pair = {*other & last_index, 0, 0, 0, nobody_, clock(i, *other) - 1, clock(i, *other) - 1};
     ++other;
   }
-  for (; old != s.old.cend(); ++old) s.changed |= counted(*old);
+  for (; old != s.old.cend(); ++old) leave(*old);
   return true;
 }
 
@@ -271,13 +322,37 @@ void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) 
   if ((!row.known || clock(i) - row.written > skin_) && !write_row(i, positions, s)) return;
   Site site{i, positions[i], positions, lower_.of(i), pairs_.of(i), s};
   Way least = skin_ - (clock(i) - row.written);
-  const Way own = clock(i);
+  const Way own = path_[i];
+  const Way around = around_[i];
   for (Pair& pair : site.pairs) {
-    const Way now = own + path_[pair.other];
-    if (all_anew_ || past(now, pair.holds_until)) decide(site, pair);
-    least = std::min(least, pair.holds_until - now);
+    const Way ends = own + path_[pair.other];
+    const bool wide = all_anew_ || past(ends + around, pair.wide_until);
+    if (wide || past(ends + path_[pair.witness], pair.close_until)) {
+      if (wide || !ask_witness(site, pair)) decide(site, pair);
+    }
+    least = std::min({least, pair.close_until - (ends + path_[pair.witness]), pair.wide_until - (ends + around)});
   }
   row.quiet_until = fast_clock(i) + least;
+}
+
+// Takes down what a pair has become.
+void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s) const {
+  const int link = static_cast<int>(now.linked) - static_cast<int>(before.linked);
+  const int near = static_cast<int>(now.near) - static_cast<int>(before.near);
+  if (link != 0 || near != 0) s.changes.push_back({{static_cast<std::uint32_t>(i), now.other}, link, near});
+}
+
+// Whether the body that blocks a line of sight still does, or the one nearest to it still leaves it free, and
+// for how long. Nothing else has changed for the pair.
+bool Radio::ask_witness(const Site& site, Pair& pair) const noexcept {
+  if (pair.witness == nobody_) return false;
+  const Vec2 d = site.positions[pair.other] - site.here;
+  const Vec2 body = site.positions[pair.witness] - site.here;
+  const double d2 = squared_norm(d);
+  if (disc_blocks(body, d, d2, radius_m_) != (pair.blocked != 0)) return false;
+  const double lasts_m = pair.blocked != 0 ? depth(body, d, d2, radius_m_) : distance_beside(body, d, d2, radius_m_);
+  pair.close_until = clock_of_three(site.i, pair) + way(lasts_m);
+  return true;
 }
 
 // Decides a pair, and for how long.
@@ -286,38 +361,55 @@ void Radio::decide(Site& site, Pair& pair) const {
   const Vec2 d = site.positions[pair.other] - site.here;
   const double d2 = squared_norm(d);
   const double length = std::sqrt(d2);
-  double lasts_m = std::min({std::fabs(length - range_m_), std::fabs(length - near_m_), range_m_});
-  pair.near = d2 < near_m_ * near_m_ ? 1 : 0;
+  const double in_range_m = std::min({std::fabs(length - range_m_), std::fabs(length - near_m_), range_m_});
   const bool in_range = d2 < range_m_ * range_m_ && alive_[site.i] != 0 && alive_[pair.other] != 0;
-  pair.linked = in_range && !line_of_sight_ ? 1 : 0;
-  if (in_range && line_of_sight_) lasts_m = std::min(lasts_m, judge_sight(site, pair, d, length));
-  else pair.blocked = 0;
-  // Clocks go up to one unit too slowly per robot; rounding is far less.
-  pair.holds_until = clock(site.i, pair.other) + static_cast<Way>(std::max(0.0, lasts_m / unit_m_ - 4.0));
-  site.s.changed |= pair.linked != before.linked || pair.blocked != before.blocked || pair.near != before.near;
+  pair.near = d2 < near_m_ * near_m_ ? 1 : 0;
+  if (in_range && line_of_sight_) {
+    const double lasts_m = judge_sight(site, pair, d, d2);
+    pair.wide_until = clock(site.i, pair.other) + way(std::min(in_range_m, lasts_m));
+  } else {
+    pair.linked = in_range ? 1 : 0;
+    pair.blocked = 0;
+    pair.wide_until = clock(site.i, pair.other) + never;
+    hold(site, pair, nobody_, in_range_m);
+  }
+  note(site.i, before, pair, site.s);
 }
 
-// Whether there is a line of sight; returns for how long that is so, as a way in m by the clock of the pair.
-double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double length) const {
-  const double d2 = squared_norm(d);
+// The witness of a pair, who changes nothing until the three have come so far.
+void Radio::hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept {
+  pair.witness = witness;
+  pair.close_until = clock_of_three(site.i, pair) + way(lasts_m);
+}
+
+// Whether there is a line of sight. Returns for how long that is so whatever anybody but the witness does, as a
+// way by the clock of the pair.
+double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const {
   const Vec2 there = site.positions[pair.other];
   const auto hides = [&](const Obstacle* o) { return blocks(*o, site.here, there); };
+  const auto hidden = [&] { return std::any_of(site.s.obstacles.begin(), site.s.obstacles.end(), hides); };
+  const auto block = [&](std::uint32_t body) {
+    hold(site, pair, body, depth(site.positions[body] - site.here, d, d2, radius_m_));
+    return range_m_;
+  };
   const bool was_blocked = pair.blocked != 0;
   pair.blocked = 1;
+  pair.linked = 0;
   // Who blocked the pair before mostly still does.
-  if (was_blocked && pair.blocker != nobody_blocks && !(dead_vanish_ && alive_[pair.blocker] == 0)) {
-    const Vec2 body = site.positions[pair.blocker] - site.here;
-    if (disc_blocks(body, d, d2, radius_m_)) return depth(body, d, length, radius_m_);
-  }
+  if (was_blocked && pair.witness != nobody_ && !(dead_vanish_ && alive_[pair.witness] == 0) &&
+      disc_blocks(site.positions[pair.witness] - site.here, d, d2, radius_m_))
+    return block(pair.witness);
   look_around(site);
-  if (was_blocked && pair.blocker == nobody_blocks && std::any_of(site.s.obstacles.begin(), site.s.obstacles.end(), hides)) return 0.0;
-  const View view = find_blocker(site, pair, d, d2);
-  pair.blocker = view.blocker;
-  if (view.blocker != nobody_blocks) return depth(site.positions[view.blocker] - site.here, d, length, radius_m_);
-  if (std::any_of(site.s.obstacles.begin(), site.s.obstacles.end(), hides)) return 0.0;
+  const bool by_obstacle = was_blocked && pair.witness == nobody_;
+  hold(site, pair, nobody_, range_m_);
+  if (by_obstacle && hidden()) return 0.0;
+  const View view = look(site, pair, d, d2);
+  if (view.blocked) return block(view.witness);
+  if (!by_obstacle && hidden()) return 0.0;
   pair.blocked = 0;
   pair.linked = 1;
-  double lasts_m = static_cast<double>(view.free_m);
+  hold(site, pair, view.witness, std::min(range_m_, static_cast<double>(view.nearest_m)));
+  double lasts_m = static_cast<double>(view.others_m);
   for (const Obstacle* o : site.s.obstacles) lasts_m = std::min(lasts_m, gap(*o, site.here, there));
   return lasts_m;
 }
@@ -328,7 +420,7 @@ void Radio::look_around(Site& site) const {
   Scratch& s = site.s;
   const std::size_t size = site.lower.size() + site.pairs.size();
   if (s.x.size() < size + chunk)
-    for (auto* v : {&s.x, &s.y}) v->resize(2 * size + chunk);
+    for (auto* v : {&s.x, &s.y, &s.gap2}) v->resize(2 * size + chunk);
   float* x = s.x.data();
   float* y = s.y.data();
   const auto put = [&](std::uint32_t j) {
@@ -345,95 +437,125 @@ void Radio::look_around(Site& site) const {
     if (clearance(obstacle, site.here) < range_m_) s.obstacles.push_back(&obstacle);
 }
 
-// A body between the robot and the other of the pair. Single precision, four at a time, leaves out who
-// is clearly beside the line; the exact test decides on the rest.
-Radio::View Radio::find_blocker(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept {
+// Who is in the way from the robot to the other of the pair, or nearest to it. Single precision leaves out
+// who is clearly beside the line; the exact test decides on the rest.
+Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept {
   Scratch& s = site.s;
   const std::size_t lower = site.lower.size();
   const std::size_t size = lower + site.pairs.size();
   const auto target = lower + static_cast<std::size_t>(&pair - site.pairs.data());
   const auto body = [&](std::size_t at) { return at < lower ? site.lower[at] : site.pairs[at - lower].other; };
   const auto length = static_cast<float>(std::sqrt(d2));
-  const float ux = static_cast<float>(d.x) / length;
-  const float uy = static_cast<float>(d.y) / length;
-  const float half = 0.5F * length;
-  const float rounding = 1e-4F * (length + 1.0F);   // far above it
+  const bool has_direction = length > 1e-3F;                  // if not, everybody is tested
+  const Four ux = four(has_direction ? static_cast<float>(d.x) / length : 0.0F);
+  const Four uy = four(has_direction ? static_cast<float>(d.y) / length : 0.0F);
+  const Four half = four(0.5F * length);
+  const float rounding = 1e-4F * (length + 1.0F);             // far above it
   const float beside = static_cast<float>(radius_m_) + rounding;
-  const bool has_direction = length > 1e-3F;
   const float beside2 = has_direction ? beside * beside : far_away;
+  const auto distance2 = [&](std::size_t at) {                // of four bodies, from the segment
+    const Four x = load(s.x.data() + at);
+    const Four y = load(s.y.data() + at);
+    const Four across = x * uy - y * ux;
+    const Four middle = x * ux + y * uy - half;
+    const Four out = larger(larger(middle, -middle) - half, four(0.0F));   // beyond the ends
+    return across * across + out * out;
+  };
   const float aside = std::exchange(s.x[target], far_away);   // the other itself is not in the way
-  float least2[chunk];
-  float gap2[chunk];
-  std::fill_n(least2, chunk, far_away);
-  View view{nobody_blocks, 0.0F};
-  for (std::size_t begin = 0; begin < size && view.blocker == nobody_blocks; begin += chunk) {
-    const float* x = s.x.data() + begin;
-    const float* y = s.y.data() + begin;
-    int any = 0;
-    for (std::size_t n = 0; n < chunk; ++n) {   // without a branch, for the compiler to make vectors of it
-      const float across = x[n] * uy - y[n] * ux;
-      const float over = std::fabs(x[n] * ux + y[n] * uy - half) - half;   // beyond the ends
-      const float out = 0.5F * (over + std::fabs(over));
-      gap2[n] = across * across + out * out;
-      least2[n] = gap2[n] < least2[n] ? gap2[n] : least2[n];
-      any |= static_cast<int>(!(gap2[n] >= beside2));
-    }
-    if (any == 0) continue;
-    const std::size_t end = std::min(chunk, size - begin);
-    for (std::size_t n = 0; n < end && view.blocker == nobody_blocks; ++n) {
-      if (gap2[n] >= beside2 || begin + n == target) continue;
-      const std::uint32_t k = body(begin + n);
-      if (disc_blocks(site.positions[k] - site.here, d, d2, radius_m_)) view.blocker = k;
+  TwoLeast even, odd;
+  View view{false, nobody_, 0.0F, 0.0F};
+  for (std::size_t begin = 0; begin < size && !view.blocked; begin += chunk) {
+    const Four a = distance2(begin);
+    const Four b = distance2(begin + 4);
+    even.offer(a);
+    odd.offer(b);
+    float* gap2 = s.gap2.data() + begin;
+    std::memcpy(gap2, &a, sizeof a);
+    std::memcpy(gap2 + 4, &b, sizeof b);
+    const auto inside = (a < beside2) | (b < beside2);
+    if ((inside[0] | inside[1] | inside[2] | inside[3]) == 0) continue;
+    for (std::size_t n = 0; n < chunk && !view.blocked; ++n) {
+      if (gap2[n] >= beside2 || begin + n == target || begin + n >= size) continue;
+      view.witness = body(begin + n);
+      view.blocked = disc_blocks(site.positions[view.witness] - site.here, d, d2, radius_m_);
     }
   }
   s.x[target] = aside;
-  if (has_direction) view.free_m = std::max(0.0F, std::sqrt(*std::min_element(least2, least2 + chunk)) - beside);
+  if (view.blocked) return view;
+  even.offer(odd);
+  const TwoLeast two = even.joined();
+  const auto end = s.gap2.begin() + static_cast<std::ptrdiff_t>(size);
+  const auto nearest = std::find(s.gap2.begin(), end, two.least[0]);
+  view.witness = nearest < end ? body(static_cast<std::size_t>(nearest - s.gap2.begin())) : nobody_;
+  if (!has_direction) return view;
+  view.nearest_m = std::max(0.0F, std::sqrt(two.least[0]) - beside);
+  view.others_m = std::max(0.0F, std::sqrt(two.second[0]) - beside);
   return view;
 }
 
 // ---- The result ----
 
-// Pairs of all robots, in order, into compressed rows that are ascending at both ends.
-void Radio::merge() {
-  const std::size_t robots = fill_.size();
-  blocked_.clear();
-  near_.clear();
-  std::fill(offsets_.begin(), offsets_.end(), 0U);
-  const auto add = [](std::vector<Couple>& couples, std::size_t i, std::uint32_t j) {
-    if (couples.size() == couples.capacity()) couples.reserve(couples.size() + couples.size() / 4 + 16);
-    couples.emplace_back(static_cast<std::uint32_t>(i), j);
-  };
-  for (std::size_t i = 0; i < robots; ++i) {
-    for (const Pair& pair : pairs_.of(i)) {
-      if (pair.linked != 0) {
-        ++offsets_[i + 1];
-        ++offsets_[pair.other + 1];
+// Brings links and near pairs up to date, one change at a time unless they are many.
+void Radio::apply_changes() {
+  std::size_t changes = 0;
+  bool rebuild = false;
+  for (const Scratch& s : scratch_) {
+    changes += s.changes.size();
+    rebuild |= s.rebuild;
+  }
+  if (rebuild || changes > rows_.size() + few_cells) return merge();
+  for (const Scratch& s : scratch_)
+    for (const Change& change : s.changes) {
+      const auto [i, j] = change.couple;
+      if (change.near != 0) {
+        const auto at = std::lower_bound(near_.begin(), near_.end(), change.couple);
+        if (change.near > 0) near_.insert(at, change.couple);
+        else near_.erase(at);
       }
-      if (pair.blocked != 0) add(blocked_, i, pair.other);
-      if (pair.near != 0) add(near_, i, pair.other);
+      if (change.link < 0) {
+        links_.erase(i, j);
+        links_.erase(j, i);
+      } else if (change.link > 0 && !(links_.insert(i, j) && links_.insert(j, i))) {
+        return merge();
+      }
     }
-  }
-  for (std::size_t i = 0; i < robots; ++i) {
-    offsets_[i + 1] += offsets_[i];
-    fill_[i] = offsets_[i];
-  }
-  if (offsets_[robots] > links_.capacity()) links_.reserve(offsets_[robots] + offsets_[robots] / 4);
-  links_.resize(offsets_[robots]);
-  for (std::size_t i = 0; i < robots; ++i) {
+}
+
+// Pairs of all robots, in order, into rows that are ascending at both ends.
+void Radio::merge() {
+  const std::size_t robots = rows_.size();
+  near_.clear();
+  count_.assign(robots, 0);
+  for (std::size_t i = 0; i < robots; ++i)
+    for (const Pair& pair : pairs_.of(i)) {
+      count_[i] += pair.linked;
+      count_[pair.other] += pair.linked;
+      if (pair.near != 0) near_.emplace_back(static_cast<std::uint32_t>(i), pair.other);
+    }
+  for (std::size_t i = 0; i < robots; ++i) links_.clear(i);
+  links_.lay_out([&](std::size_t i) { return std::size_t{count_[i]}; });
+  for (std::size_t i = 0; i < robots; ++i)
     for (const Pair& pair : pairs_.of(i)) {
       if (pair.linked == 0) continue;
-      links_[fill_[i]++] = pair.other;
-      links_[fill_[pair.other]++] = static_cast<std::uint32_t>(i);
+      links_.append(i, pair.other);
+      links_.append(pair.other, static_cast<std::uint32_t>(i));
     }
-  }
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> Radio::blocked() const {
+  std::vector<Couple> couples;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (const Pair& pair : pairs_.of(i))
+      if (pair.blocked != 0) couples.emplace_back(static_cast<std::uint32_t>(i), pair.other);
+  return couples;
 }
 
 std::size_t Radio::memory_bytes() const noexcept {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };  // NOLINT(bugprone-sizeof-expression)
   std::size_t total = bytes(last_) + bytes(alive_) + lower_.memory_bytes() + pairs_.memory_bytes() + bytes(path_) + bytes(around_) + bytes(rows_) +
-                      bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(motion_) + bytes(across_) + bytes(offsets_) +
-                      bytes(fill_) + bytes(links_) + bytes(blocked_) + bytes(near_);
-  for (const Scratch& s : scratch_) total += bytes(s.index) + bytes(s.old) + bytes(s.x) + bytes(s.y) + bytes(s.obstacles);
+                      bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(motion_) + bytes(across_) + links_.memory_bytes() +
+                      bytes(count_) + bytes(near_);
+  for (const Scratch& s : scratch_) total += bytes(s.index) + bytes(s.old) + bytes(s.x) + bytes(s.y) + bytes(s.gap2) + bytes(s.changes) + bytes(s.obstacles);
   return total;
 }
 

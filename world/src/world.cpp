@@ -163,7 +163,8 @@ void World::Impl::think(Executor& executor) {
     // This slot's packets were sent latency - 1 ticks ago: they are heard now, and the slot is free
     // for those sent now.
     std::swap(arriving, *flight);
-    flight->offsets.assign(radio.offsets().begin(), radio.offsets().end());
+    flight->offsets.assign(1, 0);
+    for (std::size_t i = 0; i < n; ++i) flight->offsets.push_back(flight->offsets.back() + static_cast<std::uint32_t>(radio.links(i).size()));
     flight->count.assign(n, 0);
     flight->packets.resize(flight->offsets.back());
   }
@@ -316,7 +317,7 @@ std::size_t World::deaths() const noexcept { return impl_->deaths; }
 std::optional<std::uint64_t> World::last_death_tick() const noexcept { return impl_->last_death; }
 bool World::pending_kills() const noexcept { return impl_->event_queue.deaths_to_come(); }
 std::span<const std::uint32_t> World::links(std::size_t i) const noexcept { return impl_->radio.links(i); }
-Pairs World::blocked() const noexcept { return impl_->radio.blocked(); }
+std::vector<std::pair<std::uint32_t, std::uint32_t>> World::blocked() const { return impl_->radio.blocked(); }
 std::uint64_t World::packets_received() const noexcept { return impl_->received; }
 std::uint64_t World::packets_sent() const noexcept { return impl_->sent; }
 

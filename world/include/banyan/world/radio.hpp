@@ -39,12 +39,10 @@ class Radio {
   // Robot i has vanished since the last update: it is near to nobody.
   void forget(std::uint32_t i);
 
-  [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept {
-    return {links_.data() + offsets_[i], links_.data() + offsets_[i + 1]};
-  }
-  [[nodiscard]] std::span<const std::pair<std::uint32_t, std::uint32_t>> blocked() const noexcept { return blocked_; }
+  [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept { return links_.of(i); }
   [[nodiscard]] NearPairs near() const noexcept { return near_; }
-  [[nodiscard]] std::span<const std::uint32_t> offsets() const noexcept { return offsets_; }
+  // Listed when asked for: a tick has no use for them.
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> blocked() const;
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
   // Whether a disc of `radius` at `k` blocks the segment from the origin to `d`: nearer than radius
@@ -60,15 +58,22 @@ class Radio {
   using Couple = std::pair<std::uint32_t, std::uint32_t>;
   // A way in units of unit_m_, rounded up. It wraps: only differences count.
   using Way = std::uint32_t;
-  static constexpr std::uint32_t nobody_blocks = (1U << 29) - 1;
-  static constexpr std::size_t chunk = 16;   // of neighbours that are looked at together
+  static constexpr Way never = 1U << 30;
+  static constexpr std::uint32_t last_index = (1U << 29) - 1;
+  static constexpr std::size_t chunk = 8;   // of neighbours that are looked at together
 
   // What was found out about robot i and another, j > i.
   struct Pair {
     std::uint32_t other : 29;
     std::uint32_t linked : 1, blocked : 1, near : 1;   // neither linked nor blocked: out of range, or dead
-    std::uint32_t blocker;   // of a blocked pair: a body, or nobody_blocks for an obstacle
-    Way holds_until;         // by the clock of the pair
+    std::uint32_t witness;   // the body in the way, or if none is the one that is nearest to it; or nobody_
+    Way close_until;         // by the clock of the three: until then the witness changes nothing,
+    Way wide_until;          // by the clock of the pair: nor does anything else
+  };
+  // What a pair has become: 1 linked or near, -1 no longer, 0 as before.
+  struct Change {
+    Couple couple;
+    int link, near;
   };
   // The row of a robot: everybody within reach when it was written.
   struct Row {
@@ -82,7 +87,9 @@ class Radio {
     std::vector<Pair> old;              // a row before it was written anew
     std::vector<float> x, y;            // from a robot to each of its row, world frame, padded to whole chunks
     std::vector<const Obstacle*> obstacles;   // near it
-    bool changed = false;               // some pair is not what it was
+    std::vector<float> gap2;            // of each of them, from a line of sight
+    std::vector<Change> changes;        // in this update
+    bool rebuild = false;               // they are not all that has changed
     bool no_room = false;               // some row needs more
   };
   // A robot and its row, while it is looked at.
@@ -95,14 +102,19 @@ class Radio {
     Scratch& s;
     bool looked = false;   // s.x, s.y and s.obstacles are those of this robot
   };
-  // A body in the way, or how far everybody else is from being in the way.
+  // Whether a body is in the way, and which. If none is: how far the nearest, and how far everybody else,
+  // is from being in the way.
   struct View {
-    std::uint32_t blocker;
-    float free_m;
+    bool blocked;
+    std::uint32_t witness;
+    float nearest_m, others_m;
   };
 
   [[nodiscard]] Way clock(std::size_t i) const noexcept { return path_[i] + around_[i]; }
   [[nodiscard]] Way clock(std::size_t i, std::size_t j) const noexcept { return path_[i] + path_[j] + around_[i]; }
+  [[nodiscard]] Way clock_of_three(std::size_t i, const Pair& pair) const noexcept { return path_[i] + path_[pair.other] + path_[pair.witness]; }
+  // So far that clocks may go on: they are up to one unit too slow per robot, and rounding is far less.
+  [[nodiscard]] Way way(double m) const noexcept { return static_cast<Way>(std::max(0.0, m * units_per_m_ - 4.0)); }
   [[nodiscard]] Way fast_clock(std::size_t i) const noexcept { return path_[i] + 2 * around_[i]; }
   [[nodiscard]] static bool past(Way now, Way until) noexcept { return static_cast<std::int32_t>(now - until) > 0; }
 
@@ -114,17 +126,21 @@ class Radio {
   [[nodiscard]] bool write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s);
   void make_room(std::span<const Vec2> positions);
   void refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s);
+  void note(std::size_t i, const Pair& before, const Pair& now, Scratch& s) const;
   void decide(Site& site, Pair& pair) const;
-  [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double length) const;
+  void hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept;
+  [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const;
+  [[nodiscard]] bool ask_witness(const Site& site, Pair& pair) const noexcept;
   void look_around(Site& site) const;
-  [[nodiscard]] View find_blocker(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept;
+  [[nodiscard]] View look(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept;
+  void apply_changes();
   void merge();
 
   double range_m_;
   double radius_m_;
   double near_m_;
   double reach_m_;      // how far a row reaches
-  double unit_m_;
+  double unit_m_, units_per_m_;
   Way skin_;            // a row is written anew once its clock has gone on so far; to the end of
   Way valid_;           // this it misses nobody that matters
   bool line_of_sight_;
@@ -136,6 +152,7 @@ class Radio {
   std::vector<std::uint8_t> alive_;
   bool all_anew_ = true;                  // every pair is to be decided again: sight or obstacles have changed
 
+  std::uint32_t nobody_;                  // the index after the last robot's; never moves
   std::vector<Way> path_;                 // how far each robot has come
   std::vector<Way> around_;               // the farthest that anybody within its reach has moved, summed over ticks
   std::vector<Row> rows_;
@@ -150,8 +167,9 @@ class Radio {
   std::vector<Way> motion_, across_;      // the farthest move in each cell in this tick; in three cells side by side
 
   std::vector<Scratch> scratch_;
-  std::vector<std::uint32_t> offsets_, fill_, links_;  // compressed rows
-  std::vector<Couple> blocked_, near_;
+  Rows<std::uint32_t> links_;             // ascending
+  std::vector<std::uint32_t> count_;      // of links, while they are laid out anew
+  std::vector<Couple> near_;
 };
 
 }  // namespace banyan::world

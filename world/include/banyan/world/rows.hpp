@@ -26,6 +26,25 @@ class Rows {
     return true;
   }
 
+  void clear(std::size_t row) noexcept { size_[row] = 0; }
+  // At the end. There must be room.
+  void append(std::size_t row, T item) noexcept { items_[begin_[row] + size_[row]++] = item; }
+  // Into an ascending row. False, and nothing has changed, if there is no room.
+  [[nodiscard]] bool insert(std::size_t row, T item) noexcept {
+    if (!resize(row, size_[row] + std::size_t{1})) return false;
+    const auto end = of(row).end() - 1;
+    const auto at = std::upper_bound(of(row).begin(), end, item);
+    std::copy_backward(at, end, end + 1);
+    *at = item;
+    return true;
+  }
+  // From an ascending row that has it.
+  void erase(std::size_t row, T item) noexcept {
+    const auto at = std::lower_bound(of(row).begin(), of(row).end(), item);
+    std::copy(at + 1, of(row).end(), at);
+    --size_[row];
+  }
+
   // Gives row r room for at least wanted(r) items, which is no less than its size. Keeps what is in the
   // rows. Takes from the heap only when all of them together are more than ever before.
   template <class Wanted>

@@ -19,8 +19,6 @@ namespace banyan::world {
 
 class Executor;  // threads.hpp
 
-using Pairs = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
-
 struct Target {
   Vec2 position{};
   std::size_t worker = 0;   // index of the robot first sent there; its id is what `serves` names
@@ -82,8 +80,8 @@ class World {
   // Robots that robot i could hear and be heard by at the current positions: in range, line of
   // sight free, both alive. Ascending. Packet loss is not in it.
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
-  // Pairs (i < j) in range, both alive, but without line of sight; ascending by i.
-  [[nodiscard]] Pairs blocked() const noexcept;
+  // Pairs (i < j) in range, both alive, but without line of sight; ascending. Listed anew each time: O(pairs in range).
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> blocked() const;
 
   [[nodiscard]] std::uint64_t packets_received() const noexcept;   // since the start
   [[nodiscard]] std::uint64_t packets_sent() const noexcept;
