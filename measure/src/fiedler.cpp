@@ -130,6 +130,7 @@ bool Fiedler::below(const Graph& graph, double threshold) {
   if (parts.count != 1) return true;
   if (n == 1) return 1.0 < threshold;
   if (lower_bound(n, parts.eccentricity) >= threshold) return false;
+  if (flow_bound(graph) >= 1.000001 * threshold) return false;
   if (rayleigh_quotient(graph, level_) < threshold) return true;
   if (eigenvector_.size() == n && rayleigh_quotient(graph, eigenvector_) < threshold) return true;
   if (settled_threshold_ == threshold && settled_ == graph) return settled_answer_;
@@ -137,6 +138,28 @@ bool Fiedler::below(const Graph& graph, double threshold) {
   settled_threshold_ = threshold;
   settled_ = graph;
   return settled_answer_;
+}
+
+// Send one unit from every node to node 0, hop by hop, in equal parts to all neighbours that are one hop nearer.
+// If no edge from level l to l - 1 carries more than c_l, then lambda_2 >= 1 / (c_1 + c_2 + ...): for any x and
+// any way from a node u to node 0, (x_u - x_0)^2 <= (sum of c_l) (sum along it of (x_i - x_j)^2 / c_l), by Cauchy
+// and Schwarz; so, weighted with the parts that go each way and added up over all u, sum of (x_u - x_0)^2 <=
+// (sum of c_l) x' L x, and no other point than the mean of x makes the left side less than it is for x_0.
+double Fiedler::flow_bound(const Graph& graph) {
+  flow_.assign(graph.size(), 1.0);
+  widest_.assign(level_[queue_.back()] + 1, 0.0);
+  for (std::size_t k = queue_.size(); k-- > 1;) {
+    const std::uint32_t i = queue_[k];
+    const auto nearer = [&](std::uint32_t j) { return level_[j] < level_[i]; };
+    const auto row = graph.of(i);
+    const double part = flow_[i] / static_cast<double>(std::count_if(row.begin(), row.end(), nearer));
+    for (const std::uint32_t j : row)
+      if (nearer(j)) flow_[j] += part;
+    widest_[level_[i]] = std::max(widest_[level_[i]], part);
+  }
+  double sum = 0.0;
+  for (const double widest : widest_) sum += widest;
+  return 1.0 / sum;
 }
 
 // Sylvester: L - threshold has as many negative eigenvalues as its factorisation has negative

@@ -22,23 +22,43 @@ constexpr double sample_period_s = 2.0;     // above that
 // Communication graph of the living robots, which are numbered anew without gaps.
 class LivingGraph {
  public:
-  void build(const world::World& world, bool with_blocked) {
-    const std::size_t n = world.size();
+  void build(const world::World& world) {
     const auto alive = world.alive();
     const bool all_alive = std::find(alive.begin(), alive.end(), std::uint8_t{0}) == alive.end();
-    if (!all_alive) number(alive);
-    if (with_blocked) collect_blocked(world);
     graph.offsets.assign(1, 0);
     graph.neighbors.clear();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < world.size(); ++i) {
       if (alive[i] == 0) continue;
       const auto links = world.links(i);
       graph.neighbors.insert(graph.neighbors.end(), links.begin(), links.end());
-      if (with_blocked) graph.neighbors.insert(graph.neighbors.end(), blocked_[i].begin(), blocked_[i].end());
       graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
     }
-    if (!all_alive)
-      for (std::uint32_t& j : graph.neighbors) j = number_[j];
+    if (all_alive) return;
+    number(alive);
+    for (std::uint32_t& j : graph.neighbors) j = number_[j];
+  }
+  // With a link for each pair without a line of sight.
+  void build_by_distance(const world::World& world, std::span<const std::pair<std::uint32_t, std::uint32_t>> blocked) {
+    number(world.alive());
+    const std::size_t n = world.size();
+    std::vector<std::uint32_t>& begin = graph.offsets;
+    begin.assign(1, 0);
+    for (std::size_t i = 0; i < n; ++i)
+      if (world.alive()[i] != 0) begin.push_back(static_cast<std::uint32_t>(world.links(i).size()));
+    for (const auto& [i, j] : blocked) {
+      ++begin[number_[i] + 1];
+      ++begin[number_[j] + 1];
+    }
+    for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
+    graph.neighbors.resize(begin.back());
+    end_.assign(begin.begin(), begin.end());
+    const auto add = [&](std::size_t i, std::uint32_t j) { graph.neighbors[end_[number_[i]]++] = number_[j]; };
+    for (std::size_t i = 0; i < n; ++i)
+      for (const std::uint32_t j : world.links(i)) add(i, j);
+    for (const auto& [i, j] : blocked) {
+      add(i, j);
+      add(j, i);
+    }
   }
   Graph graph;
 
@@ -48,18 +68,55 @@ class LivingGraph {
     std::uint32_t next = 0;
     for (std::size_t i = 0; i < alive.size(); ++i) number_[i] = alive[i] != 0 ? next++ : 0;
   }
+  std::vector<std::uint32_t> number_, end_;
+};
 
-  void collect_blocked(const world::World& world) {
-    blocked_.resize(world.size());
-    for (auto& row : blocked_) row.clear();
-    for (const auto& [i, j] : world.blocked()) {
-      blocked_[i].push_back(j);
-      blocked_[j].push_back(i);
+// How many hops each robot was from the first living one when that was last counted. As long as everybody still
+// has a link to somebody who was nearer, all are connected, and no farther away than they were.
+class HopCount {
+ public:
+  void renew(const world::World& world, std::span<const std::uint32_t> hops_of_living) {
+    hops_.assign(world.size(), 0);
+    nearer_.assign(world.size(), 0);
+    farthest_ = 0;
+    first_ = world.size();
+    auto hops = hops_of_living.begin();
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      if (world.alive()[i] == 0) continue;
+      if (first_ == world.size()) first_ = i;
+      hops_[i] = *hops++;
+      farthest_ = std::max(farthest_, hops_[i]);
     }
   }
-  std::vector<std::uint32_t> number_;
-  std::vector<std::vector<std::uint32_t>> blocked_;
+  // Whether that is so now. Never of those that have not been connected, or not been counted.
+  [[nodiscard]] bool holds(const world::World& world) {
+    if (hops_.empty() || world.alive()[first_] == 0) return false;
+    for (std::size_t i = 0; i < hops_.size(); ++i)
+      if (world.alive()[i] != 0 && i != first_ && !has_nearer(world, i)) return false;
+    return true;
+  }
+  void forget() noexcept { hops_.clear(); }
+  [[nodiscard]] std::uint32_t farthest() const noexcept { return farthest_; }
+
+ private:
+  // Mostly it is still at the same place of the row, or one beside it.
+  [[nodiscard]] bool has_nearer(const world::World& world, std::size_t i) {
+    const auto links = world.links(i);
+    if (nearer_[i] < links.size() && hops_[links[nearer_[i]]] < hops_[i]) return true;
+    const auto nearer = std::find_if(links.begin(), links.end(), [&](std::uint32_t j) { return hops_[j] < hops_[i]; });
+    nearer_[i] = static_cast<std::uint32_t>(nearer - links.begin());
+    return nearer != links.end();
+  }
+  std::vector<std::uint32_t> hops_;     // by robot; empty: not connected
+  std::vector<std::uint32_t> nearer_;   // by robot: place of somebody nearer in its row of links
+  std::size_t first_ = 0;
+  std::uint32_t farthest_ = 0;
 };
+
+// lambda_2 >= 4 / (n diameter) (Mohar 1991), and diameter <= 2 eccentricity.
+bool is_high(std::size_t n, std::uint32_t eccentricity) {
+  return 4.0 / (static_cast<double>(n) * 2.0 * std::max(1.0, static_cast<double>(eccentricity))) >= low_fiedler;
+}
 
 // lambda_2 of one graph over a run: components at every tick, the threshold as often as it pays.
 struct Spectrum {
@@ -70,13 +127,8 @@ struct Spectrum {
   void judge(const Graph& graph, bool sample) {
     const Fiedler::Components found = fiedler.components(graph);
     components = found.count;
-    if (found.count > 1) {
-      low = true;
-      return;
-    }
-    // lambda_2 >= 4 / (n diameter) (Mohar 1991), and diameter <= 2 eccentricity.
-    const double bound = 4.0 / (static_cast<double>(graph.size()) * 2.0 * std::max(1.0, static_cast<double>(found.eccentricity)));
-    if (bound >= low_fiedler) low = false;
+    if (found.count > 1) low = true;
+    else if (is_high(graph.size(), found.eccentricity)) low = false;
     else if (sample) low = fiedler.below(graph, low_fiedler);
   }
 };
@@ -88,6 +140,7 @@ struct Observer::Impl {
   void count_robots(const world::World& world);
   void count_edges(const world::World& world);
   void judge_graph(const world::World& world, bool exact_fiedler);
+  void judge_links(const world::World& world, bool sample, bool exact_fiedler);
   void measure_targets(const world::World& world);
   void time_phases(const world::World& world);
   void add_up();
@@ -107,6 +160,7 @@ struct Observer::Impl {
   std::uint64_t sample_ticks;
   LivingGraph graph;
   Spectrum with_occlusion, by_distance;
+  HopCount hop_count;
   std::uint64_t ticks_since_complete = 0;
   double held_sum = 0.0;
   std::uint64_t committed_sum = 0, low_ticks = 0, low_ticks_by_distance = 0;
@@ -202,21 +256,34 @@ void Observer::Impl::count_edges(const world::World& world) {
 
 void Observer::Impl::judge_graph(const world::World& world, bool exact_fiedler) {
   const bool sample = tick.alive <= every_tick_limit || world.tick() % sample_ticks == 1;
-  graph.build(world, false);
-  with_occlusion.judge(graph.graph, sample);
+  judge_links(world, sample, exact_fiedler);
   tick.components = with_occlusion.components;
   tick.fiedler_low = with_occlusion.low;
   tick.fiedler = exact_fiedler ? with_occlusion.fiedler.value(graph.graph) : -1.0;
   // More edges never lower lambda_2, nor do they split a graph.
-  if (world.blocked().empty() || (tick.components == 1 && !tick.fiedler_low)) {
-    tick.components_by_distance = tick.components;
-    tick.fiedler_low_by_distance = tick.fiedler_low;
-    return;
-  }
-  graph.build(world, true);
+  tick.components_by_distance = tick.components;
+  tick.fiedler_low_by_distance = tick.fiedler_low;
+  if (tick.components == 1 && !tick.fiedler_low) return;
+  const auto blocked = world.blocked();
+  if (blocked.empty()) return;
+  graph.build_by_distance(world, blocked);
   by_distance.judge(graph.graph, sample);
   tick.components_by_distance = by_distance.components;
   tick.fiedler_low_by_distance = by_distance.low;
+}
+
+// The graph itself is looked at only if what was known of it does not settle the matter.
+void Observer::Impl::judge_links(const world::World& world, bool sample, bool exact_fiedler) {
+  if (!exact_fiedler && hop_count.holds(world)) {
+    Spectrum& spectrum = with_occlusion;
+    spectrum.components = 1;
+    if (is_high(tick.alive, hop_count.farthest())) spectrum.low = false;
+    if (!spectrum.low && (!sample || is_high(tick.alive, hop_count.farthest()))) return;
+  }
+  graph.build(world);
+  with_occlusion.judge(graph.graph, sample);
+  if (with_occlusion.components == 1) hop_count.renew(world, with_occlusion.fiedler.hops());
+  else hop_count.forget();
 }
 
 // One pass over the robots for all targets, where World::holder takes one for each.

@@ -28,9 +28,12 @@ class Fiedler {
   // allocation once it has seen a graph of this size.
   struct Components { std::uint32_t count = 0; std::uint32_t eccentricity = 0; };
   Components components(const Graph& graph);
+  // Of each node from node 0, as the last call of any of these found them. Of a connected graph.
+  [[nodiscard]] std::span<const std::uint32_t> hops() const noexcept { return level_; }
   // lambda_2 < threshold? Settled by the cheapest of: components; lambda_2 >= 4 / (n diameter) with
-  // diameter <= 2 eccentricity; the Rayleigh quotient of the last eigenvector or of the hops from
-  // node 0; the answer for the same graph before; and else the signs of one sparse factorisation.
+  // diameter <= 2 eccentricity; how much must flow through the narrowest links if every node is to
+  // reach node 0; the Rayleigh quotient of the last eigenvector or of the hops from node 0; the
+  // answer for the same graph before; and else the signs of one sparse factorisation.
   // Everything but the last costs O(n + m) and allocates nothing after the first calls.
   bool below(const Graph& graph, double threshold);
   // lambda_2: 0 for a disconnected or empty graph, n for a complete one (1 for a single node), else
@@ -42,9 +45,11 @@ class Fiedler {
   std::uint32_t visit(const Graph& graph, std::uint32_t start);
   double dense(const Graph& graph);
   double sparse(const Graph& graph, double lower_bound);
+  double flow_bound(const Graph& graph);
   bool below_by_factorisation(const Graph& graph, double threshold);
 
   std::vector<std::uint32_t> queue_, level_;  // breadth-first search
+  std::vector<double> flow_, widest_;         // through each node; the largest over an edge of each level
   std::vector<double> eigenvector_;           // of the last value()
   Graph settled_;                             // the last graph that needed a factorisation
   double settled_threshold_ = 0.0;
