@@ -24,7 +24,6 @@ namespace {
 constexpr std::size_t few_cells = 15;   // so few, and scanning everybody beats the grid
 constexpr float far_away = 1e30F;
 constexpr double skin_share = 0.1;      // of the range
-constexpr double units_per_reach = 1 << 20;
 
 // What a body that blocks the segment from the origin to `d` may do until it is out of the way, as a
 // way by the clock of the three. Across the segment nobody gets out faster than the clock goes. Along it
@@ -101,10 +100,9 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
   const double skin_m = skin_share * range_m_;
   const double tick_m = 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s;
   reach_m_ = std::max(range_m_, near_m_) + radius_m_ + skin_m + tick_m;
-  unit_m_ = reach_m_ / units_per_reach;
   units_per_m_ = units_per_reach / reach_m_;
-  skin_ = static_cast<Way>(skin_m / unit_m_);
-  valid_ = static_cast<Way>(0.99 * (skin_m + tick_m) / unit_m_);
+  skin_ = static_cast<Way>(skin_m * units_per_m_);
+  valid_ = static_cast<Way>(0.99 * (skin_m + tick_m) * units_per_m_);
 }
 
 void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor) {
@@ -114,7 +112,7 @@ void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t
     executor.parallel_for(positions.size(), [&](std::size_t begin, std::size_t end, int worker) {
       Scratch& s = scratch_[static_cast<std::size_t>(worker)];
       for (std::size_t i = begin; i < end; ++i)
-        if (all_anew_ || !rows_[i].known || past(fast_clock(i), rows_[i].quiet_until)) refresh(i, positions, s);
+        if (all_anew_ || !rows_[i].known || static_cast<std::int32_t>(rows_[i].quiet_until - fast_clock(i)) < 0) refresh(i, positions, s);
     });
   };
   for (Scratch& s : scratch_) {
@@ -150,7 +148,7 @@ bool Radio::follow(std::span<const Vec2> positions, std::span<const std::uint8_t
   Way farthest = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (positions[i] == last_[i]) continue;
-    const double way = std::min(distance(positions[i], last_[i]) / unit_m_, units_per_reach);
+    const double way = std::min(distance(positions[i], last_[i]) * units_per_m_, static_cast<double>(units_per_reach));
     const Way up = static_cast<Way>(way) + 1;
     last_[i] = positions[i];
     path_[i] += up;
@@ -262,7 +260,8 @@ void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) c
 }
 
 // Who is within reach of robot i now. What was known of pairs goes over into the new row, if its clock
-// has not gone too far: until then nobody whom the row missed has mattered. False: there is no room.
+// has not gone too far: until then nobody whom the row missed has mattered. Not of those out of range: while
+// they were out of reach too, nobody here has counted how far they have come. False: there is no room.
 bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s) {
   gather(i, positions, s);
   const auto begin = s.index.begin();
@@ -289,8 +288,11 @@ bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s
   };
   for (Pair& pair : pairs_.of(i)) {
     for (; old != s.old.cend() && old->other < *other; ++old) leave(*old);
-    if (old != s.old.cend() && old->other == *other) pair = *old++;
-    else pair = {*other & last_index, 0, 0, 0, nobody_, clock(i, *other) - 1, clock(i, *other) - 1};
+    pair = {*other & last_index, 0, 0, 0, nobody_, mark(clock_of_three(i, *other, nobody_)), mark(clock(i, *other))};
+    if (old != s.old.cend() && old->other == *other) {
+      if ((old->linked | old->blocked | old->near) != 0) pair = *old;
+      ++old;
+    }
     ++other;
   }
   for (; old != s.old.cend(); ++old) leave(*old);
@@ -321,18 +323,17 @@ void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) 
   Row& row = rows_[i];
   if ((!row.known || clock(i) - row.written > skin_) && !write_row(i, positions, s)) return;
   Site site{i, positions[i], positions, lower_.of(i), pairs_.of(i), s};
-  Way least = skin_ - (clock(i) - row.written);
+  int least = static_cast<int>((row.written + skin_ - clock(i)) / units_per_step) + 1;
   const Way own = path_[i];
   const Way around = around_[i];
   for (Pair& pair : site.pairs) {
     const Way ends = own + path_[pair.other];
-    const bool wide = all_anew_ || past(ends + around, pair.wide_until);
-    if (wide || past(ends + path_[pair.witness], pair.close_until)) {
-      if (wide || !ask_witness(site, pair)) decide(site, pair);
-    }
-    least = std::min({least, pair.close_until - (ends + path_[pair.witness]), pair.wide_until - (ends + around)});
+    const auto steps = [&] { return std::min(steps_left(ends + path_[pair.witness], pair.close_until), steps_left(ends + around, pair.wide_until)); };
+    if (all_anew_ || steps() <= 0)
+      if (all_anew_ || steps_left(ends + around, pair.wide_until) <= 0 || !ask_witness(site, pair)) decide(site, pair);
+    least = std::min(least, steps());
   }
-  row.quiet_until = fast_clock(i) + least;
+  row.quiet_until = fast_clock(i) + static_cast<Way>(std::max(0, least - 1)) * units_per_step;
 }
 
 // Takes down what a pair has become.
@@ -351,7 +352,7 @@ bool Radio::ask_witness(const Site& site, Pair& pair) const noexcept {
   const double d2 = squared_norm(d);
   if (disc_blocks(body, d, d2, radius_m_) != (pair.blocked != 0)) return false;
   const double lasts_m = pair.blocked != 0 ? depth(body, d, d2, radius_m_) : distance_beside(body, d, d2, radius_m_);
-  pair.close_until = clock_of_three(site.i, pair) + way(lasts_m);
+  pair.close_until = mark(clock_of_three(site.i, pair.other, pair.witness) + way(lasts_m));
   return true;
 }
 
@@ -366,11 +367,11 @@ void Radio::decide(Site& site, Pair& pair) const {
   pair.near = d2 < near_m_ * near_m_ ? 1 : 0;
   if (in_range && line_of_sight_) {
     const double lasts_m = judge_sight(site, pair, d, d2);
-    pair.wide_until = clock(site.i, pair.other) + way(std::min(in_range_m, lasts_m));
+    pair.wide_until = mark(clock(site.i, pair.other) + way(std::min(in_range_m, lasts_m)));
   } else {
     pair.linked = in_range ? 1 : 0;
     pair.blocked = 0;
-    pair.wide_until = clock(site.i, pair.other) + never;
+    pair.wide_until = mark(clock(site.i, pair.other) + units_per_reach);
     hold(site, pair, nobody_, in_range_m);
   }
   note(site.i, before, pair, site.s);
@@ -379,7 +380,7 @@ void Radio::decide(Site& site, Pair& pair) const {
 // The witness of a pair, who changes nothing until the three have come so far.
 void Radio::hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept {
   pair.witness = witness;
-  pair.close_until = clock_of_three(site.i, pair) + way(lasts_m);
+  pair.close_until = mark(clock_of_three(site.i, pair.other, witness) + way(lasts_m));
 }
 
 // Whether there is a line of sight. Returns for how long that is so whatever anybody but the witness does, as a
@@ -463,31 +464,31 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double d2) c
   };
   const float aside = std::exchange(s.x[target], far_away);   // the other itself is not in the way
   TwoLeast even, odd;
-  View view{false, nobody_, 0.0F, 0.0F};
-  for (std::size_t begin = 0; begin < size && !view.blocked; begin += chunk) {
+  for (std::size_t begin = 0; begin < size; begin += chunk) {
     const Four a = distance2(begin);
     const Four b = distance2(begin + 4);
     even.offer(a);
     odd.offer(b);
-    float* gap2 = s.gap2.data() + begin;
-    std::memcpy(gap2, &a, sizeof a);
-    std::memcpy(gap2 + 4, &b, sizeof b);
-    const auto inside = (a < beside2) | (b < beside2);
-    if ((inside[0] | inside[1] | inside[2] | inside[3]) == 0) continue;
-    for (std::size_t n = 0; n < chunk && !view.blocked; ++n) {
-      if (gap2[n] >= beside2 || begin + n == target || begin + n >= size) continue;
-      view.witness = body(begin + n);
-      view.blocked = disc_blocks(site.positions[view.witness] - site.here, d, d2, radius_m_);
-    }
+    std::memcpy(s.gap2.data() + begin, &a, sizeof a);
+    std::memcpy(s.gap2.data() + begin + 4, &b, sizeof b);
   }
   s.x[target] = aside;
-  if (view.blocked) return view;
   even.offer(odd);
   const TwoLeast two = even.joined();
-  const auto end = s.gap2.begin() + static_cast<std::ptrdiff_t>(size);
-  const auto nearest = std::find(s.gap2.begin(), end, two.least[0]);
-  view.witness = nearest < end ? body(static_cast<std::size_t>(nearest - s.gap2.begin())) : nobody_;
-  if (!has_direction) return view;
+  const auto gaps = std::span(s.gap2).first(size);
+  const auto nearest = static_cast<std::size_t>(std::find(gaps.begin(), gaps.end(), two.least[0]) - gaps.begin());
+  View view{false, nearest < size ? body(nearest) : nobody_, 0.0F, 0.0F};
+  const auto blocks = [&](std::size_t at) { return at != target && disc_blocks(site.positions[body(at)] - site.here, d, d2, radius_m_); };
+  if (two.least[0] < beside2) {
+    // Who is nearest to the line is deepest in the way, and will be there longest.
+    view.blocked = nearest < size && blocks(nearest);
+    for (std::size_t at = 0; at < size && !view.blocked; ++at) {
+      if (gaps[at] >= beside2 || !blocks(at)) continue;
+      view.blocked = true;
+      view.witness = body(at);
+    }
+  }
+  if (!has_direction || view.blocked) return view;
   view.nearest_m = std::max(0.0F, std::sqrt(two.least[0]) - beside);
   view.others_m = std::max(0.0F, std::sqrt(two.second[0]) - beside);
   return view;

@@ -238,10 +238,17 @@ bool World::Impl::lost(std::size_t i, std::uint32_t sender) const noexcept {
 
 // Draws at transmission which packets reach robot i, and what its sensor makes of their origin.
 std::size_t World::Impl::receive(std::size_t i, std::span<Packet> packets) const noexcept {
+  const RadioModel& model = scenario.radio;
+  const bool exact = !(model.range_noise_m > 0.0 || model.bearing_noise_rad > 0.0);
+  const bool lossless = !(loss > 0.0);
+  const Vec2 here = poses.position[i];
+  const Vec2 heading = poses.heading[i];
   std::size_t count = 0;
   for (const std::uint32_t sender : radio.links(i)) {
-    if (lost(i, sender)) continue;
-    packets[count++] = {.sender = sender, .age_ticks = 1, .position = measure(i, sender)};
+    if (!lossless && lost(i, sender)) continue;
+    const Vec2 d = rotate_back(heading, poses.position[sender] - here);
+    const banyan::Vec2 seen = exact ? banyan::Vec2{static_cast<float>(d.x), static_cast<float>(d.y)} : blurred(i, sender, d);
+    packets[count++] = {.sender = sender, .age_ticks = 1, .position = seen};
   }
   const auto slots = static_cast<std::size_t>(scenario.radio.slots);
   return slots > 0 && count > slots ? keep_slots(i, packets, count) : count;
@@ -249,7 +256,11 @@ std::size_t World::Impl::receive(std::size_t i, std::span<Packet> packets) const
 
 // Range and bearing of the sender in the receiver's body frame, with the sensor's noise.
 banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noexcept {
-  Vec2 d = rotate_back(poses.heading[i], poses.position[sender] - poses.position[i]);
+  return blurred(i, sender, rotate_back(poses.heading[i], poses.position[sender] - poses.position[i]));
+}
+
+// What the sensor makes of a sender that is at `d`.
+banyan::Vec2 World::Impl::blurred(std::size_t i, std::uint32_t sender, Vec2 d) const noexcept {
   const RadioModel& model = scenario.radio;
   if (model.range_noise_m > 0.0) {
     const double range = norm(d);

@@ -67,6 +67,7 @@ struct World::Impl {
   void make_inboxes(const Executor& executor);
   std::size_t gather(std::size_t i, std::span<Packet> room, Flight* flight, bool silence);
   [[nodiscard]] banyan::Vec2 measure(std::size_t i, std::uint32_t sender) const noexcept;
+  [[nodiscard]] banyan::Vec2 blurred(std::size_t i, std::uint32_t sender, Vec2 d) const noexcept;
   void sense(std::size_t i, const Odometry& moved, Proximity::Seen& seen, Senses& senses) noexcept;
 
   // A tick of robots with clocks of their own (clocks.cpp)

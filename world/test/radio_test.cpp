@@ -240,6 +240,30 @@ TEST(Radio, WhatItKeepsFromTickToTickIsWhatItWouldFindAnew) {
   }
 }
 
+// Only what happens around a robot makes it look again. One that was at the edge of what it looks at goes away, far
+// enough for its clock to wrap, and comes back.
+TEST(Radio, WhoHasBeenAwayForLongIsSeenAgain) {
+  Scenario scenario;
+  scenario.radio.range_m = 2.0;
+  const double reach_m = 1.1 * scenario.radio.range_m + scenario.robot.radius_m + 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s;
+  const std::vector<std::uint8_t> alive(3, 1);
+  Executor executor(1);
+  for (double away_m = 0.0; away_m < 6.0; away_m += 0.25) {
+    // The second robot stands where its cell ends, so that the third is out of sight once it has left the reach.
+    std::vector<Vec2> positions = {{0.01 - reach_m, 0.0}, {0.0, 0.0}, {reach_m - 0.01, 0.0}};
+    Radio radio(scenario, positions.size());
+    const int steps = static_cast<int>(away_m / 0.02);
+    for (int t = 0; t < 2 * steps + 50; ++t) {
+      radio.update(positions, alive, executor);
+      Radio anew(scenario, positions.size());
+      anew.update(positions, alive, executor);
+      ASSERT_NO_FATAL_FAILURE(expect_same(radio, anew, positions.size())) << away_m << " m, tick " << t;
+      positions[2].x += t < steps ? 0.02 : -0.02;
+    }
+    EXPECT_EQ(radio.links(1).size(), 1U);
+  }
+}
+
 TEST(Radio, NearPairsAreAllPairsThatCouldTouch) {
   Executor executor(1);
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

@@ -56,9 +56,13 @@ class Radio {
 
  private:
   using Couple = std::pair<std::uint32_t, std::uint32_t>;
-  // A way in units of unit_m_, rounded up. It wraps: only differences count.
+  // A way in small units, rounded up. It wraps: only differences count.
   using Way = std::uint32_t;
-  static constexpr Way never = 1U << 30;
+  static constexpr Way units_per_reach = 1U << 20;
+  // A clock in steps: what a pair keeps. They wrap after four times the reach; a clock does not go on by
+  // half of that before the row is written anew.
+  using Mark = std::uint16_t;
+  static constexpr Way units_per_step = 1U << 6;
   static constexpr std::uint32_t last_index = (1U << 29) - 1;
   static constexpr std::size_t chunk = 8;   // of neighbours that are looked at together
 
@@ -67,8 +71,8 @@ class Radio {
     std::uint32_t other : 29;
     std::uint32_t linked : 1, blocked : 1, near : 1;   // neither linked nor blocked: out of range, or dead
     std::uint32_t witness;   // the body in the way, or if none is the one that is nearest to it; or nobody_
-    Way close_until;         // by the clock of the three: until then the witness changes nothing,
-    Way wide_until;          // by the clock of the pair: nor does anything else
+    Mark close_until;        // by the clock of the three: until then the witness changes nothing,
+    Mark wide_until;         // by the clock of the pair: nor does anything else
   };
   // What a pair has become: 1 linked or near, -1 no longer, 0 as before.
   struct Change {
@@ -112,11 +116,13 @@ class Radio {
 
   [[nodiscard]] Way clock(std::size_t i) const noexcept { return path_[i] + around_[i]; }
   [[nodiscard]] Way clock(std::size_t i, std::size_t j) const noexcept { return path_[i] + path_[j] + around_[i]; }
-  [[nodiscard]] Way clock_of_three(std::size_t i, const Pair& pair) const noexcept { return path_[i] + path_[pair.other] + path_[pair.witness]; }
+  [[nodiscard]] Way clock_of_three(std::size_t i, std::size_t j, std::size_t witness) const noexcept { return path_[i] + path_[j] + path_[witness]; }
   // So far that clocks may go on: they are up to one unit too slow per robot, and rounding is far less.
   [[nodiscard]] Way way(double m) const noexcept { return static_cast<Way>(std::max(0.0, m * units_per_m_ - 4.0)); }
   [[nodiscard]] Way fast_clock(std::size_t i) const noexcept { return path_[i] + 2 * around_[i]; }
-  [[nodiscard]] static bool past(Way now, Way until) noexcept { return static_cast<std::int32_t>(now - until) > 0; }
+  [[nodiscard]] static Mark mark(Way clock) noexcept { return static_cast<Mark>(clock / units_per_step); }
+  // None, or less: it has run out.
+  [[nodiscard]] static int steps_left(Way now, Mark until) noexcept { return static_cast<std::int16_t>(static_cast<Mark>(until - mark(now))); }
 
   [[nodiscard]] bool follow(std::span<const Vec2> positions, std::span<const std::uint8_t> alive);
   void lay_grid(std::span<const Vec2> positions);
@@ -140,7 +146,7 @@ class Radio {
   double radius_m_;
   double near_m_;
   double reach_m_;      // how far a row reaches
-  double unit_m_, units_per_m_;
+  double units_per_m_;
   Way skin_;            // a row is written anew once its clock has gone on so far; to the end of
   Way valid_;           // this it misses nobody that matters
   bool line_of_sight_;

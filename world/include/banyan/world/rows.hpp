@@ -58,7 +58,7 @@ class Rows {
     begin_[0] = 0;
     for (std::size_t r = 0; r < rows; ++r) {
       const std::size_t size = wanted(r);
-      begin_[r + 1] = begin_[r] + static_cast<std::uint32_t>(size + size / 4 + 4);
+      begin_[r + 1] = begin_[r] + static_cast<std::uint32_t>(size + size / 8 + 3);
     }
     if (begin_[rows] > items_.size()) {
       if (begin_[rows] > items_.capacity()) items_.reserve(begin_[rows] + begin_[rows] / 8);
