@@ -8,12 +8,13 @@
 #include "banyan/world/faults.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
+#include "plain_scenario.hpp"
 
 namespace banyan::world {
 namespace {
 
 Scenario laid_out(Layout layout, std::size_t robots) {
-  Scenario scenario;
+  Scenario scenario = plain_scenario();
   scenario.swarm.robots = robots;
   scenario.swarm.start.layout = layout;
   scenario.swarm.start.center = {3.0, -2.0};
