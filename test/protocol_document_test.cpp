@@ -226,7 +226,7 @@ TEST(ProtocolDocument, ConvoysLengthsAreThoseOfItsDefaults) {
   expect(R"(the root and junctions only from ([\d.]+) C on)", p.safe_range_m / p.communication_range_m);
   expect(R"(Need: the edge to the parent is longer than ([\d.]+) C)", p.recruitment_distance_m / p.communication_range_m);
   expect(R"(Repulsion only nearer than ([\d.]+) C)", p.avoidance_range_m / p.communication_range_m);
-  expect(R"(from spares ([\d.]+) C)", p.spare_avoidance);
+  expect(R"(from spares ([\d.]+) C)", p.spare_avoidance_m / p.communication_range_m);
   expect(R"(`plan_after_s` \((\d+) s\))", p.plan_after_s);
 }
 

@@ -28,22 +28,31 @@ std::vector<BoundParameter> bind(ConvoyParams& params) {
   return bound;
 }
 
-void apply(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, TreeParams& params) {
-  constexpr double nominal_range_m = 2.0;
+std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, TreeParams& params) {
   const double c = static_cast<double>(setup.platform.communication_range_m);
-  const double scale = setup.scale * (follows_range ? c / nominal_range_m : 1.0);
-  for (const BoundParameter& row : rows)
-    if (row.info->scaling == Scaling::mission) *row.value *= static_cast<float>(scale);
+  const double scale = setup.scale * (follows_range ? c / static_cast<double>(nominal_range_m) : 1.0);
   static_cast<Platform&>(params) = setup.platform;
   params.arrival_distance_m = static_cast<float>(setup.arrival_distance_m);
-  for (const auto& [key, value] : setup.parameters)
-    for (const BoundParameter& row : rows)
-      if (row.info->key == key) *row.value = static_cast<float>(value);
+  std::vector<float> values;
+  for (const BoundParameter& row : rows) {
+    float value = *row.value;
+    if (row.info->scaling == Scaling::mission) value *= static_cast<float>(scale);
+    if (row.info->scaling == Scaling::range) value /= nominal_range_m;
+    for (const auto& [key, own] : setup.parameters)
+      if (row.info->key == key) value = static_cast<float>(own);
+    values.push_back(value);
+  }
+  return values;
 }
 
-std::string range_fault(std::span<const BoundParameter> rows) {
-  for (const BoundParameter& row : rows)
-    if (!(*row.value >= row.info->minimum && *row.value <= row.info->maximum)) return std::string(row.info->key);  // NaN fails too
+void resolve(std::span<const float> values, std::span<const BoundParameter> rows, float communication_range_m) {
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    *rows[k].value = rows[k].info->scaling == Scaling::range ? values[k] * communication_range_m : values[k];
+}
+
+std::string range_fault(std::span<const float> values, std::span<const BoundParameter> rows) {
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (!(values[k] >= rows[k].info->minimum && values[k] <= rows[k].info->maximum)) return std::string(rows[k].info->key);  // NaN fails too
   return {};
 }
 

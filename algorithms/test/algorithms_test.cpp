@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <set>
+
+#include "banyan/algorithms/inside.hpp"
 
 namespace banyan {
 namespace {
@@ -72,6 +75,23 @@ TEST(Algorithms, TableIsLengthsAreAbsoluteAndConvoysGrowWithTheRadio) {
   EXPECT_FLOAT_EQ(value_of(inwards(), wide, "ideal_distance_m"), 1.540841F);
   EXPECT_FLOAT_EQ(value_of(convoy(), wide, "ideal_distance_m"), 3.80F);
   EXPECT_FLOAT_EQ(value_of(convoy(), wide, "communication_range_m"), 4.0F);
+}
+
+// What a swarm is given: metres, whatever the unit of the table.
+TEST(Algorithms, LengthsInUnitsOfTheRadiosRangeAreResolvedToMetres) {
+  banyan::Setup setup;
+  setup.platform.communication_range_m = 3.0F;
+  setup.parameters = {{"clearance", 0.11}};
+  EXPECT_EQ(value_of(convoy(), setup, "clearance"), 0.11F) << "as the table has it";
+  EXPECT_EQ(value_of(convoy(), setup, "corridor_width"), 0.35F);
+  const auto swarm = convoy().make(setup, std::array<Member, 1>{{{.id = 0, .worker = false, .root = true}}});
+  const ConvoyParams& params = swarm_as<ConvoySwarm>(*swarm).params();
+  EXPECT_EQ(params.clearance_m, 0.11F * 3.0F);
+  EXPECT_EQ(params.corridor_width_m, 0.35F * 3.0F);
+  EXPECT_EQ(params.claim_radius_m, 0.45F * 3.0F);
+  EXPECT_FLOAT_EQ(params.ideal_distance_m, 2.85F) << "grows with the range, once";
+  setup.parameters = {{"pull_start", 0.96}};  // delta is 0.95 C
+  EXPECT_NE(convoy().fault(setup), "");
 }
 
 TEST(Algorithms, TheScaleOfAMissionActsOnTheLengthsOfTableI) {

@@ -45,9 +45,9 @@ struct Preference {
       return;
     }
     float range_m = robot.table().range(k);
-    if (!sees_clearly(robot, k, p.clearance * c)) range_m += sees_clearly(robot, k, narrow * p.clearance * c) ? 5.0F * c : 10.0F * c;
+    if (!sees_clearly(robot, k, p.clearance_m)) range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? 5.0F * c : 10.0F * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
-    rank = range_m <= p.first_edge * c ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
+    rank = range_m <= p.first_edge_m ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
   }
 };
@@ -69,22 +69,22 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
   const TreeStanding& parent = robot.table().message(robot.parent);
   const bool wanted = robot.self.want_m > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want_cm > 0);
   return (d > robot.params.recruitment_distance_m && wanted) ||
-         ((hidden || robot.self.corners.pinned) && d > robot.params.shortest_split * robot.params.communication_range_m);
+         ((hidden || robot.self.corners.pinned) && d > robot.params.shortest_split_m);
 }
 
 // Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
 bool may_call(const ConvoyRobot& robot) noexcept {
   if (is_planned(robot.self)) return false;  // they would come along the chains, and in the way
   const ConvoyParams& p = robot.params;
-  const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance * p.communication_range_m;
+  const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;
   return robot.parent >= 0 && (robot.self.corners.pinned || robot.table().range(robot.parent) > from_m);
 }
 
 bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  const float reach_m = p.ideal_distance_m - p.join_margin * p.communication_range_m;
-  const float clearance_m = p.clearance * p.communication_range_m;
+  const float reach_m = p.ideal_distance_m - p.join_margin_m;
+  const float clearance_m = p.clearance_m;
   if (table.range(owner) >= reach_m || table.range(parent) >= reach_m) return false;
   const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
   const float room_m = in_the_way ? tight * clearance_m : clearance_m;
@@ -189,7 +189,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
   take_part_in_plan(robot);                            // chains from target to target
   take_shortcuts(robot);                               // what changes between reconstructions
-  state.corners.pinned = is_pinned(robot, state.corners, params.pull_start * params.communication_range_m);
+  state.corners.pinned = is_pinned(robot, state.corners, params.pull_start_m);
   // Behind a target that drives a worker lags: its tree must come along before it has lost it.
   take_census(robot, 0.4F * params.arrival_distance_m, own_want_m(robot));                          // Alg. 1 and 2
   select_root(robot, [&](int k) { return may_inherit(robot, k); });                                 // Select Root, the root's side

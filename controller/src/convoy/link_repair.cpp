@@ -26,8 +26,8 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == robot.self.epoch &&
                      m.tree_hops != unreachable;
   if (!spare && !is_rooted(robot, k)) return impossible;
-  const bool clear = sees_clearly(robot, k, p.clearance * c);
-  if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance * c))) return impossible;
+  const bool clear = sees_clearly(robot, k, p.clearance_m);
+  if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance_m))) return impossible;
   const Vec2 at = table.position(k);
   return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare ? c : 0.0F) + (clear ? 0.0F : 2.0F * c);
 }
@@ -36,7 +36,7 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
 
 Outlook outlook(const ConvoyRobot& robot) noexcept {
   constexpr int hidden_ticks = 1;
-  const float clearance_m = robot.params.clearance * robot.params.communication_range_m;
+  const float clearance_m = robot.params.clearance_m;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
   const ConvoyMessage* parent = robot.parent_message();
   const bool warned = parent != nullptr && parent->warned == robot.self.id;
@@ -78,7 +78,7 @@ bool step_before_parent(ConvoyRobot& robot) noexcept {
   const int k = table.find(table.message(robot.parent).parent);
   if (k < 0 || table.age(k) > 0) return false;
   const float d = norm(nearest_on_segment(table.position(robot.parent), table.position(k)));
-  if (d > danger * p.clearance * p.communication_range_m || !is_hold(robot, k, robot.parent_range_m())) return false;
+  if (d > danger * p.clearance_m || !is_hold(robot, k, robot.parent_range_m())) return false;
   take_parent(robot, k);
   return true;
 }
@@ -88,7 +88,7 @@ RobotId child_to_warn(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   for (const int k : robot.children)
-    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance * p.communication_range_m))
+    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance_m))
       return table.id(k);
   return nobody;
 }

@@ -6,35 +6,35 @@ namespace {
 
 constexpr Parameter<ConvoyParams> of_convoy[] = {
     {{"pull_start", "", "C", "convoy: a child farther than this pulls its parent along",
-      "Smaller keeps chains slack; larger stretches edges before the next robot moves.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::pull_start},
+      "Smaller keeps chains slack; larger stretches edges before the next robot moves.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::pull_start_m},
     {{"pull_width", "", "C", "convoy: the pull has full strength so much beyond pull_start",
-      "Smaller is stiffer: faster, and less smooth with noise.", "convoy 2", 0.001F, 1.0F, Scaling::range}, &ConvoyParams::pull_width},
+      "Smaller is stiffer: faster, and less smooth with noise.", "convoy 2", 0.001F, 1.0F, Scaling::range}, &ConvoyParams::pull_width_m},
     {{"tension_gain", "", "", "convoy: tree edges pull like strings with this strength",
       "Larger straightens chains sooner and holds workers back.", "convoy 2", 0.0F, 10.0F}, &ConvoyParams::tension_gain},
-    {{"tension_start", "", "C", "convoy: shorter edges have no tension", "Most users need not change it.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::tension_start},
+    {{"tension_start", "", "C", "convoy: shorter edges have no tension", "Most users need not change it.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::tension_start_m},
     {{"tension_width", "", "C", "convoy: tension has full strength so much beyond tension_start",
-      "Most users need not change it.", "convoy 2", 0.001F, 1.0F, Scaling::range}, &ConvoyParams::tension_width},
+      "Most users need not change it.", "convoy 2", 0.001F, 1.0F, Scaling::range}, &ConvoyParams::tension_width_m},
     {{"slack_gain", "", "", "convoy: the edges of a chain share their slack with this strength",
       "Matters only while robots are short.", "convoy 8", 0.0F, 10.0F}, &ConvoyParams::slack_gain},
     {{"first_edge", "", "C", "convoy: parents are chosen this near while there is a choice",
-      "Above the distance at which the swarm stands at first.", "convoy 1", 0.01F, 1.0F, Scaling::range}, &ConvoyParams::first_edge},
+      "Above the distance at which the swarm stands at first.", "convoy 1", 0.01F, 1.0F, Scaling::range}, &ConvoyParams::first_edge_m},
     {{"clearance", "", "C", "convoy: a robot this near to a segment counts as blocking it",
-      "More than a body's radius; larger loses fewer lines of sight and finds fewer parents.", "convoy 1", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::clearance},
+      "More than a body's radius; larger loses fewer lines of sight and finds fewer parents.", "convoy 1", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::clearance_m},
     {{"corridor_width", "", "C", "convoy: robots this near to a tree edge move away from it",
-      "Larger keeps lines of sight open in crowds and takes room.", "convoy 6", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::corridor_width},
+      "Larger keeps lines of sight open in crowds and takes room.", "convoy 6", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::corridor_width_m},
     {{"corridor_gain", "", "", "convoy: strength of moving out of a corridor", "Most users need not change it.", "convoy 6", 0.0F, 10.0F}, &ConvoyParams::corridor_gain},
     {{"join_margin", "", "C", "convoy: a spare joins an edge if both ends are nearer than delta minus this",
-      "More with latency, noise or loss.", "convoy 4", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::join_margin},
-    {{"shortest_split", "", "C", "convoy: edges shorter than this are not split", "Larger ends with fewer robots.", "convoy 4", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::shortest_split},
+      "More with latency, noise or loss.", "convoy 4", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::join_margin_m},
+    {{"shortest_split", "", "C", "convoy: edges shorter than this are not split", "Larger ends with fewer robots.", "convoy 4", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::shortest_split_m},
     {{"call_distance", "", "C", "convoy: a longer edge whose need nobody answers calls spares from afar",
-      "Smaller calls sooner, and spares crowd the chain.", "convoy 7", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::call_distance},
+      "Smaller calls sooner, and spares crowd the chain.", "convoy 7", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::call_distance_m},
     {{"release_distance", "", "C", "convoy: a grandparent nearer than this becomes the parent",
-      "Below pull_start plus pull_width, or robots are taken out and put in by turns.", "convoy 5", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::release_distance},
-    {{"spare_avoidance", "", "C", "convoy: spares repel within this", "About two body diameters.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::spare_avoidance},
+      "Below pull_start plus pull_width, or robots are taken out and put in by turns.", "convoy 5", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::release_distance_m},
+    {{"spare_avoidance", "", "C", "convoy: spares repel within this", "About two body diameters.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::spare_avoidance_m},
     {{"merge_distance", "", "C", "convoy: longest edge made to save a robot once all below have arrived",
-      "0 saves none. Larger saves more, and leaves less margin for noise.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::merge_distance},
+      "0 saves none. Larger saves more, and leaves less margin for noise.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::merge_distance_m},
     {{"compact_distance", "", "C", "convoy: chains that have arrived stretch their edges to this",
-      "Below delta and merge_distance.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::compact_distance},
+      "Below delta and merge_distance.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::compact_distance_m},
     {{"plan_after_s", "", "s", "convoy: so long after all have arrived chains from target to target are planned; 0: never",
       "0 where targets drive: the plan is for targets that stay.", "convoy 11", 0.0F, 600.0F}, &ConvoyParams::plan_after_s},
 };
@@ -44,8 +44,8 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
 std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept { return of_convoy; }
 
 std::string_view convoy_fault(const ConvoyParams& params) noexcept {
-  if (!(params.pull_start * params.communication_range_m < params.ideal_distance_m)) return "pull_start must be below ideal_distance_m (delta) / C";
-  if (!(params.join_margin * params.communication_range_m < params.ideal_distance_m)) return "join_margin must be below ideal_distance_m (delta) / C";
+  if (!(params.pull_start_m < params.ideal_distance_m)) return "pull_start must be below ideal_distance_m (delta) / C";
+  if (!(params.join_margin_m < params.ideal_distance_m)) return "join_margin must be below ideal_distance_m (delta) / C";
   return {};
 }
 

@@ -37,7 +37,7 @@ void withdraw(ConvoyState& self) noexcept { self.hosts.fill(nobody); }
 // returns how many robots it takes, with edges as long as compaction makes them.
 int plan_tree(ConvoyRobot& robot, int levels) noexcept {
   ConvoyState& self = robot.self;
-  const float edge_m = robot.params.compact_distance * robot.params.communication_range_m;
+  const float edge_m = robot.params.compact_distance_m;
   std::array<float, task_capacity> gap_m{};  // to the tree so far
   std::array<int, task_capacity> nearest{};  // in it; -1: me
   std::array<bool, task_capacity> done{};

@@ -22,8 +22,8 @@ void release(ConvoyRobot& robot) noexcept {
   const int k = table.find(parent.parent);
   if (k < 0 || (table.message(k).role == Role::worker && !is_relay(robot, k))) return;
   const ConvoyParams& p = robot.params;
-  const float reach = has_arrived(robot) ? std::max(p.release_distance, p.merge_distance) : p.release_distance;
-  if (is_hold(robot, k, reach * p.communication_range_m)) take_parent(robot, k);
+  const float reach_m = has_arrived(robot) ? std::max(p.release_distance_m, p.merge_distance_m) : p.release_distance_m;
+  if (is_hold(robot, k, reach_m)) take_parent(robot, k);
 }
 
 // An edge that would need a spare: a robot of the tree may stand nearer.
@@ -31,7 +31,7 @@ void take_nearer(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   int best = -1;
-  float best_m = p.release_distance * p.communication_range_m;
+  float best_m = p.release_distance_m;
   for (int k = 0; k < table.size(); ++k) {
     if (k == robot.parent || table.range(k) >= best_m || !is_hold(robot, k, best_m)) continue;
     if (table.message(k).role == Role::worker && !is_relay(robot, k)) continue;
@@ -74,7 +74,7 @@ bool is_rooted(const ConvoyRobot& robot, int k) noexcept {
 }
 
 bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept {
-  return is_rooted(robot, k) && sees_clearly(robot, k, robot.params.clearance * robot.params.communication_range_m);
+  return is_rooted(robot, k) && sees_clearly(robot, k, robot.params.clearance_m);
 }
 
 bool is_hold(const ConvoyRobot& robot, int k, float range_m) noexcept {

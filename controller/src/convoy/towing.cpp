@@ -37,7 +37,6 @@ float ramp(float d, float start, float width) noexcept { return std::clamp((d - 
 Vec2 tow(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  const float c = p.communication_range_m;
   // While robots are short, who is as good as there leaves the rest of the way to others.
   const auto least_cm = is_short_of_robots(robot) ? static_cast<int>(as_good_as_there * p.arrival_distance_m * 100.0F) : 0;
   const auto tows = [&](int k) {
@@ -46,12 +45,12 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
   };
   const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
                      std::count_if(robot.old_children.begin(), robot.old_children.end(), tows);
-  const float start_m = robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start * c;
+  const float start_m = robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start_m;
   Vec2 u;
   const auto add = [&](int k) {
     if (!tows(k)) return;
     // A child at a corner needs its parent there before it can go round.
-    const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width * c);
+    const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width_m);
     u += unit(table.position(k)) * weight;
   };
   for (const int k : robot.children) add(k);
@@ -71,10 +70,9 @@ void for_each_edge(const ConvoyRobot& robot, Visit visit) noexcept {
 // Edges as strings under tension: a chain becomes straight, three chains meet at 120 degrees.
 Vec2 tension(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
-  const float c = p.communication_range_m;
   Vec2 u;
   for_each_edge(robot, [&](int k) {
-    u += unit(robot.table().position(k)) * ramp(robot.table().range(k), p.tension_start * c, p.tension_width * c);
+    u += unit(robot.table().position(k)) * ramp(robot.table().range(k), p.tension_start_m, p.tension_width_m);
   });
   return u * p.tension_gain;
 }
@@ -83,7 +81,7 @@ Vec2 tension(const ConvoyRobot& robot) noexcept {
 Vec2 shared_slack(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   if (!is_short_of_robots(robot)) return {};
-  const float start_m = p.pull_start * p.communication_range_m;
+  const float start_m = p.pull_start_m;
   Vec2 u;
   for_each_edge(robot, [&](int k) {
     u += unit(robot.table().position(k)) * ramp(robot.table().range(k), start_m, p.ideal_distance_m - start_m);
@@ -99,7 +97,7 @@ Vec2 repulsion(const ConvoyRobot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     const float d = table.range(k);
     if (d >= p.avoidance_range_m || d <= same_spot_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
-    const float a = table.message(k).role == Role::spare ? p.spare_avoidance * p.communication_range_m : p.avoidance_range_m;
+    const float a = table.message(k).role == Role::spare ? p.spare_avoidance_m : p.avoidance_range_m;
     if (d < a) u += table.position(k) * (-p.avoidance_gain * (a / d - 1.0F) / d);
   }
   return u;
@@ -158,7 +156,7 @@ Vec2 compaction(const ConvoyRobot& robot) noexcept {
   for (const int k : robot.children)
     if (k != way && table.message(k).role != Role::spare && (longest < 0 || table.range(k) > table.range(longest))) longest = k;
   if (longest < 0) return robot.is_root() ? unit(table.position(way)) * compact_gain : Vec2{};
-  const float slack = std::clamp((p.compact_distance - table.range(longest) / c) / compact_width, -1.0F, 1.0F);
+  const float slack = std::clamp((p.compact_distance_m - table.range(longest)) / (compact_width * c), -1.0F, 1.0F);
   return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
 }
 
@@ -196,7 +194,7 @@ bool holds_still(const ConvoyRobot& robot) noexcept {
 
 }  // namespace
 
-bool prunes(const ConvoyParams& params) noexcept { return params.merge_distance > 0.0F; }
+bool prunes(const ConvoyParams& params) noexcept { return params.merge_distance_m > 0.0F; }
 
 bool has_arrived(const ConvoyRobot& robot) noexcept {
   return prunes(robot.params) && robot.self.want_m == 0.0F && robot.self.subtree_workers > 0;
@@ -224,7 +222,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
   if (holds_still(robot)) return {};
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
-  return along + tension(robot) + shared_slack(robot) + repulsion(robot) + make_way(robot, p.corridor_width * p.communication_range_m) + clear_sight(robot, robot.self.corners);
+  return along + tension(robot) + shared_slack(robot) + repulsion(robot) + make_way(robot, p.corridor_width_m) + clear_sight(robot, robot.self.corners);
 }
 
 Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
@@ -233,13 +231,13 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyState& self = robot.self;
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
-    return bypass(robot, midpoint) + repulsion(robot) + make_way(robot, 2.0F * p.clearance * c);
+    return bypass(robot, midpoint) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   // Nobody around has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m) return bypass(robot, self.corners.seen_from) + repulsion(robot);
   // The root is about to go round a corner, and waits for spares.
   const int root = robot.table().find(self.root.id);
   if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
-    return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance * c);
+    return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   if (holds_still(robot)) return {};
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   // Called in a crowd, it might wait for others to move while the tree goes away.
@@ -254,13 +252,13 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const float reach_m = (led ? follow_spare : follow_tree) * c;
   // On its way along a chain it may come nearer to the line of sight than while it waits.
   if (d > reach_m || (self.called && d > p.avoidance_range_m))
-    return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance * c);
+    return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
   // Where many edges meet, others wait on its far side, and it would only cross their sight.
   const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= 3);
   if (self.called && roomy && d > 0.0F)
-    return bypass(robot, Vec2{-reference.y, reference.x}) + repulsion(robot) + make_way(robot, 2.0F * p.clearance * c);
-  return repulsion(robot) + make_way(robot, p.corridor_width * c);
+    return bypass(robot, Vec2{-reference.y, reference.x}) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+  return repulsion(robot) + make_way(robot, p.corridor_width_m);
 }
 
 }  // namespace banyan

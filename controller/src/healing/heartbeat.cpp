@@ -75,7 +75,7 @@ void claim_root(HealingRobot& robot) noexcept {
   const HealingParams& p = robot.params;
   if (!p.heals() || robot.is_root() || self.is_worker || !self.root_known) return;
   const float away_m = norm(self.root_at);
-  if (away_m > p.claim_radius * p.communication_range_m) return;
+  if (away_m > p.claim_radius_m) return;
   const int patience_ticks = 2 * robot.liveness_ticks() + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
   if (self.silence_ticks <= patience_ticks) return;
   self.root = {static_cast<std::uint16_t>(self.root.sequence + 1), self.id};

@@ -8,7 +8,7 @@ constexpr Parameter<HealingParams> of_healing[] = {
     {{"healing", "", "", "1: the living take the place of the dead (corrected); 0: nobody does",
       "0 to see what the algorithm does alone.", "protocol 12", 0.0F, 1.0F}, &HealingParams::healing},
     {{"claim_radius", "", "C", "healing: who is this near to where the root fell silent may become root",
-      "Larger finds an heir in a thin crowd; too large, and two may claim at once.", "protocol 12", 0.01F, 10.0F, Scaling::range}, &HealingParams::claim_radius},
+      "Larger finds an heir in a thin crowd; too large, and two may claim at once.", "protocol 12", 0.01F, 10.0F, Scaling::range}, &HealingParams::claim_radius_m},
     {{"claim_after_s", "", "s", "healing: silence of the root, beyond 2 I, before it is replaced",
       "Longer where the radio falls silent now and then.", "protocol 12", 0.0F, 600.0F}, &HealingParams::claim_after_s},
     {{"claim_spread_s_m", "", "s/m", "healing: and so much longer per metre from where the root was",

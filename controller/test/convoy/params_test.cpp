@@ -11,10 +11,10 @@ namespace {
 TEST(ConvoyParams, EdgesPullBeforeTheyAreAsLongAsTheyMayBe) {
   ConvoyParams p = convoy_defaults();
   EXPECT_TRUE(convoy_fault(p).empty());
-  p.pull_start = 1.0F;
+  p.pull_start_m = p.communication_range_m;
   EXPECT_NE(convoy_fault(p).find("pull_start"), std::string_view::npos);
   p = convoy_defaults();
-  p.join_margin = 0.95F;
+  p.join_margin_m = 0.95F * p.communication_range_m;
   EXPECT_NE(convoy_fault(p).find("join_margin"), std::string_view::npos);
 }
 

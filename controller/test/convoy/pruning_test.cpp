@@ -65,7 +65,7 @@ TEST_F(Arrived, StaysWhileItTravels) {
 }
 
 TEST_F(Arrived, StaysWhenTheRulesAreOff) {
-  bench.params.merge_distance = 0.0F;
+  bench.params.merge_distance_m = 0.0F;
   member(21, {0, -1.4F}, 300, 55);
   count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
@@ -166,7 +166,7 @@ TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
   auto robot = bench.tick();
   ASSERT_TRUE(has_arrived(robot));
   EXPECT_GT(towed_motion(robot).x, 0.5F);
-  bench.move(7, {-bench.params.compact_distance * 2.0F - 0.04F, 0});
+  bench.move(7, {-bench.params.compact_distance_m - 0.04F, 0});
   auto stretched = bench.tick();
   EXPECT_LT(towed_motion(stretched).x, 0.0F);
 }

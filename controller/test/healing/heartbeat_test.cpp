@@ -35,7 +35,7 @@ TEST(Heartbeat, IsBelievedAgainAfterMoreThanHalfTheRangeOfSilence) {
   for (const int silence : {serial_half_range - 10, serial_half_range + 10}) {
     Watch watch;
     watch.hear_root(5);
-    watch.bench.params.claim_radius = 0.01F;  // or it would take the root's place
+    watch.bench.params.claim_radius_m = 0.02F;  // or it would take the root's place
     watch.bench.silence(root_id);
     watch.bench.steps(silence);
     watch.count = static_cast<std::uint16_t>(watch.count + 40000);
@@ -76,7 +76,7 @@ TEST(Election, WhoIsNearClaimsAfterItsTurnAndOpensAnEpoch) {
 // Two that may claim hear each other: so two fragments never keep a root each at one place.
 TEST(Election, TheCircleOfClaimantsIsSmallerThanTheRange) {
   const ConvoyParams p = convoy_defaults();
-  EXPECT_LT(2.0F * p.claim_radius, 1.0F);
+  EXPECT_LT(2.0F * p.claim_radius_m, p.communication_range_m);
 }
 
 TEST(Election, NeitherTheFarNorWorkersNorWhoDoesNotHealClaim) {

@@ -23,11 +23,13 @@ struct BoundParameter {
 [[nodiscard]] std::vector<BoundParameter> bind(HealingParams& params);
 [[nodiscard]] std::vector<BoundParameter> bind(ConvoyParams& params);
 
-// Defaults, scaled; platform; the setup's own values. `follows_range`: the lengths among the defaults stand for
-// C = 2 m and grow with it; Table I's are absolute.
-void apply(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, TreeParams& params);
+// The values in the units of the table: defaults, which `rows` have, scaled; platform; the setup's own values.
+// `follows_range`: the lengths among the defaults stand for C = 2 m and grow with it; Table I's are absolute.
+[[nodiscard]] std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, TreeParams& params);
+// Gives them to the parameters; lengths in units of C become metres, once and for all.
+void resolve(std::span<const float> values, std::span<const BoundParameter> rows, float communication_range_m);
 // The first value out of its range, by its key.
-[[nodiscard]] std::string range_fault(std::span<const BoundParameter> rows);
+[[nodiscard]] std::string range_fault(std::span<const float> values, std::span<const BoundParameter> rows);
 // What does not fit together.
 [[nodiscard]] inline std::string_view cross_fault(const HealingParams& params) { return tree_fault(params); }
 [[nodiscard]] inline std::string_view cross_fault(const ConvoyParams& params) {
@@ -51,23 +53,25 @@ class TreeAlgorithm : public Algorithm {
     return rows;
   }
   [[nodiscard]] std::vector<float> values(const Setup& setup) const override {
-    Params params = this->params(setup);
-    const auto bound = bind(params);
-    std::vector<float> list(bound.size());
-    std::transform(bound.begin(), bound.end(), list.begin(), [](const BoundParameter& row) { return *row.value; });
-    return list;
+    Params params = defaults_();
+    return values_of(setup, follows_range_, bind(params), params);
   }
   [[nodiscard]] std::string fault(const Setup& setup) const override {
-    Params params = this->params(setup);
-    std::string text = range_fault(bind(params));
-    if (text.empty()) text = cross_fault(params);
-    return text;
+    Params params = defaults_();
+    const auto bound = bind(params);
+    const auto values = values_of(setup, follows_range_, bound, params);
+    std::string text = range_fault(values, bound);
+    if (!text.empty()) return text;
+    resolve(values, bound, params.communication_range_m);
+    return std::string(cross_fault(params));
   }
 
  protected:
   [[nodiscard]] Params params(const Setup& setup) const {
     Params params = defaults_();
-    apply(setup, follows_range_, bind(params), params);
+    const auto bound = bind(params);
+    const auto values = values_of(setup, follows_range_, bound, params);
+    resolve(values, bound, params.communication_range_m);
     return params;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What only convoy reads (docs/convoy.md). Every length is in units of C.
+// What only convoy reads (docs/convoy.md). The table has every length in units of C; here they are metres, those of C = 2 m.
 #pragma once
 
 #include "banyan/controller/healing/params.hpp"
@@ -7,24 +7,24 @@
 namespace banyan {
 
 struct ConvoyParams : HealingParams {
-  float pull_start = 0.675F;        // a child farther than this pulls its parent along
-  float pull_width = 0.15F;         // and with full strength from so much farther on
-  float tension_gain = 0.4F;        // edges are taut strings: straight chains, junctions of 120 degrees
-  float tension_start = 0.15F;
-  float tension_width = 0.15F;
-  float slack_gain = 2.0F;          // edges of a chain share their slack
-  float first_edge = 0.35F;         // the longest edge that is chosen while there is a choice
-  float clearance = 0.08F;          // a robot nearer than this to a segment blocks it, or soon may
-  float corridor_width = 0.35F;     // robots within it move out of a tree edge's line of sight
+  float pull_start_m = 1.35F;        // a child farther than this pulls its parent along
+  float pull_width_m = 0.3F;         // and with full strength from so much farther on
+  float tension_gain = 0.4F;         // edges are taut strings: straight chains, junctions of 120 degrees
+  float tension_start_m = 0.3F;
+  float tension_width_m = 0.3F;
+  float slack_gain = 2.0F;           // edges of a chain share their slack
+  float first_edge_m = 0.7F;         // the longest edge that is chosen while there is a choice
+  float clearance_m = 0.16F;         // a robot nearer than this to a segment blocks it, or soon may
+  float corridor_width_m = 0.7F;     // robots within it move out of a tree edge's line of sight
   float corridor_gain = 0.5F;
-  float join_margin = 0.05F;        // a spare joins an edge whose ends are nearer than delta minus this
-  float shortest_split = 0.4F;      // shorter edges get no spare
-  float call_distance = 0.9F;       // a longer edge in need calls spares from afar
-  float release_distance = 0.75F;   // a grandparent nearer than this becomes the parent
-  float spare_avoidance = 0.14F;    // repulsion from spares begins here
-  float merge_distance = 0.93F;     // longest edge made to save a robot, once all below have arrived
-  float compact_distance = 0.91F;   // a chain that has arrived stretches its edges to this
-  float plan_after_s = 15.0F;       // all have arrived: the root plans chains from target to target; 0: never
+  float join_margin_m = 0.1F;        // a spare joins an edge whose ends are nearer than delta minus this
+  float shortest_split_m = 0.8F;     // shorter edges get no spare
+  float call_distance_m = 1.8F;      // a longer edge in need calls spares from afar
+  float release_distance_m = 1.5F;   // a grandparent nearer than this becomes the parent
+  float spare_avoidance_m = 0.28F;   // repulsion from spares begins here
+  float merge_distance_m = 1.86F;    // longest edge made to save a robot, once all below have arrived
+  float compact_distance_m = 1.82F;  // a chain that has arrived stretches its edges to this
+  float plan_after_s = 15.0F;        // all have arrived: the root plans chains from target to target; 0: never
 };
 
 [[nodiscard]] std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept;

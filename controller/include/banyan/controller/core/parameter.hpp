@@ -11,8 +11,12 @@ namespace banyan {
 enum class Scaling : unsigned char {
   none,       // a time, a gain, or a length that is what it is
   mission,    // m; times mission.scale, and for algorithms made for any radio times C / 2 m
-  range,      // in units of C
+  range,      // in units of C; in Params in metres
 };
+
+// The radio for which lengths in Params have their defaults. For another, whoever sets up a robot multiplies those
+// that grow with it by C / nominal_range_m (algorithms/src/tree_algorithm.cpp).
+inline constexpr float nominal_range_m = 2.0F;
 
 struct ParameterInfo {
   std::string_view key;      // as in a scenario: "target_gain"

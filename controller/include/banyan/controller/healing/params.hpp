@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a designer sets about healing after deaths. Lengths are in units of C where the table says so.
+// What a designer sets about healing after deaths. Lengths that the table has in units of C are metres here, those of C = 2 m.
 #pragma once
 
 #include "banyan/controller/tree/params.hpp"
@@ -8,7 +8,7 @@ namespace banyan {
 
 struct HealingParams : TreeParams {
   float healing = 1.0F;                // 0: nobody takes the place of the dead
-  float claim_radius = 0.45F;          // a robot nearer than this to where the root fell silent may become root
+  float claim_radius_m = 0.9F;         // a robot nearer than this to where the root fell silent may become root
   float claim_after_s = 0.5F;          // without heartbeat, beyond 2 I
   float claim_spread_s_m = 1.0F;       // and so much longer per metre from that place, so that one claims first
   float retreat_after_s = 2.5F;        // without heartbeat: all drive to where the root was
