@@ -6,7 +6,6 @@
 namespace banyan {
 namespace {
 
-constexpr float pursue_for_s = 12.0F;
 constexpr float near_enough = 0.15F;  // of C
 constexpr int notice_ticks = 2;       // before the silent are forgotten
 
@@ -24,7 +23,7 @@ void watch_children(HealingRobot& robot) noexcept {
   const auto lost = std::find_if(robot.children.begin(), robot.children.end(), fades);
   if (lost != robot.children.end()) {
     self.lost_child = table.position(*lost);
-    self.dangling_ticks = static_cast<std::uint16_t>(robot.params.ticks(pursue_for_s));
+    self.dangling_ticks = static_cast<std::uint16_t>(robot.params.ticks(robot.params.pursue_for_s));
   } else if (self.dangling_ticks > 0) {
     const bool there = norm(self.lost_child) < near_enough * robot.params.communication_range_m;
     self.dangling_ticks = there ? std::uint16_t{0} : static_cast<std::uint16_t>(self.dangling_ticks - 1);

@@ -21,6 +21,10 @@ constexpr Parameter<HealingParams> of_healing[] = {
       "So that the nearest spare goes.", "protocol 12", 0.0F, 100.0F}, &HealingParams::succession_spread_s_m},
     {{"largest_loss", "", "", "healing: I grows with the share of packets lost, up to this share",
       "Lower it to notice deaths sooner on a radio that loses much.", "protocol 12", 0.0F, 0.99F}, &HealingParams::largest_loss},
+    {{"pursue_for_s", "", "s", "healing: a connector whose last child fell silent goes after it for at most so long",
+      "0: the branch is given up at once. Longer finds what is farther away, and keeps robots busy meanwhile.", "protocol 12", 0.0F, 600.0F}, &HealingParams::pursue_for_s},
+    {{"regroup_after_s", "", "s", "convoy: a worker that waits so long in vain for a spare drives home and sets out anew",
+      "Longer where spares have far to come; shorter gives up branches that would have been reached.", "protocol 12", 1.0F, 600.0F}, &HealingParams::regroup_after_s},
 };
 
 }  // namespace

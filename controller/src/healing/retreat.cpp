@@ -8,7 +8,6 @@
 namespace banyan {
 namespace {
 
-constexpr float regroup_after_s = 40.0F;
 constexpr float regroup_for_s = 40.0F;  // at most, then it waits again
 constexpr int lost_ticks = 22;  // an orphan that has found no hold for so long has none in reach
 
@@ -34,14 +33,14 @@ bool is_left_waiting(const HealingRobot& robot) noexcept {
   const HealingState& self = robot.self;
   const HealingParams& p = robot.params;
   return p.heals() && self.is_worker && self.root_known && self.parent != nobody && self.parent != self.root.id &&
-         self.want_m > p.arrival_distance_m && self.unserved_ticks > p.ticks(regroup_after_s);
+         self.want_m > p.arrival_distance_m && self.unserved_ticks > p.ticks(p.regroup_after_s);
 }
 
 // A worker that still gets on, however slowly, has spares on their way.
 void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept {
   HealingState& self = robot.self;
-  const int after_ticks = robot.params.ticks(regroup_after_s);
-  if (!(unserved || regroups) || self.unserved_ticks >= robot.params.ticks(regroup_after_s + regroup_for_s)) self.unserved_ticks = 0;
+  const int after_ticks = robot.params.ticks(robot.params.regroup_after_s);
+  if (!(unserved || regroups) || self.unserved_ticks >= robot.params.ticks(robot.params.regroup_after_s + regroup_for_s)) self.unserved_ticks = 0;
   else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks) ++self.unserved_ticks;
 }
 

@@ -40,6 +40,8 @@ constexpr Parameter<TreeParams> of_tree[] = {
       "Raise it if the root moves to and fro with noisy ranges.", "protocol 8", 0.0F, 10.0F}, &TreeParams::centroid_margin_m},
     {{"arrival_distance_m", "", "m", "a worker's pull fades in proportion within this; the mission's target tolerance unless set",
       "Leave it to the mission.", "protocol 9", 0.01F, 10.0F}, &TreeParams::arrival_distance_m},
+    {{"call_after_s", "", "s", "a need unanswered for so long calls spares from afar (corrected)",
+      "Shorter brings spares sooner, and more of them than the edge takes; longer where the radio loses much.", "protocol 7", 0.1F, 600.0F}, &TreeParams::call_after_s},
 };
 
 constexpr Parameter<TreeParams> of_platform[] = {

@@ -13,7 +13,6 @@ namespace {
 // Enough for a question and an answer at five ticks of latency; longer where packets are lost.
 int ungranted_limit_ticks(const TreeRobot& robot) noexcept { return std::max(14, robot.loss_ticks); }
 
-constexpr float call_after_s = 2.0F;      // a need unanswered for so long calls spares from afar
 constexpr std::uint8_t call_reach_hops = 40;
 constexpr float infinite_m = 1e9F;
 
@@ -126,7 +125,7 @@ bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
   const bool steady = robot.call_hops < self.call_hops;
   const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
   rule.count_waiting(unserved);
-  const bool in_vain = self.unserved_ticks > robot.params.ticks(call_after_s);
+  const bool in_vain = self.unserved_ticks > robot.params.ticks(robot.params.call_after_s);
   if (robot.reading.calls_spares && in_vain && rule.may_call()) self.call_hops = 0;
   else self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
   return steady;

@@ -14,6 +14,8 @@ struct HealingParams : TreeParams {
   float retreat_after_s = 2.5F;        // without heartbeat: all drive to where the root was
   float succession_after_s = 3.0F;     // without a sign of a target's worker, beyond 2 I
   float succession_spread_s_m = 0.5F;  // and so much longer per metre from the target
+  float pursue_for_s = 12.0F;          // a connector whose last child fell silent looks for it
+  float regroup_after_s = 40.0F;       // a worker waits so long for a spare, then drives home and sets out anew
   float largest_loss = 0.9F;           // liveness adapts to the share of packets lost, up to this
 
   [[nodiscard]] bool heals() const noexcept { return healing > 0.5F; }
