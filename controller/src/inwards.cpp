@@ -62,7 +62,7 @@ Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& st
   select_root(robot, [](int) { return true; });        // Select Root, the root's side
   manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
                         .may_call = [] { return false; },
-                        .count_waiting = [&](bool unserved) { count_unserved(state, unserved); },
+                        .count_waiting = [&](bool unserved) { count_unserved(robot, unserved); },
                         .may_insert = [&](int owner, int parent) { return is_at_midpoint(robot, owner, parent); }});
   const Vec2 u = state.role == Role::spare ? attendance_motion(robot) : spring_motion(robot);
 

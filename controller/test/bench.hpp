@@ -125,6 +125,7 @@ class BenchOf {
   typename Kind::State state;
   Orders orders;
   std::vector<Vec2> obstacles;  // what the proximity sensor sees
+  float elapsed_s = 0.0F;       // between steps; 0: a tick
 
  private:
   struct Neighbor { Message message; Vec2 position; };
@@ -132,7 +133,9 @@ class BenchOf {
     heard_.clear();
     for (const auto& [id, n] : neighbors_) heard_.push_back({&n.message, n.position});
   }
-  [[nodiscard]] Senses senses(const Odometry& odometry) const { return {.odometry = odometry, .orders = orders, .obstacles = obstacles}; }
+  [[nodiscard]] Senses senses(const Odometry& odometry) const {
+    return {.odometry = odometry, .orders = orders, .obstacles = obstacles, .elapsed_s = elapsed_s};
+  }
   std::map<RobotId, Neighbor> neighbors_;
   std::vector<Heard> heard_;
 };

@@ -74,19 +74,20 @@ void command(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   if (self.phase != Phase::grow_tree) return;
   // While a branch changes its parent its workers are not counted.
-  self.unsettled_ticks = all_have_arrived(robot) ? std::uint16_t{0} : static_cast<std::uint16_t>(self.unsettled_ticks + 1);
+  robot.add_elapsed(self.unsettled_ticks);
+  if (all_have_arrived(robot)) self.unsettled_ticks = 0;
   if (self.unsettled_ticks > p.ticks(unsettled_after_s)) {
     self.settled_ticks = self.unsettled_ticks = 0;
     return withdraw(self);
   }
-  if (self.settled_ticks < UINT16_MAX) ++self.settled_ticks;
+  robot.add_elapsed(self.settled_ticks);
   if (self.plan_ticks > p.ticks(plan_limit_s)) return withdraw(self);
   const int since = self.settled_ticks - p.ticks(p.plan_after_s);
   const int period = p.ticks(plan_period_s);
   // Of more targets than I remember, those that I do not know keep branches that no plan has counted.
   const auto known = tasks(self);
   const bool knows_all = self.subtree_workers <= std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; });
-  const bool due = knows_all && p.plan_after_s > 0.0F && since >= 0 && since % period == 0 && self.settled_ticks < UINT16_MAX;
+  const bool due = knows_all && p.plan_after_s > 0.0F && since >= 0 && since % period < robot.elapsed_ticks && self.settled_ticks < UINT16_MAX;
   if (due && plan_tree(robot, 1 + since / period) >= self.subtree) withdraw(self);
 }
 
@@ -149,10 +150,12 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
     hear_parent(robot);
   }
   const bool planned = std::any_of(self.hosts.begin(), self.hosts.end(), [](RobotId host) { return host != nobody; });
-  self.plan_ticks = planned ? static_cast<std::uint16_t>(std::min(self.plan_ticks + 1, UINT16_MAX)) : std::uint16_t{0};
+  robot.add_elapsed(self.plan_ticks);
+  if (!planned) self.plan_ticks = 0;
   const RobotId lead_to = lead_of(robot);
   const bool stays = lead_to != nobody && lead_to == self.lead_to && self.led_from == self.parent;
-  self.lead_ticks = stays && self.lead_ticks < UINT16_MAX ? static_cast<std::uint16_t>(self.lead_ticks + 1) : std::uint16_t{0};
+  robot.add_elapsed(self.lead_ticks);
+  if (!stays) self.lead_ticks = 0;
   self.lead_to = lead_to;
   self.led_from = self.parent;
 }

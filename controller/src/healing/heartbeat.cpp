@@ -19,7 +19,7 @@ void beat(HealingState& self) noexcept {
 void hear_heartbeat(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const RootToken root = self.root;
-  if (self.silence_ticks < UINT16_MAX) ++self.silence_ticks;
+  robot.add_elapsed(self.silence_ticks);
   Serial newest = self.heartbeat;
   const HealingMessage* bearer = nullptr;  // of the newest
   for (const Heard& h : robot.heard) {

@@ -41,7 +41,7 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept {
   HealingState& self = robot.self;
   const int after_ticks = robot.params.ticks(robot.params.regroup_after_s);
   if (!(unserved || regroups) || self.unserved_ticks >= robot.params.ticks(robot.params.regroup_after_s + regroup_for_s)) self.unserved_ticks = 0;
-  else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks) ++self.unserved_ticks;
+  else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks) robot.add_elapsed(self.unserved_ticks);
 }
 
 bool is_retreating(const HealingRobot& robot, bool regroups) noexcept {

@@ -153,7 +153,7 @@ void watch_tasks(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (!robot.params.heals()) return;
   for (int k = 0; k < self.task_count; ++k)
-    if (self.tasks[k].age_ticks < UINT16_MAX) ++self.tasks[k].age_ticks;
+    robot.add_elapsed(self.tasks[k].age_ticks);
   mind_own(robot);
   hear_of_tasks(robot);
   succeed(robot);

@@ -47,13 +47,14 @@ void add_own_target(const TreeRobot& robot, float rest_distance_m, Sums& sums) n
 }
 
 // Whether the workers below get any nearer to their targets.
-void watch_progress(TreeState& self) noexcept {
+void watch_progress(const TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
   constexpr float hand_m = 0.1F;
   if (self.want_m > self.least_want_m + hand_m || self.want_m < self.least_want_m - hand_m) {
     self.least_want_m = self.want_m;
     self.stalled_ticks = 0;
-  } else if (self.stalled_ticks < UINT16_MAX) {
-    ++self.stalled_ticks;
+  } else {
+    robot.add_elapsed(self.stalled_ticks);
   }
 }
 
@@ -97,7 +98,7 @@ void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m) noex
   self.subtree_workers = saturate(sums.workers);
   self.count = saturate(algorithm2_count(sums.children, sums.counts, self.depth));
   self.want_m = sums.want_m;
-  watch_progress(self);
+  watch_progress(robot);
   self.pull = sums.pulling > 0 ? sums.pull / static_cast<float>(sums.pulling) : Vec2{};
 
   const int up = robot.up();

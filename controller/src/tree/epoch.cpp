@@ -70,7 +70,7 @@ EpochPhase newest_phase(const TreeRobot& robot) noexcept {
 
 void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept {
   TreeState& self = robot.self;
-  if (self.phase_ticks < UINT16_MAX) ++self.phase_ticks;
+  robot.add_elapsed(self.phase_ticks);
   if (newest != EpochPhase{self.epoch, self.phase}) enter(robot, newest.epoch, newest.phase);
 }
 

@@ -136,9 +136,10 @@ bool awaits_inserted(const TreeRobot& robot) noexcept {
 // is below me.
 void update_seqno(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  if (self.seqno_ticks < UINT16_MAX) ++self.seqno_ticks;
+  const bool was_fresh = self.seqno_ticks < serial_half_range;
+  robot.add_elapsed(self.seqno_ticks);
   // So old that others could take it for new: this robot has no place in the order any more (serial.hpp).
-  if (self.seqno_ticks == serial_half_range && !robot.is_root()) self.label_cm = unknown_label;
+  if (was_fresh && self.seqno_ticks >= serial_half_range && !robot.is_root()) self.label_cm = unknown_label;
   if (robot.is_root()) {
     ++self.seqno;
     self.seqno_ticks = 0;

@@ -68,7 +68,8 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept 
     self.centroid_known = true;
   }
   if (self.new_root != nobody) {
-    if (++self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks())) return;
+    robot.add_elapsed(self.offer_ticks);
+    if (self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks())) return;
     self.root.sequence = static_cast<std::uint16_t>(self.root.sequence + 2);  // beats an acceptance that I never heard of
     self.new_root = nobody;
     return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);

@@ -27,7 +27,7 @@ void end_grant(TreeState& self) noexcept {
 void follow_grant(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   const int k = robot.table().find(self.grant);
-  ++self.grant_ticks;
+  robot.add_elapsed(self.grant_ticks);
   if (k < 0 || !robot.table().alive(k)) return end_grant(self);
   const TreeStanding& m = robot.table().message(k);
   if (m.inserted_child == self.id && m.parent != nobody && m.parent != self.id && is_ahead(robot, k)) {
@@ -163,7 +163,8 @@ void follow_request(TreeRobot& robot, const EdgeRule& rule) noexcept {
   const int owner = table.find(self.request);
   Vec2 midpoint;
   if (owner < 0 || !table.alive(owner) || !edge_midpoint(robot, self.request, midpoint)) return give_up(self);
-  if (++self.request_ticks > robot.params.ticks(robot.params.insertion_timeout_s)) return give_up(self);
+  robot.add_elapsed(self.request_ticks);
+  if (self.request_ticks > robot.params.ticks(robot.params.insertion_timeout_s)) return give_up(self);
   const TreeStanding& m = table.message(owner);
   const bool granted = m.grant == self.id;
   self.ungranted_ticks = granted ? std::uint16_t{0} : static_cast<std::uint16_t>(self.ungranted_ticks + 1);
@@ -186,7 +187,8 @@ void watch_inserted_child(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   const int k = robot.table().find(self.inserted_child);
   const bool done = k >= 0 && robot.table().message(k).parent == self.id;
-  if (done || ++self.inserted_ticks > robot.patience_ticks()) self.inserted_child = nobody;
+  if (!done) robot.add_elapsed(self.inserted_ticks);
+  if (done || self.inserted_ticks > robot.patience_ticks()) self.inserted_child = nobody;
 }
 
 }  // namespace
@@ -232,9 +234,9 @@ bool edge_midpoint(const TreeRobot& robot, RobotId owner, Vec2& midpoint) noexce
   return true;
 }
 
-void count_unserved(TreeState& self, bool unserved) noexcept {
-  if (!unserved) self.unserved_ticks = 0;
-  else if (self.unserved_ticks < UINT16_MAX) ++self.unserved_ticks;
+void count_unserved(TreeRobot& robot, bool unserved) noexcept {
+  if (!unserved) robot.self.unserved_ticks = 0;
+  else robot.add_elapsed(robot.self.unserved_ticks);
 }
 
 bool is_at_midpoint(const TreeRobot& robot, int owner, int parent) noexcept {

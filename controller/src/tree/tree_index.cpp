@@ -44,7 +44,8 @@ void update_role(TreeRobot& robot) noexcept {
   } else if (self.role != Role::spare) {
     self.role = Role::connector;  // a root that has handed over is one, too
     // Patience: a child may only have been silent, or be about to name me (protocol 3).
-    if (++self.childless_ticks > robot.patience_ticks()) {
+    robot.add_elapsed(self.childless_ticks);
+    if (self.childless_ticks > robot.patience_ticks()) {
       self.role = Role::spare;
       self.childless_ticks = 0;
       if (robot.children.size == 0) leave_tree(robot);

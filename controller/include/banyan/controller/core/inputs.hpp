@@ -41,7 +41,10 @@ struct Senses {
   Orders orders{};
   // The nearest point of each obstacle within reach of the proximity sensor, m. No robots.
   std::span<const Vec2> obstacles{};
-  // Since the last step. Counted in whole ticks, at least one.
+  // Since the last step; a host without ticks may step when it likes. Counted in whole ticks, at least one. What the
+  // paper gives in seconds, and every age and silence, grows by that time. What follows from how news travels, a hop
+  // a message (a barrier that holds, an orphan without a parent, a question without an answer), counts steps, and
+  // so do the root's and the workers' signs of life: those who step less often than once a tick wait longer for them.
   float elapsed_s = 0.0F;   // 0: one tick
 };
 

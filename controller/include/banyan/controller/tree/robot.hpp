@@ -59,6 +59,9 @@ struct TreeRobot {
   std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours
   std::uint8_t useful_children = 0;  // living children (by parent or old parent) that are no spares
 
+  // To a count of the ticks since something happened: those since the last step. It stays at its largest value.
+  void add_elapsed(std::uint16_t& ticks) const noexcept { ticks = static_cast<std::uint16_t>(std::min(ticks + elapsed_ticks, UINT16_MAX)); }
+
   [[nodiscard]] const TreeTable& table() const noexcept { return self.neighbors; }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
   // I, and longer where packets are lost.

@@ -21,7 +21,7 @@ void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept;
 // The paper's: a spare joins where it is nearer than J to the middle of the edge.
 [[nodiscard]] bool is_at_midpoint(const TreeRobot& robot, int owner, int parent) noexcept;
 // Ticks in NEED without a grant.
-void count_unserved(TreeState& self, bool unserved) noexcept;
+void count_unserved(TreeRobot& robot, bool unserved) noexcept;
 
 // The edge to my parent is too long, and some worker below still wants to go on. As printed (literal)
 // the second half is missing, and the first reads "smaller" (docs/algorithms.md, row 2).
