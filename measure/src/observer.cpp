@@ -71,46 +71,53 @@ class LivingGraph {
   std::vector<std::uint32_t> number_, end_;
 };
 
-// How many hops each robot was from the first living one when that was last counted. As long as everybody still
-// has a link to somebody who was nearer, all are connected, and no farther away than they were.
+// At least as many hops as each robot is from the first living one. As long as everybody else has a link to
+// somebody with a smaller number, all are connected.
 class HopCount {
  public:
+  // As they have just been counted.
   void renew(const world::World& world, std::span<const std::uint32_t> hops_of_living) {
     hops_.assign(world.size(), 0);
     nearer_.assign(world.size(), 0);
-    farthest_ = 0;
     first_ = world.size();
     auto hops = hops_of_living.begin();
     for (std::size_t i = 0; i < world.size(); ++i) {
       if (world.alive()[i] == 0) continue;
-      if (first_ == world.size()) first_ = i;
+      first_ = std::min(first_, i);
       hops_[i] = *hops++;
-      farthest_ = std::max(farthest_, hops_[i]);
     }
   }
-  // Whether that is so now. Never of those that have not been connected, or not been counted.
-  [[nodiscard]] bool holds(const world::World& world) {
-    if (hops_.empty() || world.alive()[first_] == 0) return false;
-    for (std::size_t i = 0; i < hops_.size(); ++i)
-      if (world.alive()[i] != 0 && i != first_ && !has_nearer(world, i)) return false;
-    return true;
-  }
   void forget() noexcept { hops_.clear(); }
-  [[nodiscard]] std::uint32_t farthest() const noexcept { return farthest_; }
+  // Whether everybody is still connected; false if that is not certain. Who has lost its link to somebody with a
+  // smaller number gets a larger one, and so may those who counted on it; if that goes on, counting is cheaper.
+  [[nodiscard]] bool holds(const world::World& world) {
+    constexpr int most_rounds = 5;
+    if (hops_.empty() || world.alive()[first_] == 0) return false;
+    for (int round = 0; round < most_rounds; ++round) {
+      bool raised = false;
+      for (std::size_t i = 0; i < hops_.size(); ++i) {
+        if (world.alive()[i] == 0 || i == first_ || has_nearer(world.links(i), i)) continue;
+        if (world.links(i).empty()) return false;
+        hops_[i] = hops_[world.links(i)[nearer_[i]]] + 1;
+        raised = true;
+      }
+      if (!raised) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] std::uint32_t farthest() const { return *std::max_element(hops_.begin(), hops_.end()); }
 
  private:
-  // Mostly it is still at the same place of the row, or one beside it.
-  [[nodiscard]] bool has_nearer(const world::World& world, std::size_t i) {
-    const auto links = world.links(i);
+  // If not, nearer_[i] is the place of who is nearest all the same. Mostly it is where it was.
+  [[nodiscard]] bool has_nearer(std::span<const std::uint32_t> links, std::size_t i) {
     if (nearer_[i] < links.size() && hops_[links[nearer_[i]]] < hops_[i]) return true;
-    const auto nearer = std::find_if(links.begin(), links.end(), [&](std::uint32_t j) { return hops_[j] < hops_[i]; });
+    const auto nearer = std::min_element(links.begin(), links.end(), [&](std::uint32_t a, std::uint32_t b) { return hops_[a] < hops_[b]; });
     nearer_[i] = static_cast<std::uint32_t>(nearer - links.begin());
-    return nearer != links.end();
+    return nearer != links.end() && hops_[*nearer] < hops_[i];
   }
   std::vector<std::uint32_t> hops_;     // by robot; empty: not connected
   std::vector<std::uint32_t> nearer_;   // by robot: place of somebody nearer in its row of links
   std::size_t first_ = 0;
-  std::uint32_t farthest_ = 0;
 };
 
 // lambda_2 >= 4 / (n diameter) (Mohar 1991), and diameter <= 2 eccentricity.
@@ -277,8 +284,9 @@ void Observer::Impl::judge_links(const world::World& world, bool sample, bool ex
   if (!exact_fiedler && hop_count.holds(world)) {
     Spectrum& spectrum = with_occlusion;
     spectrum.components = 1;
-    if (is_high(tick.alive, hop_count.farthest())) spectrum.low = false;
-    if (!spectrum.low && (!sample || is_high(tick.alive, hop_count.farthest()))) return;
+    const bool high = (sample || spectrum.low) && is_high(tick.alive, hop_count.farthest());
+    if (high) spectrum.low = false;
+    if (high || !(sample || spectrum.low)) return;
   }
   graph.build(world);
   with_occlusion.judge(graph.graph, sample);
