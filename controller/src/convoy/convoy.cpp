@@ -151,10 +151,12 @@ void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   ConvoyState& self = robot.self;
   file_heard(robot);
-  for (const Heard& h : robot.heard) {
+  const KnownOfHealing known(self);
+  for (Heard& h : robot.heard) {
+    const ConvoyMessage& m = convoy_message(*h.message);
+    if (known.lacks(m)) robot.news.push(h);
     if (h.place < 0) continue;
     const auto k = static_cast<std::size_t>(h.place);
-    const ConvoyMessage& m = convoy_message(*h.message);
     self.healing_standings[k] = static_cast<const HealingStanding&>(m);
     self.corners.standings[k] = static_cast<const CornerStanding&>(m);
     self.convoy_standings[k] = static_cast<const ConvoyStanding&>(m);

@@ -149,7 +149,8 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
   } else {
     hear_parent(robot);
   }
-  const bool planned = std::any_of(self.hosts.begin(), self.hosts.end(), [](RobotId host) { return host != nobody; });
+  const auto hosts = std::span(self.hosts).first(self.task_count);
+  const bool planned = std::any_of(hosts.begin(), hosts.end(), [](RobotId host) { return host != nobody; });
   robot.add_elapsed(self.plan_ticks);
   if (!planned) self.plan_ticks = 0;
   const RobotId lead_to = lead_of(robot);

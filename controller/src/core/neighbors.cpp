@@ -15,8 +15,13 @@ void Neighbors::prefetch(std::size_t entries) const noexcept {
 
 // How many of the first `among` in by_id_ have a smaller id.
 int Neighbors::rank_of(RobotId id, int among) const noexcept {
-  const auto begin = by_id_.begin();
-  return static_cast<int>(std::lower_bound(begin, begin + among, id, [&](std::uint8_t k, RobotId wanted) { return ids_[k] < wanted; }) - begin);
+  int rank = 0;
+  while (among > 0) {  // without a branch that depends on ids: nobody can guess it
+    const int half = (among + 1) / 2;
+    rank += ids_[by_id_[rank + half - 1]] < id ? half : 0;
+    among -= half;
+  }
+  return rank;
 }
 
 int Neighbors::find(RobotId id) const noexcept {
@@ -44,10 +49,12 @@ void Neighbors::begin(int elapsed_ticks) noexcept {
   elapsed_ticks_ = static_cast<std::int16_t>(std::min(elapsed_ticks, INT16_MAX));
   next_rank_ = 0;
   missed_ = 0;
-  int expected = 0;
-  for (int k = 0; k < size_; ++k) {
-    expected += static_cast<int>(ages_[k] == 0);
-    ages_[k] = static_cast<std::uint16_t>(std::min(ages_[k] + elapsed_ticks_, UINT16_MAX));
+  const auto passed = static_cast<std::uint16_t>(elapsed_ticks_);
+  const auto oldest = static_cast<std::uint16_t>(UINT16_MAX - passed);
+  std::uint16_t expected = 0;
+  for (int k = 0, size = size_; k < size; ++k) {
+    expected = static_cast<std::uint16_t>(expected + (ages_[k] == 0 ? 1 : 0));
+    ages_[k] = static_cast<std::uint16_t>(std::min(ages_[k], oldest) + passed);
   }
   expected_ = static_cast<std::int16_t>(expected);
 }
@@ -76,7 +83,7 @@ int Neighbors::evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noex
 // Only the silent are dead-reckoned: who was heard just now has a fresh position.
 int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) noexcept {
   liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
-  for (int k = from; k < size_; ++k) {
+  for (int k = from, size = size_; k < size; ++k) {
     if (ages_[k] == 0) continue;
     if (ages_[k] == elapsed_ticks_) ++missed_;  // it was heard in the tick before
     if (ages_[k] > liveness_ticks_ && ids_[k] != keep[0] && ids_[k] != keep[1]) {

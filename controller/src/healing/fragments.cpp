@@ -26,8 +26,8 @@ bool hear_token(HealingRobot& robot, const HealingMessage& m) noexcept {
 void listen_among_fragments(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   bool contested = false;
-  for (const Heard& h : robot.heard)
-    if (h.message->root != self.root && newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
+  for (const Heard& h : robot.news)
+    if (newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
   const EpochPhase newest = newest_phase(robot);
   // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
   const bool ahead = is_newer(newest.epoch, self.epoch) && robot.params.heals();

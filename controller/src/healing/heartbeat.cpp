@@ -22,7 +22,7 @@ void hear_heartbeat(HealingRobot& robot) noexcept {
   robot.add_elapsed(self.silence_ticks);
   Serial newest = self.heartbeat;
   const HealingMessage* bearer = nullptr;  // of the newest
-  for (const Heard& h : robot.heard) {
+  for (const Heard& h : robot.news) {
     const HealingMessage& m = said(h);
     if (m.root != root) continue;
     const bool known = bearer != nullptr || self.heart == root;
@@ -43,7 +43,7 @@ void locate_root(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const RobotId me = self.id;
   const RobotId root = self.root.id;
-  for (const Heard& h : robot.heard) {
+  for (const Heard& h : robot.news) {
     const HealingMessage& m = said(h);
     if ((m.told != me && m.id != root) || m.root != self.root) continue;
     if (m.id == root) {

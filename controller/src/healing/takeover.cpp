@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <span>
 
 #include "banyan/controller/healing/healing.hpp"
 
@@ -83,32 +84,51 @@ void hear_of_task(HealingRobot& robot, RobotId serves, RobotId holder, std::uint
   task->age_ticks = 0;
 }
 
-// Most of what is heard is known: a count no newer than mine, of a target that others serve, and told to somebody
-// else. hear_of_task() would change nothing.
-bool is_known(const HealingState& self, const HealingMessage& m) noexcept {
-  const RobotId own = self.is_worker ? self.serves : nobody;
-  for (const Task* task = self.tasks.data(), *end = task + self.task_count; task != end; ++task)
-    if (task->serves == m.task_serves) return m.task_serves != own && m.told != self.id && !is_news(m.task_beat, task->beat, task->age_ticks);
-  return m.told != self.id;
-}
+// Where the targets stand in the list, by the last bits of their names: every packet speaks of one.
+class TaskIndex {
+ public:
+  explicit TaskIndex(const HealingState& self) noexcept : tasks_(self.tasks) {
+    for (int k = 0; k < self.task_count; ++k) place_[tasks_[k].serves % places] = static_cast<std::uint8_t>(k);
+  }
+  // Null if it is not known, or another has its place.
+  [[nodiscard]] const Task* find(RobotId serves) const noexcept {
+    const Task& task = tasks_[place_[serves % places]];
+    return task.serves == serves ? &task : nullptr;
+  }
+
+ private:
+  static constexpr int places = 64;
+  const std::array<Task, task_capacity>& tasks_;
+  std::array<std::uint8_t, places> place_{};
+};
 
 void hear_of_tasks(HealingRobot& robot) noexcept {
   const HealingState& self = robot.self;
+  const TaskIndex index(self);
+  const RobotId me = self.id;
   for (const Heard& h : robot.heard) {
     const HealingMessage& m = said(h);
-    if (m.task_serves == nobody || is_known(self, m)) continue;
+    if (m.task_serves == nobody) continue;
+    // Most of it is known: a count no newer than mine, of a target that others serve, and told to somebody else.
+    const Task* task = m.told == me ? nullptr : index.find(m.task_serves);
+    if (task != nullptr && !is_news(m.task_beat, task->beat, task->age_ticks) && (!self.is_worker || self.serves != m.task_serves)) continue;
     Vec2 target;
     const bool told = m.told == self.id && robot.read_point(h, m.task_x_cm, m.task_y_cm, target);
     hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, told ? &target : nullptr);
   }
 }
 
+void grow_older(HealingRobot& robot) noexcept {
+  for (Task& task : std::span(robot.self.tasks).first(robot.self.task_count)) robot.add_elapsed(task.age_ticks);
+}
+
 // My own target. One that was taken from me from outside has been given up; everybody shall know.
 void mind_own(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
-  for (int k = 0; k < self.task_count; ++k) {
-    Task& task = self.tasks[k];
-    if (task.holder != self.id || (self.is_worker && self.serves == task.serves)) continue;
+  const RobotId me = self.id;
+  const RobotId own = self.is_worker ? self.serves : nobody;
+  for (Task& task : std::span(self.tasks).first(self.task_count)) {
+    if (task.holder != me || task.serves == own) continue;
     task.holder = nobody;
     task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
   }
@@ -152,8 +172,7 @@ void succeed(HealingRobot& robot) noexcept {
 void watch_tasks(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (!robot.params.heals()) return;
-  for (int k = 0; k < self.task_count; ++k)
-    robot.add_elapsed(self.tasks[k].age_ticks);
+  grow_older(robot);
   mind_own(robot);
   hear_of_tasks(robot);
   succeed(robot);

@@ -46,8 +46,11 @@ void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   auto& kept = robot.self.healing_standings;
   file_heard(robot);
-  for (const Heard& h : robot.heard)
+  const KnownOfHealing known(robot.self);
+  for (Heard& h : robot.heard) {
+    if (known.lacks(said(h))) robot.news.push(h);
     if (h.place >= 0) kept[static_cast<std::size_t>(h.place)] = static_cast<const HealingStanding&>(said(h));
+  }
   forget_silent(robot, [&](int k, int size) { close_gap(kept, k, size); });
   follow_orders(robot, admitted.senses().orders);
 }

@@ -33,10 +33,9 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   const TreeMessage* accepted = nullptr;
   if (self.is_worker) return accepted;
-  const RobotId me = self.id;
-  for (const Heard& h : robot.heard) {
+  for (const Heard& h : robot.news) {
     const TreeMessage& m = *h.message;
-    if (m.new_root != me || m.root.id != m.id) continue;
+    if (m.new_root != self.id || m.root.id != m.id) continue;
     const RootToken offered{static_cast<std::uint16_t>(m.root.sequence + 1), self.id};
     if (!newer(offered, self.root)) continue;
     self.root = offered;

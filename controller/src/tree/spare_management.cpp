@@ -89,15 +89,23 @@ bool in_need(const TreeStanding& m, const TreeState& self) noexcept {
   return m.need == Need::need && m.role != Role::spare && m.grant == nobody && m.parent != nobody && m.parent != self.id && m.epoch == self.epoch;
 }
 
+// The middle of the edge between entry k and its parent; false if that one is not heard.
+bool midpoint_above(const TreeTable& table, int k, Vec2& midpoint) noexcept {
+  const int parent = table.find(table.message(k).parent);
+  if (parent < 0 || !table.alive(parent)) return false;
+  midpoint = (table.position(k) + table.position(parent)) * 0.5F;
+  return true;
+}
+
 // The owner in need whose midpoint is nearest; both ends must be heard.
 RobotId nearest_edge_in_need(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   RobotId best = nobody;
   float best_m = infinite_m;
-  for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k) || !in_need(table.message(k), robot.self)) continue;
+  for (int k = 0, size = table.size(); k < size; ++k) {
+    if (!in_need(table.message(k), robot.self) || !table.alive(k)) continue;
     Vec2 midpoint;
-    if (!edge_midpoint(robot, table.id(k), midpoint)) continue;
+    if (!midpoint_above(table, k, midpoint)) continue;
     const float d = norm(midpoint);
     if (d < best_m) {
       best_m = d;
@@ -200,10 +208,10 @@ RobotId nearest_reference(const TreeRobot& robot) noexcept {
   int best_hops = INT_MAX;
   float best_m = 0.0F;
   for (int k = 0, size = table.size(); k < size; ++k) {
-    if (!table.alive(k)) continue;
     const TreeStanding& m = table.message(k);
+    if (m.role == Role::spare && best_hops < 0) continue;
     const int hops = m.role != Role::spare ? -1 : 2 * m.tree_hops + (table.id(k) != robot.self.reference ? 1 : 0);
-    if (hops > best_hops || (hops == best_hops && table.range(k) >= best_m)) continue;
+    if (hops > best_hops || (hops == best_hops && table.range(k) >= best_m) || !table.alive(k)) continue;
     best = k;
     best_hops = hops;
     best_m = table.range(k);
@@ -225,13 +233,8 @@ bool child_in_need(const TreeRobot& robot) noexcept {
 }
 
 bool edge_midpoint(const TreeRobot& robot, RobotId owner, Vec2& midpoint) noexcept {
-  const TreeTable& table = robot.table();
-  const int k = table.find(owner);
-  if (k < 0) return false;
-  const int parent = table.find(table.message(k).parent);
-  if (parent < 0 || !table.alive(parent)) return false;
-  midpoint = (table.position(k) + table.position(parent)) * 0.5F;
-  return true;
+  const int k = robot.table().find(owner);
+  return k >= 0 && midpoint_above(robot.table(), k, midpoint);
 }
 
 void count_unserved(TreeRobot& robot, bool unserved) noexcept {

@@ -9,14 +9,11 @@ namespace banyan {
 namespace {
 
 // `odometry` is in the frame at the last step; what is left of it is turned into the frame of the packet.
-void carry_packets(std::span<Heard> heard, const Odometry& odometry, float elapsed_s) noexcept {
-  for (Heard& h : heard) {
-    if (!(h.age_s > 0.0F) || !(elapsed_s > 0.0F)) continue;
-    const float share = std::min(h.age_s / elapsed_s, 1.0F);
-    const Vec2 shift = rotate_back(unit_vector(odometry.turn_rad * (1.0F - share)), Vec2{odometry.forward_m, odometry.sideways_m} * share);
-    h.position = Carry({shift.x, shift.y, odometry.turn_rad * share}).point(h.position);
-    h.age_s = 0.0F;
-  }
+void carry_packet(Heard& h, const Odometry& odometry, float elapsed_s) noexcept {
+  const float share = std::min(h.age_s / elapsed_s, 1.0F);
+  const Vec2 shift = rotate_back(unit_vector(odometry.turn_rad * (1.0F - share)), Vec2{odometry.forward_m, odometry.sideways_m} * share);
+  h.position = Carry({shift.x, shift.y, odometry.turn_rad * share}).point(h.position);
+  h.age_s = 0.0F;
 }
 
 }  // namespace
@@ -47,21 +44,26 @@ void carry_memory(TreeState& self, const Carry& carry) noexcept {
 }
 
 Admitted::Admitted(const Senses& sensed, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept : Gate(sensed, platform) {
-  const std::span<Heard> passed = packets(heard, platform);
-  carry_packets(passed, senses().odometry, senses().elapsed_s > 0.0F ? senses().elapsed_s : platform.tick_s);
-  heard_ = passed;
+  const float elapsed_s = senses().elapsed_s > 0.0F ? senses().elapsed_s : platform.tick_s;
+  heard_ = packets(heard, platform);
+  for (Heard& h : heard_)
+    if (h.age_s > 0.0F) carry_packet(h, senses().odometry, elapsed_s);
   tally.rejected += rejected();
 }
 
 void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   file_heard(robot);
+  const KnownOfTree known(robot.self);
+  for (Heard& h : robot.heard)
+    if (known.lacks(*h.message)) robot.news.push(h);
   forget_silent(robot, [](int, int) {});
   follow_orders(robot, admitted.senses().orders);
 }
 
 void file_heard(TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
+  const RobotId me = self.id;
   TreeTable& table = robot.self.neighbors;
   const auto ties = [&](const TreeStanding& m) {
     return m.id == self.parent || m.id == self.old_parent || m.parent == self.id || m.old_parent == self.id;
@@ -70,7 +72,7 @@ void file_heard(TreeRobot& robot) noexcept {
   for (Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;
     h.place = -1;
-    if (m.id == self.id || m.id == nobody) continue;
+    if (m.id == me || m.id == nobody) continue;
     h.before = {};
     int k = table.file(m.id, h.position, h.before);
     if (k < 0) k = table.enter(m.id, h.position, ties(m), [&](int j) { return ties(table.message(j)); });

@@ -32,7 +32,7 @@ class Gate {
   std::span<Heard> packets(std::span<Heard> heard, const Platform& platform) noexcept {
     const float limit_m = farthest_ranges * platform.communication_range_m;
     bool all = true;
-    for (const Heard& h : heard) all = all && is_within(h.position, limit_m);
+    for (const Heard& h : heard) all &= is_within(h.position, limit_m);
     if (all) return heard;
     std::size_t kept = 0;
     for (const Heard& h : heard) {

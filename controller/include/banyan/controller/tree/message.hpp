@@ -3,6 +3,7 @@
 // kept in their wire types, so what a receiver computes with is exactly what travelled.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "banyan/controller/core/fixed_point.hpp"
@@ -17,7 +18,7 @@ namespace banyan {
 struct RootToken {
   Serial sequence = 0;
   RobotId id = nobody;
-  friend constexpr bool operator==(RootToken, RootToken) noexcept = default;
+  friend constexpr bool operator==(RootToken a, RootToken b) noexcept { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
 };
 constexpr bool newer(RootToken a, RootToken b) noexcept {
   return a.sequence != b.sequence ? is_newer(a.sequence, b.sequence) : a.id > b.id;
@@ -142,6 +143,7 @@ struct Heard {
   // The step's own notes
   Vec2 before{};            // where the sender was at the last step, in the frame of then; zero: not heard then
   std::int16_t place = -1;  // where it stands in the neighbour table, until somebody is removed from there; -1: nowhere
+  Heard* next_news = nullptr;
 };
 
 }  // namespace banyan

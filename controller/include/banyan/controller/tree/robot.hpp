@@ -25,6 +25,38 @@ struct IndexList {
   [[nodiscard]] const std::uint8_t* end() const noexcept { return items.data() + size; }
 };
 
+// Those of the packets heard that say something that this robot did not know at the beginning of the step, in order.
+// Most only repeat what has gone round already, and whoever follows gossip need not look at them.
+struct NewsList {
+  struct Iterator {
+    const Heard* at;
+    const Heard& operator*() const noexcept { return *at; }
+    Iterator& operator++() noexcept { at = at->next_news; return *this; }
+    friend bool operator==(Iterator, Iterator) noexcept = default;
+  };
+  Heard* first = nullptr;
+  Heard* last = nullptr;
+  void push(Heard& h) noexcept {
+    h.next_news = nullptr;
+    (last == nullptr ? first : last->next_news) = &h;
+    last = &h;
+  }
+  [[nodiscard]] Iterator begin() const noexcept { return {first}; }
+  [[nodiscard]] Iterator end() const noexcept { return {nullptr}; }
+};
+
+// What a robot knows of the tree's gossip, at the beginning of a step.
+struct KnownOfTree {
+  explicit KnownOfTree(const TreeState& self) noexcept : id(self.id), root(self.root), epoch(self.epoch), phase(self.phase) {}
+  [[nodiscard]] bool lacks(const TreeMessage& m) const noexcept {
+    return m.root != root || m.epoch != epoch || m.phase != phase || m.new_root == id;
+  }
+  RobotId id;
+  RootToken root;
+  Serial epoch;
+  Phase phase;
+};
+
 // What passed the gate in this step: packets in the present frame, and the rest.
 class Admitted : public Gate {
  public:
@@ -45,6 +77,7 @@ struct TreeRobot {
   TreeState& self;
   const Vec2* target = nullptr;     // own frame, m; null unless a worker
   std::span<Heard> heard;
+  NewsList news;
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
   Carry carry;                      // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
