@@ -156,7 +156,7 @@ Vec2 compaction(const ConvoyRobot& robot) noexcept {
   for (const int k : robot.children)
     if (k != way && table.message(k).role != Role::spare && (longest < 0 || table.range(k) > table.range(longest))) longest = k;
   if (longest < 0) return robot.is_root() ? unit(table.position(way)) * compact_gain : Vec2{};
-  const float slack = std::clamp((p.compact_distance_m - table.range(longest)) / (compact_width * c), -1.0F, 1.0F);
+  const float slack = std::clamp((p.compact_distance_m / c - table.range(longest) / c) / compact_width, -1.0F, 1.0F);
   return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
 }
 
