@@ -2,6 +2,7 @@
 #include "banyan/controller/core/gate.hpp"
 
 #include <algorithm>
+#include <memory>
 
 namespace banyan {
 
@@ -30,6 +31,7 @@ void Gate::admit_obstacles(float limit_m) noexcept {
   const auto passes = [&](Vec2 o) { return is_within(o, limit_m); };
   const std::span<const Vec2> all = senses_.obstacles;
   if (all.size() <= most_obstacles && std::all_of(all.begin(), all.end(), passes)) return;
+  std::construct_at(&obstacles_);
   std::size_t kept = 0;
   for (const Vec2 o : all)
     if (passes(o) && kept < most_obstacles) obstacles_[kept++] = o;

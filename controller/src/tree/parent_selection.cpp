@@ -170,11 +170,13 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   int nearest = -1;
   int hops = unreachable - 1;  // the most that is passed on: whoever knows no way has more
+  Serial freshest = 0;
   for (int k = 0, size = table.size(); k < size; ++k) {
     const TreeStanding& m = table.message(k);
     if (m.tree_hops > hops || !table.alive(k)) continue;
-    if (m.tree_hops == hops && nearest >= 0 && !is_newer(m.seqno, table.message(nearest).seqno)) continue;  // the freshest
+    if (m.tree_hops == hops && nearest >= 0 && !is_newer(m.seqno, freshest)) continue;
     hops = m.tree_hops;
+    freshest = m.seqno;
     nearest = k;
   }
   self.tree_hops = nearest < 0 ? unreachable : static_cast<std::uint8_t>(hops + 1);

@@ -56,7 +56,9 @@ class Gate {
   Senses senses_;
   int elapsed_ticks_ = 1;
   std::uint32_t rejected_ = 0;
-  std::array<Vec2, most_obstacles> obstacles_;  // used only if some did not pass
+  union {
+    std::array<Vec2, most_obstacles> obstacles_;  // made only if some did not pass
+  };
 };
 
 }  // namespace banyan
