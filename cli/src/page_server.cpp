@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "page_server.hpp"
 
-#include <httplib.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "banyan/record/file.hpp"
+#include "patient_server.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -127,10 +127,10 @@ Ranges ranges_of(const httplib::Ranges& asked, std::uint64_t size) {
 }  // namespace
 
 struct PageServer::Impl {
-  explicit Impl(PageContent what) : content(std::move(what)) {}
+  Impl(PageContent what, std::chrono::milliseconds patience) : content(std::move(what)), server(patience) {}
 
   PageContent content;
-  httplib::Server server;
+  PatientServer server;
   int port = 0;
   std::atomic<bool> ending = false;
   std::thread thread;
@@ -151,16 +151,12 @@ void PageServer::Impl::bind(int wanted) {
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   });
   server.set_tcp_nodelay(true);
-  // One request a connection: httplib would take the body of one that is refused for the next request,
-  // with whatever Host it claims.
-  server.set_keep_alive_max_count(1);
-  server.set_keep_alive_timeout(1);  // s: an idle connection must not hold up the end
   errno = 0;
   if (wanted == 0)
     port = server.bind_to_any_port(host);
   else if (server.bind_to_port(host, wanted))
     port = wanted;
-  if (port > 0) return;
+  if (port > 0) return server.lengthen_queue();
   const std::string name = wanted == 0 ? "no port" : "port " + std::to_string(wanted);
   const std::string why = errno == EADDRINUSE ? "it is taken; leave out --port and one that is free is found"
                                               : std::string(std::strerror(errno));
@@ -268,7 +264,8 @@ void PageServer::Impl::start(Response& response) const {
   response.set_content(start.dump(-1, ' ', false, json::error_handler_t::replace), json_type);
 }
 
-PageServer::PageServer(PageContent content, int port) : impl_(std::make_unique<Impl>(std::move(content))) {
+PageServer::PageServer(PageContent content, int port, std::chrono::milliseconds patience)
+    : impl_(std::make_unique<Impl>(std::move(content), patience)) {
   impl_->bind(port);
   impl_->add_routes();
   impl_->thread = std::thread([server = &impl_->server] { server->listen_after_bind(); });

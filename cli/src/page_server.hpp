@@ -3,6 +3,7 @@
 // this machine's loopback interface only.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 
@@ -18,8 +19,8 @@ struct PageContent {
 class PageServer {
  public:
   // Answers from now on. `port` 0: any that is free. Throws CommandError (exit_lost) if the port is taken
-  // or cannot be used.
-  PageServer(PageContent content, int port);
+  // or cannot be used. A request must have come within `patience` of its connection.
+  PageServer(PageContent content, int port, std::chrono::milliseconds patience = std::chrono::seconds(5));
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
   ~PageServer();  // ends all answers that are being given

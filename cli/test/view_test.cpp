@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -50,12 +51,31 @@ class View : public StartedProgram {
     fs::create_directory(home_ / "scenarios/folder.toml");
     ::mkfifo((home_ / "scenarios/pipe.toml").c_str(), 0600);
   }
-  void serve(bool recording = true, const std::string& scenario = "") {
-    server_.emplace(PageContent{path("page"), recording ? path("run.mcap") : "", scenario, path("scenarios")}, 0);
+  void serve(bool recording = true, const std::string& scenario = "", std::chrono::milliseconds patience = 5s) {
+    server_.emplace(PageContent{path("page"), recording ? path("run.mcap") : "", scenario, path("scenarios")}, 0, patience);
+  }
+  // A connection that has sent this and no more.
+  [[nodiscard]] int visitor(const std::string& begin) const {
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const int bytes = 4096;  // as little as the system allows
+    ::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(server_->port()));
+    ::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
+    EXPECT_EQ(::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::send(socket, begin.data(), begin.size(), MSG_NOSIGNAL), static_cast<ssize_t>(begin.size()));
+    return socket;
   }
   [[nodiscard]] std::string path(const std::string& name) const { return (home_ / name).string(); }
   httplib::Result get(const std::string& what, const httplib::Headers& headers = {}) {
     return httplib::Client("127.0.0.1", server_->port()).Get(what, headers);
+  }
+  // On a busy machine, too; two hundred who are waited for one after the other take longer.
+  httplib::Result patient_get(const std::string& what) {
+    httplib::Client client("127.0.0.1", server_->port());
+    client.set_read_timeout(60);
+    return client.Get(what);
   }
   httplib::Result range(const std::string& bytes) { return get("/file", {{"Range", "bytes=" + bytes}}); }
   // What httplib's client would not send as it is.
@@ -223,6 +243,55 @@ TEST_F(View, NothingComesAfterARefusal) {
     EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << answer;
     EXPECT_FALSE(has(answer, "recording")) << answer;
   }
+}
+
+// Two hundred that begin a request and do not go on are more than there is room for; the next one is answered.
+TEST_F(View, SlowVisitorsDoNotKeepTheNextOneWaiting) {
+  serve(true, "", 1h);
+  std::vector<int> slow;
+  for (int k = 0; k < 200; ++k) slow.push_back(visitor("GET / HTTP/1.1\r\nX: "));
+  for (int k = 0; k < 20; ++k) {
+    const auto answer = patient_get("/assets/main.js");
+    ASSERT_TRUE(answer) << k;
+    EXPECT_EQ(answer->status, 200);
+  }
+  // Whoever has been there longest gave way, whoever came last is still there.
+  char byte = 0;
+  EXPECT_LE(::recv(slow.front(), &byte, 1, 0), 0);
+  EXPECT_EQ(::recv(slow.back(), &byte, 1, MSG_DONTWAIT), -1);
+  EXPECT_EQ(errno, EAGAIN);
+  server_.reset();  // ... and holds up nothing
+  for (const int socket : slow) ::close(socket);
+}
+
+// Nor do those who ask and do not take the answer.
+TEST_F(View, ReadersWhoDoNotReadDoNotKeepTheNextOneWaiting) {
+  for (int k = 0; k < 10; ++k) bytes_ += bytes_.substr(0, 1'000'000);  // more than the system holds for a reader
+  write("run.mcap", bytes_);
+  serve();
+  std::vector<int> slow;
+  const std::string ask = "GET /file HTTP/1.1\r\nHost: localhost:" + std::to_string(server_->port()) + "\r\n\r\n";
+  for (int k = 0; k < 150; ++k) slow.push_back(visitor(ask));
+  const auto answer = patient_get("/assets/main.js");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+  server_.reset();
+  for (const int socket : slow) ::close(socket);
+}
+
+TEST_F(View, ARequestThatComesByDropsHasNoEndlessTime) {
+  serve(true, "", 300ms);
+  const int slow = visitor("GET / HTTP/1.1\r\nX: ");
+  bool over = false;
+  for (int k = 0; k < 3000 && !over; ++k) {  // a byte every 10 ms, for half a minute
+    (void)::send(slow, "x", 1, MSG_NOSIGNAL);
+    std::this_thread::sleep_for(10ms);
+    char byte = 0;
+    const ssize_t got = ::recv(slow, &byte, 1, MSG_DONTWAIT);
+    over = got == 0 || (got < 0 && errno != EAGAIN);
+  }
+  EXPECT_TRUE(over);
+  ::close(slow);
 }
 
 TEST_F(View, FilesOfThePageAreServedWhole) {
