@@ -4,7 +4,6 @@
 #include "banyan/measure/fiedler.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/Sparse>
 #include <Spectra/SymEigsShiftSolver.h>
 
 #include <algorithm>
@@ -14,15 +13,13 @@
 #include <string>
 
 #include "banyan/world/random.hpp"
+#include "ldlt.hpp"
 
 namespace banyan::measure {
 namespace {
 
 constexpr std::size_t dense_limit = 150;
 constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
-using Vector = Eigen::VectorXd;
 
 // The Laplacian plus `shift` on the diagonal, lower triangle only.
 SparseMatrix shifted_laplacian(const Graph& graph, double shift) {
@@ -45,21 +42,24 @@ SparseMatrix shifted_laplacian(const Graph& graph, double shift) {
 class InverseOffConstants {
  public:
   using Scalar = double;
-  explicit InverseOffConstants(const Graph& graph) : graph_{graph}, n_{static_cast<Eigen::Index>(graph.size())} {}
+  InverseOffConstants(const Graph& graph, const std::function<void()>& pause)
+      : graph_{graph}, pause_{pause}, n_{static_cast<Eigen::Index>(graph.size())} {}
   [[nodiscard]] Eigen::Index rows() const { return n_; }
   [[nodiscard]] Eigen::Index cols() const { return n_; }
-  void set_shift(double sigma) { solver_.compute(shifted_laplacian(graph_, -sigma)); }
+  void set_shift(double sigma) { factors_.compute(shifted_laplacian(graph_, -sigma), pause_); }
   void perform_op(const double* in, double* out) const {
+    if (pause_) pause_();
     const Eigen::Map<const Vector> x(in, n_);
     Eigen::Map<Vector> y(out, n_);
-    y = solver_.solve((x.array() - x.mean()).matrix());
+    y = factors_.solve((x.array() - x.mean()).matrix());
     y.array() -= y.mean();
   }
 
  private:
   const Graph& graph_;
+  const std::function<void()>& pause_;
   Eigen::Index n_;
-  Eigen::SimplicialLDLT<SparseMatrix> solver_;
+  Ldlt factors_;
 };
 
 // x' L x / x' x off the constant vector: an upper bound of lambda_2, close to it when x is close
@@ -166,10 +166,11 @@ double Fiedler::flow_bound(const Graph& graph) {
 // pivots. One of them belongs to the constant vector. A pivot near zero makes the signs
 // unreliable: then the eigenvalue itself decides.
 bool Fiedler::below_by_factorisation(const Graph& graph, double threshold) {
-  const Eigen::SimplicialLDLT<SparseMatrix> factors(shifted_laplacian(graph, -threshold));
-  if (factors.info() != Eigen::Success || factors.vectorD().cwiseAbs().minCoeff() < 1e-6 * threshold)
+  Ldlt factors;
+  if (!factors.compute(shifted_laplacian(graph, -threshold), pause_) ||
+      factors.pivots().cwiseAbs().minCoeff() < 1e-6 * threshold)
     return value(graph) < threshold;
-  return (factors.vectorD().array() < 0.0).count() >= 2;
+  return (factors.pivots().array() < 0.0).count() >= 2;
 }
 
 double Fiedler::value(const Graph& graph) {
@@ -202,7 +203,7 @@ double Fiedler::sparse(const Graph& graph, double lower_bound) {
   // A remembered vector can be orthogonal to the one sought; a grain of noise never is.
   const double grain = 0.01 * start.norm() / std::sqrt(static_cast<double>(n));
   for (Eigen::Index i = 0; i < n; ++i) start(i) += grain * noise(static_cast<std::uint64_t>(i));
-  InverseOffConstants inverse(graph);
+  InverseOffConstants inverse(graph, pause_);
   // A second attempt with a wider basis and no memory, in case the start was unlucky.
   for (const Eigen::Index basis : {Eigen::Index{20}, Eigen::Index{100}}) {
     Spectra::SymEigsShiftSolver<InverseOffConstants> solver(inverse, 1, basis, -lower_bound);

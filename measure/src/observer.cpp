@@ -125,6 +125,8 @@ bool is_high(std::size_t n, std::uint32_t eccentricity) {
   return 4.0 / (static_cast<double>(n) * 2.0 * std::max(1.0, static_cast<double>(eccentricity))) >= low_fiedler;
 }
 
+struct Stopped {};  // while lambda_2 was computed
+
 // lambda_2 of one graph over a run: components at every tick, the threshold as often as it pays.
 struct Spectrum {
   Fiedler fiedler;
@@ -136,7 +138,24 @@ struct Spectrum {
     components = found.count;
     if (found.count > 1) low = true;
     else if (is_high(graph.size(), found.eccentricity)) low = false;
-    else if (sample) low = fiedler.below(graph, low_fiedler);
+    else if (sample) judge_value(graph);
+  }
+  // What is not known because it was stopped is as it was.
+  void judge_value(const Graph& graph) {
+    try {
+      low = fiedler.below(graph, low_fiedler);
+    } catch (const Stopped&) {  // NOLINT(bugprone-empty-catch)
+    }
+  }
+  [[nodiscard]] double value(const Graph& graph) {
+    try {
+      return fiedler.value(graph);
+    } catch (const Stopped&) { return -1.0; }
+  }
+  void stop_when(const std::function<bool()>& asked) {
+    fiedler.on_pause([asked] {
+      if (asked()) throw Stopped{};
+    });
   }
 };
 
@@ -266,7 +285,7 @@ void Observer::Impl::judge_graph(const world::World& world, bool exact_fiedler) 
   judge_links(world, sample, exact_fiedler);
   tick.components = with_occlusion.components;
   tick.fiedler_low = with_occlusion.low;
-  tick.fiedler = exact_fiedler ? with_occlusion.fiedler.value(graph.graph) : -1.0;
+  tick.fiedler = exact_fiedler ? with_occlusion.value(graph.graph) : -1.0;
   // More edges never lower lambda_2, nor do they split a graph.
   tick.components_by_distance = tick.components;
   tick.fiedler_low_by_distance = tick.fiedler_low;
@@ -401,6 +420,11 @@ const Tick& Observer::observe(const world::World& world, bool exact_fiedler) {
   impl_->add_up();
   impl_->watch_recovery(world);
   return impl_->tick;
+}
+
+void Observer::stop_when(const std::function<bool()>& asked) {
+  impl_->with_occlusion.stop_when(asked);
+  impl_->by_distance.stop_when(asked);
 }
 
 const Tick& Observer::last() const noexcept { return impl_->tick; }

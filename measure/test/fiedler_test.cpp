@@ -172,6 +172,30 @@ TEST(Fiedler, BelowOnLargeGraphs) {
   EXPECT_TRUE(fiedler.below(path(10), path_value(10) * 1.0001));
 }
 
+// So near to lambda_2 no cheap bound settles the question.
+TEST(Fiedler, ALongComputationCanBeStopped) {
+  const Graph graph = geometric(5, 3000, 22.0);
+  ASSERT_EQ(Fiedler{}.components(graph).count, 1U);
+  const double value = Fiedler{}.value(graph);
+  struct Enough {};
+  for (const int most : {1, 2, 5}) {
+    Fiedler fiedler;
+    int asked = 0;
+    fiedler.on_pause([&] {
+      if (++asked >= most) throw Enough{};
+    });
+    EXPECT_THROW((void)fiedler.value(graph), Enough) << most;
+    EXPECT_EQ(asked, most);
+    asked = -1'000'000;  // afterwards it is as if nothing had been
+    EXPECT_NEAR(fiedler.value(graph), value, 1e-6 * value);
+    asked = most;
+    EXPECT_THROW((void)fiedler.below(graph, 0.999 * value), Enough);
+    asked = -1'000'000;
+    EXPECT_FALSE(fiedler.below(graph, 0.999 * value));
+    EXPECT_TRUE(fiedler.below(graph, 1.001 * value));
+  }
+}
+
 TEST(Fiedler, TheSameGraphIsNotFactorisedTwice) {
   const Graph graph = grid(60, 60);
   Fiedler fiedler;

@@ -565,6 +565,26 @@ TEST(Observer, JudgesTheFiedlerValueAsItIs) {
   EXPECT_TRUE(low.fiedler_low_by_distance);
 }
 
+// What takes long is given up, the tick is a tick all the same.
+TEST(Observer, WaitsForNoValueOnceItIsToStop) {
+  World world(ring(400, 3, 30.0));
+  Observer observer(world);
+  int asked = 0;
+  bool stop = false;
+  observer.stop_when([&] {
+    ++asked;
+    return stop;
+  });
+  world.step();
+  EXPECT_GT(observer.observe(world, true).fiedler, 0.0);
+  EXPECT_GT(asked, 1);
+  stop = true;
+  world.step();
+  EXPECT_EQ(observer.observe(world, true).fiedler, -1.0);
+  EXPECT_EQ(observer.last().components, 1U);
+  EXPECT_EQ(observer.result(world).ticks, 2U);
+}
+
 TEST(Observer, CanBeMoved) {
   World world(chain(4, 1.0));
   Observer a(world);

@@ -23,6 +23,7 @@ RunEnd Simulation::finish(bool interrupted) {
 
 RunEnd run_scenario(world::World world, Sink& sink, world::Executor& executor, const GoOn& go_on) {
   Simulation simulation(std::move(world), sink);
+  if (go_on) simulation.stop_when([&] { return !go_on(simulation); });
   while (!simulation.finished()) {
     if (go_on && !go_on(simulation)) return simulation.finish(true);
     simulation.step(executor);

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace banyan::measure {
@@ -24,6 +26,10 @@ struct Graph {
 // object per series of graphs and thread.
 class Fiedler {
  public:
+  // Called every few milliseconds while a large matrix is factorised, and between the steps of an iteration; what it
+  // throws ends below() or value() at once, as if it had not been called.
+  void on_pause(std::function<void()> pause) { pause_ = std::move(pause); }
+
   // Connected components; for a connected graph also the eccentricity of node 0. O(n + m), no
   // allocation once it has seen a graph of this size.
   struct Components { std::uint32_t count = 0; std::uint32_t eccentricity = 0; };
@@ -48,6 +54,7 @@ class Fiedler {
   double flow_bound(const Graph& graph);
   bool below_by_factorisation(const Graph& graph, double threshold);
 
+  std::function<void()> pause_;
   std::vector<std::uint32_t> queue_, level_;  // breadth-first search
   std::vector<double> flow_, widest_;         // through each node; the largest over an edge of each level
   std::vector<double> eigenvector_;           // of the last value()

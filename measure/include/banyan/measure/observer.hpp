@@ -2,6 +2,7 @@
 // Watches a world tick by tick and keeps the account of a run. Reads only the world's public view.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "banyan/measure/metrics.hpp"
@@ -18,6 +19,9 @@ class Observer {
   // Call after each World::step. `exact_fiedler`: also compute lambda_2 itself (for plots), not
   // only whether it is below 1e-3. The reference is valid until the next call.
   const Tick& observe(const world::World& world, bool exact_fiedler = false);
+  // lambda_2 of tens of thousands of robots may take a minute: `asked` is called every few milliseconds meanwhile,
+  // and once it says true nothing is waited for. What was not found out is as it was one tick before.
+  void stop_when(const std::function<bool()>& asked);
   [[nodiscard]] const Tick& last() const noexcept;
   [[nodiscard]] const Run& run() const noexcept;
   // Nothing dies: every active target held at once (with mission.stop_when_complete, then

@@ -19,6 +19,7 @@ class Simulation {
 
   void step(world::Executor& executor);  // one tick, also beyond the end of the mission
   void intervene(const world::Event& event) { world_.intervene(event); }
+  void stop_when(const std::function<bool()>& asked) { observer_.stop_when(asked); }  // within a step, too
   RunEnd finish(bool interrupted);  // finishes the sink; no step may follow
 
   [[nodiscard]] bool finished() const noexcept { return observer_.finished(); }  // the mission (Observer::finished)
@@ -33,8 +34,8 @@ class Simulation {
   Sink& sink_;
 };
 
-// Asked before every step, with what there is so far: for progress, and to stop. False: no further step, and
-// the run is an interrupted one.
+// Asked before every step, and now and then within one that takes long, with what there is so far: for progress, and
+// to stop. False: no further step, and the run is an interrupted one.
 using GoOn = std::function<bool(const Simulation&)>;
 
 // From the start to the end of the mission. Whatever `sink` throws ends the run (Sinks does not throw).
