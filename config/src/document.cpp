@@ -19,7 +19,8 @@
 namespace banyan::config {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{64} << 20;
+// The most robots, targets and headings that a scenario may list take 5 MB, with all their digits.
+constexpr std::size_t largest_file = std::size_t{8} << 20;
 
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -271,7 +272,7 @@ std::string read_text_file(const std::string& path) {
     if (got < 0) fail(place, std::string("cannot be read: ") + std::strerror(errno));
     if (got == 0) break;
     text.append(buffer.data(), static_cast<std::size_t>(got));
-    if (text.size() > largest_file) fail(place, "is larger than 64 MiB: this is no scenario");
+    if (text.size() > largest_file) fail(place, "is larger than 8 MiB: this is no scenario");
   }
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
   if (text.find('\0') != std::string::npos) fail(place, "is a binary file; a scenario is text (TOML or JSON)");

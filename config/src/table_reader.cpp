@@ -103,11 +103,16 @@ double TableReader::number(std::string_view name, double fallback, const Range& 
 std::int64_t TableReader::whole(std::string_view name, std::int64_t fallback, const Range& range) {
   const Node* node = find(name);
   if (!node) return fallback;
-  if (!std::holds_alternative<std::int64_t>(node->value)) {
+  const auto* whole = std::get_if<std::int64_t>(&node->value);
+  if (!whole) {
     report(name, "must be a whole number (" + range_text(range, "") + "), not " + node->describe());
     return fallback;
   }
-  return static_cast<std::int64_t>(number(name, static_cast<double>(fallback), range));
+  if (auto fault = world::whole_range_fault(*whole, range, "")) {
+    report(name, std::move(*fault));
+    return fallback;
+  }
+  return *whole;
 }
 
 std::size_t TableReader::choice(std::string_view name, const std::vector<std::string_view>& names,

@@ -327,5 +327,20 @@ TEST(Write, WhatNeedNotBeSaidIsLeftOut) {
   EXPECT_EQ(written(small)["mission"]["parameters"], json::object());
 }
 
+// As many robots and targets as there may be, with all their digits: read_text_file() takes 8 MiB.
+TEST(Write, TheLargestScenarioFitsIntoAFile) {
+  Configuration configuration;
+  configuration.scenario = blank<world::Scenario>();
+  const world::Vec2 long_one{-1234.5678901234567, -1234.5678901234567};
+  configuration.scenario.swarm.start.layout = world::Layout::list;
+  configuration.scenario.swarm.start.positions.assign(65535, long_one);
+  configuration.scenario.swarm.start.headings_rad.assign(65535, -1.2345678901234567);
+  configuration.scenario.targets = std::vector<world::Vec2>(10000, long_one);
+  for (const std::string& text : {config_toml(configuration), config_json(configuration, 2)}) {
+    EXPECT_GT(text.size(), 65535U * 40);
+    EXPECT_LT(text.size(), std::size_t{8} << 20);
+  }
+}
+
 }  // namespace
 }  // namespace banyan::config

@@ -20,14 +20,28 @@ struct Sequel {
   std::vector<Obstacle> obstacles;
 };
 
+// Whether a run may still go on at `time_s`, which is past its limit: to settle, to wait for deaths to come or to
+// recover from them (docs/model.md).
+bool may_last_until(const Scenario& scenario, double time_s) {
+  const auto deadly = [](const Event& event) {
+    return std::holds_alternative<Die>(event.action) || std::holds_alternative<Kill>(event.action);
+  };
+  return scenario.mission.stop_when_complete &&
+         (time_s < time_limit_s(scenario) + scenario.mission.settle_s ||
+          std::any_of(scenario.events.begin(), scenario.events.end(), deadly));
+}
+
 // Whom and what an event refers to exists when it happens.
 class CheckEventFits {
  public:
   CheckEventFits(FaultList& list, const Scenario& scenario, std::size_t index, std::size_t robots, const Sequel& before)
       : list_(list), scenario_(scenario), key_(element("events", index)), robots_(robots), before_(before) {
     const Event& event = scenario.events[index];
-    if (const double limit = time_limit_s(scenario); event.time_s >= limit)
-      list.warn(key_ + ".time_s", "the run ends before: its limit is " + short_text(limit) + " s");
+    if (const double limit_s = time_limit_s(scenario); event.time_s >= limit_s)
+      list.warn(key_ + ".time_s", (may_last_until(scenario, event.time_s)
+                                       ? "happens only if the run goes on after its limit of "
+                                       : "the run ends before: its limit is ") +
+                                      short_text(limit_s) + " s");
     std::visit(*this, event.action);
   }
   void operator()(const Die& die) const { robot(die.robot); }

@@ -33,7 +33,9 @@ struct CheckValue {
   Names names;
   void operator()(std::monostate) const {}
   void operator()(bool) const {}
-  void operator()(std::int64_t n) const { (*this)(static_cast<double>(n)); }
+  void operator()(std::int64_t n) const {
+    if (const auto text = whole_range_fault(n, range, unit)) list.fail(path, *text);
+  }
   void operator()(double x) const { check_range(list, path, x, range, unit); }
   void operator()(const std::string& word) const {
     if (names.empty()) return;

@@ -49,6 +49,14 @@ std::optional<std::string> range_fault(double x, const Range& range, std::string
   return "is " + number_text(x) + "; allowed: " + range_text(range, unit);
 }
 
+std::optional<std::string> whole_range_fault(std::int64_t n, const Range& range, std::string_view unit) {
+  // What is not below 2^63 has no whole number above it.
+  const bool above = range.maximum < 0x1p63 && n > static_cast<std::int64_t>(range.maximum);
+  const bool below = range.minimum >= -0x1p63 && n < static_cast<std::int64_t>(range.minimum);
+  if (!above && !below && range.holds(static_cast<double>(n))) return std::nullopt;
+  return "is " + std::to_string(n) + "; allowed: " + range_text(range, unit);
+}
+
 std::optional<std::string> name_fault(std::string_view word, Names names) {
   if (std::find(names.begin(), names.end(), word) != names.end()) return std::nullopt;
   const std::string_view near = nearest_name(word, names);

@@ -193,7 +193,15 @@ const std::vector<Case>& cases() {
        [](Scenario& s) {
          s.swarm.robots = 4, s.events = {{1.0, Event::When::half_way, AddTarget{}}, event(RemoveTarget{0})};
        }},
-      {"events[0].time_s", "the run ends before", [](Scenario& s) { s.events = {event(Die{0}, 1e6)}; }, true},
+      {"events[0].time_s", "the run ends before", [](Scenario& s) { s.events = {event(AddTarget{}, 1e6)}; }, true},
+      {"events[0].time_s", "the run ends before",
+       [](Scenario& s) { s.mission.stop_when_complete = false, s.events = {event(Die{0}, 1e6)}; }, true},
+      {"events[0].time_s", "happens only if the run goes on after its limit of 150 s",
+       [](Scenario& s) { s.events = {event(Die{0}, 1e6)}; }, true},  // a complete run waits for it
+      {"events[0].time_s", "happens only if the run goes on",
+       [](Scenario& s) { s.events = {event(AddTarget{}, 200), event(Die{0}, 1)}; }, true},  // recovers until then
+      {"events[0].time_s", "happens only if the run goes on",
+       [](Scenario& s) { s.mission.settle_s = 100, s.events = {event(AddTarget{}, 200)}; }, true},
       {"targets", "out of reach",
        [](Scenario& s) { s.swarm.robots = 5, s.targets = std::vector<Vec2>{{-9, 0}, {9, 0}}; }, true},
   };
@@ -220,6 +228,17 @@ TEST(Faults, AProgramMayHaveASeedThatNoFileCanHold) {
   Scenario scenario = plain_scenario();
   scenario.seed = std::numeric_limits<std::uint64_t>::max();
   EXPECT_EQ(shown(faults(scenario)), "");
+}
+
+// 2^53 + 1 is not a number that a file's reader in another language would see: it becomes 2^53.
+TEST(Faults, AWholeNumberIsCheckedToItsLastDigit) {
+  const Range seeds{0, 0x1p53};
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  EXPECT_EQ(whole_range_fault(most, seeds, ""), std::nullopt);
+  EXPECT_EQ(whole_range_fault(most + 1, seeds, ""), "is 9007199254740993; allowed: 0 to 9007199254740992");
+  EXPECT_NE(whole_range_fault(-1, seeds, ""), std::nullopt);
+  EXPECT_EQ(whole_range_fault(std::numeric_limits<std::int64_t>::max(), Range{}, ""), std::nullopt);
+  EXPECT_EQ(whole_range_fault(std::numeric_limits<std::int64_t>::min(), Range{}, ""), std::nullopt);
 }
 
 TEST(Faults, EachIsFoundOnceWhereItIs) {

@@ -68,7 +68,7 @@ class DocumentError : public std::runtime_error {
   Problem problem;
 };
 
-// A regular file or a pipe ("-": standard input), at most 64 MiB; throws DocumentError that says
+// A regular file or a pipe ("-": standard input), at most 8 MiB; throws DocumentError that says
 // what is wrong: missing, a directory, not permitted, empty, binary.
 [[nodiscard]] std::string read_text_file(const std::string& path);
 

@@ -39,6 +39,8 @@ struct Range {
 [[nodiscard]] std::string range_text(const Range& range, std::string_view unit);
 // "is 1.5; allowed: 0 to 1"; nothing if it is allowed.
 [[nodiscard]] std::optional<std::string> range_fault(double x, const Range& range, std::string_view unit);
+// The same of a whole number, to the last digit: 2^53 + 1 has no double of its own.
+[[nodiscard]] std::optional<std::string> whole_range_fault(std::int64_t n, const Range& range, std::string_view unit);
 // "must be "a" or "b", not the text "bb"; did you mean "b"?"; nothing if it is one of them.
 [[nodiscard]] std::optional<std::string> name_fault(std::string_view word, Names names);
 
