@@ -188,7 +188,7 @@ void shoot(record::Recording& recording, const Cut& cut, Studio& studio, Progres
 }
 
 int stopped() {
-  complain(format("stopped by %s; there is no film", stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM"));
+  complain(format("stopped by %s; there is no film", stop_signal_name()));
   return exit_signal + stop_signal();
 }
 

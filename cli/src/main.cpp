@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <new>
@@ -35,8 +36,8 @@ constexpr const char* main_footer =
     "  banyan validate scenarios/*.toml\n"
     "  banyan COMMAND --help\n\n"
     "Exit codes: 0 done, whether or not the mission completed; 1 failed: a file cannot be read or\n"
-    "written, or an internal error; 2 bad options or a bad scenario, nothing was started; 130 or 143\n"
-    "stopped by Ctrl-C or SIGTERM, with valid files of what was done.";
+    "written, or an internal error; 2 bad options or a bad scenario, nothing was started; 129,\n"
+    "130 or 143 stopped by SIGHUP, Ctrl-C or SIGTERM, with valid files of what was done.";
 
 constexpr const char* run_footer =
     "Writes run.mcap (the recording), run.csv (one row) and run.json (the same with the whole\n"
@@ -541,6 +542,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reserve_standard_streams();
   ::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then an error of write(), like a full disk
   try {
     return run_program(argc, argv);
@@ -549,6 +551,9 @@ int main(int argc, char** argv) {
     return e.exit_code;
   } catch (const banyan::record::FileError& e) {
     complain(e.what());
+    return exit_lost;
+  } catch (const std::filesystem::filesystem_error& e) {
+    complain(e.path1().string() + ": " + e.code().message());
     return exit_lost;
   } catch (const std::bad_alloc&) {
     complain("out of memory");

@@ -31,23 +31,26 @@ int thread_count(int wanted, std::size_t robots) {
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));
 }
 
+// A run may go on after its limit, to settle or until it has recovered from deaths.
 std::string progress_text(const record::Simulation& simulation) {
   const auto& tick = simulation.last();
-  return format("%.1f s of at most %s s, %u of %u targets reached, farthest worker %.2f m off",
-                simulation.world().time_s(), number_text(simulation.run().time_limit_s).c_str(), tick.targets_reached,
-                tick.active_targets, tick.worst_target_distance_m);
+  const double now_s = simulation.world().time_s(), limit_s = simulation.run().time_limit_s;
+  const std::string limit = number_text(limit_s);
+  return format("%.1f s", now_s) + (now_s < limit_s ? " of at most " + limit + " s" : ", after its limit of " + limit + " s") +
+         format(", %u of %u targets reached, farthest worker %.2f m off", tick.targets_reached, tick.active_targets,
+                tick.worst_target_distance_m);
 }
 
 void show(Progress& progress, const record::Simulation& simulation) {
   const auto& world = simulation.world();
   const double share = world.time_s() / std::max(simulation.run().time_limit_s, world.scenario().tick_s);
-  progress.show(std::min(share, 1.0), progress_text(simulation), true);
+  progress.show(share < 1.0 ? share : 0.0, progress_text(simulation), true);  // how long yet, nobody knows
 }
 
-void tell_of_part(const std::string& path, const char* before = "") {
+void tell_of_rest(const std::string& rest, const char* before = "") {
   std::error_code ignored;
-  const std::string part = path + ".part";
-  if (std::filesystem::exists(part, ignored)) complain(before + ("what was recorded until then is in " + part));
+  if (!rest.empty() && std::filesystem::exists(rest, ignored))
+    complain(before + ("what was recorded until then is in " + rest));
 }
 
 // Tells of outputs that have failed, and does so at once: the run may take hours yet.
@@ -59,7 +62,7 @@ class Complaints {
       const auto& failure = sinks_.failures()[told_];
       progress_.clear();
       complain(failure.text);
-      tell_of_part(failure.path);
+      tell_of_rest(failure.rest);
       std::error_code ignored;
       if (std::filesystem::is_regular_file(failure.path, ignored)) complain(failure.path + " is that of another run");
     }
@@ -112,7 +115,7 @@ int run_and_keep(const Configuration& configuration, const RunOutputs& outputs, 
   try {
     end = play_out(std::move(world), sinks, threads, complaints, progress);
   } catch (...) {
-    for (const auto& format : record::output_formats) tell_of_part(outputs.path(format), "the run is lost; ");
+    for (const auto& rest : sinks.rests()) tell_of_rest(rest, "the run is lost; ");
     throw;
   }
   SummaryExtras extras{progress.elapsed_s(), threads, end.last.active_targets, end.last.targets_reached, {}};
@@ -129,7 +132,7 @@ int run_and_keep(const Configuration& configuration, const RunOutputs& outputs, 
   if (complaints.any()) return exit_lost;
   if (!end.interrupted) return exit_done;
   complain(format("stopped by %s at %.1f s; what was done until then is in %s",
-                  stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM", end.run.time_s, outputs.directory().c_str()));
+                  stop_signal_name(), end.run.time_s, outputs.directory().c_str()));
   return exit_signal + stop_signal();
 }
 

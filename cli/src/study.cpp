@@ -77,8 +77,14 @@ bool prepare(const StudyOptions& options, Prepared& prepared) {
     return false;
   }
   prepared.study = std::move(loaded.study);
-  confirm_number(count_rows(prepared.study), options.yes || options.dry_run);
-  prepared.plan = make_plan(prepared.study, algorithms());
+  const double rows = count_rows(prepared.study);
+  confirm_number(rows, options.yes || options.dry_run);
+  Progress progress(!options.quiet);
+  prepared.plan = make_plan(prepared.study, algorithms(), [&](double planned) {
+    if (progress.due())
+      progress.show(planned / rows, format("%s of %s runs planned", grouped(planned).c_str(), grouped(rows).c_str()), false);
+  });
+  progress.clear();
   print_problems(prepared.plan.problems);
   return prepared.plan.ok();
 }
@@ -103,17 +109,20 @@ void check_strangers(const Folder& folder) {
   }
 }
 
+// Nobody may be at work here, from the first file that goes to the last: what somebody has begun meanwhile would go
+// with the rest. study.json goes last: until then the folder is known as a study's.
 void throw_away(const Folder& folder) {
   namespace fs = std::filesystem;
-  for (const auto& journal : journals_in(folder.path)) {
-    if (in_use(journal)) throw CommandError(exit_usage, journal + ": another banyan is at work on this study");
-  }
+  std::vector<JournalLock> journals;
+  try {
+    for (auto& journal : journals_in(folder.path)) journals.emplace_back(std::move(journal));
+  } catch (const record::FileBusy& busy) { throw CommandError(exit_usage, busy.what()); }
   std::error_code ignored;
-  for (const auto& journal : journals_in(folder.path)) fs::remove(journal, ignored);
-  for (const auto& file : {folder.table(), folder.statistics(), folder.comparisons(), folder.json()})
-    fs::remove(file, ignored);
+  for (const auto& file : {folder.table(), folder.statistics(), folder.comparisons()}) fs::remove(file, ignored);
   fs::remove_all(folder.figures(), ignored);
   fs::remove_all(folder.runs(), ignored);
+  for (auto& journal : journals) journal.remove();
+  fs::remove(folder.json(), ignored);
 }
 
 // Nothing that is there may get lost: a folder is used only if it is of this very study.
@@ -258,10 +267,15 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
   }
   if (standing.stopped) {
     complain(format("stopped by %s after %zu of %zu runs; the same command goes on from there",
-                    stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM", standing.done, standing.wanted));
+                    stop_signal_name(), standing.done, standing.wanted));
     return exit_signal + stop_signal();
   }
   gathered = gather(journals_in(folder.path), prepared.study.name);
+  if (const auto missing = runs_to_do(prepared.plan, shard, gathered.outcomes, false).size(); missing > 0) {
+    complain(format("%zu of %zu runs are no longer in ", missing, prepared.plan.runs.size()) + folder.path +
+             "/journal, where they had been written; the same command does them again");
+    return exit_lost;
+  }
   if (!shard.whole()) return finish_shard(prepared.plan, shard, gathered.outcomes, folder, options);
   return finish(prepared, gathered, folder, options.quiet);
 }

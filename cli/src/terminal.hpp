@@ -16,7 +16,7 @@ enum ExitCode : int {
   exit_done = 0,
   exit_lost = 1,     // not everything came out: a file cannot be read or written, an internal error
   exit_usage = 2,    // bad options or a bad scenario; nothing was started
-  exit_signal = 128  // + signal number: stopped by Ctrl-C (130) or SIGTERM (143), valid files written
+  exit_signal = 128  // + signal number: stopped by SIGHUP (129), Ctrl-C (130) or SIGTERM (143), valid files written
 };
 
 // A message for the user and the exit code to leave with.
@@ -26,10 +26,16 @@ class CommandError : public std::runtime_error {
   int exit_code;
 };
 
-// From now on the first SIGINT or SIGTERM is only noted; the second one kills as usual.
+// From now on the first SIGINT, SIGTERM or SIGHUP is only noted; the second one kills as usual. Where SIGHUP is
+// ignored, by nohup, it stays so.
 void catch_stop_signals();
-// The signal that was caught, 0 for none.
+// The signal that was caught, 0 for none; and what it is called.
 [[nodiscard]] int stop_signal() noexcept;
+[[nodiscard]] const char* stop_signal_name() noexcept;
+
+// Takes the places of standard input, output and error where they are closed: the next file that is opened would get
+// them, and what is said to the user would end up in a recording. What is written there still fails.
+void reserve_standard_streams() noexcept;
 
 // Writes everything to standard output; throws CommandError(exit_lost) when that fails (disk full).
 void print(std::string_view text);
@@ -49,7 +55,7 @@ class Progress {
 
   // Whether it is time for show(). Cheap: call it every tick.
   [[nodiscard]] bool due();
-  // `share` of the work that is done, in [0, 1]; `at_most`: it may end sooner.
+  // `share` of the work that is done, in [0, 1], 0 if that is not known; `at_most`: it may end sooner.
   void show(double share, std::string_view text, bool at_most);
   void clear();
   [[nodiscard]] double elapsed_s() const;

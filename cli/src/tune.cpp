@@ -179,7 +179,7 @@ int tune_command(const TuneOptions& options) {
   const auto result = search(plan, *workers, directory, progress);
   progress.clear();
   if (result.interrupted) {
-    complain(std::string("stopped by ") + (stop_signal() == SIGINT ? "Ctrl-C" : "SIGTERM") +
+    complain(std::string("stopped by ") + stop_signal_name() +
              "; the same command goes on from the last generation in " + directory);
     return exit_signal + stop_signal();
   }

@@ -11,6 +11,7 @@
 
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
+#include "banyan/record/file.hpp"
 #include "started_program.hpp"
 
 namespace banyan::cli {
@@ -340,6 +341,69 @@ TEST_F(Program, ADirectoryThatCannotBeMadeIsSaidBeforeTheRun) {
   EXPECT_EQ(read("file"), "x");
 }
 
+// What would be said there must not end up in the first file that is opened.
+TEST_F(Program, WithoutStandardStreamsFilesAreWhole) {
+  ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "whole", "--series"}).code, 0);
+  for (const std::vector<int>& closed : {std::vector<int>{2}, {1, 2}, {0, 2}, {0, 1, 2}}) {
+    const auto outcome = run({"run", "small.toml", "--out", "o", "--series"}, {.closed = closed});
+    const bool unheard = std::find(closed.begin(), closed.end(), 1) != closed.end();
+    EXPECT_EQ(outcome.code, unheard ? 1 : 0);  // the summary
+    for (const char* file : {"run.mcap", "series.csv"}) EXPECT_EQ(read(std::string("o/") + file), read(std::string("whole/") + file));
+    fs::remove_all(home_ / "o");
+    const auto refused = run({"run", "small.toml", "--out", "whole", "--no-record"}, {.closed = closed});
+    EXPECT_EQ(refused.code, 2);
+    const auto warned = run({"export", "whole/run.mcap", "-o", "robots.csv", "--force"}, {.closed = closed});
+    EXPECT_EQ(warned.code, 0);
+    EXPECT_TRUE(read("robots.csv").starts_with("tick,time_s,"));
+  }
+}
+
+// What is in somebody else's unfinished file was not recorded by this run.
+TEST_F(Program, APartOfAnotherProcessIsNotClaimed) {
+  fs::create_directories(home_ / "o");
+  const int other = record::open_locked((home_ / "o/run.csv.part").string(), O_WRONLY | O_CREAT);
+  const auto outcome = run({"run", "small.toml", "--out", "o", "--no-record"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(has(outcome.err, "o/run.csv: is being written by another process (o/run.csv.part)")) << outcome.err;
+  EXPECT_FALSE(has(outcome.err, "until then")) << outcome.err;
+  ::close(other);
+}
+
+TEST_F(Program, ASeedIsReadToItsLastDigit) {
+  const std::string most = "9007199254740992", more = "9007199254740993";
+  ASSERT_EQ(run({"run", "small.toml", "--seed", most, "-q", "--out", "o"}).code, 0);
+  EXPECT_EQ(read_json("o/run.json")["result"]["seed"], std::int64_t{1} << 53);
+  fs::remove_all(home_ / "out");
+  expect_refused({"run", "small.toml", "--seed", more}, "seed: is " + more + "; allowed: 0 to " + most);
+  write("seed.toml", "seed = " + more + "\n" + read("small.toml"));
+  expect_refused({"run", "seed.toml"}, "seed.toml:1: error: seed: is " + more + "; allowed: 0 to " + most);
+  write("seed.json", "{\"seed\": " + more + ", \"targets\": {\"count\": 2, \"radius_m\": 1.5}}");
+  expect_refused({"run", "seed.json"}, "seed.json:1: error: seed: is " + more);
+}
+
+TEST_F(Program, AFileTooLargeForAScenarioIsRefusedUnread) {
+  std::string text = "[targets]\nlayout = \"list\"\npositions_m = [\n";
+  while (text.size() < 9'000'000) text += "[1.25, 3.5], [2.25, 4.5], [3.25, 5.5], [4.25, 6.5],\n";
+  write("targets.toml", text + "]\n");
+  expect_refused({"run", "targets.toml"}, "targets.toml: error: is larger than 8 MiB: this is no scenario");
+}
+
+// A run that goes on to recover from a death has no more "at most".
+TEST_F(Program, ProgressAfterTheLimitSaysSo) {
+  // Its targets are out of reach, so the run waits for a recovery that cannot be, 220 s long.
+  write("late.toml", "[mission]\ntime_limit_s = 0.1\n[swarm]\nrobots = 3000\n[swarm.start]\npitch_m = 0.9\n"
+                     "[targets]\nradius_m = 900.0\n[[events]]\nkind = \"die\"\nrobot = 5\ntime_s = 0.0\n");
+  const pid_t child = start({"run", "late.toml", "--no-record", "--out", "o"});
+  const std::string wanted = " s, after its limit of 0.1 s, 0 of 3 targets reached";
+  for (int k = 0; k < 12'000 && !has(read("stderr.txt"), wanted); ++k) std::this_thread::sleep_for(10ms);
+  ::kill(child, SIGTERM);
+  const auto outcome = finish(child);
+  EXPECT_EQ(outcome.code, 143) << outcome.err;
+  const auto at = outcome.err.find(wanted);
+  ASSERT_NE(at, std::string::npos) << outcome.err;
+  EXPECT_FALSE(has(outcome.err.substr(at, outcome.err.find('\n', at) - at), " left")) << outcome.err;
+}
+
 class Interrupted : public Program, public ::testing::WithParamInterface<int> {};
 
 TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
@@ -350,8 +414,8 @@ TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
   const auto outcome = finish(child);
 
   EXPECT_EQ(outcome.code, 128 + GetParam()) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, GetParam() == SIGINT ? "stopped by Ctrl-C at " : "stopped by SIGTERM at "))
-      << outcome.err;
+  const std::string name = GetParam() == SIGINT ? "Ctrl-C" : GetParam() == SIGHUP ? "SIGHUP" : "SIGTERM";
+  EXPECT_TRUE(has(outcome.err, "stopped by " + name + " at ")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "is in o")) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "endless: STOPPED at ")) << outcome.out;
   const auto result = read_json("o/run.json")["result"];
@@ -369,8 +433,19 @@ TEST_P(Interrupted, LeavesValidFilesOfWhatWasDone) {
   for (const auto& entry : fs::directory_iterator(home_ / "o")) EXPECT_NE(entry.path().extension(), ".part");
 }
 
-INSTANTIATE_TEST_SUITE_P(BySignal, Interrupted, ::testing::Values(SIGINT, SIGTERM),
-                         [](const auto& test) { return test.param == SIGINT ? "CtrlC" : "Sigterm"; });
+INSTANTIATE_TEST_SUITE_P(BySignal, Interrupted, ::testing::Values(SIGINT, SIGTERM, SIGHUP), [](const auto& test) {
+  return test.param == SIGINT ? "CtrlC" : test.param == SIGHUP ? "Sighup" : "Sigterm";
+});
+
+// nohup banyan run ... goes on when its terminal is closed.
+TEST_F(Program, AnIgnoredHangupStaysIgnored) {
+  const std::string script = "trap '' HUP; exec \"$0\" run endless.toml --set mission.time_limit_s=20 -q --out o";
+  const pid_t child = start({"-c", script, BANYAN_PROGRAM}, {.program = "/bin/bash"});
+  for (int i = 0; i < 1000 && !exists("o/run.mcap.part"); ++i) std::this_thread::sleep_for(10ms);
+  ASSERT_EQ(::kill(child, SIGHUP), 0);
+  EXPECT_EQ(finish(child).code, 0);
+  EXPECT_EQ(read_json("o/run.json")["result"]["interrupted"], false);
+}
 
 // --------------------------------------------------------------------------------- recordings, lists
 

@@ -31,6 +31,7 @@ struct Circumstances {
   std::vector<std::pair<std::string, std::string>> environment = {};
   int input = -1;             // a descriptor for standard input, else /dev/null
   bool ignores_children = false;  // by a parent that does, which is inherited
+  std::vector<int> closed = {};  // standard streams that it has not
   const char* out = nullptr;  // a file for standard output instead of one that is read at the end
 };
 
@@ -86,6 +87,7 @@ class StartedProgram : public ::testing::Test {
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
     ::dup2(how.input >= 0 ? how.input : ::open("/dev/null", O_RDONLY), 0);
+    for (const int descriptor : how.closed) ::close(descriptor);
     if (::chdir(directory.c_str()) != 0) ::_exit(99);
     if (how.largest_file != RLIM_INFINITY) {
       const rlimit limit{how.largest_file, how.largest_file};

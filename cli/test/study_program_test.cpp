@@ -345,6 +345,52 @@ TEST_F(StudyProgram, OnlyOneIsAtWorkOnAStudy) {
   finish(child);
 }
 
+// What is done and then gone is no success, however the journal went.
+TEST_F(StudyProgram, AJournalThatIsTakenAwayIsNoSuccess) {
+  for (const bool replaced : {false, true}) {
+    const pid_t child = start({"study", "long-study.toml", "--out", "o", "--quiet", "--threads", "2"});
+    ASSERT_TRUE(await_runs("o", 1));
+    ASSERT_EQ(::kill(child, SIGSTOP), 0);
+    fs::remove(home_ / "o/journal/all.jsonl");
+    if (replaced) write("o/journal/all.jsonl", "");
+    ASSERT_EQ(::kill(child, SIGCONT), 0);
+    const auto outcome = finish(child);
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "o/journal/all.jsonl: somebody has removed or replaced this file")) << outcome.err;
+    EXPECT_FALSE(exists("o/study.json"));
+    fs::remove_all(home_ / "o");
+  }
+}
+
+TEST_F(StudyProgram, ARowOfAnotherVersionIsTriedAgain) {
+  const auto wanted = reference("s.toml");
+  for (const char* journal : {"all", "shard-1-of-1"}) {
+    ASSERT_EQ(run({"study", "s.toml", "--out", "o"}).code, 0);
+    auto lines = lines_of(read("o/journal/all.jsonl"));
+    auto line = json::parse(lines.at(3).substr(9));
+    line["row"] = line["row"].get<std::string>() + ",one more";
+    lines.at(3) = journal_line(line.dump());
+    std::string text;
+    for (const auto& one : lines) text += one + "\n";
+    fs::remove_all(home_ / "o");
+    write("o/journal/" + std::string(journal) + ".jsonl", text);
+
+    const auto outcome = run({"study", "s.toml", "--out", "o"});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_TRUE(has(outcome.err, "1 of 20 runs failed: column \"error\" of o/runs.csv; --retry")) << outcome.err;
+    EXPECT_TRUE(has(read("o/runs.csv"), "its row has other columns: written by another version of banyan"));
+    EXPECT_EQ(run({"collect", "s.toml", "--out", "o"}).code, 1);
+    int shards_at_fault = 0;
+    for (const char* shard : {"1/2", "2/2"}) shards_at_fault += run({"study", "s.toml", "--out", "o", "--shard", shard}).code;
+    EXPECT_EQ(shards_at_fault, 1);
+
+    const auto retried = run({"study", "s.toml", "--out", "o", "--retry"});
+    EXPECT_EQ(retried.code, 0) << retried.err;
+    expect_same_tables("o", wanted);
+    fs::remove_all(home_ / "o");
+  }
+}
+
 // ----------------------------------------------------------------------------------- runs that fail
 
 TEST_F(StudyProgram, ARunThatFailsIsARowWithItsError) {
@@ -471,6 +517,32 @@ TEST_F(StudyProgram, FilesOfOthersAreNeverTouched) {
   }
   write("file", "");
   EXPECT_EQ(run({"study", "s.toml", "--out", "file"}).code, 2);
+}
+
+// Nothing that a folder or a file may be is an error of the program's own.
+TEST_F(StudyProgram, FoldersAndFilesThatCannotBeAreSaidByName) {
+  fs::create_directory_symlink("loop", home_ / "loop");
+  for (const std::string& folder : {std::string(300, 'x'), std::string("loop"), std::string("loop/x")}) {
+    const std::string reason = folder.size() == 300 ? "File name too long" : "Too many levels of symbolic links";
+    for (const Arguments& arguments : {Arguments{"run", "w.toml", "--out", folder}, {"study", "s.toml", "--out", folder},
+                                       {"study", "s.toml", "--out", folder, "--force"},
+                                       {"collect", "s.toml", "--out", folder}}) {
+      const auto outcome = run(arguments);
+      EXPECT_EQ(outcome.code, 1) << arguments[0];
+      EXPECT_TRUE(has(outcome.err, folder) && has(outcome.err, reason)) << arguments[0] << outcome.err;
+      EXPECT_FALSE(has(outcome.err, "internal error")) << outcome.err;
+    }
+  }
+  ASSERT_EQ(run({"study", "s.toml", "--out", "o"}).code, 0);
+  const auto good = json::parse(read("o/study.json"));
+  for (const char* key : {"format", "study", "plan", "runs"}) {
+    auto odd = good;
+    odd[key] = json::array({7});
+    write("o/study.json", odd.dump());
+    const auto outcome = run({"study", "s.toml", "--out", "o"});
+    EXPECT_EQ(outcome.code, 1) << key;
+    EXPECT_TRUE(has(outcome.err, "o/study.json: is not what a study writes")) << outcome.err;
+  }
 }
 
 TEST_F(StudyProgram, ForceIsNotForShards) {

@@ -35,31 +35,19 @@ std::string resolved(const std::string& path) {
   return result;
 }
 
-bool same_file(int descriptor, const std::string& path) {
-  struct stat opened{}, named{};
-  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
-         opened.st_ino == named.st_ino;
-}
-
-// Opens the part and locks it. A part that was renamed by its writer while we waited for the lock
-// is a finished file now and must not be touched: hence the comparison of file and name.
-int open_locked(const std::string& part, const std::string& path) {
-  for (;;) {
-    const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor < 0) throw FileError(path, "cannot create", errno);
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      ::close(descriptor);
-      throw FileError(path, "is being written by another process (" + part + ")");
-    }
-    if (!same_file(descriptor, part)) {
-      ::close(descriptor);
-      continue;
-    }
-    if (::ftruncate(descriptor, 0) == 0) return descriptor;
-    const int error = errno;
-    ::close(descriptor);
-    throw FileError(path, "cannot create", error);
-  }
+// A part that is locked: nobody else writes it. One that was renamed by its writer while we opened it is a finished
+// file and stays as it is.
+int open_part(const std::string& part, const std::string& path) {
+  int descriptor = -1;
+  try {
+    descriptor = open_locked(part, O_WRONLY | O_CREAT);
+  } catch (const FileBusy&) {
+    throw FileBusy(path, "is being written by another process (" + part + ")");
+  } catch (const FileError& error) { throw FileError(path, "cannot create", error.error_number()); }
+  if (::ftruncate(descriptor, 0) == 0) return descriptor;
+  const int error = errno;
+  ::close(descriptor);
+  throw FileError(path, "cannot create", error);
 }
 
 void sync_directory(const std::string& path) {
@@ -79,6 +67,25 @@ FileError::FileError(std::string path, std::string_view action, int error_number
 
 FileError::FileError(std::string path, std::string_view text)
     : std::runtime_error(path + ": " + std::string(text)), path_(std::move(path)) {}
+
+int open_locked(const std::string& path, int flags) {
+  for (;;) {
+    const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+    if (descriptor < 0) throw FileError(path, "cannot open", errno);
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(descriptor);
+      throw FileBusy(path, "is in use by another process");
+    }
+    if (has_name(descriptor, path)) return descriptor;
+    ::close(descriptor);
+  }
+}
+
+bool has_name(int descriptor, const std::string& path) {
+  struct stat opened{}, named{};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
+}
 
 void write_all(int descriptor, std::string_view bytes, const std::string& name) {
   while (!bytes.empty()) {
@@ -105,7 +112,7 @@ OutputFile::OutputFile(std::string path, Existing existing) : path_(std::move(pa
   }
   if (exists && existing_ == Existing::keep) throw FileError(path_, "will not be replaced", EEXIST);
   part_path_ = (exists ? resolved(path_) : path_) + ".part";
-  descriptor_ = open_locked(part_path_, path_);
+  descriptor_ = open_part(part_path_, path_);
   buffer_.reserve(buffer_bytes);
 }
 

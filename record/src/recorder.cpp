@@ -205,5 +205,6 @@ void Recorder::finish(const measure::Run& run, bool interrupted) {
 
 std::uint64_t Recorder::bytes() const noexcept { return impl_->file.position(); }
 const std::string& Recorder::path() const noexcept { return impl_->file.path(); }
+const std::string& Recorder::part_path() const noexcept { return impl_->file.part_path(); }
 
 }  // namespace banyan::record

@@ -14,6 +14,7 @@ void Sink::start(const world::World&) {}
 void Sink::tick(const world::World&, const measure::Tick&) {}
 void Sink::finish(const world::World&, const RunEnd&) {}
 bool Sink::wants_fiedler(const world::World&) const { return false; }
+std::string Sink::rest() const { return ""; }
 
 void Sinks::add(std::string path, std::unique_ptr<Sink> sink) {
   members_.push_back({std::move(path), std::move(sink)});
@@ -25,13 +26,20 @@ template <class Call> void Sinks::tell(const Call& call) {
     try {
       call(*sink);
     } catch (const FileError& error) {
-      failures_.push_back({path, error.what()});
+      failures_.push_back({path, error.what(), sink->rest()});
       sink.reset();
     } catch (const std::exception& error) {
-      failures_.push_back({path, path + ": " + error.what()});
+      failures_.push_back({path, path + ": " + error.what(), sink->rest()});
       sink.reset();
     }
   }
+}
+
+std::vector<std::string> Sinks::rests() const {
+  std::vector<std::string> files;
+  for (const auto& [path, sink] : members_)
+    if (std::string file = sink ? sink->rest() : ""; !file.empty()) files.push_back(std::move(file));
+  return files;
 }
 
 void Sinks::start(const world::World& world) {

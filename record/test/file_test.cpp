@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <thread>
 
 #include "sample.hpp"
 
@@ -50,6 +53,30 @@ class FullDisk {
   rlimit old_{};
   void (*old_handler_)(int) = SIG_DFL;
 };
+
+// One throws the file away as often as it can, locked, while the other opens it.
+TEST(OpenLocked, HasTheFileOfThatNameWhateverHappensBetweenOpeningAndLocking) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a");
+  const auto attempt = [&](const std::function<void(int)>& use) {
+    try {
+      const int descriptor = open_locked(path, O_RDWR | O_CREAT);
+      use(descriptor);
+      ::close(descriptor);
+      return 1;
+    } catch (const FileBusy&) { return 0; }
+  };
+  std::atomic<bool> over = false;
+  std::thread other([&] {
+    while (!over) attempt([&](int) { ::unlink(path.c_str()); });
+  });
+  int opened = 0, strangers = 0;
+  for (int i = 0; i < 20'000; ++i) opened += attempt([&](int descriptor) { strangers += has_name(descriptor, path) ? 0 : 1; });
+  over = true;
+  other.join();
+  EXPECT_GT(opened, 0);
+  EXPECT_EQ(strangers, 0);
+}
 
 TEST(OutputFile, AppearsOnlyWhenCommitted) {
   const test::TemporaryDirectory directory;

@@ -25,6 +25,7 @@ class Noting final : public Sink {
   void tick(const world::World&, const measure::Tick& tick) override { note("tick " + std::to_string(tick.tick)); }
   void finish(const world::World&, const RunEnd& end) override { note(end.interrupted ? "interrupted" : "finish"); }
   [[nodiscard]] bool wants_fiedler(const world::World&) const override { return fiedler_; }
+  [[nodiscard]] std::string rest() const override { return "rest of " + fails_at_; }
 
  private:
   void note(const std::string& what) {
@@ -62,6 +63,8 @@ TEST(Sinks, OneThatFailsIsClosedAtOnceAndTheOthersGoOn) {
     ASSERT_EQ(sinks.failures().size(), 1U);
     EXPECT_EQ(sinks.failures()[0].path, "b");
     EXPECT_EQ(sinks.failures()[0].text, "b: no more");
+    EXPECT_EQ(sinks.failures()[0].rest, "rest of " + whole[k]);
+    EXPECT_EQ(sinks.rests().size(), 2U);  // of a and c
   }
 }
 

@@ -11,6 +11,7 @@
 #include "banyan/study/journal.hpp"
 #include "banyan/study/report.hpp"
 #include "banyan/version.hpp"
+#include "json_value.hpp"
 #include "machine.hpp"
 
 namespace banyan::study {
@@ -66,14 +67,20 @@ std::string Folder::journal(const Shard& shard) const {
 std::string this_build() { return build_text(std::string(version), std::string(git_id())); }
 
 std::optional<Finished> finished(const Folder& folder) {
-  if (!std::filesystem::exists(folder.json())) return std::nullopt;
+  std::error_code error;
+  if (!std::filesystem::exists(folder.json(), error)) {
+    if (error) throw FileError(folder.json(), "cannot read", error.value());
+    return std::nullopt;
+  }
   const record::InputFile file(folder.json());
   std::string text;
   if (!file.read(0, file.size(), text)) throw FileError(folder.json(), "cannot be read");
   const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("format", "") != study_format)
+  const auto study = value_in<std::string>(json, "study"), plan = value_in<std::string>(json, "plan");
+  const auto runs = value_in<std::uint64_t>(json, "runs");
+  if (value_in<std::string>(json, "format") != study_format || !study || !plan || !runs)
     throw FileError(folder.json(), "is not what a study writes; choose another folder, or remove it");
-  return Finished{json.value("study", ""), json.value("plan", ""), json.value("runs", std::uint64_t{0})};
+  return Finished{*study, *plan, *runs};
 }
 
 // The same run, whatever it was called and whoever made it: all columns from the first of the results on.
@@ -88,6 +95,12 @@ static bool same_result(const std::string& row, const std::string& other) {
   return true;
 }
 
+// What this program can put into its tables. A row of other columns is none.
+static Outcome readable(const Outcome& outcome) {
+  if (!outcome.error.empty() || record::csv_cells(outcome.row).size() == record::run_columns().size()) return outcome;
+  return {"", "its row has other columns: written by another version of banyan", outcome.wall_s};
+}
+
 Gathered gather(const std::vector<std::string>& journals, const std::string& study) {
   Gathered gathered;
   for (const auto& path : journals) {
@@ -100,11 +113,12 @@ Gathered gather(const std::vector<std::string>& journals, const std::string& stu
         gathered.builds.push_back(build);
     }
     for (const auto& entry : content.entries) {
-      const auto [at, added] = gathered.outcomes.emplace(entry.id, entry.outcome);
+      const Outcome outcome = readable(entry.outcome);
+      const auto [at, added] = gathered.outcomes.emplace(entry.id, outcome);
       if (added) continue;
       if (!at->second.error.empty())
-        at->second = entry.outcome;
-      else if (entry.outcome.error.empty() && !same_result(entry.outcome.row, at->second.row))
+        at->second = outcome;
+      else if (outcome.error.empty() && !same_result(outcome.row, at->second.row))
         throw FileError(path, "holds another result of the run " + entry.id +
                                   " than an earlier journal: builds or "
                                   "machines that do not agree");

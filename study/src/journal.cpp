@@ -2,7 +2,6 @@
 #include "banyan/study/journal.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,11 +12,16 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "banyan/record/file.hpp"
 #include "banyan/record/mcap.hpp"
+#include "json_value.hpp"
 
 namespace banyan::study {
+
+std::string build_text(const std::string& version, const std::string& git) { return version + " (git " + git + ")"; }
+
 namespace {
 
 using nlohmann::json;
@@ -56,6 +60,29 @@ json header(const std::string& study, const std::string& version, const std::str
           {"git", git}};
 }
 
+// Takes in who has written what follows; false if the line does not say.
+bool read_header(const json& line, JournalContent& content) {
+  const auto study = value_in<std::string>(line, "study"), version = value_in<std::string>(line, "version"),
+             git = value_in<std::string>(line, "git");
+  if (!study || !version || !git) return false;
+  content.study = *study;
+  content.version = *version;
+  content.git = *git;
+  const auto build = build_text(*version, *git);
+  if (std::find(content.builds.begin(), content.builds.end(), build) == content.builds.end())
+    content.builds.push_back(build);
+  return true;
+}
+
+// What a study writes of a run; nothing for anything else.
+std::optional<JournalEntry> entry_in(const json& line) {
+  const auto id = value_in<std::string>(line, "id"), row = value_in<std::string>(line, "row"),
+             error = value_in<std::string>(line, "error");
+  const auto wall_s = value_in<double>(line, "wall_s");
+  if (!id || !row || !error || !wall_s) return std::nullopt;
+  return JournalEntry{*id, {*row, *error, *wall_s}};
+}
+
 JournalContent parse(const std::string& path, std::string_view text) {
   JournalContent content;
   std::size_t number = 0;
@@ -68,21 +95,16 @@ JournalContent parse(const std::string& path, std::string_view text) {
     ++number;
     const auto line = unframed(text.substr(0, end));
     if (number == 1 || (line && line->contains("format"))) {
-      if (!line || line->value("format", "") != journal_format) fail("this is no journal of a study");
-      if (line->value("format_version", 0) != journal_format_version) fail("the journal is of another format version");
-      content.study = line->value("study", "");
-      content.version = line->value("version", "");
-      content.git = line->value("git", "");
-      const auto build = build_text(content.version, content.git);
-      if (std::find(content.builds.begin(), content.builds.end(), build) == content.builds.end())
-        content.builds.push_back(build);
+      if (!line || value_in<std::string>(*line, "format") != journal_format) fail("this is no journal of a study");
+      if (value_in<double>(*line, "format_version") != journal_format_version)
+        fail("the journal is of another format version");
+      if (!read_header(*line, content)) fail("this is no journal of a study");
+    } else if (auto entry = line ? entry_in(*line) : std::nullopt) {
+      content.entries.push_back(std::move(*entry));
     } else {
-      if (!line || !line->contains("id"))
-        fail(
-            "the line is damaged; delete it (or the file), and its run is done again. All other lines are sound or "
-            "will be named one by one");
-      content.entries.push_back(
-          {line->value("id", ""), {line->value("row", ""), line->value("error", ""), line->value("wall_s", 0.0)}});
+      fail(
+          "the line is damaged; delete it (or the file), and its run is done again. All other lines are sound or "
+          "will be named one by one");
     }
     text.remove_prefix(end + 1);
     content.bytes += end + 1;
@@ -102,19 +124,23 @@ std::int64_t now_ns() {
       .count();
 }
 
-}  // namespace
+// For a writer, or for whoever wants to be none's.
+int open_journal(const std::string& path, int flags) {
+  try {
+    return record::open_locked(path, flags);
+  } catch (const record::FileBusy&) {
+    throw record::FileBusy(path, "another banyan is at work on this study (or this shard of it)");
+  }
+}
 
-std::string build_text(const std::string& version, const std::string& git) { return version + " (git " + git + ")"; }
+}  // namespace
 
 JournalContent read_journal(const std::string& path) { return parse(path, whole_file(path)); }
 
 Journal::Journal(std::string path, const std::string& study, const std::string& version, const std::string& git)
     : path_(std::move(path)) {
-  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);  // NOLINT(hicpp-signed-bitwise)
-  if (descriptor_ < 0) throw FileError(path_, "open", errno);
+  descriptor_ = open_journal(path_, O_RDWR | O_CREAT);  // NOLINT(hicpp-signed-bitwise)
   try {
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0)  // NOLINT(hicpp-signed-bitwise)
-      throw FileError(path_, "another banyan is at work on this study (or this shard of it)");
     content_ = parse(path_, whole_file(path_));
     if (content_.bytes > 0 && content_.study != study)
       throw FileError(path_, "belongs to the study \"" + content_.study + "\", not to \"" + study + "\"");
@@ -143,6 +169,8 @@ void Journal::append(const JournalEntry& entry) {
 
 void Journal::sync() {
   if (::fdatasync(descriptor_) != 0) throw FileError(path_, "write to the disk", errno);
+  if (!record::has_name(descriptor_, path_))
+    throw FileError(path_, "somebody has removed or replaced this file while runs were added to it: they are lost");
   synced_ns_ = now_ns();
 }
 
@@ -159,13 +187,18 @@ void Journal::write_line(const std::string& text) {
   end_ += line.size();
 }
 
-bool in_use(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool locked =
-      ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;  // NOLINT(hicpp-signed-bitwise)
-  ::close(descriptor);
-  return locked;
+JournalLock::JournalLock(std::string path)
+    : path_(std::move(path)), descriptor_(open_journal(path_, O_RDONLY)) {}
+
+JournalLock::JournalLock(JournalLock&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+JournalLock::~JournalLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void JournalLock::remove() {
+  if (::unlink(path_.c_str()) != 0 && errno != ENOENT) throw FileError(path_, "cannot be removed", errno);
 }
 
 std::vector<std::string> journals_in(const std::string& folder) {
@@ -174,6 +207,8 @@ std::vector<std::string> journals_in(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder + "/journal", error)) {
     if (entry.path().extension() == ".jsonl") found.push_back(entry.path().string());
   }
+  if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+    throw FileError(folder + "/journal", "cannot read", error.value());
   std::sort(found.begin(), found.end());
   return found;
 }

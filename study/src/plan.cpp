@@ -16,22 +16,35 @@ namespace {
 using config::Node;
 using config::Problem;
 
-// What a run is, without what only says how it is called and what is kept of it.
-std::string id_of(const config::Configuration& configuration) {
-  config::Configuration bare = configuration;
-  bare.scenario.name.clear();
-  bare.scenario.description.clear();
-  std::string json = config::config_json(bare);
-  // [output] as it was when the first studies were made: their runs keep their ids, whatever can be kept today.
-  constexpr std::string_view key = "\"output\":{";
-  const auto begin = json.find(key) + key.size();
-  json.replace(begin, json.find('}', begin) - begin, R"("record":true,"record_every":1,"series":false)");
-  return hexadecimal(digest_of(json));
-}
+// What a run is, without what only says how it is called and what is kept of it: the same text for all seeds but
+// for the seed.
+class Identity {
+ public:
+  explicit Identity(config::Configuration bare) {
+    bare.scenario.name.clear();
+    bare.scenario.description.clear();
+    bare.scenario.seed = 0;
+    text_ = config::config_json(bare);
+    // [output] as it was when the first studies were made: their runs keep their ids, whatever can be kept today.
+    constexpr std::string_view key = "\"output\":{", seed = "\"seed\":";
+    const auto begin = text_.find(key) + key.size();
+    text_.replace(begin, text_.find('}', begin) - begin, R"("record":true,"record_every":1,"series":false)");
+    seed_at_ = text_.find(seed) + seed.size();
+  }
+  [[nodiscard]] std::string id(std::uint64_t seed) const {
+    std::string text = text_;
+    return hexadecimal(digest_of(text.replace(seed_at_, 1, std::to_string(seed))));
+  }
+
+ private:
+  std::string text_;
+  std::size_t seed_at_ = 0;
+};
 
 class Planner {
  public:
-  Planner(const Study& study, const AlgorithmList& algorithms) : study_(study), algorithms_(algorithms) {}
+  Planner(const Study& study, const AlgorithmList& algorithms, const PlanProgress& progress)
+      : study_(study), algorithms_(algorithms), progress_(progress) {}
 
   Plan plan() {
     for (std::size_t p = 0; p < study_.parts.size(); ++p) plan_part(p);
@@ -44,6 +57,7 @@ class Planner {
       digest.add(row.part);
     }
     plan_.digest = digest.value();
+    tell();
     return std::move(plan_);
   }
 
@@ -86,9 +100,12 @@ class Planner {
     if (!ok) return;
     plan_.combinations.push_back(loaded.configuration);
     const std::string folder = (part.name.empty() ? "" : part.name + "/") + name_of(part, values, ",", true);
+    const Identity identity(loaded.configuration);
+    tell();
     for (const std::uint64_t seed : part.seeds) {
+      if (plan_.rows.size() % rows_between_words == 0) tell();
       loaded.configuration.scenario.seed = seed;
-      const std::size_t run = add_run(loaded.configuration, folder, seed);
+      const std::size_t run = add_run(loaded.configuration, identity.id(seed), folder);
       plan_.rows.push_back({p, values, seed, run});
       if (!seen_.emplace(run, combination).second && !twice_) {
         twice_ = true;
@@ -144,12 +161,12 @@ class Planner {
     return text.empty() ? "all" : text.substr(0, 200);
   }
 
-  std::size_t add_run(const config::Configuration& configuration, const std::string& folder, std::uint64_t seed) {
+  std::size_t add_run(const config::Configuration& configuration, std::string id, const std::string& folder) {
     PlannedRun run;
-    run.id = id_of(configuration);
+    run.id = std::move(id);
     run.combination = plan_.combinations.size() - 1;
-    run.seed = seed;
-    run.directory = folder + "/seed=" + std::to_string(seed);
+    run.seed = configuration.scenario.seed;
+    run.directory = folder + "/seed=" + std::to_string(run.seed);
     if (const auto known = index_.find(run.id); known != index_.end()) {
       share_run(plan_.runs[known->second], run, configuration);
       return known->second;
@@ -170,6 +187,10 @@ class Planner {
     if (!directories_.insert(first.directory).second) first.directory += "-" + first.id;
   }
 
+  void tell() const {
+    if (progress_) progress_(static_cast<double>(plan_.rows.size()));
+  }
+
   void note(Problem problem, const std::string& combination, double of) {
     auto& found = found_[to_string(problem)];
     if (found.count++ == 0) {
@@ -186,8 +207,11 @@ class Planner {
     plan_.problems.push_back(std::move(found.problem));
   }
 
+  static constexpr std::size_t rows_between_words = 1000;
+
   const Study& study_;
   const AlgorithmList& algorithms_;
+  const PlanProgress& progress_;
   Plan plan_;
   std::map<std::string, Node> trees_;
   std::map<std::string, std::size_t, std::less<>> index_;  // id -> run
@@ -221,6 +245,8 @@ double count_rows(const Study& study) noexcept {
   return rows;
 }
 
-Plan make_plan(const Study& study, const AlgorithmList& algorithms) { return Planner(study, algorithms).plan(); }
+Plan make_plan(const Study& study, const AlgorithmList& algorithms, const PlanProgress& progress) {
+  return Planner(study, algorithms, progress).plan();
+}
 
 }  // namespace banyan::study

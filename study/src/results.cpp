@@ -98,13 +98,8 @@ Results::Results(const Study& study, const Plan& plan, const Outcomes& outcomes)
     if (found == outcomes.end()) continue;
     present_.push_back(row);
     errors_.push_back(found->second.error);
-    auto cells = errors_.back().empty() ? record::csv_cells(found->second.row) : std::vector<std::string>{};
-    if (cells.size() != run_columns().size()) {
-      if (errors_.back().empty()) errors_.back() = "its row has other columns: written by another version of banyan";
-      cells = identity_of(plan, run);
-      ++failed_;
-    }
-    cells_.push_back(std::move(cells));
+    if (!errors_.back().empty()) ++failed_;
+    cells_.push_back(errors_.back().empty() ? record::csv_cells(found->second.row) : identity_of(plan, run));
   }
 }
 

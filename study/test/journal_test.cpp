@@ -9,8 +9,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include "banyan/record/file.hpp"
+#include "banyan/record/mcap.hpp"
 #include "temporary_folder.hpp"
 
 namespace banyan::study {
@@ -144,14 +147,67 @@ TEST_F(JournalTest, RefusesAnotherStudyAndLeavesItAlone) {
 TEST_F(JournalTest, HasOneWriterAtATime) {
   {
     Journal journal(path("j"), "s", "1.2", "abc");
-    EXPECT_TRUE(in_use(path("j")));
+    EXPECT_THROW(JournalLock(path("j")), record::FileBusy);
     EXPECT_NE(failure_of_opening("s").find("another banyan is at work"), std::string::npos);
     journal.append(entry(0));
     expect_entries(read_journal(path("j")), 1);  // reading is free
   }
-  EXPECT_FALSE(in_use(path("j")));
-  EXPECT_FALSE(in_use(path("missing")));
   EXPECT_EQ(failure_of_opening("s"), "opened");
+}
+
+TEST_F(JournalTest, IsThrownAwayOnlyIfNobodyWritesToIt) {
+  write("j", journal_text(2));
+  {
+    JournalLock lock(path("j"));
+    EXPECT_NE(failure_of_opening("s").find("another banyan is at work"), std::string::npos);
+    lock.remove();
+    const Journal another(path("j"), "s", "1.2", "abc");  // of the same name: not the one that is locked
+    EXPECT_TRUE(another.content().entries.empty());
+  }
+  EXPECT_THROW(JournalLock(path("missing")), record::FileError);
+}
+
+TEST_F(JournalTest, SaysSoWhenItWasTakenAway) {
+  Journal journal(path("j"), "s", "1.2", "abc");
+  journal.append(entry(0));
+  journal.sync();
+  std::filesystem::remove(path("j"));
+  EXPECT_THROW(journal.sync(), record::FileError);
+  write("j", "");  // another one of the same name
+  EXPECT_THROW(journal.sync(), record::FileError);
+}
+
+TEST_F(JournalTest, ALineOfOtherTypesIsDamagedWhateverItsChecksum) {
+  const auto lines = [&](const std::string& header, const std::string& line) {
+    std::string text;
+    for (const auto& one : {header, line}) {
+      std::array<char, 16> crc{};
+      std::snprintf(crc.data(), crc.size(), "%08x ", record::mcap::crc32(one));
+      text += crc.data() + one + "\n";
+    }
+    write("j", text);
+  };
+  const std::string header =
+      R"({"format":"banyan.journal","format_version":1,"study":"s","version":"1.2","git":"abc"})";
+  const std::string line = R"({"id":"a","row":"1,2","error":"","wall_s":1})";
+  lines(header, line);
+  EXPECT_EQ(read_journal(path("j")).entries.size(), 1U);
+  for (const char* wrong : {R"({"id":5,"row":"","error":"","wall_s":1})", R"({"id":"a","row":7,"error":"","wall_s":1})",
+                            R"({"id":"a","row":"","error":null,"wall_s":1})", R"({"id":"a","row":"","error":""})",
+                            R"({"id":"a","row":"","error":"","wall_s":"1"})", "[]", "7"}) {
+    lines(header, wrong);
+    EXPECT_NE(failure_of_reading().find("line 2: the line is damaged"), std::string::npos) << wrong;
+  }
+  for (const char* wrong :
+       {R"({"format":7})", R"({"format":"banyan.journal","format_version":1,"study":7,"version":"","git":""})",
+        R"({"format":"banyan.journal","format_version":1,"study":"s","version":"","git":[]})"}) {
+    lines(wrong, line);
+    EXPECT_NE(failure_of_reading().find("line 1: this is no journal"), std::string::npos) << wrong;
+    lines(header, wrong);
+    EXPECT_NE(failure_of_reading().find("line 2: this is no journal"), std::string::npos) << wrong;
+  }
+  lines(R"({"format":"banyan.journal","format_version":"1","study":"s","version":"","git":""})", line);
+  EXPECT_NE(failure_of_reading().find("of another format version"), std::string::npos);
 }
 
 TEST_F(JournalTest, AFullDiskLeavesWholeLines) {

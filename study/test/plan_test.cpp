@@ -250,6 +250,18 @@ RC_GTEST_FIXTURE_PROP(PlanTest, HoldsEveryCombinationOnce, ()) {
   RC_ASSERT(ids.size() == wanted.size());
 }
 
+TEST_F(PlanTest, SaysHowFarItIs) {
+  const auto loaded = parse_study(path("s.toml"), "scenario = \"w.toml\"\nseeds = \"1-2500\"\n" +
+                                                      axis("loss", "radio.loss", "[0.0, 0.1]"));
+  ASSERT_TRUE(loaded.ok());
+  std::vector<double> told;
+  const auto plan = make_plan(loaded.study, algorithms(), [&](double rows) { told.push_back(rows); });
+  ASSERT_EQ(plan.rows.size(), 5000U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_GE(told.size(), 6U);  // every thousand
+  EXPECT_EQ(told.back(), 5000.0);
+}
+
 RC_GTEST_PROP(Shards, TogetherHoldEachRunOnce, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(1, 50);
   const auto runs = *rc::gen::inRange<std::size_t>(0, 200);

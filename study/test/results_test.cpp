@@ -10,6 +10,8 @@
 
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/table.hpp"
+#include "banyan/study/folder.hpp"
+#include "banyan/study/journal.hpp"
 #include "banyan/version.hpp"
 #include "temporary_folder.hpp"
 
@@ -112,8 +114,16 @@ TEST_F(ResultsTest, WhatFailedIsARowWithoutResults) {
 }
 
 TEST_F(ResultsTest, ARowOfAnotherVersionSaysSo) {
-  outcomes_[plan_.runs[1].id].row = "1,2,3";
-  const Results results(study_, plan_, outcomes_);
+  {
+    Journal journal(path("j"), "s", "1.2", "abc");
+    for (const auto& run : plan_.runs) {
+      auto outcome = outcomes_[run.id];
+      if (run.id == plan_.runs[1].id) outcome.row = "1,2,3";
+      journal.append({run.id, outcome});
+    }
+  }
+  const auto gathered = gather({path("j")}, "s");
+  const Results results(study_, plan_, gathered.outcomes);
   EXPECT_EQ(results.failed(), 2U);
   EXPECT_NE(lines_of(results.csv())[2].find("written by another version"), std::string::npos);
 }

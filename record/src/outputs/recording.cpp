@@ -26,6 +26,7 @@ class RecordingSink final : public Sink {
   void tick(const world::World& world, const measure::Tick& tick) override { recorder_.frame(world, tick); }
   void finish(const world::World&, const RunEnd& end) override { recorder_.finish(end.run, end.interrupted); }
   [[nodiscard]] bool wants_fiedler(const world::World& world) const override { return measure::is_plotted(world); }
+  [[nodiscard]] std::string rest() const override { return recorder_.part_path(); }
 
  private:
   Recorder recorder_;

@@ -89,7 +89,11 @@ void save_checkpoint(const std::string& path, const TunePlan& plan, const Checkp
 }
 
 std::optional<Checkpoint> load_checkpoint(const std::string& path, const TunePlan& plan) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    if (error) throw record::FileError(path, "cannot read", error.value());
+    return std::nullopt;
+  }
   const record::InputFile file(path);
   std::string text;
   if (!file.read(0, file.size(), text)) throw damaged(path, "it became shorter while it was read");

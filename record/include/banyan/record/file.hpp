@@ -23,6 +23,19 @@ class FileError : public std::runtime_error {
   int error_number_ = 0;
 };
 
+// Another process has the file locked.
+class FileBusy : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+// A descriptor of the file `path`, opened with `flags` (and mode 0666) and locked against everybody else who opens
+// it so; FileBusy if somebody has. What is locked is the file that has the name then: one that was removed or renamed
+// between opening and locking is let go of and the name opened anew. A file system without locks gives none.
+[[nodiscard]] int open_locked(const std::string& path, int flags);
+// Whether the open file still is the one of that name.
+[[nodiscard]] bool has_name(int descriptor, const std::string& path);
+
 // What happens to a file that is already there when the new one is finished.
 enum class Existing : std::uint8_t { keep, replace };  // keep: FileError with EEXIST, the old file stays
 

@@ -57,6 +57,7 @@ class Recorder {
 
   [[nodiscard]] std::uint64_t bytes() const noexcept;   // of the file so far
   [[nodiscard]] const std::string& path() const noexcept;
+  [[nodiscard]] const std::string& part_path() const noexcept;  // what stays if it is never finished
 
  private:
   struct Impl;

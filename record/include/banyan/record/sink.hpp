@@ -29,6 +29,8 @@ class Sink {
   virtual void finish(const world::World& world, const RunEnd& end);
   // Whether the tick that `world` has just done is to be observed with lambda_2 itself, which takes time.
   [[nodiscard]] virtual bool wants_fiedler(const world::World& world) const;
+  // The file in which what it has been told so far stays if it is thrown away unfinished; "": nothing stays.
+  [[nodiscard]] virtual std::string rest() const;
 
  protected:
   Sink() = default;
@@ -42,9 +44,11 @@ class Sinks final : public Sink {
   struct Failure {
     std::string path;
     std::string text;  // begins with the path
+    std::string rest;  // Sink::rest()
   };
   void add(std::string path, std::unique_ptr<Sink> sink);
   [[nodiscard]] const std::vector<Failure>& failures() const noexcept { return failures_; }  // in their order
+  [[nodiscard]] std::vector<std::string> rests() const;  // of those that have not failed
 
   void start(const world::World& world) override;
   void tick(const world::World& world, const measure::Tick& tick) override;

@@ -40,7 +40,8 @@ struct Gathered {
   Outcomes outcomes;
   std::vector<std::string> builds;  // "0.1.0 (git 123abc)" of each journal, each once
 };
-// A run that failed and succeeded elsewhere has succeeded. Throws record::FileError for what
+// A run that failed and succeeded elsewhere has succeeded; one whose row has other columns than this program's has
+// failed. Throws record::FileError for what
 // read_journal() throws, for a journal of another study, and for two different results of one run.
 [[nodiscard]] Gathered gather(const std::vector<std::string>& journals, const std::string& study);
 

@@ -35,8 +35,8 @@ struct JournalContent {
 
 class Journal {
  public:
-  // Creates the file, or opens it behind its last whole line. Throws record::FileError if another
-  // process has it open, if it is damaged, or if it belongs to another study.
+  // Creates the file, or opens it behind its last whole line. Throws record::FileBusy if another process
+  // has it open, record::FileError if it is damaged or belongs to another study.
   Journal(std::string path, const std::string& study, const std::string& version, const std::string& git);
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -44,8 +44,8 @@ class Journal {
 
   [[nodiscard]] const JournalContent& content() const noexcept { return content_; }  // when it was opened
   // Appends a line and hands it to the operating system; to the disk at least once a second. If
-  // that fails (disk full) the file ends with its last whole line and FileError is thrown. Not
-  // thread-safe.
+  // that fails (disk full) the file ends with its last whole line and FileError is thrown. So it is
+  // when somebody has removed or replaced the file, which is looked at as often. Not thread-safe.
   void append(const JournalEntry& entry);
   void sync();
 
@@ -59,10 +59,23 @@ class Journal {
   std::int64_t synced_ns_ = 0;
 };
 
-// Whether a process has the journal open to write it.
-[[nodiscard]] bool in_use(const std::string& path);
+// Keeps writers off a journal, to throw it away.
+class JournalLock {
+ public:
+  // Throws record::FileBusy if a process is writing to it, record::FileError if it cannot be opened.
+  explicit JournalLock(std::string path);
+  JournalLock(JournalLock&& other) noexcept;
+  JournalLock& operator=(JournalLock&&) = delete;
+  ~JournalLock();
+  void remove();  // the file; throws record::FileError
 
-// The journals of a study's folder, "journal/*.jsonl" by name.
+ private:
+  std::string path_;
+  int descriptor_;
+};
+
+// The journals of a study's folder, "journal/*.jsonl" by name. Throws record::FileError if there is such a folder
+// but it cannot be read.
 [[nodiscard]] std::vector<std::string> journals_in(const std::string& folder);
 
 }  // namespace banyan::study

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,9 +51,12 @@ struct Plan {
 // How many rows the study has, without making them; may be huge.
 [[nodiscard]] double count_rows(const Study& study) noexcept;
 
+using PlanProgress = std::function<void(double rows)>;
+
 // Builds and checks every configuration. Problems: scenarios that cannot be read or are at fault,
-// each named with the combination that made it; two runs of one part that are the same.
-[[nodiscard]] Plan make_plan(const Study& study, const AlgorithmList& algorithms);
+// each named with the combination that made it; two runs of one part that are the same. With millions of rows that
+// takes a minute: `progress` is told now and then how many there are, and in the end that there are all.
+[[nodiscard]] Plan make_plan(const Study& study, const AlgorithmList& algorithms, const PlanProgress& progress = {});
 
 // A shard of the work, "3/8": the runs whose index is 2, 10, 18 ... {1, 1} is everything.
 struct Shard {

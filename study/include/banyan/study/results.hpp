@@ -21,8 +21,8 @@ using Values = std::vector<double>;
 
 class Results {
  public:
-  // Rows whose outcome is not there are missing: counted, and left out of every table. All
-  // arguments must outlive it.
+  // Rows whose outcome is not there are missing: counted, and left out of every table. Outcomes are as gather()
+  // has them: one without an error has a row of this program's columns. All arguments must outlive it.
   Results(const Study& study, const Plan& plan, const Outcomes& outcomes);
 
   // The axes' names over all parts, each once, in order of appearance.

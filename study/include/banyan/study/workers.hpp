@@ -43,8 +43,8 @@ class Workers {
 // The processes that mpirun or srun (with --mpi=pmix, or what `srun --mpi=list` offers) started
 // together; a single one if they did not. At most one object per process.
 //
-// SIGINT and SIGTERM are the first process's business, which may cancel and end in order: the others
-// ignore both while they have this object. Open MPI's mpirun answers Ctrl-C, and SIGTERM, with SIGTERM
+// SIGINT, SIGTERM and SIGHUP are the first process's business, which may cancel and end in order: the
+// others ignore them while they have this object. Open MPI's mpirun answers Ctrl-C, and SIGTERM, with SIGTERM
 // to every process and a second later with SIGKILL (--mca odls_base_sigkill_timeout <seconds> gives
 // more time), so what matters has to be in its file by then. If a process dies, the launcher ends all.
 class Processes {
