@@ -2,8 +2,8 @@
 #include "banyan/controller/obstacles/corners.hpp"
 
 #include <algorithm>
-#include <climits>
 #include <cmath>
+#include <limits>
 
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
@@ -106,7 +106,7 @@ void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
   }
   // By way of whom the root's count comes, there is the tree.
   int nearest = -1;
-  int hops = INT_MAX;
+  int hops = std::numeric_limits<int>::max();
   float range_m = 0.0F;
   for (int k = 0, size = table.size(); k < size; ++k) {
     const int hops_k = table.message(k).tree_hops;

@@ -2,7 +2,7 @@
 #include "banyan/controller/tree/spare_management.hpp"
 
 #include <algorithm>
-#include <climits>
+#include <limits>
 
 #include "banyan/controller/tree/label.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
@@ -205,7 +205,7 @@ RobotId nearest_reference(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
   // Hops, and among free spares any other counts half a hop more than the one it has.
-  int best_hops = INT_MAX;
+  int best_hops = std::numeric_limits<int>::max();
   float best_m = 0.0F;
   for (int k = 0, size = table.size(); k < size; ++k) {
     const TreeStanding& m = table.message(k);
