@@ -8,7 +8,7 @@
 namespace banyan::measure {
 namespace {
 
-constexpr std::size_t work_between_pauses = 5'000'000;
+constexpr std::size_t work_between_pauses = 1'000'000;
 
 }  // namespace
 

@@ -47,14 +47,14 @@ TEST(Ldlt, APivotOfZeroIsSaid) {
 }
 
 TEST(Ldlt, CanBeStoppedAndUsedAgain) {
-  const SparseMatrix lower = random_matrix(7, 600, 4.0);
+  const SparseMatrix lower = (4.0 * Eigen::MatrixXd::Identity(400, 400) + 0.01 * Eigen::MatrixXd::Ones(400, 400)).sparseView();
   struct Enough {};
   int pauses = 0;
   Ldlt factors;
   ASSERT_TRUE(factors.compute(lower, [&] { ++pauses; }));
   EXPECT_GT(pauses, 2);
   const Vector whole = factors.pivots();
-  for (int at = 1; at <= pauses; ++at) {
+  for (const int at : {1, 2, 3, pauses}) {
     int count = 0;
     EXPECT_THROW(factors.compute(lower, [&] { if (++count == at) throw Enough{}; }), Enough);
     ASSERT_TRUE(factors.compute(lower, {}));
