@@ -151,7 +151,7 @@ void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   ConvoyState& self = robot.self;
   file_heard(robot);
-  const KnownOfHealing known(self);
+  const KnownOfHealing known(self, robot.elapsed_ticks);
   for (Heard& h : robot.heard) {
     const ConvoyMessage& m = convoy_message(*h.message);
     if (known.lacks(m)) robot.news.push(h);

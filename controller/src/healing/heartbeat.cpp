@@ -18,41 +18,32 @@ void beat(HealingState& self) noexcept {
 // The largest count of the newest root; whoever does not know that root yet counts for nothing.
 void hear_heartbeat(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
-  const RootToken root = self.root;
   robot.add_elapsed(self.silence_ticks);
-  Serial newest = self.heartbeat;
-  const HealingMessage* bearer = nullptr;  // of the newest
   for (const Heard& h : robot.news) {
     const HealingMessage& m = said(h);
-    if (m.root != root) continue;
-    const bool known = bearer != nullptr || self.heart == root;
-    if (known && !is_news(m.heartbeat, newest, bearer != nullptr ? 0 : self.silence_ticks)) continue;
-    newest = m.heartbeat;
-    bearer = &m;
+    if (m.root != self.root) continue;
+    if (self.heart == self.root && !is_news(m.heartbeat, self.heartbeat, self.silence_ticks)) continue;
+    self.heart = self.root;
+    self.heartbeat = m.heartbeat;
+    self.root_size = m.root_size;
+    self.silence_ticks = 0;
   }
-  if (bearer == nullptr) return;
-  self.heart = root;
-  self.heartbeat = newest;
-  self.root_size = bearer->root_size;
-  self.silence_ticks = 0;
 }
 
 // From the root itself, else from somebody who is at least nearly as near to it: the count says so.
 void locate_root(HealingRobot& robot) noexcept {
   constexpr int stale_ticks = 1;
   HealingState& self = robot.self;
-  const RobotId me = self.id;
-  const RobotId root = self.root.id;
   for (const Heard& h : robot.news) {
     const HealingMessage& m = said(h);
-    if ((m.told != me && m.id != root) || m.root != self.root) continue;
-    if (m.id == root) {
+    if (m.root != self.root) continue;
+    if (m.id == m.root.id) {
       self.root_at = h.position;
       self.root_known = true;
       return;
     }
     // The root silent, copies of copies would only drift.
-    if (!m.root_told || ahead_by(m.heartbeat, self.heartbeat) < -stale_ticks) continue;
+    if (m.told != self.id || !m.root_told || ahead_by(m.heartbeat, self.heartbeat) < -stale_ticks) continue;
     if (self.root_known && self.silence_ticks > robot.liveness_ticks()) continue;
     Vec2 point;
     if (!robot.read_point(h, m.root_x_cm, m.root_y_cm, point)) continue;

@@ -46,7 +46,7 @@ void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   auto& kept = robot.self.healing_standings;
   file_heard(robot);
-  const KnownOfHealing known(robot.self);
+  const KnownOfHealing known(robot.self, robot.elapsed_ticks);
   for (Heard& h : robot.heard) {
     if (known.lacks(said(h))) robot.news.push(h);
     if (h.place >= 0) kept[static_cast<std::size_t>(h.place)] = static_cast<const HealingStanding&>(said(h));

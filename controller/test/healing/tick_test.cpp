@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "watch.hpp"
 
 namespace banyan {
@@ -142,6 +144,49 @@ TEST(Orders, ASuccessorThatIsSentItselfServesItsOwn) {
   successor.hear_root(1);
   EXPECT_EQ(serves(successor.bench), 1);
   EXPECT_NEAR(successor.bench.state.want_m, 2.0F, 0.01F);
+}
+
+// ---- News: packets that say what the robot did not know ----
+
+template <class Kind>
+int news_of(const std::function<void(typename BenchOf<Kind>::Message&)>& say) {
+  BenchOf<Kind> bench(1);
+  bench.state.epoch = 3;
+  bench.state.phase = Phase::grow_tree;
+  bench.state.root = bench.state.heart = {5, 9};
+  bench.state.heartbeat = 100;
+  auto& message = bench.put(2, {1, 0});
+  message.heartbeat = 100;
+  bench.put(3, {0, 1}).heartbeat = 99;
+  say(message);
+  const auto robot = bench.tick();
+  int count = 0;
+  for (const Heard& h : robot.news) {
+    EXPECT_EQ(h.message->id, message.id);
+    ++count;
+  }
+  return count;
+}
+
+template <class Kind>
+void expect_news() {
+  using Message = typename BenchOf<Kind>::Message;
+  EXPECT_EQ(news_of<Kind>([](Message&) {}), 0);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.root = {6, 8}; }), 1);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.root = {4, 9}; }), 1);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.epoch = 4; }), 1);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.phase = Phase::select_root; }), 1);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.new_root = 1; }), 1);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.new_root = 4; }), 0);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.heartbeat = 101; }), 1);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.told = 1; }), 1);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.told = 3; }), 0);
+  EXPECT_EQ(news_of<Kind>([](Message& m) { m.id = 9; }), 1);  // the root itself
+}
+
+TEST(News, IsWhatTheRobotDidNotKnow) {
+  expect_news<Inwards>();
+  expect_news<Convoy>();
 }
 
 }  // namespace

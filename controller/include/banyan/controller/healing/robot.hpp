@@ -11,8 +11,8 @@ namespace banyan {
 // And of the root's heartbeat. What is said of the targets is looked at in full (takeover.cpp): something of it is
 // nearly always new.
 struct KnownOfHealing : KnownOfTree {
-  explicit KnownOfHealing(const HealingState& self) noexcept
-      : KnownOfTree(self), heartbeat(self.heartbeat), silence_ticks(self.silence_ticks + 1), has_heart(self.heart == self.root) {}
+  KnownOfHealing(const HealingState& self, int elapsed_ticks) noexcept
+      : KnownOfTree(self), heartbeat(self.heartbeat), silence_ticks(self.silence_ticks + elapsed_ticks), has_heart(self.heart == self.root) {}
   [[nodiscard]] bool lacks(const HealingMessage& m) const noexcept {
     return KnownOfTree::lacks(m) || m.told == id || m.id == root.id || !has_heart || is_news(m.heartbeat, heartbeat, silence_ticks);
   }
