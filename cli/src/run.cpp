@@ -118,7 +118,7 @@ int run_and_keep(const Configuration& configuration, const RunOutputs& outputs, 
     for (const auto& rest : sinks.rests()) tell_of_rest(rest, "the run is lost; ");
     throw;
   }
-  SummaryExtras extras{progress.elapsed_s(), threads, end.last.active_targets, end.last.targets_reached, {}};
+  SummaryExtras extras{progress.elapsed_s(), threads, end.last.active_targets, end.last.targets_reached, end.last.tree_parts, {}};
   if (options.force) outputs.remove_leftovers(configuration.output);
   for (const auto& format : record::output_formats) {
     if (wanted.output.wants(format) && !complaints.about(outputs.path(format))) extras.written.push_back(&format);

@@ -16,7 +16,9 @@ namespace {
 std::string verdict(const record::RunRow& row, const SummaryExtras& extras) {
   const auto& run = row.run;
   if (run.complete) return format("COMPLETE after %.1f s", run.completion_time_s);
-  const std::string reached = format("%zu of %zu targets reached", extras.targets_reached, extras.targets);
+  std::string reached = format("%zu of %zu targets reached", extras.targets_reached, extras.targets);
+  if (extras.targets_reached == extras.targets && extras.tree_parts != 1)
+    reached += extras.tree_parts == 0 ? ", but there is no root" : format(", but the tree is in %zu parts", extras.tree_parts);
   if (row.interrupted) return format("STOPPED at %.1f s: ", run.time_s) + reached;
   return format("NOT COMPLETE within %.1f s: ", run.time_limit_s) + reached;
 }

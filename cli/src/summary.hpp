@@ -15,6 +15,7 @@ struct SummaryExtras {
   int threads = 1;
   std::size_t targets = 0;
   std::size_t targets_reached = 0;
+  std::size_t tree_parts = 1;
   std::vector<const record::OutputFormat*> written;
 };
 

@@ -11,6 +11,7 @@
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
 #include "banyan/measure/steiner.hpp"
+#include "banyan/world/tree_parts.hpp"
 
 namespace banyan::measure {
 namespace {
@@ -171,9 +172,6 @@ struct Observer::Impl {
   void time_phases(const world::World& world);
   void add_up();
   void watch_recovery(const world::World& world);
-  [[nodiscard]] bool all_held() const noexcept {
-    return tick.active_targets > 0 && tick.targets_reached == tick.active_targets;
-  }
   [[nodiscard]] bool finished() const noexcept;
   [[nodiscard]] bool survivors_suffice(const world::World& world) const;
 
@@ -185,6 +183,7 @@ struct Observer::Impl {
   double settle_s;
   std::uint64_t sample_ticks;
   LivingGraph graph;
+  world::TreeParts tree_parts;
   Spectrum with_occlusion, by_distance;
   HopCount hop_count;
   std::uint64_t ticks_since_complete = 0;
@@ -227,8 +226,9 @@ Observer::Impl::Impl(const world::World& world)
       stop_when_complete(world.scenario().mission.stop_when_complete),
       settle_s(world.scenario().mission.settle_s),
       sample_ticks(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(sample_period_s / world.scenario().tick_s + 0.5))),
+      tree_parts(world.size()),
       first_targets(active_positions(world)),
-      recovery(world.scenario().tick_s),
+      recovery(world.scenario().tick_s, stop_when_complete ? settle_s : 0.0),
       pending_kills(world.pending_kills()) {
   run.robots = static_cast<std::uint32_t>(world.size());
   run.time_limit_s = world::time_limit_s(world.scenario());
@@ -284,6 +284,7 @@ void Observer::Impl::judge_graph(const world::World& world, bool exact_fiedler) 
   const bool sample = tick.alive <= every_tick_limit || world.tick() % sample_ticks == 1;
   judge_links(world, sample, exact_fiedler);
   tick.components = with_occlusion.components;
+  tick.tree_parts = tree_parts.count(world.alive(), world.reports(), [&](std::size_t i) { return world.links(i); });
   tick.fiedler_low = with_occlusion.low;
   tick.fiedler = exact_fiedler ? with_occlusion.value(graph.graph) : -1.0;
   // More edges never lower lambda_2, nor do they split a graph.
@@ -336,7 +337,7 @@ void Observer::Impl::measure_targets(const world::World& world) {
     tick.worst_target_distance_m = std::max(tick.worst_target_distance_m, counted_m);
   }
   // A run that heals on after its limit is no longer in time.
-  if (run.complete || !all_held() || tick.time_s > run.time_limit_s + 1e-9) return;
+  if (run.complete || !tick.complete() || tick.time_s > run.time_limit_s + 1e-9) return;
   run.complete = true;
   run.completion_time_s = tick.time_s;
   run.normalized_time = tick.time_s / run.time_limit_s;
@@ -380,7 +381,7 @@ void Observer::Impl::add_up() {
 }
 
 void Observer::Impl::watch_recovery(const world::World& world) {
-  recovery.observe(world.deaths(), tick.components == 1 && tick.roots == 1 && all_held());
+  recovery.observe(world.deaths(), tick.components == 1 && tick.roots == 1 && tick.all_held());
   pending_kills = world.pending_kills();
   run.deaths = static_cast<std::uint32_t>(world.deaths());
   run.survivors = tick.alive;

@@ -279,9 +279,9 @@ void EventWatcher::watch_arrivals(const Setting& setting, const Frame& frame, co
     reached_[k] = who;
     add("arrival", who, static_cast<std::int64_t>(k), robot_name(who) + " has reached " + target_name(k));
   }
-  if (complete_ || tick.active_targets == 0 || tick.targets_reached != tick.active_targets) return;
+  if (complete_ || !tick.complete()) return;
   complete_ = true;
-  add("complete", -1, -1, "all targets are reached");
+  add("complete", -1, -1, "all targets are held, and the tree is in one piece");
 }
 
 void EventWatcher::watch_targets(const Setting& setting, const Frame& frame, const measure::Tick& tick) {

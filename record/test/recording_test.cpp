@@ -438,7 +438,7 @@ TEST(Events, WhatMovesOnAndOnIsSaidOnce) {
     told.next(setting, frame, of_targets(1, t < 35 ? 1 : 0));
   }
   EXPECT_EQ(told.events(), (std::vector<std::string>{"arrival 2: robot 2 has reached target T0",
-                                                     "complete -1: all targets are reached",
+                                                     "complete -1: all targets are held, and the tree is in one piece",
                                                      "target_moved 2: target T0 has moved to (2.10, 0.50) m",
                                                      "target_moved 2: target T0 has moved to (0.00, 0.00) m"}));
 }
@@ -461,10 +461,11 @@ TEST(Events, WhoTakesOverATargetArrivesAndCompletes) {
     frame.robots[3].position = frame.targets[0].position;
     for (int t = 0; t < 3; ++t) told.next(setting, frame, of_targets(1, 1));
     std::vector<std::string> expected;
-    if (had_arrived) expected = {"arrival 2: robot 2 has reached target T0", "complete -1: all targets are reached"};
+    const std::string complete = "complete -1: all targets are held, and the tree is in one piece";
+    if (had_arrived) expected = {"arrival 2: robot 2 has reached target T0", complete};
     expected.insert(expected.end(), {"death 2: robot 2 died, a worker of target T0",
                                      "worker 3: robot 3 takes over target T0 of a worker that is lost",
-                                     "arrival 3: robot 3 has reached target T0", "complete -1: all targets are reached"});
+                                     "arrival 3: robot 3 has reached target T0", complete});
     EXPECT_EQ(told.events(), expected);
   }
 }
@@ -490,7 +491,7 @@ TEST(Events, ATargetGivenUpIsToldAndNoLongerCounts) {
   told.next(setting, frame, of_targets(0, 0));
   EXPECT_EQ(told.events(), (std::vector<std::string>{
                                "arrival 2: robot 2 has reached target T0", "target_removed 3: target T1 is given up",
-                               "complete -1: all targets are reached", "death 3: robot 3 died, a spare",
+                               "complete -1: all targets are held, and the tree is in one piece", "death 3: robot 3 died, a spare",
                                "target_removed 2: target T0 is given up"}));
 }
 

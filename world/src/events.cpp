@@ -65,14 +65,15 @@ bool World::Impl::half_way() const noexcept {
   return any && now <= 0.5 * at_first;
 }
 
-bool World::Impl::complete() const noexcept {
+// Held and connected (tree_parts.hpp), as of the last step.
+bool World::Impl::complete() {
   bool any = false;
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (!targets[t].active) continue;
     any = true;
     if (!holder(t)) return false;
   }
-  return any;
+  return any && tree_parts.count(alive, reports, [this](std::size_t i) { return radio.links(i); }) == 1;
 }
 
 std::optional<std::size_t> World::Impl::holder(std::size_t target) const noexcept {

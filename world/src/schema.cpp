@@ -139,7 +139,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"mission.time_limit_s", of<&Mission::time_limit_s>, "s", any_time,
      "the run ends then; 0: ten times a straight drive to the farthest target"},
     {"mission.stop_when_complete", of<&Mission::stop_when_complete>, "", any_value,
-     "end the run as soon as all targets are reached at once"},
+     "end the run as soon as all targets are held at once by a tree in one piece"},
     {"mission.settle_s", of<&Mission::settle_s>, "s", any_time,
      "with stop_when_complete: go on this long after completion, so that the tree can settle"},
 
@@ -242,7 +242,8 @@ constexpr Key<Event> event_rows[] = {
     {"events.time_s", of<&Event::time_s>, "s", any_time, "when: so long after what `when` says", {.required = true}},
     {"events.when", of<&Event::when>, "", any_value,
      "what time_s counts from: time, the start; half-way, the workers' remaining distances have fallen to half; "
-     "complete, all targets are held at once for the first time. An event whose moment never comes never happens"},
+     "complete, all targets are held at once for the first time, by a tree in one piece. An event whose moment never "
+     "comes never happens"},
     {"events.kind", of<&Event::action>, "", any_value, "what happens", {.required = true}},
     {"events.robot", of<&Die::robot, &Freeze::robot>, "", {0.0, most_ids - 1},
      "index of the robot, counted from 0", {.required = true}},

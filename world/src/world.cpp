@@ -73,6 +73,7 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
       bodies(make_bodies(s, poses)),
       radio(s, poses.position.size()),
       proximity(s),
+      tree_parts(poses.position.size()),
       event_queue(s.events) {
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
@@ -101,7 +102,7 @@ World::Impl::Impl(const Impl& o)
     : scenario(o.scenario), algorithm(o.algorithm), loss(o.loss),
       line_of_sight(o.line_of_sight), obstacles(o.obstacles), tick(o.tick), poses(o.poses),
       bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
-      target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), commands(o.commands),
+      target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), tree_parts(o.tree_parts), commands(o.commands),
       moving(o.moving), odometry(o.odometry), event_queue(o.event_queue), silent_until(o.silent_until), deaths(o.deaths),
       last_death(o.last_death), flights(o.flights), arriving(o.arriving), clocked(o.clocked),
       received(o.received), sent(o.sent) {}

@@ -14,6 +14,7 @@
 #include "banyan/world/bodies.hpp"
 #include "banyan/world/radio.hpp"
 #include "banyan/world/random.hpp"
+#include "banyan/world/tree_parts.hpp"
 #include "banyan/world/world.hpp"
 #include "event_queue.hpp"
 #include "proximity.hpp"
@@ -98,7 +99,7 @@ struct World::Impl {
   [[nodiscard]] Scenario with(const Event& event) const;   // the scenario, and this happening now
   [[nodiscard]] double remaining_m(std::size_t target) const noexcept;
   [[nodiscard]] bool half_way() const noexcept;
-  [[nodiscard]] bool complete() const noexcept;
+  [[nodiscard]] bool complete();
 
   void add_events(Digest& digest) const noexcept;   // what is hashed of all this
 
@@ -125,6 +126,7 @@ struct World::Impl {
   std::vector<RobotId> given_up;               // per robot: the target that it is told to serve no more, until it steps
   std::unique_ptr<Swarm> swarm;
   std::vector<Report> reports;                 // of the last step
+  TreeParts tree_parts;                        // workspace
   std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
   std::vector<Odometry> odometry;
   EventQueue event_queue;

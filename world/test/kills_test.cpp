@@ -232,6 +232,25 @@ TEST(Moments, ThatNeverComeLetNothingHappen) {
   EXPECT_TRUE(world.pending_kills());
 }
 
+TEST(Moments, CompleteWaitsForATreeInOnePiece) {
+  Scenario s;
+  s.swarm.start.layout = Layout::list;
+  for (int i = 0; i < 4; ++i) s.swarm.start.positions.push_back({1.1 * i, 0.0});
+  s.swarm.root = 0;
+  s.targets = std::vector<Vec2>{{3.3, 0.0}};  // where its worker stands
+  for (std::size_t i = 0; i < 4; ++i) s.events.push_back({.action = Freeze{i}});
+  s.events.push_back(kill_at(Event::When::complete, 0.0));
+  World whole(s);
+  run_until(whole, 200);
+  EXPECT_EQ(whole.deaths(), 1U);
+  s.events.insert(s.events.begin(), Event{.action = Die{1}});
+  World split(s);
+  run_until(split, 200);
+  ASSERT_TRUE(split.holder(0));
+  EXPECT_EQ(split.deaths(), 1U) << "the one by name";
+  EXPECT_TRUE(split.pending_kills());
+}
+
 TEST(Moments, CompleteDoesNotWaitForATargetThatWasGivenUp) {
   Scenario s = ring("inwards", 20, 2, 3.0, 2);
   s.events = {kill_at(Event::When::complete, 0.0),

@@ -22,6 +22,7 @@ struct Tick {
   std::uint32_t broken_by_death = 0;       // of these, the other end is dead
   std::uint32_t components = 0;            // communication graph of the living robots
   std::uint32_t components_by_distance = 0;  // the same without occlusion
+  std::uint32_t tree_parts = 1;            // components of the graph of the living that are no spares; 0: no root lives
   bool fiedler_low = false;                // lambda_2 < 1e-3, with occlusion as simulated
   bool fiedler_low_by_distance = false;
   double fiedler = -1.0;                   // lambda_2; -1: not computed this tick
@@ -29,6 +30,10 @@ struct Tick {
   std::uint32_t targets_reached = 0;       // of these, held: a living worker that serves it is within tolerance
   double worst_target_distance_m = 0.0;    // of these, the largest distance to the nearest living worker that
                                            // serves it; if none does, to the body of the one first sent there
+
+  [[nodiscard]] bool all_held() const noexcept { return active_targets > 0 && targets_reached == active_targets; }
+  // Held and connected.
+  [[nodiscard]] bool complete() const noexcept { return all_held() && tree_parts == 1; }
 };
 
 // A run so far. The fields are the columns of the results table. Means, sums over robots and ratios
@@ -36,7 +41,7 @@ struct Tick {
 struct Run {
   std::uint64_t ticks = 0;
   double time_s = 0.0;
-  bool complete = false;
+  bool complete = false;                   // in time, at some tick
   double completion_time_s = -1.0;
   double time_limit_s = 0.0;
   double normalized_time = 1.0;            // completion time / limit, 1 when not complete

@@ -24,7 +24,7 @@ class Observer {
   void stop_when(const std::function<bool()>& asked);
   [[nodiscard]] const Tick& last() const noexcept;
   [[nodiscard]] const Run& run() const noexcept;
-  // Nothing dies: every active target held at once (with mission.stop_when_complete, then
+  // Nothing dies: complete (Tick::complete; with mission.stop_when_complete, then
   // mission.settle_s later, even beyond the time limit), or the time limit reached. Robots die, and
   // stop_when_complete: a complete run goes on until no deaths are to come and the swarm has
   // recovered or can no longer (recovery.hpp); one that is not complete at its limit ends there, or

@@ -3,22 +3,21 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 namespace banyan::measure {
 
-// An instant at which the swarm is whole counts as recovery if it comes within this time of the
-// last death and the swarm is whole again exactly `recovery_hold_s` after it.
+// A time in which the swarm stays whole counts as recovery if it begins within this time of the last
+// death and lasts for `recovery_hold_s`, or as long as the mission is to settle if that is longer.
 constexpr double recovery_limit_s = 200.0;
 constexpr double recovery_hold_s = 20.0;
 
 // What is whole is the caller's to say. Time is counted in ticks, from the first observation after
-// the last death: a swarm that is whole then, and 20 s later, needed no time. Every further death
-// begins anew. Keeps one byte per tick for at most 220 s.
+// the last death: a swarm that is whole then, and stays so, needed no time. Every further death
+// begins anew.
 class Recovery {
  public:
-  // `tick_s` > 0.
-  explicit Recovery(double tick_s);
+  // `tick_s` > 0; `settle_s`: how long the mission is to settle.
+  explicit Recovery(double tick_s, double settle_s = 0.0);
 
   // Call once per tick. `deaths`: since the start of the run, never falling.
   void observe(std::uint64_t deaths, bool whole);
@@ -34,9 +33,9 @@ class Recovery {
   std::uint64_t limit_ticks_;
   std::uint64_t hold_ticks_;
   std::uint64_t deaths_ = 0;
-  std::vector<char> whole_;       // at each tick since the last death
+  std::uint64_t ticks_ = 0;       // since the last death, that of the first observation included
+  std::uint64_t whole_since_ = 0;  // of these, the first from which on it has been whole: ticks_ if it is not
   bool recovered_ = false;
-  std::uint64_t recovery_ticks_ = 0;
 };
 
 }  // namespace banyan::measure
