@@ -2,7 +2,6 @@
 #include "banyan/controller/core/gate.hpp"
 
 #include <algorithm>
-#include <memory>
 
 namespace banyan {
 
@@ -31,12 +30,12 @@ void Gate::admit_obstacles(float limit_m) noexcept {
   const auto passes = [&](Vec2 o) { return is_within(o, limit_m); };
   const std::span<const Vec2> all = senses_.obstacles;
   if (all.size() <= most_obstacles && std::all_of(all.begin(), all.end(), passes)) return;
-  std::construct_at(&obstacles_);
+  std::array<Vec2, most_obstacles>& passed = obstacles_.emplace();
   std::size_t kept = 0;
   for (const Vec2 o : all)
-    if (passes(o) && kept < most_obstacles) obstacles_[kept++] = o;
+    if (passes(o) && kept < most_obstacles) passed[kept++] = o;
   rejected_ += static_cast<std::uint32_t>(all.size() - kept);
-  senses_.obstacles = std::span<const Vec2>(obstacles_).first(kept);
+  senses_.obstacles = std::span<const Vec2>(passed).first(kept);
 }
 
 }  // namespace banyan

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "banyan/controller/core/inputs.hpp"
@@ -56,9 +57,7 @@ class Gate {
   Senses senses_;
   int elapsed_ticks_ = 1;
   std::uint32_t rejected_ = 0;
-  union {
-    std::array<Vec2, most_obstacles> obstacles_;  // made only if some did not pass
-  };
+  std::optional<std::array<Vec2, most_obstacles>> obstacles_;  // those that passed, if some did not
 };
 
 }  // namespace banyan
