@@ -81,8 +81,9 @@ bool prepare(const StudyOptions& options, Prepared& prepared) {
   confirm_number(rows, options.yes || options.dry_run);
   Progress progress(!options.quiet);
   prepared.plan = make_plan(prepared.study, algorithms(), [&](double planned) {
-    if (progress.due())
-      progress.show(planned / rows, format("%s of %s runs planned", grouped(planned).c_str(), grouped(rows).c_str()), false);
+    if (!progress.due()) return;
+    const std::string text = format("%s of %s runs planned", grouped(planned).c_str(), grouped(rows).c_str());
+    progress.show(planned / rows, text, false);
   });
   progress.clear();
   print_problems(prepared.plan.problems);

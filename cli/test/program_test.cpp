@@ -348,7 +348,7 @@ TEST_F(Program, WithoutStandardStreamsFilesAreWhole) {
     const auto outcome = run({"run", "small.toml", "--out", "o", "--series"}, {.closed = closed});
     const bool unheard = std::find(closed.begin(), closed.end(), 1) != closed.end();
     EXPECT_EQ(outcome.code, unheard ? 1 : 0);  // the summary
-    for (const char* file : {"run.mcap", "series.csv"}) EXPECT_EQ(read(std::string("o/") + file), read(std::string("whole/") + file));
+    for (const std::string file : {"run.mcap", "series.csv"}) EXPECT_EQ(read("o/" + file), read("whole/" + file));
     fs::remove_all(home_ / "o");
     const auto refused = run({"run", "small.toml", "--out", "whole", "--no-record"}, {.closed = closed});
     EXPECT_EQ(refused.code, 2);

@@ -381,7 +381,8 @@ TEST_F(StudyProgram, ARowOfAnotherVersionIsTriedAgain) {
     EXPECT_TRUE(has(read("o/runs.csv"), "its row has other columns: written by another version of banyan"));
     EXPECT_EQ(run({"collect", "s.toml", "--out", "o"}).code, 1);
     int shards_at_fault = 0;
-    for (const char* shard : {"1/2", "2/2"}) shards_at_fault += run({"study", "s.toml", "--out", "o", "--shard", shard}).code;
+    for (const char* shard : {"1/2", "2/2"})
+      shards_at_fault += run({"study", "s.toml", "--out", "o", "--shard", shard}).code;
     EXPECT_EQ(shards_at_fault, 1);
 
     const auto retried = run({"study", "s.toml", "--out", "o", "--retry"});

@@ -52,7 +52,8 @@ class View : public StartedProgram {
     ::mkfifo((home_ / "scenarios/pipe.toml").c_str(), 0600);
   }
   void serve(bool recording = true, const std::string& scenario = "", std::chrono::milliseconds patience = 5s) {
-    server_.emplace(PageContent{path("page"), recording ? path("run.mcap") : "", scenario, path("scenarios")}, 0, patience);
+    const PageContent content{path("page"), recording ? path("run.mcap") : "", scenario, path("scenarios")};
+    server_.emplace(content, 0, patience);
   }
   // A connection that has sent this and no more.
   [[nodiscard]] int visitor(const std::string& begin) const {

@@ -368,7 +368,8 @@ Value ScenarioReader::read_whole(const Node& node, const std::string& path, cons
     report(node.place, path, "must be a whole number (" + range_text(range, unit) + "), not " + node.describe());
     return {};
   }
-  if (const auto fault = whole ? world::whole_range_fault(*whole, range, unit) : world::range_fault(*real, range, unit)) {
+  const auto fault = whole ? world::whole_range_fault(*whole, range, unit) : world::range_fault(*real, range, unit);
+  if (fault) {
     report(node.place, path, *fault);
     return {};
   }

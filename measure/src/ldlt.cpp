@@ -31,10 +31,11 @@ void Ldlt::count_columns(const SparseMatrix& upper) {
   for (int k = 0; k < static_cast<int>(n); ++k) {
     tag_[static_cast<std::size_t>(k)] = k;
     for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry) {
-      for (int i = static_cast<int>(entry.row()); i < k && tag_[static_cast<std::size_t>(i)] != k; i = parent_[static_cast<std::size_t>(i)]) {
-        if (parent_[static_cast<std::size_t>(i)] == -1) parent_[static_cast<std::size_t>(i)] = k;
-        ++size_[static_cast<std::size_t>(i)];
-        tag_[static_cast<std::size_t>(i)] = k;
+      if (entry.row() > k) continue;
+      for (auto i = static_cast<std::size_t>(entry.row()); tag_[i] != k; i = static_cast<std::size_t>(parent_[i])) {
+        if (parent_[i] == -1) parent_[i] = k;
+        ++size_[i];
+        tag_[i] = k;
       }
     }
   }

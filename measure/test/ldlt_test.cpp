@@ -47,7 +47,9 @@ TEST(Ldlt, APivotOfZeroIsSaid) {
 }
 
 TEST(Ldlt, CanBeStoppedAndUsedAgain) {
-  const SparseMatrix lower = (4.0 * Eigen::MatrixXd::Identity(400, 400) + 0.01 * Eigen::MatrixXd::Ones(400, 400)).sparseView();
+  constexpr int n = 400;
+  const Eigen::MatrixXd full = 4.0 * Eigen::MatrixXd::Identity(n, n) + 0.01 * Eigen::MatrixXd::Ones(n, n);
+  const SparseMatrix lower = full.sparseView();
   struct Enough {};
   int pauses = 0;
   Ldlt factors;

@@ -71,7 +71,8 @@ TEST(OpenLocked, HasTheFileOfThatNameWhateverHappensBetweenOpeningAndLocking) {
     while (!over) attempt([&](int) { ::unlink(path.c_str()); });
   });
   int opened = 0, strangers = 0;
-  for (int i = 0; i < 20'000; ++i) opened += attempt([&](int descriptor) { strangers += has_name(descriptor, path) ? 0 : 1; });
+  for (int i = 0; i < 20'000; ++i)
+    opened += attempt([&](int descriptor) { strangers += has_name(descriptor, path) ? 0 : 1; });
   over = true;
   other.join();
   EXPECT_GT(opened, 0);

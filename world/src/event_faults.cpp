@@ -58,7 +58,8 @@ class CheckEventFits {
       list_.fail(key_ + ".obstacle", "there is no obstacle " + std::to_string(move.obstacle) +
                                          (count == 0 ? "" : "; the last one is " + std::to_string(count - 1)));
     else
-      check_obstacle_body(list_, scenario_, key_ + ".position_m", moved(before_.obstacles[move.obstacle], move.position));
+      check_obstacle_body(list_, scenario_, key_ + ".position_m",
+                          moved(before_.obstacles[move.obstacle], move.position));
   }
   template <class Other> void operator()(const Other& refers_to_nothing) const { static_cast<void>(refers_to_nothing); }
 
