@@ -233,14 +233,17 @@ const CLI::Validator moment(
     },
     "");
 
-// As `record::DrawOptions` has it.
-const CLI::Validator picture_width(
-    [](const std::string& text) {
-      double value = 0.0;
-      const bool number = CLI::detail::lexical_cast(text, value) && value >= 200.0 && value <= 20000.0;
-      return number ? std::string() : "must be a number from 200 to 20000, not \"" + text + "\"";
-    },
-    "");
+// The same for a range: CLI::Range takes nan for any number.
+CLI::Validator number_within(double least, double most) {
+  return {[=](const std::string& text) {
+            double value = 0.0;
+            const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return fits ? std::string()
+                        : "must be a number from " + number_text(least) + " to " + number_text(most) + ", not \"" + text +
+                              "\"";
+          },
+          ""};
+}
 
 void add_export(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<ExportOptions>();
@@ -284,7 +287,7 @@ void add_draw(CLI::App& app, std::function<int()>& action) {
       ->check(moment);
   command->add_option("--width", options->width_px, "width in pixels, default 1000")
       ->type_name("PX")
-      ->check(picture_width);
+      ->check(number_within(200.0, 20000.0));  // as record::DrawOptions has it
   add_look(*command, *options);
   command->add_flag("-f,--force", options->force, "replace the file if it exists");
   command->callback([options, &action] { action = [options] { return draw_command(*options); }; });
@@ -316,7 +319,7 @@ void add_film(CLI::App& app, std::function<int()>& action) {
       ->check(CLI::Range(1, 120).description(""));
   command->add_option("--speed", options->speed, "seconds of the run in a second of the film, 0.1 to 64")
       ->type_name("X")
-      ->check(CLI::Range(0.1, 64.0).description(""));
+      ->check(number_within(0.1, 64.0));
   command->add_option("--from", options->from_s, "first moment, s")->type_name("S")->check(moment);
   command->add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment);
   command->add_option("--width", options->width, "in pixels, default 1280, of a GIF 720")
@@ -459,7 +462,7 @@ void add_bench(CLI::App& app, std::function<int()>& action) {
       ->check(CLI::Range(1, 1000).description(""));
   command->add_option("--window", options->window_s, "length of a window, s of wall time, default 0.7; a mission is measured whole")
       ->type_name("S")
-      ->check(CLI::Range(0.01, 600.0).description(""));
+      ->check(number_within(0.01, 600.0));
   command->callback([options, &action] { action = [options] { return bench_command(*options); }; });
 }
 

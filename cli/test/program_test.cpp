@@ -260,6 +260,9 @@ TEST_F(Program, BadUsageIsTwoAndNamesWhatWasMeant) {
                                              {"run", "small.toml", "--set"},
                                              {"draw", "x.mcap", "--at", "nan"},
                                              {"draw", "x.mcap", "--at", "-1"},
+                                             {"draw", "x.mcap", "--width", "nan"},
+                                             {"film", "x.mcap", "-o", "x.gif", "--speed", "nan"},
+                                             {"bench", "--window", "nan"},
                                              {"bench", "dens"},
                                              {"algorithms", "outward"},
                                              {"keys", "zzz"}}) {
