@@ -29,6 +29,9 @@ class Identity {
     constexpr std::string_view key = "\"output\":{", seed = "\"seed\":";
     const auto begin = text_.find(key) + key.size();
     text_.replace(begin, text_.find('}', begin) - begin, R"("record":true,"record_every":1,"series":false)");
+    // And the radio: a disc has no name there.
+    constexpr std::string_view disc = "\"radio\":{\"model\":\"disc\",", radio = "\"radio\":{";
+    if (const auto at = text_.find(disc); at != std::string::npos) text_.replace(at, disc.size(), radio);
     seed_at_ = text_.find(seed) + seed.size();
   }
   [[nodiscard]] std::string id(std::uint64_t seed) const {

@@ -12,6 +12,9 @@ template <> struct NamesOf<Layout> {
   static constexpr std::string_view list[] = {"hexagonal", "grid", "line", "ring", "cross", "bridge", "random", "list"};
 };
 template <> struct NamesOf<BodyModel> { static constexpr std::string_view list[] = {"disks", "box2d", "linear"}; };
+template <> struct NamesOf<RadioModel::Model> {
+  static constexpr std::string_view list[] = {"disc", "bursts", "path_loss", "one_way"};
+};
 template <> struct NamesOf<Event::When> {
   static constexpr std::string_view list[] = {"time", "half-way", "complete"};
 };
@@ -80,6 +83,10 @@ double* link_share_of(Scenario& s) noexcept {
   return is_bridge(s) || is_random(s) ? &s.swarm.start.link_share : nullptr;
 }
 std::size_t* bridge_robots_of(Scenario& s) noexcept { return is_bridge(s) ? &s.swarm.start.bridge_robots : nullptr; }
+template <auto member, RadioModel::Model model> double* radio_of(Scenario& s) noexcept {
+  return s.radio.model == model ? &(s.radio.*member) : nullptr;
+}
+using Radios = RadioModel::Model;
 std::vector<Vec2>* positions_of(Scenario& s) noexcept { return is_listed(s) ? &s.swarm.start.positions : nullptr; }
 std::vector<double>* headings_of(Scenario& s) noexcept { return is_listed(s) ? &s.swarm.start.headings_rad : nullptr; }
 std::vector<Vec2>* listed_targets_of(Scenario& s) noexcept { return std::get_if<std::vector<Vec2>>(&s.targets); }
@@ -107,7 +114,7 @@ constexpr Section section_list[] = {
     {"swarm", "How many robots. Give `robots` or `redundancy`, not both."},
     {"swarm.start", "Where the robots begin: connected, by default a compact cluster.", "layout"},
     {"robot", "One robot's body and wheels. The defaults are a Khepera IV."},
-    {"radio", "Who hears whom, and how well."},
+    {"radio", "Who hears whom, and how well.", "model"},
     {"clocks", "When robots step: all together, or each by its own clock."},
     {"targets", "Where the workers have to go.", "layout"},
     {"obstacles",
@@ -196,12 +203,27 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"robot.proximity_m", of<&RobotModel::proximity_m>, "m", {0.0, 100.0},
      "reach of the proximity sensor, from the robot's centre to the surface of obstacles and dead bodies; 0: none"},
 
+    {"radio.model", of<&RadioModel::model>, "", any_value,
+     "which packets are lost within range and sight: disc, each with the same probability; bursts, many in a row; "
+     "path_loss, more the farther they fly; one_way, between some pairs all in one direction"},
     {"radio.range_m", of<&RadioModel::range_m>, "m", {0.05, 100.0},
      "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
      "robots and obstacles in between block a packet"},
     {"radio.loss", of<&RadioModel::loss>, "", any_share,
      "probability that a packet does not arrive, per packet and receiver"},
+    {"radio.burst_s", by<radio_of<&RadioModel::burst_s, Radios::bursts>>, "s", {0.0, 1e4, true},
+     "mean length of a time in which nothing arrives over a link; radio.loss is the share of such times"},
+    {"radio.path_loss_exponent", by<radio_of<&RadioModel::path_loss_exponent, Radios::path_loss>>, "", {1.0, 10.0},
+     "n: the signal falls with the n-th power of the distance; 2 in free space, 3 indoors"},
+    {"radio.edge_loss", by<radio_of<&RadioModel::edge_loss, Radios::path_loss>>, "", {0.001, 0.999},
+     "share of the packets that is lost at distance range_m"},
+    {"radio.shadowing_db", by<radio_of<&RadioModel::shadowing_db, Radios::path_loss>>, "dB", {0.0, 20.0},
+     "sigma of what a pair's signal is stronger or weaker than its distance says"},
+    {"radio.shadowing_s", by<radio_of<&RadioModel::shadowing_s, Radios::path_loss>>, "s", {0.0, 1e6},
+     "time after which that is another; 0: it stays for the whole run"},
+    {"radio.one_way_share", by<radio_of<&RadioModel::one_way_share, Radios::one_way>>, "", any_share,
+     "share of the pairs of robots in which one never hears the other"},
     {"radio.range_noise_m", of<&RadioModel::range_noise_m>, "m", {0.0, 1000.0}, "sigma of the measured range"},
     {"radio.bearing_noise_deg", of<&RadioModel::bearing_noise_rad>, "deg", {0.0, 180.0},
      "sigma of the measured bearing"},

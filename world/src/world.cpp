@@ -66,6 +66,7 @@ std::vector<Member> members_of(const Assignment& assignment, std::size_t n) {
 World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
     : scenario(s),
       algorithm(&algorithm_),
+      losses(s),
       loss(s.radio.loss),
       line_of_sight(s.radio.line_of_sight),
       obstacles(s.obstacles),
@@ -99,7 +100,7 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
 }
 
 World::Impl::Impl(const Impl& o)
-    : scenario(o.scenario), algorithm(o.algorithm), loss(o.loss),
+    : scenario(o.scenario), algorithm(o.algorithm), losses(o.losses), loss(o.loss),
       line_of_sight(o.line_of_sight), obstacles(o.obstacles), tick(o.tick), poses(o.poses),
       bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
       target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), tree_parts(o.tree_parts), commands(o.commands),
@@ -234,7 +235,7 @@ void World::Impl::sense(std::size_t i, const Odometry& moved, Proximity::Seen& s
 // ---- The way of a packet ----
 
 bool World::Impl::lost(std::size_t i, std::uint32_t sender) const noexcept {
-  return loss > 0.0 && to_uniform(bits(scenario.seed, Purpose::loss, i, sender, moment)) < loss;
+  return losses.lost(i, sender, moment, poses.position[sender] - poses.position[i], loss);
 }
 
 // Draws at transmission which packets reach robot i, and what its sensor makes of their origin.

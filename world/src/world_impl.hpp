@@ -15,6 +15,7 @@
 #include "banyan/world/radio.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/tree_parts.hpp"
+#include "losses.hpp"
 #include "banyan/world/world.hpp"
 #include "event_queue.hpp"
 #include "proximity.hpp"
@@ -108,7 +109,8 @@ struct World::Impl {
 
   Scenario scenario;
   const Algorithm* algorithm;
-  double loss;
+  Losses losses;
+  double loss;                                 // radio.loss, now
   bool line_of_sight;                          // now, and so are
   std::vector<Obstacle> obstacles;             // these; radio, proximity and bodies have copies
   std::uint64_t tick = 0;

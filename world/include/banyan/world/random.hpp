@@ -13,7 +13,8 @@ namespace banyan::world {
 
 enum class Purpose : std::uint64_t {
   placement = 1, heading, root, targets, loss, range_noise, bearing_noise, wheel_noise, wheel_bias,
-  odometry_noise, slots, kill, clock_phase, clock_rate, start
+  odometry_noise, slots, kill, clock_phase, clock_rate, start,
+  burst_end, path_loss, shadowing, one_way
 };
 
 // SplitMix64's finaliser (Steele, Lea & Flood 2014): a bijection with full avalanche.
@@ -44,6 +45,16 @@ constexpr double deterministic_log(double x) noexcept {
   double s = 1.0 / 17;
   for (int k = 15; k >= 1; k -= 2) s = 1.0 / k + z * s;
   return 2.0 * t * s + e * 0.69314718055994530942;
+}
+
+// e^x for |x| < 700 from + - * / alone, relative error < 1e-12.
+constexpr double deterministic_exp(double x) noexcept {
+  const double halves = x * 1.44269504088896340736;
+  const int k = static_cast<int>(halves < 0.0 ? halves - 0.5 : halves + 0.5);
+  const double r = (x - k * 0.693147180369123816490) - k * 1.90821492927058770002e-10;  // ln 2 in two parts
+  double s = 1.0;
+  for (int i = 14; i >= 1; --i) s = 1.0 + r / i * s;
+  return s * std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
 }
 
 // Standard normal from one draw of 64 bits (Box-Muller; 32 bits for each of its two uniforms).

@@ -71,12 +71,21 @@ struct RobotModel {
 };
 
 struct RadioModel {
+  // Which packets do not arrive, beside those that are out of range or sight.
+  enum class Model : std::uint8_t { disc, bursts, path_loss, one_way };
+  Model model = Model::disc;
   double range_m = 2.0;                 // C: a link exists at distance < C (strict, symmetric)
   bool line_of_sight = false;           // blocked by robots and obstacles
   double loss = 0.0;                    // probability that a packet is lost, per packet and receiver
   double range_noise_m = 0.0;           // sigma
   double bearing_noise_rad = 0.0;       // sigma
   int latency_ticks = 1;                // a message sent in tick t is heard in t + latency
+  double burst_s = 0.5;                 // bursts: mean length of a time in which nothing arrives over a link
+  double path_loss_exponent = 3.0;      // path_loss: n
+  double edge_loss = 0.5;               // path_loss: share of the packets lost at distance C, without shadowing
+  double shadowing_db = 3.0;            // path_loss: sigma of the shadowing of a pair
+  double shadowing_s = 5.0;             // path_loss: after which it is another; 0: it stays
+  double one_way_share = 0.2;           // one_way: of the pairs of robots, those in which one never hears the other
   int slots = 0;                        // packets a robot can receive in one tick; 0: no limit
 };
 
