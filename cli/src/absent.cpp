@@ -18,6 +18,7 @@ int film_command(const FilmOptions& /*options*/) { absent("film"); }
 int view_command(const ViewOptions& /*options*/) { absent("view"); }
 int tune_command(const TuneOptions& /*options*/) { absent("tune"); }
 int study_command(const StudyOptions& /*options*/) { absent("study"); }
+int soak_command(const SoakOptions& /*options*/) { absent("soak"); }
 int collect_command(const CollectOptions& /*options*/) { absent("collect"); }
 
 }  // namespace banyan::cli

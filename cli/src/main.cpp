@@ -113,6 +113,18 @@ constexpr const char* collect_footer =
     "  banyan collect studies/paper.toml\n"
     "  banyan collect studies/paper.toml --out all shards-of-a shards-of-b";
 
+constexpr const char* soak_footer =
+    "Runs random missions of every kind and looks, at every tick, for what must not happen; docs/soak.md\n"
+    "says what that is. What it finds it makes smaller and writes beside its journal, soak.csv, with the\n"
+    "command that runs it again. The same seed and number are the same mission; called again, it goes on\n"
+    "where it was. With a FILE it watches that scenario. The exit code is 1 if something happened that\n"
+    "docs/soak.md promises not to happen.\n\n"
+    "Examples:\n"
+    "  banyan soak --seconds 60\n"
+    "  banyan soak --seed 7 --missions 1000\n"
+    "  banyan soak --seed 7 --from 123 --missions 1 --out again\n"
+    "  banyan soak out/soak-7/split-123.toml";
+
 constexpr const char* bench_footer =
     "Layouts: dense-94-los (94 moving robots, about 85 in range of each), spread-94-los,\n"
     "spread-1000-los and spread-10000-los (7 neighbours each); and whole missions with convoy, mission-94\n"
@@ -448,6 +460,29 @@ void add_collect(CLI::App& app, std::function<int()>& action) {
   command->callback([options, &action] { action = [options] { return collect_command(*options); }; });
 }
 
+void add_soak(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<SoakOptions>();
+  auto* command =
+      app.add_subcommand("soak", "run random missions and look for what must not happen")->group(command_group);
+  command->footer(soak_footer);
+  command->add_option("file", options->file, "a scenario to watch, instead of random missions")->type_name("FILE");
+  command->add_option("-s,--seed", options->seed, "of the missions, default 1")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9007199254740991}).description(""));
+  command->add_option("--from", options->from, "first mission, default 0")->type_name("N");
+  command->add_option("--missions", options->missions, "how many; default as many as there is time for")
+      ->type_name("N");
+  command->add_option("--seconds", options->seconds, "how long; default until Ctrl-C")->type_name("S")->check(moment);
+  command->add_option("-o,--out", options->out, "directory for journal and findings, default out/soak-<seed>")
+      ->type_name("DIR");
+  command->add_option("-t,--threads", options->threads, "missions at once, default all cores")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256).description(""));
+  command->add_flag("-f,--force", options->force, "begin the journal anew");
+  command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; findings only");
+  command->callback([options, &action] { action = [options] { return soak_command(*options); }; });
+}
+
 void add_bench(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<BenchOptions>();
   auto* command =
@@ -522,6 +557,7 @@ int run_program(int argc, char** argv) {
   add_keys(app, action);
   add_tune(app, action);
   add_study(app, action);
+  add_soak(app, action);
   add_collect(app, action);
   add_bench(app, action);
   const std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Missions in processes of their own: whatever becomes of one, the soak goes on and can tell.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "watch.hpp"
+
+namespace banyan::cli::soak {
+
+class Isolated {
+ public:
+  // Starts watching. Throws CommandError if the system has no process or pipe left.
+  Isolated(const world::Scenario& scenario, bool twice);
+  Isolated(Isolated&& other) noexcept;
+  Isolated& operator=(Isolated&& other) noexcept;
+  ~Isolated();  // ends it
+
+  // Becomes readable when there is something to take.
+  [[nodiscard]] int descriptor() const noexcept { return pipe_; }
+  // Takes what it has said; the outcome once it has ended. A process that dies has found a "crash", and so
+  // has one that takes longer than `most_s`.
+  [[nodiscard]] std::optional<Outcome> take();
+  [[nodiscard]] Outcome wait();
+
+  static constexpr double most_s = 1800.0;
+
+ private:
+  [[nodiscard]] Outcome read_outcome(int status) const;
+  void end() noexcept;
+
+  pid_t process_ = -1;
+  int pipe_ = -1;
+  std::string said_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace banyan::cli::soak

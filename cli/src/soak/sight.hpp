@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Who is in range and sight of whom, told anew from positions: by school geometry, over all robots, and
+// by nothing that the world or measure/ use for it. What is cut by less than a millimetre does not count.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "banyan/world/world.hpp"
+
+namespace banyan::cli::soak {
+
+class Sight {
+ public:
+  explicit Sight(const world::World& world) : world_{world} {}
+
+  [[nodiscard]] bool in_range(std::size_t i, std::size_t j) const noexcept;
+  // Clearly hidden: a body or an obstacle is in the way.
+  [[nodiscard]] bool hidden(std::size_t i, std::size_t j) const noexcept;
+  [[nodiscard]] double range_m() const noexcept { return world_.scenario().radio.range_m; }
+
+  // Components of the robots that `counts` marks; over pairs in range, and in sight if `with_sight`.
+  [[nodiscard]] std::size_t components(const std::vector<bool>& counts, bool with_sight) const;
+
+ private:
+  const world::World& world_;
+};
+
+}  // namespace banyan::cli::soak

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "../terminal.hpp"
+#include "banyan/world/threads.hpp"
+#include "mission.hpp"
+#include "sight.hpp"
+
+namespace banyan::cli::soak {
+namespace {
+
+using namespace world;
+using world::Vec2;
+
+constexpr std::uint64_t hidden_ticks = 3;  // that an edge may be hidden
+constexpr double two_roots_s = 5.0;        // that a hand-over may take
+constexpr double after_completion_s = 10.0;
+constexpr double after_event_s = 50.0;
+
+class Watch {
+ public:
+  explicit Watch(const Scenario& scenario)
+      : world_(scenario), sight_(world_), traits_(traits_of(scenario)), limit_s_{time_limit_s(scenario)} {}
+
+  Outcome run() {
+    while (!finished()) {
+      const std::vector<std::uint8_t> alive(world_.alive().begin(), world_.alive().end());
+      world_.step();
+      look_at_numbers();
+      look_for_splits(alive);
+      look_at_edges();
+      look_at_roles();
+      look_at_targets();
+    }
+    if (!outcome_.complete && !is_out_of_reach()) find("incomplete", format("not complete within %.1f s", limit_s_));
+    outcome_.time_s = world_.time_s();
+    outcome_.hash = world_.hash();
+    return std::move(outcome_);
+  }
+  [[nodiscard]] std::uint64_t ticks() const { return world_.tick(); }
+
+ private:
+  [[nodiscard]] bool finished() const {
+    if (world_.time_s() >= limit_s_ - 1e-9) return true;
+    return outcome_.complete && !world_.pending_kills() && world_.time_s() >= quiet_since() + after_completion_s;
+  }
+  // Since when nothing more is to happen: the last of completion, deaths and events at their time.
+  [[nodiscard]] double quiet_since() const {
+    double since = complete_s_;
+    for (const Event& event : world_.scenario().events)
+      if (event.when == Event::When::time) since = std::max(since, event.time_s + after_event_s);
+    if (const auto death = world_.last_death_tick())
+      since = std::max(since, static_cast<double>(*death) * world_.scenario().tick_s + after_event_s);
+    return since;
+  }
+  void find(const char* kind, std::string text) {
+    const auto same = [kind](const Finding& f) { return f.kind == kind; };
+    if (std::none_of(outcome_.findings.begin(), outcome_.findings.end(), same))
+      outcome_.findings.push_back({kind, world_.time_s(), std::move(text)});
+  }
+
+  void look_at_numbers() {
+    for (std::size_t i = 0; i < world_.size(); ++i) {
+      const Vec2 p = world_.positions()[i];
+      const Vec2 h = world_.headings()[i];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || std::abs(norm(h) - 1.0) > 1e-6)
+        find("not-a-number", format("robot %zu at (%g, %g), heading (%g, %g)", i, p.x, p.y, h.x, h.y));
+    }
+  }
+
+  // Deaths that tear the living apart by distance excuse a split, until they are together again.
+  void look_for_splits(const std::vector<std::uint8_t>& before) {
+    std::vector<bool> living(world_.alive().begin(), world_.alive().end());
+    const std::size_t parts = sight_.components(living, false);
+    const bool deaths = !std::equal(before.begin(), before.end(), world_.alive().begin());
+    if (deaths && parts > 1) excused_ = true;
+    if (parts > 1 && !excused_) find("split", format("the living are in %zu parts by distance", parts));
+    if (parts > 1) return;
+    excused_ = false;
+    if (!world_.line_of_sight()) return;
+    hidden_split_ = sight_.components(living, true) > 1 ? hidden_split_ + 1 : 0;
+    if (hidden_split_ > hidden_ticks) find("hidden-split", "the living are in parts by sight");
+  }
+
+  void look_at_edges() {
+    for (std::size_t i = 0; i < world_.size(); ++i) {
+      const Report& report = world_.reports()[i];
+      if (world_.alive()[i] == 0 || report.role == Role::spare || report.role == Role::root) continue;
+      look_at_edge(i, report.parent);
+      if (report.old_parent != report.parent) look_at_edge(i, report.old_parent);
+    }
+    std::erase_if(hidden_since_, [&](const auto& entry) { return entry.second.second != world_.tick(); });
+  }
+  void look_at_edge(std::size_t child, std::size_t parent) {
+    if (parent >= world_.size() || world_.alive()[parent] == 0) return;
+    const double length = distance(world_.positions()[child], world_.positions()[parent]);
+    if (!sight_.in_range(child, parent)) {
+      find("broken-edge", format("the edge of robot %zu to %zu is %.3f m long", child, parent, length));
+    } else if (world_.line_of_sight() && sight_.hidden(child, parent)) {
+      auto& [first, last] = hidden_since_.try_emplace({child, parent}, world_.tick(), 0).first->second;
+      last = world_.tick();
+      if (last - first >= hidden_ticks) find("hidden-edge", format("the edge of robot %zu to %zu", child, parent));
+    }
+  }
+
+  void look_at_roles() {
+    std::size_t roots = 0;
+    std::uint32_t replaced = 0;
+    std::uint32_t elected = 0;
+    for (std::size_t i = 0; i < world_.size(); ++i) {
+      const Report& report = world_.reports()[i];
+      roots += world_.alive()[i] != 0 && report.role == Role::root ? 1 : 0;
+      replaced += report.tally.replacements;
+      elected += report.tally.elections;
+    }
+    two_roots_ = roots > 1 ? two_roots_ + 1 : 0;
+    if (static_cast<double>(two_roots_) * world_.scenario().tick_s > two_roots_s)
+      find("two-roots", format("%zu roots for more than %.0f s", roots, two_roots_s));
+    if (traits_.deaths) return;
+    if (replaced > 0) find("replaced", "a living worker is replaced");
+    if (elected > 0) find("elected", "a root is elected although it lives");
+  }
+
+  // Held by position and what the worker says it serves; connected as in Sight.
+  void look_at_targets() {
+    if (outcome_.complete) return;
+    for (const Target& target : world_.targets()) {
+      bool held = !target.active;
+      for (std::size_t i = 0; i < world_.size() && !held; ++i)
+        held = world_.alive()[i] != 0 && world_.reports()[i].role == Role::worker &&
+               world_.reports()[i].serves == target.worker &&
+               distance(world_.positions()[i], target.position) <= world_.scenario().mission.target_tolerance_m;
+      if (!held) return;
+    }
+    std::vector<bool> tree(world_.size());
+    for (std::size_t i = 0; i < tree.size(); ++i)
+      tree[i] = world_.alive()[i] != 0 && world_.reports()[i].role != Role::spare;
+    outcome_.complete = sight_.components(tree, world_.line_of_sight()) == 1;
+    complete_s_ = world_.time_s();
+  }
+
+  // No network of so few robots comes within tolerance of all targets: a tree over them is at least 0.8241
+  // times as long as their shortest spanning tree (Chung & Graham 1985).
+  [[nodiscard]] bool is_out_of_reach() const {
+    std::vector<Vec2> left;
+    for (const Target& target : world_.targets())
+      if (target.active) left.push_back(target.position);
+    if (left.empty()) return true;
+    const auto count = static_cast<double>(left.size());
+    double length = 0.0;
+    std::vector<Vec2> tree{left.back()};
+    left.pop_back();
+    std::vector<double> gap(left.size(), std::numeric_limits<double>::infinity());
+    while (!left.empty()) {
+      for (std::size_t i = 0; i < left.size(); ++i) gap[i] = std::min(gap[i], distance(left[i], tree.back()));
+      const auto nearest = std::min_element(gap.begin(), gap.end()) - gap.begin();
+      length += gap[static_cast<std::size_t>(nearest)];
+      tree.push_back(left[static_cast<std::size_t>(nearest)]);
+      left.erase(left.begin() + nearest);
+      gap.erase(gap.begin() + nearest);
+    }
+    const auto alive = std::count(world_.alive().begin(), world_.alive().end(), 1);
+    const double tolerance = world_.scenario().mission.target_tolerance_m;
+    const double links = (0.8241 * length - count * tolerance) / sight_.range_m();
+    return static_cast<double>(alive) < std::max(links + 1.0, count + 1.0);
+  }
+
+  World world_;
+  Sight sight_;
+  Traits traits_;
+  double limit_s_;
+  double complete_s_ = 0.0;
+  bool excused_ = false;
+  std::uint64_t hidden_split_ = 0, two_roots_ = 0;
+  std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint64_t, std::uint64_t>> hidden_since_;  // first, last
+  Outcome outcome_;
+};
+
+}  // namespace
+
+Outcome watch(const Scenario& scenario, bool twice) {
+  Watch first(scenario);
+  Outcome outcome = first.run();
+  if (!twice) return outcome;
+  Executor executor(2);
+  World again(scenario);
+  while (again.tick() < first.ticks()) again.step(executor);
+  if (again.hash() != outcome.hash)
+    outcome.findings.push_back({"not-reproducible", outcome.time_s, "another hash on two threads"});
+  return outcome;
+}
+
+bool is_promised(const std::string& kind, const Scenario& scenario) {
+  if (kind == "crash" || kind == "not-a-number" || kind == "not-reproducible") return true;
+  const Traits t = traits_of(scenario);
+  const bool calm = !t.deaths && !t.noise && !t.obstacles && !t.changes && !t.clocks && !t.loose && !t.small_radio &&
+                    !t.rough_radio && !t.many;
+  return kind == "split" && calm;
+}
+
+}  // namespace banyan::cli::soak

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// The soak: its missions, its eyes on planted faults, its shrinking, and the command itself.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "banyan/config/config.hpp"
+#include "banyan/world/faults.hpp"
+#include "banyan/world/world.hpp"
+#include "soak/isolated.hpp"
+#include "soak/mission.hpp"
+#include "soak/shrink.hpp"
+#include "soak/sight.hpp"
+#include "commands.hpp"
+#include "sample.hpp"
+
+namespace banyan::cli::soak {
+namespace {
+
+using world::Scenario;
+
+std::string text_of_scenario(const Scenario& s) {
+  config::Configuration configuration;
+  configuration.scenario = s;
+  return config::config_json(configuration);
+}
+
+TEST(SoakMission, IsAFunctionOfSeedAndNumber) {
+  std::set<std::string> seen;
+  for (const std::uint64_t seed : {1U, 2U})
+    for (std::uint64_t index = 0; index < 20; ++index) {
+      const std::string text = text_of_scenario(mission(seed, index));
+      EXPECT_EQ(text, text_of_scenario(mission(seed, index)));
+      EXPECT_TRUE(seen.insert(text).second);
+    }
+}
+
+TEST(SoakMission, EveryKindIsDrawnAndNoneIsImpossible) {
+  std::set<world::Layout> starts;
+  std::set<world::RadioModel::Model> radios;
+  int many = 0, obstacles = 0, deaths = 0, plain = 0, missions = 600;
+  for (int index = 0; index < missions; ++index) {
+    const Scenario s = mission(3, static_cast<std::uint64_t>(index));
+    for (const world::Fault& fault : world::faults(s)) EXPECT_TRUE(fault.warning) << fault.key << fault.text;
+    const Traits t = traits_of(s);
+    starts.insert(s.swarm.start.layout);
+    radios.insert(s.radio.model);
+    many += t.many;
+    obstacles += t.obstacles;
+    deaths += t.deaths;
+    plain += text_of(t) == "plain";
+    EXPECT_LE(s.radio.loss, 0.3);
+    EXPECT_LE(world::target_positions(s).size(), 100U);
+  }
+  EXPECT_EQ(starts.size(), 6U) << "and the hexagonal one twice, compact and loose";
+  EXPECT_EQ(radios.size(), 4U);
+  EXPECT_NEAR(many, missions / 20, 15);
+  EXPECT_NEAR(obstacles, missions / 3, 60);
+  EXPECT_NEAR(deaths, missions / 4, 45);
+  EXPECT_GT(plain, 5);
+}
+
+// The world finds links by its own way; here they are told from positions.
+TEST(SoakSight, AgreesWithTheWorldOnLinks) {
+  std::size_t hidden = 0;
+  std::size_t linked = 0;
+  for (std::uint64_t index = 0; index < 25; ++index) {
+    Scenario s = mission(4, index);
+    s.radio.line_of_sight = true;
+    if (world::robot_count(s) > 120) continue;
+    world::World world(s);
+    for (int t = 0; t < 20; ++t) world.step();
+    const Sight sight(world);
+    for (std::size_t i = 0; i < world.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const auto links = world.links(i);
+        const bool link = std::binary_search(links.begin(), links.end(), static_cast<std::uint32_t>(j));
+        const bool seen = world.alive()[i] != 0 && world.alive()[j] != 0 && sight.in_range(i, j) && !sight.hidden(i, j);
+        EXPECT_TRUE(seen || !link) << index << ": " << i << " " << j;
+        linked += link;
+        hidden += seen && !link;  // by less than the millimetre that the soak lets pass
+      }
+  }
+  EXPECT_GT(linked, 1000U);
+  EXPECT_LT(static_cast<double>(hidden), 0.02 * static_cast<double>(linked));
+}
+
+Scenario literal(std::uint64_t seed) {
+  Scenario s;
+  s.mission.algorithm = "outwards";
+  s.mission.reading = "literal";  // which breaks edges and stalls; that is what it is there to show
+  s.targets = world::RingTargets{4, 9.0, 0.0, {}};
+  s.seed = seed;
+  return s;
+}
+
+bool found(const Outcome& outcome, const std::string& kind) {
+  const auto same = [&](const Finding& f) { return f.kind == kind; };
+  return std::any_of(outcome.findings.begin(), outcome.findings.end(), same);
+}
+
+TEST(SoakWatch, SeesWhatAnAlgorithmAsPrintedDoesWrong) {
+  std::set<std::string> kinds;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    for (const Finding& finding : watch(literal(seed), false).findings) kinds.insert(finding.kind);
+  EXPECT_TRUE(kinds.contains("broken-edge"));
+  EXPECT_TRUE(kinds.contains("incomplete"));
+}
+
+TEST(SoakWatch, ADeathThatTearsTheLivingApartExcusesASplit) {
+  Scenario s;
+  s.swarm.start.layout = world::Layout::list;
+  for (int i = 0; i < 7; ++i) s.swarm.start.positions.push_back({1.5 * i, 0.0});
+  for (std::size_t i = 0; i < 7; ++i) s.events.push_back({.action = world::Freeze{i}});
+  s.targets = std::vector<world::Vec2>{{9.0, 0.0}};
+  s.mission.time_limit_s = 20.0;
+  EXPECT_FALSE(found(watch(s, false), "split"));
+  s.events.push_back({.time_s = 5.0, .action = world::Die{3}});
+  EXPECT_FALSE(found(watch(s, false), "split"));
+}
+
+TEST(SoakWatch, ASplitWithoutADeathIsFound) {
+  Scenario s;
+  s.swarm.start.layout = world::Layout::list;
+  s.swarm.start.positions = {{0.0, 0.0}, {1.9, 0.0}};
+  s.targets = std::vector<world::Vec2>{{6.0, 0.0}};
+  s.obstacles = {world::Disc{{50.0, 50.0}, 1.0}};
+  s.events = {{.action = world::Freeze{0}}, {.action = world::Freeze{1}}};
+  s.mission.time_limit_s = 5.0;
+  EXPECT_FALSE(found(watch(s, false), "split"));
+  s.events.push_back({.time_s = 2.0, .action = world::MoveObstacle{0, {0.95, 0.0}}});  // which pushes both aside
+  const Outcome outcome = watch(s, true);
+  ASSERT_TRUE(found(outcome, "split"));
+  EXPECT_NEAR(outcome.findings.front().time_s, 2.1, 0.11);
+  EXPECT_FALSE(found(outcome, "not-reproducible"));
+  EXPECT_FALSE(is_promised("split", s)) << "there is an obstacle";
+  s.obstacles.clear();
+  s.events.clear();
+  s.swarm.start = {};
+  EXPECT_TRUE(is_promised("split", s));
+  EXPECT_TRUE(is_promised("crash", mission(1, 1)));
+  EXPECT_FALSE(is_promised("incomplete", s));
+}
+
+TEST(SoakWatch, TooFewRobotsAreNoFinding) {
+  Scenario s;
+  s.swarm.robots = 5;
+  s.targets = std::vector<world::Vec2>{{-9.0, 0.0}, {9.0, 0.0}};
+  s.mission.time_limit_s = 5.0;
+  EXPECT_FALSE(found(watch(s, false), "incomplete"));
+  s.swarm.robots = 30;
+  EXPECT_TRUE(found(watch(s, false), "incomplete")) << "five seconds are too short";
+}
+
+TEST(SoakShrink, LeavesNothingThatIsNotNeeded) {
+  Scenario s = mission(1, 0);
+  s.swarm.start = {};
+  s.swarm.robots = 90;
+  s.targets = std::vector<world::Vec2>{{3, 0}, {-4, 0}, {0, 5}, {0, -3}, {2, 2}};
+  s.obstacles = {world::Disc{{3, 3}, 0.3}, world::Disc{{-3, 3}, 0.3}};
+  s.events = {{3.0, world::Event::When::time, world::Freeze{1, 1.0}}, {4.0, world::Event::When::time, world::Die{2}}};
+  s.radio.loss = 0.2;
+  s.radio.line_of_sight = true;
+  int runs = 0;
+  const auto fails = [&runs](const Scenario& t) {
+    ++runs;
+    const auto targets = world::target_positions(t);
+    const bool far = std::any_of(targets.begin(), targets.end(), [](world::Vec2 p) { return norm(p) > 4.5; });
+    const bool death = std::any_of(t.events.begin(), t.events.end(),
+                                   [](const world::Event& e) { return std::holds_alternative<world::Die>(e.action); });
+    return far && death && *t.swarm.robots >= 9 && t.radio.loss > 0.0;
+  };
+  const Scenario small = shrink(s, 12.0, fails, 150);
+  EXPECT_EQ(*small.swarm.robots, 9U);
+  EXPECT_EQ(world::target_positions(small), (std::vector<world::Vec2>{{0, 5}}));
+  EXPECT_EQ(small.events.size(), 1U);
+  EXPECT_TRUE(small.obstacles.empty());
+  EXPECT_EQ(small.radio.loss, 0.2);
+  EXPECT_FALSE(small.radio.line_of_sight);
+  EXPECT_EQ(small.mission.time_limit_s, 13.0);
+  EXPECT_LE(runs, 150);
+  runs = 0;
+  static_cast<void>(shrink(s, 12.0, fails, 5));
+  EXPECT_EQ(runs, 5);
+}
+
+TEST(SoakIsolated, SaysTheSameFromAProcessOfItsOwnAndOutlivesACrash) {
+  const Scenario s = literal(2);
+  const Outcome here = watch(s, false);
+  const Outcome there = Isolated(s, false).wait();
+  EXPECT_EQ(here.hash, there.hash);
+  ASSERT_EQ(here.findings.size(), there.findings.size());
+  for (std::size_t i = 0; i < here.findings.size(); ++i) {
+    EXPECT_EQ(here.findings[i].kind, there.findings[i].kind);
+    EXPECT_EQ(here.findings[i].time_s, there.findings[i].time_s);
+    EXPECT_EQ(here.findings[i].text, there.findings[i].text);
+  }
+  Scenario impossible = s;
+  impossible.mission.algorithm = "there is none";
+  EXPECT_TRUE(found(Isolated(impossible, false).wait(), "crash"));
+}
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(SoakCommand, KeepsAJournalThatDoesNotDependOnProcessesAndGoesOn) {
+  const record::test::TemporaryDirectory directory;
+  SoakOptions options;
+  options.seed = 9;
+  options.missions = 2;
+  options.threads = 1;
+  options.quiet = true;
+  options.out = directory.file("one");
+  static_cast<void>(soak_command(options));
+  const auto rows = [](const std::string& path) {
+    std::istringstream lines(text_of_file(path));
+    std::multiset<std::string> all;
+    for (std::string line; std::getline(lines, line);) all.insert(line);
+    return all;
+  };
+  const auto one = rows(options.out + "/soak.csv");
+  EXPECT_EQ(one.size(), 3U);
+  options.threads = 3;
+  options.out = directory.file("three");
+  static_cast<void>(soak_command(options));
+  EXPECT_EQ(rows(options.out + "/soak.csv"), one);
+  // Cut off in the middle of the last row, as by a full disk: that mission is run again, the others are not.
+  const std::string journal = options.out + "/soak.csv";
+  std::filesystem::resize_file(journal, std::filesystem::file_size(journal) - 5);
+  static_cast<void>(soak_command(options));
+  EXPECT_EQ(rows(journal), one);
+}
+
+}  // namespace
+}  // namespace banyan::cli::soak
