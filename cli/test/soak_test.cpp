@@ -16,6 +16,7 @@
 #include "soak/shrink.hpp"
 #include "soak/sight.hpp"
 #include "commands.hpp"
+#include "plain_scenario.hpp"
 #include "sample.hpp"
 
 namespace banyan::cli::soak {
@@ -90,7 +91,7 @@ TEST(SoakSight, AgreesWithTheWorldOnLinks) {
 }
 
 Scenario literal(std::uint64_t seed) {
-  Scenario s;
+  Scenario s = world::plain_scenario();
   s.mission.algorithm = "outwards";
   s.mission.reading = "literal";  // which breaks edges and stalls; that is what it is there to show
   s.targets = world::RingTargets{4, 9.0, 0.0, {}};
@@ -112,7 +113,7 @@ TEST(SoakWatch, SeesWhatAnAlgorithmAsPrintedDoesWrong) {
 }
 
 TEST(SoakWatch, ADeathThatTearsTheLivingApartExcusesASplit) {
-  Scenario s;
+  Scenario s = world::plain_scenario();
   s.swarm.start.layout = world::Layout::list;
   for (int i = 0; i < 7; ++i) s.swarm.start.positions.push_back({1.5 * i, 0.0});
   for (std::size_t i = 0; i < 7; ++i) s.events.push_back({.action = world::Freeze{i}});
@@ -124,7 +125,7 @@ TEST(SoakWatch, ADeathThatTearsTheLivingApartExcusesASplit) {
 }
 
 TEST(SoakWatch, ASplitWithoutADeathIsFound) {
-  Scenario s;
+  Scenario s = world::plain_scenario();
   s.swarm.start.layout = world::Layout::list;
   s.swarm.start.positions = {{0.0, 0.0}, {1.9, 0.0}};
   s.targets = std::vector<world::Vec2>{{6.0, 0.0}};
@@ -147,7 +148,7 @@ TEST(SoakWatch, ASplitWithoutADeathIsFound) {
 }
 
 TEST(SoakWatch, TooFewRobotsAreNoFinding) {
-  Scenario s;
+  Scenario s = world::plain_scenario();
   s.swarm.robots = 5;
   s.targets = std::vector<world::Vec2>{{-9.0, 0.0}, {9.0, 0.0}};
   s.mission.time_limit_s = 5.0;

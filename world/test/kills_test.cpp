@@ -233,7 +233,7 @@ TEST(Moments, ThatNeverComeLetNothingHappen) {
 }
 
 TEST(Moments, CompleteWaitsForATreeInOnePiece) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.swarm.start.layout = Layout::list;
   for (int i = 0; i < 4; ++i) s.swarm.start.positions.push_back({1.1 * i, 0.0});
   s.swarm.root = 0;

@@ -7,13 +7,14 @@
 
 #include <cmath>
 
+#include "plain_scenario.hpp"
 #include "worlds.hpp"
 
 namespace banyan::world {
 namespace {
 
 Scenario with_radio(RadioModel::Model model) {
-  Scenario s;
+  Scenario s = plain_scenario();
   s.radio.model = model;
   return s;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/world/faults.hpp"
 #include "banyan/world/random.hpp"
@@ -134,6 +135,7 @@ void draw_changes(Dice& dice, Scenario& s, double reach, double limit_s, std::si
 Scenario drawn(std::uint64_t seed, std::uint64_t index, std::uint64_t attempt) {
   Dice dice(seed, index, attempt);
   Scenario s;
+  s.algorithms = &algorithms();
   s.name = "soak-" + std::to_string(seed) + "-" + std::to_string(index);
   s.seed = mix(seed ^ mix(index)) >> 32;
   const bool plain = dice.once_in(5);  // of the kind of which most is promised

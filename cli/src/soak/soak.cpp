@@ -15,6 +15,7 @@
 #include "../commands.hpp"
 #include "../outputs.hpp"
 #include "../terminal.hpp"
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "isolated.hpp"
 #include "mission.hpp"
@@ -225,7 +226,7 @@ class Soak {
 
 // A scenario of any kind under the same eyes.
 int watch_file(const SoakOptions& options) {
-  const config::Loaded loaded = config::load_configuration(options.file, {});
+  const config::Loaded loaded = config::load_configuration(options.file, algorithms());
   print_problems(loaded.problems);
   if (!loaded.ok()) return exit_usage;
   const world::Scenario& scenario = loaded.configuration.scenario;
