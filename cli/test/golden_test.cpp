@@ -25,7 +25,7 @@ std::string state_hash(const HashRow& row, int threads) {
 
 TEST(Golden, EveryScenarioHasItsHashForOneTwoAndFourThreads) {
   check_hashes(BANYAN_GOLDEN, "scenario,overrides", [](const HashRow& row) {
-    const std::string one = state_hash(row, 1);
+    std::string one = state_hash(row, 1);
     EXPECT_EQ(state_hash(row, 2), one) << "2 threads";
     EXPECT_EQ(state_hash(row, 4), one) << "4 threads";
     return one;

@@ -61,6 +61,7 @@ inline void write_hashes(const char* path, const std::string& run_columns, const
 
 inline config::Loaded load_shared(const std::string& scenario, const std::vector<std::string>& overrides) {
   std::vector<config::Override> list;
+  list.reserve(overrides.size());
   for (const std::string& text : overrides) list.push_back({text, "hashes"});
   return config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + scenario + ".toml", algorithms(), list);
 }

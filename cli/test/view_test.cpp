@@ -250,6 +250,7 @@ TEST_F(View, NothingComesAfterARefusal) {
 TEST_F(View, SlowVisitorsDoNotKeepTheNextOneWaiting) {
   serve(true, "", 1h);
   std::vector<int> slow;
+  slow.reserve(200);
   for (int k = 0; k < 200; ++k) slow.push_back(visitor("GET / HTTP/1.1\r\nX: "));
   for (int k = 0; k < 20; ++k) {
     const auto answer = patient_get("/assets/main.js");
@@ -271,6 +272,7 @@ TEST_F(View, ReadersWhoDoNotReadDoNotKeepTheNextOneWaiting) {
   write("run.mcap", bytes_);
   serve();
   std::vector<int> slow;
+  slow.reserve(150);
   const std::string ask = "GET /file HTTP/1.1\r\nHost: localhost:" + std::to_string(server_->port()) + "\r\n\r\n";
   for (int k = 0; k < 150; ++k) slow.push_back(visitor(ask));
   const auto answer = patient_get("/assets/main.js");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -126,7 +127,7 @@ bool is_high(std::size_t n, std::uint32_t eccentricity) {
   return 4.0 / (static_cast<double>(n) * 2.0 * std::max(1.0, static_cast<double>(eccentricity))) >= low_fiedler;
 }
 
-struct Stopped {};  // while lambda_2 was computed
+struct Stopped : std::exception {};  // while lambda_2 was computed
 
 // lambda_2 of one graph over a run: components at every tick, the threshold as often as it pays.
 struct Spectrum {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <functional>
 
 #include "banyan/controller/core/vec2.hpp"
@@ -177,7 +178,7 @@ TEST(Fiedler, ALongComputationCanBeStopped) {
   const Graph graph = geometric(5, 3000, 22.0);
   ASSERT_EQ(Fiedler{}.components(graph).count, 1U);
   const double value = Fiedler{}.value(graph);
-  struct Enough {};
+  struct Enough : std::exception {};
   for (const int most : {1, 2, 5}) {
     Fiedler fiedler;
     int asked = 0;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <exception>
+
 #include "banyan/world/random.hpp"
 
 namespace banyan::measure {
@@ -50,7 +52,7 @@ TEST(Ldlt, CanBeStoppedAndUsedAgain) {
   constexpr int n = 400;
   const Eigen::MatrixXd full = 4.0 * Eigen::MatrixXd::Identity(n, n) + 0.01 * Eigen::MatrixXd::Ones(n, n);
   const SparseMatrix lower = full.sparseView();
-  struct Enough {};
+  struct Enough : std::exception {};
   int pauses = 0;
   Ldlt factors;
   ASSERT_TRUE(factors.compute(lower, [&] { ++pauses; }));

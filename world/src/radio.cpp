@@ -337,7 +337,7 @@ void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) 
 }
 
 // Takes down what a pair has become.
-void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s) const {
+void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s) {
   const int link = static_cast<int>(now.linked) - static_cast<int>(before.linked);
   const int near = static_cast<int>(now.near) - static_cast<int>(before.near);
   if (link != 0 || near != 0) s.changes.push_back({{static_cast<std::uint32_t>(i), now.other}, link, near});

@@ -132,7 +132,7 @@ class Radio {
   [[nodiscard]] bool write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s);
   void make_room(std::span<const Vec2> positions);
   void refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s);
-  void note(std::size_t i, const Pair& before, const Pair& now, Scratch& s) const;
+  static void note(std::size_t i, const Pair& before, const Pair& now, Scratch& s);
   void decide(Site& site, Pair& pair) const;
   void hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept;
   [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const;

@@ -42,7 +42,7 @@ struct NewsList {
     last = &h;
   }
   [[nodiscard]] Iterator begin() const noexcept { return {first}; }
-  [[nodiscard]] Iterator end() const noexcept { return {nullptr}; }
+  [[nodiscard]] static Iterator end() noexcept { return {nullptr}; }
 };
 
 // What a robot knows of the tree's gossip, at the beginning of a step.
