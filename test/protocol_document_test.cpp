@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
         Claim{"protocol.md", R"(heard within the last (\d+) ticks has this epoch)", "tree/label.cpp", "echo_silence_ticks"},
         Claim{"protocol.md", R"(Without any candidate for more than (\d+) ticks)", "tree/parent_selection.cpp", "patience_flood_ticks"},
         Claim{"protocol.md", R"(After more than (\d+) ticks, a robot without)", "tree/parent_selection.cpp", "patience_relabel_ticks"},
-        Claim{"protocol.md", R"(is within ([\d.]+) C, the last resort)", "tree/parent_selection.cpp", "last_resort_range"},
+        Claim{"protocol.md", R"(is within ([\d.]+) C, the last resort)", "../include/banyan/controller/tree/robot.hpp", "longest_link"},
         Claim{"protocol.md", R"(- more than (\d+): it stands still)", "tree/parent_selection.cpp", "orphan_still_ticks"},
         Claim{"protocol.md", R"(- more than (\d+), or more than)", "tree/parent_selection.cpp", "orphan_attach_ticks"},
         Claim{"protocol.md", R"(, or more than (\d+) if it has no parent)", "tree/parent_selection.cpp", "drafted_attach_ticks"},

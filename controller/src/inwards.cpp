@@ -2,6 +2,7 @@
 #include "banyan/controller/inwards.hpp"
 
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/hold.hpp"
 #include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/tree/census.hpp"
 #include "banyan/controller/tree/epoch.hpp"
@@ -90,6 +91,7 @@ Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& s
   select_inner_parent(robot);                          // Select Parent, repair
   take_census(robot, params.arrival_distance_m, own_want_m(robot));
   select_root(robot, [](int) { return true; });        // Select Root, the root's side
+  find_hold(robot);                                    // what ties me to the others while I have no parent
   manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
                         .may_call = [] { return true; },
                         .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, false); },
@@ -98,6 +100,7 @@ Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& s
   const Vec2 u = retreats ? retreat_motion(robot, false, false) : state.role == Role::spare ? attendance_motion(robot) : spring_motion(robot);
   Guard guard;
   guard_edges(robot, retreats, guard);
+  guard_links(robot, retreats, guard);
   keep_off(robot, guard);                              // obstacles
 
   Output<HealingMessage> output;

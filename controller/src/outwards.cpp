@@ -2,6 +2,7 @@
 #include "banyan/controller/outwards.hpp"
 
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/hold.hpp"
 #include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/tree/census.hpp"
 #include "banyan/controller/tree/epoch.hpp"
@@ -76,6 +77,7 @@ Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& 
   select_nearest_parent(robot);                        // Select Parent, repair
   take_census(robot, params.arrival_distance_m, own_want_m(robot));
   select_root(robot, [](int) { return true; });        // Select Root, the root's side
+  find_hold(robot);                                    // what ties me to the others while I have no parent
   manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
                         .may_call = [] { return true; },
                         .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, false); },
@@ -84,6 +86,7 @@ Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& 
   const Vec2 u = retreats ? retreat_motion(robot, false, false) : state.role == Role::spare ? attendance_motion(robot) : spring_motion(robot);
   Guard guard;
   guard_edges(robot, retreats, guard);
+  guard_links(robot, retreats, guard);
   keep_off(robot, guard);                              // obstacles
 
   Output<HealingMessage> output;

@@ -8,6 +8,7 @@
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/hold.hpp"
 #include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/inwards.hpp"
 #include "banyan/controller/tree/census.hpp"
@@ -195,6 +196,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   // Behind a target that drives a worker lags: its tree must come along before it has lost it.
   take_census(robot, 0.4F * params.arrival_distance_m, own_want_m(robot));                          // Alg. 1 and 2
   select_root(robot, [&](int k) { return may_inherit(robot, k); });                                 // Select Root, the root's side
+  find_hold(robot);                                    // what ties me to the others while I have no parent
   manage_spares(robot, {.needs_spare = [&] { return needs_spare(robot); },                          // Grow Tree
                         .may_call = [&] { return may_call(robot); },
                         .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, is_left_waiting(robot)); },
@@ -204,6 +206,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   const Vec2 u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
   Guard guard;
   guard_edges(robot, retreats, guard);
+  guard_links(robot, retreats, guard);
   keep_off(robot, guard);                              // obstacles
   keep_sight(robot, state.corners, guard);
 

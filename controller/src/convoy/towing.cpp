@@ -192,6 +192,16 @@ bool holds_still(const ConvoyRobot& robot) noexcept {
   return true;
 }
 
+// Without a parent: as far as the hold lets it. Before it has one it turns on the spot.
+Vec2 before_tree(const ConvoyRobot& robot) noexcept {
+  constexpr float turning = 0.001F;
+  const ConvoyParams& p = robot.params;
+  if (robot.self.phase >= Phase::grow_tree || !robot.self.is_worker) return repulsion(robot);
+  if (robot.table().size() == 0) return robot.self.pull * turning;
+  if (robot.hold >= 0 && robot.table().range(robot.hold) > p.recruitment_distance_m) return unit(robot.table().position(robot.hold));
+  return pull_past_obstacles(robot) + repulsion(robot);
+}
+
 }  // namespace
 
 bool prunes(const ConvoyParams& params) noexcept { return params.merge_distance_m > 0.0F; }
@@ -212,8 +222,8 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (up >= 0 && !robot.table().alive(up)) return bypass(robot, robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
-  // A target may be added in mid-mission: not without the tree.
-  if (robot.self.is_worker && up < 0 && robot.self.phase == Phase::grow_tree) return repulsion(robot);
+  // The first tree takes its time, and a target may be added in mid-mission: not without the tree.
+  if (up < 0 && !robot.is_root()) return before_tree(robot);
   // At its target it may stand off a little, if that lets another reach its own; it ends before the
   // target is out of tolerance.
   constexpr float fading = 0.1F;
@@ -241,7 +251,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   if (holds_still(robot)) return {};
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   // Called in a crowd, it might wait for others to move while the tree goes away.
-  if (const int home = self.called ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
+  if (const int home = self.called && robot.hold >= 0 ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
     const float home_c = robot.table().message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
     if (robot.table().range(home) > home_c * c) k = home;
   }

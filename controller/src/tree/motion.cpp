@@ -10,8 +10,10 @@
 namespace banyan {
 namespace {
 
-// The tree neighbour whose distance counts as d^parent: the parent, else the old one; -1 if none.
-int nearest_up(const TreeRobot& robot) noexcept { return robot.parent >= 0 ? robot.parent : robot.old_parent; }
+// The neighbour whose distance counts as d^parent: the parent, else the old one, else the hold; -1 if none.
+int nearest_up(const TreeRobot& robot) noexcept {
+  return robot.parent >= 0 ? robot.parent : robot.old_parent >= 0 ? robot.old_parent : robot.hold;
+}
 
 template <class Visit>
 void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
@@ -84,6 +86,7 @@ Vec2 spring_motion(const TreeRobot& robot) noexcept {
   const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
   const float d = norm(parent);
   const bool silent = up >= 0 && !robot.table().alive(up);
+  if (robot.reading.keeps_links && up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // whom to keep is not known yet
   // Emergency: u = p_parent, at full speed. A silent parent may be anywhere: to where it must be.
   if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
   if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
@@ -113,10 +116,10 @@ Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& rea
   return u - away * std::max(0.0F, dot(u, away));
 }
 
-void Guard::add(Vec2 neighbor, const TreeParams& params) noexcept {
+void Guard::add(Vec2 neighbor, float longest_m, const TreeParams& params) noexcept {
   const float d = norm(neighbor);
   if (d <= 0.0F) return;
-  add_limit(-neighbor / d, 0.5F * (params.ideal_distance_m - d) * params.guard_rate_per_s);
+  add_limit(-neighbor / d, 0.5F * (longest_m - d) * params.guard_rate_per_s);
 }
 
 void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
@@ -166,8 +169,22 @@ void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   if (!robot.reading.guards_edges) return;
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params);
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m, robot.params);
   });
+}
+
+void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
+  const TreeTable& table = robot.table();
+  const TreeParams& p = robot.params;
+  const float longest_m = longest_link * p.communication_range_m;
+  const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // nearer, full speed is allowed
+  const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
+  for (int k = 0; k < table.size(); ++k) {
+    if (table.range(k) <= limited_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+    const TreeStanding& m = table.message(k);
+    const bool tied_to_me = k == robot.hold || hold_of(m) == robot.self.id;
+    if (tied_to_me || (!lets_go && (untied || is_untied(m)))) guard.add(table.position(k), longest_m, p);
+  }
 }
 
 Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept {

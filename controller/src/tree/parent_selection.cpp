@@ -10,7 +10,6 @@ namespace {
 
 constexpr int patience_flood_ticks = 4;     // without candidate, then the flood parent will do
 constexpr int patience_relabel_ticks = 7;   // then a childless robot may sort itself in anew
-constexpr float last_resort_range = 0.95F;  // of C: beyond, the next step might break the edge
 constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
@@ -39,7 +38,7 @@ int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
   if (k < 0 || !robot.table().alive(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
-  const bool near = robot.table().range(k) <= last_resort_range * robot.params.communication_range_m;
+  const bool near = robot.table().range(k) <= longest_link * robot.params.communication_range_m;
   return near && may_relay(rule, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
 }
 
@@ -107,23 +106,13 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
   if (self.orphan_ticks < UINT16_MAX) ++self.orphan_ticks;
   const bool drafted = self.parent == nobody && !self.is_worker;
   if (self.orphan_ticks <= (drafted ? drafted_attach_ticks : orphan_attach_ticks)) return;
-  const float last_resort_m = last_resort_range * robot.params.communication_range_m;
+  const float last_resort_m = longest_link * robot.params.communication_range_m;
   int k = way_to_tree(robot, rule, std::min(robot.parent_range_m(), last_resort_m));
   if (k < 0) k = way_to_tree(robot, rule, last_resort_m);
   if (k < 0) return;
   take_parent(robot, k);
   self.orphan_ticks = orphan_still_ticks;  // time for the new parent to attach in turn
   ++self.tally.repairs;
-}
-
-// The pair (seqno, label) flows down the tree: as fresh as k's, and behind it.
-void follow(TreeRobot& robot, int k) noexcept {
-  TreeState& self = robot.self;
-  const TreeStanding& m = robot.table().message(k);
-  if (m.epoch != self.epoch || m.label_cm >= largest_label || !is_news(m.seqno, self.seqno, self.seqno_ticks)) return;
-  self.seqno = m.seqno;
-  self.seqno_ticks = 0;
-  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm) self.label_cm = label_below(m.label_cm, robot.table().range(k));
 }
 
 // A spare that has just joined my edge has its parent's seqno of a tick ago: I wait for it.
@@ -144,7 +133,7 @@ void update_seqno(TreeRobot& robot) noexcept {
     ++self.seqno;
     self.seqno_ticks = 0;
   } else if (robot.parent_alive() && !awaits_inserted(robot) && self.pending_parent == nobody) {
-    follow(robot, robot.parent);
+    keep_up(robot, robot.parent);
   }
 }
 
@@ -181,7 +170,7 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   }
   self.tree_hops = nearest < 0 ? unreachable : static_cast<std::uint8_t>(hops + 1);
   // Whoever drafts this spare (in GROW TREE) must find it ahead; one about to join an edge stays behind.
-  if (nearest >= 0 && self.phase >= Phase::grow_tree && self.request == nobody) follow(robot, nearest);
+  if (nearest >= 0 && !robot.reading.keeps_links && self.phase >= Phase::grow_tree && self.request == nobody) keep_up(robot, nearest);
 }
 
 }  // namespace
@@ -206,6 +195,15 @@ bool is_named_parent(const TreeRobot& robot) noexcept {
                      [&](int k) { return robot.table().message(k).role != Role::spare; });
 }
 
+void keep_up(TreeRobot& robot, int k) noexcept {
+  TreeState& self = robot.self;
+  const TreeStanding& m = robot.table().message(k);
+  if (m.epoch != self.epoch || m.label_cm >= largest_label || !is_news(m.seqno, self.seqno, self.seqno_ticks)) return;
+  self.seqno = m.seqno;
+  self.seqno_ticks = 0;
+  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm) self.label_cm = label_below(m.label_cm, robot.table().range(k));
+}
+
 void take_parent(TreeRobot& robot, int k) noexcept {
   TreeState& self = robot.self;
   self.parent = robot.table().id(k);
@@ -213,7 +211,7 @@ void take_parent(TreeRobot& robot, int k) noexcept {
   self.committed = true;
   self.search_ticks = 0;
   self.pending_parent = nobody;
-  follow(robot, k);
+  keep_up(robot, k);
   if (self.phase >= Phase::grow_tree) {
     self.old_parent = nobody;
     robot.old_parent = -1;

@@ -27,6 +27,18 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noex
   return best;
 }
 
+// Gossip of the successor is the acknowledgement. The edge to it leads on towards the root all those who hang
+// on me: until they have parents of the new epoch they know of nobody else.
+void hand_over(TreeRobot& robot) noexcept {
+  TreeState& self = robot.self;
+  const int heir = self.new_root == nobody ? -1 : robot.table().find(self.new_root);
+  if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) {
+    self.old_parent = self.new_root;
+    robot.old_parent = heir;
+  }
+  self.new_root = nobody;
+}
+
 }  // namespace
 
 const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
@@ -57,10 +69,7 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
 
 void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept {
   TreeState& self = robot.self;
-  if (!robot.is_root()) {
-    self.new_root = nobody;  // gossip of the successor is the acknowledgement
-    return;
-  }
+  if (!robot.is_root()) return hand_over(robot);
   if (self.phase != Phase::select_root) return;
   if (!self.centroid_known) {
     self.centroid = self.q;

@@ -183,7 +183,7 @@ void follow_request(TreeRobot& robot, const EdgeRule& rule) noexcept {
 
 void look_for_edge(TreeRobot& robot, bool call) noexcept {
   TreeState& self = robot.self;
-  self.reference = nearest_reference(robot);
+  self.reference = robot.reading.keeps_links && robot.hold < 0 ? nobody : nearest_reference(robot);
   self.request = self.phase == Phase::grow_tree ? nearest_edge_in_need(robot) : nobody;
   self.called = call && self.request == nobody && self.phase == Phase::grow_tree && robot.call_hops < call_reach_hops;
   if (self.called) self.reference = nearest_caller(robot);

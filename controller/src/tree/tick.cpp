@@ -116,7 +116,7 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
   m.subtree = self.subtree;
   m.subtree_workers = self.subtree_workers;
   m.count = self.count;
-  m.grant = self.grant;
+  m.grant = robot.hold >= 0 ? robot.table().id(robot.hold) : self.grant;
   m.request = self.request;
   m.inserted_child = self.inserted_child;
   m.want_cm = to_fixed<std::uint16_t>(self.want_m, per_cm);

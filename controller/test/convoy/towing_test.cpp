@@ -91,7 +91,9 @@ TEST(Convoy, ACalledSpareKeepsUpWithTheTree) {
   bench.state.called = true;
   bench.state.reference = 5;
   const auto towards_tree = [&] {
-    return waiting_motion(bench.tick()).x;
+    auto robot = bench.tick();
+    robot.hold = robot.table().find(2);
+    return waiting_motion(robot).x;
   };
   EXPECT_LT(towards_tree(), 0.5F);
   bench.move(2, {1.6F, 0.0F});

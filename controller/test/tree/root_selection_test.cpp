@@ -54,6 +54,7 @@ TEST(RootSelection, TheHeirsGossipEndsTheOldRoot) {
   EXPECT_EQ(bench.state.root, (RootToken{2, 5}));
   EXPECT_NE(bench.state.role, Role::root);
   EXPECT_EQ(bench.state.new_root, nobody);
+  EXPECT_EQ(bench.state.old_parent, 5) << "whoever hangs on me hangs on the heir through me";
 }
 
 TEST(RootSelection, AnUnansweredOfferIsTakenBackWithALargerToken) {

@@ -226,12 +226,15 @@ TEST_F(Spare, GivesUpWhenAnotherIsGrantedOrTimeIsUp) {
 }
 
 TEST_F(Spare, StaysWithTheTree) {
+  bench.state.label_cm = 300;
+  bench.say(5).parent = 9;
   bench.say(7).need = Need::no_need;
   bench.move(5, {1.8F, 0});
   bench.move(7, {1.9F, 0.3F});
   const auto output = bench.step();
   EXPECT_EQ(bench.state.spare_state, SpareState::adjust_position);
   EXPECT_EQ(bench.state.reference, 5) << "the nearest of the tree";
+  EXPECT_EQ(output.message.grant, 5) << "which is told";
   EXPECT_NEAR(output.velocity.forward_m_s, 0.2F, 1e-3F);
 }
 

@@ -35,6 +35,7 @@ struct HealingState : TreeState {
   Vec2 root_at;                          // m, own frame: where that root is or was
   bool root_known = false;
   std::uint16_t turn = 0;                // whom I tell next
+  RobotId hold = nobody;                 // whom I stay with while I have no parent
   std::uint16_t dangling_ticks = 0;      // the last robot below me has died: for so long I still go after it
   Vec2 lost_child;                       // m, own frame: where it was
   std::uint8_t task_count = 0;
@@ -51,7 +52,7 @@ struct HealingState : TreeState {
 template <class Visitor, class State>
 constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
   visit(s.was_sent), visit(s.serves), visit(s.expected_packets), visit(s.missed_packets), visit(s.loss_ticks), visit(s.root_size);
-  visit(s.heartbeat), visit(s.silence_ticks), visit(s.heart.sequence), visit(s.heart.id), visit(s.root_at), visit(s.root_known), visit(s.turn);
+  visit(s.heartbeat), visit(s.silence_ticks), visit(s.heart.sequence), visit(s.heart.id), visit(s.root_at), visit(s.root_known), visit(s.turn), visit(s.hold);
   visit(s.dangling_ticks), visit(s.lost_child), visit(s.task_count);
   for (int k = 0; k < s.task_count; ++k) {
     auto& task = s.tasks[static_cast<std::size_t>(k)];

@@ -56,7 +56,7 @@ struct TreeStanding {
   Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
   std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
-  RobotId grant = nobody;             // the spare I let into the edge to my parent
+  RobotId grant = nobody;             // the spare I let into the edge to my parent; without parent: my hold
   RobotId request = nobody;           // the owner whose edge I want to join
   RobotId inserted_child = nobody;    // I have just been inserted above this robot
 
@@ -114,7 +114,7 @@ constexpr void visit_tree_block(Visitor& visit, M& m) noexcept {
   visit.real("q_y_m", "the same, to the left of that edge", m.q.y, q_limit_m);
   visit.scaled("pull_x", "attraction to the targets below, along the edge from the sender to its parent, -2 to 2", m.pull_x, pull_unit);
   visit.scaled("pull_y", "the same, to the left of that edge", m.pull_y, pull_unit);
-  visit.robot("grant", "the spare let into the edge to the parent, -1: nobody", m.grant);
+  visit.robot("grant", "the spare let into the edge to the parent; without a parent: whom the sender stays with, -1: nobody", m.grant);
   visit.robot("request", "the owner of the edge a spare wants to join, -1: nobody", m.request);
   visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody", m.inserted_child);
   visit.robot("new_root", "to whom the root token is offered, -1: nobody", m.new_root);
@@ -132,6 +132,10 @@ constexpr void visit_fields(Visitor& visit, const TreeMessage& m) noexcept { vis
 constexpr RobotId up_of(const TreeStanding& m) noexcept {
   return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent;
 }
+// Without a parent: the robot that it stays with.
+constexpr RobotId hold_of(const TreeStanding& m) noexcept { return m.role == Role::root || up_of(m) != nobody ? nobody : m.grant; }
+// Nothing leads from it to a root.
+constexpr bool is_untied(const TreeStanding& m) noexcept { return m.role != Role::root && up_of(m) == nobody && m.grant == nobody; }
 
 // One received packet. Its sender is in the receiver's body frame (x forward, y left; m), from range and
 // bearing: where it was `age_s` ago, in the frame of then; 0: as of now. `message` lives as long as the step.

@@ -24,8 +24,8 @@ inline constexpr float same_spot_m = 1e-6F;
 // literal: all up to S, nothing beyond; corrected: beyond S all but the part away from the parent.
 [[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept;
 
-// Corrected: the nearest velocity (m/s) to `v` that lengthens no edge to `neighbors` (positions, own
-// frame) faster than (delta - d)/2 x guard rate. With both ends doing so no edge outgrows delta.
+// Corrected: the nearest velocity (m/s) to `v` that lengthens no edge to `neighbor` (position, own
+// frame) faster than (longest - d)/2 x guard rate. With both ends doing so no edge outgrows `longest_m`.
 struct Guard {
   static constexpr int capacity = neighbor_capacity + 64;  // tree neighbours, then obstacles
   struct HalfPlane {
@@ -35,7 +35,7 @@ struct Guard {
   };
   std::array<HalfPlane, capacity> planes;  // the first `size` are valid
   int size = 0;
-  void add(Vec2 neighbor, const TreeParams& params) noexcept;
+  void add(Vec2 neighbor, float longest_m, const TreeParams& params) noexcept;
   // Not faster than `limit_m_s` along `direction` (unit). What exceeds the capacity is dropped.
   void add_limit(Vec2 direction, float limit_m_s) noexcept;
   [[nodiscard]] Vec2 apply(Vec2 v) const noexcept;
@@ -44,6 +44,10 @@ struct Guard {
 // Corrected: adds the edges of both trees. `lets_go`: except those to neighbours that have fallen silent and
 // may be lost for good.
 void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
+
+// Corrected: adds the links that tie robots without a parent to the others (healing/hold.hpp). `lets_go`: except
+// those to robots that are tied to nobody.
+void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
 
 // The command to the motors: `u` in units of speed_gain, own frame, within the guard and the wheels' limits.
 [[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;

@@ -27,6 +27,9 @@ struct ParentRule {
 // (the feasibility condition of EIGRP and Babel, RFC 8966 sec. 2.4).
 [[nodiscard]] bool is_ahead(const TreeRobot& robot, int k) noexcept;
 
+// The pair (seqno, label) flows down the tree: as fresh as neighbour k's, and behind it.
+void keep_up(TreeRobot& robot, int k) noexcept;
+
 // A living child of this epoch that is no spare names me as its parent.
 [[nodiscard]] bool is_named_parent(const TreeRobot& robot) noexcept;
 

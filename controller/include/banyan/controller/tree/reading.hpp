@@ -12,6 +12,7 @@ struct Reading {
   std::string_view name;
   bool keeps_margin;         // a parent is chosen within delta - parent_margin_m; printed: within C
   bool guards_edges;         // no robot lengthens an edge faster than (delta - d) / 2 allows; printed: not at all
+  bool keeps_links;          // a robot without a parent stays with those that tie it to the root; printed: nothing of it
   bool slides_beyond_safe;   // beyond S only the motion away from the parent is dropped; printed: all but the springs
   bool asks_while_wanted;    // an edge asks for a spare only while a worker below has to go on; printed: always
   bool calls_spares;         // needs that nobody answers call spares from out of sight; printed: nothing of it
@@ -22,11 +23,11 @@ struct Reading {
 };
 
 inline constexpr Reading literal_reading{
-    .name = "literal", .keeps_margin = false, .guards_edges = false, .slides_beyond_safe = false, .asks_while_wanted = false,
+    .name = "literal", .keeps_margin = false, .guards_edges = false, .keeps_links = false, .slides_beyond_safe = false, .asks_while_wanted = false,
     .calls_spares = false, .spares_stand_still = false, .avoids_obstacles = false, .prefers_safe_parent = false,
     .counts_edges_once = false};
 inline constexpr Reading corrected_reading{
-    .name = "corrected", .keeps_margin = true, .guards_edges = true, .slides_beyond_safe = true, .asks_while_wanted = true,
+    .name = "corrected", .keeps_margin = true, .guards_edges = true, .keeps_links = true, .slides_beyond_safe = true, .asks_while_wanted = true,
     .calls_spares = true, .spares_stand_still = true, .avoids_obstacles = true, .prefers_safe_parent = true,
     .counts_edges_once = true};
 

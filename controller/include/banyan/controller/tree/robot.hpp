@@ -67,6 +67,9 @@ class Admitted : public Gate {
   std::span<Heard> heard_;
 };
 
+// Longest link that may be relied on, of C: beyond, the next step might break it.
+inline constexpr float longest_link = 0.95F;
+
 struct TreeRobot {
   TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Admitted& admitted) noexcept
       : params(params_), reading(reading_), self(self_), heard(admitted.heard()), obstacles(admitted.senses().obstacles),
@@ -87,6 +90,7 @@ struct TreeRobot {
   // The index (tree_index.hpp)
   int parent = -1;             // index of the parent in the table
   int old_parent = -1;
+  int hold = -1;               // without a parent: what ties me to the others (healing/hold.hpp)
   IndexList children;          // living neighbours that name me as parent
   IndexList old_children;      // living neighbours that name me as old parent and not as parent
   std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/healing/hold.hpp"
+
+#include "banyan/controller/tree/parent_selection.hpp"
+
+namespace banyan {
+namespace {
+
+// A spare's hops to the tree; a branch that has lost its root comes last.
+int hops_to_tree(const TreeStanding& m) noexcept {
+  if (m.role == Role::spare) return m.tree_hops;
+  return m.depth != invalid_depth ? -1 : unreachable;
+}
+
+// How bad neighbour k would be: what comes first weighs more than all that follows. The one it has is kept while
+// it is as good: a robot that turns to another every tick gets nowhere.
+float cost(const HealingRobot& robot, int k, int hops) noexcept {
+  constexpr float strained = 0.85F;  // of C: beyond, the guard slows both ends down
+  const float range = robot.table().range(k) / robot.params.communication_range_m;
+  const float turning_to_it = hops >= 0 && robot.table().id(k) != robot.self.hold ? 2.0F : 0.0F;
+  return (range > longest_link ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) + 4.0F * static_cast<float>(hops) + turning_to_it + range;
+}
+
+}  // namespace
+
+void find_hold(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  const TreeTable& table = robot.table();
+  robot.hold = -1;
+  int wish = -1;  // the best if the order allowed it
+  if (!robot.is_root() && robot.up() < 0) {
+    float hold_cost = 0.0F;
+    float wish_cost = 0.0F;
+    for (int k = 0; k < table.size(); ++k) {
+      const TreeStanding& m = table.message(k);
+      if (!table.alive(k) || m.epoch != self.epoch || is_untied(m)) continue;
+      const bool ahead = is_ahead(robot, k);
+      const int hops = hops_to_tree(m);
+      // Whoever is farther from the tree than I may hang on me: it would never get ahead.
+      if (!ahead && hops >= self.tree_hops) continue;
+      const float c = cost(robot, k, hops);
+      if (wish < 0 || c < wish_cost) wish = k, wish_cost = c;
+      if (ahead && (robot.hold < 0 || c < hold_cost)) robot.hold = k, hold_cost = c;
+    }
+    // Until the flood of a new epoch has come by, the last epoch's hold will do.
+    if (self.label_cm == unknown_label) {
+      robot.hold = self.hold == nobody ? -1 : table.find(self.hold);
+      if (robot.hold >= 0 && !table.alive(robot.hold)) robot.hold = -1;
+    }
+    // The others of the tree get ahead of a spare that keeps up with the one it would like best, and that one
+    // at last; one that is about to join an edge stays behind.
+    if (wish >= 0 && self.role == Role::spare && self.phase >= Phase::grow_tree && self.request == nobody) keep_up(robot, wish);
+  }
+  self.hold = robot.hold < 0 ? nobody : table.id(robot.hold);
+}
+
+}  // namespace banyan

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Who has no parent has a hold, by the order of the tree, and both ends keep the link.
+#include "banyan/controller/healing/hold.hpp"
+
+#include <gtest/gtest.h>
+
+#include "banyan/controller/tree/motion.hpp"
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+// A spare of the grown tree with a label; 2 is a robot of the tree, 3 a spare that has 2 as its hold.
+struct Follower {
+  ConvoyBench bench = grown<Convoy>();
+  Follower() {
+    bench.state.role = Role::spare;
+    bench.state.label_cm = 300;
+    bench.state.seqno = 10;
+    auto& tree = bench.put(2, {1.2F, 0.0F});
+    tree.role = Role::connector;
+    tree.parent = 9;
+    tree.depth = 2;
+    tree.tree_hops = 0;
+    tree.label_cm = 100;
+    tree.seqno = 11;
+    auto& spare = bench.put(3, {0.4F, 0.0F});
+    spare.grant = 2;
+    spare.tree_hops = 1;
+    spare.label_cm = 200;
+    spare.seqno = 11;
+  }
+  RobotId hold() {
+    auto robot = bench.tick();
+    find_hold(robot);
+    return bench.state.hold;
+  }
+  // Fastest motion that the links allow in a direction, m/s.
+  float allowed(Vec2 direction, bool lets_go = false) {
+    auto robot = bench.tick();
+    find_hold(robot);
+    Guard guard;
+    guard_links(robot, lets_go, guard);
+    return dot(guard.apply(direction * robot.params.speed_gain_m_s), direction);
+  }
+};
+
+TEST(Hold, IsOfTheTreeAndItSaysSo) {
+  Follower f;
+  EXPECT_EQ(f.hold(), 2) << "farther than the spare, but of the tree";
+  EXPECT_EQ(f.bench.step().message.grant, 2);
+  f.bench.move(2, {1.8F, 0.0F});
+  EXPECT_EQ(f.hold(), 3) << "a spare rather than a link that is strained";
+  f.bench.silence(3);
+  EXPECT_EQ(f.hold(), 3) << "still alive";
+  f.bench.steps(2 * f.bench.params.ticks(f.bench.params.liveness_period_s));
+  EXPECT_EQ(f.bench.state.hold, 2) << "the strained link is better than none";
+}
+
+TEST(Hold, IsAheadInTheOrder) {
+  Follower f;
+  f.bench.say(2).seqno = 9;
+  f.bench.say(3).seqno = 9;
+  EXPECT_EQ(f.hold(), nobody) << "both may hang on me";
+  f.bench.say(3).seqno = 10;
+  EXPECT_EQ(f.hold(), 3) << "as fresh, and nearer to the root";
+  f.bench.say(3).label_cm = 400;
+  EXPECT_EQ(f.hold(), nobody);
+}
+
+TEST(Hold, IsNobodyWhoIsTiedToNobody) {
+  Follower f;
+  f.bench.say(2).parent = nobody;
+  f.bench.say(3).grant = nobody;
+  EXPECT_EQ(f.hold(), nobody);
+  f.bench.say(2).role = Role::root;
+  EXPECT_EQ(f.hold(), 2);
+}
+
+// The one of the tree that it would like best is behind: it waits for it, and has the other meanwhile.
+TEST(Hold, KeepsUpOnlyWithTheOneItWouldLikeBest) {
+  Follower f;
+  f.bench.say(2).seqno = 8;
+  f.bench.say(3).seqno = 12;
+  EXPECT_EQ(f.hold(), 3);
+  EXPECT_EQ(f.bench.state.seqno, 10);
+  f.bench.say(2).seqno = 12;
+  EXPECT_EQ(f.hold(), 2);
+  EXPECT_EQ(f.bench.state.seqno, 12);
+}
+
+TEST(Hold, OfTheLastEpochWillDoUntilTheFloodComesBy) {
+  Follower f;
+  EXPECT_EQ(f.hold(), 2);
+  f.bench.state.epoch = 2;
+  f.bench.state.label_cm = unknown_label;
+  EXPECT_EQ(f.hold(), 2);
+  f.bench.state.label_cm = 300;
+  EXPECT_EQ(f.hold(), nobody) << "2 has not been labelled yet";
+}
+
+TEST(Hold, IsNotLeftBehindAndDoesNotLeave) {
+  Follower f;
+  f.bench.silence(3);
+  f.bench.move(2, {1.88F, 0.0F});
+  f.bench.steps(20);
+  EXPECT_EQ(f.bench.state.hold, 2);
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.02F, 1e-4F) << "(0.95 C - d) / 2 times the guard's rate of 2";
+  EXPECT_NEAR(f.allowed({1.0F, 0.0F}), 0.2F, 1e-4F);
+  f.bench.silence(2);
+  auto& other = f.bench.put(5, {1.88F, 0.0F});
+  other.grant = f.bench.state.id;
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}, true), 0.02F, 1e-4F) << "who has me as its hold is not left, even on a retreat";
+}
+
+TEST(Hold, NobodyLeavesWhoHasNone) {
+  Follower f;
+  f.bench.silence(2);
+  f.bench.move(3, {1.88F, 0.0F});
+  f.bench.say(3).grant = nobody;
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.02F, 1e-4F);
+  f.bench.put(2, {0.5F, 0.0F}).parent = 9;
+  f.bench.state.role = Role::worker;
+  f.bench.state.parent = 2;
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.02F, 1e-4F) << "nor a robot of the tree";
+  f.bench.say(3).grant = 77;
+  EXPECT_NEAR(f.allowed({-1.0F, 0.0F}), 0.2F, 1e-4F) << "it is somebody else's";
+}
+
+// In the first tick nobody is heard: a worker may turn, but not go.
+TEST(Hold, BeforeAnybodyIsHeardNobodyDrives) {
+  ConvoyBench convoy;
+  convoy.state = Convoy::initial(1, true, false);
+  convoy.send({0.0F, 5.0F});
+  EXPECT_NEAR(convoy.step().velocity.forward_m_s, 0.0F, 1e-3F);
+  EXPECT_GT(convoy.step().velocity.turn_rad_s, 0.5F);
+  BenchOf<Outwards> outwards;
+  outwards.state = Outwards::initial(1, true, false);
+  outwards.send({0.0F, 5.0F});
+  EXPECT_EQ(outwards.step().velocity.forward_m_s, 0.0F);
+}
+
+}  // namespace
+}  // namespace banyan
