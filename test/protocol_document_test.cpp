@@ -17,6 +17,7 @@
 #include "banyan/controller/convoy/convoy.hpp"
 #include "banyan/controller/convoy/shortcut.hpp"
 #include "banyan/controller/core/gate.hpp"
+#include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/inwards.hpp"
 #include "banyan/controller/outwards.hpp"
 
@@ -131,6 +132,9 @@ INSTANTIATE_TEST_SUITE_P(
         Claim{"protocol.md", R"(drives to within ([\d.]+) C of where the child was)", "healing/dangling_branch.cpp", "near_enough"},
         Claim{"protocol.md", R"(Its count starts (\d+) ahead)", "healing/takeover.cpp", "takeover_beats"},
         Claim{"protocol.md", R"(a count more than (\d+) behind)", "healing/takeover.cpp", "rival_beats"},
+        Claim{"protocol.md", R"(passed on in the same way for (\d+) s)", "healing/takeover.cpp", "pass_on_ticks", 0.1},
+        Claim{"protocol.md", R"(from elsewhere either for ([\d.]+) s beyond I)", "healing/doubt.cpp", "hesitate_s"},
+        Claim{"protocol.md", R"(whoever heard it within ([\d.]+) C)", "healing/doubt.cpp", "well_in_range"},
         Claim{"protocol.md", R"(found no parent for (\d+) ticks drives)", "healing/retreat.cpp", "lost_ticks"},
         Claim{"protocol.md", R"(drives to within ([\d.]+) C of where the root was)", "healing/retreat.cpp", "near_enough"},
         Claim{"protocol.md", R"(drives home for at most (\d+) s)", "healing/retreat.cpp", "regroup_for_s"}));
@@ -181,6 +185,7 @@ TEST(ProtocolDocument, SaysWhatHeadersSay) {
   expect(protocol, R"(The table holds (\d+);)", banyan::neighbor_capacity);
   expect(limits, R"(A robot knows at most (\d+) neighbours)", banyan::neighbor_capacity);
   expect(protocol, R"(At most (\d+) targets are known)", banyan::task_capacity);
+  expect(protocol, R"(heard in the last (\d+) s; old news)", 0.1 * banyan::outdated_ticks);
   expect(limits, R"(A robot remembers (\d+) targets)", banyan::task_capacity);
   expect(protocol, R"(remembers up to (\d+) points)", banyan::landmark_capacity);
   expect(limits, R"(in each step, and remembers (\d+))", banyan::landmark_capacity);

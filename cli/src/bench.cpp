@@ -49,8 +49,8 @@ constexpr BenchLayout bench_layouts[] = {{"dense-94-los", Kind::dense, 94, nullp
                                          {"spread-1000-los", Kind::spread, 1000, nullptr, 60, 100},
                                          {"spread-10000-los", Kind::spread, 10000, nullptr, 60, 100},
                                          {"mission-94", Kind::mission, 0, "paper-large", 0, 3000},
-                                         {"mission-1000", Kind::mission, 0, "swarm-1000", 0, 600},
-                                         {"mission-10000", Kind::mission, 0, "swarm-10000", 0, 150}};
+                                         {"mission-1000", Kind::mission, 0, "benchmark-1000", 0, 600},
+                                         {"mission-10000", Kind::mission, 0, "benchmark-10000", 0, 150}};
 constexpr double spread_pitch_m = 1.3;
 constexpr double dense_pitch_m = 0.21;
 

@@ -128,7 +128,7 @@ constexpr const char* soak_footer =
 constexpr const char* bench_footer =
     "Layouts: dense-94-los (94 moving robots, about 85 in range of each), spread-94-los,\n"
     "spread-1000-los and spread-10000-los (7 neighbours each); and whole missions with convoy, mission-94\n"
-    "(paper-large, 300 s), mission-1000 (swarm-1000, 60 s) and mission-10000 (swarm-10000, 15 s). All with\n"
+    "(paper-large, 300 s), mission-1000 (benchmark-1000, 60 s) and mission-10000 (benchmark-10000, 15 s). All with\n"
     "line of sight, one thread, the full controller and all metrics at every tick.\n\n"
     "Examples:\n"
     "  banyan bench\n"

@@ -446,6 +446,9 @@ TEST(Scenarios, AreTheWorldsTheyAreNamedAfter) {
   EXPECT_EQ(robots("khepera-two-targets"), 9U);
   EXPECT_EQ(robots("khepera-three-targets"), 9U);
   EXPECT_EQ(robots("paper-large"), 94U);  // the paper's largest swarm
+  EXPECT_EQ(robots("swarm-500"), 500U);
+  EXPECT_EQ(robots("benchmark-1000"), 1000U);
+  EXPECT_EQ(robots("benchmark-10000"), 10000U);
   EXPECT_EQ(robots("swarm-1000"), 1000U);
   EXPECT_EQ(robots("swarm-10000"), 10000U);
 }

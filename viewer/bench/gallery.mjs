@@ -23,8 +23,8 @@ const shots = [
   { name: 'discs', run: 'scattered-discs', at: 30, theme: 'light', view: { dragged: { item: { kind: 'obstacle', index: 3 }, toM: { x: 3, y: 0 } } } },
   { name: 'deaths', run: 'deaths', at: 24, theme: 'light', view: { area: { minX: -1, minY: -1, maxX: 1, maxY: 2 } } },
   { name: 'deaths-now', run: 'deaths', at: 80.2, theme: 'dark' },
-  { name: 'thousand', run: 'swarm-1000', at: 16, theme: 'light' },
-  { name: 'thousand-dark', run: 'swarm-1000', at: 16, theme: 'dark' },
+  { name: 'thousand', run: 'benchmark-1000', at: 16, theme: 'light' },
+  { name: 'thousand-dark', run: 'benchmark-1000', at: 16, theme: 'dark' },
   { name: 'phone', run: 'paper-large', at: 60, theme: 'light', size: [390, 844] },
   { name: 'phone-dark', run: 'three-targets', at: 8.8, theme: 'dark', size: [390, 844] },
 ];

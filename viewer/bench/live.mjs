@@ -31,7 +31,7 @@ const browser = await chromium.launch({
 });
 const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
 await page.goto(address);
-for (const name of names.length > 0 ? names : ['three-targets', 'paper-large', 'swarm-1000']) {
+for (const name of names.length > 0 ? names : ['three-targets', 'paper-large', 'benchmark-1000']) {
   await page.click('#tab-live');
   await page.selectOption('#live-scenario', name);
   await page.click('button[type=submit]');

@@ -84,10 +84,10 @@ void command(ConvoyRobot& robot) noexcept {
   if (self.plan_ticks > p.ticks(plan_limit_s)) return withdraw(self);
   const int since = self.settled_ticks - p.ticks(p.plan_after_s);
   const int period = p.ticks(plan_period_s);
-  // Of more targets than I remember, those that I do not know keep branches that no plan has counted.
+  // Not before I know of all.
   const auto known = tasks(self);
   const bool knows_all = self.subtree_workers <= std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; });
-  const bool due = knows_all && p.plan_after_s > 0.0F && since >= 0 && since % period < robot.elapsed_ticks && self.settled_ticks < UINT16_MAX;
+  const bool due = knows_all && !self.forgets && p.plan_after_s > 0.0F && since >= 0 && since % period < robot.elapsed_ticks && self.settled_ticks < UINT16_MAX;
   if (due && plan_tree(robot, 1 + since / period) >= self.subtree) withdraw(self);
 }
 
@@ -149,6 +149,8 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
   } else {
     hear_parent(robot);
   }
+  // Of more targets than robots remember, those that the root does not know keep branches that no plan would count.
+  if (self.forgets) withdraw(self);
   const auto hosts = std::span(self.hosts).first(self.task_count);
   const bool planned = std::any_of(hosts.begin(), hosts.end(), [](RobotId host) { return host != nobody; });
   robot.add_elapsed(self.plan_ticks);

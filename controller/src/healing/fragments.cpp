@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/tree/epoch.hpp"
 #include "banyan/controller/tree/root_selection.hpp"
@@ -19,6 +21,21 @@ bool hear_token(HealingRobot& robot, const HealingMessage& m) noexcept {
   self.root = m.root;
   self.root_size = m.root_size;
   return false;
+}
+
+// The root waits while the flood still finds robots, however many hops away; and for the parents, who are chosen
+// along the same way, no less than it took.
+int barrier_patience_ticks(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  const int least = robot.params.ticks(robot.params.barrier_timeout_s);
+  if (self.phase == Phase::select_parent) return std::max<int>(least, self.flood_ticks);
+  if (self.phase != Phase::start_tree) return least;
+  if (self.phase_ticks <= 1) self.flood_counted = 0;
+  if (self.flood_robots > self.flood_counted) {
+    self.flood_counted = self.flood_robots;
+    self.flood_ticks = self.phase_ticks;
+  }
+  return self.flood_ticks + least;
 }
 
 }  // namespace
@@ -42,7 +59,7 @@ void accept_offered_root(HealingRobot& robot) noexcept {
 void advance_and_count(HealingRobot& robot, bool tree_complete, bool may_reconstruct) noexcept {
   HealingState& self = robot.self;
   const Phase before = self.phase;
-  advance(robot, tree_complete, may_reconstruct);
+  advance(robot, tree_complete, may_reconstruct, barrier_patience_ticks(robot));
   if (before == Phase::start_tree && self.phase == Phase::select_parent && robot.is_root()) self.root_size = self.flood_robots;
 }
 

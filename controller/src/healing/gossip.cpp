@@ -25,30 +25,72 @@ int next_heard(const TreeTable& table, int turn) noexcept {
   return -1;
 }
 
+// Of which target I speak, and to whom I tell where it is: to the robot above me, or in turn to all.
+struct Topic {
+  int task = -1;     // -1: none
+  int turn = 0;      // whose turn it is
+  bool upwards = false;
+};
+
+// Every pair of a neighbour and a target for which `counts` has its turn; not all robots speak of the same at once.
+template <class Counts>
+Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
+  const auto end = self.tasks.begin() + self.task_count;
+  const auto among = static_cast<int>(std::count_if(self.tasks.begin(), end, counts));
+  if (among == 0) return {-1, turn};
+  int left = turn % among;
+  const auto chosen = std::find_if(self.tasks.begin(), end, [&](const Task& task) { return counts(task) && left-- == 0; });
+  return {static_cast<int>(chosen - self.tasks.begin()), turn / among};
+}
+
+// Every second turn is for what all have to know soon. Where robots forget, the rest is for those above me: my own
+// target and those of the workers below.
+Topic choose_topic(const HealingState& self) noexcept {
+  int turn = self.turn + self.id;
+  const auto is_urgent = [&](const Task& task) { return task.silent || task.urgent_ticks > 0; };
+  if (std::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
+    if (turn % 2 != 0) return next_topic(self, turn / 2, is_urgent);
+    turn /= 2;
+  }
+  if (!self.forgets) return next_topic(self, turn, [](const Task&) { return true; });
+  Topic topic = next_topic(self, turn, [&](const Task& task) { return is_mine_or_below(self, task); });
+  topic.upwards = topic.task >= 0 && topic.turn % 2 != 0;
+  topic.turn /= 2;
+  return topic;
+}
+
+int addressee_of(const HealingRobot& robot, const Topic& topic) noexcept {
+  if (topic.upwards) {
+    const int up = robot.up();
+    if (up >= 0 && robot.table().age(up) == 0) return up;
+  }
+  return next_heard(robot.table(), topic.turn);
+}
+
 }  // namespace
 
 int gossip(const HealingRobot& robot, HealingMessage& m) noexcept {
   const HealingState& self = robot.self;
   if (!robot.params.heals()) return -1;
   m.heartbeat = self.heart == self.root ? self.heartbeat : std::uint16_t{0};
-  // Every pair of a neighbour and a target has its turn; not all robots speak of the same at once.
-  const int turn = self.turn + self.id;
-  const int tasks = std::max<int>(self.task_count, 1);
-  const int spoken_of = self.task_count > 0 ? turn % tasks : -1;
-  const Task* task = spoken_of >= 0 ? &self.tasks[spoken_of] : nullptr;
+  m.forgets = self.forgets;
+  const Topic topic = choose_topic(self);
+  const Task* task = topic.task >= 0 ? &self.tasks[static_cast<std::size_t>(topic.task)] : nullptr;
   if (task != nullptr) {
     m.task_serves = task->serves;
     m.task_holder = task->holder;
     m.task_beat = task->beat;
+    m.task_silent = task->silent;
+    m.task_below = is_mine_or_below(self, *task);
   }
-  const int k = next_heard(robot.table(), turn / tasks);
-  if (k < 0) return spoken_of;
+  const int k = addressee_of(robot, topic);
+  if (k < 0) return topic.task;
   const Vec2 addressee = robot.table().position(k);
   m.told = robot.table().id(k);
   m.root_told = self.root_known && self.heart == self.root;
   if (m.root_told) write(self.root_at, addressee, m.root_x_cm, m.root_y_cm);
   if (task != nullptr) write(task->target, addressee, m.task_x_cm, m.task_y_cm);
-  return spoken_of;
+  return topic.task;
 }
 
 }  // namespace banyan

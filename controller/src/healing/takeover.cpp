@@ -6,28 +6,37 @@
 
 namespace banyan {
 
-Task* find_task(HealingState& self, RobotId serves) noexcept {
-  for (int k = 0; k < self.task_count; ++k)
-    if (self.tasks[k].serves == serves) return &self.tasks[k];
-  return nullptr;
-}
-
 namespace {
 
 constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
 constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
+constexpr std::uint8_t pass_on_ticks = 40;  // news goes before everything else for so long
 
-Task* add_task(HealingState& self, RobotId serves) noexcept {
-  if (self.task_count == task_capacity) return nullptr;
-  Task& task = self.tasks[self.task_count++];
-  task = {};
-  task.serves = serves;
-  return &task;
+// What the sender says of a target.
+struct TaskNews {
+  RobotId serves;
+  RobotId holder;
+  Serial beat;
+  bool silent;            // in doubt
+  RobotId via;            // my child, below which the holder is; nobody: the sender is none, or says that it is not
+};
+
+TaskNews news_in(const HealingRobot& robot, const HealingMessage& m) noexcept {
+  const bool below = m.task_below && up_of(m) == robot.self.id;
+  return {m.task_serves, m.task_holder, m.task_beat, m.task_silent, below ? m.id : nobody};
+}
+
+Concern concern_of(const TaskNews& news) noexcept {
+  if (news.silent || news.holder == nobody) return Concern::urgent;
+  if (news.via == nobody) return Concern::none;
+  return news.via == news.holder ? Concern::child : Concern::below;
 }
 
 void serve(HealingState& self, Task& task) noexcept {
   task.holder = self.id;
   task.age_ticks = 0;
+  task.silent = false;
+  task.via = nobody;
   ++task.beat;
 }
 
@@ -49,39 +58,57 @@ void settle_rivalry(HealingRobot& robot, Task& task, RobotId rival, std::uint16_
     resign(robot);
     task.holder = rival;
     task.beat = beat;
+    task.urgent_ticks = pass_on_ticks;
   } else {
     task.beat = static_cast<std::uint16_t>(beat + takeover_beats);  // so that it hears of me
   }
 }
 
-void hear_of_task(HealingRobot& robot, RobotId serves, RobotId holder, std::uint16_t beat, const Vec2* target) noexcept {
-  HealingState& self = robot.self;
-  Task* task = find_task(self, serves);
-  if (task == nullptr) {
-    if (target == nullptr) return;
-    task = add_task(self, serves);
-    if (task == nullptr) return;
-    task->beat = static_cast<std::uint16_t>(beat - 1);
-    task->target = *target;
-  }
-  if (self.is_worker && self.serves == serves) {  // nobody knows better than I where it is
-    if (holder != self.id) settle_rivalry(robot, *task, holder, beat);
-    return;
-  }
-  const bool news = is_news(beat, task->beat, task->age_ticks);
-  // From somebody about as near to the worker. The worker silent, copies of copies would only drift, and
-  // wheels slip in a crowd: the mean of what all around remember is the best there is.
+// Where the target is. From somebody about as near to the worker. The worker silent, copies of copies would only
+// drift, and wheels slip in a crowd: the mean of what all around remember is the best there is.
+void locate(const HealingRobot& robot, Task& task, const TaskNews& news, Vec2 told) noexcept {
   constexpr int stale_ticks = 3;
   constexpr float trust = 0.2F;
-  if (target != nullptr) {
-    const bool silent = task->age_ticks > 2 * robot.liveness_ticks() + task_capacity;
-    if (silent) task->target += (*target - task->target) * trust;
-    else if (news || ahead_by(beat, task->beat) >= -stale_ticks) task->target = *target;
+  const bool silent = robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
+  if (silent) task.target += (told - task.target) * trust;
+  else if (ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks)) task.target = told;
+}
+
+// A later sign of life, or another holder.
+void renew(const HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
+  // It has lived on since I missed it: somebody else is in charge of it.
+  if (task.silent && !news.silent && ahead_by(news.beat, task.beat) > robot.liveness_ticks() / 2) task.via = nobody;
+  if (news.silent != task.silent || news.holder != task.holder) task.urgent_ticks = pass_on_ticks;
+  task.beat = news.beat;
+  task.holder = news.holder;
+  task.age_ticks = 0;
+  task.silent = false;
+}
+
+void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, const Vec2* target) noexcept {
+  HealingState& self = robot.self;
+  Task* task = find_task(self, news.serves);
+  if (task == nullptr) {
+    if (target == nullptr) return;
+    task = add_task(self, news.serves, *target, concern_of(news));
+    if (task == nullptr) return;
+    task->beat = static_cast<std::uint16_t>(news.beat - 1);
+    task->holder = news.holder;
+    if (news.holder == nobody) task->urgent_ticks = pass_on_ticks;
   }
-  if (!news) return;
-  task->beat = beat;
-  task->holder = holder;
-  task->age_ticks = 0;
+  if (self.is_worker && self.serves == news.serves) {  // nobody knows better than I where it is
+    if (news.silent) task->urgent_ticks = pass_on_ticks;
+    if (news.holder != self.id) settle_rivalry(robot, *task, news.holder, news.beat);
+    return;
+  }
+  if (target != nullptr) locate(robot, *task, news, *target);
+  if (news.via != nobody || task->via == sender) task->via = news.via;
+  const bool newer = is_news(news.beat, task->beat, task->age_ticks);
+  if (newer) renew(robot, *task, news);
+  if (news.silent && !task->silent) {
+    if (news.beat == task->beat) begin_doubt(robot, *task);
+    else task->urgent_ticks = pass_on_ticks;  // I know of a later sign of life
+  }
 }
 
 // Where the targets stand in the list, by the last bits of their names: every packet speaks of one.
@@ -103,23 +130,29 @@ class TaskIndex {
 };
 
 void hear_of_tasks(HealingRobot& robot) noexcept {
-  const HealingState& self = robot.self;
+  HealingState& self = robot.self;
   const TaskIndex index(self);
   const RobotId me = self.id;
   for (const Heard& h : robot.heard) {
     const HealingMessage& m = said(h);
+    self.forgets = self.forgets || m.forgets;
     if (m.task_serves == nobody) continue;
-    // Most of it is known: a count no newer than mine, of a target that others serve, and told to somebody else.
+    // Most of it is known: a count no newer than mine, in no doubt, of a target that others serve, told to somebody
+    // else, and nothing new about where in the tree its holder is.
     const Task* task = m.told == me ? nullptr : index.find(m.task_serves);
-    if (task != nullptr && !is_news(m.task_beat, task->beat, task->age_ticks) && (!self.is_worker || self.serves != m.task_serves)) continue;
+    const bool below = m.task_below && up_of(m) == me;
+    if (task != nullptr && !m.task_silent && (task->via == m.id) == below && !is_news(m.task_beat, task->beat, task->age_ticks) && (!self.is_worker || self.serves != m.task_serves)) continue;
     Vec2 target;
     const bool told = m.told == self.id && robot.read_point(h, m.task_x_cm, m.task_y_cm, target);
-    hear_of_task(robot, m.task_serves, m.task_holder, m.task_beat, told ? &target : nullptr);
+    hear_of_task(robot, m.id, news_in(robot, m), told ? &target : nullptr);
   }
 }
 
 void grow_older(HealingRobot& robot) noexcept {
-  for (Task& task : std::span(robot.self.tasks).first(robot.self.task_count)) robot.add_elapsed(task.age_ticks);
+  for (Task& task : std::span(robot.self.tasks).first(robot.self.task_count)) {
+    robot.add_elapsed(task.age_ticks);
+    task.urgent_ticks = static_cast<std::uint8_t>(std::max(0, task.urgent_ticks - robot.elapsed_ticks));
+  }
 }
 
 // My own target. One that was taken from me from outside has been given up; everybody shall know.
@@ -131,10 +164,11 @@ void mind_own(HealingRobot& robot) noexcept {
     if (task.holder != me || task.serves == own) continue;
     task.holder = nobody;
     task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
+    task.urgent_ticks = pass_on_ticks;
   }
   if (!self.is_worker) return;
   Task* task = find_task(self, self.serves);
-  if (task == nullptr && robot.target != nullptr) task = add_task(self, self.serves);
+  if (task == nullptr && robot.target != nullptr) task = add_task(self, self.serves, *robot.target, Concern::own);
   if (task == nullptr) return;
   if (robot.target != nullptr) task->target = *robot.target;
   serve(self, *task);
@@ -148,6 +182,7 @@ void take_over(HealingRobot& robot, Task& task) noexcept {
   self.request = self.inserted_child = nobody;
   self.spare_state = SpareState::wait;
   task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
+  task.urgent_ticks = pass_on_ticks;
   serve(self, task);
   ++self.tally.replacements;
 }
@@ -161,7 +196,7 @@ void succeed(HealingRobot& robot) noexcept {
   if (!free || self.is_worker || robot.is_root() || self.silence_ticks > least_ticks) return;
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
-    if (task.holder == nobody || task.age_ticks <= least_ticks) continue;
+    if (task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
     const int patience_ticks = least_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target));
     if (task.age_ticks > patience_ticks) return take_over(robot, task);
   }
@@ -175,6 +210,7 @@ void watch_tasks(HealingRobot& robot) noexcept {
   grow_older(robot);
   mind_own(robot);
   hear_of_tasks(robot);
+  doubt(robot);
   succeed(robot);
   // A successor has its target from the table, not from outside.
   if (!self.is_worker || robot.target != nullptr) return;

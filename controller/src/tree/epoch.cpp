@@ -82,14 +82,14 @@ void enter(TreeRobot& robot, std::uint16_t epoch, Phase phase) noexcept {
   if (phase >= Phase::grow_tree) forget_old_tree(robot);
 }
 
-void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct) noexcept {
+void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int patience_ticks) noexcept {
   constexpr int settle_ticks = 3;  // a barrier must hold, and SELECT PARENT last, for so long
   TreeState& self = robot.self;
   const TreeParams& p = robot.params;
   if (!robot.is_root()) return;
   if (self.phase == Phase::init) return enter(robot, 1, Phase::start_tree);
   self.done_ticks = barrier_holds(robot, tree_complete) ? static_cast<std::uint16_t>(self.done_ticks + 1) : std::uint16_t{0};
-  const bool timeout = self.phase_ticks >= p.ticks(p.barrier_timeout_s);
+  const bool timeout = self.phase_ticks >= patience_ticks;
   switch (self.phase) {
     case Phase::start_tree:
       if (self.done_ticks < settle_ticks && !timeout) break;
@@ -104,6 +104,10 @@ void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct) noexcep
       break;
     default: break;  // SELECT ROOT ends with the root's next epoch (root_selection.hpp)
   }
+}
+
+void advance(TreeRobot& robot, bool tree_complete) noexcept {
+  advance(robot, tree_complete, true, robot.params.ticks(robot.params.barrier_timeout_s));
 }
 
 }  // namespace banyan

@@ -13,7 +13,7 @@ namespace {
 // Enough for a question and an answer at five ticks of latency; longer where packets are lost.
 int ungranted_limit_ticks(const TreeRobot& robot) noexcept { return std::max(14, robot.loss_ticks); }
 
-constexpr std::uint8_t call_reach_hops = 40;
+constexpr std::uint8_t call_reach_hops = 250;
 constexpr float infinite_m = 1e9F;
 
 // ---- The owner of an edge: NO NEED -> NEED -> AWAIT ----

@@ -84,6 +84,29 @@ TEST(Barriers, ALoneRootPassesThemAllAndComesBack) {
   EXPECT_EQ(seen, (std::vector<Phase>{Phase::start_tree, Phase::select_parent, Phase::grow_tree}));
 }
 
+TEST(Barriers, WaitWhileTheFloodStillFindsRobotsAndAsLongForTheirParents) {
+  Bench bench;
+  bench.state.root = {1, 1};
+  bench.step();
+  bench.put(5, {1.0F, 0});  // never takes a label
+  auto& m = bench.put(6, {0, 1.0F});
+  m.label_cm = 100;
+  m.flood_parent = 1;
+  const int timeout = bench.params.ticks(bench.params.barrier_timeout_s);
+  for (int k = 0; k < 8; ++k) {
+    ++bench.say(6).flood_robots;  // one of a long chain after the other
+    bench.steps(timeout / 2);
+    EXPECT_EQ(bench.state.phase, Phase::start_tree);
+  }
+  bench.steps(timeout);
+  EXPECT_EQ(bench.state.phase, Phase::select_parent);
+  bench.state.flood_robots = 99;  // who never arrive
+  bench.steps(3 * timeout);
+  EXPECT_EQ(bench.state.phase, Phase::select_parent);
+  bench.steps(timeout);
+  EXPECT_EQ(bench.state.phase, Phase::grow_tree);
+}
+
 TEST(Barriers, NeverWaitLongerThanTheTimeout) {
   Bench bench;
   bench.state.root = {1, 1};

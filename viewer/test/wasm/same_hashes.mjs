@@ -8,7 +8,7 @@ import { test } from 'node:test';
 import { native, open, scenarios, until } from './together.mjs';
 
 const ticks = 200;
-const huge = ['swarm-1000.toml', 'swarm-10000.toml'];
+const huge = ['swarm-500.toml', 'swarm-1000.toml', 'swarm-10000.toml', 'benchmark-1000.toml', 'benchmark-10000.toml'];
 
 async function compare(text, overrides = []) {
   const live = open(text, overrides);

@@ -20,13 +20,39 @@ void follow_heartbeat(HealingRobot& robot) noexcept;
 // Close to where the root fell silent: makes itself root and opens an epoch.
 void claim_root(HealingRobot& robot) noexcept;
 
+// ---- task_memory.cpp: which targets a robot knows of ----
+
+// By its first worker; null if I know of no such target.
+[[nodiscard]] Task* find_task(HealingState& self, RobotId serves) noexcept;
+
+// I serve it, or a robot below me in the tree does.
+[[nodiscard]] inline bool is_mine_or_below(const HealingState& self, const Task& task) noexcept {
+  return task.via != nobody || (self.is_worker && self.serves == task.serves);
+}
+
+// How much a robot needs to know of a target, least first. With more targets than it can remember, those that
+// matter more take the place of those that matter less.
+enum class Concern : std::uint8_t { outdated, none, below, child, urgent, own };
+inline constexpr int outdated_ticks = 100;  // old news says nothing of the moment in which a branch tears
+[[nodiscard]] Concern concern_of(const HealingState& self, const Task& task) noexcept;
+// Room for one more; null if there is none for so small a concern. Who has no room for all says so: from then on
+// nobody takes silence alone for death.
+[[nodiscard]] Task* add_task(HealingState& self, RobotId serves, Vec2 target, Concern concern) noexcept;
+
+// ---- doubt.cpp: who may say that a worker is dead ----
+
+// Where robots forget, news of a living worker may not come through; then only those in charge of it doubt that
+// it lives: who heard it, or the child by which it was below them, and no longer does. The doubt is a question
+// to all. Whoever knows of a later sign of life answers, first of all the worker.
+void doubt(HealingRobot& robot) noexcept;
+// Its clock starts with it, however old the news of the worker: the rest of the patience is for answers.
+void begin_doubt(const HealingRobot& robot, Task& task) noexcept;
+
 // ---- takeover.cpp: does every target have its worker? ----
 
 // Learns of targets and their workers, gives up a target that is served by somebody with precedence,
 // takes over one whose worker has fallen silent.
 void watch_tasks(HealingRobot& robot) noexcept;
-// By its first worker; null if I know of no such target.
-[[nodiscard]] Task* find_task(HealingState& self, RobotId serves) noexcept;
 
 // ---- dangling_branch.cpp: the end of a torn branch ----
 

@@ -24,6 +24,9 @@ struct HealingNews {
   RobotId task_serves = nobody;       // a target, by its first worker; nobody: I know none
   RobotId task_holder = nobody;       // gossip: who serves it; nobody: it has been given up
   Serial task_beat = 0;               // gossip: the holder's count of ticks
+  bool task_silent = false;           // gossip: who heard the holder last no longer hears it
+  bool task_below = false;            // the holder is below me in the tree, or I am
+  bool forgets = false;               // gossip: some robot has had no room for a target
   std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `told`
   std::int16_t task_y_cm = 0;
 
@@ -39,6 +42,9 @@ struct HealingMessage : TreeMessage, HealingStanding, HealingNews {
 template <class Visitor, class M>
 constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
   visit.flag("root_told", "1: knows where the root is", m.root_told);
+  visit.flag("task_silent", "1: who heard the holder of `task` last no longer hears it", m.task_silent);
+  visit.flag("task_below", "1: the holder of `task` is the sender, or below it in the tree", m.task_below);
+  visit.flag("forgets", "1: some robot has had no room for a target", m.forgets);
   visit.number("root_size", "robots that this root counted last, 0: none yet", m.root_size);
   visit.number("heartbeat", "the root's count of ticks, modulo 65536", m.heartbeat);
   visit.robot("serves", "of a worker: its target, by the worker first sent there, -1: none", m.serves);

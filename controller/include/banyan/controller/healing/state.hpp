@@ -11,15 +11,18 @@
 
 namespace banyan {
 
-inline constexpr int task_capacity = 12;  // further targets have no successor for their worker
+inline constexpr int task_capacity = 12;  // of more targets each robot knows some (task_memory.cpp)
 
 // A target, as all robots know it that may have to take it over (takeover.cpp).
 struct Task {
   RobotId serves = nobody;       // the worker first sent there: the target's name
   RobotId holder = nobody;       // who serves it; nobody: it has been given up
   Serial beat = 0;               // the holder's count of ticks, the newest heard of
-  std::uint16_t age_ticks = 0;   // since it grew
+  std::uint16_t age_ticks = 0;   // since it grew; in doubt: since I know that it is, and before
   Vec2 target;                   // m, own frame
+  RobotId via = nobody;          // the child by which its holder is below me in the tree; nobody: it is not
+  bool silent = false;           // in doubt: who heard the holder last no longer hears it
+  std::uint8_t urgent_ticks = 0; // news that everybody has to pass on, for so long
 };
 
 struct HealingState : TreeState {
@@ -29,6 +32,8 @@ struct HealingState : TreeState {
   float missed_packets = 0.0F;           // and those of them that were not heard
   std::uint16_t loss_ticks = 0;          // what this loss requires in place of I; 0: I will do
   std::uint16_t root_size = 0;           // robots that this root counted last; 0: none yet
+  std::uint16_t flood_counted = 0;       // the root, of its last START TREE: the most robots that the flood had found,
+  std::uint16_t flood_ticks = 0;         // and when that was
   Serial heartbeat = 0;
   std::uint16_t silence_ticks = 0;       // since the heartbeat grew
   RootToken heart;                       // the root whose heartbeat it is
@@ -38,6 +43,7 @@ struct HealingState : TreeState {
   RobotId hold = nobody;                 // whom I stay with while I have no parent
   std::uint16_t dangling_ticks = 0;      // the last robot below me has died: for so long I still go after it
   Vec2 lost_child;                       // m, own frame: where it was
+  bool forgets = false;                  // here or elsewhere a robot has had no room for a target
   std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   Detour detour;                         // obstacles: the way round one
@@ -51,12 +57,12 @@ struct HealingState : TreeState {
 
 template <class Visitor, class State>
 constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
-  visit(s.was_sent), visit(s.serves), visit(s.expected_packets), visit(s.missed_packets), visit(s.loss_ticks), visit(s.root_size);
+  visit(s.was_sent), visit(s.serves), visit(s.expected_packets), visit(s.missed_packets), visit(s.loss_ticks), visit(s.root_size), visit(s.flood_counted), visit(s.flood_ticks);
   visit(s.heartbeat), visit(s.silence_ticks), visit(s.heart.sequence), visit(s.heart.id), visit(s.root_at), visit(s.root_known), visit(s.turn), visit(s.hold);
-  visit(s.dangling_ticks), visit(s.lost_child), visit(s.task_count);
+  visit(s.dangling_ticks), visit(s.lost_child), visit(s.forgets), visit(s.task_count);
   for (int k = 0; k < s.task_count; ++k) {
     auto& task = s.tasks[static_cast<std::size_t>(k)];
-    visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target);
+    visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target), visit(task.via), visit(task.silent), visit(task.urgent_ticks);
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
   for (int k = 0; k < s.neighbors.size(); ++k) visit(s.healing_standings[static_cast<std::size_t>(k)].serves);

@@ -23,7 +23,10 @@ void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept;
 // The root's barriers: opens the next phase when its condition holds, or its time is over.
 // `tree_complete`: everybody who should be in the tree is (barrier of SELECT PARENT); `may_reconstruct`: a new
 // epoch may begin once R is over.
-void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct = true) noexcept;
+// `patience_ticks`: for so long it waits in START TREE and SELECT PARENT.
+void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int patience_ticks) noexcept;
+// barrier_timeout_s, however deep the tree.
+void advance(TreeRobot& robot, bool tree_complete) noexcept;
 
 // Enters (epoch, phase): a new epoch makes the parent the old parent and forgets labels and grants;
 // GROW TREE forgets the old tree.

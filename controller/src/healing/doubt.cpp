@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/healing/healing.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr int notice_before_ticks = 2;  // before the silent are forgotten
+constexpr float hesitate_s = 2.5F;      // beyond I
+constexpr float well_in_range = 0.85F;  // of C: whoever was farther away may only have left
+
+bool fades(const HealingRobot& robot, int k) noexcept {
+  return robot.table().age(k) > robot.liveness_ticks() - notice_before_ticks;
+}
+
+// I heard the worker, and its parent is not there to miss it, or has more workers below than it can remember.
+bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
+  const TreeTable& table = robot.table();
+  const int holder = table.find(task.holder);
+  if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range * robot.params.communication_range_m) return false;
+  const int parent = table.find(up_of(table.message(holder)));
+  return parent < 0 || fades(robot, parent) || table.message(parent).subtree_workers > task_capacity;
+}
+
+bool is_missed(const HealingRobot& robot, const Task& task) noexcept {
+  const int child = task.via == nobody ? -1 : robot.table().find(task.via);
+  return task.via != nobody && (child < 0 || fades(robot, child));
+}
+
+}  // namespace
+
+void begin_doubt(const HealingRobot& robot, Task& task) noexcept {
+  task.silent = true;
+  task.age_ticks = static_cast<std::uint16_t>(robot.liveness_ticks());
+}
+
+void doubt(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
+  if (!self.forgets) return;
+  const int fading_ticks = robot.liveness_ticks() - notice_before_ticks;
+  // A body may stand between for a moment.
+  const int doubt_ticks = robot.liveness_ticks() + robot.params.ticks(hesitate_s);
+  for (int k = 0; k < self.task_count; ++k) {
+    Task& task = self.tasks[static_cast<std::size_t>(k)];
+    if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks) continue;
+    if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;
+    if (task.age_ticks > outdated_ticks) task.via = nobody;
+    else if (task.age_ticks > doubt_ticks && is_missed(robot, task)) begin_doubt(robot, task);
+  }
+}
+
+}  // namespace banyan

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/healing/healing.hpp"
+
+namespace banyan {
+
+Task* find_task(HealingState& self, RobotId serves) noexcept {
+  for (int k = 0; k < self.task_count; ++k)
+    if (self.tasks[k].serves == serves) return &self.tasks[k];
+  return nullptr;
+}
+
+Concern concern_of(const HealingState& self, const Task& task) noexcept {
+  if (self.is_worker && self.serves == task.serves) return Concern::own;
+  if (task.silent || task.urgent_ticks > 0) return Concern::urgent;
+  if (task.age_ticks > outdated_ticks) return Concern::outdated;
+  if (task.via == nobody) return Concern::none;
+  return task.via == task.holder ? Concern::child : Concern::below;
+}
+
+namespace {
+
+// Of those of equal concern. Of doubts the nearer ones: it is there that I may be the successor. Of workers in
+// nobody's charge each robot likes others best, so that of many in one place all are known to somebody.
+float liking(const HealingState& self, Concern concern, RobotId serves, Vec2 target) noexcept {
+  if (concern != Concern::none) return -norm(target);
+  return static_cast<float>(static_cast<std::uint16_t>((serves ^ (self.id * 0x9E37U)) * 0x6A2DU));
+}
+
+Task& least_concern(HealingState& self) noexcept {
+  const auto matters_less = [&](const Task& a, const Task& b) {
+    const Concern ca = concern_of(self, a);
+    const Concern cb = concern_of(self, b);
+    return ca != cb ? ca < cb : liking(self, ca, a.serves, a.target) < liking(self, cb, b.serves, b.target);
+  };
+  Task* least = &self.tasks[0];
+  for (Task& task : self.tasks)
+    if (matters_less(task, *least)) least = &task;
+  return *least;
+}
+
+}  // namespace
+
+Task* add_task(HealingState& self, RobotId serves, Vec2 target, Concern concern) noexcept {
+  Task* task = nullptr;
+  if (self.task_count < task_capacity) {
+    task = &self.tasks[self.task_count++];
+  } else {
+    self.forgets = true;
+    task = &least_concern(self);
+    const Concern least = concern_of(self, *task);
+    // Those in my charge stay as they are.
+    const bool changes = concern == Concern::none || concern == Concern::urgent;
+    const bool better = liking(self, concern, serves, target) > liking(self, least, task->serves, task->target);
+    if (concern < least || (concern == least && !(changes && better))) return nullptr;
+  }
+  *task = {};
+  task->serves = serves;
+  task->target = target;
+  return task;
+}
+
+}  // namespace banyan

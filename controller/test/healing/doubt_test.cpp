@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+// Where robots forget, only those in charge of a worker doubt that it lives, and whoever knows better answers.
+#include "banyan/controller/healing/healing.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <vector>
+
+#include "network.hpp"
+#include "watch.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr RobotId worker_id = 50;
+constexpr int very_long = 400;
+
+// A spare of a swarm with more targets than robots remember.
+struct ForgetfulWatch : Watch {
+  ForgetfulWatch() {
+    hear_root(2);
+    bench.state.forgets = true;
+  }
+  ConvoyMessage& worker(Vec2 at, RobotId parent) {
+    auto& m = bench.put(worker_id, at);
+    m.role = Role::worker;
+    m.serves = worker_id;
+    m.parent = parent;
+    tell_of_target(worker_id, at, {3.0F, 0.0F}, worker_id, 10);
+    m.task_below = true;
+    return m;
+  }
+  void hear_worker(int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      ++bench.say(worker_id).task_beat;
+      hear_root(1);
+    }
+  }
+  const Task& task() { return *find_task(bench.state, worker_id); }
+};
+
+// Until those in charge doubt that a silent worker lives.
+int doubt_ticks(const Watch& watch) { return watch.bench.params.ticks(watch.bench.params.liveness_period_s) + watch.bench.params.ticks(2.5F) + 1; }
+
+TEST(Doubt, SilenceAloneIsNoDeathWhereRobotsForget) {
+  for (const bool forgets : {false, true}) {
+    Watch watch;
+    watch.hear_root(2);
+    watch.bench.state.forgets = forgets;
+    watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 1.0F}, worker_id, 10);
+    watch.hear_root(very_long);
+    EXPECT_EQ(watch.bench.state.tally.replacements, forgets ? 0U : 1U);
+  }
+}
+
+TEST(Doubt, WhoForgetsIsHeardByAll) {
+  Watch watch;
+  watch.hear_root(2);
+  EXPECT_FALSE(watch.bench.step().message.forgets);
+  watch.bench.say(root_id).forgets = true;
+  watch.hear_root(1);
+  watch.bench.say(root_id).forgets = false;
+  EXPECT_TRUE(watch.bench.step().message.forgets);
+}
+
+TEST(Doubt, AParentMissesItsChild) {
+  ForgetfulWatch watch;
+  watch.worker({1.9F, 0.0F}, 1);
+  watch.hear_worker(5);
+  EXPECT_EQ(watch.task().via, worker_id);
+  EXPECT_FALSE(watch.task().silent);
+  watch.bench.silence(worker_id);
+  watch.hear_root(doubt_ticks(watch));
+  EXPECT_TRUE(watch.task().silent);
+  bool said = false;
+  for (int k = 0; k < 2; ++k) {
+    const auto m = watch.bench.step().message;
+    said = said || (m.task_serves == worker_id && m.task_silent && m.told == root_id);
+  }
+  EXPECT_TRUE(said);
+}
+
+TEST(Doubt, AWitnessMissesAWorkerWhoseParentIsSilentToo) {
+  for (const bool parent_lives : {false, true}) {
+    ForgetfulWatch watch;
+    watch.bench.put(30, {0.0F, 1.0F});
+    watch.worker({1.0F, 0.0F}, 30);
+    watch.hear_worker(5);
+    watch.bench.silence(worker_id);
+    if (!parent_lives) watch.bench.silence(30);
+    watch.hear_root(very_long);
+    EXPECT_EQ(watch.task().silent, !parent_lives && watch.bench.state.tally.replacements == 0);
+    EXPECT_EQ(watch.bench.state.tally.replacements, parent_lives ? 0U : 1U);
+  }
+}
+
+TEST(Doubt, WhoDrivesOutOfRangeIsNotMissed) {
+  ForgetfulWatch watch;
+  watch.worker({1.9F, 0.0F}, 30);
+  watch.hear_worker(5);
+  watch.bench.silence(worker_id);
+  watch.hear_root(very_long);
+  EXPECT_FALSE(watch.task().silent);
+}
+
+TEST(Doubt, AnAncestorMissesAWorkerBelowTheChildThatFellSilent) {
+  ForgetfulWatch watch;
+  auto& child = watch.bench.put(20, {1.0F, 0.0F});
+  child.role = Role::connector;
+  child.parent = 1;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, worker_id, 10);
+  child.task_below = true;
+  watch.hear_root(5);
+  EXPECT_EQ(watch.task().via, 20);
+  watch.bench.silence(20);
+  watch.hear_root(doubt_ticks(watch));
+  EXPECT_TRUE(watch.task().silent);
+}
+
+TEST(Doubt, WhoDoubtsWaitsForAnAnswerEvenIfItsNewsIsOld) {
+  ForgetfulWatch watch;
+  auto& child = watch.bench.put(20, {1.0F, 0.0F});
+  child.role = Role::connector;
+  child.parent = 1;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, worker_id, 10);
+  child.task_below = true;
+  watch.hear_root(outdated_ticks - 20);
+  watch.bench.silence(20);
+  const auto& p = watch.bench.params;
+  watch.hear_root(p.ticks(p.liveness_period_s) + p.ticks(p.succession_after_s));
+  EXPECT_TRUE(watch.task().silent);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
+}
+
+TEST(Doubt, AChildThatHangsElsewhereIsInTheChargeOfOthers) {
+  ForgetfulWatch watch;
+  watch.bench.put(30, {0.0F, 1.0F});
+  auto& worker = watch.worker({1.0F, 0.0F}, 1);
+  watch.hear_worker(5);
+  worker.parent = 30;
+  watch.hear_worker(2);
+  EXPECT_EQ(watch.task().via, nobody);
+  watch.bench.silence(worker_id);
+  watch.hear_root(very_long);
+  EXPECT_FALSE(watch.task().silent);
+}
+
+// The clock of a doubt starts with the doubt, however old what the robot knew before.
+TEST(Doubt, ThereIsTimeForAnAnswer) {
+  ForgetfulWatch watch;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, worker_id, 10);
+  watch.hear_root(very_long);
+  watch.bench.say(20).task_silent = true;
+  const auto& p = watch.bench.params;
+  const int patience = p.ticks(p.liveness_period_s) + p.ticks(p.succession_after_s + p.succession_spread_s_m * 2.0F);
+  watch.hear_root(patience - 1);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
+  watch.hear_root(4);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 1U);
+}
+
+TEST(Doubt, ALaterSignOfLifeEndsItAndIsPassedOn) {
+  ForgetfulWatch watch;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, worker_id, 10);
+  watch.bench.say(20).task_silent = true;
+  watch.hear_root(10);
+  ASSERT_TRUE(watch.task().silent);
+  watch.bench.put(21, {0.0F, 1.0F});
+  watch.bench.say(21).task_serves = worker_id;
+  watch.bench.say(21).task_holder = worker_id;
+  watch.bench.say(21).task_beat = 30;
+  watch.bench.silence(20);
+  watch.hear_root(1);
+  EXPECT_FALSE(watch.task().silent);
+  watch.bench.silence(21);
+  bool said = false;
+  for (int k = 0; k < 2; ++k) {
+    const auto m = watch.bench.step().message;
+    said = said || (m.task_serves == worker_id && !m.task_silent && m.task_beat == 30);
+  }
+  EXPECT_TRUE(said);
+  watch.hear_root(very_long);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
+}
+
+TEST(Doubt, WhoKnowsOfALaterSignOfLifeAnswers) {
+  ForgetfulWatch watch;
+  watch.worker({1.0F, 0.0F}, 30);
+  watch.bench.put(30, {0.0F, 1.0F});
+  watch.hear_worker(5);
+  watch.bench.silence(worker_id);
+  auto& doubter = watch.bench.put(20, {0.0F, -1.0F});
+  doubter.task_serves = doubter.task_holder = worker_id;
+  doubter.task_beat = 5;
+  doubter.task_silent = true;
+  watch.hear_root(1);
+  EXPECT_FALSE(watch.task().silent);
+  bool said = false;
+  for (int k = 0; k < 2; ++k) {
+    const auto m = watch.bench.step().message;
+    said = said || (m.task_serves == worker_id && m.task_beat == 15 && !m.task_silent);
+  }
+  EXPECT_TRUE(said);
+}
+
+// ---- Whole networks: random places, random loss, many more targets than anybody remembers ----
+
+struct Places {
+  std::vector<Vec2> robots;
+  std::vector<Vec2> targets;
+};
+
+// Each robot within reach of one before it, in another direction, so that all are connected and none in one place; `workers` of them are sent out.
+Places random_places(int others, int workers) {
+  Places places{{{0.0F, 0.0F}}, {}};
+  for (int i = 1; i < others + workers; ++i) {
+    const Vec2 near = places.robots[static_cast<std::size_t>(*rc::gen::inRange(0, i))];
+    places.robots.push_back(near + unit_vector(2.4F * static_cast<float>(i) + static_cast<float>(*rc::gen::inRange(-500, 500)) * 1e-3F) * (static_cast<float>(*rc::gen::inRange(400, 1500)) * 1e-3F));
+  }
+  for (int k = 0; k < workers; ++k)
+    places.targets.push_back(unit_vector(static_cast<float>(*rc::gen::inRange(-3141, 3142)) * 1e-3F) * static_cast<float>(*rc::gen::inRange(2, 20)));
+  return places;
+}
+
+RC_GTEST_PROP(Doubt, NoLivingWorkerIsReplacedAndADeadOneIs, ()) {
+  const int workers = *rc::gen::inRange(task_capacity + 1, 3 * task_capacity);
+  const Places places = random_places(10, workers);
+  const float loss = static_cast<float>(*rc::gen::inRange(0, 4)) * 0.1F;
+  Network network(places.robots, places.targets, loss, static_cast<std::uint64_t>(*rc::gen::inRange(1, 1'000'000)));
+  network.steps(200);
+  RC_ASSERT(network.states.front().forgets);
+  RC_ASSERT(network.replacements() == 0U);
+  // The last robot was put near another, and nobody near it: its death parts no network.
+  const std::size_t dead = network.states.size() - 1;
+  const auto serves = static_cast<RobotId>(dead);
+  network.kill(dead);
+  network.steps(300);
+  // All have heard of it; a spare, if there was one, has gone there.
+  const bool held = network.holders(serves) == 1;
+  RC_ASSERT(network.holders(serves) <= 1);
+  for (std::size_t i = 0; i < dead; ++i) {
+    RC_ASSERT(held || network.states[i].role != Role::spare);
+    RC_ASSERT(held || find_task(network.states[i], serves)->silent);
+  }
+  for (std::size_t i = network.first_worker(); i < dead; ++i) RC_ASSERT(network.states[i].is_worker && network.states[i].serves == i);
+}
+
+}  // namespace
+}  // namespace banyan
