@@ -118,6 +118,7 @@ void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t
   for (Scratch& s : scratch_) {
     s.rebuild = s.no_room = false;
     s.changes.clear();
+    s.changes.reserve(rows_.size() + few_cells);
   }
   refresh_all();
   if (std::any_of(scratch_.begin(), scratch_.end(), [](const Scratch& s) { return s.no_room; })) {
@@ -336,11 +337,13 @@ void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) 
   row.quiet_until = fast_clock(i) + static_cast<Way>(std::max(0, least - 1)) * units_per_step;
 }
 
-// Takes down what a pair has become.
+// Takes down what a pair has become. The list has the room that it needs at most.
 void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s) {
   const int link = static_cast<int>(now.linked) - static_cast<int>(before.linked);
   const int near = static_cast<int>(now.near) - static_cast<int>(before.near);
-  if (link != 0 || near != 0) s.changes.push_back({{static_cast<std::uint32_t>(i), now.other}, link, near});
+  if (link == 0 && near == 0) return;
+  if (s.changes.size() < s.changes.capacity()) s.changes.push_back({{static_cast<std::uint32_t>(i), now.other}, link, near});
+  else s.rebuild = true;  // so many that all are laid out anew
 }
 
 // Whether the body that blocks a line of sight still does, or the one nearest to it still leaves it free, and

@@ -242,7 +242,7 @@ bool World::Impl::lost(std::size_t i, std::uint32_t sender) const noexcept {
 std::size_t World::Impl::receive(std::size_t i, std::span<Packet> packets) const noexcept {
   const RadioModel& model = scenario.radio;
   const bool exact = !(model.range_noise_m > 0.0 || model.bearing_noise_rad > 0.0);
-  const bool lossless = !(loss > 0.0);
+  const bool lossless = losses.none(loss);
   const Vec2 here = poses.position[i];
   const Vec2 heading = poses.heading[i];
   std::size_t count = 0;
