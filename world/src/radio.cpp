@@ -118,7 +118,7 @@ void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t
   for (Scratch& s : scratch_) {
     s.rebuild = s.no_room = false;
     s.changes.clear();
-    s.changes.reserve(rows_.size() + few_cells);
+    s.changes.reserve(rows_.size());
   }
   refresh_all();
   if (std::any_of(scratch_.begin(), scratch_.end(), [](const Scratch& s) { return s.no_room; })) {
@@ -507,7 +507,7 @@ void Radio::apply_changes() {
     changes += s.changes.size();
     rebuild |= s.rebuild;
   }
-  if (rebuild || changes > rows_.size() + few_cells) return merge();
+  if (rebuild || changes > rows_.size()) return merge();
   for (const Scratch& s : scratch_)
     for (const Change& change : s.changes) {
       const auto [i, j] = change.couple;
