@@ -5,6 +5,7 @@
 #include <array>
 
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/hold.hpp"
 #include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/inwards.hpp"
 #include "banyan/controller/tree/census.hpp"
@@ -97,6 +98,7 @@ HealingMessage& order_hear(int id, const Order& heard, int cm) {
   m.parent = to_id(heard.parent);
   m.tree_hops = 0;
   m.depth = 1;
+  if (heard.parent < 0) m.grant = elsewhere;  // it has a hold: anybody may be one
   return m;
 }
 
@@ -142,6 +144,7 @@ void order_update(int me, Order* self, int id, const Order* heard, int cm) {
   if (s.parent != nobody) s.role = Role::connector;  // a spare would leave
   bench.step([](HealingRobot& robot) {
     select_parent(robot, {.may_join = false, .workers_relay = true, .accepts = never, .prefers = never});
+    find_hold(robot);
   });
   order_read(*self);
 }
