@@ -65,7 +65,7 @@ double Losses::shadowing_db(std::uint64_t a, std::uint64_t b, std::uint64_t mome
   if (radio_.shadowing_db == 0.0) return 0.0;
   const auto drawn = [&](std::uint64_t k) { return to_normal(bits(seed_, Purpose::shadowing, a, b, k)); };
   if (radio_.shadowing_s == 0.0) return radio_.shadowing_db * drawn(0);
-  const double turns = static_cast<double>(moment) * moment_s_ / radio_.shadowing_s;
+  const double turns = static_cast<double>(moment) * moment_s_ / std::max(radio_.shadowing_s, moment_s_);
   const auto last = static_cast<std::uint64_t>(turns);
   const double share = turns - static_cast<double>(last);
   const double mixed = (1.0 - share) * drawn(last) + share * drawn(last + 1);

@@ -158,7 +158,7 @@ bool Radio::follow(std::span<const Vec2> positions, std::span<const std::uint8_t
   }
   // Whoever jumps was around somebody without being counted there.
   if (rows_anew || 2 * farthest > valid_)
-    for (Row& row : rows_) row.known = rows_anew = false;
+    for (Row& row : rows_) row.known = false;
   if (farthest > 0) spread_motion();
   const auto due = [&](std::size_t i) { return !rows_[i].known || clock(i) - rows_[i].written > skin_; };
   std::size_t i = 0;
@@ -355,7 +355,7 @@ bool Radio::ask_witness(const Site& site, Pair& pair) const noexcept {
   const double d2 = squared_norm(d);
   if (disc_blocks(body, d, d2, radius_m_) != (pair.blocked != 0)) return false;
   const double lasts_m = pair.blocked != 0 ? depth(body, d, d2, radius_m_) : distance_beside(body, d, d2, radius_m_);
-  pair.close_until = mark(clock_of_three(site.i, pair.other, pair.witness) + way(lasts_m));
+  pair.close_until = mark(clock_of_three(site.i, pair.other, pair.witness) + way(std::min(lasts_m, range_m_)));
   return true;
 }
 

@@ -171,7 +171,7 @@ class Spaced {
   void add(Vec2 p) { squares_[key_of(index(p.y), index(p.x))].push_back(p); }
 
  private:
-  [[nodiscard]] std::int32_t index(double x) const noexcept { return static_cast<std::int32_t>(std::floor(x / least_)); }
+  [[nodiscard]] std::int32_t index(double x) const noexcept { return static_cast<std::int32_t>(std::clamp(std::floor(x / least_), -2e9, 2e9)); }
   double least_;
   std::unordered_map<std::uint64_t, std::vector<Vec2>> squares_;  // looked up, never walked through
 };

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -51,8 +52,11 @@ Isolated::Isolated(const world::Scenario& scenario, bool twice) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw CommandError(exit_lost, std::string("no pipe: ") + std::strerror(errno));
+  const pid_t soak = ::getpid();
   process_ = ::fork();
   if (process_ == 0) {
+    static_cast<void>(::prctl(PR_SET_PDEATHSIG, SIGKILL));  // nobody would listen any more
+    if (::getppid() != soak) ::_exit(1);
     static_cast<void>(::close(ends[0]));
     live(scenario, twice, ends[1]);
   }
@@ -116,8 +120,12 @@ std::optional<Outcome> Isolated::take() {
 Outcome Isolated::wait() {
   while (true) {
     pollfd waiting{pipe_, POLLIN, 0};
-    static_cast<void>(::poll(&waiting, 1, 1000));
+    static_cast<void>(::poll(&waiting, 1, 200));
     if (auto outcome = take()) return *std::move(outcome);
+    if (stop_signal() != 0) {
+      end();
+      return {};
+    }
   }
 }
 

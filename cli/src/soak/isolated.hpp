@@ -25,7 +25,11 @@ class Isolated {
   // Takes what it has said; the outcome once it has ended. A process that dies has found a "crash", and so
   // has one that takes longer than `most_s`.
   [[nodiscard]] std::optional<Outcome> take();
+  // Nothing if this program is told to stop meanwhile.
   [[nodiscard]] Outcome wait();
+
+  // Whether it is a mission that took longer than `most_s`.
+  [[nodiscard]] static bool has_no_end(const Finding& finding) { return finding.kind == "crash" && finding.text.starts_with("no end"); }
 
   static constexpr double most_s = 1800.0;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // `banyan soak`: random missions, one after the other, watched at every tick (docs/soak.md).
+#include <fcntl.h>
 #include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +19,7 @@
 #include "../terminal.hpp"
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
+#include "banyan/record/file.hpp"
 #include "isolated.hpp"
 #include "mission.hpp"
 #include "shrink.hpp"
@@ -26,7 +29,7 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-constexpr const char* journal_header = "index,kind,robots,targets,complete,time_s,hash,findings\n";
+constexpr const char* journal_header = "seed,index,kind,robots,targets,complete,time_s,hash,findings\n";
 constexpr int shrinking_runs = 150;
 
 std::size_t target_count(const world::Scenario& s) { return world::target_positions(s).size(); }
@@ -44,25 +47,33 @@ std::string lines_of(const Outcome& outcome, const world::Scenario& scenario) {
   return text;
 }
 
-// What earlier runs of the same soak have done: a line a mission. A last line that was cut off is none.
+// What earlier soaks in the same directory have done: a line a mission. A last line that was cut off is none. Nobody else
+// writes to it meanwhile.
 class Journal {
  public:
-  Journal(const std::string& path, bool force) : path_(path) {
-    std::error_code ignored;
-    if (force) std::filesystem::remove(path, ignored);
+  Journal(const std::string& path, std::uint64_t seed, bool force) : path_(path), seed_{seed}, lock_{lock(path)} {
+    std::error_code error;
+    if (force) std::filesystem::resize_file(path, 0, error);
     std::ifstream in(path);
     std::string text((std::istreambuf_iterator<char>(in)), {});
+    if (error || !in) throw CommandError(exit_lost, "cannot read " + path);
     text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
     if (!text.empty() && !text.starts_with(journal_header))
       throw CommandError(exit_usage, path + " is no journal of this version's soak; --force replaces it");
-    if (text.empty()) text = journal_header;
     std::istringstream lines(text);
     std::string line;
     std::getline(lines, line);
-    while (std::getline(lines, line)) done_.insert(std::strtoull(line.c_str(), nullptr, 10));
-    out_.open(path, std::ios::trunc);
-    write(text);
+    while (std::getline(lines, line)) {
+      char* rest = nullptr;
+      if (std::strtoull(line.c_str(), &rest, 10) == seed && *rest == ',') done_.insert(std::strtoull(rest + 1, nullptr, 10));
+    }
+    std::filesystem::resize_file(path, text.size(), error);
+    out_.open(path, std::ios::app);
+    if (text.empty()) write(journal_header);
   }
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+  ~Journal() { static_cast<void>(::close(lock_)); }
   [[nodiscard]] bool has(std::uint64_t index) const { return done_.contains(index); }
   [[nodiscard]] std::size_t size() const { return done_.size(); }
 
@@ -70,18 +81,27 @@ class Journal {
     std::string findings;
     for (const Finding& f : outcome.findings)
       findings += (findings.empty() ? "" : " ") + format("%s@%.1f", f.kind.c_str(), f.time_s);
-    write(format("%" PRIu64 ",\"%s\",%zu,%zu,%s,%.1f,%016" PRIx64 ",%s\n", index, text_of(traits_of(s)).c_str(),
+    write(format("%" PRIu64 ",%" PRIu64 ",\"%s\",%zu,%zu,%s,%.1f,%016" PRIx64 ",%s\n", seed_, index, text_of(traits_of(s)).c_str(),
                  world::robot_count(s), target_count(s), outcome.complete ? "true" : "false", outcome.time_s,
                  outcome.hash, findings.c_str()));
   }
 
  private:
+  static int lock(const std::string& path) {
+    try {
+      return record::open_locked(path, O_RDWR | O_CREAT | O_CLOEXEC);
+    } catch (const record::FileBusy&) {
+      throw CommandError(exit_lost, "another soak is at work on " + path);
+    } catch (const record::FileError& e) { throw CommandError(exit_lost, std::string("cannot write ") + path + ": " + e.what()); }
+  }
   void write(const std::string& text) {
     out_ << text << std::flush;
     if (!out_) throw CommandError(exit_lost, "cannot write " + path_);
   }
   std::string path_;
-  std::set<std::uint64_t> done_;
+  std::uint64_t seed_;
+  int lock_;
+  std::set<std::uint64_t> done_;  // of this seed
   std::ofstream out_;
 };
 
@@ -90,7 +110,7 @@ class Soak {
   Soak(const SoakOptions& options, std::string directory)
       : options_(options),
         directory_(std::move(directory)),
-        journal_(directory_ + "/soak.csv", options.force),
+        journal_(directory_ + "/soak.csv", options.seed, options.force),
         next_{options.from},
         progress_(!options.quiet) {
     processes_ = options.threads > 0 ? static_cast<std::size_t>(options.threads)
@@ -171,7 +191,7 @@ class Soak {
   }
 
   // The first of each kind, and every one that was promised not to happen. A known one is made smaller only
-  // while there is time.
+  // while there is time, and one that does not end not at all.
   void keep(std::uint64_t index, const world::Scenario& scenario, const Finding& finding, bool promised) {
     const auto again = [&](const world::Scenario& s) {
       if (stop_signal() != 0 || (!promised && is_over())) return false;
@@ -180,7 +200,7 @@ class Soak {
     };
     config::Configuration small;
     const double until_s = finding.kind == "crash" ? world::time_limit_s(scenario) : finding.time_s;
-    small.scenario = shrink(scenario, until_s, again, shrinking_runs);
+    small.scenario = shrink(scenario, until_s, again, Isolated::has_no_end(finding) ? 0 : shrinking_runs);
     small.scenario.name = finding.kind + "-" + std::to_string(index);
     small.scenario.description =
         format("banyan soak --seed %" PRIu64 ", mission %" PRIu64 ", made smaller: ", options_.seed, index) +
@@ -231,10 +251,13 @@ int watch_file(const SoakOptions& options) {
   if (!loaded.ok()) return exit_usage;
   const world::Scenario& scenario = loaded.configuration.scenario;
   const Outcome outcome = Isolated(scenario, true).wait();
+  if (stop_signal() != 0) return exit_signal + stop_signal();
   print(format("%s (%s): %s\n", scenario.name.c_str(), text_of(traits_of(scenario)).c_str(),
                outcome.findings.empty() ? "nothing found" : "found") +
         lines_of(outcome, scenario));
-  return outcome.findings.empty() ? exit_done : exit_lost;
+  const bool broken = std::any_of(outcome.findings.begin(), outcome.findings.end(),
+                                  [&](const Finding& f) { return is_promised(f.kind, scenario); });
+  return broken ? exit_lost : exit_done;
 }
 
 }  // namespace
