@@ -83,9 +83,6 @@ c_code {
     switch (now.act) {
       case TAKE_PARENT:
         if (r.root || !order_is_ahead(me, &r, from, heard)) break;
-#ifndef UNLABELLED
-        if (r.label == UNKNOWN && heard->seqno == r.seqno) break;
-#endif
         order_take_parent(me, &r, from, heard, now.cm);
         break;
       case FOLLOW:

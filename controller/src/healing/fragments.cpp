@@ -30,7 +30,7 @@ int barrier_patience_ticks(HealingRobot& robot) noexcept {
   const int least = robot.params.ticks(robot.params.barrier_timeout_s);
   if (self.phase == Phase::select_parent) return std::max<int>(least, self.flood_ticks);
   if (self.phase != Phase::start_tree) return least;
-  if (self.phase_ticks <= 1) self.flood_counted = 0;
+  if (self.phase_ticks <= robot.elapsed_ticks) self.flood_counted = 0;
   if (self.flood_robots > self.flood_counted) {
     self.flood_counted = self.flood_robots;
     self.flood_ticks = self.phase_ticks;

@@ -87,16 +87,18 @@ void renew(const HealingRobot& robot, Task& task, const TaskNews& news) noexcept
 
 void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, const Vec2* target) noexcept {
   HealingState& self = robot.self;
+  const bool mine = self.is_worker && self.serves == news.serves;
+  if (news.holder == self.id && !mine) return;  // said of me before I resigned
   Task* task = find_task(self, news.serves);
   if (task == nullptr) {
     if (target == nullptr) return;
-    task = add_task(self, news.serves, *target, concern_of(news));
+    task = add_task(self, news.serves, *target, mine ? Concern::own : concern_of(news));
     if (task == nullptr) return;
     task->beat = static_cast<std::uint16_t>(news.beat - 1);
     task->holder = news.holder;
     if (news.holder == nobody) task->urgent_ticks = pass_on_ticks;
   }
-  if (self.is_worker && self.serves == news.serves) {  // nobody knows better than I where it is
+  if (mine) {  // nobody knows better than I where it is
     if (news.silent) task->urgent_ticks = pass_on_ticks;
     if (news.holder != self.id) settle_rivalry(robot, *task, news.holder, news.beat);
     return;

@@ -212,6 +212,9 @@ void take_parent(TreeRobot& robot, int k) noexcept {
   self.search_ticks = 0;
   self.pending_parent = nobody;
   keep_up(robot, k);
+  // As fresh as its parent, a robot without label must not come to stand before it.
+  if (robot.reading.keeps_links && self.label_cm == unknown_label)
+    self.label_cm = label_below(robot.table().message(k).label_cm, robot.table().range(k));
   if (self.phase >= Phase::grow_tree) {
     self.old_parent = nobody;
     robot.old_parent = -1;

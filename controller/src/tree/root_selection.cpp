@@ -31,7 +31,8 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noex
 // on me: until they have parents of the new epoch they know of nobody else.
 void hand_over(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  const int heir = self.new_root == nobody ? -1 : robot.table().find(self.new_root);
+  const bool taken = self.new_root != nobody && self.root.id == self.new_root;  // the token may have gone to a rival
+  const int heir = taken ? robot.table().find(self.new_root) : -1;
   if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) {
     self.old_parent = self.new_root;
     robot.old_parent = heir;

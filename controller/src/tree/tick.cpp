@@ -66,7 +66,7 @@ void file_heard(TreeRobot& robot) noexcept {
   const RobotId me = self.id;
   TreeTable& table = robot.self.neighbors;
   const auto ties = [&](const TreeStanding& m) {
-    return m.id == self.parent || m.id == self.old_parent || m.parent == self.id || m.old_parent == self.id;
+    return m.id == self.parent || m.id == self.old_parent || m.parent == self.id || m.old_parent == self.id || hold_of(m) == self.id;
   };
   table.begin(robot.elapsed_ticks);
   for (Heard& h : robot.heard) {
@@ -116,7 +116,7 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
   m.subtree = self.subtree;
   m.subtree_workers = self.subtree_workers;
   m.count = self.count;
-  m.grant = robot.hold >= 0 ? robot.table().id(robot.hold) : self.grant;
+  m.grant = robot.hold >= 0 && robot.up() < 0 ? robot.table().id(robot.hold) : self.grant;
   m.request = self.request;
   m.inserted_child = self.inserted_child;
   m.want_cm = to_fixed<std::uint16_t>(self.want_m, per_cm);
