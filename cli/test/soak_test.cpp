@@ -59,9 +59,9 @@ TEST(SoakMission, EveryKindIsDrawnAndNoneIsImpossible) {
   }
   EXPECT_EQ(starts.size(), 6U) << "and the hexagonal one twice, compact and loose";
   EXPECT_EQ(radios.size(), 4U);
-  EXPECT_NEAR(many, missions / 20, 15);
-  EXPECT_NEAR(obstacles, missions / 3, 60);
-  EXPECT_NEAR(deaths, missions / 4, 45);
+  EXPECT_NEAR(many, 0.05 * missions, 15);
+  EXPECT_NEAR(obstacles, 0.33 * missions, 60);
+  EXPECT_NEAR(deaths, 0.25 * missions, 45);
   EXPECT_GT(plain, 5);
 }
 

@@ -32,7 +32,7 @@ Task& least_concern(HealingState& self) noexcept {
     const Concern cb = concern_of(self, b);
     return ca != cb ? ca < cb : liking(self, ca, a.serves, a.target) < liking(self, cb, b.serves, b.target);
   };
-  Task* least = &self.tasks[0];
+  Task* least = self.tasks.data();
   for (Task& task : self.tasks)
     if (matters_less(task, *least)) least = &task;
   return *least;
