@@ -13,12 +13,14 @@ int hops_to_tree(const TreeStanding& m) noexcept {
 }
 
 // How bad neighbour k would be: what comes first weighs more than all that follows. The one it has is kept while
-// it is as good: a robot that turns to another every tick gets nowhere.
+// it is as good: a robot that turns to another every tick gets nowhere. Among links that are too long the shortest
+// is drawn in, however many hops away.
 float cost(const HealingRobot& robot, int k, int hops) noexcept {
   constexpr float strained = 0.85F;  // of C: beyond, the guard slows both ends down
   const float range = robot.table().range(k) / robot.params.communication_range_m;
-  const float turning_to_it = hops >= 0 && robot.table().id(k) != robot.self.hold ? 2.0F : 0.0F;
-  return (range > longest_link ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) + 4.0F * static_cast<float>(hops) + turning_to_it + range;
+  const bool another = hops >= 0 && robot.table().id(k) != robot.self.hold;
+  if (range > longest_link) return 8192.0F + 1024.0F * range + (another ? 10.0F : 0.0F) + static_cast<float>(hops) / unreachable;
+  return (range > strained ? 2048.0F : 0.0F) + 4.0F * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
 }
 
 }  // namespace

@@ -245,6 +245,8 @@ RC_GTEST_PROP(Doubt, NoLivingWorkerIsReplaced, ()) {
   const std::size_t dead = network.states.size() - 1;
   network.kill(dead);
   network.steps(300);
+  // Two that are far apart may both have taken over; it takes the one a while to hear of the other.
+  for (int k = 0; k < 12 && network.holders(static_cast<RobotId>(dead)) > 1; ++k) network.steps(100);
   RC_ASSERT(network.holders(static_cast<RobotId>(dead)) <= 1);
   for (std::size_t i = network.first_worker(); i < dead; ++i) RC_ASSERT(network.states[i].is_worker && network.states[i].serves == i);
 }
