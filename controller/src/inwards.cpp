@@ -105,7 +105,9 @@ Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& s
 
   Output<HealingMessage> output;
   write_healing(robot, output.message);
-  output.velocity = move(u, guard, params);
+  const Vec2 v = allowed(u, guard, params);
+  if (!retreats) watch_progress(robot, v);             // does a worker get on?
+  output.velocity = drive(v, guard, params);
   return output;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "banyan/controller/healing/healing.hpp"
 
 namespace banyan {
@@ -43,7 +45,7 @@ void doubt(HealingRobot& robot) noexcept {
     Task& task = self.tasks[static_cast<std::size_t>(k)];
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks) continue;
     if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;
-    if (task.age_ticks > outdated_ticks) task.via = nobody;
+    if (task.age_ticks > std::max(outdated_ticks, 2 * doubt_ticks)) task.via = nobody;
     else if (task.age_ticks > doubt_ticks && is_missed(robot, task)) begin_doubt(robot, task);
   }
 }

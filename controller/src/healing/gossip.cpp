@@ -47,7 +47,7 @@ Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
 // target and those of the workers below.
 Topic choose_topic(const HealingState& self) noexcept {
   int turn = self.turn + self.id;
-  const auto is_urgent = [&](const Task& task) { return task.silent || task.urgent_ticks > 0; };
+  const auto is_urgent = [&](const Task& task) { return is_asked_about(task) || task.urgent_ticks > 0; };
   if (std::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
     if (turn % 2 != 0) return next_topic(self, turn / 2, is_urgent);
     turn /= 2;
@@ -80,6 +80,7 @@ int gossip(const HealingRobot& robot, HealingMessage& m) noexcept {
     m.task_serves = task->serves;
     m.task_holder = task->holder;
     m.task_beat = task->beat;
+    m.task_reached = task->reached;
     m.task_silent = task->silent;
     m.task_below = is_mine_or_below(self, *task);
   }

@@ -11,19 +11,21 @@ namespace {
 constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
 constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
 constexpr std::uint8_t pass_on_ticks = 40;  // news goes before everything else for so long
+constexpr float second_try_s = 40.0F;
 
 // What the sender says of a target.
 struct TaskNews {
   RobotId serves;
   RobotId holder;
   Serial beat;
+  bool reached;           // it is there
   bool silent;            // in doubt
   RobotId via;            // my child, below which the holder is; nobody: the sender is none, or says that it is not
 };
 
 TaskNews news_in(const HealingRobot& robot, const HealingMessage& m) noexcept {
   const bool below = m.task_below && up_of(m) == robot.self.id;
-  return {m.task_serves, m.task_holder, m.task_beat, m.task_silent, below ? m.id : nobody};
+  return {m.task_serves, m.task_holder, m.task_beat, m.task_reached, m.task_silent, below ? m.id : nobody};
 }
 
 Concern concern_of(const TaskNews& news) noexcept {
@@ -32,45 +34,49 @@ Concern concern_of(const TaskNews& news) noexcept {
   return news.via == news.holder ? Concern::child : Concern::below;
 }
 
-void serve(HealingState& self, Task& task) noexcept {
+void serve(HealingState& self, Task& task, bool reached) noexcept {
   task.holder = self.id;
   task.age_ticks = 0;
-  task.silent = false;
+  task.reached = reached;
+  task.silent = task.gave_up = false;
   task.via = nobody;
   ++task.beat;
 }
 
-// The worker first sent there stays, else the one with the smaller id.
-bool has_precedence(RobotId a, RobotId b, RobotId serves) noexcept { return a == serves || (b != serves && a < b); }
-
-void resign(HealingRobot& robot) noexcept {
-  HealingState& self = robot.self;
-  self.is_worker = false;
-  self.serves = nobody;
-  robot.target = nullptr;
+// Who is at the target stays, else the worker first sent there, else the one with the smaller id.
+struct Claim {
+  RobotId id;
+  bool reached;
+};
+bool has_precedence(Claim a, Claim b, RobotId serves) noexcept {
+  if (a.reached != b.reached) return a.reached;
+  return a.id == serves || (b.id != serves && a.id < b.id);
 }
 
 // Somebody else is said to serve what I serve. Counts far behind may be a dead worker's; a living
 // rival hears of mine, then.
-void settle_rivalry(HealingRobot& robot, Task& task, RobotId rival, std::uint16_t beat) noexcept {
-  if (rival == nobody || ahead_by(beat, task.beat) < -rival_beats) return;
-  if (has_precedence(rival, robot.self.id, task.serves)) {
+void settle_rivalry(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
+  if (news.holder == nobody || ahead_by(news.beat, task.beat) < -rival_beats) return;
+  if (has_precedence({news.holder, news.reached}, {robot.self.id, task.reached}, task.serves)) {
     resign(robot);
-    task.holder = rival;
-    task.beat = beat;
+    task.holder = news.holder;
+    task.reached = news.reached;
+    task.beat = news.beat;
     task.urgent_ticks = pass_on_ticks;
   } else {
-    task.beat = static_cast<std::uint16_t>(beat + takeover_beats);  // so that it hears of me
+    task.beat = static_cast<std::uint16_t>(news.beat + takeover_beats);  // so that it hears of me
   }
 }
 
-// Where the target is. From somebody about as near to the worker. The worker silent, copies of copies would only
-// drift, and wheels slip in a crowd: the mean of what all around remember is the best there is.
+constexpr float trust = 0.2F;  // in what one of those says who only remember
+
+// Where the target is. From somebody about as near to the worker. The worker silent, or itself one that goes by memory,
+// copies of copies would only drift, and wheels slip in a crowd: the mean of what all around remember is the best
+// there is.
 void locate(const HealingRobot& robot, Task& task, const TaskNews& news, Vec2 told) noexcept {
   constexpr int stale_ticks = 3;
-  constexpr float trust = 0.2F;
   const bool silent = robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
-  if (silent) task.target += (told - task.target) * trust;
+  if (silent || task.holder != task.serves) task.target += (told - task.target) * trust;
   else if (ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks)) task.target = told;
 }
 
@@ -81,6 +87,7 @@ void renew(const HealingRobot& robot, Task& task, const TaskNews& news) noexcept
   if (news.silent != task.silent || news.holder != task.holder) task.urgent_ticks = pass_on_ticks;
   task.beat = news.beat;
   task.holder = news.holder;
+  task.reached = news.reached;
   task.age_ticks = 0;
   task.silent = false;
 }
@@ -98,9 +105,11 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
     task->holder = news.holder;
     if (news.holder == nobody) task->urgent_ticks = pass_on_ticks;
   }
-  if (mine) {  // nobody knows better than I where it is
+  if (mine) {
+    // Told from outside, nobody knows better than I where it is.
+    if (target != nullptr && robot.target == nullptr) task->target += (*target - task->target) * trust;
     if (news.silent) task->urgent_ticks = pass_on_ticks;
-    if (news.holder != self.id) settle_rivalry(robot, *task, news.holder, news.beat);
+    if (news.holder != self.id) settle_rivalry(robot, *task, news);
     return;
   }
   if (target != nullptr) locate(robot, *task, news, *target);
@@ -157,23 +166,29 @@ void grow_older(HealingRobot& robot) noexcept {
   }
 }
 
+// Whether I am where the target is.
+bool is_there(const HealingRobot& robot, const Task& task) noexcept { return norm(task.target) <= robot.params.arrival_distance_m; }
+
 // My own target. One that was taken from me from outside has been given up; everybody shall know.
 void mind_own(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const RobotId me = self.id;
   const RobotId own = self.is_worker ? self.serves : nobody;
   for (Task& task : std::span(self.tasks).first(self.task_count)) {
-    if (task.holder != me || task.serves == own) continue;
+    if (task.holder != me || task.serves == own || task.gave_up) continue;
     task.holder = nobody;
     task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
     task.urgent_ticks = pass_on_ticks;
   }
-  if (!self.is_worker) return;
+  if (!self.is_worker) {  // I may still be told where the target is that I was sent to
+    if (Task* task = self.target_known ? find_task(self, me) : nullptr; task != nullptr) task->target = self.target;
+    return;
+  }
   Task* task = find_task(self, self.serves);
   if (task == nullptr && robot.target != nullptr) task = add_task(self, self.serves, *robot.target, Concern::own);
   if (task == nullptr) return;
   if (robot.target != nullptr) task->target = *robot.target;
-  serve(self, *task);
+  serve(self, *task, is_there(robot, *task));
 }
 
 void take_over(HealingRobot& robot, Task& task) noexcept {
@@ -185,7 +200,8 @@ void take_over(HealingRobot& robot, Task& task) noexcept {
   self.spare_state = SpareState::wait;
   task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
   task.urgent_ticks = pass_on_ticks;
-  serve(self, task);
+  self.progress = {};
+  serve(self, task, is_there(robot, task));
   ++self.tally.replacements;
 }
 
@@ -199,12 +215,19 @@ void succeed(HealingRobot& robot) noexcept {
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
     if (task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
-    const int patience_ticks = least_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target));
+    const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
+    const int patience_ticks = least_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
     if (task.age_ticks > patience_ticks) return take_over(robot, task);
   }
 }
 
 }  // namespace
+
+void resign(HealingRobot& robot) noexcept {
+  robot.self.is_worker = false;
+  robot.self.serves = nobody;
+  robot.target = nullptr;
+}
 
 void watch_tasks(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;

@@ -5,6 +5,13 @@
 #include "banyan/controller/obstacles/bypass.hpp"
 
 namespace banyan {
+namespace {
+
+constexpr float target_moved_m = 0.3F;  // at once: the way begins anew
+constexpr float straying = 0.2F;        // of v
+
+}  // namespace
+
 HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept {
   HealingState state;
   static_cast<TreeState&>(state) = initial_tree_state(id, worker, root);
@@ -25,8 +32,13 @@ void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
     self.serves = self.id;
   }
   self.was_sent = orders.sent;
+  for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up})  // whoever gave it up in vain says so no more
+    if (Task* task = ended == nobody ? nullptr : find_task(self, ended); task != nullptr) task->gave_up = false;
   if (!orders.sent) self.target_known = false;
   if (orders.target) {
+    const float off_m = self.target_known ? distance(*orders.target, self.target) : 0.0F;
+    if (off_m > target_moved_m) self.progress = {};
+    robot.target_strays = off_m > straying * robot.params.wheel_limit_m_s * robot.params.tick_s * static_cast<float>(robot.elapsed_ticks);
     self.target = *orders.target;
     self.target_known = true;
   }

@@ -183,13 +183,16 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
     if (table.range(k) <= limited_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
     const TreeStanding& m = table.message(k);
     const bool tied_to_me = k == robot.hold || hold_of(m) == robot.self.id;
-    if (tied_to_me || (!lets_go && (untied || is_untied(m)))) guard.add(table.position(k), longest_m, p);
+    // In a grown tree only those of its own epoch wait for a hold: one of another hears nobody, or comes from elsewhere.
+    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || robot.self.phase < Phase::grow_tree);
+    if (tied_to_me || (!lets_go && (untied || waits))) guard.add(table.position(k), longest_m, p);
   }
 }
 
-Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept {
-  const Vec2 v = guard.apply(clamped(u, 1.0F) * params.speed_gain_m_s);
-  return drive(clamped(v, params.wheel_limit_m_s), guard, params);
+Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept {
+  return clamped(guard.apply(clamped(u, 1.0F) * params.speed_gain_m_s), params.wheel_limit_m_s);
 }
+
+Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept { return drive(allowed(u, guard, params), guard, params); }
 
 }  // namespace banyan

@@ -159,8 +159,8 @@ TYPED_TEST(Wire, EveryOtherVersionAndSetOfBlocksIsRefused) {
 
 // The last bits of the second byte are for whoever adds a block.
 template <class Message> constexpr int flags_in_second_byte = 2;  // flood_done, parent_silent
-template <> constexpr int flags_in_second_byte<HealingMessage> = 6;
-template <> constexpr int flags_in_second_byte<ConvoyMessage> = 7;
+template <> constexpr int flags_in_second_byte<HealingMessage> = 7;
+template <> constexpr int flags_in_second_byte<ConvoyMessage> = 8;
 
 TYPED_TEST(Wire, BadEnumeratorsAndReservedBitsAreRefused) {
   const auto good = encoded(of_robot<TypeParam>(7));

@@ -97,6 +97,43 @@ TEST(Takeover, AWorkerRelievedFromOutsideSaysSo) {
   EXPECT_EQ(m.task_holder, nobody);
 }
 
+// Wheels slip, bodies are pushed: a successor's idea of where its target is follows what those around it remember.
+TEST(Takeover, ASuccessorListensToThoseWhoRememberThePlace) {
+  Watch watch;
+  auto& state = watch.bench.state;
+  state.is_worker = true;
+  state.role = Role::worker;
+  state.serves = 50;
+  state.task_count = 1;
+  state.tasks[0] = {50, state.id, 100, 0, {3.0F, 0.0F}};
+  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.3F}, 50, 90);
+  watch.bench.say(20).task_holder = state.id;
+  watch.hear_root(30);
+  EXPECT_NEAR(state.tasks[0].target.y, 0.3F, 0.02F);
+  EXPECT_TRUE(state.is_worker);
+}
+
+// Of two rivals the one at the target stays, whatever their ids and whoever was sent there.
+TEST(Takeover, WhoIsAtTheTargetStays) {
+  for (const RobotId serves : {RobotId{1}, RobotId{2}, RobotId{50}})
+    for (const bool me_there : {false, true}) {
+      Watch watch;
+      auto& state = watch.bench.state;
+      state.is_worker = true;
+      state.role = Role::worker;
+      state.serves = serves;
+      state.task_count = 1;
+      state.tasks[0] = {serves, state.id, 100, 0, {me_there ? 0.05F : 7.5F, 0.0F}};
+      auto& rival = watch.bench.put(2, {1.0F, 0.0F});
+      rival.task_serves = serves;
+      rival.task_holder = 2;
+      rival.task_beat = 100;
+      rival.task_reached = !me_there;
+      watch.hear_root(2);
+      EXPECT_EQ(state.is_worker, me_there) << "first worker " << serves;
+    }
+}
+
 // Two successors with equal counts, each hearing what the other said a tick ago.
 RC_GTEST_PROP(Takeover, OfTwoRivalsOneStays, ()) {
   const RobotId serves = *rc::gen::element<RobotId>(1, 2, 50);

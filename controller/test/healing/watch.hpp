@@ -10,12 +10,14 @@
 namespace banyan {
 
 inline constexpr RobotId root_id = 9;
+inline constexpr float very_long_s = 360.0F;
 
 // A robot of a grown tree with its root in sight; the root counts ticks.
 struct Watch {
   ConvoyBench bench = grown<Convoy>();
   std::uint16_t count = 100;
   explicit Watch(Vec2 root = {0.5F, 0.0F}) {
+    bench.params.give_up_after_s = very_long_s;  // it stands still whatever it wants
     auto& m = bench.put(root_id, root);
     m.role = Role::root;
     m.depth = 1;

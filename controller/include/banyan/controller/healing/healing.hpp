@@ -30,6 +30,10 @@ void claim_root(HealingRobot& robot) noexcept;
   return task.via != nobody || (self.is_worker && self.serves == task.serves);
 }
 
+// A doubt is a question to all, for a minute: then nobody is going to answer, and none has been free to take over.
+inline constexpr int question_ticks = 600;
+[[nodiscard]] inline bool is_asked_about(const Task& task) noexcept { return task.silent && task.age_ticks <= question_ticks; }
+
 // How much a robot needs to know of a target, least first. With more targets than it can remember, those that
 // matter more take the place of those that matter less.
 enum class Concern : std::uint8_t { outdated, none, below, child, urgent, own };
@@ -53,6 +57,15 @@ void begin_doubt(const HealingRobot& robot, Task& task) noexcept;
 // Learns of targets and their workers, gives up a target that is served by somebody with precedence,
 // takes over one whose worker has fallen silent.
 void watch_tasks(HealingRobot& robot) noexcept;
+// Serves no target any more; says nothing of who does.
+void resign(HealingRobot& robot) noexcept;
+
+// ---- progress.cpp: a worker that gets no nearer ----
+
+// At the end of a step, with the velocity that it is to have, m/s. A worker that has driven in vain for long (its motors or wheels do not do
+// what they are told, bodies or walls are in its way) resigns: its target goes to the next, as if it had died, and for
+// `second_try_s` longer not to itself.
+void watch_progress(HealingRobot& robot, Vec2 v) noexcept;
 
 // ---- dangling_branch.cpp: the end of a torn branch ----
 

@@ -24,6 +24,7 @@ struct HealingNews {
   RobotId task_serves = nobody;       // a target, by its first worker; nobody: I know none
   RobotId task_holder = nobody;       // gossip: who serves it; nobody: it has been given up
   Serial task_beat = 0;               // gossip: the holder's count of ticks
+  bool task_reached = false;          // gossip: its holder is there
   bool task_silent = false;           // gossip: who heard the holder last no longer hears it
   bool task_below = false;            // the holder is below me in the tree, or I am
   bool forgets = false;               // gossip: some robot has had no room for a target
@@ -42,6 +43,7 @@ struct HealingMessage : TreeMessage, HealingStanding, HealingNews {
 template <class Visitor, class M>
 constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
   visit.flag("root_told", "1: knows where the root is", m.root_told);
+  visit.flag("task_reached", "1: the holder of `task` is at the target", m.task_reached);
   visit.flag("task_silent", "1: who heard the holder of `task` last no longer hears it", m.task_silent);
   visit.flag("task_below", "1: the holder of `task` is the sender, or below it in the tree", m.task_below);
   visit.flag("forgets", "1: some robot has had no room for a target", m.forgets);

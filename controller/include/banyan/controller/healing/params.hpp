@@ -16,6 +16,7 @@ struct HealingParams : TreeParams {
   float succession_spread_s_m = 0.5F;  // and so much longer per metre from the target
   float pursue_for_s = 12.0F;          // a connector whose last child fell silent looks for it
   float regroup_after_s = 40.0F;       // a worker waits so long for a spare, then drives home and sets out anew
+  float give_up_after_s = 10.0F;       // a worker that drives so long in vain leaves its target to others
   float largest_loss = 0.9F;           // liveness adapts to the share of packets lost, up to this
 
   [[nodiscard]] bool heals() const noexcept { return healing > 0.5F; }

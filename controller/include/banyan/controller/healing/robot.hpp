@@ -29,6 +29,7 @@ struct HealingRobot : TreeRobot {
 
   const HealingParams& params;   // the same objects as the tree's
   HealingState& self;
+  bool target_strays = false;    // it is not where it would be if it stood still and my wheels had not slipped
 };
 
 [[nodiscard]] inline Vec2 bypass(const HealingRobot& robot, Vec2 goal) noexcept { return bypass(robot, robot.self.detour, goal); }

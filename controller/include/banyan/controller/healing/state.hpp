@@ -21,15 +21,26 @@ struct Task {
   std::uint16_t age_ticks = 0;   // since it grew; in doubt: since I know that it is, and before
   Vec2 target;                   // m, own frame
   RobotId via = nobody;          // the child by which its holder is below me in the tree; nobody: it is not
-  bool silent = false;           // in doubt: who heard the holder last no longer hears it
+  bool silent : 1 = false;       // in doubt: who heard the holder last no longer hears it
+  bool reached : 1 = false;      // the holder is there
+  bool gave_up : 1 = false;      // I went there in vain (progress.cpp)
   std::uint8_t urgent_ticks = 0; // news that everybody has to pass on, for so long
+};
+
+// How a worker gets on (progress.cpp).
+struct Progress {
+  std::uint16_t least_cm = UINT16_MAX;   // the nearest that it has come to its target, since something was in the way
+  std::uint16_t vain_ticks = 0;          // how long it has driven for nothing; where nothing is in the way each tick counts 18 times
 };
 
 struct HealingState : TreeState {
   bool was_sent = false;                 // to a target, at the last step
-  RobotId serves = nobody;               // worker: whose target this is, the id of the worker first sent there
+  bool root_known = false;
+  bool forgets = false;                  // here or elsewhere a robot has had no room for a target
+  std::uint8_t task_count = 0;
   float expected_packets = 0.0F;         // packets that were to be heard in the last ticks, fading
   float missed_packets = 0.0F;           // and those of them that were not heard
+  RobotId serves = nobody;               // worker: whose target this is, the id of the worker first sent there
   std::uint16_t loss_ticks = 0;          // what this loss requires in place of I; 0: I will do
   std::uint16_t root_size = 0;           // robots that this root counted last; 0: none yet
   std::uint16_t flood_counted = 0;       // the root, of its last START TREE: the most robots that the flood had found,
@@ -37,14 +48,12 @@ struct HealingState : TreeState {
   Serial heartbeat = 0;
   std::uint16_t silence_ticks = 0;       // since the heartbeat grew
   RootToken heart;                       // the root whose heartbeat it is
-  Vec2 root_at;                          // m, own frame: where that root is or was
-  bool root_known = false;
   std::uint16_t turn = 0;                // whom I tell next
   RobotId hold = nobody;                 // whom I stay with while I have no parent
   std::uint16_t dangling_ticks = 0;      // the last robot below me has died: for so long I still go after it
+  Progress progress;
+  Vec2 root_at;                          // m, own frame: where that root is or was
   Vec2 lost_child;                       // m, own frame: where it was
-  bool forgets = false;                  // here or elsewhere a robot has had no room for a target
-  std::uint8_t task_count = 0;
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   Detour detour;                         // obstacles: the way round one
   std::array<HealingStanding, neighbor_capacity> healing_standings{};  // beside the neighbour table
@@ -60,9 +69,10 @@ constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
   visit(s.was_sent), visit(s.serves), visit(s.expected_packets), visit(s.missed_packets), visit(s.loss_ticks), visit(s.root_size), visit(s.flood_counted), visit(s.flood_ticks);
   visit(s.heartbeat), visit(s.silence_ticks), visit(s.heart.sequence), visit(s.heart.id), visit(s.root_at), visit(s.root_known), visit(s.turn), visit(s.hold);
   visit(s.dangling_ticks), visit(s.lost_child), visit(s.forgets), visit(s.task_count);
+  visit(s.progress.least_cm), visit(s.progress.vain_ticks);
   for (int k = 0; k < s.task_count; ++k) {
     auto& task = s.tasks[static_cast<std::size_t>(k)];
-    visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target), visit(task.via), visit(task.silent), visit(task.urgent_ticks);
+    visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target), visit(task.via), visit(bool{task.silent}), visit(bool{task.reached}), visit(bool{task.gave_up}), visit(task.urgent_ticks);
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
   for (int k = 0; k < s.neighbors.size(); ++k) visit(s.healing_standings[static_cast<std::size_t>(k)].serves);

@@ -49,7 +49,10 @@ void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
 // those to robots that are tied to nobody.
 void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
 
-// The command to the motors: `u` in units of speed_gain, own frame, within the guard and the wheels' limits.
+// The velocity (m/s, own frame) nearest to `u`, in units of speed_gain, within the guard and the wheels' limits.
+[[nodiscard]] Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;
+
+// The command to the motors for it.
 [[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;
 
 // Wheels or holonomic base: the velocity nearest to `v` (m/s, own frame) that the drive can do now.

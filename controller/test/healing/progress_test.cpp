@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// A worker that gets no nearer to its target leaves it to others.
+#include "banyan/controller/healing/healing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "watch.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr RobotId sent_worker = 1;
+constexpr int ten_s = 100;
+
+// A worker beside the root, sent to a target; what it knows of its own motion is that it does not move.
+struct Worker : Watch {
+  explicit Worker(Vec2 target, Vec2 root = {0.5F, 0.0F}) : Watch(root) {
+    bench.state = initial_convoy_state(sent_worker, true, false);
+    bench.params.give_up_after_s = 10.0F;
+    bench.send(target);
+    hear_root(20);
+    EXPECT_TRUE(bench.state.is_worker);
+  }
+  [[nodiscard]] bool serves() const { return bench.state.is_worker; }
+};
+
+TEST(Progress, AWorkerThatDrivesInVainGivesUp) {
+  Worker worker({3.0F, 0.0F});
+  worker.hear_root(ten_s - 30);
+  ASSERT_GT(worker.bench.step().velocity.forward_m_s, 0.05F);
+  EXPECT_TRUE(worker.serves());
+  worker.hear_root(60);
+  EXPECT_FALSE(worker.serves());
+  EXPECT_EQ(find_task(worker.bench.state, sent_worker)->holder, sent_worker) << "not given up: silent";
+  EXPECT_GT(find_task(worker.bench.state, sent_worker)->age_ticks, 0);
+}
+
+TEST(Progress, OneThatGetsOnDoesNot) {
+  Worker worker({3.0F, 0.0F});
+  for (int tick = 0; tick < 400; ++tick) {
+    worker.bench.send({3.0F - 0.0025F * static_cast<float>(tick), 0.0F});
+    worker.hear_root(1);
+  }
+  EXPECT_TRUE(worker.serves());
+}
+
+TEST(Progress, NorOneThatWaitsForOthers) {
+  Worker worker({3.0F, 0.0F}, {-1.85F, 0.0F});  // its edge is as long as it may be
+  worker.hear_root(600);
+  EXPECT_TRUE(worker.serves());
+}
+
+TEST(Progress, NorOneThatIsThere) {
+  Worker worker({0.05F, 0.0F});
+  worker.hear_root(600);
+  EXPECT_TRUE(worker.serves());
+}
+
+TEST(Progress, InSightOfObstaclesItLooksForAWayForLong) {
+  Worker worker({3.0F, 0.0F});
+  worker.bench.obstacles = {{-0.25F, 0.0F}};
+  worker.hear_root(14 * ten_s);
+  EXPECT_TRUE(worker.serves());
+  worker.hear_root(5 * ten_s);
+  EXPECT_FALSE(worker.serves());
+}
+
+TEST(Progress, AndBehindATargetThatDrivesAway) {
+  Worker worker({3.0F, 0.0F});
+  for (int tick = 0; tick < 14 * ten_s; ++tick) {
+    worker.bench.send({3.0F + 0.005F * static_cast<float>(tick), 0.0F});
+    worker.hear_root(1);
+  }
+  EXPECT_TRUE(worker.serves());
+}
+
+TEST(Progress, ATargetThatIsMovedIsANewWay) {
+  Worker worker({3.0F, 0.0F});
+  for (int leap = 0; leap < 5; ++leap) {
+    worker.hear_root(ten_s - 30);
+    worker.bench.send({3.0F + 0.5F * static_cast<float>(leap % 2), 1.0F});
+  }
+  EXPECT_TRUE(worker.serves());
+}
+
+TEST(Progress, WhoGaveUpTriesAgainAfterAllOthers) {
+  Worker worker({3.0F, 0.0F});
+  worker.hear_root(ten_s + 20);
+  ASSERT_FALSE(worker.serves());
+  const auto& p = worker.bench.params;
+  const int others = 2 * p.ticks(p.liveness_period_s) + p.ticks(p.succession_after_s + p.succession_spread_s_m * 3.0F);
+  worker.hear_root(others + 300);
+  EXPECT_FALSE(worker.serves());
+  worker.hear_root(150);
+  EXPECT_TRUE(worker.serves());
+}
+
+TEST(Progress, WhereRobotsForgetTheTargetIsInDoubtAtOnce) {
+  Worker worker({3.0F, 0.0F});
+  worker.bench.state.forgets = true;
+  worker.hear_root(ten_s + 20);
+  ASSERT_FALSE(worker.serves());
+  bool said = false;
+  for (int k = 0; k < 4; ++k) {
+    const auto m = worker.bench.step().message;
+    said = said || (m.task_serves == sent_worker && m.task_silent);
+  }
+  EXPECT_TRUE(said);
+}
+
+TEST(Progress, ATargetGivenUpInVainCanStillBeWithdrawn) {
+  Worker worker({3.0F, 0.0F});
+  worker.hear_root(ten_s + 20);
+  ASSERT_FALSE(worker.serves());
+  worker.bench.call_back();
+  worker.hear_root(1);
+  EXPECT_EQ(find_task(worker.bench.state, sent_worker)->holder, nobody);
+}
+
+// It stays where it is, and knows better than anybody where the target is that it was sent to.
+TEST(Progress, WhoWasSentStillKnowsThePlace) {
+  Worker worker({3.0F, 0.0F});
+  worker.hear_root(ten_s + 20);
+  ASSERT_FALSE(worker.serves());
+  worker.bench.send({2.0F, 2.0F});
+  worker.hear_root(2);
+  EXPECT_NEAR(find_task(worker.bench.state, sent_worker)->target.y, 2.0F, 0.01F);
+}
+
+}  // namespace
+}  // namespace banyan

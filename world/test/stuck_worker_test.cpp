@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A worker that talks but does not move loses its target to one that does.
+#include <gtest/gtest.h>
+
+#include "worlds.hpp"
+
+namespace banyan::world {
+namespace {
+
+class StuckWorker : public testing::TestWithParam<std::string> {};
+
+TEST_P(StuckWorker, IsReplaced) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Scenario scenario = ring(GetParam(), 40, 3, 4.0, seed);
+    const std::size_t stuck = World(scenario).targets()[1].worker;
+    scenario.events.push_back({.time_s = 2.0, .action = Freeze{stuck}});
+    World world(scenario);
+    const auto held = [&] { return world.holder(0) && world.holder(1) && world.holder(2); };
+    while (world.tick() < 2000 && !held()) world.step();
+    EXPECT_TRUE(held()) << "seed " << seed;
+    EXPECT_NE(world.holder(1), stuck);
+    // ... for good: it does not come back to what it cannot do.
+    run_until(world, world.tick() + 1000);
+    EXPECT_TRUE(held()) << "seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StuckWorker, testing::Values("convoy", "outwards", "inwards"),
+                         [](const testing::TestParamInfo<std::string>& info) { return info.param; });
+
+}  // namespace
+}  // namespace banyan::world
