@@ -94,6 +94,31 @@ TEST(Algorithms, LengthsInUnitsOfTheRadiosRangeAreResolvedToMetres) {
   EXPECT_NE(convoy().fault(setup), "");
 }
 
+// Bodies do not shrink with the radio: how far to keep from them follows C only upwards from where C is 2 m.
+TEST(Algorithms, RoomForBodiesDoesNotShrinkWithTheRadio) {
+  const auto params = [](float range_m, float wheels) {
+    banyan::Setup setup;
+    setup.platform.communication_range_m = range_m;
+    setup.platform.wheel_distance_m *= wheels;
+    const auto swarm = convoy().make(setup, std::array<Member, 1>{{{.id = 0, .worker = false, .root = true}}});
+    return swarm_as<ConvoySwarm>(*swarm).params();
+  };
+  const float clearance_m = params(2.0F, 1.0F).clearance_m;
+  EXPECT_FLOAT_EQ(params(0.6F, 1.0F).clearance_m, clearance_m);
+  EXPECT_FLOAT_EQ(params(4.0F, 1.0F).clearance_m, 2.0F * clearance_m);
+  EXPECT_FLOAT_EQ(params(1.0F, 0.5F).clearance_m, 0.5F * clearance_m) << "everything half as large";
+  EXPECT_FLOAT_EQ(params(0.6F, 1.0F).spare_avoidance_m, params(2.0F, 1.0F).spare_avoidance_m);
+  EXPECT_FLOAT_EQ(params(0.6F, 1.0F).corridor_width_m, 0.3F * params(2.0F, 1.0F).corridor_width_m) << "a width of the chain's";
+}
+
+TEST(Algorithms, ConvoyRefusesARadioThatReachesHardlyBeyondABody) {
+  banyan::Setup setup;
+  setup.platform.communication_range_m = 0.47F;
+  EXPECT_NE(convoy().fault(setup).find("distance between the wheels"), std::string::npos);
+  setup.platform.communication_range_m = 0.48F;
+  EXPECT_EQ(convoy().fault(setup), "");
+}
+
 TEST(Algorithms, TheScaleOfAMissionActsOnTheLengthsOfTableI) {
   banyan::Setup half;
   half.scale = 0.5;

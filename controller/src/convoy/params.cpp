@@ -4,6 +4,8 @@
 namespace banyan {
 namespace {
 
+constexpr float smallest_range = 4.5F;  // distances between the wheels, three and a half bodies
+
 constexpr Parameter<ConvoyParams> of_convoy[] = {
     {{"pull_start", "", "C", "convoy: a child farther than this pulls its parent along",
       "Smaller keeps chains slack; larger stretches edges before the next robot moves.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::pull_start_m},
@@ -19,7 +21,7 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
     {{"first_edge", "", "C", "convoy: parents are chosen this near while there is a choice",
       "Above the distance at which the swarm stands at first.", "convoy 1", 0.01F, 1.0F, Scaling::range}, &ConvoyParams::first_edge_m},
     {{"clearance", "", "C", "convoy: a robot this near to a segment counts as blocking it",
-      "More than a body's radius; larger loses fewer lines of sight and finds fewer parents.", "convoy 1", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::clearance_m},
+      "More than a body's radius; larger loses fewer lines of sight and finds fewer parents.", "convoy 1", 0.0F, 1.0F, Scaling::body}, &ConvoyParams::clearance_m},
     {{"corridor_width", "", "C", "convoy: robots this near to a tree edge move away from it",
       "Larger keeps lines of sight open in crowds and takes room.", "convoy 6", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::corridor_width_m},
     {{"corridor_gain", "", "", "convoy: strength of moving out of a corridor", "Most users need not change it.", "convoy 6", 0.0F, 10.0F}, &ConvoyParams::corridor_gain},
@@ -30,7 +32,7 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
       "Smaller calls sooner, and spares crowd the chain.", "convoy 7", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::call_distance_m},
     {{"release_distance", "", "C", "convoy: a grandparent nearer than this becomes the parent",
       "Below pull_start plus pull_width, or robots are taken out and put in by turns.", "convoy 5", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::release_distance_m},
-    {{"spare_avoidance", "", "C", "convoy: spares repel within this", "About two body diameters.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::spare_avoidance_m},
+    {{"spare_avoidance", "", "C", "convoy: spares repel within this", "About two body diameters.", "convoy 2", 0.0F, 1.0F, Scaling::body}, &ConvoyParams::spare_avoidance_m},
     {{"merge_distance", "", "C", "convoy: longest edge made to save a robot once all below have arrived",
       "0 saves none. Larger saves more, and leaves less margin for noise.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::merge_distance_m},
     {{"compact_distance", "", "C", "convoy: chains that have arrived stretch their edges to this",
@@ -45,6 +47,7 @@ std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept { return o
 
 std::string_view convoy_fault(const ConvoyParams& params) noexcept {
   if (!(params.pull_start_m < params.ideal_distance_m)) return "pull_start must be below ideal_distance_m (delta) / C";
+  if (!(params.communication_range_m >= smallest_range * params.wheel_distance_m)) return "the radio range C must be at least 4.5 times the distance between the wheels: in a crowd of bodies so wide nobody gets anywhere";
   if (!(params.join_margin_m < params.ideal_distance_m)) return "join_margin must be below ideal_distance_m (delta) / C";
   return {};
 }

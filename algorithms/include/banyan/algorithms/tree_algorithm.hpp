@@ -27,7 +27,7 @@ struct BoundParameter {
 // `follows_range`: the lengths among the defaults stand for C = 2 m and grow with it; Table I's are absolute.
 [[nodiscard]] std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, TreeParams& params);
 // Gives them to the parameters; lengths in units of C become metres, once and for all.
-void resolve(std::span<const float> values, std::span<const BoundParameter> rows, float communication_range_m);
+void resolve(std::span<const float> values, std::span<const BoundParameter> rows, const Platform& platform);
 // The first value out of its range, by its key.
 [[nodiscard]] std::string range_fault(std::span<const float> values, std::span<const BoundParameter> rows);
 // What does not fit together.
@@ -62,7 +62,7 @@ class TreeAlgorithm : public Algorithm {
     const auto values = values_of(setup, follows_range_, bound, params);
     std::string text = range_fault(values, bound);
     if (!text.empty()) return text;
-    resolve(values, bound, params.communication_range_m);
+    resolve(values, bound, params);
     return std::string(cross_fault(params));
   }
 
@@ -71,7 +71,7 @@ class TreeAlgorithm : public Algorithm {
     Params params = defaults_();
     const auto bound = bind(params);
     const auto values = values_of(setup, follows_range_, bound, params);
-    resolve(values, bound, params.communication_range_m);
+    resolve(values, bound, params);
     return params;
   }
 

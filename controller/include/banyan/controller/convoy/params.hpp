@@ -29,7 +29,7 @@ struct ConvoyParams : HealingParams {
 
 [[nodiscard]] std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept;
 
-// Besides tree_fault(): an edge pulls before it is as long as it may be, and a spare can join one.
+// Besides tree_fault(): an edge pulls before it is as long as it may be, a spare can join one, and C has room for bodies.
 [[nodiscard]] std::string_view convoy_fault(const ConvoyParams& params) noexcept;
 
 }  // namespace banyan

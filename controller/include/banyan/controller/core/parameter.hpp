@@ -12,6 +12,8 @@ enum class Scaling : unsigned char {
   none,       // a time, a gain, or a length that is what it is
   mission,    // m; times mission.scale, and for algorithms made for any radio times C / 2 m
   range,      // in units of C; in Params in metres
+  body,       // likewise; but bodies do not shrink with the radio: it is never shorter than where C is 2 m, for wheels
+              // farther apart or nearer in proportion
 };
 
 // The radio for which lengths in Params have their defaults. For another, whoever sets up a robot multiplies those
