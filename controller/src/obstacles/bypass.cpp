@@ -57,15 +57,31 @@ Course sweep(const TreeRobot& robot, Vec2 contact, int side) noexcept {
 
 // ---- A detour ----
 
+// It may have been in vain: of where it began and how wide it was the robot takes note.
+void end(Detour& detour) noexcept {
+  if (detour.side != 0) detour.last_side = detour.side;
+  detour.side = 0;
+}
+
 // The side on which the obstacle takes me less far from the goal; of equal ones each robot its own,
 // so that several find out more.
 void begin(const TreeRobot& robot, Detour& detour, Vec2 goal, Vec2 contact) noexcept {
+  detour.contact = contact;
+  // Back where the last one began, and no nearer to the goal: that goes on, and is not left so easily again.
+  // Otherwise the two ends of a pocket, or of a row of bodies, would be tried in turn for ever.
+  const float before_m = distance(detour.origin, detour.goal);
+  if (detour.last_side != 0 && norm(goal) > before_m - progress_m) {
+    detour.side = detour.last_side;
+    detour.again = true;
+    detour.leave_m = before_m;
+    return;
+  }
   const Vec2 to_goal = unit(goal);
   const float left = dot(sweep(robot, contact, 1).direction, to_goal);
   const float right = dot(sweep(robot, contact, -1).direction, to_goal);
   const bool equal = std::abs(left - right) < 0.01F;
   detour.side = (equal ? robot.self.id % 2 == 0 : left > right) ? std::int8_t{1} : std::int8_t{-1};
-  detour.contact = contact;
+  detour.again = false;
   detour.origin = {};
   detour.goal = goal;
   detour.leave_m = norm(goal);
@@ -91,15 +107,18 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept {
   // A robot that is pushed back on the way round would never get as near to the goal as it was, and would
   // circle for ever: what it has to reach to be round grows with the way that it drives.
   constexpr float allowance = 0.25F;
-  if (detour.side == 0) return;
+  constexpr float allowance_again = 0.025F;
+  if (detour.side == 0 && detour.last_side == 0) return;
   for (Vec2* v : {&detour.contact, &detour.origin, &detour.goal}) *v = carry.point(*v);
-  detour.leave_m += allowance * norm(carry.shift);
+  detour.leave_m += (detour.again ? allowance_again : allowance) * norm(carry.shift);
 }
 
 Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
   const Vec2 straight = unit(goal);
+  // Out of where it has searched, or to another goal.
+  if (detour.last_side != 0 && detour.side == 0 && (norm(detour.origin) > detour.span_m || distance(goal, detour.goal) > goal_moved_m)) detour = {};
   if (robot.obstacles.empty()) {
-    detour = {};
+    end(detour);
     return straight;
   }
   const int blocking = find_blocking(robot, straight);
@@ -110,7 +129,7 @@ Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
       detour.leave_m = norm(goal);
     }
     const bool done = blocking < 0 && norm(goal) < detour.leave_m - progress_m;
-    if (done || contact == Vec2{}) detour = {};
+    if (done || contact == Vec2{}) end(detour);
   }
   if (detour.side == 0) {
     if (blocking < 0) return straight;

@@ -31,6 +31,7 @@ struct Segment {
 struct Walker {
   std::vector<Segment> walls;
   Vec2 position;
+  std::vector<Vec2> bodies{};
   ConvoyBench bench = grown<Convoy>();
   float nearest_m = 1e9F;
   float path_m = 0.0F;
@@ -46,8 +47,12 @@ struct Walker {
         nearest_m = std::min(nearest_m, norm(o));
         if (norm(o) <= 0.30F) bench.obstacles.push_back(o);
       }
-      Detour& detour = bench.state.detour;
-      for (Vec2* v : {&detour.contact, &detour.origin, &detour.goal}) *v -= moved;
+      for (const Vec2 body : bodies) {
+        const Vec2 o = (body - position) * (1.0F - body_m / distance(body, position));
+        nearest_m = std::min(nearest_m, norm(o));
+        if (norm(o) <= 0.30F) bench.obstacles.push_back(o);
+      }
+      carry_detour(bench.state.detour, Carry({moved.x, moved.y, 0.0F}));
       auto robot = bench.tick();
       moved = bypass(robot, goal - position) * step_m;
       position += moved;
@@ -112,6 +117,16 @@ TEST(Bypass, LeavesAPocket) {
   Walker walker{{{{1.0F, 0.5F}, {1.0F, -0.5F}}, {{0.3F, 0.5F}, {1.0F, 0.5F}}, {{0.3F, -0.5F}, {1.0F, -0.5F}}}, {0.0F, 0.05F}};
   EXPECT_TRUE(walker.reaches({2.0F, 0.0F}, 30.0F));
   EXPECT_GT(walker.nearest_m, body_m);
+}
+
+// Each side leads from body to body and looks like the way round for a while.
+TEST(Bypass, LeavesAFieldOfBodies) {
+  for (const Vec2 start : {Vec2{0.72F, -0.60F}, Vec2{0.72F, -0.20F}, Vec2{1.0F, -0.5F}, Vec2{1.07F, 0.05F}}) {
+    Walker walker{{}, start, {{-0.15F, -0.77F}, {-0.14F, 0.41F}, {0.09F, -0.37F}, {0.36F, 0.0F}, {0.50F, 0.27F}, {0.71F, 0.87F},
+                              {0.86F, -0.74F}, {1.09F, -0.80F}, {1.24F, -0.53F}, {1.27F, 0.01F}, {1.43F, -0.27F}, {1.56F, 0.0F}}};
+    EXPECT_TRUE(walker.reaches({9.0F, 0.0F}, 20.0F)) << "from " << start.x << ", " << start.y;
+    EXPECT_GT(walker.nearest_m, body_m);
+  }
 }
 
 TEST(Bypass, PassesADoorWithWallsOnBothSides) {

@@ -75,6 +75,7 @@ constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
     visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target), visit(task.via), visit(bool{task.silent}), visit(bool{task.reached}), visit(bool{task.gave_up}), visit(task.urgent_ticks);
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
+  if (s.detour.last_side != 0) visit(s.detour.last_side), visit(s.detour.again);
   for (int k = 0; k < s.neighbors.size(); ++k) visit(s.healing_standings[static_cast<std::size_t>(k)].serves);
 }
 

@@ -12,6 +12,8 @@ struct Guard;  // motion.hpp
 // A way round an obstacle that a robot is driving; vectors in its own frame, m.
 struct Detour {
   std::int8_t side = 0;  // +1: the obstacle is to the right, -1: to the left, 0: no detour
+  std::int8_t last_side = 0;  // of the one that ended near here; 0: none did
+  bool again = false;    // it goes on with one that ended in vain
   Vec2 contact;          // where the obstacle was touched last
   Vec2 origin;           // where the detour began
   Vec2 goal;             // as it was then
