@@ -7,9 +7,12 @@
 namespace banyan {
 namespace {
 
-void beat(HealingState& self) noexcept {
+void beat(HealingRobot& robot) noexcept {
+  HealingState& self = robot.self;
   self.heart = self.root;
   ++self.heartbeat;
+  // Nobody hears it: the others were where it has been until now (retreat.cpp).
+  if (self.root_known && hears_nobody(robot)) return robot.add_elapsed(self.silence_ticks);
   self.silence_ticks = 0;
   self.root_at = {};
   self.root_known = true;
@@ -54,9 +57,16 @@ void locate_root(HealingRobot& robot) noexcept {
 
 }  // namespace
 
+bool hears_nobody(const HealingRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k)) return false;
+  return true;
+}
+
 void follow_heartbeat(HealingRobot& robot) noexcept {
   if (!robot.params.heals()) return;
-  if (robot.is_root()) return beat(robot.self);
+  if (robot.is_root()) return beat(robot);
   hear_heartbeat(robot);
   locate_root(robot);
 }
@@ -73,7 +83,7 @@ void claim_root(HealingRobot& robot) noexcept {
   self.root_size = 0;  // nobody has been counted: whoever still has a root keeps it
   self.role = Role::root;
   enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
-  beat(self);
+  beat(robot);
   ++self.tally.elections;
 }
 

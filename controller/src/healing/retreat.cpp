@@ -15,6 +15,24 @@ bool is_cut_off(const HealingRobot& robot) noexcept {
   return robot.self.silence_ticks > robot.params.ticks(robot.params.retreat_after_s) + 2 * robot.liveness_ticks();
 }
 
+// Whoever hears nobody ties nobody, and may look for the others: a root with nobody left, or hidden among bodies, and
+// whoever has come back to where the root was and found nobody. As patient as who waits in vain for a spare: a
+// radio may fall silent for a while, and then everybody had better stay. Who has never heard anybody waits, too.
+bool is_alone(const HealingRobot& robot) noexcept {
+  const HealingState& self = robot.self;
+  return self.silence_ticks > robot.params.ticks(robot.params.regroup_after_s) && self.expected_packets > 0.0F && hears_nobody(robot);
+}
+
+// A spiral about the place where the others were. It needs no compass.
+Vec2 search(const HealingRobot& robot) noexcept {
+  constexpr float pitch = 0.08F;    // of C, a turn's growth of the radius over 2 pi: turns are C/2 apart
+  constexpr float stride = 0.25F;   // of C: so far ahead it looks for a way past obstacles
+  const Vec2 in = robot.self.root_at;
+  const float c = robot.params.communication_range_m;
+  const Vec2 along = Vec2{in.y, -in.x} - unit(in) * (pitch * c);
+  return bypass(robot, (norm(in) > same_spot_m ? unit(along) : Vec2{1.0F, 0.0F}) * (stride * c));
+}
+
 // The neighbour by which the rooted tree is nearest, none of my own branch; -1 if there is none.
 int way_home(const HealingRobot& robot, bool workers_relay) noexcept {
   const TreeTable& table = robot.table();
@@ -46,12 +64,14 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept {
 
 bool is_retreating(const HealingRobot& robot, bool regroups) noexcept {
   const HealingState& self = robot.self;
-  if (!robot.params.heals() || robot.is_root() || !self.root_known) return false;
+  if (!robot.params.heals() || !self.root_known) return false;
+  if (robot.is_root()) return is_alone(robot);
   return self.orphan_ticks > lost_ticks || is_cut_off(robot) || regroups;
 }
 
 Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept {
   constexpr float near_enough = 0.2F;  // of C
+  if (is_alone(robot)) return search(robot);
   const int k = is_cut_off(robot) || regroups ? -1 : way_home(robot, workers_relay);
   const Vec2 goal = k >= 0 ? robot.table().position(k) : robot.self.root_at;
   if (norm(goal) < near_enough * robot.params.communication_range_m) return avoidance(robot);

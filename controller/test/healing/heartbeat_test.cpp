@@ -50,6 +50,9 @@ TEST(Heartbeat, TheRootItselfBeats) {
   bench.state = initial_convoy_state(1, false, true);
   const std::uint16_t before = bench.step().message.heartbeat;
   EXPECT_EQ(bench.step().message.heartbeat, before + 1);
+  EXPECT_EQ(bench.state.silence_ticks, 1) << "nobody hears it";
+  bench.put(5, {1.0F, 0.0F});
+  EXPECT_EQ(bench.step().message.heartbeat, before + 2);
   EXPECT_EQ(bench.state.silence_ticks, 0);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "banyan/controller/core/trig.hpp"
 #include "watch.hpp"
 
 namespace banyan {
@@ -40,6 +41,62 @@ TEST(Retreat, TheSilentHoldNobodyBack) {
   watch.bench.steps(8);
   state.parent = root_id;
   EXPECT_GT(watch.bench.step().velocity.forward_m_s, 0.15F);
+}
+
+// Drives as it is told, and measures it.
+struct Drive {
+  ConvoyBench& bench;
+  Vec2 place{};
+  Vec2 heading{1.0F, 0.0F};
+  Odometry moved{};
+  void steps(int ticks) {
+    for (int tick = 0; tick < ticks; ++tick) {
+      const auto v = bench.step(moved).velocity;
+      moved = {v.forward_m_s * 0.1F, 0.0F, v.turn_rad_s * 0.1F};
+      place += heading * moved.forward_m;
+      const Vec2 turn = unit_vector(moved.turn_rad);
+      heading = {heading.x * turn.x - heading.y * turn.y, heading.x * turn.y + heading.y * turn.x};
+    }
+  }
+};
+
+TEST(Search, ARootThatHearsNobodyLooksForTheOthers) {
+  Watch watch({1.0F, 0.0F});
+  watch.hear_root(10);
+  ConvoyBench& bench = watch.bench;
+  const ConvoyParams& p = bench.params;
+  bench.silence(root_id);
+  bench.state.root = {9, bench.state.id};
+  Drive drive{bench};
+  drive.steps(p.ticks(p.regroup_after_s));
+  EXPECT_LT(norm(drive.place), 0.01F) << "a radio may fall silent for a while";
+  drive.steps(600);
+  EXPECT_GT(norm(drive.place), 0.5F * p.communication_range_m);
+  // It comes by on all sides, farther out at every turn.
+  bool sides[4] = {};
+  const float before_m = norm(drive.place);
+  for (int k = 0; k < 100; ++k) {
+    drive.steps(10);
+    sides[(drive.place.x > 0.0F ? 1 : 0) + (drive.place.y > 0.0F ? 2 : 0)] = true;
+  }
+  EXPECT_TRUE(sides[0] && sides[1] && sides[2] && sides[3]);
+  EXPECT_GT(norm(drive.place), before_m + 0.1F);
+  EXPECT_LT(norm(drive.place), before_m + p.communication_range_m) << "nor past anybody";
+  // It hears somebody: the search is over, and the next one begins from here.
+  watch.bench.put(33, {1.5F, 0.0F});
+  bench.step();
+  EXPECT_EQ(bench.state.silence_ticks, 0);
+  EXPECT_EQ(bench.state.root_at, Vec2{});
+  EXPECT_FALSE(is_retreating(bench.tick(), false));
+}
+
+TEST(Search, WhoHasNeverHeardAnybodyWaits) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.state.root = {1, bench.state.id};
+  bench.state.role = Role::root;
+  Drive drive{bench};
+  drive.steps(1000);
+  EXPECT_EQ(drive.place, Vec2{});
 }
 
 TEST(Regroup, AWorkerWhoseEdgeWaitsInVainDrivesHomeAndTakesAnInnerHold) {

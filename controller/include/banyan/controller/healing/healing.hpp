@@ -17,6 +17,7 @@ void estimate_loss(HealingRobot& robot) noexcept;
 // ---- heartbeat.cpp: is there a root, and where? ----
 
 void follow_heartbeat(HealingRobot& robot) noexcept;
+[[nodiscard]] bool hears_nobody(const HealingRobot& robot) noexcept;
 // Close to where the root fell silent: makes itself root and opens an epoch.
 void claim_root(HealingRobot& robot) noexcept;
 

@@ -46,13 +46,13 @@ struct HealingState : TreeState {
   std::uint16_t flood_counted = 0;       // the root, of its last START TREE: the most robots that the flood had found,
   std::uint16_t flood_ticks = 0;         // and when that was
   Serial heartbeat = 0;
-  std::uint16_t silence_ticks = 0;       // since the heartbeat grew
+  std::uint16_t silence_ticks = 0;       // since the heartbeat grew; the root: since it heard anybody
   RootToken heart;                       // the root whose heartbeat it is
   std::uint16_t turn = 0;                // whom I tell next
   RobotId hold = nobody;                 // whom I stay with while I have no parent
   std::uint16_t dangling_ticks = 0;      // the last robot below me has died: for so long I still go after it
   Progress progress;
-  Vec2 root_at;                          // m, own frame: where that root is or was
+  Vec2 root_at;                          // m, own frame: where that root is or was; the root: where it last heard anybody
   Vec2 lost_child;                       // m, own frame: where it was
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   Detour detour;                         // obstacles: the way round one
