@@ -67,6 +67,26 @@ TEST(Events, WithoutDurationARobotStaysFrozen) {
   EXPECT_EQ(world.positions()[worker], here);
 }
 
+// A root that cannot move goes on talking. Those that can reach the targets without it, in one piece with it.
+TEST(Events, ARootThatIsFrozenDoesNotKeepTheOthersFromTheirTargets) {
+  Scenario s = ring("convoy", 9, 2, 9.0, 3);
+  s.targets = std::vector<Vec2>{{9.0, 2.0}, {9.0, -2.0}};
+  std::size_t root = 0;
+  {
+    World probe(s);
+    for (int t = 0; t < 10; ++t) probe.step();
+    while (probe.reports()[root].role != Role::root) ++root;
+  }
+  for (const double frozen_s : {1.0, 20.0}) {
+    s.events = {event(frozen_s, Freeze{root})};
+    World world(s);
+    for (int t = 0; t < 1500; ++t) world.step();
+    for (const Target& target : world.targets()) EXPECT_LT(distance(world.positions()[target.worker], target.position), s.mission.target_tolerance_m) << frozen_s;
+    EXPECT_LT(norm(world.positions()[root]), 6.0);
+    EXPECT_FALSE(world.links(root).empty());
+  }
+}
+
 TEST(Events, LossChangesAtItsTime) {
   Scenario s = ring("outwards", 20, 2, 4.0, 1);
   s.events = {event(1.0, SetLoss{1.0}), event(2.0, SetLoss{0.0})};
