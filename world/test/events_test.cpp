@@ -87,6 +87,27 @@ TEST(Events, ARootThatIsFrozenDoesNotKeepTheOthersFromTheirTargets) {
   }
 }
 
+// Six cannot; but nobody leaves the others for that, however often the role is handed over.
+TEST(Events, TooFewRobotsAndAFrozenRootStayInOnePiece) {
+  Scenario s = ring("convoy", 6, 2, 9.0, 3);
+  s.targets = std::vector<Vec2>{{9.0, 2.0}, {9.0, -2.0}};
+  s.events = {event(1.0, Freeze{5})};
+  World world(s);
+  for (int t = 0; t < 1500; ++t) {
+    world.step();
+    std::vector<std::uint8_t> reached(world.size(), 0);
+    std::vector<std::size_t> open{0};
+    reached[0] = 1;
+    while (!open.empty()) {
+      const auto links = world.links(open.back());
+      open.pop_back();
+      for (const std::uint32_t i : links)
+        if (reached[i]++ == 0) open.push_back(i);
+    }
+    ASSERT_EQ(std::count(reached.begin(), reached.end(), 0), 0) << "at tick " << t;
+  }
+}
+
 TEST(Events, LossChangesAtItsTime) {
   Scenario s = ring("outwards", 20, 2, 4.0, 1);
   s.events = {event(1.0, SetLoss{1.0}), event(2.0, SetLoss{0.0})};

@@ -45,6 +45,7 @@ void listen_among_fragments(HealingRobot& robot) noexcept {
   bool contested = false;
   for (const Heard& h : robot.news)
     if (newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
+  if (!robot.is_root()) hand_over(robot);
   const EpochPhase newest = newest_phase(robot);
   // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
   const bool ahead = is_newer(newest.epoch, self.epoch) && robot.params.heals();

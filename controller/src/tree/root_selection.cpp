@@ -27,6 +27,8 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noex
   return best;
 }
 
+}  // namespace
+
 // Gossip of the successor is the acknowledgement. The edge to it leads on towards the root all those who hang
 // on me: until they have parents of the new epoch they know of nobody else.
 void hand_over(TreeRobot& robot) noexcept {
@@ -39,8 +41,6 @@ void hand_over(TreeRobot& robot) noexcept {
   }
   self.new_root = nobody;
 }
-
-}  // namespace
 
 const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;

@@ -57,6 +57,21 @@ TEST(RootSelection, TheHeirsGossipEndsTheOldRoot) {
   EXPECT_EQ(bench.state.old_parent, 5) << "whoever hangs on me hangs on the heir through me";
 }
 
+// An heir that knows nobody better opens an epoch in the tick in which it takes the token.
+TEST(RootSelection, TheOldRootIsTiedToAnHeirThatHasOpenedAnEpoch) {
+  Bench bench = handing_over();
+  bench.step();
+  const Serial epoch = bench.state.epoch;
+  auto& m = bench.say(5);
+  m.root = {2, 5};
+  m.epoch = static_cast<Serial>(epoch + 1);
+  m.phase = Phase::start_tree;
+  bench.step();
+  EXPECT_NE(bench.state.role, Role::root);
+  EXPECT_EQ(bench.state.epoch, epoch + 1);
+  EXPECT_EQ(bench.state.old_parent, 5);
+}
+
 TEST(RootSelection, AnUnansweredOfferIsTakenBackWithALargerToken) {
   Bench bench = handing_over();
   bench.steps(bench.params.ticks(bench.params.handover_timeout_s) + 1);
