@@ -135,6 +135,11 @@ INSTANTIATE_TEST_SUITE_P(
         Claim{"protocol.md", R"(passed on in the same way for (\d+) s)", "healing/takeover.cpp", "pass_on_ticks", 0.1},
         Claim{"protocol.md", R"(from elsewhere either for ([\d.]+) s beyond I)", "healing/doubt.cpp", "hesitate_s"},
         Claim{"protocol.md", R"(whoever heard it within ([\d.]+) C)", "healing/doubt.cpp", "well_in_range"},
+        Claim{"protocol.md", R"(a random walk of q = (\d+) times)", "core/position_filter.cpp", "wander"},
+        Claim{"protocol.md", R"(root mean square, less ([\d.]+) times)", "core/position_filter.cpp", "explained"},
+        Claim{"protocol.md", R"(an edge asks for a spare (\d+) spreads sooner)", "convoy/convoy.cpp", "asks_sooner"},
+        Claim{"protocol.md", R"(a child tows (\d+) spreads sooner)", "convoy/towing.cpp", "tows_sooner"},
+        Claim{"protocol.md", R"(a connector is released (\d+) spreads later)", "convoy/shortcut.cpp", "releases_later"},
         Claim{"protocol.md", R"(found no parent for (\d+) ticks drives)", "healing/retreat.cpp", "lost_ticks"},
         Claim{"protocol.md", R"(drives to within ([\d.]+) C of where the root was)", "healing/retreat.cpp", "near_enough"},
         Claim{"protocol.md", R"(drives home for at most (\d+) s)", "healing/retreat.cpp", "regroup_for_s"}));

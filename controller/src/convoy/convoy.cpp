@@ -23,6 +23,7 @@ namespace banyan {
 namespace {
 
 constexpr int silence_ticks = 2;      // a parent silent for so long counts as hidden
+constexpr float asks_sooner = 2.0F;   // of the spread of ranges: edges ask for spares, and call them
 constexpr float tight = 0.6F;         // of `clearance`: enough for who stands in the way and clears it by joining
 
 // ---- Select Parent: branches grow from the workers, as in inwards, by short edges in sight (rule 1) ----
@@ -69,7 +70,7 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
   // A connector may have been made a worker: then it is the parent that has to go on.
   const TreeStanding& parent = robot.table().message(robot.parent);
   const bool wanted = robot.self.want_m > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want_cm > 0);
-  return (d > robot.params.recruitment_distance_m && wanted) ||
+  return (d > robot.params.recruitment_distance_m - asks_sooner * robot.table().spread_m() && wanted) ||
          ((hidden || robot.self.corners.pinned) && d > robot.params.shortest_split_m);
 }
 
@@ -78,7 +79,7 @@ bool may_call(const ConvoyRobot& robot) noexcept {
   if (is_planned(robot.self)) return false;  // they would come along the chains, and in the way
   const ConvoyParams& p = robot.params;
   const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;
-  return robot.parent >= 0 && (robot.self.corners.pinned || robot.table().range(robot.parent) > from_m);
+  return robot.parent >= 0 && (robot.self.corners.pinned || robot.table().range(robot.parent) > from_m - asks_sooner * robot.table().spread_m());
 }
 
 bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {

@@ -12,6 +12,8 @@
 namespace banyan {
 namespace {
 
+constexpr float releases_later = 3.0F;  // of the spread of ranges: else the edge would ask for a spare again
+
 // Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
 void release(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
@@ -22,7 +24,8 @@ void release(ConvoyRobot& robot) noexcept {
   const int k = table.find(parent.parent);
   if (k < 0 || (table.message(k).role == Role::worker && !is_relay(robot, k))) return;
   const ConvoyParams& p = robot.params;
-  const float reach_m = has_arrived(robot) ? std::max(p.release_distance_m, p.merge_distance_m) : p.release_distance_m;
+  const float limit_m = has_arrived(robot) ? std::max(p.release_distance_m, p.merge_distance_m) : p.release_distance_m;
+  const float reach_m = limit_m - releases_later * table.spread_m();
   if (is_hold(robot, k, reach_m)) take_parent(robot, k);
 }
 

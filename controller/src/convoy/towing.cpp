@@ -24,6 +24,7 @@ constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts 
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
 
+constexpr float tows_sooner = 4.0F;  // of the spread of ranges
 constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
 constexpr int slack_reach_hops = 8;
 
@@ -45,7 +46,8 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
   };
   const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
                      std::count_if(robot.old_children.begin(), robot.old_children.end(), tows);
-  const float start_m = robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start_m;
+  // Noise makes the guard hold a child back now and then: its parent comes along sooner.
+  const float start_m = (robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start_m) - tows_sooner * table.spread_m();
   Vec2 u;
   const auto add = [&](int k) {
     if (!tows(k)) return;

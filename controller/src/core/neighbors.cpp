@@ -2,12 +2,19 @@
 #include "banyan/controller/core/neighbors.hpp"
 
 namespace banyan {
+namespace {
+
+constexpr int witnesses = 16;  // entries from which the noise is learnt: all have the same sensor
+constexpr int sentries = 1;    // from which it is noticed
+
+}  // namespace
 
 void Neighbors::prefetch(std::size_t entries) const noexcept {
   entries = std::min<std::size_t>(entries, neighbor_capacity);
   const auto fetch = [&](const auto& array) { prefetch_lines(array.data(), entries * sizeof array[0]); };
   prefetch_lines(this, 1);
   fetch(ids_);
+  fetch(measurements_);
   fetch(ages_);
   fetch(ranges_m_);
   fetch(positions_);
@@ -45,7 +52,9 @@ void Neighbors::leave(int k) noexcept {
   std::move(std::find(by_id_.begin(), end, k) + 1, end, std::find(by_id_.begin(), end, k));
 }
 
-void Neighbors::begin(int elapsed_ticks) noexcept {
+void Neighbors::begin(int elapsed_ticks, float way_m) noexcept {
+  filter_.begin(way_m);
+  watched_ = static_cast<std::int16_t>(!filter_.is_on() ? 0 : filter_.has_seen_noise() ? neighbor_capacity : sentries);
   elapsed_ticks_ = static_cast<std::int16_t>(std::min(elapsed_ticks, INT16_MAX));
   next_rank_ = 0;
   missed_ = 0;
@@ -67,15 +76,23 @@ int Neighbors::enter(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)
   *at = static_cast<std::uint8_t>(k);
   next_rank_ = static_cast<std::int16_t>(at - by_id_.begin() + 1);
   ids_[k] = id;
+  measurements_[k] = 1;
   put(k, position);
   return k;
+}
+
+Vec2 Neighbors::filtered(int k, Vec2 predicted, Vec2 measured) noexcept {
+  if (k < witnesses && ages_[k] == elapsed_ticks_) filter_.learn(predicted, measured, elapsed_ticks_);
+  const Vec2 position = filter_.fuse(predicted, measured, ages_[k], measurements_[k]);
+  measurements_[k] = static_cast<std::uint8_t>(std::min(measurements_[k] + 1, UINT8_MAX));
+  return position;
 }
 
 int Neighbors::evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept {
   int farthest = -1;
   for (int j = 0; j < size_; ++j)
     if (!ties(j) && (farthest < 0 || range(j) > range(farthest))) farthest = j;
-  if (farthest < 0 || (!must && norm(position) >= range(farthest))) return -1;
+  if (farthest < 0 || (!must && norm(position) + filter_.spread_m() >= range(farthest))) return -1;
   leave(farthest);
   return farthest;
 }
@@ -91,7 +108,7 @@ int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, std
       return k;
     }
     positions_[k] = carry.point(positions_[k]);
-    ranges_m_[k] = norm(positions_[k]);
+    ranges_m_[k] = norm(positions_[k]) + filter_.spread_m();
   }
   return -1;
 }
@@ -102,6 +119,7 @@ void Neighbors::remove(int k) noexcept {
   for (int rank = 0; rank < size_ - 1; ++rank)
     if (by_id_[rank] > k) --by_id_[rank];
   close_gap(ids_, k, size_);
+  close_gap(measurements_, k, size_);
   close_gap(ages_, k, size_);
   close_gap(ranges_m_, k, size_);
   close_gap(positions_, k, size_);

@@ -169,7 +169,7 @@ void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   if (!robot.reading.guards_edges) return;
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m, robot.params);
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m - robot.table().spread_m(), robot.params);
   });
 }
 
@@ -185,7 +185,7 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
     const bool tied_to_me = k == robot.hold || hold_of(m) == robot.self.id;
     // In a grown tree only those of its own epoch wait for a hold: one of another hears nobody, or comes from elsewhere.
     const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || robot.self.phase < Phase::grow_tree);
-    if (tied_to_me || (!lets_go && (untied || waits))) guard.add(table.position(k), longest_m, p);
+    if (tied_to_me || (!lets_go && (untied || waits))) guard.add(table.position(k), longest_m - table.spread_m(), p);
   }
 }
 

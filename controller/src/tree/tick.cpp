@@ -65,19 +65,21 @@ void file_heard(TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
   const RobotId me = self.id;
   TreeTable& table = robot.self.neighbors;
-  const auto ties = [&](const TreeStanding& m) {
-    return m.id == self.parent || m.id == self.old_parent || m.parent == self.id || m.old_parent == self.id || hold_of(m) == self.id;
+  const auto ties = [&](RobotId id, const TreeStanding& m) {
+    return id == self.parent || id == self.old_parent || m.parent == self.id || m.old_parent == self.id || hold_of(m) == self.id;
   };
-  table.begin(robot.elapsed_ticks);
+  table.begin(robot.elapsed_ticks, robot.reading.filters_positions ? robot.params.wheel_limit_m_s * robot.params.tick_s : 0.0F);
+  const bool noisy = table.filter().has_seen_noise();
   for (Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;
     h.place = -1;
     if (m.id == me || m.id == nobody) continue;
     h.before = {};
-    int k = table.file(m.id, h.position, h.before);
-    if (k < 0) k = table.enter(m.id, h.position, ties(m), [&](int j) { return ties(table.message(j)); });
+    int k = table.file(m.id, h.position, h.before, robot.carry);
+    if (k < 0) k = table.enter(m.id, h.position, ties(m.id, m), [&](int j) { return ties(table.id(j), table.message(j)); });
     if (k < 0) continue;
     h.place = static_cast<std::int16_t>(k);
+    if (noisy) h.position = table.position(k);
     table.standings[static_cast<std::size_t>(k)] = static_cast<const TreeStanding&>(m);
   }
 }
@@ -157,8 +159,14 @@ void add_to(Digest& digest, const TreeState& state) noexcept {
     digest.add(table.id(k));
     digest.add(table.age(k));
     digest.add(table.position(k));
-    add_to(digest, TreeMessage{table.message(k), {}});
+    TreeMessage said;
+    static_cast<TreeStanding&>(said) = table.message(k);
+    said.id = table.id(k);
+    add_to(digest, said);
   }
+  if (!table.filter().has_seen_noise()) return;
+  table.filter().visit(add);
+  for (int k = 0; k < table.size(); ++k) digest.add(table.measurements(k));
 }
 
 }  // namespace banyan

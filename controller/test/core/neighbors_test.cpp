@@ -37,15 +37,16 @@ class Table : public Neighbors {
     const auto must_stay = [&](RobotId id, const Said& said) {
       return id == keep[0] || id == keep[1] || said.parent == me || said.old_parent == me;
     };
-    begin(1);
+    begin(1, way_m);
     for (const Packet& p : packets) {
       Vec2 before;
-      int k = file(p.id, p.position, before);
+      int k = file(p.id, p.position, before, carry);
       if (k < 0) k = enter(p.id, p.position, must_stay(p.id, p.said), [&](int j) { return must_stay(id(j), said(j)); });
       if (k >= 0) said_[static_cast<std::size_t>(k)] = p.said;
     }
     for (int k = 0; (k = remove_next(k, carry, liveness_ticks, keep)) >= 0;) close_gap(said_, k, size() + 1);
   }
+  float way_m = 0.0F;  // 0: measurements are not filtered
   [[nodiscard]] const Said& said(int k) const { return said_[static_cast<std::size_t>(k)]; }
 
  private:
@@ -263,6 +264,58 @@ TEST(Neighbors, OnlyTheSilentAreDeadReckoned) {
   EXPECT_NEAR(table.position(table.find(4)).x, 0.0F, 1e-6F);
   EXPECT_NEAR(table.position(table.find(4)).y, -0.75F, 1e-6F);
   EXPECT_NEAR(table.range(table.find(4)), 0.75F, 1e-6F);
+}
+
+// A table that has learnt from its first neighbours that ranges are off by half a metre.
+Table with_noise(Packets& packets) {
+  Table table;
+  table.way_m = 0.02F;
+  for (RobotId id = 1; id <= 8; ++id) packets.add(id, {1.5F, 0});
+  for (int tick = 0; tick < 400; ++tick) {
+    for (Table::Packet& p : packets.heard) p.position.x = (tick + p.id) % 2 != 0 ? 1.0F : 2.0F;
+    table.update(packets.heard, Carry({}), 5, none);
+  }
+  return table;
+}
+
+TEST(Neighbors, NoisyRangesAreFilteredAndKeepASpread) {
+  Packets packets;
+  const Table table = with_noise(packets);
+  ASSERT_GT(table.spread_m(), 0.1F);
+  for (int k = 0; k < table.size(); ++k) {
+    EXPECT_NEAR(table.position(k).x, 1.5F, 0.15F);
+    EXPECT_EQ(table.range(k), norm(table.position(k)) + table.spread_m());
+  }
+}
+
+// A new neighbour starts where it is measured, and so does one that comes back; the next measurements are averaged.
+TEST(Neighbors, ANewNeighbourStartsFromItsMeasurement) {
+  Packets packets;
+  Table table = with_noise(packets);
+  packets.add(20, {0, 1.0F});
+  table.update(packets.heard, Carry({}), 5, none);
+  EXPECT_EQ(table.position(table.find(20)), (Vec2{0, 1.0F}));
+  packets.heard.back().position.y = 1.6F;
+  table.update(packets.heard, Carry({}), 5, none);
+  EXPECT_NEAR(table.position(table.find(20)).y, 1.3F, 1e-4F);
+  packets.heard.pop_back();
+  for (int tick = 0; tick < 7; ++tick) table.update(packets.heard, Carry({}), 5, none);
+  ASSERT_EQ(table.find(20), -1);
+  packets.add(20, {0, 0.4F});
+  table.update(packets.heard, Carry({}), 5, none);
+  EXPECT_EQ(table.position(table.find(20)), (Vec2{0, 0.4F}));
+}
+
+// My own motion is known: it is no innovation, and a filtered position moves along with it.
+TEST(Neighbors, FilteredPositionsAreCarriedByOdometry) {
+  Packets packets;
+  Table table = with_noise(packets);
+  const Vec2 before = table.position(0);
+  const Carry carry({0.2F, 0, pi<float> / 2});
+  for (Table::Packet& p : packets.heard) p.position = carry.point(table.position(table.find(p.id)));
+  table.update(packets.heard, carry, 5, none);
+  EXPECT_NEAR(table.position(0).x, 0.0F, 1e-5F);
+  EXPECT_NEAR(table.position(0).y, -(before.x - 0.2F), 1e-5F);
 }
 
 }  // namespace

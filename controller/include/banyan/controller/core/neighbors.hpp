@@ -12,6 +12,7 @@
 
 #include "banyan/controller/core/function_ref.hpp"
 #include "banyan/controller/core/inputs.hpp"
+#include "banyan/controller/core/position_filter.hpp"
 
 namespace banyan {
 
@@ -33,14 +34,15 @@ class Neighbors {
  public:
   // One tick: begin(), file() or else enter() for each packet in any order (of several of one sender the last
   // counts), then remove_next() until there is nothing to remove.
-  void begin(int elapsed_ticks) noexcept;
+  // `way_m`: the longest that a neighbour drives in a tick, if measurements are to be filtered; else 0.
+  void begin(int elapsed_ticks, float way_m) noexcept;
   // Where the sender stands; -1 if it is new. `before`: where it was a tick ago, in the frame of then; left alone
   // if it was not heard then, or has been filed in this tick already.
-  int file(RobotId id, Vec2 position, Vec2& before) noexcept {
+  int file(RobotId id, Vec2 position, Vec2& before, const Carry& carry) noexcept {
     const int k = next_rank_ < size_ && ids_[by_id_[next_rank_]] == id ? by_id_[next_rank_++] : find_next(id);
     if (k < 0) return k;
     if (ages_[k] == elapsed_ticks_) before = positions_[k];
-    put(k, position);
+    put(k, k < watched_ && ages_[k] > 0 ? filtered(k, carry.point(positions_[k]), position) : position);
     return k;
   }
   // Where a new one comes to stand; -1 if there is no room for it. When more robots are heard than the table
@@ -58,7 +60,11 @@ class Neighbors {
   [[nodiscard]] int find(RobotId id) const noexcept;
   [[nodiscard]] RobotId id(int k) const noexcept { return ids_[k]; }
   [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
-  [[nodiscard]] float range(int k) const noexcept { return ranges_m_[k]; }      // m
+  // m; where ranges are noisy, one standard deviation more than the distance of position(k): so far it may well be.
+  [[nodiscard]] float range(int k) const noexcept { return ranges_m_[k]; }
+  [[nodiscard]] const PositionFilter& filter() const noexcept { return filter_; }
+  [[nodiscard]] float spread_m() const noexcept { return filter_.spread_m(); }
+  [[nodiscard]] int measurements(int k) const noexcept { return measurements_[k]; }  // that its position is made of, up to 255
   [[nodiscard]] int age(int k) const noexcept { return ages_[k]; }            // ticks, 0: heard now
   // Of those heard in the tick before: how many they were, and how many were not heard in this one.
   [[nodiscard]] int expected() const noexcept { return expected_; }
@@ -71,9 +77,10 @@ class Neighbors {
   int find_next(RobotId id) noexcept;
   void put(int k, Vec2 position) noexcept {
     positions_[k] = position;
-    ranges_m_[k] = norm(position);
+    ranges_m_[k] = norm(position) + filter_.spread_m();
     ages_[k] = 0;
   }
+  [[nodiscard, gnu::noinline]] Vec2 filtered(int k, Vec2 predicted, Vec2 measured) noexcept;
   void leave(int k) noexcept;
   int evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
   void remove(int k) noexcept;
@@ -86,8 +93,11 @@ class Neighbors {
   std::int16_t expected_ = 0;
   std::int16_t missed_ = 0;
   std::int16_t elapsed_ticks_ = 1;
+  std::int16_t watched_ = 0;    // so many of the first entries are compared with where they were expected
+  PositionFilter filter_;
   Array<RobotId> ids_{};
   Array<std::uint8_t> by_id_{};  // indices, ascending by id
+  Array<std::uint8_t> measurements_{};
   Array<std::uint16_t> ages_{};
   Array<float> ranges_m_{};
   Array<Vec2> positions_{};

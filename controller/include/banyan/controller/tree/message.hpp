@@ -31,7 +31,6 @@ inline constexpr std::uint8_t nobody_calls = 0xFF;
 
 // What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
 struct TreeStanding {
-  RobotId id = nobody;
   Role role = Role::spare;
   Phase phase = Phase::init;
   Need need = Need::no_need;
@@ -74,6 +73,7 @@ struct TreeNews {
 };
 
 struct TreeMessage : TreeStanding, TreeNews {
+  RobotId id = nobody;
   static constexpr std::uint8_t blocks = block::tree;
   friend bool operator==(const TreeMessage&, const TreeMessage&) = default;
 };
