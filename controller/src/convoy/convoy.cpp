@@ -62,6 +62,20 @@ bool is_better_parent(const ConvoyRobot& robot, int a, int b) noexcept {
 
 // ---- Grow Tree: which edges get a spare, and when (rules 3, 4 and 7) ----
 
+// My parent is a worker, which nobody tows, and my target is out of reach from where it goes.
+bool is_anchored(const ConvoyRobot& robot) noexcept {
+  if (robot.table().message(robot.parent).role != Role::worker || robot.self.want_m == 0.0F) return false;
+  if (robot.target != nullptr) return !reaches_target_from(robot, robot.parent);
+  return stands_at_target(robot, robot.parent) && robot.self.want_m > robot.params.ideal_distance_m - robot.table().range(robot.parent);
+}
+
+// The root and junctions give way late (towing.cpp), so their edges may stay just short of call_distance, and slow.
+bool is_held_by_junction(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  const bool junction = robot.table().message(robot.parent).role == Role::root || robot.convoy_of(robot.parent).child_count > 1;
+  return junction && robot.table().range(robot.parent) > p.recruitment_distance_m && robot.self.unserved_ticks > p.ticks(2.0F * p.call_after_s);
+}
+
 // Not passed on upwards: towed, the chain brings its slack to where the spares are by itself.
 bool needs_spare(const ConvoyRobot& robot) noexcept {
   if (robot.parent < 0) return false;
@@ -71,7 +85,7 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
   const TreeStanding& parent = robot.table().message(robot.parent);
   const bool wanted = robot.self.want_m > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want_cm > 0);
   return (d > robot.params.recruitment_distance_m - asks_sooner * robot.table().spread_m() && wanted) ||
-         ((hidden || robot.self.corners.pinned) && d > robot.params.shortest_split_m);
+         ((hidden || robot.self.corners.pinned || is_anchored(robot)) && d > robot.params.shortest_split_m);
 }
 
 // Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
@@ -79,7 +93,9 @@ bool may_call(const ConvoyRobot& robot) noexcept {
   if (is_planned(robot.self)) return false;  // they would come along the chains, and in the way
   const ConvoyParams& p = robot.params;
   const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;
-  return robot.parent >= 0 && (robot.self.corners.pinned || robot.table().range(robot.parent) > from_m - asks_sooner * robot.table().spread_m());
+  if (robot.parent < 0) return false;
+  return robot.self.corners.pinned || is_anchored(robot) || is_held_by_junction(robot) ||
+         robot.table().range(robot.parent) > from_m - asks_sooner * robot.table().spread_m();
 }
 
 bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
@@ -93,10 +109,13 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
 }
 
-// Not while the workers get on: the tree mends itself meanwhile, and a new one is not free.
+// Not while the workers get on: the tree mends itself meanwhile, and a new one is not free. Nor at once while spares
+// are on their way to an edge: they would lose it.
 bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   constexpr float patience_s = 5.0F;
-  return robot.self.stalled_ticks > robot.params.ticks(patience_s) && !is_planned(robot.self);
+  constexpr float called_patience_s = 15.0F;
+  const bool called = robot.self.call_hops != nobody_calls;
+  return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !is_planned(robot.self);
 }
 
 // Once all have arrived, a spare as root would be a robot more.
@@ -120,9 +139,15 @@ void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
   m.child_count = robot.useful_children;
   m.above = self.above;
   m.below = self.below;
-  Vec2 hinge;
-  if (robot.up() < 0 || !find_hinge(robot, self.corners, hinge)) return;
+  if (robot.up() < 0) return;
   const Vec2 parent = robot.table().position(robot.up());
+  if (Vec2 pull; passes_pull_on(robot, pull)) {
+    pull = to_edge_frame(pull, parent);
+    m.pull_x = to_fixed<std::int16_t>(pull.x, pull_unit);
+    m.pull_y = to_fixed<std::int16_t>(pull.y, pull_unit);
+  }
+  Vec2 hinge;
+  if (!find_hinge(robot, self.corners, hinge)) return;
   hinge = to_edge_frame(hinge - parent, parent);
   m.hinge_x_cm = to_fixed<std::int16_t>(hinge.x, per_cm);
   m.hinge_y_cm = to_fixed<std::int16_t>(hinge.y, per_cm);

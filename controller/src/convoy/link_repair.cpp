@@ -29,7 +29,8 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const bool clear = sees_clearly(robot, k, p.clearance_m);
   if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance_m))) return impossible;
   const Vec2 at = table.position(k);
-  return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare ? c : 0.0F) + (clear ? 0.0F : 2.0F * c);
+  const bool leaves = m.role == Role::worker && robot.self.want_m > 0.0F;  // it cannot be towed
+  return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare || leaves ? c : 0.0F) + (clear ? 0.0F : 2.0F * c);
 }
 
 }  // namespace

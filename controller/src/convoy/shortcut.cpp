@@ -24,12 +24,17 @@ void release(ConvoyRobot& robot) noexcept {
   const int k = table.find(parent.parent);
   if (k < 0 || (table.message(k).role == Role::worker && !is_relay(robot, k))) return;
   const ConvoyParams& p = robot.params;
-  const float limit_m = has_arrived(robot) ? std::max(p.release_distance_m, p.merge_distance_m) : p.release_distance_m;
+  // A worker cannot be towed: what is superfluous between it and the root helps the robot that hangs on it.
+  const bool helps = robot.self.is_worker && robot.self.call_hops == 1;
+  const float limit_m = has_arrived(robot) || helps ? std::max(p.release_distance_m, p.merge_distance_m) : p.release_distance_m;
   const float reach_m = limit_m - releases_later * table.spread_m();
   if (is_hold(robot, k, reach_m)) take_parent(robot, k);
 }
 
-// An edge that would need a spare: a robot of the tree may stand nearer.
+// A worker that stands still, and from which I reach my target: neither has to be towed.
+bool is_enough(const ConvoyRobot& robot, int k) noexcept { return stands_at_target(robot, k) && reaches_target_from(robot, k); }
+
+// An edge that would need a spare: a robot of the tree may stand nearer, or a worker where it is enough.
 void take_nearer(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
@@ -37,10 +42,12 @@ void take_nearer(ConvoyRobot& robot) noexcept {
   float best_m = p.release_distance_m;
   for (int k = 0; k < table.size(); ++k) {
     if (k == robot.parent || table.range(k) >= best_m || !is_hold(robot, k, best_m)) continue;
-    if (table.message(k).role == Role::worker && !is_relay(robot, k)) continue;
+    if (table.message(k).role == Role::worker && !is_relay(robot, k) && !is_enough(robot, k)) continue;
     best = k;
     best_m = table.range(k);
   }
+  for (int k = 0; best < 0 && k < table.size(); ++k)
+    if (k != robot.parent && is_enough(robot, k) && is_hold(robot, k, robot.parent_range_m())) best = k;
   if (best >= 0) take_parent(robot, best);
 }
 
@@ -68,6 +75,22 @@ void take_inner(ConvoyRobot& robot) noexcept {
 }
 
 }  // namespace
+
+bool stands_at_target(const ConvoyRobot& robot, int k) noexcept {
+  if (robot.table().message(k).role != Role::worker) return false;
+  const Task* task = find_task(robot.self, robot.served_by(k));
+  return task != nullptr && distance(robot.table().position(k), task->target) < robot.params.arrival_distance_m;
+}
+
+bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept {
+  if (robot.table().message(k).role != Role::worker || robot.target == nullptr) return false;
+  Vec2 at = robot.table().position(k);
+  if (!stands_at_target(robot, k)) {
+    const Task* task = find_task(robot.self, robot.served_by(k));
+    if (task != nullptr) at = task->target;
+  }
+  return distance(at, *robot.target) < robot.parent_range_m();
+}
 
 bool is_rooted(const ConvoyRobot& robot, int k) noexcept {
   const TreeTable& table = robot.table();

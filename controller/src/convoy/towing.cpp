@@ -4,10 +4,12 @@
 
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/tree/motion.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/convoy/plan.hpp"
+#include "banyan/controller/convoy/shortcut.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
 
@@ -33,6 +35,18 @@ bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.c
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
+// Neighbour k stands at its target, and others that hang on it still have to go on.
+bool tows_past(const ConvoyRobot& robot, int k) noexcept {
+  const float want_m = static_cast<float>(robot.table().message(k).want_cm) * 0.01F;
+  return robot.convoy_of(k).child_count > 0 && want_m > robot.params.arrival_distance_m && stands_at_target(robot, k);
+}
+
+// What neighbour k, of which I am the parent, has said of its pull.
+Vec2 pull_of(const ConvoyRobot& robot, int k) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  return from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, robot.table().position(k));
+}
+
 // Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
 // junctions stay with the spares as long as they can: there their edges grow and are split.
 Vec2 tow(const ConvoyRobot& robot) noexcept {
@@ -51,6 +65,11 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
   Vec2 u;
   const auto add = [&](int k) {
     if (!tows(k)) return;
+    // Who hangs on a worker at its target tows past it: there it can take me as its parent.
+    if (tows_past(robot, k)) {
+      u += pull_of(robot, k);
+      return;
+    }
     // A child at a corner needs its parent there before it can go round.
     const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width_m);
     u += unit(table.position(k)) * weight;
@@ -135,6 +154,19 @@ Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
   return u * robot.params.corridor_gain;
 }
 
+// The way of a spare that is needed elsewhere. Where others push it back so hard that it all but stops, they push
+// it aside instead, to the side to which it is pushed already; among obstacles bypass() chooses the side.
+Vec2 past(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
+  constexpr float stopped = 0.7F;
+  const Vec2 apart = repulsion(robot);
+  const Vec2 out = make_way(robot, way_m);
+  const float against = -dot(way, apart + out);
+  if (against < stopped || robot.self.corners.landmarks.size > 0) return way + apart + out;
+  const Vec2 left = left_of(way);
+  const float aside = dot(left, apart + out);
+  return way + left * (aside + (aside < 0.0F ? -against : against));
+}
+
 // The way along which I can save a robot: towards my parent; the root's is towards the nearest child
 // that does nothing but pass it on.
 int pruning_way(const ConvoyRobot& robot) noexcept {
@@ -206,6 +238,18 @@ Vec2 before_tree(const ConvoyRobot& robot) noexcept {
 
 }  // namespace
 
+bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
+  const ConvoyState& self = robot.self;
+  if (!self.is_worker || robot.target == nullptr || norm(*robot.target) >= robot.params.arrival_distance_m) return false;
+  const TreeTable& table = robot.table();
+  int best = -1;
+  for (const int k : robot.children)
+    if (table.message(k).role != Role::spare && table.message(k).want_cm > (best < 0 ? 0 : table.message(best).want_cm)) best = k;
+  if (best < 0) return false;
+  pull = pull_of(robot, best);
+  return true;
+}
+
 bool prunes(const ConvoyParams& params) noexcept { return params.merge_distance_m > 0.0F; }
 
 bool has_arrived(const ConvoyRobot& robot) noexcept {
@@ -243,7 +287,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyState& self = robot.self;
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
-    return bypass(robot, midpoint) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+    return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
   // Nobody around has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m) return bypass(robot, self.corners.seen_from) + repulsion(robot);
   // The root is about to go round a corner, and waits for spares.
@@ -263,13 +307,20 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
   const float reach_m = (led ? follow_spare : follow_tree) * c;
   // On its way along a chain it may come nearer to the line of sight than while it waits.
-  if (d > reach_m || (self.called && d > p.avoidance_range_m))
+  const float way_m = p.line_of_sight ? 2.0F * p.clearance_m : 0.0F;  // an edge that nobody can hide is no fence
+  if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
+  if (d > reach_m)
     return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
   // Where many edges meet, others wait on its far side, and it would only cross their sight.
   const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= 3);
-  if (self.called && roomy && d > 0.0F)
-    return bypass(robot, Vec2{-reference.y, reference.x}) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+  if (self.called && roomy && d > 0.0F) {
+    // Away from where the tree comes from, if that is known: there the edge begins.
+    Vec2 round = left_of(reference);
+    const int up = self.corners.landmarks.size > 0 ? -1 : robot.table().find(up_of(robot.table().message(k)));
+    if (up >= 0 && dot(round, reference - robot.table().position(up)) < 0.0F) round = -round;
+    return bypass(robot, round) + repulsion(robot) + make_way(robot, way_m);
+  }
   return repulsion(robot) + make_way(robot, p.corridor_width_m);
 }
 

@@ -19,6 +19,11 @@ inline constexpr int pending_limit_ticks = 15;  // a seqno rests no longer: more
 // And it may be my parent now: no farther than range_m, and ahead of me.
 [[nodiscard]] bool is_hold(const ConvoyRobot& robot, int k, float range_m) noexcept;
 
+// Neighbour k is a worker at its target, as far as I know where that is: it follows nobody.
+[[nodiscard]] bool stands_at_target(const ConvoyRobot& robot, int k) noexcept;
+// Neighbour k is a worker, and my target is in reach from its own (from where it is, if I do not know that one).
+[[nodiscard]] bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept;
+
 // ---- link_repair.cpp ----
 
 // How my line of sight to my parent stands. There must be a parent.

@@ -14,6 +14,9 @@ namespace banyan {
 // Neighbour k is a worker that has arrived: it may be the parent of others whose workers have arrived.
 [[nodiscard]] bool is_relay(const ConvoyRobot& robot, int k) noexcept;
 
+// A worker at its target says where those that hang on it pull, not itself.
+[[nodiscard]] bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept;
+
 // A robot of the tree: a worker drives to its target, a connector follows the children that tow it;
 // tension straightens chains; nobody stays in another edge's line of sight. In units of speed_gain.
 [[nodiscard]] Vec2 towed_motion(const ConvoyRobot& robot) noexcept;
