@@ -31,6 +31,7 @@ inline constexpr std::uint8_t nobody_calls = 0xFF;
 
 // What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
 struct TreeStanding {
+  Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
   Role role = Role::spare;
   Phase phase = Phase::init;
   Need need = Need::no_need;
@@ -52,7 +53,6 @@ struct TreeStanding {
   std::uint16_t subtree_workers = 0;
   std::uint16_t count = 0;            // Alg. 2's c_i, beside the sums above; nothing depends on it
   std::uint16_t want_cm = 0;          // largest remaining worker distance below me
-  Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
   std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
   RobotId grant = nobody;             // the spare I let into the edge to my parent; without parent: my hold
