@@ -173,6 +173,7 @@ TEST(World, SlotsLimitWhatARobotHearsAndTreatAllSendersAlike) {
 
 TEST(World, RangeAndBearingNoiseHaveTheirSigma) {
   Scenario s = statue(20);
+  s.mission.reading = "literal";  // `corrected` filters what it measures
   s.radio.range_noise_m = 0.05;
   s.radio.bearing_noise_rad = 0.1;
   World world(s);
