@@ -46,7 +46,7 @@ Scenario chain(std::size_t robots, double pitch_m) {
   s.swarm.root = 0;
   s.targets = std::vector<Vec2>{{static_cast<double>(robots - 1) * pitch_m + 3.0, 0.0}};
   s.mission.time_limit_s = 1000;
-  s.mission.parameters = {{"give_up_after_s", 360.0}};  // nor does the worker leave its target to others
+  s.mission.parameters = {{"give_up_after_s", 300.0}};  // nor does the worker leave its target to others
   return s;
 }
 

@@ -23,8 +23,8 @@ constexpr Parameter<HealingParams> of_healing[] = {
       "Lower it to notice deaths sooner on a radio that loses much.", "protocol 12", 0.0F, 0.99F}, &HealingParams::largest_loss},
     {{"pursue_for_s", "", "s", "healing: a connector whose last child fell silent goes after it for at most so long",
       "0: the branch is given up at once. Longer finds what is farther away, and keeps robots busy meanwhile.", "protocol 12", 0.0F, 600.0F}, &HealingParams::pursue_for_s},
-    {{"give_up_after_s", "", "s", "healing: a worker that drives so long towards its target and gets no nearer leaves it to others; near obstacles, or if the target itself moves, eighteen times as long",
-      "Shorter where spares are at hand; longer where workers are often held up.", "protocol 12", 1.0F, 360.0F}, &HealingParams::give_up_after_s},
+    {{"give_up_after_s", "", "s", "healing: a worker that drives so long at full speed towards its target and gets no nearer leaves it to others; near obstacles, or if the target itself moves, eighteen times as long",
+      "Shorter where spares are at hand; longer where workers are often held up.", "protocol 12", 1.0F, 300.0F}, &HealingParams::give_up_after_s},
     {{"regroup_after_s", "", "s", "convoy: a worker that waits so long in vain for a spare drives home and sets out anew",
       "Longer where spares have far to come; shorter gives up branches that would have been reached.", "protocol 12", 1.0F, 600.0F}, &HealingParams::regroup_after_s},
 };

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "banyan/controller/core/fixed_point.hpp"
 #include "banyan/controller/healing/healing.hpp"
 
 namespace banyan {
 namespace {
 
-constexpr float least_speed = 0.25F;  // of v: slower, it waits for others
 constexpr int nearer_cm = 5;
 constexpr int patience_hindered = 18;  // times as long: the way round may be long, and the target may drive away
 
-// It is to drive towards its target, or round what is in between.
-bool drives(const HealingRobot& robot, Vec2 v) noexcept {
-  if (robot.self.detour.side != 0) return v != Vec2{};
-  return dot(v, unit(*robot.target)) >= least_speed * robot.params.wheel_limit_m_s;
+// How much of a tick at full speed towards the target this velocity is, in eighteenths; back and forth is nothing.
+// Round an obstacle every way is one towards it.
+int eighteenths(const HealingRobot& robot, Vec2 v, bool hindered) noexcept {
+  const float towards = dot(v, unit(*robot.target)) / robot.params.wheel_limit_m_s;
+  if (!hindered) return static_cast<int>(static_cast<float>(patience_hindered) * towards);
+  return v != Vec2{} && (robot.self.detour.side != 0 || towards > 0.0F) ? 1 : 0;
 }
 
 void give_up(HealingRobot& robot) noexcept {
@@ -42,9 +45,10 @@ void watch_progress(HealingRobot& robot, Vec2 v) noexcept {
     self.progress = {left_cm, 0};
     return;
   }
-  if (!drives(robot, v)) return;
-  for (int k = 0; k < (hindered ? 1 : patience_hindered); ++k) robot.add_elapsed(self.progress.vain_ticks);
-  if (self.progress.vain_ticks > patience_hindered * p.ticks(p.give_up_after_s)) give_up(robot);
+  const int most = patience_hindered * p.ticks(p.give_up_after_s);
+  const int vain = self.progress.vain_ticks + eighteenths(robot, v, hindered) * robot.elapsed_ticks;
+  self.progress.vain_ticks = static_cast<std::uint16_t>(std::clamp(vain, 0, most));
+  if (vain > most) give_up(robot);
 }
 
 }  // namespace banyan

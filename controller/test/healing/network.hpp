@@ -16,7 +16,7 @@ class Network {
   Network(std::vector<Vec2> places, std::vector<Vec2> targets, float loss, std::uint64_t seed)
       : places_(std::move(places)), targets_(std::move(targets)), loss_(loss), random_(seed) {
     for (std::size_t i = 0; i < places_.size(); ++i) states.push_back(initial_convoy_state(static_cast<RobotId>(i), is_sent(i), i == 0));
-    params.give_up_after_s = 360.0F;
+    params.give_up_after_s = 300.0F;
     alive_.assign(places_.size(), true);
     for (const ConvoyState& state : states) said_.emplace_back().id = state.id;
   }

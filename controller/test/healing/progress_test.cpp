@@ -45,8 +45,19 @@ TEST(Progress, OneThatGetsOnDoesNot) {
 }
 
 TEST(Progress, NorOneThatWaitsForOthers) {
-  Worker worker({3.0F, 0.0F}, {-1.85F, 0.0F});  // its edge is as long as it may be
+  Worker worker({3.0F, 0.0F}, {-1.8F, 0.0F});
+  worker.bench.move(root_id, {-1.9F, 0.0F});  // its edge is as long as it may be
   worker.hear_root(600);
+  EXPECT_TRUE(worker.serves());
+}
+
+// ... nor one that is pulled back as often as it gets on.
+TEST(Progress, ToAndFroIsNoDrive) {
+  Worker worker({3.0F, 0.0F});
+  for (int k = 0; k < 40; ++k) {
+    worker.bench.move(root_id, {k % 2 == 0 ? -1.99F : 0.5F, 0.0F});
+    worker.hear_root(k % 2 == 0 ? 60 : 20);
+  }
   EXPECT_TRUE(worker.serves());
 }
 

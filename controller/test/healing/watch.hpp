@@ -10,7 +10,7 @@
 namespace banyan {
 
 inline constexpr RobotId root_id = 9;
-inline constexpr float very_long_s = 360.0F;
+inline constexpr float very_long_s = 300.0F;
 
 // A robot of a grown tree with its root in sight; the root counts ticks.
 struct Watch {

@@ -30,7 +30,7 @@ struct Task {
 // How a worker gets on (progress.cpp).
 struct Progress {
   std::uint16_t least_cm = UINT16_MAX;   // the nearest that it has come to its target, since something was in the way
-  std::uint16_t vain_ticks = 0;          // how long it has driven for nothing; where nothing is in the way each tick counts 18 times
+  std::uint16_t vain_ticks = 0;          // eighteenths of ticks at full speed towards it since, for nothing
 };
 
 struct HealingState : TreeState {
