@@ -225,6 +225,7 @@ TEST(Moments, CompleteIsWhenAllTargetsAreHeldForTheFirstTime) {
 
 TEST(Moments, ThatNeverComeLetNothingHappen) {
   Scenario s = ring("inwards", 20, 3, 4.0, 2);
+  s.mission.parameters = {{"give_up_after_s", 300.0}};
   s.events = {kill_at(Event::When::complete, 0.0), {.action = Freeze{World(s).targets()[0].worker}}};
   World world(s);
   run_until(world, 900);
