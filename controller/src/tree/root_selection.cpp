@@ -9,15 +9,17 @@
 namespace banyan {
 namespace {
 
-// A neighbour heard this tick, no worker, nearer to the centroid than the root by a margin.
+// A neighbour heard this tick, no worker, nearer to the centroid than the root by a margin. The two will have an
+// edge (hand_over), so it must not be about to leave.
 int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept {
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();
+  const float reach_m = robot.params.communication_range_m * (robot.reading.keeps_links ? longest_link : 1.0F);
   float best_m = norm(self.centroid) - robot.params.centroid_margin_m;
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || !may_inherit(k)) continue;
+    if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || table.range(k) > reach_m || !may_inherit(k)) continue;
     const float d = distance(table.position(k), self.centroid);
     if (d < best_m) {
       best_m = d;

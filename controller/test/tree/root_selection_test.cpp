@@ -20,6 +20,15 @@ TEST(RootSelection, OffersTheTokenToTheNeighborNearestToTheCentroid) {
   EXPECT_EQ(bench.steps(5).message.new_root, 5) << "until it is acknowledged";
 }
 
+// Heir and old root share an edge of the old tree: it would break in the next moment.
+TEST(RootSelection, NobodyAboutToLeaveIsAnHeir) {
+  for (const float away_m : {1.89F, 1.91F}) {
+    Bench bench = handing_over();
+    bench.put(6, {away_m, 0});
+    EXPECT_EQ(bench.step().message.new_root, away_m < 1.9F ? 6 : 5);
+  }
+}
+
 TEST(RootSelection, WhoIsOfferedTheTokenTakesItOnce) {
   Bench bench = grown();
   bench.state.phase = Phase::select_root;
