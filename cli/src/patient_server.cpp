@@ -83,7 +83,7 @@ class Crowd final : public httplib::TaskQueue {
   void enqueue(std::function<void()> visit) override {
     const std::lock_guard lock(mutex_);
     waiting_.push_back(std::move(visit));
-    if (idle_ < waiting_.size() && threads_.size() < PatientServer::most_visitors) add_thread();
+    if (idle_ < waiting_.size() && threads_.size() < PatientServer::most_visitors && !no_more_) add_thread();
     make_room();
     changed_.notify_one();
   }
@@ -120,6 +120,7 @@ class Crowd final : public httplib::TaskQueue {
     try {
       threads_.emplace_back([this] { run(); });
     } catch (const std::system_error&) {  // the system has no more: those that there are have to do
+      no_more_ = true;
     }
   }
 
@@ -140,7 +141,7 @@ class Crowd final : public httplib::TaskQueue {
 
   // Whoever waits finds a thread that is idle, new or about to be free.
   void make_room() {
-    if (threads_.size() < PatientServer::most_visitors) return;
+    if (threads_.size() < PatientServer::most_visitors && !no_more_) return;
     while (waiting_.size() > idle_ + leaving_ && !staying_.empty()) send_away();
   }
   void send_away() {
@@ -156,6 +157,7 @@ class Crowd final : public httplib::TaskQueue {
   std::size_t leaving_ = 0;      // sent away, but not gone yet
   std::size_t idle_ = 0;
   bool ending_ = false;
+  bool no_more_ = false;         // threads than there are
   std::vector<std::thread> threads_;
 };
 

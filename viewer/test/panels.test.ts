@@ -13,7 +13,7 @@ describe('the inspector', () => {
     expect(facts(frame, 0).find(({ name }) => name === 'children')?.value).toBe('1');
   });
   it('shows of a report only what the algorithm has', () => {
-    const names = (columns: Parameters<typeof frameOf>[0]) => facts(frameOf(columns), 0).map(({ name }) => name);
+    const names = (columns: Parameters<typeof frameOf>[0]) => facts(frameOf(columns, 1), 0).map(({ name }) => name);
     const nothing = names({ x_m: [0, 1] });
     expect(nothing).toEqual(['position', 'heading', 'alive']);
     expect(names({ x_m: [0, 1], role: [0, 3] })).toEqual(['position', 'heading', 'role', 'target', 'alive', 'connected']);
@@ -24,6 +24,10 @@ describe('the inspector', () => {
       expect(rows).not.toContain('role');
       expect(rows.length).toBe(nothing.length + 12);
     }
+  });
+  it('shows the tree before the first tick, too, when nobody has taken part in it yet', () => {
+    const rows = facts(frameOf({ x_m: [0, 1], role: [0, 3] }), 0);
+    expect(rows.find(({ name }) => name === 'phase')?.value).toBe('init');
   });
   it('says why there is no message', () => {
     const words = (live: boolean, problem = '') => messageFacts({ tick: 3, fields: null, problem }, live)[0].value;

@@ -79,7 +79,7 @@ bool step_before_parent(ConvoyRobot& robot) noexcept {
   const int k = table.find(table.message(robot.parent).parent);
   if (k < 0 || table.age(k) > 0) return false;
   const float d = norm(nearest_on_segment(table.position(robot.parent), table.position(k)));
-  if (d > danger * p.clearance_m || !is_hold(robot, k, robot.parent_range_m())) return false;
+  if (d > danger * p.clearance_m || !may_be_parent(robot, k, robot.parent_range_m())) return false;
   take_parent(robot, k);
   return true;
 }

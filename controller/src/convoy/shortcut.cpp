@@ -28,7 +28,7 @@ void release(ConvoyRobot& robot) noexcept {
   const bool helps = robot.self.is_worker && robot.self.call_hops == 1;
   const float limit_m = has_arrived(robot) || helps ? std::max(p.release_distance_m, p.merge_distance_m) : p.release_distance_m;
   const float reach_m = limit_m - releases_later * table.spread_m();
-  if (is_hold(robot, k, reach_m)) take_parent(robot, k);
+  if (may_be_parent(robot, k, reach_m)) take_parent(robot, k);
 }
 
 // A worker that stands still, and from which I reach my target: neither has to be towed.
@@ -41,13 +41,13 @@ void take_nearer(ConvoyRobot& robot) noexcept {
   int best = -1;
   float best_m = p.release_distance_m;
   for (int k = 0; k < table.size(); ++k) {
-    if (k == robot.parent || table.range(k) >= best_m || !is_hold(robot, k, best_m)) continue;
+    if (k == robot.parent || table.range(k) >= best_m || !may_be_parent(robot, k, best_m)) continue;
     if (table.message(k).role == Role::worker && !is_relay(robot, k) && !is_enough(robot, k)) continue;
     best = k;
     best_m = table.range(k);
   }
   for (int k = 0; best < 0 && k < table.size(); ++k)
-    if (k != robot.parent && is_enough(robot, k) && is_hold(robot, k, robot.parent_range_m())) best = k;
+    if (k != robot.parent && is_enough(robot, k) && may_be_parent(robot, k, robot.parent_range_m())) best = k;
   if (best >= 0) take_parent(robot, best);
 }
 
@@ -56,7 +56,7 @@ void leave_worker(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    if (table.message(k).role == Role::worker || !is_hold(robot, k, robot.parent_range_m())) continue;
+    if (table.message(k).role == Role::worker || !may_be_parent(robot, k, robot.parent_range_m())) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
   if (best >= 0) take_parent(robot, best);
@@ -68,7 +68,7 @@ void take_inner(ConvoyRobot& robot) noexcept {
   const int parent_depth = table.message(robot.parent).depth;
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    if (table.message(k).role == Role::worker || table.message(k).depth >= parent_depth || !is_hold(robot, k, robot.parent_range_m())) continue;
+    if (table.message(k).role == Role::worker || table.message(k).depth >= parent_depth || !may_be_parent(robot, k, robot.parent_range_m())) continue;
     if (best < 0 || table.message(k).depth < table.message(best).depth) best = k;
   }
   if (best >= 0) take_parent(robot, best);
@@ -103,7 +103,7 @@ bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept {
   return is_rooted(robot, k) && sees_clearly(robot, k, robot.params.clearance_m);
 }
 
-bool is_hold(const ConvoyRobot& robot, int k, float range_m) noexcept {
+bool may_be_parent(const ConvoyRobot& robot, int k, float range_m) noexcept {
   return robot.table().range(k) <= range_m && is_ahead(robot, k) && is_rooted_in_sight(robot, k);
 }
 

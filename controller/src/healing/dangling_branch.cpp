@@ -7,13 +7,13 @@ namespace banyan {
 namespace {
 
 constexpr float near_enough = 0.15F;  // of C
-constexpr int notice_ticks = 2;       // before the silent are forgotten
+constexpr int notice_ticks = 2;       // before the silent are forgotten, or the last step before that
 
 void watch_children(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   const auto hangs = [&](int k) { return table.message(k).role != Role::spare; };
-  const auto fades = [&](int k) { return hangs(k) && table.age(k) > robot.liveness_ticks() - notice_ticks; };
+  const auto fades = [&](int k) { return hangs(k) && table.age(k) > robot.liveness_ticks() - std::max(notice_ticks, robot.elapsed_ticks); };
   const auto lives = [&](int k) { return hangs(k) && !fades(k); };
   const auto any = [&](auto is) { return std::any_of(robot.children.begin(), robot.children.end(), is); };
   if (!robot.params.heals() || self.role != Role::connector || self.phase != Phase::grow_tree || any(lives)) {

@@ -18,7 +18,8 @@ const untouched: Partial<Record<Column, number>> = {
   role: 0, target: -1, phase: 0, epoch: 0, label_cm: -1, depth: 0, parent: -1, old_parent: -1,
 };
 
-/** Whether some robot's report has something in one of these columns. */
+/** Whether some robot's report has something in one of these columns. Before the first tick nobody has taken part in a
+ *  tree yet: there roles stand for it. */
 function reported(frame: Frame, ...names: Column[]): boolean {
   return names.some((name) => column(frame, name).some((value) => value !== untouched[name]));
 }
@@ -27,7 +28,7 @@ function reported(frame: Frame, ...names: Column[]): boolean {
  *  tree, neither. */
 export function facts(frame: Frame, robot: number): Fact[] {
   const hasRoles = reported(frame, 'role');
-  const hasTree = reported(frame, 'phase', 'epoch', 'label_cm', 'depth', 'parent', 'old_parent');
+  const hasTree = reported(frame, 'phase', 'epoch', 'label_cm', 'depth', 'parent', 'old_parent') || (frame.tick === 0 && hasRoles);
   const get = (name: Column) => column(frame, name)[robot];
   const who = (name: Column, help: string): Fact => {
     const other = get(name);

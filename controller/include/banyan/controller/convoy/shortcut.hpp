@@ -17,7 +17,7 @@ inline constexpr int pending_limit_ticks = 15;  // a seqno rests no longer: more
 [[nodiscard]] bool is_rooted(const ConvoyRobot& robot, int k) noexcept;
 [[nodiscard]] bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept;
 // And it may be my parent now: no farther than range_m, and ahead of me.
-[[nodiscard]] bool is_hold(const ConvoyRobot& robot, int k, float range_m) noexcept;
+[[nodiscard]] bool may_be_parent(const ConvoyRobot& robot, int k, float range_m) noexcept;
 
 // Neighbour k is a worker at its target, as far as I know where that is: it follows nobody.
 [[nodiscard]] bool stands_at_target(const ConvoyRobot& robot, int k) noexcept;
