@@ -39,8 +39,10 @@ void watch_progress(HealingRobot& robot, Vec2 v) noexcept {
   }
   const auto left_cm = to_fixed<std::uint16_t>(left_m, per_cm);
   const bool hindered = self.detour.side != 0 || !robot.obstacles.empty() || robot.target_strays;
-  if (hindered) {  // what lies behind the obstacle is a new way
+  if (hindered) {  // what lies behind the obstacle is a new way; a tick that brings it nearer is not in vain
+    const bool nearer = left_cm < self.progress.least_cm;
     self.progress.least_cm = left_cm;
+    if (nearer) return;
   } else if (left_cm + nearer_cm <= self.progress.least_cm) {
     self.progress = {left_cm, 0};
     return;

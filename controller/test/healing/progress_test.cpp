@@ -76,6 +76,18 @@ TEST(Progress, InSightOfObstaclesItLooksForAWayForLong) {
   EXPECT_FALSE(worker.serves());
 }
 
+// A long corridor: walls in sight all the time, and it gets on.
+TEST(Progress, AlongWallsItMayDriveForever) {
+  Worker worker({19.5F, 0.0F});
+  worker.bench.obstacles = {{-0.25F, 0.0F}};
+  constexpr float a_tick_m = 0.0075F;
+  for (int tick = 1; tick <= 25 * ten_s; ++tick) {
+    worker.bench.send({19.5F - a_tick_m * static_cast<float>(tick), 0.0F});
+    worker.hear_root(1, {.forward_m = a_tick_m});
+    ASSERT_TRUE(worker.serves()) << tick;
+  }
+}
+
 TEST(Progress, AndBehindATargetThatDrivesAway) {
   Worker worker({3.0F, 0.0F});
   for (int tick = 0; tick < 14 * ten_s; ++tick) {

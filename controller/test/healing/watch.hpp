@@ -25,10 +25,10 @@ struct Watch {
     m.label_cm = 0;
     m.committed = true;
   }
-  void hear_root(int ticks) {
+  void hear_root(int ticks, const Odometry& odometry = {}) {
     for (int k = 0; k < ticks; ++k) {
       bench.say(root_id).heartbeat = count++;
-      bench.step();
+      bench.step(odometry);
     }
   }
   // The neighbour serves a target at `target` (my frame) and counts `beat`.
