@@ -7,20 +7,19 @@ namespace banyan {
 namespace {
 
 constexpr float near_enough = 0.15F;  // of C
-constexpr int notice_ticks = 2;       // before the silent are forgotten, or the last step before that
 
 void watch_children(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   const auto hangs = [&](int k) { return table.message(k).role != Role::spare; };
-  const auto fades = [&](int k) { return hangs(k) && table.age(k) > robot.liveness_ticks() - std::max(notice_ticks, robot.elapsed_ticks); };
-  const auto lives = [&](int k) { return hangs(k) && !fades(k); };
+  const auto leaves = [&](int k) { return hangs(k) && fades(robot, k); };
+  const auto lives = [&](int k) { return hangs(k) && !fades(robot, k); };
   const auto any = [&](auto is) { return std::any_of(robot.children.begin(), robot.children.end(), is); };
   if (!robot.params.heals() || self.role != Role::connector || self.phase != Phase::grow_tree || any(lives)) {
     self.dangling_ticks = 0;
     return;
   }
-  const auto lost = std::find_if(robot.children.begin(), robot.children.end(), fades);
+  const auto lost = std::find_if(robot.children.begin(), robot.children.end(), leaves);
   if (lost != robot.children.end()) {
     self.lost_child = table.position(*lost);
     self.dangling_ticks = static_cast<std::uint16_t>(robot.params.ticks(robot.params.pursue_for_s));

@@ -6,13 +6,8 @@
 namespace banyan {
 namespace {
 
-constexpr int notice_before_ticks = 2;  // before the silent are forgotten, or the last step before that
 constexpr float hesitate_s = 2.5F;      // beyond I
 constexpr float well_in_range = 0.85F;  // of C: whoever was farther away may only have left
-
-bool fades(const HealingRobot& robot, int k) noexcept {
-  return robot.table().age(k) > robot.liveness_ticks() - std::max(notice_before_ticks, robot.elapsed_ticks);
-}
 
 // I heard the worker, and its parent is not there to miss it, or has more workers below than it can remember.
 bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
@@ -38,12 +33,11 @@ void begin_doubt(const HealingRobot& robot, Task& task) noexcept {
 void doubt(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (!self.forgets) return;
-  const int fading_ticks = robot.liveness_ticks() - std::max(notice_before_ticks, robot.elapsed_ticks);
   // A body may stand between for a moment.
   const int doubt_ticks = robot.liveness_ticks() + robot.params.ticks(hesitate_s);
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[static_cast<std::size_t>(k)];
-    if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks) continue;
+    if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
     if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;
     if (task.age_ticks > std::max(outdated_ticks, 2 * doubt_ticks)) task.via = nobody;
     else if (task.age_ticks > doubt_ticks && is_missed(robot, task)) begin_doubt(robot, task);

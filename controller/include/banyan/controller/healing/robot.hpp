@@ -2,6 +2,8 @@
 // A robot of the tree that heals: the same step, with more to know.
 #pragma once
 
+#include <algorithm>
+
 #include "banyan/controller/healing/params.hpp"
 #include "banyan/controller/healing/state.hpp"
 #include "banyan/controller/tree/robot.hpp"
@@ -31,6 +33,14 @@ struct HealingRobot : TreeRobot {
   HealingState& self;
   bool target_strays = false;    // it is not where it would be if it stood still and my wheels had not slipped
 };
+
+// Who has been silent for longer will be forgotten within two ticks, or at the next step where steps are longer: the
+// last moment at which what it said can be read.
+[[nodiscard]] inline int fading_ticks(const HealingRobot& robot) noexcept {
+  constexpr int notice_ticks = 2;
+  return robot.liveness_ticks() - std::max(notice_ticks, robot.elapsed_ticks);
+}
+[[nodiscard]] inline bool fades(const HealingRobot& robot, int k) noexcept { return robot.table().age(k) > fading_ticks(robot); }
 
 [[nodiscard]] inline Vec2 bypass(const HealingRobot& robot, Vec2 goal) noexcept { return bypass(robot, robot.self.detour, goal); }
 
