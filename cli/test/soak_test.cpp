@@ -147,6 +147,36 @@ TEST(SoakWatch, ASplitWithoutADeathIsFound) {
   EXPECT_FALSE(is_promised("incomplete", s));
 }
 
+// A worker that freezes is replaced with reason; it is counted all the same, and nobody promised that it would not be.
+TEST(SoakWatch, AReplacedWorkerIsCountedAlsoWhereItIsHeldUp) {
+  Scenario s = world::plain_scenario();
+  s.targets = std::vector<world::Vec2>{{4.0, 0.0}};
+  s.swarm.robots = 12;
+  s.mission.time_limit_s = 80.0;
+  EXPECT_FALSE(found(watch(s, false), "replaced"));
+  s.events = {{.time_s = 3.0, .action = world::Freeze{world::World(s).targets()[0].worker}}};
+  EXPECT_TRUE(found(watch(s, false), "replaced"));
+  EXPECT_FALSE(is_promised("replaced", s));
+}
+
+// The table of docs/soak.md: | `kind` | what it is | promised |
+TEST(SoakWatch, PromisesWhatItsPageSays) {
+  const Scenario plain = world::plain_scenario();
+  Scenario rough = plain;
+  rough.radio.model = world::RadioModel::Model::bursts;
+  std::ifstream page(BANYAN_SOAK_PAGE);
+  std::set<std::string> kinds;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| `")) continue;
+    const std::string kind = line.substr(3, line.find('`', 3) - 3);
+    const std::string promised = line.substr(line.rfind("| ", line.size() - 3) + 2);
+    kinds.insert(kind);
+    const char* says = is_promised(kind, rough) ? "in all missions |" : is_promised(kind, plain) ? "in plain missions |" : "reported only |";
+    EXPECT_EQ(promised, says) << kind;
+  }
+  EXPECT_EQ(kinds.size(), 11U);
+}
+
 TEST(SoakWatch, TooFewRobotsAreNoFinding) {
   Scenario s = world::plain_scenario();
   s.swarm.robots = 5;

@@ -124,9 +124,9 @@ class Watch {
     if (static_cast<double>(two_roots_) * world_.scenario().tick_s > two_roots_s)
       find("two-roots", format("%zu roots for more than %.0f s", roots, two_roots_s));
     if (traits_.deaths) return;
-    // Who freezes, or cannot get to a target for an obstacle, is replaced with reason.
+    // Who freezes, or cannot get to a target for an obstacle, may be replaced with reason.
     const bool held_up = traits_.changes || traits_.obstacles;
-    if (replaced > 0 && !held_up) find("replaced", "a living worker is replaced");
+    if (replaced > 0) find("replaced", held_up ? "a living worker is replaced; it may have been held up" : "a living worker is replaced");
     if (elected > 0) find("elected", "a root is elected although it lives");
   }
 
