@@ -3,15 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
+#include <random>
 #include <set>
 #include <sstream>
 
 #include "banyan/config/config.hpp"
 #include "banyan/world/faults.hpp"
+#include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"
+#include "soak/free_path.hpp"
 #include "soak/isolated.hpp"
+#include "soak/journal.hpp"
 #include "soak/mission.hpp"
 #include "soak/shrink.hpp"
 #include "soak/sight.hpp"
@@ -266,6 +272,102 @@ TEST(SoakCommand, KeepsAJournalThatDoesNotDependOnProcessesAndGoesOn) {
   std::filesystem::resize_file(journal, std::filesystem::file_size(journal) - 5);
   static_cast<void>(soak_command(options));
   EXPECT_EQ(rows(journal), one);
+}
+
+TEST(SoakCommand, NamesALineOfItsJournalThatIsNone) {
+  const record::test::TemporaryDirectory directory;
+  const std::string path = directory.file("soak.csv");
+  { Journal(path, 9, false).add({.index = 3, .kind = "plain", .robots = 7, .targets = 2}); }
+  EXPECT_EQ(Journal(path, 9, false).rows().at(3).robots, 7U);
+  EXPECT_FALSE(Journal(path, 8, false).has(3)) << "another seed's";
+  std::ofstream(path, std::ios::app) << "9,4,\"plain\",many,2,false,0.0,0.000,0.0,0000000000000000,\n";
+  try {
+    Journal(path, 9, false);
+    FAIL() << "a number of robots that is none";
+  } catch (const CommandError& e) { EXPECT_NE(std::string(e.what()).find("soak.csv:3"), std::string::npos) << e.what(); }
+  EXPECT_FALSE(Journal(path, 9, true).has(3)) << "begun anew";
+}
+
+TEST(SoakJournal, CountsAMissionInEachOfItsKinds) {
+  std::map<std::uint64_t, Row> rows;
+  for (std::uint64_t k = 1; k <= 20; ++k)
+    rows[k] = {.index = k, .kind = k == 20 ? "loose start, noise" : "noise", .complete = k != 7, .complete_s = static_cast<double>(k), .bound_s = 2.0};
+  rows[3].findings = "split@1.0";
+  EXPECT_EQ(table_of(rows),
+            "  kind               missions  complete  findings time/bound    95 %   worst\n"
+            "  loose start               1         1         0      10.00   10.00   10.00\n"
+            "  noise                    20        19         1       5.50   10.00   10.00\n"
+            "  all                      20        19         1       5.50   10.00   10.00\n");
+}
+
+using world::Box;
+using world::Disc;
+using world::Vec2;
+using world::Wall;
+
+TEST(FreePath, OfPlainShapes) {
+  EXPECT_DOUBLE_EQ(free_path_m({}, {0, 0}, {3, 4}), 5.0);
+  EXPECT_DOUBLE_EQ(free_path_m({Disc{{1.5, 5}, 0.6}}, {0, 0}, {3, 4}), 5.0) << "beside the way";
+  EXPECT_NEAR(free_path_m({Wall{{0, -3}, {0, 4}}}, {-4, 0}, {4, 0}), 10.0, 1e-9) << "round its nearer end";
+  // Two tangents and an arc; the polygon within is a little shorter.
+  const double round = 2.0 * std::sqrt(3.0) + 2.0 * std::asin(0.5);
+  EXPECT_NEAR(free_path_m({Disc{{0, 0}, 1}}, {-2, 0}, {2, 0}), round, 0.02 * round);
+  EXPECT_LE(free_path_m({Disc{{0, 0}, 1}}, {-2, 0}, {2, 0}), round);
+  EXPECT_NEAR(free_path_m({Box{{0, 0}, {2, 2}, 0}}, {-2, 0}, {2, 0}), 2.0 + 2.0 * std::sqrt(2.0), 1e-6);
+  EXPECT_TRUE(std::isinf(free_path_m({Wall{{-2, -1}, {2, -1}}, Wall{{1, -2}, {0, 2}}, Wall{{0.3, 2.4}, {-1.5, -2}}}, {0, 0}, {4, 0})));
+}
+
+bool covers(const world::Obstacle& obstacle, Vec2 p) {
+  if (const auto* disc = std::get_if<Disc>(&obstacle)) return distance(disc->center, p) < disc->radius_m;
+  const auto* box = std::get_if<Box>(&obstacle);
+  const Vec2 x{std::cos(box->angle_rad), std::sin(box->angle_rad)}, off = p - box->center;
+  return std::abs(off.x * x.x + off.y * x.y) < 0.5 * box->size.x && std::abs(off.y * x.x - off.x * x.y) < 0.5 * box->size.y;
+}
+
+// Brute force: ways over a fine grid, whose steps lead to the 32 nearest points in different directions; at most 1.4 %
+// longer than a free way, but for the corners that it rounds.
+TEST(FreePath, AgreesWithAGrid) {
+  constexpr int n = 81;
+  constexpr double pitch = 0.1;
+  const auto at = [](int k) { return Vec2{(k % n - n / 2) * pitch, (k / n - n / 2) * pitch}; };
+  int longer = 0;
+  for (std::uint64_t index = 0; index < 12; ++index) {
+    std::vector<world::Obstacle> obstacles;
+    std::mt19937_64 rng(77 + index);
+    const auto between = [&](double from, double to) { return from + (to - from) * world::to_uniform(rng()); };
+    for (int k = 0; k < 5; ++k) {
+      const Vec2 center{between(-2, 2), between(-2, 2)};
+      if (k % 2 == 0) obstacles.emplace_back(Disc{center, between(0.3, 1.0)});
+      else obstacles.emplace_back(Box{center, {between(0.5, 2.5), between(0.5, 1.5)}, between(0, 3)});
+    }
+    const auto free = [&](Vec2 p) { return std::none_of(obstacles.begin(), obstacles.end(), [&](const auto& o) { return covers(o, p); }); };
+    std::vector<double> way(n * n, 1e9);
+    const int from = (n / 2) * n + 8, to = (n / 2) * n + n - 9;
+    std::set<std::pair<double, int>> queue{{0.0, from}};
+    way[from] = 0.0;
+    while (!queue.empty()) {
+      const int k = queue.begin()->second;
+      queue.erase(queue.begin());
+      for (int dy = -3; dy <= 3; ++dy)
+        for (int dx = -3; dx <= 3; ++dx) {
+          const int x = k % n + dx, y = k / n + dy, next = y * n + x;
+          if (std::gcd(dx, dy) != 1 || x < 0 || y < 0 || x >= n || y >= n) continue;
+          const double length = way[static_cast<std::size_t>(k)] + pitch * std::hypot(dx, dy);
+          if (length >= way[static_cast<std::size_t>(next)]) continue;
+          bool open = true;
+          for (int part = 1; part <= 12 && open; ++part) open = free(at(k) + (at(next) - at(k)) * (part / 12.0));
+          if (!open) continue;
+          queue.erase({way[static_cast<std::size_t>(next)], next});
+          way[static_cast<std::size_t>(next)] = length;
+          queue.insert({length, next});
+        }
+    }
+    const double exact = free_path_m(obstacles, at(from), at(to)), grid = way[to];
+    longer += exact > 1.02 * distance(at(from), at(to)) ? 1 : 0;
+    EXPECT_LE(exact, grid + 0.02) << "world " << index;
+    EXPECT_GE(exact, grid / 1.014 - 0.4) << "world " << index;
+  }
+  EXPECT_GE(longer, 4) << "worlds in which there is something to go round";
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include <exception>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "../terminal.hpp"
 
@@ -35,7 +36,8 @@ void write_all(int pipe, std::string_view text) {
 std::string outcome_text(const Outcome& outcome) {
   std::string text;
   for (const Finding& f : outcome.findings) text += format("%s\t%.17g\t%s\n", f.kind.c_str(), f.time_s, f.text.c_str());
-  return text + format("end\t%d\t%.17g\t%016" PRIx64 "\n", outcome.complete ? 1 : 0, outcome.time_s, outcome.hash);
+  return text + format("end\t%d\t%.17g\t%.17g\t%.17g\t%016" PRIx64 "\n", outcome.complete ? 1 : 0, outcome.complete_s,
+                       outcome.bound_s, outcome.time_s, outcome.hash);
 }
 
 [[noreturn]] void live(const world::Scenario& scenario, bool twice, int pipe) noexcept {
@@ -134,20 +136,20 @@ Outcome Isolated::read_outcome(int status) const {
   std::istringstream lines(said_);
   bool ended = false;
   for (std::string line; std::getline(lines, line);) {
-    std::istringstream parts(line);
-    std::string kind, first, second, third;
-    std::getline(parts, kind, '\t');
-    std::getline(parts, first, '\t');
-    std::getline(parts, second, '\t');
-    std::getline(parts, third, '\t');
-    ended = kind == "end";
-    if (!ended) {
-      outcome.findings.push_back({kind, std::strtod(first.c_str(), nullptr), second});
-      continue;
+    std::vector<std::string> parts;
+    std::istringstream text(line);
+    for (std::string part; std::getline(text, part, '\t');) parts.push_back(part);
+    const auto number = [&](std::size_t k) { return std::strtod(parts[k].c_str(), nullptr); };
+    ended = parts.size() == 6 && parts[0] == "end";
+    if (ended) {
+      outcome.complete = parts[1] == "1";
+      outcome.complete_s = number(2);
+      outcome.bound_s = number(3);
+      outcome.time_s = number(4);
+      outcome.hash = std::strtoull(parts[5].c_str(), nullptr, 16);
+    } else if (parts.size() >= 2) {
+      outcome.findings.push_back({parts[0], number(1), parts.size() > 2 ? parts[2] : ""});
     }
-    outcome.complete = first == "1";
-    outcome.time_s = std::strtod(second.c_str(), nullptr);
-    outcome.hash = std::strtoull(third.c_str(), nullptr, 16);
   }
   if (!ended && WIFSIGNALED(status))
     outcome.findings.push_back({"crash", 0.0, format("ended by signal %d", WTERMSIG(status))});

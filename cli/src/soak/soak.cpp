@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 // `banyan soak`: random missions, one after the other, watched at every tick (docs/soak.md).
-#include <fcntl.h>
 #include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cinttypes>
-#include <filesystem>
 #include <fstream>
 #include <map>
-#include <set>
-#include <sstream>
 #include <thread>
 
 #include "../commands.hpp"
@@ -19,8 +14,8 @@
 #include "../terminal.hpp"
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
-#include "banyan/record/file.hpp"
 #include "isolated.hpp"
+#include "journal.hpp"
 #include "mission.hpp"
 #include "shrink.hpp"
 
@@ -29,7 +24,6 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-constexpr const char* journal_header = "seed,index,kind,robots,targets,complete,time_s,hash,findings\n";
 constexpr int shrinking_runs = 150;
 
 std::size_t target_count(const world::Scenario& s) { return world::target_positions(s).size(); }
@@ -46,64 +40,6 @@ std::string lines_of(const Outcome& outcome, const world::Scenario& scenario) {
                    is_promised(f.kind, scenario) ? " (promised not to happen)" : "");
   return text;
 }
-
-// What earlier soaks in the same directory have done: a line a mission. A last line that was cut off is none. Nobody else
-// writes to it meanwhile.
-class Journal {
- public:
-  Journal(const std::string& path, std::uint64_t seed, bool force) : path_(path), seed_{seed}, lock_{lock(path)} {
-    std::error_code error;
-    if (force) std::filesystem::resize_file(path, 0, error);
-    std::ifstream in(path);
-    std::string text((std::istreambuf_iterator<char>(in)), {});
-    if (error || !in) throw CommandError(exit_lost, "cannot read " + path);
-    text.resize(text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1);
-    if (!text.empty() && !text.starts_with(journal_header))
-      throw CommandError(exit_usage, path + " is no journal of this version's soak; --force replaces it");
-    std::istringstream lines(text);
-    std::string line;
-    std::getline(lines, line);
-    while (std::getline(lines, line)) {
-      char* rest = nullptr;
-      if (std::strtoull(line.c_str(), &rest, 10) == seed && *rest == ',') done_.insert(std::strtoull(rest + 1, nullptr, 10));
-    }
-    std::filesystem::resize_file(path, text.size(), error);
-    out_.open(path, std::ios::app);
-    if (text.empty()) write(journal_header);
-  }
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
-  ~Journal() { static_cast<void>(::close(lock_)); }
-  [[nodiscard]] bool has(std::uint64_t index) const { return done_.contains(index); }
-  [[nodiscard]] std::size_t size() const { return done_.size(); }
-
-  void add(std::uint64_t index, const world::Scenario& s, const Outcome& outcome) {
-    std::string findings;
-    for (const Finding& f : outcome.findings)
-      findings += (findings.empty() ? "" : " ") + format("%s@%.1f", f.kind.c_str(), f.time_s);
-    write(format("%" PRIu64 ",%" PRIu64 ",\"%s\",%zu,%zu,%s,%.1f,%016" PRIx64 ",%s\n", seed_, index, text_of(traits_of(s)).c_str(),
-                 world::robot_count(s), target_count(s), outcome.complete ? "true" : "false", outcome.time_s,
-                 outcome.hash, findings.c_str()));
-  }
-
- private:
-  static int lock(const std::string& path) {
-    try {
-      return record::open_locked(path, O_RDWR | O_CREAT | O_CLOEXEC);
-    } catch (const record::FileBusy&) {
-      throw CommandError(exit_lost, "another soak is at work on " + path);
-    } catch (const record::FileError& e) { throw CommandError(exit_lost, std::string("cannot write ") + path + ": " + e.what()); }
-  }
-  void write(const std::string& text) {
-    out_ << text << std::flush;
-    if (!out_) throw CommandError(exit_lost, "cannot write " + path_);
-  }
-  std::string path_;
-  std::uint64_t seed_;
-  int lock_;
-  std::set<std::uint64_t> done_;  // of this seed
-  std::ofstream out_;
-};
 
 class Soak {
  public:
@@ -176,7 +112,7 @@ class Soak {
   }
 
   void judge(std::uint64_t index, const world::Scenario& scenario, const Outcome& outcome) {
-    journal_.add(index, scenario, outcome);
+    journal_.add(row_of(index, scenario, outcome));
     ++missions_;
     complete_ += outcome.complete ? 1 : 0;
     with_findings_ += outcome.findings.empty() ? 0 : 1;
@@ -222,10 +158,12 @@ class Soak {
     std::string text = format("%s in %s, seed %" PRIu64 " from mission %" PRIu64 ": %zu complete, %zu with findings",
                               plural(missions_, "mission").c_str(), duration_text(elapsed_s()).c_str(), options_.seed,
                               options_.from, complete_, with_findings_);
-    text += format("; %zu in %s/soak.csv by now\n", journal_.size() + missions_, directory_.c_str());
+    text += "\n";
     for (const auto& [kind, count] : counts_)
       text += format("  %-16s %5zu %s", kind.c_str(), count.all,
                      count.promised > 0 ? format("(%zu promised not to happen)\n", count.promised).c_str() : "\n");
+    text += format("All of this seed in %s/soak.csv; time over the farthest worker's straight drive: median, 95 %%, worst:\n", directory_.c_str());
+    text += table_of(journal_.rows());
     text += format("Again, one alone: banyan soak --seed %" PRIu64 " --from N --missions 1 --out DIR\n", options_.seed);
     print(text);
   }

@@ -8,6 +8,7 @@
 
 #include "../terminal.hpp"
 #include "banyan/world/threads.hpp"
+#include "free_path.hpp"
 #include "mission.hpp"
 #include "sight.hpp"
 
@@ -25,7 +26,13 @@ constexpr double after_event_s = 50.0;
 class Watch {
  public:
   explicit Watch(const Scenario& scenario)
-      : world_(scenario), sight_(world_), traits_(traits_of(scenario)), limit_s_{time_limit_s(scenario)} {}
+      : world_(scenario), sight_(world_), traits_(traits_of(scenario)), limit_s_{time_limit_s(scenario)} {
+    for (const Target& target : world_.targets()) {
+      const double way_m = free_path_m(scenario.obstacles, world_.positions()[target.worker], target.position);
+      const double drive_s = (way_m - scenario.mission.target_tolerance_m) / scenario.robot.wheel_limit_m_s;
+      outcome_.bound_s = std::max(outcome_.bound_s, drive_s);
+    }
+  }
 
   Outcome run() {
     while (!finished()) {
@@ -51,7 +58,7 @@ class Watch {
   }
   // Since when nothing more is to happen: the last of completion, deaths and events at their time.
   [[nodiscard]] double quiet_since() const {
-    double since = complete_s_;
+    double since = outcome_.complete_s;
     for (const Event& event : world_.scenario().events)
       if (event.when == Event::When::time) since = std::max(since, event.time_s + after_event_s);
     if (const auto death = world_.last_death_tick())
@@ -145,7 +152,7 @@ class Watch {
     for (std::size_t i = 0; i < tree.size(); ++i)
       tree[i] = world_.alive()[i] != 0 && world_.reports()[i].role != Role::spare;
     outcome_.complete = sight_.components(tree, world_.line_of_sight()) == 1;
-    complete_s_ = world_.time_s();
+    if (outcome_.complete) outcome_.complete_s = world_.time_s();
   }
 
   // No network of so few robots comes within tolerance of all targets: a tree over them is at least 0.8241
@@ -178,7 +185,6 @@ class Watch {
   Sight sight_;
   Traits traits_;
   double limit_s_;
-  double complete_s_ = 0.0;
   bool excused_ = false;
   std::uint64_t hidden_split_ = 0, two_roots_ = 0;
   std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint64_t, std::uint64_t>> hidden_since_;  // first, last

@@ -20,7 +20,9 @@ struct Finding {
 struct Outcome {
   std::vector<Finding> findings;  // the first of each kind
   bool complete = false;
-  double time_s = 0.0;
+  double complete_s = 0.0;  // when first
+  double bound_s = 0.0;     // no swarm is sooner: the farthest worker straight to its target, past obstacles
+  double time_s = 0.0;      // the end
   std::uint64_t hash = 0;
 };
 
