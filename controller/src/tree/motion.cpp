@@ -5,7 +5,6 @@
 
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
-#include "banyan/controller/core/trig.hpp"
 
 namespace banyan {
 namespace {
@@ -116,60 +115,11 @@ Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& rea
   return u - away * std::max(0.0F, dot(u, away));
 }
 
-void Guard::add(Vec2 neighbor, float longest_m, const TreeParams& params) noexcept {
-  const float d = norm(neighbor);
-  if (d <= 0.0F) return;
-  add_limit(-neighbor / d, 0.5F * (longest_m - d) * params.guard_rate_per_s);
-}
-
-void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
-  if (size == capacity) return;
-  planes[size++] = {direction.x, direction.y, limit_m_s};
-}
-
-Vec2 Guard::apply(Vec2 v) const noexcept {
-  // Projections onto the half-planes in turn; they settle in a few rounds.
-  for (int round = 0; round < 4; ++round) {
-    bool violated = false;
-    for (int k = 0; k < size; ++k) {
-      const float excess = dot(v, planes[k].away()) - planes[k].limit_m_s;
-      if (excess <= 0.0F) continue;
-      v -= planes[k].away() * excess;
-      violated = true;
-    }
-    if (!violated) return v;
-  }
-  // What is left is cut by standing still as far as needed: 0 is allowed while no edge is too long.
-  float scale = 1.0F;
-  for (int k = 0; k < size; ++k) {
-    const float limit = planes[k].limit_m_s;
-    const float along = dot(v, planes[k].away());
-    if (along > limit && along > 0.0F) scale = std::min(scale, std::max(0.0F, limit) / along);
-  }
-  return v * scale;
-}
-
-Velocity drive(Vec2 v, const Guard& guard, const TreeParams& params) noexcept {
-  const float speed = norm(v);
-  if (speed < 1e-4F) return {};
-  if (params.drive == Drive::holonomic) return {v.x, v.y, 0.0F};
-  const float turn_limit = 2.0F * params.wheel_limit_m_s / params.wheel_distance_m;
-  const float turn = std::clamp(4.0F * angle_of(v), -turn_limit, turn_limit);
-  float forward = std::max(0.0F, v.x);  // |u| max(0, cos theta)
-  forward = std::min(forward, params.wheel_limit_m_s - 0.5F * (turn < 0 ? -turn : turn) * params.wheel_distance_m);
-  // The guard again, along the true heading (1, 0).
-  for (int k = 0; k < guard.size; ++k) {
-    const Guard::HalfPlane& plane = guard.planes[k];
-    if (plane.x > 0.0F && forward * plane.x > plane.limit_m_s) forward = std::max(0.0F, plane.limit_m_s) / plane.x;
-  }
-  return {std::max(0.0F, forward), 0.0F, turn};
-}
-
 void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   if (!robot.reading.guards_edges) return;
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m - robot.table().spread_m(), robot.params);
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m - robot.table().spread_m(), robot.params.guard_rate_per_s);
   });
 }
 
@@ -185,7 +135,7 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
     const bool tied_to_me = k == robot.hold || hold_of(m) == robot.self.id;
     // In a grown tree only those of its own epoch wait for a hold: one of another hears nobody, or comes from elsewhere.
     const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || robot.self.phase < Phase::grow_tree);
-    if (tied_to_me || (!lets_go && (untied || waits))) guard.add(table.position(k), longest_m - table.spread_m(), p);
+    if (tied_to_me || (!lets_go && (untied || waits))) guard.add(table.position(k), longest_m - table.spread_m(), p.guard_rate_per_s);
   }
 }
 

@@ -6,17 +6,6 @@
 #include "banyan/controller/core/edge_frame.hpp"
 
 namespace banyan {
-namespace {
-
-// `odometry` is in the frame at the last step; what is left of it is turned into the frame of the packet.
-void carry_packet(Heard& h, const Odometry& odometry, float elapsed_s) noexcept {
-  const float share = std::min(h.age_s / elapsed_s, 1.0F);
-  const Vec2 shift = rotate_back(unit_vector(odometry.turn_rad * (1.0F - share)), Vec2{odometry.forward_m, odometry.sideways_m} * share);
-  h.position = Carry({shift.x, shift.y, odometry.turn_rad * share}).point(h.position);
-  h.age_s = 0.0F;
-}
-
-}  // namespace
 
 TreeState initial_tree_state(RobotId id, bool worker, bool root) noexcept {
   TreeState state;
@@ -44,10 +33,8 @@ void carry_memory(TreeState& self, const Carry& carry) noexcept {
 }
 
 Admitted::Admitted(const Senses& sensed, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept : Gate(sensed, platform) {
-  const float elapsed_s = senses().elapsed_s > 0.0F ? senses().elapsed_s : platform.tick_s;
   heard_ = packets(heard, platform);
-  for (Heard& h : heard_)
-    if (h.age_s > 0.0F) carry_packet(h, senses().odometry, elapsed_s);
+  carry_to_now(heard_, senses(), platform);
   tally.rejected += rejected();
 }
 

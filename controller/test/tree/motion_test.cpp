@@ -115,7 +115,7 @@ Edges random_edges(const TreeParams& p, float longest_m) {
   const int count = *rc::gen::inRange(1, 8);
   for (int k = 0; k < count; ++k) {
     edges.neighbors.push_back(polar(number(0.1F, longest_m), number(-3.14F, 3.14F)));
-    edges.guard.add(edges.neighbors.back(), p.ideal_distance_m, p);
+    edges.guard.add(edges.neighbors.back(), p.ideal_distance_m, p.guard_rate_per_s);
   }
   return edges;
 }
@@ -150,7 +150,7 @@ RC_GTEST_PROP(Guard, NeverPushesWhileNoEdgeIsTooLong, ()) {
 TEST(Guard, OneEdgeGivesTheNearestVelocity) {
   const HealingParams p = outwards_defaults();
   Guard guard;
-  guard.add({1.8F, 0}, p.ideal_distance_m, p);  // may move away at 0.05 m/s
+  guard.add({1.8F, 0}, p.ideal_distance_m, p.guard_rate_per_s);  // may move away at 0.05 m/s
   const Vec2 v = guard.apply({-0.2F, 0.1F});
   EXPECT_NEAR(v.x, -0.05F, 1e-6F);
   EXPECT_NEAR(v.y, 0.1F, 1e-6F);
@@ -165,7 +165,7 @@ RC_GTEST_PROP(Guard, BothEndsTogetherKeepTheEdgeWithinDelta, ()) {
   for (int t = 0; t < 200; ++t) {
     const auto moved = [&](W here, W there) {
       Guard guard;
-      guard.add({static_cast<float>(there.x - here.x), static_cast<float>(there.y - here.y)}, p.ideal_distance_m, p);
+      guard.add({static_cast<float>(there.x - here.x), static_cast<float>(there.y - here.y)}, p.ideal_distance_m, p.guard_rate_per_s);
       const Vec2 v = guard.apply(polar(0.2F, number(-3.14F, 3.14F)));
       return W{here.x + 0.1 * static_cast<double>(v.x), here.y + 0.1 * static_cast<double>(v.y)};
     };
@@ -180,7 +180,7 @@ RC_GTEST_PROP(Guard, BothEndsTogetherKeepTheEdgeWithinDelta, ()) {
 TEST(Guard, AnEdgeBeyondDeltaMayOnlyShrink) {
   const HealingParams p = outwards_defaults();
   Guard guard;
-  guard.add({2.0F, 0}, p.ideal_distance_m, p);
+  guard.add({2.0F, 0}, p.ideal_distance_m, p.guard_rate_per_s);
   EXPECT_LT(dot(guard.apply({-0.1F, 0}), Vec2{-1, 0}), 0.0F);
   EXPECT_EQ(drive({0.1F, 0}, guard, p).forward_m_s, 0.1F) << "towards it is free";
 }

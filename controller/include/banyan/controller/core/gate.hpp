@@ -4,6 +4,7 @@
 // possible counts as no motion. No later code can meet a NaN.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -59,5 +60,20 @@ class Gate {
   std::uint32_t rejected_ = 0;
   std::optional<std::array<Vec2, most_obstacles>> obstacles_;  // those that passed, if some did not
 };
+
+// Positions measured some time ago, in the frame of then, as they are now in the present frame: what is left of the
+// odometry, which is in the frame at the last step, is turned into the frame of the packet.
+template <class Heard>
+void carry_to_now(std::span<Heard> heard, const Senses& senses, const Platform& platform) noexcept {
+  const Odometry& odometry = senses.odometry;
+  const float elapsed_s = senses.elapsed_s > 0.0F ? senses.elapsed_s : platform.tick_s;
+  for (Heard& h : heard) {
+    if (!(h.age_s > 0.0F)) continue;
+    const float share = std::min(h.age_s / elapsed_s, 1.0F);
+    const Vec2 shift = rotate_back(unit_vector(odometry.turn_rad * (1.0F - share)), Vec2{odometry.forward_m, odometry.sideways_m} * share);
+    h.position = Carry({shift.x, shift.y, odometry.turn_rad * share}).point(h.position);
+    h.age_s = 0.0F;
+  }
+}
 
 }  // namespace banyan

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Robot motion (paper Sec. III-G, protocol 9): virtual forces, the guard, and what the wheels make of it.
+// Robot motion (paper Sec. III-G, protocol 9): virtual forces, and what the guard (core/guard.hpp) holds.
 #pragma once
 
+#include "banyan/controller/core/guard.hpp"
 #include "banyan/controller/tree/robot.hpp"
 
 namespace banyan {
@@ -24,23 +25,6 @@ inline constexpr float same_spot_m = 1e-6F;
 // literal: all up to S, nothing beyond; corrected: beyond S all but the part away from the parent.
 [[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept;
 
-// Corrected: the nearest velocity (m/s) to `v` that lengthens no edge to `neighbor` (position, own
-// frame) faster than (longest - d)/2 x guard rate. With both ends doing so no edge outgrows `longest_m`.
-struct Guard {
-  static constexpr int capacity = neighbor_capacity + 64;  // tree neighbours, then obstacles
-  struct HalfPlane {
-    float x, y;       // unit vector, from the neighbour to me
-    float limit_m_s;  // along it
-    [[nodiscard]] Vec2 away() const noexcept { return {x, y}; }
-  };
-  std::array<HalfPlane, capacity> planes;  // the first `size` are valid
-  int size = 0;
-  void add(Vec2 neighbor, float longest_m, const TreeParams& params) noexcept;
-  // Not faster than `limit_m_s` along `direction` (unit). What exceeds the capacity is dropped.
-  void add_limit(Vec2 direction, float limit_m_s) noexcept;
-  [[nodiscard]] Vec2 apply(Vec2 v) const noexcept;
-};
-
 // Corrected: adds the edges of both trees. `lets_go`: except those to neighbours that have fallen silent and
 // may be lost for good.
 void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
@@ -54,8 +38,5 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
 
 // The command to the motors for it.
 [[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;
-
-// Wheels or holonomic base: the velocity nearest to `v` (m/s, own frame) that the drive can do now.
-[[nodiscard]] Velocity drive(Vec2 v, const Guard& guard, const TreeParams& params) noexcept;
 
 }  // namespace banyan

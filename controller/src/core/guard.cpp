@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/core/guard.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/core/trig.hpp"
+
+namespace banyan {
+
+void Guard::add(Vec2 neighbor, float longest_m, float rate_per_s) noexcept {
+  const float d = norm(neighbor);
+  if (d <= 0.0F) return;
+  add_limit(-neighbor / d, 0.5F * (longest_m - d) * rate_per_s);
+}
+
+void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
+  if (size == capacity) return;
+  planes[size++] = {direction.x, direction.y, limit_m_s};
+}
+
+Vec2 Guard::apply(Vec2 v) const noexcept {
+  // Projections onto the half-planes in turn; they settle in a few rounds.
+  for (int round = 0; round < 4; ++round) {
+    bool violated = false;
+    for (int k = 0; k < size; ++k) {
+      const float excess = dot(v, planes[k].away()) - planes[k].limit_m_s;
+      if (excess <= 0.0F) continue;
+      v -= planes[k].away() * excess;
+      violated = true;
+    }
+    if (!violated) return v;
+  }
+  // What is left is cut by standing still as far as needed: 0 is allowed while no edge is too long.
+  float scale = 1.0F;
+  for (int k = 0; k < size; ++k) {
+    const float limit = planes[k].limit_m_s;
+    const float along = dot(v, planes[k].away());
+    if (along > limit && along > 0.0F) scale = std::min(scale, std::max(0.0F, limit) / along);
+  }
+  return v * scale;
+}
+
+Velocity drive(Vec2 v, const Guard& guard, const Platform& platform) noexcept {
+  const float speed = norm(v);
+  if (speed < 1e-4F) return {};
+  if (platform.drive == Drive::holonomic) return {v.x, v.y, 0.0F};
+  const float turn_limit = 2.0F * platform.wheel_limit_m_s / platform.wheel_distance_m;
+  const float turn = std::clamp(4.0F * angle_of(v), -turn_limit, turn_limit);
+  float forward = std::max(0.0F, v.x);  // |u| max(0, cos theta)
+  forward = std::min(forward, platform.wheel_limit_m_s - 0.5F * (turn < 0 ? -turn : turn) * platform.wheel_distance_m);
+  // The guard again, along the true heading (1, 0).
+  for (int k = 0; k < guard.size; ++k) {
+    const Guard::HalfPlane& plane = guard.planes[k];
+    if (plane.x > 0.0F && forward * plane.x > plane.limit_m_s) forward = std::max(0.0F, plane.limit_m_s) / plane.x;
+  }
+  return {std::max(0.0F, forward), 0.0F, turn};
+}
+
+}  // namespace banyan
