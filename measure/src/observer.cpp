@@ -207,14 +207,36 @@ std::vector<world::Vec2> active_positions(const world::World& world) {
   return positions;
 }
 
-// Edges from the living robots of the tree to their living parents; in a reconstruction, to the old ones.
+bool is_of_tree(const world::World& world, std::size_t i) { return world.alive()[i] != 0 && world.reports()[i].role != Role::spare; }
+
+// The links that robot i keeps besides edges to parents, but for those that the other end tells of: it has i as a
+// parent, or keeps the link, too, and has the smaller id.
+template <class Visit>
+void for_each_kept_link(const world::World& world, std::size_t i, Visit visit) {
+  const Report& mine = world.reports()[i];
+  const auto me = static_cast<RobotId>(i);
+  for (const RobotId other : mine.kept) {
+    if (other == nobody) return;
+    if (other == mine.parent || other == mine.old_parent) continue;
+    if (other < world.size() && is_of_tree(world, other)) {
+      const Report& theirs = world.reports()[other];
+      if (theirs.parent == me || theirs.old_parent == me || (other < me && keeps(theirs, me))) continue;
+    }
+    visit(other);
+  }
+}
+
+// Edges from the living robots of the tree to their living parents, in a reconstruction to the old ones, and the
+// links that they keep.
 double network_length_m(const world::World& world) {
   double length_m = 0.0;
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const Report& m = world.reports()[i];
-    const RobotId up = up_of(m);
-    if (world.alive()[i] == 0 || m.role == Role::spare || up >= world.size()) continue;
-    if (world.alive()[up] != 0) length_m += distance(world.positions()[i], world.positions()[up]);
+    if (!is_of_tree(world, i)) continue;
+    const auto add = [&](RobotId other) {
+      if (other < world.size() && world.alive()[other] != 0) length_m += distance(world.positions()[i], world.positions()[other]);
+    };
+    add(up_of(world.reports()[i]));
+    for_each_kept_link(world, i, add);
   }
   return length_m;
 }
@@ -274,10 +296,11 @@ void Observer::Impl::count_edges(const world::World& world) {
   };
   tick.edges = tick.broken_by_death = tick.broken_by_distance = tick.broken_by_occlusion = 0;
   for (std::size_t i = 0; i < reports.size(); ++i) {
+    if (!is_of_tree(world, i)) continue;
     const Report& m = reports[i];
-    if (alive[i] == 0 || m.role == Role::spare) continue;
     count(i, m.parent);
     if (m.old_parent != m.parent) count(i, m.old_parent);
+    for_each_kept_link(world, i, [&](RobotId other) { count(i, other); });
   }
 }
 

@@ -16,7 +16,7 @@ struct Tick {
   std::uint32_t alive = 0;
   std::uint32_t roots = 0, workers = 0, connectors = 0, spares = 0;   // living robots by role
   std::uint32_t committed = 0;             // alive and no spare
-  std::uint32_t edges = 0;                 // tree edges: parent and old parent of every robot that is no spare
+  std::uint32_t edges = 0;                 // tree edges: parent and old parent of every robot that is no spare, links that it keeps
   std::uint32_t broken_by_distance = 0;    // of these, d >= C
   std::uint32_t broken_by_occlusion = 0;   // of these, d < C but no line of sight
   std::uint32_t broken_by_death = 0;       // of these, the other end is dead
@@ -55,7 +55,7 @@ struct Run {
   std::uint32_t committed = 0;             // at the end
   double mean_committed = 0.0;
   double committed_ratio = 0.0;            // committed / robots_bound
-  double network_length_m = 0.0;           // edges to the parents, at the end; both ends alive, the child no spare
+  double network_length_m = 0.0;           // edges to the parents and kept links, at the end; both ends alive, the child no spare
   std::uint64_t broken_ticks = 0;          // at least one broken tree edge
   std::uint64_t broken_ticks_by_distance = 0;
   std::uint64_t broken_ticks_by_occlusion = 0;

@@ -3,6 +3,8 @@
 // algorithm can say; what one has no use for stays as it is here.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "banyan/controller/core/inputs.hpp"
@@ -32,10 +34,20 @@ struct Tally {
   std::uint32_t rejected = 0;      // sensor readings that did not pass the gate (gate.hpp)
 };
 
+// Links that a robot can promise to keep besides the edges to its parents.
+inline constexpr std::size_t most_kept_links = 12;
+using KeptLinks = std::array<RobotId, most_kept_links>;
+constexpr KeptLinks no_links() noexcept {
+  KeptLinks links{};
+  links.fill(nobody);
+  return links;
+}
+
 struct Report {
   Role role = Role::spare;
   RobotId parent = nobody;         // the edges that it promises to keep
   RobotId old_parent = nobody;
+  KeptLinks kept = no_links();     // an algorithm without a tree: the links that it promises to keep, then nobody
   RobotId serves = nobody;         // a worker: whose target, by the robot first sent there
   RobotId root = nobody;           // the robot that it believes to be root,
   Serial root_sequence = 0;        // by a token with this number: the newest names the root
@@ -60,6 +72,11 @@ constexpr RobotId up_of(const Report& r) noexcept { return r.role == Role::root 
 // Of two robots that believe in different roots, `a` knows the newer token.
 constexpr bool has_newer_root(const Report& a, const Report& b) noexcept {
   return a.root_sequence != b.root_sequence ? is_newer(a.root_sequence, b.root_sequence) : a.root > b.root;
+}
+
+// Whether the link to `other` is one of those that it keeps besides a tree.
+constexpr bool keeps(const Report& r, RobotId other) noexcept {
+  return r.kept[0] != nobody && std::find(r.kept.begin(), r.kept.end(), other) != r.kept.end();
 }
 
 }  // namespace banyan
