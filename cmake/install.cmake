@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 set(cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/banyan)
 set(rooms "")
-foreach(room IN ITEMS version controller algorithms world measure record config)
+foreach(room IN ITEMS version controller rivals algorithms world measure record config)
   if(NOT TARGET banyan_${room})
     continue()
   endif()

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The arrows of the house: adapters -> cli -> study -> config -> record -> measure -> world -> controller,
-// and viewer -> config: a browser has no processes to start. Only algorithms -> controller knows the
-// algorithms; the others see them through controller/core, and who composes a program hands the list down. Reads the include lines of every source file and
-// names each that points up.
+// and viewer -> config: a browser has no processes to start. Only algorithms -> controller, rivals knows the
+// algorithms; the others see them through controller/core, and who composes a program hands the list down. So does
+// rivals -> controller/core. Reads the include lines of every source file and names each that points up.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -26,7 +26,8 @@ using Names = std::set<std::string, std::less<>>;
 // Room -> the rooms it may include besides itself.
 const std::map<std::string, Names, std::less<>> may_include = {
     {"controller", {}},
-    {"algorithms", {"controller"}},
+    {"rivals", {"controller"}},
+    {"algorithms", {"controller", "rivals"}},
     {"world", {"controller"}},
     {"measure", {"controller", "world"}},
     {"record", {"controller", "world", "measure"}},
@@ -129,7 +130,7 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
   for (const auto& [prefix, rooms] : homes) {
     if (name.starts_with(prefix) && !rooms.contains(room)) return "belongs into another room";
   }
-  if (room == "controller" && product && !on_the_robot.contains(name) && !(is_for_hosts(file) && of_hosts.contains(name)))
+  if ((room == "controller" || room == "rivals") && product && !on_the_robot.contains(name) && !(is_for_hosts(file) && of_hosts.contains(name)))
     return "has no place on a robot";
   return std::nullopt;
 }
@@ -207,6 +208,17 @@ TEST_F(WrongHouse, OnlyTheListAndTestsNameAlgorithms) {
             "config/src/x.cpp: banyan/algorithms/algorithms.hpp points up\n");
   std::filesystem::remove(house_ / "config/src/x.cpp");
   EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/algorithms/algorithms.hpp\""), "");
+}
+TEST_F(WrongHouse, RivalsStandOnTheCoreAlone) {
+  EXPECT_EQ(faults_of("rivals/src/x.cpp", "#include \"banyan/controller/core/guard.hpp\""), "");
+  EXPECT_EQ(faults_of("rivals/src/x.cpp", "#include \"banyan/controller/tree/motion.hpp\""),
+            "rivals/src/x.cpp: banyan/controller/tree/motion.hpp names an algorithm\n");
+  EXPECT_EQ(faults_of("rivals/src/x.cpp", "#include <vector>"), "rivals/src/x.cpp: vector has no place on a robot\n");
+  EXPECT_EQ(faults_of("rivals/src/x.cpp", "#include \"banyan/world/world.hpp\""), "rivals/src/x.cpp: banyan/world/world.hpp points up\n");
+  std::filesystem::remove(house_ / "rivals/src/x.cpp");
+  EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""), "");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""),
+            "world/src/x.cpp: banyan/rivals/common/motion.hpp points up\n");
 }
 TEST_F(WrongHouse, WorldIncludesMeasure) {
   EXPECT_NE(faults_of("world/include/banyan/world/x.hpp", "#include \"banyan/measure/metrics.hpp\""), "");

@@ -36,11 +36,12 @@ bool in_units_of_range(const ParameterInfo& info) { return info.scaling == Scali
 
 }  // namespace
 
-std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, TreeParams& params) {
+std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, Platform& platform,
+                             float& arrival_distance_m) {
   const double c = static_cast<double>(setup.platform.communication_range_m);
   const double scale = setup.scale * (follows_range ? c / static_cast<double>(nominal_range_m) : 1.0);
-  static_cast<Platform&>(params) = setup.platform;
-  params.arrival_distance_m = static_cast<float>(setup.arrival_distance_m);
+  platform = setup.platform;
+  arrival_distance_m = static_cast<float>(setup.arrival_distance_m);
   std::vector<float> values;
   for (const BoundParameter& row : rows) {
     float value = *row.value;

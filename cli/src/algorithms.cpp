@@ -63,14 +63,17 @@ std::string default_text(const Algorithm& algorithm, std::string_view key) {
   return row == rows.end() ? "-" : value_text(algorithm.values(Setup{})[static_cast<std::size_t>(row - rows.begin())]);
 }
 
+// As wide as its name, or as the numbers below it.
+int column_width(const Algorithm& algorithm) { return std::max(9, static_cast<int>(algorithm.name().size())); }
+
 std::string table_text(const std::vector<const Algorithm*>& list) {
   std::string head = format("%-26s %-8s %-4s", "parameter", "symbol", "unit");
-  for (const Algorithm* algorithm : list) head += format("  %-9s", std::string(algorithm->name()).c_str());
+  for (const Algorithm* algorithm : list) head += format("  %-*s", column_width(*algorithm), std::string(algorithm->name()).c_str());
   std::string text = head + "  source\n";
   for (const auto& info : algorithms().parameters()) {
     text += format("%-26s %-8s %-4s", std::string(info.key).c_str(), std::string(info.symbol).c_str(),
                    std::string(info.unit).c_str());
-    for (const Algorithm* algorithm : list) text += format("  %-9s", default_text(*algorithm, info.key).c_str());
+    for (const Algorithm* algorithm : list) text += format("  %-*s", column_width(*algorithm), default_text(*algorithm, info.key).c_str());
     text += "  " + std::string(info.source) + "\n    " + std::string(info.meaning);
     if (const auto owner = platform_key(info.key); !owner.empty()) text += " (set by " + std::string(owner) + ")";
     text += "\n    " + std::string(info.advice) + "\n";
@@ -90,7 +93,7 @@ int algorithms_command(const AlgorithmsOptions& options) {
   }
   std::string text = "Choose one with mission.algorithm = \"...\" in a scenario, or --set mission.algorithm=...\n\n";
   for (const Algorithm* algorithm : list)
-    text += format("  %-10s ", std::string(algorithm->name()).c_str()) + std::string(algorithm->summary()) + "\n";
+    text += format("  %-14s ", std::string(algorithm->name()).c_str()) + std::string(algorithm->summary()) + "\n";
   text +=
       "\nTwo readings of the paper, by mission.reading: corrected (default) closes its gaps, literal is as printed.\n"
       "Change a parameter by mission.parameters.<parameter>. Defaults:\n\n";

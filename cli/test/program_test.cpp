@@ -537,7 +537,7 @@ TEST_F(Program, BenchRunsAWholeMissionWithAnyAlgorithm) {
   EXPECT_EQ(json::parse(other.out)["spread-94-los"]["algorithm"], "inwards");
   const auto unknown = run({"bench", "spread-94-los", "--algorithm", "inward"});
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_TRUE(has(unknown.err, "--algorithm: must be \"outwards\", \"inwards\" or \"convoy\", not the text \"inward\"")) << unknown.err;
+  EXPECT_TRUE(has(unknown.err, "--algorithm: must be \"outwards\", \"inwards\", \"convoy\", \"link-consensus\" or \"mst\", not the text \"inward\"")) << unknown.err;
 }
 
 // --------------------------------------------------------------------------------------- completion
@@ -565,7 +565,7 @@ TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});
-  EXPECT_EQ(complete(" run small.toml --set mission.algorithm="), (Words{"convoy", "inwards", "outwards"}));
+  EXPECT_EQ(complete(" run small.toml --set mission.algorithm="), (Words{"convoy", "inwards", "link-consensus", "mst", "outwards"}));
   EXPECT_EQ(complete(" run --set mission.parameters.target_"), Words{"mission.parameters.target_gain="});
   EXPECT_EQ(complete(" run sm"), Words{"small.toml"});
   EXPECT_EQ(complete(" algorithms in"), Words{"inwards"});

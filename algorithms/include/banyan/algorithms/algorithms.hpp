@@ -9,6 +9,9 @@ namespace banyan {
 [[nodiscard]] const Algorithm& outwards() noexcept;
 [[nodiscard]] const Algorithm& inwards() noexcept;
 [[nodiscard]] const Algorithm& convoy() noexcept;
+// Of other authors (rivals/).
+[[nodiscard]] const Algorithm& link_consensus() noexcept;
+[[nodiscard]] const Algorithm& mst() noexcept;
 [[nodiscard]] const AlgorithmList& algorithms() noexcept;
 
 }  // namespace banyan

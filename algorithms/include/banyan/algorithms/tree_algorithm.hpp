@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Algorithms over the tree's blocks as hosts meet them: how their tables, readings and steps become an
-// Algorithm. One that has a State and Message of these kinds needs nothing else.
+// Algorithms as hosts meet them: how their tables, readings and steps become an Algorithm. One over the tree's blocks
+// needs nothing else; any other Params need a bind() and a cross_fault() beside them (rivals.cpp).
 #pragma once
 
 #include <algorithm>
@@ -23,9 +23,11 @@ struct BoundParameter {
 [[nodiscard]] std::vector<BoundParameter> bind(HealingParams& params);
 [[nodiscard]] std::vector<BoundParameter> bind(ConvoyParams& params);
 
-// The values in the units of the table: defaults, which `rows` have, scaled; platform; the setup's own values.
+// The values in the units of the table: defaults, which `rows` have, scaled; platform and arrival distance, which the
+// rows point into, as the setup has them; the setup's own values.
 // `follows_range`: the lengths among the defaults stand for C = 2 m and grow with it; Table I's are absolute.
-[[nodiscard]] std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, TreeParams& params);
+[[nodiscard]] std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, Platform& platform,
+                                          float& arrival_distance_m);
 // Gives them to the parameters; lengths in units of C become metres, once and for all.
 void resolve(std::span<const float> values, std::span<const BoundParameter> rows, const Platform& platform);
 // The first value out of its range, by its key.
@@ -54,12 +56,12 @@ class TreeAlgorithm : public Algorithm {
   }
   [[nodiscard]] std::vector<float> values(const Setup& setup) const override {
     Params params = defaults_();
-    return values_of(setup, follows_range_, bind(params), params);
+    return values_of(setup, follows_range_, bind(params), params, params.arrival_distance_m);
   }
   [[nodiscard]] std::string fault(const Setup& setup) const override {
     Params params = defaults_();
     const auto bound = bind(params);
-    const auto values = values_of(setup, follows_range_, bound, params);
+    const auto values = values_of(setup, follows_range_, bound, params, params.arrival_distance_m);
     std::string text = range_fault(values, bound);
     if (!text.empty()) return text;
     resolve(values, bound, params);
@@ -70,7 +72,7 @@ class TreeAlgorithm : public Algorithm {
   [[nodiscard]] Params params(const Setup& setup) const {
     Params params = defaults_();
     const auto bound = bind(params);
-    const auto values = values_of(setup, follows_range_, bound, params);
+    const auto values = values_of(setup, follows_range_, bound, params, params.arrival_distance_m);
     resolve(values, bound, params);
     return params;
   }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What moves a robot of any rival: its target, whoever is too near, and the limits of the links that it keeps.
+#pragma once
+
+#include <span>
+
+#include "banyan/controller/core/guard.hpp"
+#include "banyan/controller/core/inputs.hpp"
+#include "banyan/controller/core/neighbors.hpp"
+#include "banyan/rivals/common/params.hpp"
+
+namespace banyan::rivals {
+
+// Where a robot has been sent, as in every algorithm here: the target is carried along while it is not sensed.
+struct Errand {
+  bool sent = false;
+  bool known = false;
+  Vec2 target;  // m, own frame
+
+  void follow(const Orders& orders, const Carry& carry) noexcept;
+  [[nodiscard]] float distance_m() const noexcept { return sent && known ? norm(target) : 0.0F; }
+};
+
+// Towards the target with magnitude tau, fading within the arrival distance; zero for all but workers.
+[[nodiscard]] Vec2 target_pull(const Errand& errand, const RivalParams& params) noexcept;
+// From robots and obstacles nearer than A.
+[[nodiscard]] Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles, const RivalParams& params) noexcept;
+// What the motors do for u within the guard, u in units of K.
+[[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const RivalParams& params) noexcept;
+
+}  // namespace banyan::rivals

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/rivals/common/motion.hpp"
+
+#include <algorithm>
+
+namespace banyan::rivals {
+namespace {
+
+constexpr float same_spot_m = 1e-6F;  // nearer than this there is no direction
+constexpr float least_u = 0.02F;      // below it a robot rests
+
+Vec2 push_from(Vec2 there, float d, const RivalParams& params) noexcept {
+  const float a = params.avoidance_range_m;
+  return d < a && d > same_spot_m ? there * (-params.avoidance_gain * (a / d - 1.0F) / d) : Vec2{};
+}
+
+}  // namespace
+
+void Errand::follow(const Orders& orders, const Carry& carry) noexcept {
+  sent = orders.sent;
+  if (!sent) known = false;
+  if (known) target = carry.point(target);
+  if (orders.target && sent) {
+    target = *orders.target;
+    known = true;
+  }
+}
+
+Vec2 target_pull(const Errand& errand, const RivalParams& params) noexcept {
+  if (!errand.sent || !errand.known) return {};
+  return unit(errand.target) * (params.target_gain * std::min(1.0F, norm(errand.target) / params.arrival_distance_m));
+}
+
+Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles, const RivalParams& params) noexcept {
+  Vec2 u;
+  for (int k = 0; k < table.size(); ++k) u += push_from(table.position(k), table.range(k), params);
+  for (const Vec2 o : obstacles) u += push_from(o, norm(o), params);
+  return u;
+}
+
+Velocity move(Vec2 u, const Guard& guard, const RivalParams& params) noexcept {
+  if (norm(u) < least_u) return {};
+  return drive(clamped(guard.apply(clamped(u, 1.0F) * params.speed_gain_m_s), params.wheel_limit_m_s), guard, params);
+}
+
+}  // namespace banyan::rivals

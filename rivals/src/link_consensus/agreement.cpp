@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// To give up a link. Its owner, the end with the smaller id, makes a bid, which travels over kept links, but not over
+// the link itself. Who vouches for it vouches for no other until its lease has run out, and gives up no link meanwhile.
+// If the bid reaches the other end, a path of robots that vouch for it joins the two: the other agrees, the owner hears
+// it directly, and gives the link up. No link of that path can be given up before the lease ends, so the kept graph
+// stays connected, whatever else is agreed elsewhere at the same time and whatever is lost.
+#include <algorithm>
+#include <optional>
+
+#include "banyan/controller/core/fixed_point.hpp"
+#include "rooms.hpp"
+
+namespace banyan::rivals::link_consensus {
+namespace {
+
+constexpr int detour_reach = 2;       // by a common neighbour
+constexpr int first_reach = 8;        // where there is none
+constexpr int longest_reach = 32;     // for the second attempt
+constexpr int lease_slack_ticks = 10; // a lease lasts twice the reach and so much longer,
+constexpr int commit_margin_ticks = 4;  // and the owner acts by it only before the last of it, whatever its clock
+constexpr int rest_ticks = 20;        // after a round of bids that all failed
+
+Bid received(const Message& m) noexcept {
+  Bid bid = m.bid;
+  if (bid.owner == nobody || bid.reach == 0 || bid.lease_ticks <= 1) return {};
+  --bid.reach;
+  --bid.lease_ticks;
+  return bid;
+}
+
+bool is_more_urgent(const Bid& a, const Bid& b) noexcept {
+  if (a.owner == nobody || b.owner == nobody) return b.owner == nobody && a.owner != nobody;
+  if (a.length_cm != b.length_cm) return a.length_cm > b.length_cm;
+  return a.owner != b.owner ? a.owner < b.owner : a.other < b.other;
+}
+
+void release(State& self) noexcept {
+  self.last_bid = self.bid;
+  self.bid = {};
+  self.agrees = false;
+}
+
+// My bid found no path in time: either there is none, or some robot on it vouched for another bid. Owners rest for
+// different times, so that they do not meet again.
+void note_failure(State& self) noexcept {
+  const int lease_ticks = 2 * self.reach + lease_slack_ticks;
+  self.rest_ticks = static_cast<std::uint16_t>((self.id * 7919U + self.serial * 104729U) % static_cast<unsigned>(3 * lease_ticks));
+  self.insists = !self.insists;
+  if (!self.insists) self.tried_cm = self.bid.length_cm;
+}
+
+void age(Robot& robot) noexcept {
+  State& self = robot.self;
+  self.rest_ticks = static_cast<std::uint16_t>(std::max(0, self.rest_ticks - robot.elapsed_ticks));
+  if (self.bid.owner == nobody) return;
+  self.bid.lease_ticks = static_cast<std::uint8_t>(std::max(0, self.bid.lease_ticks - robot.elapsed_ticks));
+  if (self.bid.lease_ticks > 0) return;
+  if (self.bid.owner == self.id) note_failure(self);
+  release(self);
+}
+
+// The other end vouches for my bid and agrees.
+void settle(Robot& robot) noexcept {
+  State& self = robot.self;
+  const int k = robot.table().find(self.bid.other);
+  if (k < 0 || self.bid.lease_ticks <= commit_margin_ticks) return;
+  const Message& m = robot.table().message(k);
+  if (!m.agrees || !is_same(m.bid, self.bid)) return;
+  const int l = self.links.find(self.bid.other);
+  if (l >= 0) self.links.remove(l);
+  self.given_up = self.bid.other;
+  self.insists = false;
+  self.tried_cm = 0xFFFF;
+  release(self);
+}
+
+// The link that I would most like to be rid of, longer than nominate_distance or with a detour by a robot nearer to
+// both ends. Those on my way to the root, or on the other's, may be the last; every circle of links has one that is
+// not. Of those as long as one that was tried in vain none, until all have been tried.
+Bid nominate(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Table<Message>& table = robot.table();
+  Bid best;
+  for (int l = 0; l < self.links.size(); ++l) {
+    const Link& link = self.links[l];
+    const int k = table.find(link.to);
+    if (!link.kept || k < 0 || link.to < self.id || link.to == self.parent || table.message(k).parent == self.id) continue;
+    const auto length_cm = to_fixed<std::uint16_t>(table.range(k), per_cm);
+    if (length_cm >= self.tried_cm) continue;
+    if (table.range(k) < robot.params.nominate_distance_m && !is_detoured(robot, k)) continue;
+    const int reach = self.insists ? longest_reach : is_detoured(robot, k) ? detour_reach : first_reach;
+    const Bid bid{self.id, link.to, length_cm, 0, static_cast<std::uint8_t>(reach), 0};
+    if (is_more_urgent(bid, best)) best = bid;
+  }
+  if (best.owner == nobody && self.tried_cm != 0xFFFF) {
+    self.tried_cm = 0xFFFF;
+    self.rest_ticks = rest_ticks;
+  }
+  return best;
+}
+
+void open_bid(State& self, Bid bid) noexcept {
+  bid.serial = ++self.serial;
+  self.reach = bid.reach;
+  bid.lease_ticks = static_cast<std::uint8_t>(2 * bid.reach + lease_slack_ticks);
+  self.bid = bid;
+}
+
+}  // namespace
+
+bool is_open(const Robot& robot, int k) noexcept {
+  const State& self = robot.self;
+  const Message& m = robot.table().message(k);
+  return is_kept(robot, k) && !(m.bid.owner == self.id && m.bid.other == m.id) && !(m.bid.owner == m.id && m.bid.other == self.id);
+}
+
+void agree(Robot& robot) noexcept {
+  State& self = robot.self;
+  age(robot);
+  if (self.bid.owner == self.id) settle(robot);
+  if (self.bid.owner != nobody || self.given_up != nobody) return;
+  Bid best;
+  for (int k = 0; k < robot.table().size(); ++k) {
+    if (robot.table().age(k) > 0 || !is_open(robot, k)) continue;
+    const Bid bid = received(robot.table().message(k));
+    if (bid.owner != self.id && !is_same(bid, self.last_bid) && is_more_urgent(bid, best)) best = bid;
+  }
+  const Bid own = self.rest_ticks == 0 ? nominate(robot) : Bid{};
+  if (is_more_urgent(own, best)) open_bid(self, own);
+  else self.bid = best;
+  self.agrees = self.bid.other == self.id && self.links.keeps(self.bid.owner);
+}
+
+}  // namespace banyan::rivals::link_consensus

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The parts of a step of link consensus, in their order.
+#pragma once
+
+#include "banyan/rivals/link_consensus/link_consensus.hpp"
+
+namespace banyan::rivals::link_consensus {
+
+// A robot within its step.
+struct Robot {
+  const Params& params;
+  State& self;
+  int elapsed_ticks;
+
+  [[nodiscard]] const Table<Message>& table() const noexcept { return self.neighbors; }
+};
+
+// root.cpp: is there a root, and which neighbour is the way to it?
+void follow_root(Robot& robot) noexcept;
+// links.cpp: links that are gone, and new ones.
+void renew_links(Robot& robot) noexcept;
+// agreement.cpp: vouch for bids, answer them, make my own.
+void agree(Robot& robot) noexcept;
+// Whether there is a link to neighbour k: kept by me, listed by it.
+[[nodiscard]] inline bool is_kept(const Robot& robot, int k) noexcept {
+  return robot.self.links.keeps(robot.table().id(k)) && lists(robot.table().message(k), robot.self.id);
+}
+// And it is not about to be given up.
+[[nodiscard]] bool is_open(const Robot& robot, int k) noexcept;
+// links.cpp: the ends of the link to neighbour k have a neighbour that is nearer to both, over kept links.
+[[nodiscard]] bool is_detoured(const Robot& robot, int k) noexcept;
+
+}  // namespace banyan::rivals::link_consensus

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// No source of link consensus has a root. The mission names one, and what is reported of it here decides nothing but
+// who needs a new link, a robot that no path of kept links joins to it, and which links are worth a proposal: those on
+// nobody's way to it. The root counts ticks, and the count spreads over kept links; where it has been silent for long,
+// the robots elect another, the one with the smallest id.
+#include <algorithm>
+
+#include "rooms.hpp"
+
+namespace banyan::rivals::link_consensus {
+namespace {
+
+constexpr int beat_slack = 16;     // a count so far behind the newest still counts as heard now: it took a longer way
+constexpr int long_link_cost = 8;  // hops that a way may be longer to avoid a link that is about to be proposed
+
+bool names_a_root(const State& self, const Message& m) noexcept {
+  const bool lost = m.root == self.lost_root && !is_newer(m.beat, self.lost_beat);
+  return m.root != nobody && m.way != not_rooted && !lost && m.root != self.id;
+}
+
+void forget_root(State& self) noexcept {
+  self.lost_root = self.root;
+  self.lost_beat = self.beat;
+  self.root = nobody;
+  self.way = not_rooted;
+  self.parent = nobody;
+  self.silent_ticks = 0;
+}
+
+// The better of two roots has the smaller id.
+RobotId best_root(const Robot& robot) noexcept {
+  RobotId best = robot.self.root;
+  for (int k = 0; k < robot.table().size(); ++k) {
+    const Message& m = robot.table().message(k);
+    if (m.root < best && names_a_root(robot.self, m) && is_kept(robot, k)) best = m.root;
+  }
+  return best;
+}
+
+void take_path(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Table<Message>& table = robot.table();
+  const auto tells = [&](int k) { return table.message(k).root == self.root && names_a_root(self, table.message(k)) && is_kept(robot, k); };
+  Serial newest = self.beat;
+  for (int k = 0; k < table.size(); ++k)
+    if (tells(k) && is_newer(table.message(k).beat, newest)) newest = table.message(k).beat;
+  if (newest != self.beat) self.silent_ticks = 0;
+  self.beat = newest;
+  int up = -1;
+  const auto way = [&](int k) {
+    const bool is_long = table.range(k) > robot.params.nominate_distance_m;
+    return std::min<int>(table.message(k).way + (is_long ? long_link_cost : 1), not_rooted - 1);
+  };
+  for (int k = 0; k < table.size(); ++k) {
+    if (!tells(k) || ahead_by(table.message(k).beat, newest) < -beat_slack) continue;
+    const bool stays = up >= 0 && way(k) == way(up) && table.id(k) == self.parent;
+    if (up < 0 || way(k) < way(up) || stays) up = k;
+  }
+  self.parent = up >= 0 ? table.id(up) : nobody;
+  self.way = up >= 0 ? static_cast<std::uint16_t>(way(up)) : not_rooted;
+}
+
+}  // namespace
+
+void follow_root(Robot& robot) noexcept {
+  State& self = robot.self;
+  const int patience = robot.params.ticks(robot.params.root_silence_s);
+  const RobotId best = best_root(robot);
+  if (best != self.root) {
+    self.root = best;
+    self.silent_ticks = 0;
+    for (int k = 0; k < robot.table().size(); ++k)
+      if (robot.table().message(k).root == best) self.beat = robot.table().message(k).beat;
+  }
+  if (self.root == self.id) {
+    ++self.beat;
+    self.way = 0;
+    self.parent = nobody;
+    return;
+  }
+  self.silent_ticks = static_cast<std::uint16_t>(std::min(self.silent_ticks + robot.elapsed_ticks, serial_half_range));
+  if (self.root != nobody) {
+    take_path(robot);
+    if (self.silent_ticks > patience) forget_root(self);
+  } else if (self.silent_ticks > patience && !self.errand.sent && self.links.size() > 0) {
+    self.root = self.id;
+    self.silent_ticks = 0;
+    ++self.tally.elections;
+  }
+}
+
+}  // namespace banyan::rivals::link_consensus

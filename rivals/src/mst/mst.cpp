@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/rivals/mst/mst.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/core/gate.hpp"
+#include "rooms.hpp"
+
+namespace banyan::rivals::mst {
+namespace {
+
+constexpr std::uint8_t first_tree_ticks = 10;
+
+// (1)  u = tau pull to the target                                   who has been sent, once there is a tree
+// (2)  u = gain (mean of x_j over the tree neighbours j - x)        everybody else
+// and in both cases + avoidance.
+Vec2 desired_motion(const Robot& robot, std::span<const Vec2> obstacles) noexcept {
+  const Table<Message>& table = robot.table();
+  const Vec2 u = avoidance(table, obstacles, robot.params);
+  if (robot.self.errand.sent) return robot.self.has_tree ? u + target_pull(robot.self.errand, robot.params) : u;
+  Vec2 sum;
+  float count = 0.0F;
+  for (const RobotId end : robot.self.tree) {
+    const int k = table.find(end);
+    if (k < 0) continue;
+    sum += table.position(k);
+    count += 1.0F;
+  }
+  return count > 0.0F ? u + clamped(sum * (robot.params.consensus_gain / count), 1.0F) : u;
+}
+
+// The tree, what is known of the next one, and while that is built what may yet be of it.
+void guard_tree(const Robot& robot, Guard& guard) noexcept {
+  const State& self = robot.self;
+  const auto add = [&](RobotId end) {
+    if (const int k = robot.table().find(end); k >= 0)
+      guard.add(robot.table().position(k), robot.params.longest_link_m - robot.table().spread_m(), robot.params.guard_rate_per_s);
+  };
+  for (const RobotId end : self.tree) add(end);
+  for (const RobotId end : self.old) add(end);
+  if (self.done) return;
+  for (const RobotId end : self.branches) add(end);
+  for (int c = 0; c < self.candidate_count; ++c)
+    if (const Candidate& candidate = self.candidates[static_cast<std::size_t>(c)]; candidate.narrow) add(candidate.to);
+}
+
+Message composed(const State& s) noexcept {
+  return {.id = s.id, .epoch = s.epoch, .next = s.next, .countdown = s.countdown, .level = s.level, .fragment = s.fragment, .up = s.up,
+          .ready = s.ready, .decided = s.decided, .done = s.done, .best = s.best, .choice = s.choice, .root = s.least,
+          .branches = s.branches.all()};
+}
+
+}  // namespace
+
+State initial_state(RobotId id, bool worker, bool root) noexcept {
+  State state;
+  state.id = id;
+  state.errand.sent = worker;
+  state.next = 1;  // the first tree is wanted at once: as soon as everybody has been heard, whatever is lost
+  state.countdown = first_tree_ticks;
+  if (root) state.root = id;
+  return state;
+}
+
+Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
+  Gate gate(sensed, params);
+  const Senses& senses = gate.senses();
+  const std::span<Heard> packets = gate.packets(heard, params);
+  state.tally.rejected += gate.rejected();
+  carry_to_now(packets, senses, params);
+  const Carry carry(senses.odometry);
+  state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params,
+                        [&](RobotId id) { return state.tree.has(id) || state.old.has(id) || state.branches.has(id); });
+  state.errand.follow(senses.orders, carry);
+
+  Robot robot{params, state, gate.elapsed_ticks()};
+  follow_epoch(robot);
+  construct(robot);
+  drop_old_edges(robot);
+  Guard guard;
+  guard_tree(robot, guard);
+  return {composed(state), move(desired_motion(robot, senses.obstacles), guard, params)};
+}
+
+Report report(const State& s) noexcept {
+  Ends kept = s.tree;
+  kept.add_all(s.old);
+  if (!s.done) kept.add_all(s.branches);
+  const Role role = s.errand.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector;
+  return {.role = role,
+          .parent = role == Role::root ? nobody : s.parent,
+          .kept = kept.all(),
+          .serves = s.errand.sent ? s.id : nobody,
+          .root = s.root,
+          .root_sequence = s.tree_epoch,
+          .epoch = s.epoch,
+          .want_m = s.errand.distance_m(),
+          .tally = s.tally};
+}
+
+void add_to(Digest& digest, const State& s) noexcept {
+  const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
+  const auto add_ends = [&](const Ends& ends) {
+    for (const RobotId end : ends.all()) add(end);
+  };
+  add(s.id, s.errand.sent, s.errand.known, s.errand.target);
+  add_ends(s.tree);
+  add_ends(s.old);
+  add(s.has_tree, s.parent, s.root, s.tree_epoch, s.epoch, s.next, s.countdown, s.epoch_ticks);
+  add(s.level, s.fragment, s.up, s.ready, s.decided, s.done, s.least);
+  for (const Edge& e : {s.best, s.choice}) add(e.from, e.to, e.mm);
+  add_ends(s.branches);
+  add(s.candidate_count);
+  for (int c = 0; c < s.candidate_count; ++c) {
+    const Candidate& candidate = s.candidates[static_cast<std::size_t>(c)];
+    add(candidate.to, candidate.mm, candidate.narrow);
+  }
+  add(s.tally.rejected);
+  s.neighbors.add_to(digest);
+}
+
+}  // namespace banyan::rivals::mst

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// The parts of a step of MST preservation, in their order.
+#pragma once
+
+#include "banyan/rivals/mst/mst.hpp"
+
+namespace banyan::rivals::mst {
+
+// A robot within its step.
+struct Robot {
+  const Params& params;
+  State& self;
+  int elapsed_ticks;
+
+  [[nodiscard]] const Table<Message>& table() const noexcept { return self.neighbors; }
+};
+
+// epoch.cpp: is a new tree wanted, and does its construction begin now?
+void follow_epoch(Robot& robot) noexcept;
+// construction.cpp
+void begin_construction(Robot& robot) noexcept;
+void construct(Robot& robot) noexcept;
+void drop_old_edges(Robot& robot) noexcept;
+
+}  // namespace banyan::rivals::mst

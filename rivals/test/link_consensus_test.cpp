@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// Link consensus: whatever is given up, the links that both ends keep join all robots, counted from outside.
+#include "banyan/rivals/link_consensus/link_consensus.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "net.hpp"
+
+namespace banyan::rivals::link_consensus {
+namespace {
+
+using Robots_ = Net<Robots>;
+
+bool keep_each_other(const Robots_& net, std::size_t i, std::size_t j) {
+  return net.states[i].links.keeps(static_cast<RobotId>(j)) && net.states[j].links.keeps(static_cast<RobotId>(i));
+}
+
+std::size_t kept_links(const Robots_& net) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < net.at.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) count += keep_each_other(net, i, j) ? 1 : 0;
+  return count;
+}
+
+std::size_t kept_parts(const Robots_& net) {
+  Components parts(net.at.size());
+  for (std::size_t i = 0; i < net.at.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (keep_each_other(net, i, j)) parts.join(i, j);
+  return parts.count();
+}
+
+Params eager() {  // to give up whatever can be
+  Params p;
+  p.add_distance_m = 0.1F;
+  p.nominate_distance_m = 0.11F;
+  return p;
+}
+
+struct Case {
+  std::size_t robots;
+  double side_m;
+  double loss;
+};
+
+class Agreement : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(All, Agreement, testing::Values(Case{8, 3.0, 0.0}, Case{20, 4.0, 0.0}, Case{20, 5.0, 0.3}, Case{40, 6.0, 0.1}));
+
+// All who want to be rid of all links: what is left at the end is a spanning tree, and on the way there the kept links
+// never fall into parts.
+TEST_P(Agreement, GivesUpEveryLinkButThoseOfATreeAndNeverTheLastPath) {
+  const auto [robots, side_m, loss] = GetParam();
+  std::size_t spare_links = 0;
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Draw draw(seed);
+    Robots_ net(Params{}, connected_places(robots, side_m, 1.15, draw), seed);
+    for (int t = 0; t < 20; ++t) net.tick();
+    ASSERT_EQ(kept_parts(net), 1U) << seed;
+    const std::size_t first = kept_links(net);
+    spare_links += first - (robots - 1);
+    net.params = eager();
+    net.loss = loss;
+    net.params.liveness_period_s = 3.0F;  // nobody falls silent by bad luck: that would not be an agreement
+    for (int t = 0; t < 6000 && kept_links(net) > robots - 1; ++t) {
+      net.tick();
+      ASSERT_EQ(kept_parts(net), 1U) << "seed " << seed << ", tick " << t;
+    }
+    EXPECT_EQ(kept_links(net), robots - 1) << "seed " << seed << ", from " << first;
+  }
+  EXPECT_GT(spare_links, 0U);
+}
+
+// What makes two agreements at a time safe: the path of the first holds until its lease is over.
+TEST(LinkConsensus, WhoVouchesForABidVouchesForNoOtherBeforeItsLeaseIsOver) {
+  Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
+  for (int t = 0; t < 10; ++t) net.tick();
+  State& middle = net.states[1];
+  const auto hears = [&](Bid from_0, Bid from_2) {
+    net.said[0].bid = from_0;
+    net.said[2].bid = from_2;
+    std::vector<Heard> heard{{&net.said[0], {-1, 0}}, {&net.said[2], {1, 0}}};
+    return step(net.params, middle, heard, {}).message.bid;
+  };
+  EXPECT_EQ(hears({0, 7, 160, 1, 5, 20}, {}), (Bid{0, 7, 160, 1, 4, 19}));
+  for (int t = 18; t > 0; --t) EXPECT_EQ(hears({}, {2, 8, 180, 1, 5, 99}), (Bid{0, 7, 160, 1, 4, static_cast<std::uint8_t>(t)}));
+  EXPECT_EQ(hears({0, 7, 160, 1, 5, 20}, {}), Bid{}) << "nor for the same bid again";
+  EXPECT_EQ(hears({}, {2, 8, 180, 1, 5, 99}), (Bid{2, 8, 180, 1, 4, 98}));
+}
+
+TEST(LinkConsensus, ABidGoesNoFartherThanItsReachAndNotOverItsOwnLink) {
+  Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
+  for (int t = 0; t < 10; ++t) net.tick();
+  const auto answers = [&](Bid bid) {
+    State middle = net.states[1];
+    net.said[0].bid = bid;
+    std::vector<Heard> heard{{&net.said[0], {-1, 0}}, {&net.said[2], {1, 0}}};
+    return step(net.params, middle, heard, {}).message;
+  };
+  EXPECT_EQ(answers({0, 7, 160, 1, 1, 20}).bid.owner, 0);
+  EXPECT_EQ(answers({0, 7, 160, 1, 0, 20}).bid.owner, nobody);
+  EXPECT_EQ(answers({0, 1, 160, 1, 5, 20}).bid.owner, nobody) << "heard from its owner alone: no detour";
+  EXPECT_TRUE(answers({2, 1, 160, 1, 5, 20}).agrees) << "robot 2's, come by robot 0";
+}
+
+// Robots drift about, as a test pulls them: no agreement cuts what the radio would still join.
+TEST(LinkConsensus, KeepsRobotsTogetherThatWanderWithinTheirLinks) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Draw draw(seed);
+    Robots_ net(Params{}, connected_places(24, 3.0, 1.1, draw), seed);
+    std::vector<Vec2> course(24);
+    std::size_t given_up = 0, links = 0;
+    for (int t = 0; t < 900; ++t) {
+      std::vector<Vec2> ways(24);
+      for (std::size_t i = 0; i < 24; ++i) {
+        if (t % 40 == 0) course[i] = unit_vector(static_cast<float>(draw(-3.1, 3.1))) * 0.012F;
+        ways[i] = course[i];
+        for (std::size_t j = 0; j < 24; ++j)  // nobody outruns a link
+          if (net.states[i].links.find(static_cast<RobotId>(j)) >= 0 && distance(net.at[i] + ways[i], net.at[j]) > 1.8F) ways[i] = {};
+      }
+      net.tick(ways);
+      given_up += kept_links(net) < links ? links - kept_links(net) : 0;
+      links = kept_links(net);
+      if (t > 10) { ASSERT_EQ(kept_parts(net), 1U) << "seed " << seed << ", tick " << t; }
+    }
+    EXPECT_GT(given_up, 10U) << seed;
+  }
+}
+
+TEST(LinkConsensus, ATriangleGivesUpItsLongestLinkWithinASecond) {
+  Robots_ net(Params{}, {{0, 0}, {1.0F, 0.05F}, {1.18F, 1.0F}}, 1);
+  net.at[2] = {0.5F, 0.9F};
+  for (int t = 0; t < 10; ++t) net.tick();
+  const std::size_t before = kept_links(net);
+  EXPECT_GE(before, 2U);
+  net.at[1] = {1.6F, 0.0F};  // 0-1 is 1.6 m long now, longer than nominate_distance
+  net.at[2] = {0.8F, 0.3F};
+  for (int t = 0; t < 10; ++t) net.tick();
+  EXPECT_FALSE(keep_each_other(net, 0, 1));
+  EXPECT_TRUE(keep_each_other(net, 0, 2) && keep_each_other(net, 1, 2));
+}
+
+TEST(LinkConsensus, NewLinksAreThoseOfTheRelativeNeighborhoodGraph) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Draw draw(seed);
+    Robots_ net(Params{}, connected_places(25, 4.0, 1.1, draw), seed);
+    for (int t = 0; t < 6; ++t) net.tick();
+    for (std::size_t i = 0; i < 25; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const float d = distance(net.at[i], net.at[j]);
+        bool relative = d < net.params.add_distance_m;
+        for (std::size_t k = 0; k < 25; ++k)
+          if (k != i && k != j && std::max(distance(net.at[i], net.at[k]), distance(net.at[j], net.at[k])) < d - 1e-4F) relative = false;
+        EXPECT_EQ(keep_each_other(net, i, j), relative) << seed << ": " << i << "-" << j;
+      }
+  }
+}
+
+TEST(LinkConsensus, WhoIsCutOffIsLetInAgain) {
+  Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+  net.hidden = [](std::size_t i, std::size_t j) { return (i == 3) != (j == 3); };
+  for (int t = 0; t < 40; ++t) net.tick();
+  EXPECT_EQ(kept_parts(net), 2U);
+  net.hidden = [](std::size_t, std::size_t) { return false; };
+  net.at[3] = {3.7F, 0.0F};  // too far for a new link between robots that are not cut off
+  for (int t = 0; t < 40; ++t) net.tick();
+  EXPECT_EQ(kept_parts(net), 1U);
+  EXPECT_EQ(net.states[3].root, 0);
+}
+
+// Of the living the one with the smallest id, by everybody's belief.
+TEST(LinkConsensus, ASilentRootIsReplaced) {
+  Robots_ net(Params{}, {{5, 5}, {0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+  net.at[0] = {0.5F, 0.8F};
+  for (int t = 0; t < 30; ++t) net.tick();
+  for (const State& s : net.states) EXPECT_EQ(s.root, 0);
+  net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
+  for (int t = 0; t < 200; ++t) net.tick();
+  for (std::size_t i = 1; i < 5; ++i) {
+    EXPECT_EQ(net.states[i].root, 1) << i;
+    EXPECT_EQ(Robots::report(net.states[i]).parent, i == 1 ? nobody : i - 1) << i;
+  }
+}
+
+// ---- Motion ----
+
+Vec2 velocity_of(Robots_& net, std::size_t i, std::optional<Vec2> target) {
+  std::vector<Heard> heard;
+  for (std::size_t j = 0; j < net.at.size(); ++j)
+    if (net.hears(i, j)) heard.push_back({&net.said[j], net.at[j] - net.at[i]});
+  Senses senses;
+  senses.orders = {target.has_value(), target};
+  net.params.drive = Drive::holonomic;
+  State s = net.states[i];
+  const Velocity v = step(net.params, s, heard, senses).velocity;
+  return {v.forward_m_s, v.sideways_m_s};
+}
+
+TEST(LinkConsensus, AKeptLinkIsNotOutgrown) {
+  for (const float d : {1.7F, 1.85F, 1.9F}) {
+    Robots_ net(Params{}, {{0, 0}, {1, 0}}, 1);
+    for (Vec2& f : net.facing) f = {1, 0};
+    for (int t = 0; t < 10; ++t) net.tick();
+    ASSERT_TRUE(keep_each_other(net, 0, 1));
+    net.at[1] = {d, 0};
+    const Vec2 v = velocity_of(net, 0, Vec2{-5, 0});
+    EXPECT_GE(v.x, -0.5F * (1.9F - d) * net.params.guard_rate_per_s - 1e-5F) << d;
+    EXPECT_LE(std::fabs(v.x), 0.2F + 1e-6F);
+  }
+}
+
+// (2): no force where phi is least, apart from there outwards if nearer, inwards if farther.
+TEST(LinkConsensus, ALinkRestsAtItsLeastPotential) {
+  const float rest_m = 1.9F / std::sqrt(2.0F);
+  for (const float off_m : {-0.3F, 0.0F, 0.3F}) {
+    Robots_ net(Params{}, {{0, 0}, {1, 0}}, 1);
+    for (Vec2& f : net.facing) f = {1, 0};
+    for (int t = 0; t < 10; ++t) net.tick();
+    net.at[1] = {rest_m + off_m, 0};
+    const float v = velocity_of(net, 0, std::nullopt).x;
+    if (off_m == 0.0F) EXPECT_EQ(v, 0.0F);
+    else EXPECT_GT(v * off_m, 0.0F) << off_m;
+  }
+}
+
+TEST(LinkConsensus, NothingSensedMakesAVelocityInfinite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  Robots_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);
+  for (int t = 0; t < 10; ++t) net.tick();
+  Message wild = net.said[1];
+  wild.links.fill(0);
+  wild.bid = {1, 0, 0xFFFF, 7, 255, 255};
+  wild.way = 0xFFFE;
+  for (const float bad : {nan, infinite, -infinite, 0.0F, 1e30F}) {
+    State s = net.states[0];
+    const std::array obstacles{Vec2{bad, 0.1F}, Vec2{0, 0}};
+    Senses senses;
+    senses.odometry = {bad, 0, bad};
+    senses.orders = {true, Vec2{bad, 0}};
+    senses.obstacles = obstacles;
+    senses.elapsed_s = bad;
+    for (int t = 0; t < 3; ++t) {
+      std::vector<Heard> heard{{&wild, {bad, 0}, bad}, {&net.said[2], {0, 0}}, {&wild, {1, 0}}};
+      const Velocity v = step(net.params, s, heard, senses).velocity;
+      EXPECT_TRUE(std::isfinite(v.forward_m_s) && std::isfinite(v.turn_rad_s)) << bad;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace banyan::rivals::link_consensus

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// MST preservation: what the robots agree on is the minimum spanning tree that Kruskal's algorithm finds in the true
+// graph, and on the way from one tree to the next nobody is left alone.
+#include "banyan/rivals/mst/mst.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+
+#include "net.hpp"
+
+namespace banyan::rivals::mst {
+namespace {
+
+using Swarm_ = Net<Robots>;
+using Pairs = std::set<std::pair<std::size_t, std::size_t>>;
+
+// Of all links that may be in a tree: those that leave room to move. Lengths are compared in millimetres.
+Pairs kruskal(const Swarm_& net) {
+  struct Link {
+    int mm;
+    std::size_t i, j;
+  };
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < net.at.size(); ++i)
+    for (std::size_t j = i + 1; j < net.at.size(); ++j)
+      if (const float d = distance(net.at[i], net.at[j]); net.hears(i, j) && d < 0.97F * net.params.longest_link_m) links.push_back({static_cast<int>(std::lround(d * 1000.0F)), i, j});
+  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) { return std::tie(a.mm, a.i, a.j) < std::tie(b.mm, b.i, b.j); });
+  Components parts(net.at.size());
+  Pairs tree;
+  for (const Link& link : links)
+    if (parts.join(link.i, link.j)) tree.insert({link.i, link.j});
+  return tree;
+}
+
+// An edge counts if both ends keep it; one that a single end keeps is a fault where the test says so.
+Pairs kept(const Swarm_& net, bool by_both = true) {
+  Pairs pairs;
+  for (std::size_t i = 0; i < net.at.size(); ++i)
+    for (const RobotId end : net.states[i].tree)
+      if (!by_both || net.states[end].tree.has(static_cast<RobotId>(i))) pairs.insert(std::minmax<std::size_t>(i, end));
+  return pairs;
+}
+
+double length_of(const Swarm_& net, const Pairs& pairs) {
+  double sum = 0.0;
+  for (const auto& [i, j] : pairs) sum += static_cast<double>(distance(net.at[i], net.at[j]));
+  return sum;
+}
+
+// By what both ends report that they keep: while trees are switched, edges of either.
+std::size_t held_parts(const Swarm_& net) {
+  Components parts(net.at.size());
+  for (std::size_t i = 0; i < net.at.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (keeps(report(net.states[i]), static_cast<RobotId>(j)) && keeps(report(net.states[j]), static_cast<RobotId>(i))) parts.join(i, j);
+  return parts.count();
+}
+
+bool all_done(const Swarm_& net) {
+  return std::all_of(net.states.begin(), net.states.end(), [&](const State& s) { return s.done && s.tree_epoch == net.states[0].tree_epoch && s.tree_epoch > 0; });
+}
+
+struct Case {
+  std::size_t robots;
+  double side_m;
+  double loss;
+  bool occluded;
+};
+class Tree : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(All, Tree, testing::Values(Case{2, 2.0, 0.0, false}, Case{10, 4.0, 0.0, false}, Case{30, 6.0, 0.0, false},
+                                                    Case{30, 3.0, 0.3, false}, Case{60, 10.0, 0.0, false}, Case{40, 6.0, 0.2, true}));
+
+// Robots within 5 cm of the straight line between two others hide them from each other.
+void hide_behind_bodies(Swarm_& net) {
+  net.hidden = [&net](std::size_t i, std::size_t j) {
+    const Vec2 way = net.at[j] - net.at[i];
+    const float d = norm(way);
+    for (std::size_t k = 0; k < net.at.size(); ++k) {
+      if (k == i || k == j) continue;
+      const Vec2 to = net.at[k] - net.at[i];
+      const float along = dot(to, way) / d;
+      if (along > 0.0F && along < d && std::fabs(cross(to, way)) / d < 0.05F) return true;
+    }
+    return false;
+  };
+}
+
+TEST_P(Tree, IsThatOfKruskalOverTheTrueGraph) {
+  const auto [robots, side_m, loss, occluded] = GetParam();
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Draw draw(seed);
+    Swarm_ net(Params{}, connected_places(robots, side_m, 1.4, draw), seed);
+    net.params.liveness_period_s = 3.0F;
+    if (occluded) hide_behind_bodies(net);
+    net.loss = loss;
+    for (int t = 0; t < 1000 && !all_done(net); ++t) net.tick();
+    ASSERT_TRUE(all_done(net)) << seed;
+    const Pairs tree = kruskal(net);
+    EXPECT_EQ(kept(net), tree) << "seed " << seed << ": " << length_of(net, kept(net)) << " m instead of " << length_of(net, tree);
+    EXPECT_EQ(kept(net, false), tree) << seed;
+    for (int t = 0; t < 40; ++t) net.tick();
+    for (const State& s : net.states) EXPECT_EQ(s.old.size(), 0U) << "nothing is held longer than needed";
+    // One root, and each parent is the other end of an edge, nearer to it.
+    std::size_t tops = 0;
+    for (const State& s : net.states) {
+      tops += s.parent == nobody ? 1 : 0;
+      EXPECT_EQ(s.root, 0) << "nobody is a worker: the smallest id";
+      if (s.parent != nobody) { EXPECT_TRUE(s.tree.has(s.parent)); }
+    }
+    EXPECT_EQ(tops, 1U);
+  }
+}
+
+// Robots drift as far as their edges let them; trees follow one another, and at every tick the edges that both ends keep
+// join all robots.
+TEST(Mst, OneTreeFollowsTheOtherWithoutAGap) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    constexpr std::size_t n = 24;
+    Draw draw(seed);
+    Swarm_ net(Params{}, connected_places(n, 3.0, 1.1, draw), seed);
+    std::vector<Vec2> course(n);
+    for (int t = 0; t < 100; ++t) net.tick();
+    ASSERT_TRUE(all_done(net));
+    const Serial first = net.states[0].tree_epoch;
+    for (int t = 0; t < 1500; ++t) {
+      std::vector<Vec2> ways(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        if (t % 50 == 0) course[i] = unit_vector(static_cast<float>(draw(-3.1, 3.1))) * 0.01F;
+        ways[i] = course[i];
+        const State& s = net.states[i];
+        for (std::size_t j = 0; j < n; ++j) {
+          const auto id = static_cast<RobotId>(j);
+          const bool holds = s.tree.has(id) || s.old.has(id) || s.branches.has(id) ||
+                             std::any_of(s.candidates.begin(), s.candidates.begin() + s.candidate_count,
+                                         [&](const Candidate& c) { return c.to == id && c.narrow && !s.done; });
+          if (holds && distance(net.at[i] + ways[i], net.at[j]) > std::max(1.8F, distance(net.at[i], net.at[j]))) ways[i] = {};
+        }
+      }
+      net.tick(ways);
+      ASSERT_EQ(held_parts(net), 1U) << "seed " << seed << ", tick " << t;
+    }
+    EXPECT_GT(net.states[0].tree_epoch, first + 3) << seed;
+  }
+}
+
+TEST(Mst, ALongEdgeTriggersANewTreeAndNothingElseDoes) {
+  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {1.1F, 1.0F}}, 1);
+  for (int t = 0; t < 60; ++t) net.tick();
+  ASSERT_TRUE(all_done(net));
+  const Serial first = net.states[0].tree_epoch;
+  for (int t = 0; t < 300; ++t) net.tick();
+  EXPECT_EQ(net.states[0].tree_epoch, first);
+  net.at[2] = {1.9F, 1.6F};  // 1-2 is longer than the trigger, 3-2 shorter
+  for (int t = 0; t < 60; ++t) net.tick();
+  EXPECT_EQ(net.states[0].tree_epoch, first + 1);
+  EXPECT_EQ(kept(net), kruskal(net));
+  EXPECT_TRUE(net.states[2].tree.has(3));
+}
+
+TEST(Mst, AWorkerIsNeverRootAndADeadRootIsReplaced) {
+  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0.1F}, {3, 0}}, 1);
+  for (std::size_t i : {0U, 3U}) net.states[i].errand.sent = true;
+  for (int t = 0; t < 3; ++t) net.tick();
+  for (int t = 0; t < 80; ++t) net.tick();
+  for (const State& s : net.states) EXPECT_EQ(s.root, 0) << "the test sends nobody, so nobody is a worker";
+  net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
+  for (int t = 0; t < 120; ++t) net.tick();
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(net.states[i].root, 1);
+}
+
+TEST(Mst, TwoNetworksThatMeetBecomeOne) {
+  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+  net.hidden = [](std::size_t i, std::size_t j) { return (i < 2) != (j < 2); };
+  for (int t = 0; t < 120; ++t) net.tick();
+  EXPECT_EQ(held_parts(net), 2U);
+  net.hidden = [](std::size_t, std::size_t) { return false; };
+  for (int t = 0; t < 200; ++t) net.tick();
+  EXPECT_EQ(held_parts(net), 1U);
+  EXPECT_EQ(kept(net), kruskal(net));
+}
+
+TEST(Mst, NothingSensedMakesAVelocityInfinite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);
+  for (int t = 0; t < 60; ++t) net.tick();
+  Message wild = net.said[1];
+  wild.branches.fill(0);
+  wild.epoch = wild.next = static_cast<Serial>(wild.epoch + 1);
+  wild.level = 255;
+  wild.best = wild.choice = {0, 0, 0};
+  wild.decided = wild.ready = true;
+  for (const float bad : {nan, infinite, -infinite, 0.0F, 1e30F}) {
+    State s = net.states[0];
+    const std::array obstacles{Vec2{bad, 0.1F}, Vec2{0, 0}};
+    Senses senses;
+    senses.odometry = {bad, 0, bad};
+    senses.orders = {true, Vec2{bad, 0}};
+    senses.obstacles = obstacles;
+    senses.elapsed_s = bad;
+    for (int t = 0; t < 5; ++t) {
+      std::vector<Heard> heard{{&wild, {bad, 0}, bad}, {&net.said[2], {0, 0}}, {&wild, {1, 0}}};
+      const Velocity v = step(net.params, s, heard, senses).velocity;
+      EXPECT_TRUE(std::isfinite(v.forward_m_s) && std::isfinite(v.turn_rad_s)) << bad;
+      wild.up = static_cast<RobotId>(t);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace banyan::rivals::mst
