@@ -19,7 +19,7 @@ struct Heard {
 };
 
 [[nodiscard]] State initial_state(RobotId id, bool worker, bool root) noexcept;
-[[nodiscard]] Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) noexcept;
+[[nodiscard]] Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept;
 [[nodiscard]] Report report(const State& state) noexcept;
 void add_to(Digest& digest, const State& state) noexcept;
 
