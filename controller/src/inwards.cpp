@@ -106,7 +106,8 @@ Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& s
   Output<HealingMessage> output;
   write_healing(robot, output.message);
   const Vec2 v = allowed(u, guard, params);
-  if (!retreats) watch_progress(robot, v);             // does a worker get on?
+  if (retreats) state.progress = {};
+  else watch_progress(robot, v);             // does a worker get on?
   output.velocity = drive(v, guard, params);
   return output;
 }

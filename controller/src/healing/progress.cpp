@@ -50,6 +50,7 @@ void watch_progress(HealingRobot& robot, Vec2 v) noexcept {
   const int most = patience_hindered * p.ticks(p.give_up_after_s);
   const int vain = self.progress.vain_ticks + eighteenths(robot, v, hindered) * robot.elapsed_ticks;
   self.progress.vain_ticks = static_cast<std::uint16_t>(std::clamp(vain, 0, most));
+  if (vain <= 0) self.progress.least_cm = left_cm;  // what it has been led away it has to drive again
   if (vain > most) give_up(robot);
 }
 

@@ -61,6 +61,38 @@ TEST(Progress, ToAndFroIsNoDrive) {
   EXPECT_TRUE(worker.serves());
 }
 
+// A worker that moves as the test says: `forward_m` in each of the ticks.
+struct Driven : Worker {
+  float left_m = 3.0F;
+  using Worker::Worker;
+  void drive(int ticks, float forward_m, bool root_beats = true) {
+    for (int k = 0; k < ticks; ++k) {
+      bench.send({left_m -= forward_m, 0.0F});
+      if (root_beats) bench.say(root_id).heartbeat = count++;
+      bench.step({forward_m, 0.0F, 0.0F});
+    }
+  }
+};
+
+// ... nor one that has been led away, as far as it may drive in vain, and comes back.
+TEST(Progress, TheWayItWasLedAwayItMayDriveAgain) {
+  Driven worker({3.0F, 0.0F});
+  worker.bench.move(root_id, {-1.99F, 0.0F});  // too far: it follows
+  worker.drive(2 * ten_s, -0.02F);
+  worker.bench.move(root_id, {0.5F, 0.0F});
+  worker.drive(2 * ten_s, 0.018F);
+  EXPECT_TRUE(worker.serves());
+}
+
+// ... or has gone by itself, because it heard of no root.
+TEST(Progress, AfterARetreatTheWayBeginsAnew) {
+  Driven worker({3.0F, 0.0F});
+  worker.drive(ten_s - 70, 0.0F);
+  worker.drive(ten_s, -0.02F, false);
+  worker.drive(ten_s / 2, 0.018F);
+  EXPECT_TRUE(worker.serves());
+}
+
 TEST(Progress, NorOneThatIsThere) {
   Worker worker({0.05F, 0.0F});
   worker.hear_root(600);
