@@ -226,14 +226,19 @@ bool holds_still(const ConvoyRobot& robot) noexcept {
   return true;
 }
 
-// Without a parent: as far as the hold lets it. Before it has one it turns on the spot.
+// Without a parent: as far as the hold lets it, which draws it back the more the farther it is; to turn about at some
+// distance would be to turn about for ever. Before it has one it turns on the spot.
 Vec2 before_tree(const ConvoyRobot& robot) noexcept {
   constexpr float turning = 0.001F;
+  constexpr float hold_width = 0.1F;  // of C
   const ConvoyParams& p = robot.params;
   if (robot.self.phase >= Phase::grow_tree || !robot.self.is_worker) return repulsion(robot);
   if (robot.table().size() == 0) return robot.self.pull * turning;
-  if (robot.hold >= 0 && robot.table().range(robot.hold) > p.recruitment_distance_m) return unit(robot.table().position(robot.hold));
-  return pull_past_obstacles(robot) + repulsion(robot);
+  const Vec2 on = pull_past_obstacles(robot) + repulsion(robot);
+  if (robot.hold < 0) return on;
+  const float c = p.communication_range_m;
+  const float back = ramp(robot.table().range(robot.hold), p.recruitment_distance_m - 0.5F * hold_width * c, hold_width * c);
+  return on * (1.0F - back) + unit(robot.table().position(robot.hold)) * back;
 }
 
 }  // namespace

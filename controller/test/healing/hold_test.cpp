@@ -113,6 +113,26 @@ TEST(Hold, IsNotLeftBehindAndDoesNotLeave) {
   EXPECT_NEAR(f.allowed({-1.0F, 0.0F}, true), 0.02F, 1e-4F) << "who has me as its hold is not left, even on a retreat";
 }
 
+// A worker that waits for the first tree is drawn back the more, the farther its hold is: a hand's breadth does not
+// turn it about.
+TEST(Hold, DrawsAWorkerBackLittleByLittle) {
+  Follower f;
+  f.bench.silence(3);
+  f.bench.params.drive = Drive::holonomic;
+  f.bench.state.phase = f.bench.say(2).phase = Phase::start_tree;
+  f.bench.send({0.0F, 5.0F});
+  const auto heads_for = [&](float hold_m) {
+    f.bench.move(2, {hold_m, 0.0F});
+    const Velocity v = f.bench.step().velocity;
+    EXPECT_EQ(f.bench.state.hold, 2);
+    return unit(Vec2{v.forward_m_s, v.sideways_m_s});
+  };
+  EXPECT_GT(heads_for(1.2F).y, 0.99F) << "near it goes to its target";
+  EXPECT_GT(heads_for(1.85F).x, 0.99F) << "far it goes back";
+  const float recruitment_m = f.bench.params.recruitment_distance_m;
+  EXPECT_GT(dot(heads_for(recruitment_m - 0.01F), heads_for(recruitment_m + 0.01F)), 0.9F);
+}
+
 TEST(Hold, NobodyLeavesWhoHasNone) {
   Follower f;
   f.bench.silence(2);
