@@ -12,6 +12,9 @@ constexpr int takeover_beats = 60;  // a successor's count starts so far ahead o
 constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
 constexpr std::uint8_t pass_on_ticks = 40;  // news goes before everything else for so long
 constexpr float second_try_s = 40.0F;
+constexpr int per_tick = 16;     // of news_gap
+constexpr int gap_memory = 64;   // pieces of news
+constexpr int gap_patience = 4;  // times as long as other news was missing of late
 
 // What the sender says of a target.
 struct TaskNews {
@@ -80,8 +83,15 @@ void locate(const HealingRobot& robot, Task& task, const TaskNews& news, Vec2 to
   else if (ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks)) task.target = told;
 }
 
+// The longest time without news of a worker that lived on, of late: in a long thin network news comes in bunches.
+void measure_gap(HealingState& self, const Task& task) noexcept {
+  const int gap = self.news_gap - self.news_gap / gap_memory;
+  self.news_gap = static_cast<std::uint16_t>(std::max(gap, std::min<int>(task.age_ticks * per_tick, UINT16_MAX)));
+}
+
 // A later sign of life, or another holder.
-void renew(const HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
+void renew(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
+  if (news.holder == task.holder && !task.silent) measure_gap(robot.self, task);
   // It has lived on since I missed it: somebody else is in charge of it.
   if (task.silent && !news.silent && ahead_by(news.beat, task.beat) > robot.liveness_ticks() / 2) task.via = nobody;
   if (news.silent != task.silent || news.holder != task.holder) task.urgent_ticks = pass_on_ticks;
@@ -217,7 +227,8 @@ void succeed(HealingRobot& robot) noexcept {
     if (task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
     const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
     const int patience_ticks = least_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
-    if (task.age_ticks > patience_ticks) return take_over(robot, task);
+    const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // a doubt has its own clock
+    if (task.age_ticks > std::max(patience_ticks, rare_ticks)) return take_over(robot, task);
   }
 }
 

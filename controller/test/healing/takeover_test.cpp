@@ -33,6 +33,28 @@ TEST(Takeover, ASpareTakesOverTheTargetOfAWorkerThatFellSilent) {
   EXPECT_GT(state.want_m, 1.5F);  // it knows where to go without being told from outside
 }
 
+// In a long line news of a far worker comes in bunches.
+TEST(Takeover, WhereNewsIsRareSilenceSaysLess) {
+  constexpr int gap = 100;
+  Watch watch;
+  watch.hear_root(2);
+  const Vec2 target{2.0F, 1.0F};
+  const int patience = takeover_ticks(watch.bench, norm(target));
+  watch.bench.params.succession_after_s = 1e3F;
+  std::uint16_t beat = 10;
+  for (int k = 0; k < 3; ++k) {
+    watch.tell_of_target(20, {1.0F, 0.0F}, target, 50, beat = static_cast<std::uint16_t>(beat + gap));
+    watch.hear_root(gap);
+  }
+  watch.bench.params.succession_after_s = Convoy::defaults().succession_after_s;
+  watch.tell_of_target(20, {1.0F, 0.0F}, target, 50, static_cast<std::uint16_t>(beat + gap));
+  watch.hear_root(3 * gap);
+  ASSERT_GT(3 * gap, 2 * patience);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
+  watch.hear_root(2 * gap);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 1U);
+}
+
 TEST(Takeover, OfASilentWorkersTargetTheMeanIsRemembered) {
   Watch watch;
   watch.hear_root(2);

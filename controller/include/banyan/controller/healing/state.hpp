@@ -27,6 +27,8 @@ struct Task {
   std::uint8_t urgent_ticks = 0; // news that everybody has to pass on, for so long
 };
 
+inline constexpr std::uint16_t first_gap = 200;  // sixteenths of ticks: taken for granted at first
+
 // How a worker gets on (progress.cpp).
 struct Progress {
   std::uint16_t least_cm = UINT16_MAX;   // the nearest that it has come to its target, since something was in the way
@@ -34,10 +36,11 @@ struct Progress {
 };
 
 struct HealingState : TreeState {
-  bool was_sent = false;                 // to a target, at the last step
-  bool root_known = false;
-  bool forgets = false;                  // here or elsewhere a robot has had no room for a target
   std::uint8_t task_count = 0;
+  bool was_sent : 1 = false;             // to a target, at the last step
+  bool root_known : 1 = false;
+  bool forgets : 1 = false;              // here or elsewhere a robot has had no room for a target
+  std::uint16_t news_gap = first_gap;  // sixteenths of ticks: the longest time without news of a living worker, of late
   float expected_packets = 0.0F;         // packets that were to be heard in the last ticks, fading
   float missed_packets = 0.0F;           // and those of them that were not heard
   RobotId serves = nobody;               // worker: whose target this is, the id of the worker first sent there
@@ -60,15 +63,15 @@ struct HealingState : TreeState {
 
   void prefetch(std::size_t entries) const noexcept {
     TreeState::prefetch(entries = std::min<std::size_t>(entries, neighbor_capacity));
-    prefetch_lines(&was_sent, static_cast<std::size_t>(reinterpret_cast<const char*>(healing_standings.data() + entries) - reinterpret_cast<const char*>(&was_sent)));
+    prefetch_lines(&task_count, static_cast<std::size_t>(reinterpret_cast<const char*>(healing_standings.data() + entries) - reinterpret_cast<const char*>(&task_count)));
   }
 };
 
 template <class Visitor, class State>
 constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
-  visit(s.was_sent), visit(s.serves), visit(s.expected_packets), visit(s.missed_packets), visit(s.loss_ticks), visit(s.root_size), visit(s.flood_counted), visit(s.flood_ticks);
-  visit(s.heartbeat), visit(s.silence_ticks), visit(s.heart.sequence), visit(s.heart.id), visit(s.root_at), visit(s.root_known), visit(s.turn), visit(s.hold);
-  visit(s.dangling_ticks), visit(s.lost_child), visit(s.forgets), visit(s.task_count);
+  visit(bool{s.was_sent}), visit(s.serves), visit(s.expected_packets), visit(s.missed_packets), visit(s.loss_ticks), visit(s.root_size), visit(s.flood_counted), visit(s.flood_ticks);
+  visit(s.heartbeat), visit(s.silence_ticks), visit(s.heart.sequence), visit(s.heart.id), visit(s.root_at), visit(bool{s.root_known}), visit(s.turn), visit(s.hold);
+  visit(s.dangling_ticks), visit(s.lost_child), visit(bool{s.forgets}), visit(s.task_count), visit(s.news_gap);
   visit(s.progress.least_cm), visit(s.progress.vain_ticks);
   for (int k = 0; k < s.task_count; ++k) {
     auto& task = s.tasks[static_cast<std::size_t>(k)];
