@@ -79,7 +79,7 @@ void take_inner(ConvoyRobot& robot) noexcept {
 bool stands_at_target(const ConvoyRobot& robot, int k) noexcept {
   if (robot.table().message(k).role != Role::worker) return false;
   const Task* task = find_task(robot.self, robot.served_by(k));
-  return task != nullptr && distance(robot.table().position(k), task->target) < robot.params.arrival_distance_m;
+  return task != nullptr && !task->unlocated && distance(robot.table().position(k), task->target) < robot.params.arrival_distance_m;
 }
 
 bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept {
@@ -87,7 +87,7 @@ bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept {
   Vec2 at = robot.table().position(k);
   if (!stands_at_target(robot, k)) {
     const Task* task = find_task(robot.self, robot.served_by(k));
-    if (task != nullptr) at = task->target;
+    if (task != nullptr && !task->unlocated) at = task->target;
   }
   return distance(at, *robot.target) < robot.parent_range_m();
 }

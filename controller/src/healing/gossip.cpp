@@ -84,7 +84,7 @@ int gossip(const HealingRobot& robot, HealingMessage& m) noexcept {
     m.task_silent = task->silent;
     m.task_below = is_mine_or_below(self, *task);
   }
-  const int k = addressee_of(robot, topic);
+  const int k = task != nullptr && task->unlocated ? -1 : addressee_of(robot, topic);
   if (k < 0) return topic.task;
   const Vec2 addressee = robot.table().position(k);
   m.told = robot.table().id(k);

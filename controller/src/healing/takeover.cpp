@@ -79,7 +79,8 @@ constexpr float trust = 0.2F;  // in what one of those says who only remember
 void locate(const HealingRobot& robot, Task& task, const TaskNews& news, Vec2 told) noexcept {
   constexpr int stale_ticks = 3;
   const bool silent = robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
-  if (silent || task.holder != task.serves) task.target += (told - task.target) * trust;
+  if (task.unlocated) set_place(task, told);
+  else if (silent || task.holder != task.serves) task.target += (told - task.target) * trust;
   else if (ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks)) task.target = told;
 }
 
@@ -108,8 +109,8 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
   if (news.holder == self.id && !mine) return;  // said of me before I resigned
   Task* task = find_task(self, news.serves);
   if (task == nullptr) {
-    if (target == nullptr) return;
-    task = add_task(self, news.serves, *target, mine ? Concern::own : concern_of(news));
+    if (target == nullptr && !news.silent) return;  // a question goes on to all, also by those who are not told where
+    task = add_task(self, news.serves, target, mine ? Concern::own : concern_of(news));
     if (task == nullptr) return;
     task->beat = static_cast<std::uint16_t>(news.beat - 1);
     task->holder = news.holder;
@@ -191,13 +192,13 @@ void mind_own(HealingRobot& robot) noexcept {
     task.urgent_ticks = pass_on_ticks;
   }
   if (!self.is_worker) {  // I may still be told where the target is that I was sent to
-    if (Task* task = self.target_known ? find_task(self, me) : nullptr; task != nullptr) task->target = self.target;
+    if (Task* task = self.target_known ? find_task(self, me) : nullptr; task != nullptr) set_place(*task, self.target);
     return;
   }
   Task* task = find_task(self, self.serves);
-  if (task == nullptr && robot.target != nullptr) task = add_task(self, self.serves, *robot.target, Concern::own);
+  if (task == nullptr && robot.target != nullptr) task = add_task(self, self.serves, robot.target, Concern::own);
   if (task == nullptr) return;
-  if (robot.target != nullptr) task->target = *robot.target;
+  if (robot.target != nullptr) set_place(*task, *robot.target);
   serve(self, *task, is_there(robot, *task));
 }
 
@@ -224,7 +225,7 @@ void succeed(HealingRobot& robot) noexcept {
   if (!free || self.is_worker || robot.is_root() || self.silence_ticks > least_ticks) return;
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
-    if (task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
+    if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
     const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
     const int patience_ticks = least_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
     const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // a doubt has its own clock
@@ -250,7 +251,7 @@ void watch_tasks(HealingRobot& robot) noexcept {
   succeed(robot);
   // A successor has its target from the table, not from outside.
   if (!self.is_worker || robot.target != nullptr) return;
-  if (const Task* task = find_task(self, self.serves); task != nullptr) robot.target = &task->target;
+  if (const Task* task = find_task(self, self.serves); task != nullptr && !task->unlocated) robot.target = &task->target;
 }
 
 }  // namespace banyan

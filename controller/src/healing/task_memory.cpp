@@ -18,18 +18,24 @@ Concern concern_of(const HealingState& self, const Task& task) noexcept {
 
 namespace {
 
+constexpr float nowhere_m = 1e9F;
+
 // Of those of equal concern. Of doubts the nearer ones: it is there that I may be the successor. Of workers in
 // nobody's charge each robot likes others best, so that of many in one place all are known to somebody.
-float liking(const HealingState& self, Concern concern, RobotId serves, Vec2 target) noexcept {
-  if (concern != Concern::none) return -norm(target);
+float liking(const HealingState& self, Concern concern, RobotId serves, const Vec2* target) noexcept {
+  if (concern != Concern::none) return target != nullptr ? -norm(*target) : -nowhere_m;
   return static_cast<float>(static_cast<std::uint16_t>((serves ^ (self.id * 0x9E37U)) * 0x6A2DU));
+}
+
+float liking(const HealingState& self, Concern concern, const Task& task) noexcept {
+  return liking(self, concern, task.serves, task.unlocated ? nullptr : &task.target);
 }
 
 Task& least_concern(HealingState& self) noexcept {
   const auto matters_less = [&](const Task& a, const Task& b) {
     const Concern ca = concern_of(self, a);
     const Concern cb = concern_of(self, b);
-    return ca != cb ? ca < cb : liking(self, ca, a.serves, a.target) < liking(self, cb, b.serves, b.target);
+    return ca != cb ? ca < cb : liking(self, ca, a) < liking(self, cb, b);
   };
   Task* least = self.tasks.data();
   for (Task& task : self.tasks)
@@ -39,7 +45,7 @@ Task& least_concern(HealingState& self) noexcept {
 
 }  // namespace
 
-Task* add_task(HealingState& self, RobotId serves, Vec2 target, Concern concern) noexcept {
+Task* add_task(HealingState& self, RobotId serves, const Vec2* target, Concern concern) noexcept {
   Task* task = nullptr;
   if (self.task_count < task_capacity) {
     task = &self.tasks[self.task_count++];
@@ -49,12 +55,13 @@ Task* add_task(HealingState& self, RobotId serves, Vec2 target, Concern concern)
     const Concern least = concern_of(self, *task);
     // Those in my charge stay as they are.
     const bool changes = concern == Concern::none || concern == Concern::urgent;
-    const bool better = liking(self, concern, serves, target) > liking(self, least, task->serves, task->target);
+    const bool better = liking(self, concern, serves, target) > liking(self, least, *task);
     if (concern < least || (concern == least && !(changes && better))) return nullptr;
   }
   *task = {};
   task->serves = serves;
-  task->target = target;
+  task->unlocated = target == nullptr;
+  if (target != nullptr) task->target = *target;
   return task;
 }
 

@@ -187,6 +187,30 @@ TEST(Doubt, ALaterSignOfLifeEndsItAndIsPassedOn) {
   EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
 }
 
+// Only one neighbour at a time is told where a target is: the question does not wait for that, but the successor does.
+TEST(Doubt, AQuestionIsPassedOnByThoseWhoDoNotKnowWhere) {
+  ForgetfulWatch watch;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, worker_id, 10);
+  ConvoyMessage& doubter = watch.bench.say(20);
+  doubter.told = nobody;
+  watch.hear_root(1);
+  EXPECT_EQ(find_task(watch.bench.state, worker_id), nullptr) << "no question yet";
+  doubter.task_silent = true;
+  bool said = false;
+  for (int k = 0; k < 4; ++k) {
+    const auto m = watch.bench.step().message;
+    said = said || (m.task_serves == worker_id && m.task_silent && m.task_beat == 10 && m.told == nobody);
+  }
+  EXPECT_TRUE(said);
+  watch.hear_root(very_long);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 0U) << "where to?";
+  watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, worker_id, 10);
+  watch.bench.say(20).task_silent = true;
+  watch.hear_root(2);
+  EXPECT_NEAR(norm(watch.task().target), 2.0F, 0.05F);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 1U);
+}
+
 TEST(Doubt, WhoKnowsOfALaterSignOfLifeAnswers) {
   ForgetfulWatch watch;
   watch.worker({1.0F, 0.0F}, 30);

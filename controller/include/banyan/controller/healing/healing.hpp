@@ -26,6 +26,11 @@ void claim_root(HealingRobot& robot) noexcept;
 // By its first worker; null if I know of no such target.
 [[nodiscard]] Task* find_task(HealingState& self, RobotId serves) noexcept;
 
+inline void set_place(Task& task, Vec2 target) noexcept {
+  task.target = target;
+  task.unlocated = false;
+}
+
 // I serve it, or a robot below me in the tree does.
 [[nodiscard]] inline bool is_mine_or_below(const HealingState& self, const Task& task) noexcept {
   return task.via != nobody || (self.is_worker && self.serves == task.serves);
@@ -40,9 +45,9 @@ inline constexpr int question_ticks = 600;
 enum class Concern : std::uint8_t { outdated, none, below, child, urgent, own };
 inline constexpr int outdated_ticks = 100;  // old news says nothing of the moment in which a branch tears
 [[nodiscard]] Concern concern_of(const HealingState& self, const Task& task) noexcept;
-// Room for one more; null if there is none for so small a concern. Who has no room for all says so: from then on
-// nobody takes silence alone for death.
-[[nodiscard]] Task* add_task(HealingState& self, RobotId serves, Vec2 target, Concern concern) noexcept;
+// Room for one more; null if there is none for so small a concern. `target`: where it is, if I know. Who has no room
+// for all says so: from then on nobody takes silence alone for death.
+[[nodiscard]] Task* add_task(HealingState& self, RobotId serves, const Vec2* target, Concern concern) noexcept;
 
 // ---- doubt.cpp: who may say that a worker is dead ----
 

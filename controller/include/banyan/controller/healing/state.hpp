@@ -24,6 +24,7 @@ struct Task {
   bool silent : 1 = false;       // in doubt: who heard the holder last no longer hears it
   bool reached : 1 = false;      // the holder is there
   bool gave_up : 1 = false;      // I went there in vain (progress.cpp)
+  bool unlocated : 1 = false;    // I do not know where it is, and only pass on question and answer
   std::uint8_t urgent_ticks = 0; // news that everybody has to pass on, for so long
 };
 
@@ -76,6 +77,7 @@ constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
   for (int k = 0; k < s.task_count; ++k) {
     auto& task = s.tasks[static_cast<std::size_t>(k)];
     visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target), visit(task.via), visit(bool{task.silent}), visit(bool{task.reached}), visit(bool{task.gave_up}), visit(task.urgent_ticks);
+    if (task.unlocated) visit(bool{task.unlocated});
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
   if (s.detour.last_side != 0) visit(s.detour.last_side), visit(s.detour.again);
