@@ -106,8 +106,7 @@ Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& s
   Output<HealingMessage> output;
   write_healing(robot, output.message);
   const Vec2 v = allowed(u, guard, params);
-  if (retreats) state.progress = {};
-  else watch_progress(robot, v);             // does a worker get on?
+  watch_progress(robot, retreats, v);                  // does a worker get on?
   output.velocity = drive(v, guard, params);
   return output;
 }

@@ -239,8 +239,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   Output<ConvoyMessage> output;
   write_convoy(robot, output.message);
   const Vec2 v = allowed(u, guard, params);
-  if (retreats) state.progress = {};
-  else watch_progress(robot, v);             // does a worker get on?
+  watch_progress(robot, retreats, v);                  // does a worker get on?
   output.velocity = drive(v, guard, params);
   return output;
 }

@@ -29,7 +29,7 @@ void give_up(HealingRobot& robot) noexcept {
 
 }  // namespace
 
-void watch_progress(HealingRobot& robot, Vec2 v) noexcept {
+void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept {
   HealingState& self = robot.self;
   const HealingParams& p = robot.params;
   const float left_m = robot.target != nullptr && self.is_worker ? norm(*robot.target) : 0.0F;
@@ -38,6 +38,10 @@ void watch_progress(HealingRobot& robot, Vec2 v) noexcept {
     return;
   }
   const auto left_cm = to_fixed<std::uint16_t>(left_m, per_cm);
+  if (retreats) {  // all that it goes back lies before it again
+    self.progress.least_cm = left_cm;
+    return;
+  }
   const bool hindered = self.detour.side != 0 || !robot.obstacles.empty() || robot.target_strays;
   if (hindered) {  // what lies behind the obstacle is a new way; a tick that brings it nearer is not in vain
     const bool nearer = left_cm < self.progress.least_cm;

@@ -138,6 +138,25 @@ TEST(Progress, ATargetThatIsMovedIsANewWay) {
   EXPECT_TRUE(worker.serves());
 }
 
+// It has waited in vain for a spare, has gone home and sets out anew: the way out again is not in vain.
+TEST(Progress, WhoHasRetreatedHasAllTheWayBeforeIt) {
+  Worker worker({3.0F, 0.0F});
+  worker.hear_root(20);
+  float left_m = 3.0F;
+  const auto drive = [&](bool retreats, float to_m) {
+    const float step_m = to_m > left_m ? 0.02F : -0.02F;
+    while ((to_m - left_m) * step_m > 0.0F) {
+      left_m += step_m;
+      worker.bench.send({left_m, 0.0F});
+      ConvoyRobot robot = worker.bench.tick({-step_m, 0.0F, 0.0F});
+      watch_progress(robot, retreats, {step_m > 0.0F ? -0.2F : 0.2F, 0.0F});
+    }
+  };
+  drive(true, 8.0F);
+  drive(false, 3.5F);
+  EXPECT_TRUE(worker.serves());
+}
+
 TEST(Progress, WhoGaveUpTriesAgainAfterAllOthers) {
   Worker worker({3.0F, 0.0F});
   worker.hear_root(ten_s + 20);

@@ -221,7 +221,7 @@ TEST(Drive, AnEdgeAtItsLimitDoesNotHoldItUp) {
   float way_m = 0.0F;
   for (int tick = 0; tick < 50; ++tick) {
     Guard guard;
-    guard.add(rotate_back(heading, -at), p.ideal_distance_m, p);
+    guard.add(rotate_back(heading, -at), p.ideal_distance_m, p.guard_rate_per_s);
     const Vec2 along = unit(Vec2{-at.y, at.x});
     const Velocity v = drive(guard.apply(rotate_back(heading, along * 0.2F)), guard, p);
     at += heading * (v.forward_m_s * p.tick_s);

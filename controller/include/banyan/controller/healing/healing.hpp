@@ -71,7 +71,7 @@ void resign(HealingRobot& robot) noexcept;
 // At the end of a step, with the velocity that it is to have, m/s. A worker that has driven in vain for long (its motors or wheels do not do
 // what they are told, bodies or walls are in its way) resigns: its target goes to the next, as if it had died, and for
 // `second_try_s` longer not to itself.
-void watch_progress(HealingRobot& robot, Vec2 v) noexcept;
+void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept;
 
 // ---- dangling_branch.cpp: the end of a torn branch ----
 
