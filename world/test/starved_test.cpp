@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "banyan/world/placement.hpp"
+#include "banyan/world/world.hpp"
 #include "plain_scenario.hpp"
 
 namespace banyan::world {
