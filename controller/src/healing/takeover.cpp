@@ -216,6 +216,13 @@ void take_over(HealingRobot& robot, Task& task) noexcept {
   ++self.tally.replacements;
 }
 
+// Of a branch that has parted from mine I hear by way of the root, and every robot on the way speaks of all targets in
+// turn: half of them, on average, before the one. A robot without label waits longest, for its tree.
+int way_of_news_ticks(const HealingRobot& robot) noexcept {
+  const float hops = static_cast<float>(robot.self.label_cm) * 0.01F / robot.params.communication_range_m;
+  return robot.self.forgets ? 0 : static_cast<int>(hops * static_cast<float>(robot.self.task_count));
+}
+
 // The nearer to the target, the sooner: the first tells the others.
 void succeed(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
@@ -223,11 +230,12 @@ void succeed(HealingRobot& robot) noexcept {
   const bool free = self.role == Role::spare || self.dangling_ticks > 0;
   const int least_ticks = 2 * robot.liveness_ticks();
   if (!free || self.is_worker || robot.is_root() || self.silence_ticks > least_ticks) return;
+  const int way_ticks = way_of_news_ticks(robot);
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
     if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
     const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
-    const int patience_ticks = least_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
+    const int patience_ticks = least_ticks + way_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
     const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // a doubt has its own clock
     if (task.age_ticks > std::max(patience_ticks, rare_ticks)) return take_over(robot, task);
   }

@@ -55,6 +55,22 @@ TEST(Takeover, WhereNewsIsRareSilenceSaysLess) {
   EXPECT_EQ(watch.bench.state.tally.replacements, 1U);
 }
 
+// 13 hops from the root: news from another branch comes a long way, and of three targets in turn.
+TEST(Takeover, FarFromTheRootASpareWaitsForNewsThatComesTheLongWay) {
+  Watch watch;
+  watch.bench.state.label_cm = 2600;
+  watch.hear_root(2);
+  for (const RobotId serves : {RobotId{50}, RobotId{51}, RobotId{52}}) {
+    watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 1.0F}, serves, 10);
+    watch.hear_root(2);
+  }
+  ASSERT_EQ(watch.bench.state.task_count, 3);
+  watch.hear_root(takeover_ticks(watch.bench, norm(Vec2{2.0F, 1.0F})) + 13 * 3 - 10);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
+  watch.hear_root(10);
+  EXPECT_EQ(watch.bench.state.tally.replacements, 1U);
+}
+
 TEST(Takeover, OfASilentWorkersTargetTheMeanIsRemembered) {
   Watch watch;
   watch.hear_root(2);

@@ -18,6 +18,7 @@ struct Watch {
   std::uint16_t count = 100;
   explicit Watch(Vec2 root = {0.5F, 0.0F}) {
     bench.params.give_up_after_s = very_long_s;  // it stands still whatever it wants
+    bench.state.label_cm = static_cast<std::uint16_t>(std::lround(norm(root) * 100.0F));
     auto& m = bench.put(root_id, root);
     m.role = Role::root;
     m.depth = 1;
