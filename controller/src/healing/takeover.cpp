@@ -14,7 +14,7 @@ constexpr std::uint8_t pass_on_ticks = 40;  // news goes before everything else 
 constexpr float second_try_s = 40.0F;
 constexpr int per_tick = 16;     // of news_gap
 constexpr int gap_memory = 64;   // pieces of news
-constexpr int gap_patience = 4;  // times as long as other news was missing of late
+constexpr int gap_patience = 2;  // times as long as other news was missing of late
 
 // What the sender says of a target.
 struct TaskNews {

@@ -35,7 +35,7 @@ TEST(Takeover, ASpareTakesOverTheTargetOfAWorkerThatFellSilent) {
 
 // In a long line news of a far worker comes in bunches.
 TEST(Takeover, WhereNewsIsRareSilenceSaysLess) {
-  constexpr int gap = 100;
+  constexpr int gap = 200;
   Watch watch;
   watch.hear_root(2);
   const Vec2 target{2.0F, 1.0F};
@@ -48,10 +48,10 @@ TEST(Takeover, WhereNewsIsRareSilenceSaysLess) {
   }
   watch.bench.params.succession_after_s = Convoy::defaults().succession_after_s;
   watch.tell_of_target(20, {1.0F, 0.0F}, target, 50, static_cast<std::uint16_t>(beat + gap));
-  watch.hear_root(3 * gap);
-  ASSERT_GT(3 * gap, 2 * patience);
+  watch.hear_root(3 * gap / 2);
+  ASSERT_GT(3 * gap / 2, 2 * patience);
   EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
-  watch.hear_root(2 * gap);
+  watch.hear_root(gap);
   EXPECT_EQ(watch.bench.state.tally.replacements, 1U);
 }
 
