@@ -290,14 +290,14 @@ TEST(SoakCommand, NamesALineOfItsJournalThatIsNone) {
 
 TEST(SoakJournal, CountsAMissionInEachOfItsKinds) {
   std::map<std::uint64_t, Row> rows;
-  for (std::uint64_t k = 1; k <= 20; ++k)
-    rows[k] = {.index = k, .kind = k == 20 ? "loose start, noise" : "noise", .complete = k != 7, .complete_s = static_cast<double>(k), .bound_s = 2.0};
+  for (std::uint64_t k = 1; k <= 41; ++k)
+    rows[k] = {.index = k, .kind = k == 41 ? "loose start, noise" : "noise", .complete = k != 7, .complete_s = static_cast<double>(k), .bound_s = 2.0};
   rows[3].findings = "split@1.0";
   EXPECT_EQ(table_of(rows),
             "  kind               missions  complete  findings time/bound    95 %   worst\n"
-            "  loose start               1         1         0      10.00   10.00   10.00\n"
-            "  noise                    20        19         1       5.50   10.00   10.00\n"
-            "  all                      20        19         1       5.50   10.00   10.00\n");
+            "  loose start               1         1         0      20.50   20.50   20.50\n"
+            "  noise                    41        40         1      10.50   19.50   20.50\n"
+            "  all                      41        40         1      10.50   19.50   20.50\n");
 }
 
 using world::Box;

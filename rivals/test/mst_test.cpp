@@ -163,14 +163,15 @@ TEST(Mst, ALongEdgeTriggersANewTreeAndNothingElseDoes) {
 }
 
 TEST(Mst, AWorkerIsNeverRootAndADeadRootIsReplaced) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0.1F}, {3, 0}}, 1);
-  for (std::size_t i : {0U, 3U}) net.states[i].errand.sent = true;
-  for (int t = 0; t < 3; ++t) net.tick();
+  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1.7F, 0.1F}, {3, 0}}, 1);
   for (int t = 0; t < 80; ++t) net.tick();
-  for (const State& s : net.states) EXPECT_EQ(s.root, 0) << "the test sends nobody, so nobody is a worker";
-  net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
-  for (int t = 0; t < 120; ++t) net.tick();
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(net.states[i].root, 1);
+  for (const State& s : net.states) EXPECT_EQ(s.root, 0);
+  net.orders[0] = {true, Vec2{0.0F, 0.0F}};
+  for (int t = 0; t < 200; ++t) net.tick();
+  for (const State& s : net.states) EXPECT_EQ(s.root, 1) << "0 is a worker now";
+  net.hidden = [](std::size_t i, std::size_t j) { return i == 1 || j == 1; };  // 0 and 2 are in range of each other
+  for (int t = 0; t < 200; ++t) net.tick();
+  for (const std::size_t i : {0U, 2U, 3U}) EXPECT_EQ(net.states[i].root, 2);
 }
 
 TEST(Mst, TwoNetworksThatMeetBecomeOne) {

@@ -61,11 +61,13 @@ struct Net {
   std::vector<typename R::Message> said;
   std::function<bool(std::size_t, std::size_t)> hidden = [](std::size_t, std::size_t) { return false; };
   double loss = 0.0;
+  std::vector<Orders> orders;  // nobody is sent unless it says so
   Draw draw;
 
   Net(typename R::Params p, std::vector<Vec2> positions, std::uint64_t seed) : params(p), at(std::move(positions)), draw(seed) {
     for (std::size_t i = 0; i < at.size(); ++i) {
       states.push_back(R::initial(static_cast<RobotId>(i), false, i == 0));
+      orders.emplace_back();
       facing.push_back(unit_vector(static_cast<float>(draw(-3.0, 3.0))));
       said.push_back({});
       said.back().id = static_cast<RobotId>(i);
@@ -84,6 +86,7 @@ struct Net {
       for (std::size_t j = 0; j < at.size(); ++j)
         if (hears(i, j) && draw() >= loss) heard.push_back({&last[j], rotate_back(facing[i], at[j] - at[i])});
       Senses senses;
+      senses.orders = orders[i];
       if (!ways.empty()) {
         const Vec2 way = rotate_back(facing[i], ways[i]);
         senses.odometry = {way.x, way.y, 0.0F};

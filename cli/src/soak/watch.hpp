@@ -21,7 +21,7 @@ struct Outcome {
   std::vector<Finding> findings;  // the first of each kind
   bool complete = false;
   double complete_s = 0.0;  // when first
-  double bound_s = 0.0;     // no swarm is sooner: the farthest worker straight to its target, past obstacles
+  double bound_s = 0.0;     // the drive of the worker that has the longest way to its target, past obstacles
   double time_s = 0.0;      // the end
   std::uint64_t hash = 0;
 };

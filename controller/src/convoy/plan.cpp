@@ -20,7 +20,7 @@ std::span<Task> tasks(ConvoyState& self) noexcept { return {self.tasks.data(), s
 
 const Task* find_active(const ConvoyRobot& robot, RobotId serves) noexcept {
   const Task* task = find_task(robot.self, serves);
-  return task == nullptr || task->holder == nobody ? nullptr : task;
+  return task == nullptr || task->holder == nobody || task->unlocated ? nullptr : task;
 }
 
 // ---- The root ----

@@ -9,7 +9,7 @@ namespace banyan {
 namespace {
 
 // Where to turn for `v`. Beside an edge that must not grow, a heading that is a hair too far outwards stops the
-// robot, and the last of it is never turned: so a little farther inwards.
+// robot, and the last of it is never turned: so a little farther inwards, once for each such edge.
 Vec2 aim(Vec2 v, float speed, const Guard& guard) noexcept {
   constexpr float inwards = 0.05F;  // rad
   for (int k = 0; k < guard.size; ++k)

@@ -178,7 +178,9 @@ void grow_older(HealingRobot& robot) noexcept {
 }
 
 // Whether I am where the target is.
-bool is_there(const HealingRobot& robot, const Task& task) noexcept { return norm(task.target) <= robot.params.arrival_distance_m; }
+bool is_there(const HealingRobot& robot, const Task& task) noexcept {
+  return !task.unlocated && norm(task.target) <= robot.params.arrival_distance_m;
+}
 
 // My own target. One that was taken from me from outside has been given up; everybody shall know.
 void mind_own(HealingRobot& robot) noexcept {

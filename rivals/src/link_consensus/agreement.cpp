@@ -17,7 +17,7 @@ constexpr int detour_reach = 2;       // by a common neighbour
 constexpr int first_reach = 8;        // where there is none
 constexpr int longest_reach = 32;     // for the second attempt
 constexpr int lease_slack_ticks = 10; // a lease lasts twice the reach and so much longer,
-constexpr int commit_margin_ticks = 4;  // and the owner acts by it only before the last of it, whatever its clock
+constexpr int commit_margin_ticks = 4;  // and the owner acts by it only before the last of it, for its clock may be slower
 constexpr int rest_ticks = 20;        // after a round of bids that all failed
 
 Bid received(const Message& m) noexcept {
