@@ -24,6 +24,7 @@
 #include "commands.hpp"
 #include "plain_scenario.hpp"
 #include "sample.hpp"
+#include "terminal.hpp"
 
 namespace banyan::cli::soak {
 namespace {
@@ -282,7 +283,7 @@ TEST(SoakCommand, NamesALineOfItsJournalThatIsNone) {
   EXPECT_FALSE(Journal(path, 8, false).has(3)) << "another seed's";
   std::ofstream(path, std::ios::app) << "9,4,\"plain\",many,2,false,0.0,0.000,0.0,0000000000000000,\n";
   try {
-    Journal(path, 9, false);
+    const Journal damaged(path, 9, false);
     FAIL() << "a number of robots that is none";
   } catch (const CommandError& e) { EXPECT_NE(std::string(e.what()).find("soak.csv:3"), std::string::npos) << e.what(); }
   EXPECT_FALSE(Journal(path, 9, true).has(3)) << "begun anew";
@@ -329,7 +330,10 @@ bool covers(const world::Obstacle& obstacle, Vec2 p) {
 TEST(FreePath, AgreesWithAGrid) {
   constexpr int n = 81;
   constexpr double pitch = 0.1;
-  const auto at = [](int k) { return Vec2{(k % n - n / 2) * pitch, (k / n - n / 2) * pitch}; };
+  const auto at = [](int k) {
+    const int column = k % n - n / 2, row = k / n - n / 2;
+    return Vec2{column * pitch, row * pitch};
+  };
   int longer = 0;
   for (std::uint64_t index = 0; index < 12; ++index) {
     std::vector<world::Obstacle> obstacles;
@@ -341,7 +345,7 @@ TEST(FreePath, AgreesWithAGrid) {
       else obstacles.emplace_back(Box{center, {between(0.5, 2.5), between(0.5, 1.5)}, between(0, 3)});
     }
     const auto free = [&](Vec2 p) { return std::none_of(obstacles.begin(), obstacles.end(), [&](const auto& o) { return covers(o, p); }); };
-    std::vector<double> way(n * n, 1e9);
+    std::vector<double> way(std::size_t{n} * n, 1e9);
     const int from = (n / 2) * n + 8, to = (n / 2) * n + n - 9;
     std::set<std::pair<double, int>> queue{{0.0, from}};
     way[from] = 0.0;

@@ -83,7 +83,7 @@ TEST(LinkConsensus, WhoVouchesForABidVouchesForNoOtherBeforeItsLeaseIsOver) {
   const auto hears = [&](Bid from_0, Bid from_2) {
     net.said[0].bid = from_0;
     net.said[2].bid = from_2;
-    std::vector<Heard> heard{{&net.said[0], {-1, 0}}, {&net.said[2], {1, 0}}};
+    std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
     return step(net.params, middle, heard, {}).message.bid;
   };
   EXPECT_EQ(hears({0, 7, 160, 1, 5, 20}, {}), (Bid{0, 7, 160, 1, 4, 19}));
@@ -98,7 +98,7 @@ TEST(LinkConsensus, ABidGoesNoFartherThanItsReachAndNotOverItsOwnLink) {
   const auto answers = [&](Bid bid) {
     State middle = net.states[1];
     net.said[0].bid = bid;
-    std::vector<Heard> heard{{&net.said[0], {-1, 0}}, {&net.said[2], {1, 0}}};
+    std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
     return step(net.params, middle, heard, {}).message;
   };
   EXPECT_EQ(answers({0, 7, 160, 1, 1, 20}).bid.owner, 0);

@@ -106,7 +106,7 @@ TYPED_TEST(Said, AnythingIsSurvived) {
       for (TypeParam& m : messages) {
         fill(m);
         m.id = *rc::gen::inRange<RobotId>(0, 6);
-        heard.push_back({&m, {0.01F * byte(), 0.01F * byte() - 1.0F}});
+        heard.push_back({&m, {0.01F * static_cast<float>(byte()), 0.01F * static_cast<float>(byte()) - 1.0F}});
       }
       const auto output = Robots::step(params, state, heard, {});
       RC_ASSERT(std::isfinite(output.velocity.forward_m_s) && std::isfinite(output.velocity.turn_rad_s));

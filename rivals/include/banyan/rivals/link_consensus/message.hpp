@@ -2,6 +2,7 @@
 // What a robot of link consensus broadcasts (docs/rivals.md).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "banyan/controller/core/report.hpp"
@@ -63,10 +64,7 @@ template <class Visitor>
 constexpr void visit_fields(Visitor& visit, const Message& m) noexcept { visit_all(visit, m); }
 
 constexpr bool lists(const Message& m, RobotId id) noexcept {
-  for (const RobotId link : m.links) {
-    if (link == id) return true;
-  }
-  return false;
+  return std::find(m.links.begin(), m.links.end(), id) != m.links.end();
 }
 
 }  // namespace banyan::rivals::link_consensus
