@@ -42,10 +42,11 @@ int barrier_patience_ticks(HealingRobot& robot) noexcept {
 
 void listen_among_fragments(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
+  const Serial held = self.root.sequence;
   bool contested = false;
   for (const Heard& h : robot.news)
     if (newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
-  if (!robot.is_root()) hand_over(robot);
+  if (!robot.is_root()) hand_over(robot, held);
   const EpochPhase newest = newest_phase(robot);
   // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
   const bool ahead = is_newer(newest.epoch, self.epoch) && robot.params.heals();

@@ -115,6 +115,12 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
   ++self.tally.repairs;
 }
 
+// The order is still that of the old tree, in which those are ahead that led away from the root that is now:
+// whoever has passed the token on would take a parent that hangs on it.
+bool hangs_on_heir(const TreeRobot& robot) noexcept {
+  return robot.reading.keeps_links && robot.self.phase == Phase::select_root && robot.self.parent == nobody && robot.old_parent_alive();
+}
+
 // A spare that has just joined my edge has its parent's seqno of a tick ago: I wait for it.
 bool awaits_inserted(const TreeRobot& robot) noexcept {
   const int k = robot.self.grant == nobody ? -1 : robot.table().find(robot.self.grant);
@@ -241,7 +247,7 @@ void select_parent(TreeRobot& robot, const ParentRule& rule) noexcept {
     self.parent = nobody;
     robot.parent = -1;
     self.committed = true;
-  } else if (self.phase >= Phase::select_parent) {
+  } else if (self.phase >= Phase::select_parent && !hangs_on_heir(robot)) {
     if (self.parent == nobody) join(robot, rule);
     else if (!robot.parent_alive()) repair(robot, rule);
     else if (self.role == Role::spare && self.phase >= Phase::grow_tree && robot.children.size == 0) leave_tree(robot);

@@ -33,9 +33,10 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noex
 
 // Gossip of the successor is the acknowledgement. The edge to it leads on towards the root all those who hang
 // on me: until they have parents of the new epoch they know of nobody else.
-void hand_over(TreeRobot& robot) noexcept {
+void hand_over(TreeRobot& robot, Serial held) noexcept {
   TreeState& self = robot.self;
-  const bool taken = self.new_root != nobody && self.root.id == self.new_root;  // the token may have gone to a rival
+  // The heir has taken it, and may have passed it on already; or a rival has one of the same number.
+  const bool taken = self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != static_cast<Serial>(held + 1));
   const int heir = taken ? robot.table().find(self.new_root) : -1;
   if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) {
     self.old_parent = self.new_root;
@@ -72,7 +73,10 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
 
 void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept {
   TreeState& self = robot.self;
-  if (!robot.is_root()) return hand_over(robot);
+  if (!robot.is_root()) {
+    self.new_root = nobody;
+    return;
+  }
   if (self.phase != Phase::select_root) return;
   if (!self.centroid_known) {
     self.centroid = self.q;

@@ -66,6 +66,37 @@ TEST(RootSelection, TheHeirsGossipEndsTheOldRoot) {
   EXPECT_EQ(bench.state.old_parent, 5) << "whoever hangs on me hangs on the heir through me";
 }
 
+// In the old tree's order the heir, and whoever was root before, may hang on whom it has ahead: those are no way
+// to the root that is now.
+TEST(RootSelection, TheOldRootTakesNoParentOfTheOldTree) {
+  Bench bench = handing_over();
+  bench.state.old_parent = 9;  // from which it had the token
+  bench.step();
+  bench.say(5).root = {2, 5};
+  auto& before = bench.put(9, {-1.0F, 0});
+  before.role = Role::connector;
+  before.committed = true;
+  before.label_cm = 0;
+  before.seqno = static_cast<Serial>(bench.state.seqno + 1);
+  auto& child = bench.put(6, {0, 1.0F});
+  child.role = Role::worker;
+  child.parent = 1;
+  bench.steps(10);
+  EXPECT_EQ(bench.state.parent, nobody);
+  EXPECT_EQ(bench.state.old_parent, 5);
+}
+
+// Where packets are lost, the heir has passed the token on before the old root hears of it.
+TEST(RootSelection, TheOldRootIsTiedToAnHeirThatIsRootNoMore) {
+  for (const Serial sequence : {Serial{2}, Serial{3}, Serial{7}}) {
+    Bench bench = handing_over();
+    bench.step();
+    bench.say(5).root = {sequence, 8};
+    bench.step();
+    EXPECT_EQ(bench.state.old_parent, sequence == 2 ? nobody : 5) << "the offered token itself is a rival's";
+  }
+}
+
 // An heir that knows nobody better opens an epoch in the tick in which it takes the token.
 TEST(RootSelection, TheOldRootIsTiedToAnHeirThatHasOpenedAnEpoch) {
   Bench bench = handing_over();

@@ -11,9 +11,9 @@ namespace banyan {
 // Takes the token if it is offered to this robot. The offer that was taken; null if there was none.
 const TreeMessage* accept_offer(TreeRobot& robot) noexcept;
 
-// One that was root and has heard of its heir's token is tied to it from then on. Part of select_root; where the
-// heir may have opened an epoch already, to be called before entering that, which forgets the offer.
-void hand_over(TreeRobot& robot) noexcept;
+// One that was root, by a token with the number `held`, and has heard of its heir's token is tied to the heir from
+// then on. To be called before it enters the epoch that the heir may have opened already: that forgets the offer.
+void hand_over(TreeRobot& robot, Serial held) noexcept;
 
 // The root in SELECT ROOT: offer the token to a better neighbour, wait for the acknowledgement, take
 // the token back if none comes, or open the next epoch. `may_inherit(k)`: neighbour k may become root.
