@@ -12,15 +12,15 @@ int hops_to_tree(const TreeStanding& m) noexcept {
   return m.depth != invalid_depth ? -1 : unreachable;
 }
 
-// How bad neighbour k would be: what comes first weighs more than all that follows. The one it has is kept while
-// it is as good: a robot that turns to another every tick gets nowhere. Among links that are too long the shortest
-// is drawn in, however many hops away.
+// How bad neighbour k would be: what comes first weighs more than all that follows. A branch that has lost its root
+// ties nobody to it, however near. The one it has is kept while it is as good: a robot that turns to another every
+// tick gets nowhere. Among links that are too long the shortest is drawn in, however many hops away.
 float cost(const HealingRobot& robot, int k, int hops) noexcept {
   constexpr float strained = 0.85F;  // of C: beyond, the guard slows both ends down
   const float range = robot.table().range(k) / robot.params.communication_range_m;
   const bool another = hops >= 0 && robot.table().id(k) != robot.self.hold;
   if (range > longest_link) return 8192.0F + 1024.0F * range + (another ? 10.0F : 0.0F) + static_cast<float>(hops) / unreachable;
-  return (range > strained ? 2048.0F : 0.0F) + 4.0F * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
+  return (hops == unreachable ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) + 4.0F * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
 }
 
 }  // namespace
@@ -44,11 +44,11 @@ void find_hold(HealingRobot& robot) noexcept {
       if (wish < 0 || c < wish_cost) wish = k, wish_cost = c;
       if (ahead && (robot.hold < 0 || c < hold_cost)) robot.hold = k, hold_cost = c;
     }
-    // Until the flood of a new epoch has come by, the last epoch's hold will do.
-    if (self.label_cm == unknown_label) {
-      robot.hold = self.hold == nobody ? -1 : table.find(self.hold);
-      if (robot.hold >= 0 && !table.alive(robot.hold)) robot.hold = -1;
-    }
+    // Until the flood of a new epoch has come by, the last epoch's hold will do; and for whoever has children until
+    // that epoch's tree goes: by the new labels one that hangs on me through it may be ahead.
+    const bool relied_on = self.phase < Phase::grow_tree && robot.children.size + robot.old_children.size > 0;
+    if (const int last = self.hold == nobody ? -1 : table.find(self.hold); self.label_cm == unknown_label || (relied_on && last >= 0 && table.alive(last)))
+      robot.hold = last >= 0 && table.alive(last) ? last : -1;
     // The others of the tree get ahead of a spare that keeps up with the one it would like best, and that one
     // at last; one that is about to join an edge stays behind.
     if (wish >= 0 && self.role == Role::spare && self.phase >= Phase::grow_tree && self.request == nobody) keep_up(robot, wish);

@@ -57,6 +57,29 @@ TEST(Hold, IsOfTheTreeAndItSaysSo) {
   EXPECT_EQ(f.bench.state.hold, 2) << "the strained link is better than none";
 }
 
+// A branch whose root is lost may hang on me in a while, however near it is.
+TEST(Hold, IsNotOfALostBranchAsLongAsThereIsAnother) {
+  Follower f;
+  f.bench.move(2, {1.8F, 0.0F});
+  f.bench.say(3).tree_hops = unreachable;
+  EXPECT_EQ(f.hold(), 2) << "rather the strained link";
+  f.bench.say(2).depth = invalid_depth;
+  EXPECT_EQ(f.hold(), 3) << "both are lost";
+}
+
+// By the labels of the new epoch a robot may be ahead that hangs on me by the old tree.
+TEST(Hold, OfTheLastEpochStaysWhileOthersHangOnMeByIt) {
+  for (const Phase phase : {Phase::start_tree, Phase::select_parent, Phase::grow_tree}) {
+    for (const bool child : {false, true}) {
+      Follower f;
+      f.bench.state.phase = phase;
+      f.bench.state.hold = 3;
+      if (child) f.bench.put(4, {0.0F, 1.0F}).old_parent = 1;
+      EXPECT_EQ(f.hold(), child && phase < Phase::grow_tree ? 3 : 2);
+    }
+  }
+}
+
 TEST(Hold, IsAheadInTheOrder) {
   Follower f;
   f.bench.say(2).seqno = 9;
