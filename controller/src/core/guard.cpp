@@ -6,6 +6,18 @@
 #include "banyan/controller/core/trig.hpp"
 
 namespace banyan {
+namespace {
+
+// Where to turn for `v`. Beside an edge that must not grow, a heading that is a hair too far outwards stops the
+// robot, and the last of it is never turned: so a little farther inwards, once for each such edge.
+Vec2 aim(Vec2 v, float speed, const Guard& guard) noexcept {
+  constexpr float inwards = 0.05F;  // rad
+  for (int k = 0; k < guard.size; ++k)
+    if (const Guard::HalfPlane& plane = guard.planes[k]; speed * plane.x > plane.limit_m_s) v -= plane.away() * (speed * inwards);
+  return v;
+}
+
+}  // namespace
 
 void Guard::add(Vec2 neighbor, float longest_m, float rate_per_s) noexcept {
   const float d = norm(neighbor);
@@ -45,7 +57,7 @@ Velocity drive(Vec2 v, const Guard& guard, const Platform& platform) noexcept {
   if (speed < 1e-4F) return {};
   if (platform.drive == Drive::holonomic) return {v.x, v.y, 0.0F};
   const float turn_limit = 2.0F * platform.wheel_limit_m_s / platform.wheel_distance_m;
-  const float turn = std::clamp(4.0F * angle_of(v), -turn_limit, turn_limit);
+  const float turn = std::clamp(4.0F * angle_of(v.x > 0.0F ? aim(v, speed, guard) : v), -turn_limit, turn_limit);
   float forward = std::max(0.0F, v.x);  // |u| max(0, cos theta)
   forward = std::min(forward, platform.wheel_limit_m_s - 0.5F * (turn < 0 ? -turn : turn) * platform.wheel_distance_m);
   // The guard again, along the true heading (1, 0).

@@ -213,6 +213,25 @@ RC_GTEST_PROP(Drive, TheGuardHoldsAlongTheTrueHeadingToo, ()) {
   }
 }
 
+// Round a neighbour that it must not leave, with a heading a hair too far outwards at first.
+TEST(Drive, AnEdgeAtItsLimitDoesNotHoldItUp) {
+  const HealingParams p = outwards_defaults();
+  Vec2 at{p.ideal_distance_m, 0};
+  Vec2 heading = unit(Vec2{0.02F, 1.0F});
+  float way_m = 0.0F;
+  for (int tick = 0; tick < 50; ++tick) {
+    Guard guard;
+    guard.add(rotate_back(heading, -at), p.ideal_distance_m, p.guard_rate_per_s);
+    const Vec2 along = unit(Vec2{-at.y, at.x});
+    const Velocity v = drive(guard.apply(rotate_back(heading, along * 0.2F)), guard, p);
+    at += heading * (v.forward_m_s * p.tick_s);
+    heading = unit(rotate(heading, unit_vector(v.turn_rad_s * p.tick_s)));
+    way_m += v.forward_m_s * p.tick_s;
+    EXPECT_LT(norm(at), p.ideal_distance_m + 1e-3F);
+  }
+  EXPECT_GT(way_m, 0.5F) << "of 1 m";
+}
+
 TEST(Drive, AHolonomicRobotMovesAsTold) {
   TreeParams p;
   p.drive = Drive::holonomic;
