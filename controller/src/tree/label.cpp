@@ -6,8 +6,20 @@
 namespace banyan {
 namespace {
 
+// A neighbour without label is nearer to me and to neighbour `k` than the two are to one another.
+bool somebody_between(const TreeRobot& robot, int k) noexcept {
+  const TreeTable& table = robot.table();
+  const float range_m = table.range(k);
+  for (int j = 0; j < table.size(); ++j) {
+    const TreeStanding& m = table.message(j);
+    if (!table.alive(j) || (m.epoch == robot.self.epoch && m.label_cm != unknown_label) || table.range(j) >= range_m) continue;
+    if (distance(table.position(j), table.position(k)) < range_m) return true;
+  }
+  return false;
+}
+
 // Fixed once: recomputed every tick, motion would leave robots in local minima without candidate.
-void take_label(TreeRobot& robot) noexcept {
+void take_label(TreeRobot& robot, bool patient) noexcept {
   constexpr int wait_ticks = 2;       // lets nearer labelled neighbours speak up
   constexpr int wait_far_ticks = 6;   // if all heard so far are near the edge of the range
   TreeState& self = robot.self;
@@ -27,7 +39,7 @@ void take_label(TreeRobot& robot) noexcept {
   }
   if (best < 0) return;
   const bool far = nearest_m > 0.85F * robot.params.communication_range_m;
-  if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks)) return;
+  if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) && (patient || somebody_between(robot, best))) return;
   self.label_cm = best_label;
   self.flood_parent = table.id(best);
 }
@@ -68,14 +80,14 @@ std::uint16_t label_below(std::uint16_t label_cm, float range_m) noexcept {
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(std::uint32_t{label_cm} + edge_cm(range_m), unknown_label - 1));
 }
 
-void update_label(TreeRobot& robot) noexcept {
+void update_label(TreeRobot& robot, bool patient) noexcept {
   TreeState& self = robot.self;
   if (self.phase == Phase::init) return;
   if (robot.is_root()) {
     // A root by hand-over keeps its label until the epoch that it opens.
     if (self.phase == Phase::start_tree) self.label_cm = 0;
   } else if (self.label_cm == unknown_label) {
-    take_label(robot);
+    take_label(robot, patient);
   }
   if (self.phase == Phase::start_tree && self.label_cm != unknown_label) echo(robot);
 }

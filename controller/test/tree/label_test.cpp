@@ -42,6 +42,24 @@ TEST(Label, WaitsLongerWhenAllAreFar) {
   EXPECT_EQ(bench.state.label_cm, 190);
 }
 
+// Along a line nobody stands between: the flood need not rest at each hop.
+TEST(Label, WhoIsNotPatientWaitsOnlyForWhomItHears) {
+  const auto ticks_until_labelled = [](Vec2 other, float labelled_m) {
+    Bench bench = starting();
+    bench.put(9, {labelled_m, 0}).label_cm = 0;
+    bench.put(5, other);
+    for (int ticks = 1;; ++ticks) {
+      auto robot = bench.tick();
+      update_label(robot, false);
+      if (bench.state.label_cm != unknown_label) return ticks;
+    }
+  };
+  EXPECT_EQ(ticks_until_labelled({-1.0F, 0}, 1.0F), 1) << "on the other side";
+  EXPECT_EQ(ticks_until_labelled({1.4F, 0}, 1.0F), 1) << "farther than the one that has a label";
+  EXPECT_EQ(ticks_until_labelled({0.5F, 0.2F}, 1.0F), 3);
+  EXPECT_EQ(ticks_until_labelled({0.5F, 0.2F}, 1.9F), 7);
+}
+
 TEST(Label, OfAnotherEpochCountsNothing) {
   Bench bench = starting();
   bench.put(9, {1.0F, 0}).label_cm = 0;
