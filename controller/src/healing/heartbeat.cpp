@@ -71,14 +71,33 @@ void follow_heartbeat(HealingRobot& robot) noexcept {
   locate_root(robot);
 }
 
+namespace {
+
+// Its heartbeat has stopped, and I am the one near where it was.
+bool outlives_root(const HealingRobot& robot) noexcept {
+  const HealingParams& p = robot.params;
+  const float away_m = norm(robot.self.root_at);
+  if (away_m > p.claim_radius_m) return false;
+  return robot.self.silence_ticks > 2 * robot.liveness_ticks() + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
+}
+
+// There has never been one, it died before anybody heard it: the first of those around is to be it. Several may claim
+// far from each other; one token wins.
+bool misses_first_root(const HealingRobot& robot) noexcept {
+  constexpr float first_root_s = 20.0F;  // the first token has come 200 hops far
+  const TreeTable& table = robot.table();
+  if (robot.self.silence_ticks <= robot.params.ticks(first_root_s) || hears_nobody(robot)) return false;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k) && table.message(k).role != Role::worker && table.id(k) < robot.self.id) return false;
+  return true;
+}
+
+}  // namespace
+
 void claim_root(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
-  const HealingParams& p = robot.params;
-  if (!p.heals() || robot.is_root() || self.is_worker || !self.root_known) return;
-  const float away_m = norm(self.root_at);
-  if (away_m > p.claim_radius_m) return;
-  const int patience_ticks = 2 * robot.liveness_ticks() + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
-  if (self.silence_ticks <= patience_ticks) return;
+  if (!robot.params.heals() || robot.is_root() || self.is_worker) return;
+  if (self.root_known ? !outlives_root(robot) : !misses_first_root(robot)) return;
   self.root = {static_cast<std::uint16_t>(self.root.sequence + 1), self.id};
   self.root_size = 0;  // nobody has been counted: whoever still has a root keeps it
   self.role = Role::root;

@@ -95,5 +95,27 @@ TEST(Election, NeitherTheFarNorWorkersNorWhoDoesNotHealClaim) {
   }
 }
 
+// It died before it could speak. Of those that hear each other the one with the smallest id claims; workers do not count.
+TEST(Election, OfThoseWhoNeverHeardOfARootTheFirstClaims) {
+  for (const RobotId other : {RobotId{0}, RobotId{5}})
+    for (const bool worker : {false, true}) {
+      ConvoyBench bench;
+      bench.state = initial_convoy_state(1, false, false);
+      bench.put(other, {1.0F, 0.0F}).role = worker ? Role::worker : Role::spare;
+      bench.say(other).root = bench.state.root;
+      bench.steps(200);
+      EXPECT_EQ(bench.state.tally.elections, 0U);
+      bench.step();
+      EXPECT_EQ(bench.state.tally.elections, other < 1 && !worker ? 0U : 1U);
+    }
+}
+
+TEST(Election, WhoHearsNobodyNeedsNoRoot) {
+  ConvoyBench bench;
+  bench.state = initial_convoy_state(1, false, false);
+  bench.steps(500);
+  EXPECT_EQ(bench.state.tally.elections, 0U);
+}
+
 }  // namespace
 }  // namespace banyan
