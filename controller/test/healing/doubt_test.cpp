@@ -136,6 +136,22 @@ TEST(Doubt, WhoDoubtsWaitsForAnAnswerEvenIfItsNewsIsOld) {
   EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
 }
 
+// However old the news by it is: those torn off have time to find another parent, and to be heard of.
+TEST(Doubt, TheClockStartsWithTheSilenceOfTheChild) {
+  ForgetfulWatch watch;
+  auto& child = watch.bench.put(20, {1.0F, 0.0F});
+  child.role = Role::connector;
+  child.parent = 1;
+  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, worker_id, 10);
+  child.task_below = true;
+  watch.hear_root(outdated_ticks - 20);
+  watch.bench.silence(20);
+  watch.hear_root(doubt_ticks(watch) - 5);
+  EXPECT_FALSE(watch.task().silent);
+  watch.hear_root(10);
+  EXPECT_TRUE(watch.task().silent);
+}
+
 TEST(Doubt, AChildThatHangsElsewhereIsInTheChargeOfOthers) {
   ForgetfulWatch watch;
   watch.bench.put(30, {0.0F, 1.0F});
