@@ -57,7 +57,9 @@ install(FILES ${generated}/banyan.pc DESTINATION ${pc_dir} COMPONENT development
 
 if(TARGET banyan_cli)
   install(TARGETS banyan_cli RUNTIME COMPONENT program)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
+  # Some studies name parameters that tuning found.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies ${PROJECT_SOURCE_DIR}/parameters ${PROJECT_SOURCE_DIR}/results
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program
           FILES_MATCHING PATTERN "*.toml")
   # The page, if viewer/build has built it.
   if(EXISTS ${PROJECT_SOURCE_DIR}/build/viewer/page/index.html)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The arrows of the house: adapters -> cli -> study -> config -> record -> measure -> world -> controller,
+// The arrows of the house: cli -> study -> config -> record -> measure -> world -> controller,
 // and viewer -> config: a browser has no processes to start. Only algorithms -> controller, rivals knows the
 // algorithms; the others see them through controller/core, and who composes a program hands the list down. So does
 // rivals -> controller/core. Reads the include lines of every source file and names each that points up.
@@ -34,7 +34,6 @@ const std::map<std::string, Names, std::less<>> may_include = {
     {"config", {"controller", "world", "measure", "record"}},
     {"study", {"controller", "world", "measure", "record", "config"}},
     {"cli", {"controller", "algorithms", "world", "measure", "record", "config", "study"}},
-    {"adapters", {"controller", "algorithms", "world", "measure", "record", "config", "study", "cli"}},
     {"viewer", {"controller", "algorithms", "world", "measure", "record", "config"}},
 };
 

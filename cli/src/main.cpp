@@ -460,6 +460,8 @@ void add_collect(CLI::App& app, std::function<int()>& action) {
   command->callback([options, &action] { action = [options] { return collect_command(*options); }; });
 }
 
+constexpr std::uint64_t most_missions = 1'000'000'000'000;
+
 void add_soak(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<SoakOptions>();
   auto* command =
@@ -468,10 +470,13 @@ void add_soak(CLI::App& app, std::function<int()>& action) {
   command->add_option("file", options->file, "a scenario to watch, instead of random missions")->type_name("FILE");
   command->add_option("-s,--seed", options->seed, "of the missions, default 1")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9007199254740991}).description(""));
-  command->add_option("--from", options->from, "first mission, default 0")->type_name("N");
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9007199254740992}).description(""));
+  command->add_option("--from", options->from, "first mission, default 0")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{0}, most_missions).description(""));
   command->add_option("--missions", options->missions, "how many; default as many as there is time for")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, most_missions).description(""));
   command->add_option("--seconds", options->seconds, "how long; default until Ctrl-C")->type_name("S")->check(moment);
   command->add_option("-o,--out", options->out, "directory for journal and findings, default out/soak-<seed>")
       ->type_name("DIR");

@@ -19,8 +19,7 @@ std::string summary(const std::string& file, const Configuration& configuration)
   const auto& scenario = configuration.scenario;
   return file + ": ok: " + scenario.mission.algorithm + " (" + scenario.mission.reading + "), " +
          count_of(world::robot_count(scenario), "robot") + ", " +
-         count_of(world::target_positions(scenario).size(), "target") + ", at most " +
-         number_text(world::time_limit_s(scenario)) + " s\n";
+         count_of(world::target_positions(scenario).size(), "target") + format(", at most %.1f s\n", world::time_limit_s(scenario));
 }
 
 nlohmann::ordered_json json_of(const std::string& file, const Loaded& loaded) {

@@ -387,7 +387,7 @@ TEST_F(ViewCommand, TakesARecordingAScenarioOrNothing) {
   EXPECT_EQ(earlier["scenario"]["text"], read("o/run.json"));
 }
 
-// One that stays in the foreground is not waited for, neither at the begin nor at the end.
+// One that stays in the foreground is not waited for, neither at the beginning nor at the end.
 TEST_F(ViewCommand, OpensABrowserOnADesktopOnly) {
   write("bin/xdg-open", "#!/bin/sh\necho \"$1\" >'" + path("opened") + "'\nexec sleep 3\n");
   fs::permissions(home_ / "bin/xdg-open", fs::perms::owner_all);

@@ -14,7 +14,7 @@ namespace banyan {
 namespace {
 
 struct Moment {
-  int ticks = 0;      // since the begin, after the step in which it happened
+  int ticks = 0;      // since the beginning, after the step in which it happened
   int last_step = 0;  // of that length
 };
 

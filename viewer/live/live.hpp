@@ -48,7 +48,7 @@ class Live {
   // a tick that has not been.
   void rewind(std::uint64_t tick);
 
-  // What happens now, that is at the begin of the next step: one event as JSON, in the keys of a
+  // What happens now, that is at the beginning of the next step: one event as JSON, in the keys of a
   // scenario's [[events]] without time_s and when. Returns what is wrong in words, a line each, and
   // then nothing has changed; empty if it will happen.
   [[nodiscard]] std::vector<std::string> intervene(std::string_view event_json);

@@ -354,7 +354,7 @@ export class App {
     this.draw();
   }
 
-  /** To the begin; what was done to the run never happened. */
+  /** To the start; what was done to the run never happened. */
   private reset(): void {
     this.player.home();
     this.controls.forget();

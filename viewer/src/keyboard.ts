@@ -69,7 +69,7 @@ export class Keyboard {
     action();
   }
 
-  /** A number and Enter select a robot. A 0 alone shows all of the picture, and may be the begin of a number, too. */
+  /** A number and Enter select a robot. A 0 alone shows all of the picture, and may be the start of a number, too. */
   private digit(key: string): (() => void) | null {
     if (/^[0-9]$/.test(key)) {
       const first = this.digits === '';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens to a world at the begin of a tick: targets drive, robots die, freeze or fall silent,
+// What happens to a world at the beginning of a tick: targets drive, robots die, freeze or fall silent,
 // missions change.
 #include <algorithm>
 #include <limits>

@@ -232,7 +232,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"radio.slots", of<&RadioModel::slots>, "", {0.0, 65535.0}, "packets a robot can receive in one tick; 0: no limit"},
 
     {"clocks.asynchronous", of<&Clocks::asynchronous>, "", any_value,
-     "each robot steps at its own moments, not all of them at the begin of every tick"},
+     "each robot steps at its own moments, not all of them at the beginning of every tick"},
     {"clocks.drift", of<&Clocks::drift>, "", {0.0, 0.5}, "each clock's rate is 1 + uniform(-drift, drift), drawn once"},
     {"clocks.substeps", of<&Clocks::substeps>, "", {2.0, 100.0},
      "parts of a tick after each of which bodies move and packets fly (asynchronous)"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The begin of a tick: packets are carried to where their senders are now, strangers are told from
+// The beginning of a tick: packets are carried to where their senders are now, strangers are told from
 // nobody, orders are followed.
 #include "banyan/controller/tree/tick.hpp"
 

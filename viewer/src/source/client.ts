@@ -141,12 +141,12 @@ export class Source {
     return reply.type === 'message' ? reply.fields : null;
   }
 
-  /** Acts at the begin of the step after `tick`; what was simulated beyond is forgotten. */
+  /** Acts at the beginning of the step after `tick`; what was simulated beyond is forgotten. */
   intervene(tick: number, events: Intervention[]): Promise<void> {
     return this.changePast(tick * this.tickS, (id) => ({ type: 'intervene', id, tick, events }));
   }
 
-  /** To the begin; what was done to the run never happened. */
+  /** To the start; what was done to the run never happened. */
   reset(): Promise<void> {
     return this.changePast(0, (id) => ({ type: 'reset', id }));
   }

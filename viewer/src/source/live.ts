@@ -22,7 +22,7 @@ interface Spoken extends Kept {
   json: Map<number, string>; // by robot
 }
 
-/** What a visitor did, at the begin of the step after `tick`. */
+/** What a visitor did, at the beginning of the step after `tick`. */
 interface Act {
   tick: number;
   json: string;
@@ -142,7 +142,7 @@ export class LiveRun {
     return fieldsOf(parseObject(json));
   }
 
-  /** Acts at the begin of the step after `tick`, beside what was done there before. What is later is forgotten.
+  /** Acts at the beginning of the step after `tick`, beside what was done there before. What is later is forgotten.
    *  Throws a Problem if it cannot be; then what was done later will happen again. */
   intervene(tick: number, events: Intervention[]): void {
     if (!Number.isInteger(tick) || tick < 0 || tick > this.head) throw new Problem('that moment has not been simulated yet');

@@ -66,7 +66,7 @@ export type Request =
   | { type: 'frames'; id: number; fromS: number; toS: number; stride: number }
   /** What this robot broadcast last, at that tick. */
   | { type: 'message'; id: number; robot: number; tick: number }
-  // Live only. An intervention acts at the begin of the step after `tick`; what was simulated
+  // Live only. An intervention acts at the beginning of the step after `tick`; what was simulated
   // beyond it is forgotten and a new header is sent.
   | { type: 'intervene'; id: number; tick: number; events: Intervention[] }
   /** The scenario from its beginning, as if nobody had interfered; a new header is sent. */

@@ -190,7 +190,7 @@ struct Event {
   Action action{};
 };
 
-// Without it all robots step at the begin of every tick. With it each has its own phase, uniform in
+// Without it all robots step at the beginning of every tick. With it each has its own phase, uniform in
 // its period, and its own rate; bodies move and packets fly in `substeps` steps per tick.
 struct Clocks {
   bool asynchronous = false;

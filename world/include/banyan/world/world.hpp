@@ -42,7 +42,7 @@ class World {
   void step();
   void step(Executor& executor);
 
-  // What somebody does to the running world: `event` acts at the begin of the next step, as if the
+  // What somebody does to the running world: `event` acts at the beginning of the next step, as if the
   // scenario had had it from the start as its last event, with time_s = time_s(); scenario() has it from
   // now on. So a world made from that scenario has the same hash() at every tick. `event.time_s` is
   // ignored. Throws std::invalid_argument with all faults_now(event). Allocates.
@@ -72,7 +72,7 @@ class World {
   // target was given up or if there is no such target. O(N).
   [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
   [[nodiscard]] std::size_t deaths() const noexcept;               // since the start
-  // tick() at the begin of the step in which the last of them died; none if all live.
+  // tick() at the beginning of the step in which the last of them died; none if all live.
   [[nodiscard]] std::optional<std::uint64_t> last_death_tick() const noexcept;
   // Whether events are still to come that make robots die (Die, Kill), those that
   // wait for a moment of the mission included.

@@ -21,7 +21,7 @@ namespace banyan {
 [[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard,
                                                 const Senses& senses) noexcept;
 
-// The begin of a tick (tree/tick.hpp): memory is carried, the table brought up to date, orders followed.
+// The beginning of a tick (tree/tick.hpp): memory is carried, the table brought up to date, orders followed.
 void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept;
 
 void add_to(Digest& digest, const ConvoyState& state) noexcept;
