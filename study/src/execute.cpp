@@ -16,7 +16,7 @@ constexpr std::size_t queued_per_worker = 4;  // enough that nobody waits, few e
 std::string task_of(const Plan& plan, const PlannedRun& run, const std::string& runs_folder) {
   const auto configuration = configuration_of(plan, run);
   return encode(
-      Task{config::config_json(configuration), keeps_files(configuration) ? runs_folder + "/" + run.directory : ""});
+      RunTask{config::config_json(configuration), keeps_files(configuration) ? runs_folder + "/" + run.directory : ""});
 }
 
 class Execution {
@@ -148,7 +148,7 @@ double estimate_s(const Plan& plan, const std::vector<std::size_t>& todo, double
   for (std::size_t n = 0; n < std::min<std::size_t>(todo.size(), 64) && sampled_s < patience_s; ++n) {
     const auto& run = plan.runs[todo[static_cast<std::size_t>(at * static_cast<double>(todo.size()))]];
     auto configuration = configuration_of(plan, run);
-    sampled_s += decode_outcome(simulate(encode(Task{config::config_json(configuration), ""}), *configuration.scenario.algorithms)).wall_s;
+    sampled_s += decode_outcome(simulate(encode(RunTask{config::config_json(configuration), ""}), *configuration.scenario.algorithms)).wall_s;
     sampled_work += run.cost;
     at += 0.6180339887498949;
     if (at >= 1.0) at -= 1.0;

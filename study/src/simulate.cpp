@@ -20,7 +20,7 @@ using nlohmann::json;
 
 // A study has a table of its own for the results, and keeps files of a run where [output] asks for them. If it
 // was stopped, it may find files of a run whose row was never written: they are replaced.
-record::Sinks open_outputs(const config::Configuration& configuration, const Task& task) {
+record::Sinks open_outputs(const config::Configuration& configuration, const RunTask& task) {
   if (task.directory.empty() || !configuration.output.any()) return {};
   const std::uint64_t seed = configuration.scenario.seed;
   record::SinkOptions options{{task.config_json, std::string(version), std::string(git_id()), seed},
@@ -34,7 +34,7 @@ record::Sinks open_outputs(const config::Configuration& configuration, const Tas
 }
 
 // A run whose files cannot be kept has failed, and can be done again.
-record::RunRow run(const config::Configuration& configuration, const Task& task) {
+record::RunRow run(const config::Configuration& configuration, const RunTask& task) {
   record::Sinks sinks = open_outputs(configuration, task);
   world::Executor alone(1);
   const record::RunEnd end = record::run_scenario(world::World(configuration.scenario), sinks, alone);
@@ -49,12 +49,12 @@ std::string one_line(std::string text) {
   return text;
 }
 
-Task decode_task(std::string_view bytes) {
+RunTask decode_task(std::string_view bytes) {
   const json task = json::from_msgpack(bytes);
   return {task.at("config").get<std::string>(), task.at("directory").get<std::string>()};
 }
 
-Outcome outcome_of(const Task& task, const AlgorithmList& algorithms) {
+Outcome outcome_of(const RunTask& task, const AlgorithmList& algorithms) {
   const auto loaded = config::parse_configuration("run.json", task.config_json, algorithms);
   if (!loaded.ok()) {
     for (const auto& problem : loaded.problems) {
@@ -66,7 +66,7 @@ Outcome outcome_of(const Task& task, const AlgorithmList& algorithms) {
 
 }  // namespace
 
-std::string encode(const Task& task) {
+std::string encode(const RunTask& task) {
   // Not as text: a directory's name may hold any bytes.
   std::string bytes;
   json::to_msgpack({{"config", task.config_json}, {"directory", task.directory}}, bytes);

@@ -26,7 +26,7 @@ config::Configuration small_world() {
 }
 
 Outcome outcome_of(const config::Configuration& configuration, const std::string& directory = "") {
-  return decode_outcome(simulate(encode(Task{config::config_json(configuration), directory}), algorithms()));
+  return decode_outcome(simulate(encode(RunTask{config::config_json(configuration), directory}), algorithms()));
 }
 
 class SimulateTest : public TemporaryFolder {};
@@ -51,16 +51,16 @@ TEST_F(SimulateTest, GivesTheRowOfAWorldThatIsSteppedToItsEnd) {
 }
 
 TEST_F(SimulateTest, MalformedTasksAreFailedRuns) {
-  const auto whole = encode(Task{config::config_json(small_world()), ""});
+  const auto whole = encode(RunTask{config::config_json(small_world()), ""});
   for (const std::string& task :
        {std::string(), std::string("{}"), std::string("\xff\xff"), whole.substr(0, whole.size() / 2),
-        encode(Task{"", ""}), encode(Task{"{\"radio\": {\"loss\": 2}}", ""}), encode(Task{"{\"no\": 1}", ""})}) {
+        encode(RunTask{"", ""}), encode(RunTask{"{\"radio\": {\"loss\": 2}}", ""}), encode(RunTask{"{\"no\": 1}", ""})}) {
     const auto outcome = decode_outcome(simulate(task, algorithms()));
     EXPECT_NE(outcome.error, "");
     EXPECT_EQ(outcome.error.find('\n'), std::string::npos);
     EXPECT_EQ(outcome.row, "");
   }
-  EXPECT_NE(decode_outcome(simulate(encode(Task{"{\"radio\": {\"loss\": 2}}", ""}), algorithms())).error.find("radio.loss: "),
+  EXPECT_NE(decode_outcome(simulate(encode(RunTask{"{\"radio\": {\"loss\": 2}}", ""}), algorithms())).error.find("radio.loss: "),
             std::string::npos);
 }
 

@@ -62,7 +62,7 @@ std::vector<std::vector<Trial>> Evaluator::trials(const std::vector<std::optiona
       if (point) configuration.scenario = with_parameters(world.scenario, plan_.bounds, *point);
       for (const auto seed : seeds) {
         configuration.scenario.seed = seed;
-        tasks.push_back(encode(Task{config::config_json(configuration), ""}));
+        tasks.push_back(encode(RunTask{config::config_json(configuration), ""}));
       }
     }
   }

@@ -10,7 +10,7 @@
 
 namespace banyan::study {
 
-struct Task {
+struct RunTask {
   std::string config_json;  // the complete configuration, seed included (config::config_json)
   std::string directory;    // for what the configuration's [output] asks for; "": nothing is kept
 };
@@ -23,11 +23,11 @@ struct Outcome {
 
 // As they travel. decode_outcome() of anything else than an encoded outcome is an outcome with an
 // error.
-[[nodiscard]] std::string encode(const Task& task);
+[[nodiscard]] std::string encode(const RunTask& task);
 [[nodiscard]] std::string encode(const Outcome& outcome);
 [[nodiscard]] Outcome decode_outcome(std::string_view bytes);
 
-// The Work of studies and tuning, once a program has given it its algorithms: an encoded Task to an encoded
+// The Work of studies and tuning, once a program has given it its algorithms: an encoded RunTask to an encoded
 // Outcome. Never throws: what goes wrong is the outcome's error.
 [[nodiscard]] std::string simulate(std::string_view task, const AlgorithmList& algorithms);
 
