@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// An algorithm of your own: what a robot says, what it remembers, and what it does in one tick. These
-// robots drive away from all that are nearer than a metre. A World runs them like any other.
+// An algorithm of your own, in a World like any other: these robots drive away from all nearer than a metre.
 #include <algorithm>
 #include <cstdio>
 
+#include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/core/output.hpp"
 #include "banyan/controller/core/swarm_of.hpp"
 #include "banyan/world/world.hpp"
@@ -24,9 +24,9 @@ struct Spread {
   struct Heard { const Hello* message; Vec2 position; float age_s; };  // where the sender is: x ahead, y to the left
 
   static State initial(RobotId id, bool, bool) { return {id}; }
-  static Output<Hello> step(const Params&, State& self, std::span<Heard> heard, const Senses&) {
+  static Output<Hello> step(const Params& params, State& self, std::span<Heard> heard, const Senses& senses) {
     Vec2 away;
-    for (const Heard& h : heard)
+    for (const Heard& h : Gate(senses, params).packets(heard, params))  // nothing passes that is not finite or too far
       if (const float d = norm(h.position); d < 1.0F && d > 0.0F) away -= h.position * ((1.0F - d) / d);
     return {{self.id}, {std::clamp(away.x, 0.0F, 0.1F), 0.0F, std::clamp(4.0F * away.y, -1.0F, 1.0F)}};
   }

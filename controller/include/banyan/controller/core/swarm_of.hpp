@@ -5,7 +5,8 @@
 //   A::Params, A::State, A::Message   values; a message has `blocks` and visit_fields() (wire.hpp)
 //   A::Heard                          {const Message-or-a-base* message; Vec2 position; float age_s}
 //   A::initial(id, worker, root)      a State
-//   A::step(params, state, heard, senses)   an Output<Message>
+//   A::step(params, state, heard, senses)   an Output<Message>; a Gate (gate.hpp) comes first in it: what hosts
+//                                     hand in may be anything
 //   A::report(state), A::add_to(digest, state)
 #pragma once
 
