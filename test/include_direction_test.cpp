@@ -39,7 +39,7 @@ const std::map<std::string, Names, std::less<>> may_include = {
 
 // Libraries that have one home: <prefix of the header> -> the rooms that know them.
 const std::map<std::string, Names, std::less<>> homes = {
-    {"Eigen/", {"measure", "study"}},
+    {"Eigen/", {"measure", "study", "rivals"}},
     {"Spectra/", {"measure"}},
     {"box2d/", {"world"}},
     {"zstd", {"record"}},

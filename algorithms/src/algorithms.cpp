@@ -45,7 +45,7 @@ const Algorithm& convoy() noexcept {
 }
 
 const AlgorithmList& algorithms() noexcept {
-  static const AlgorithmList all{&outwards(), &inwards(), &convoy(), &link_consensus(), &mst()};
+  static const AlgorithmList all{&outwards(), &inwards(), &convoy(), &link_consensus(), &mst(), &fiedler()};
   return all;
 }
 

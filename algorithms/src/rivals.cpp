@@ -2,6 +2,7 @@
 // Algorithms of other authors: their parameters as rows, and one function each.
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/algorithms/tree_algorithm.hpp"
+#include "banyan/rivals/fiedler/fiedler.hpp"
 #include "banyan/rivals/link_consensus/link_consensus.hpp"
 #include "banyan/rivals/mst/mst.hpp"
 
@@ -40,6 +41,11 @@ static std::vector<BoundParameter> bind(Params& params) { return bind_all(params
 static std::string_view cross_fault(const Params& params) { return fault(params); }
 }  // namespace mst
 
+namespace fiedler {
+static std::vector<BoundParameter> bind(Params& params) { return bind_all(params, parameters()); }
+static std::string_view cross_fault(const Params& params) { return fault(params); }
+}  // namespace fiedler
+
 }  // namespace rivals
 
 const Algorithm& link_consensus() noexcept {
@@ -51,6 +57,12 @@ const Algorithm& link_consensus() noexcept {
 const Algorithm& mst() noexcept {
   static constexpr TreeAlgorithmOf<rivals::mst::Robots> algorithm(
       "mst", "keeps a minimum spanning tree of all robots, and builds a new one when an edge gets long", rivals::mst::defaults, true);
+  return algorithm;
+}
+
+const Algorithm& fiedler() noexcept {
+  static constexpr TreeAlgorithmOf<rivals::fiedler::Robots> algorithm(
+      "fiedler", "estimates the algebraic connectivity of the network, and moves up its gradient", rivals::fiedler::defaults, true);
   return algorithm;
 }
 

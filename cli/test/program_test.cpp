@@ -492,7 +492,7 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
   const auto list = json::parse(run({"algorithms", "--json"}).out);
   ASSERT_GE(list.size(), 2U);
   for (const auto& entry : list) {
-    const double tau = entry["name"] == "outwards" ? 0.49 : entry["name"] == "inwards" ? 0.2539 : 1.0;  // Table I, and ours
+    const double tau = entry["name"] == "outwards" ? 0.49 : entry["name"] == "inwards" ? 0.2539 : entry["name"] == "fiedler" ? 0.5 : 1.0;  // Table I, and ours
     for (const auto& row : entry["parameters"]) {
       if (row["key"] == "target_gain") { EXPECT_EQ(row["default"]["literal"], tau); }
     }
@@ -540,7 +540,7 @@ TEST_F(Program, BenchRunsAWholeMissionWithAnyAlgorithm) {
   EXPECT_EQ(json::parse(other.out)["spread-94-los"]["algorithm"], "inwards");
   const auto unknown = run({"bench", "spread-94-los", "--algorithm", "inward"});
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_TRUE(has(unknown.err, "--algorithm: must be \"outwards\", \"inwards\", \"convoy\", \"link-consensus\" or \"mst\", not the text \"inward\"")) << unknown.err;
+  EXPECT_TRUE(has(unknown.err, "--algorithm: must be \"outwards\", \"inwards\", \"convoy\", \"link-consensus\", \"mst\" or \"fiedler\", not the text \"inward\"")) << unknown.err;
 }
 
 // --------------------------------------------------------------------------------------- completion
@@ -568,7 +568,7 @@ TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});
-  EXPECT_EQ(complete(" run small.toml --set mission.algorithm="), (Words{"convoy", "inwards", "link-consensus", "mst", "outwards"}));
+  EXPECT_EQ(complete(" run small.toml --set mission.algorithm="), (Words{"convoy", "fiedler", "inwards", "link-consensus", "mst", "outwards"}));
   EXPECT_EQ(complete(" run --set mission.parameters.target_"), Words{"mission.parameters.target_gain="});
   EXPECT_EQ(complete(" run sm"), Words{"small.toml"});
   EXPECT_EQ(complete(" algorithms in"), Words{"inwards"});

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "banyan/rivals/fiedler/fiedler.hpp"
 #include "banyan/rivals/link_consensus/link_consensus.hpp"
 #include "banyan/rivals/mst/mst.hpp"
 #include "over_the_wire.hpp"
@@ -49,9 +50,20 @@ void fill(mst::Message& m) {
   for (RobotId& branch : m.branches) branch = word();
 }
 
+void fill(fiedler::Message& m) {
+  m.id = sender();
+  for (float* real : {&m.component, &m.mean.value, &m.mean.integral, &m.square.value, &m.square.integral, &m.product.value, &m.product.integral, &m.lambda})
+    *real = fiedler::largest_real * (static_cast<float>(word()) / 32767.5F - 1.0F);
+  m.links = byte();
+  m.largest_degree = word();
+  m.degree_age = byte();
+  m.root = word();
+  m.root_age = byte();
+}
+
 template <class Message>
 class Said : public testing::Test {};
-using Messages = testing::Types<link_consensus::Message, mst::Message>;
+using Messages = testing::Types<link_consensus::Message, mst::Message, fiedler::Message>;
 TYPED_TEST_SUITE(Said, Messages, );
 
 TYPED_TEST(Said, SurvivesTheWay) {
@@ -93,6 +105,8 @@ template <>
 struct RobotsOf<link_consensus::Message> : link_consensus::Robots {};
 template <>
 struct RobotsOf<mst::Message> : mst::Robots {};
+template <>
+struct RobotsOf<fiedler::Message> : fiedler::Robots {};
 
 // What passes the decoder may still be nonsense: three robots that say anything, of one another and of whom nobody knows.
 TYPED_TEST(Said, AnythingIsSurvived) {
@@ -121,9 +135,10 @@ TEST(Document, SaysHowLongMessagesAre) {
   std::ifstream in(BANYAN_SOURCE_DIR "/docs/rivals.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   std::smatch match;
-  ASSERT_TRUE(std::regex_search(page, match, std::regex("link consensus has (\\d+) bytes, one of mst (\\d+)")));
+  ASSERT_TRUE(std::regex_search(page, match, std::regex("link consensus has (\\d+) bytes, one of mst (\\d+), one of fiedler (\\d+)")));
   EXPECT_EQ(std::stoul(match[1]), wire_size<link_consensus::Message>());
   EXPECT_EQ(std::stoul(match[2]), wire_size<mst::Message>());
+  EXPECT_EQ(std::stoul(match[3]), wire_size<fiedler::Message>());
 }
 
 TYPED_TEST(Said, NobodyIsNoSender) { EXPECT_FALSE(over_the_wire(TypeParam{}).has_value()); }

@@ -20,7 +20,7 @@ TEST(Allocation, TheCounterCounts) {
 // Buffers grow, by a quarter at a time, when there are more links than ever before. That ends; what is left then
 // would be an allocation in every tick.
 TEST(Allocation, ATickTakesNothingFromTheHeap) {
-  for (const char* algorithm : {"outwards", "inwards", "convoy", "link-consensus", "mst"}) {
+  for (const char* algorithm : {"outwards", "inwards", "convoy", "link-consensus", "mst", "fiedler"}) {
     for (const std::size_t robots : {20U, 150U}) {
       Scenario s = hostile(algorithm, robots, 5);
       s.targets = RingTargets{3, 1.5};

@@ -27,7 +27,7 @@ for (const file of (await readdir(scenarios)).sort()) {
 const threeTargets = await readFile(join(scenarios, 'three-targets.toml'), 'utf8');
 const rooms = await readFile(join(scenarios, 'rooms.toml'), 'utf8');
 
-for (const algorithm of ['outwards', 'inwards', 'convoy', 'link-consensus', 'mst'])
+for (const algorithm of ['outwards', 'inwards', 'convoy', 'link-consensus', 'mst', 'fiedler'])
   for (const sight of [true, false])
     test(`rooms, ${algorithm}, line of sight ${sight}`, () =>
       compare(rooms, [`mission.algorithm=${algorithm}`, `radio.line_of_sight=${sight}`]));

@@ -12,6 +12,7 @@ namespace banyan {
 // Of other authors (rivals/).
 [[nodiscard]] const Algorithm& link_consensus() noexcept;
 [[nodiscard]] const Algorithm& mst() noexcept;
+[[nodiscard]] const Algorithm& fiedler() noexcept;
 [[nodiscard]] const AlgorithmList& algorithms() noexcept;
 
 }  // namespace banyan

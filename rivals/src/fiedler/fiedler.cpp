@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/rivals/fiedler/fiedler.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/core/gate.hpp"
+#include "rooms.hpp"
+
+namespace banyan::rivals::fiedler {
+namespace {
+
+constexpr float least_margin = 1e-3F;  // lambda_2 - epsilon counts as at least this: coth is infinite at 0
+constexpr float least_to_divide = 0.02F;  // to divide by
+constexpr float most_control = 2.0F;   // twice the largest pull of a target; avoidance is to count, too
+
+// csch^2 u = 4 q / (1 - q)^2, q = e^-2u, for u > 0.
+float csch_squared(float u) noexcept {
+  const float q = exp_minus(2.0F * u);
+  return 4.0F * q / ((1.0F - q) * (1.0F - q));
+}
+
+// (6)  V = coth(lambda_2 - epsilon),  u_c = -gain dV / dp = gain csch^2(lambda_2 - epsilon) dlambda_2 / dp
+Vec2 connectivity_control(const Robot& robot) noexcept {
+  const Params& p = robot.params;
+  const float slope = csch_squared(std::max(robot.self.lambda - p.least_connectivity, least_margin));
+  return clamped(connectivity_gradient(p, robot.self) * (p.connectivity_gain * slope), most_control);
+}
+
+Message composed(const State& s) noexcept {
+  return {.id = s.id, .component = s.component, .mean = s.mean, .square = s.square, .product = s.product, .lambda = s.lambda,
+          .links = s.links, .largest_degree = s.largest_degree, .degree_age = s.degree_age, .root = s.root, .root_age = s.root_age};
+}
+
+}  // namespace
+
+// (5)  N dlambda_2 / dp_i = sum a_ij / sigma^2 (x_i - x_j)^2 / z2 (p_j - p_i)
+Vec2 connectivity_gradient(const Params& params, const State& state) noexcept {
+  Vec2 sum;
+  for (int k = 0; k < state.neighbors.size(); ++k) {
+    const Vec2 there = state.neighbors.position(k);
+    const float difference = state.component - state.neighbors.message(k).component;
+    sum += there * (weight(params, there) * difference * difference);
+  }
+  return sum / (params.weight_width_m * params.weight_width_m * std::max(state.square.value, least_to_divide));
+}
+
+State initial_state(RobotId id, bool worker, bool root) noexcept {
+  State state;
+  state.id = id;
+  state.errand.sent = worker;
+  if (root) state.root = id;
+  return state;
+}
+
+Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
+  Gate gate(sensed, params);
+  const Senses& senses = gate.senses();
+  const std::span<Heard> packets = gate.packets(heard, params);
+  state.tally.rejected += gate.rejected();
+  carry_to_now(packets, senses, params);
+  const Carry carry(senses.odometry);
+  state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params, [](RobotId) { return false; });
+  state.errand.follow(senses.orders, carry);
+
+  state.ticks = static_cast<std::uint16_t>(std::min(state.ticks + gate.elapsed_ticks(), 0xFFFF));
+
+  Robot robot{params, state, gate.elapsed_ticks()};
+  spread_news(robot);
+  // Neighbours' components are those of the last tick, as mine is until the iteration.
+  const Vec2 control = connectivity_control(robot);
+  iterate(robot);
+  const Vec2 task = state.ticks > params.ticks(params.settling_s) ? target_pull(state.errand, params) : Vec2{};
+  const Vec2 u = task + control + avoidance(state.neighbors, senses.obstacles, params);
+  return {composed(state), move(u, Guard{}, params)};
+}
+
+// It promises no link in particular, only lambda_2 > 0: no parent, nothing kept.
+Report report(const State& s) noexcept {
+  return {.role = s.errand.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
+          .serves = s.errand.sent ? s.id : nobody,
+          .root = s.root,
+          .want_m = s.errand.distance_m(),
+          .tally = s.tally};
+}
+
+void add_to(Digest& digest, const State& s) noexcept {
+  const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
+  add(s.id, s.errand.sent, s.errand.known, s.errand.target, s.ticks);
+  add(s.links, s.largest_degree, s.degree_age, s.root, s.root_age, s.rootless_ticks);
+  add(s.component, s.lambda, s.draws);
+  for (const Average& a : {s.mean, s.square, s.product}) add(a.value, a.integral);
+  add(s.tally.elections, s.tally.rejected);
+  s.neighbors.add_to(digest);
+}
+
+}  // namespace banyan::rivals::fiedler
