@@ -185,6 +185,111 @@ TEST(Mst, TwoNetworksThatMeetBecomeOne) {
   EXPECT_EQ(kept(net), kruskal(net));
 }
 
+// Links that one end alone says it keeps.
+std::size_t one_sided(const Swarm_& net) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < net.at.size(); ++i)
+    for (const RobotId end : report(net.states[i]).kept)
+      count += end != nobody && !keeps(report(net.states[end]), static_cast<RobotId>(i)) ? 1 : 0;
+  return count;
+}
+
+// One has built many more trees than the other: robot 3 stays too far from 2 for a while, which asks for trees.
+TEST(Mst, NetworksThatHaveBuiltDifferentNumbersOfTreesMeetAsQuickly) {
+  for (const int long_for : {0, 200, 2000}) {
+    Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3.7F, 0}}, 1);
+    net.hidden = [](std::size_t i, std::size_t j) { return (i < 2) != (j < 2); };
+    for (int t = 0; t < 100 + long_for; ++t) net.tick();
+    net.at[3].x = 3.0F;
+    for (int t = 0; t < 100; ++t) net.tick();
+    ASSERT_EQ(held_parts(net), 2U);
+    const int apart = ahead_by(net.states[2].tree_epoch, net.states[0].tree_epoch);
+    EXPECT_GE(apart, long_for / 100);
+    net.hidden = [](std::size_t, std::size_t) { return false; };
+    for (int t = 0; t < 50; ++t) net.tick();
+    EXPECT_EQ(held_parts(net), 1U) << apart << " trees apart";
+    EXPECT_EQ(kept(net), kruskal(net)) << apart;
+    for (int t = 0; t < 100; ++t) {
+      net.tick();
+      ASSERT_EQ(one_sided(net), 0U) << apart << " trees apart, tick " << t;
+    }
+  }
+}
+
+// Networks come within range of one another in the midst of whatever they are doing.
+TEST(Mst, NetworksThatMeetAtAnyMomentBecomeOneTree) {
+  for (int moment = 0; moment < 40; ++moment) {
+    Draw draw(static_cast<std::uint64_t>(moment));
+    Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {6, 0.1F}, {7, 0}, {8, 0.2F}}, 1);
+    net.loss = 0.2 * (moment % 2);
+    net.params.liveness_period_s = 3.0F;
+    net.hidden = [](std::size_t i, std::size_t j) { return i / 3 != j / 3; };
+    for (std::size_t i = 3; i < 9; ++i) net.states[i].epoch = net.states[i].next = static_cast<Serial>(7 * (i / 3));
+    for (std::size_t i = 3; i < 9; ++i) net.states[i].next = static_cast<Serial>(net.states[i].next + 1);
+    for (int t = 0; t < 10 + moment; ++t) net.tick();
+    net.hidden = [](std::size_t, std::size_t) { return false; };
+    for (int t = 0; t < 160; ++t) net.tick();
+    EXPECT_EQ(kept(net), kruskal(net)) << "met at tick " << 10 + moment;
+    EXPECT_EQ(kept(net, false), kruskal(net)) << "met at tick " << 10 + moment;
+  }
+}
+
+// Whoever follows the parents comes to the robot that is said to be root, over edges of the tree.
+TEST(Mst, ParentsLeadToTheRoot) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Draw draw(seed);
+    Swarm_ net(Params{}, connected_places(20, 4.0, 1.3, draw), seed);
+    for (std::size_t i = 0; i < seed % 5; ++i) net.orders[i] = {true, Vec2{0.1F, 0.0F}};
+    for (int t = 0; t < 300; ++t) net.tick();
+    ASSERT_TRUE(all_done(net)) << seed;
+    for (std::size_t i = 0; i < net.states.size(); ++i) {
+      const Report mine = report(net.states[i]);
+      EXPECT_EQ(mine.root, seed % 5) << "the smallest that is no worker";
+      std::size_t at = i;
+      for (std::size_t hop = 0; hop < net.states.size() && report(net.states[at]).parent != nobody; ++hop) {
+        const RobotId up = report(net.states[at]).parent;
+        ASSERT_TRUE(net.states[at].tree.has(up) && net.states[up].tree.has(static_cast<RobotId>(at))) << at << " to " << up;
+        at = up;
+      }
+      EXPECT_EQ(at, mine.root) << "from " << i << ", seed " << seed;
+    }
+  }
+}
+
+// Nothing but the hub hears anybody: a tree of all would need more edges than a robot can keep. Nobody promises
+// what the other end has no room for.
+TEST(Mst, WhoHasNoRoomForAnotherEdgeIsNotPromisedOne) {
+  for (const std::size_t rays : {12U, 13U, 20U}) {
+    std::vector<Vec2> places{{0, 0}};
+    for (std::size_t i = 0; i < rays; ++i) places.push_back(unit_vector(6.28F * static_cast<float>(i) / static_cast<float>(rays)) * (1.0F + 0.01F * static_cast<float>(i)));
+    Swarm_ net(Params{}, places, 1);
+    net.hidden = [](std::size_t i, std::size_t j) { return i != 0 && j != 0; };
+    for (int t = 0; t < 300; ++t) net.tick();
+    const Serial epoch = net.states[0].epoch;
+    for (int t = 0; t < 300; ++t) {
+      net.tick();
+      ASSERT_EQ(one_sided(net), 0U) << rays << " rays, tick " << t;
+    }
+    EXPECT_EQ(net.states[0].epoch, epoch) << "and there is no end of trying";
+    EXPECT_EQ(kept(net).size(), 12U);
+  }
+}
+
+// At any C that a scenario may have.
+TEST(Mst, LengthsKeepTheirOrderWhateverTheRange) {
+  for (const float range_m : {0.05F, 2.0F, 60.0F, 100.0F}) {
+    const float r = 0.01F * range_m;
+    Params p;
+    p.communication_range_m = range_m;
+    p.longest_link_m *= range_m / 2.0F;
+    p.trigger_distance_m *= range_m / 2.0F;
+    // 0-1 is the longest side of a triangle of which none is shorter than 0.8 C.
+    Swarm_ net(p, {{0, 0}, {90.0F * r, 0}, {45.0F * r, 68.0F * r}}, 1);
+    for (int t = 0; t < 80; ++t) net.tick();
+    EXPECT_EQ(kept(net), (Pairs{{0, 2}, {1, 2}})) << range_m;
+  }
+}
+
 TEST(Mst, NothingSensedMakesAVelocityInfinite) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinite = std::numeric_limits<float>::infinity();

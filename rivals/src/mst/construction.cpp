@@ -13,21 +13,23 @@ namespace banyan::rivals::mst {
 namespace {
 
 constexpr float per_mm = 1000.0F;
+constexpr float most_units = 65000.0F;  // of a length; 16 bits hold 65,535
 constexpr float room_to_move = 0.97F;  // of the longest link: an edge must not be too long from its first moment
 
 bool comes_first(const Edge& a, const Edge& b) noexcept {
   if (a.from == nobody || b.from == nobody) return b.from == nobody && a.from != nobody;
-  if (a.mm != b.mm) return a.mm < b.mm;
+  if (a.length != b.length) return a.length < b.length;
   const auto [a_low, a_high] = std::minmax(a.from, a.to);
   const auto [b_low, b_high] = std::minmax(b.from, b.to);
   return a_low != b_low ? a_low < b_low : a_high < b_high;
 }
 
-// Nobody has a message; its answer is not waited for.
-const Message* said_by(const Robot& robot, RobotId id) noexcept {
-  const int k = robot.table().find(id);
-  return k < 0 ? nullptr : &robot.table().message(k);
+// So fine that every link that is shorter than C has a length of its own, and the same for all robots.
+std::uint16_t units(const Robot& robot, float length_m) noexcept {
+  return to_fixed<std::uint16_t>(length_m, std::min(per_mm, most_units / robot.params.communication_range_m));
 }
+
+bool names(const Message& m, RobotId id) noexcept { return std::find(m.branches.begin(), m.branches.end(), id) != m.branches.end(); }
 bool is_fellow(const State& self, const Message& m) noexcept { return m.epoch == self.epoch && m.level == self.level && m.fragment == self.fragment; }
 
 void enter_level(State& self, int level, RobotId leader, RobotId up) noexcept {
@@ -36,24 +38,34 @@ void enter_level(State& self, int level, RobotId leader, RobotId up) noexcept {
   self.up = up;
   self.ready = self.decided = false;
   self.best = self.choice = {};
+  self.unanswered_ticks = 0;
   self.least = self.errand.sent ? nobody : self.id;
+  self.least_by = nobody;
 }
 
-// Who names me as the end of an edge of the tree is one of mine.
+// False if there is no room for it: the other end must not count on it, and nobody tells it so.
+bool add_branch(State& self, RobotId end) noexcept {
+  if (!self.holds(end) && self.is_full()) return false;
+  self.branches.add(end);
+  return true;
+}
+
+// Who names me as the end of an edge of the tree is one of mine, as long as there is room: whoever has chosen the edge
+// sees that I am full and do not name it.
 void answer_branches(Robot& robot) noexcept {
   State& self = robot.self;
   for (int k = 0; k < robot.table().size(); ++k) {
     const Message& m = robot.table().message(k);
-    if (m.epoch == self.epoch && std::find(m.branches.begin(), m.branches.end(), self.id) != m.branches.end()) self.branches.add(m.id);
+    if (m.epoch == self.epoch && names(m, self.id)) add_branch(self, m.id);
   }
 }
 
-// The new fragment's leader has been heard of, or is me.
+// The new fragment's leader has been heard of over an edge that both ends name, or is me.
 void join_next_level(Robot& robot) noexcept {
   State& self = robot.self;
   for (const RobotId end : self.branches) {
-    const Message* m = said_by(robot, end);
-    if (m == nullptr || m->epoch != self.epoch) continue;
+    const Message* m = robot.said_by(end);
+    if (m == nullptr || m->epoch != self.epoch || !names(*m, self.id)) continue;
     if (m->level > self.level) return enter_level(self, m->level, m->fragment, end);
     const bool mine = self.decided && self.choice.from == self.id && self.choice.to == end;
     const bool mutual = mine && m->level == self.level && m->decided && m->choice.from == end && m->choice.to == self.id;
@@ -61,15 +73,20 @@ void join_next_level(Robot& robot) noexcept {
   }
 }
 
+// For an edge to the sender of m there is room at both ends.
+bool has_room(const State& self, const Message& m) noexcept {
+  return self.holds(m.id) || !(m.full || self.is_full() || self.refused.has(m.id));
+}
+
 // My own shortest edge out of the fragment. False while a neighbour has not come so far that it could be told.
 bool find_own_edge(const Robot& robot, Edge& edge) noexcept {
   const State& self = robot.self;
   for (int c = 0; c < self.candidate_count; ++c) {
     const Candidate& candidate = self.candidates[static_cast<std::size_t>(c)];
-    const Message* m = said_by(robot, candidate.to);
-    if (m == nullptr) continue;
+    const Message* m = robot.said_by(candidate.to);
+    if (m == nullptr || !has_room(self, *m)) continue;
     if (m->epoch != self.epoch || m->level < self.level) return false;
-    const Edge out{self.id, candidate.to, candidate.mm};
+    const Edge out{self.id, candidate.to, candidate.length};
     if (!is_fellow(self, *m) && comes_first(out, edge)) edge = out;
   }
   return true;
@@ -80,28 +97,39 @@ bool gather(Robot& robot) noexcept {
   State& self = robot.self;
   Edge best;
   if (!find_own_edge(robot, best)) return false;
-  RobotId least = self.errand.sent ? nobody : self.id;
+  RobotId least = self.errand.sent ? nobody : self.id, by = nobody;
   for (const RobotId end : self.branches) {
     if (end == self.up) continue;
-    const Message* m = said_by(robot, end);
+    const Message* m = robot.said_by(end);
+    if (m == nullptr) self.failed = true;  // gone, with all below it
     if (m == nullptr || m->epoch != self.epoch || m->level < self.level) return false;
     if (!is_fellow(self, *m)) continue;  // another fragment's that has chosen the edge to me
     if (m->up != self.id || !m->ready) return false;
     if (comes_first(m->best, best)) best = m->best;
+    if (m->root < least) by = end;
     least = std::min(least, m->root);
   }
   self.best = best;
   self.least = least;
+  self.least_by = by;
   return true;
 }
 
+// The construction ended at its leader; the parents are to lead to the root: down where it is below me, else up.
 void adopt_tree(State& self, RobotId root) noexcept {
   self.done = self.has_tree = true;
+  self.parent = self.least == root && root != nobody ? self.least_by : self.up;
   self.least = self.root = root;
-  self.parent = self.up;
+  self.refused.clear();
   self.old.add_all(self.tree);
   self.tree = self.branches;
   self.tree_epoch = self.epoch;
+}
+
+// Without the edge that was chosen the construction cannot end; the next is to do without it.
+void refuse(State& self, RobotId end) noexcept {
+  self.refused.add(end);
+  self.failed = true;
 }
 
 // The leader's word comes down the fragment.
@@ -111,13 +139,27 @@ void follow_leader(Robot& robot) noexcept {
     self.decided = self.ready;
     self.choice = self.best;
     if (self.ready && self.best.from == nobody) adopt_tree(self, self.least);
-  } else if (const Message* m = said_by(robot, self.up); m != nullptr && is_fellow(self, *m)) {
+  } else if (const Message* m = robot.said_by(self.up); m != nullptr && is_fellow(self, *m)) {
     self.decided = m->decided;
     self.choice = m->choice;
     if (m->done) adopt_tree(self, m->root);
   }
-  if (self.decided && self.choice.from == self.id) self.branches.add(self.choice.to);
+  if (self.done || !self.decided || self.choice.from != self.id || self.refused.has(self.choice.to)) return;
+  if (!add_branch(self, self.choice.to)) refuse(self, self.choice.to);
 }
+
+// Of several that chose an edge to the same robot in the same moment, some may have come too late.
+void give_up_refused(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Message* m = self.decided && self.choice.from == self.id ? robot.said_by(self.choice.to) : nullptr;
+  const bool refuses = m != nullptr && m->epoch == self.epoch && m->full && !names(*m, self.id);
+  self.unanswered_ticks = static_cast<std::uint16_t>(refuses ? std::min(self.unanswered_ticks + robot.elapsed_ticks, 0xFFFF) : 0);
+  if (self.unanswered_ticks <= robot.params.ticks(robot.params.liveness_period_s)) return;
+  refuse(self, self.choice.to);
+  for (Ends* ends : {&self.branches, &self.tree, &self.old}) ends->remove(self.choice.to);
+}
+
+bool is_short(const Robot& robot, int k) noexcept { return robot.table().range(k) < robot.params.longest_link_m * room_to_move; }
 
 // No third robot is nearer to both ends: if everybody sees everybody, all edges of the minimum spanning tree are so.
 bool is_narrow(const Table<Message>& table, int k) noexcept {
@@ -138,14 +180,14 @@ void begin_construction(Robot& robot) noexcept {
   const int earlier_count = self.done ? 0 : self.candidate_count;
   const auto is_held = [&](RobotId id) {
     const bool narrow = std::any_of(earlier.begin(), earlier.begin() + earlier_count, [&](const Candidate& c) { return c.to == id && c.narrow; });
-    return narrow || self.tree.has(id) || self.old.has(id);
+    return narrow || self.holds(id);
   };
-  self.done = false;
+  self.done = self.failed = false;
   self.branches.clear();
   self.candidate_count = 0;
   for (int k = 0; k < table.size(); ++k) {
-    if (!is_held(table.id(k)) && !(table.range(k) < robot.params.longest_link_m * room_to_move)) continue;
-    self.candidates[self.candidate_count++] = {table.id(k), to_fixed<std::uint16_t>(table.range(k), per_mm), is_narrow(table, k)};
+    if (!is_held(table.id(k)) && !is_short(robot, k)) continue;
+    self.candidates[self.candidate_count++] = {table.id(k), units(robot, table.range(k)), is_narrow(table, k)};
   }
   enter_level(self, 0, self.id, nobody);
 }
@@ -156,7 +198,7 @@ void drop_old_edges(Robot& robot) noexcept {
   State& self = robot.self;
   const Ends all = self.old;
   for (const RobotId end : all) {
-    const Message* m = said_by(robot, end);
+    const Message* m = robot.said_by(end);
     if (m == nullptr || self.tree.has(end) || (self.done && m->done && m->epoch == self.epoch && m->fragment == self.fragment)) self.old.remove(end);
   }
 }
@@ -168,6 +210,12 @@ void construct(Robot& robot) noexcept {
   join_next_level(robot);
   if (!self.ready) self.ready = gather(robot);
   follow_leader(robot);
+  give_up_refused(robot);
+}
+
+bool may_be_edge(const Robot& robot, int k) noexcept {
+  const Message& m = robot.table().message(k);
+  return robot.self.holds(m.id) || (is_short(robot, k) && has_room(robot.self, m));
 }
 
 }  // namespace banyan::rivals::mst

@@ -9,27 +9,47 @@
 namespace banyan::rivals::mst {
 namespace {
 
-// Another tree reaches here, of the same number or of one long ago: two networks have met.
-bool meets_strangers(const Robot& robot) noexcept {
+// Neighbour k is in a complete tree with the number of mine, and I am not: two networks have met, or it was closed
+// before I came.
+bool is_stranger(const Robot& robot, int k) noexcept {
   const State& self = robot.self;
-  for (int k = 0; k < robot.table().size(); ++k) {
-    const Message& m = robot.table().message(k);
-    if (m.done && m.epoch == self.epoch && self.done && m.root != self.root) return true;
-  }
+  const Message& m = robot.table().message(k);
+  return m.done && m.epoch == self.epoch && m.fragment != self.fragment && may_be_edge(robot, k);
+}
+
+bool meets_strangers(const Robot& robot) noexcept {
+  for (int k = 0; k < robot.table().size(); ++k)
+    if (is_stranger(robot, k)) return true;
   return false;
 }
 
 bool wants_new_tree(const Robot& robot) noexcept {
   const State& self = robot.self;
   if (self.epoch_ticks < robot.params.ticks(robot.params.least_period_s)) return false;
-  if (!self.done) return self.epoch_ticks > robot.params.ticks(robot.params.build_timeout_s);
+  if (meets_strangers(robot)) return true;
+  if (!self.done) return self.failed || self.epoch_ticks > robot.params.ticks(robot.params.build_timeout_s);
   if (self.root == self.id && self.errand.sent) return true;  // a worker is no root
   for (const RobotId end : self.tree) {
     const int k = robot.table().find(end);
     if (k < 0 || robot.table().range(k) > robot.params.trigger_distance_m) return true;
   }
-  if (self.tree.size() == 0 && robot.table().size() > 0) return true;
-  return meets_strangers(robot);
+  return false;
+}
+
+// A tree that is wanted, and in how many ticks its construction begins.
+struct Call {
+  Serial next;
+  int ticks;
+};
+
+// What neighbour k says of it. That a tree with a number ahead of mine is complete, without me, says that two networks
+// have met that have built different numbers of trees: the next is one for both.
+Call called_by(const Robot& robot, int k) noexcept {
+  const Message& m = robot.table().message(k);
+  if (m.next != m.epoch) return {m.next, m.countdown - 1};
+  if (!m.done || !is_newer(m.epoch, robot.self.epoch)) return {m.epoch, 0};
+  if (!may_be_edge(robot, k)) return {robot.self.next, robot.self.countdown};  // too far to be one network
+  return {static_cast<Serial>(m.epoch + 1), robot.params.ticks(robot.params.countdown_s)};
 }
 
 }  // namespace
@@ -41,13 +61,13 @@ void follow_epoch(Robot& robot) noexcept {
   const bool counted = is_newer(self.next, self.epoch);
   if (counted) count_down(self.countdown - robot.elapsed_ticks);
   for (int k = 0; k < robot.table().size(); ++k) {
-    const Message& m = robot.table().message(k);
     if (robot.table().age(k) > 0) continue;
-    if (is_newer(m.next, self.next)) {
-      self.next = m.next;
-      count_down(m.next == m.epoch ? 0 : m.countdown - 1);
-    } else if (m.next == self.next && is_newer(self.next, self.epoch)) {
-      count_down(std::min<int>(self.countdown, m.next == m.epoch ? 0 : m.countdown - 1));
+    const Call call = called_by(robot, k);
+    if (is_newer(call.next, self.next)) {
+      self.next = call.next;
+      count_down(call.ticks);
+    } else if (call.next == self.next && is_newer(self.next, self.epoch)) {
+      count_down(std::min<int>(self.countdown, call.ticks));
     }
   }
   if (!is_newer(self.next, self.epoch)) {

@@ -46,7 +46,7 @@ void guard_tree(const Robot& robot, Guard& guard) noexcept {
 
 Message composed(const State& s) noexcept {
   return {.id = s.id, .epoch = s.epoch, .next = s.next, .countdown = s.countdown, .level = s.level, .fragment = s.fragment, .up = s.up,
-          .ready = s.ready, .decided = s.decided, .done = s.done, .best = s.best, .choice = s.choice, .root = s.least,
+          .ready = s.ready, .decided = s.decided, .done = s.done, .full = s.is_full(), .best = s.best, .choice = s.choice, .root = s.least,
           .branches = s.branches.all()};
 }
 
@@ -70,7 +70,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   carry_to_now(packets, senses, params);
   const Carry carry(senses.odometry);
   state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params,
-                        [&](RobotId id) { return state.tree.has(id) || state.old.has(id) || state.branches.has(id); });
+                        [&](RobotId id) { return state.holds(id); });
   state.errand.follow(senses.orders, carry);
 
   Robot robot{params, state, gate.elapsed_ticks()};
@@ -83,13 +83,10 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
 }
 
 Report report(const State& s) noexcept {
-  Ends kept = s.tree;
-  kept.add_all(s.old);
-  if (!s.done) kept.add_all(s.branches);
   const Role role = s.errand.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector;
   return {.role = role,
           .parent = role == Role::root ? nobody : s.parent,
-          .kept = kept.all(),
+          .kept = s.held().all(),
           .serves = s.errand.sent ? s.id : nobody,
           .root = s.root,
           .root_sequence = s.tree_epoch,
@@ -107,13 +104,14 @@ void add_to(Digest& digest, const State& s) noexcept {
   add_ends(s.tree);
   add_ends(s.old);
   add(s.has_tree, s.parent, s.root, s.tree_epoch, s.epoch, s.next, s.countdown, s.epoch_ticks);
-  add(s.level, s.fragment, s.up, s.ready, s.decided, s.done, s.least);
-  for (const Edge& e : {s.best, s.choice}) add(e.from, e.to, e.mm);
+  add(s.level, s.fragment, s.up, s.ready, s.decided, s.done, s.failed, s.least, s.least_by, s.unanswered_ticks);
+  for (const Edge& e : {s.best, s.choice}) add(e.from, e.to, e.length);
   add_ends(s.branches);
+  add_ends(s.refused);
   add(s.candidate_count);
   for (int c = 0; c < s.candidate_count; ++c) {
     const Candidate& candidate = s.candidates[static_cast<std::size_t>(c)];
-    add(candidate.to, candidate.mm, candidate.narrow);
+    add(candidate.to, candidate.length, candidate.narrow);
   }
   add(s.tally.rejected);
   s.neighbors.add_to(digest);

@@ -14,7 +14,7 @@ namespace banyan::rivals::mst {
 struct Edge {
   RobotId from = nobody;   // nobody: there is none
   RobotId to = nobody;
-  std::uint16_t mm = 0;
+  std::uint16_t length = 0;  // in units of 1 mm, where C is longer than 65 m of C / 65,000
 
   friend bool operator==(const Edge&, const Edge&) = default;
 };
@@ -31,6 +31,7 @@ struct Message {
   bool ready = false;            // all below it have found their shortest edge out of the fragment: best
   bool decided = false;          // the fragment has chosen the edge `choice`
   bool done = false;             // the tree is complete
+  bool full = false;             // it has no room for edges that it does not keep yet
   Edge best;
   Edge choice;
   RobotId root = nobody;         // until the tree is complete the smallest id below it that is no worker, then of all
@@ -44,6 +45,7 @@ constexpr void visit_all(Visitor& visit, M& m) noexcept {
   visit.flag("ready", "all below have found their shortest edge out of the fragment", m.ready);
   visit.flag("decided", "the fragment has chosen an edge", m.decided);
   visit.flag("done", "the tree is complete", m.done);
+  visit.flag("full", "there is no room for edges beside those that it keeps", m.full);
   visit.robot("id", "of the sender", m.id);
   visit.number("epoch", "number of the tree under construction, or of the last", m.epoch);
   visit.number("next", "number of the tree that somebody has asked for", m.next);
@@ -53,10 +55,10 @@ constexpr void visit_all(Visitor& visit, M& m) noexcept {
   visit.robot("up", "the next robot on the way to the leader, -1: nobody", m.up);
   visit.robot("best_from", "shortest edge out of the fragment: its end within, -1: none", m.best.from);
   visit.robot("best_to", "its other end", m.best.to);
-  visit.number("best_mm", "its length", m.best.mm);
+  visit.number("best_length", "in mm, where C is longer than 65 m in units of C / 65,000", m.best.length);
   visit.robot("choice_from", "the edge that the fragment has chosen: its end within, -1: none", m.choice.from);
   visit.robot("choice_to", "its other end", m.choice.to);
-  visit.number("choice_mm", "its length", m.choice.mm);
+  visit.number("choice_length", "in the same units", m.choice.length);
   visit.robot("root", "the smallest id below the sender that is no worker; of a complete tree of all, -1: none", m.root);
   constexpr const char* names[] = {"branch_1", "branch_2", "branch_3", "branch_4", "branch_5", "branch_6",
                                    "branch_7", "branch_8", "branch_9", "branch_10", "branch_11", "branch_12"};

@@ -41,7 +41,7 @@ class Ends {
 // A link as it was measured when the construction began.
 struct Candidate {
   RobotId to = nobody;
-  std::uint16_t mm = 0;
+  std::uint16_t length = 0;  // as in an Edge
   bool narrow = false;  // no third robot was nearer to both ends: it may well be in the tree
 };
 
@@ -53,8 +53,8 @@ struct State {
   bool has_tree = false;             // or had one
   Ends tree;
   Ends old;                          // edges of earlier trees, until their other end is known to be in this one
-  RobotId parent = nobody;
-  RobotId root = nobody;
+  RobotId parent = nobody;           // towards the root
+  RobotId root = nobody;             // the smallest id that is no worker
   Serial tree_epoch = 0;
 
   // When the next one is built (epoch.cpp)
@@ -70,12 +70,26 @@ struct State {
   bool ready = false;
   bool decided = false;
   bool done = true;
+  bool failed = false;               // this construction cannot end
   Edge best;
   Edge choice;
   RobotId least = nobody;            // the smallest id below me that is no worker; of a complete tree of all
+  RobotId least_by = nobody;         // the branch over which it is found; nobody: it is mine
   Ends branches;
+  Ends refused;                      // they had no room for an edge to me: not chosen before there is a tree
+  std::uint16_t unanswered_ticks = 0;  // since I chose an edge whose other end is full
   std::array<Candidate, neighbor_capacity> candidates{};
   std::uint8_t candidate_count = 0;
+
+  [[nodiscard]] bool holds(RobotId end) const noexcept { return tree.has(end) || old.has(end) || branches.has(end); }
+  // All edges that are promised, at most so many as a report has room for: nothing is added beyond that.
+  [[nodiscard]] Ends held() const noexcept {
+    Ends all = tree;
+    all.add_all(old);
+    all.add_all(branches);
+    return all;
+  }
+  [[nodiscard]] bool is_full() const noexcept { return held().size() == most_kept_links; }
 
   Tally tally;                       // never read
   Table<Message> neighbors;
