@@ -92,6 +92,26 @@ TEST(LinkConsensus, WhoVouchesForABidVouchesForNoOtherBeforeItsLeaseIsOver) {
   EXPECT_EQ(hears({}, {2, 8, 180, 1, 5, 99}), (Bid{2, 8, 180, 1, 4, 98}));
 }
 
+// A lease lasts as long for a robot whose steps are no whole ticks.
+TEST(LinkConsensus, ALeaseRunsOutByTheClockWhateverAStepLasts) {
+  for (const float every : {0.3F, 1.0F, 1.4F, 1.6F, 2.5F}) {
+    Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
+    for (int t = 0; t < 10; ++t) net.tick();
+    State& middle = net.states[1];
+    const auto hears = [&](Bid from_0) {
+      net.said[0].bid = from_0;
+      std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
+      Senses senses;
+      senses.elapsed_s = every * net.params.tick_s;
+      return step(net.params, middle, heard, senses).message.bid;
+    };
+    ASSERT_EQ(hears({0, 7, 160, 1, 5, 200}).lease_ticks, 199);
+    const int steps = static_cast<int>(std::lround(140.0F / every));
+    for (int t = 0; t < steps; ++t) hears({});
+    EXPECT_NEAR(middle.bid.lease_ticks, 199 - 140, 2) << "after " << steps << " steps of " << every << " ticks";
+  }
+}
+
 TEST(LinkConsensus, ABidGoesNoFartherThanItsReachAndNotOverItsOwnLink) {
   Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
   for (int t = 0; t < 10; ++t) net.tick();
@@ -127,7 +147,7 @@ TEST(LinkConsensus, KeepsRobotsTogetherThatWanderWithinTheirLinks) {
       links = kept_links(net);
       if (t > 10) { ASSERT_EQ(kept_parts(net), 1U) << "seed " << seed << ", tick " << t; }
     }
-    EXPECT_GT(given_up, 10U) << seed;
+    EXPECT_GT(given_up, 5U) << seed;
   }
 }
 
@@ -184,6 +204,141 @@ TEST(LinkConsensus, ASilentRootIsReplaced) {
     EXPECT_EQ(net.states[i].root, 1) << i;
     EXPECT_EQ(Robots::report(net.states[i]).parent, i == 1 ? nobody : i - 1) << i;
   }
+}
+
+// Silent for so long as the parameter says, and no longer.
+TEST(LinkConsensus, ASilentRootIsReplacedAfterItsSilence) {
+  for (const float silence_s : {3.0F, 10.0F}) {
+    Robots_ net(Params{}, {{0.5F, 0.8F}, {0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+    net.params.root_silence_s = silence_s;
+    for (int t = 0; t < 30; ++t) net.tick();
+    net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
+    const int silent = net.params.ticks(silence_s);
+    for (int t = 0; t < silent; ++t) {
+      net.tick();
+      for (std::size_t i = 1; i < 5; ++i) EXPECT_EQ(net.states[i].root, 0) << "tick " << t;
+    }
+    for (int t = 0; t < 20; ++t) net.tick();
+    std::uint32_t elections = 0;
+    for (std::size_t i = 1; i < 5; ++i) {
+      EXPECT_EQ(net.states[i].root, 1) << i << ", after " << silence_s << " s and 20 ticks";
+      elections += net.states[i].tally.elections;
+    }
+    EXPECT_EQ(elections, 1U) << "by the robot with the smallest id and by nobody else";
+  }
+}
+
+// The longest silence that may be asked for, with the shortest ticks: more than 32,768 of them.
+TEST(LinkConsensus, TheLongestSilenceEnds) {
+  Robots_ net(Params{}, {{0.5F, 0.8F}, {0, 0}, {1, 0}}, 1);
+  net.params.tick_s = 0.01F;
+  net.params.root_silence_s = 600.0F;
+  for (int t = 0; t < 30; ++t) net.tick();
+  net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
+  for (int t = 0; t < 60000; ++t) net.tick();
+  EXPECT_EQ(net.states[2].root, 0);
+  for (int t = 0; t < 300; ++t) net.tick();
+  EXPECT_EQ(net.states[1].root, 1);
+  EXPECT_EQ(net.states[2].root, 1);
+}
+
+// However long the root was away: its count has gone round the half of its numbers, and looks older than when it left.
+TEST(LinkConsensus, ALostRootThatComesBackIsFollowedAgain) {
+  for (const int away : {200, 32000, 40000, 66000}) {
+    Robots_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+    for (int t = 0; t < 30; ++t) net.tick();
+    net.hidden = [](std::size_t i, std::size_t j) { return i == 0 || j == 0; };
+    for (int t = 0; t < away; ++t) net.tick();
+    for (std::size_t i = 1; i < 4; ++i) ASSERT_EQ(net.states[i].root, 1);
+    net.hidden = [](std::size_t, std::size_t) { return false; };
+    for (int t = 0; t < 40; ++t) net.tick();
+    for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(net.states[i].root, 0) << "after " << away << " ticks";
+    EXPECT_EQ(kept_parts(net), 1U);
+  }
+}
+
+// What is counted is that a robot was cut off and is not any more.
+TEST(LinkConsensus, ARepairIsALinkThatWasTakenUp) {
+  Robots_ let_in(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, 1);
+  let_in.hidden = [](std::size_t i, std::size_t j) { return (i == 3) != (j == 3); };
+  for (int t = 0; t < 40; ++t) let_in.tick();
+  let_in.hidden = [](std::size_t, std::size_t) { return false; };
+  let_in.at[3] = {3.7F, 0.0F};
+  for (int t = 0; t < 40; ++t) let_in.tick();
+  EXPECT_EQ(let_in.states[3].tally.repairs, 1U);
+
+  // The only robot that it hears has all the links that a robot can have.
+  std::vector<Vec2> places{{0, 0}};
+  for (int i = 0; i < 12; ++i) places.push_back(unit_vector(0.5F * static_cast<float>(i)));
+  places.push_back({1.5F, 0.3F});
+  Robots_ refused(Params{}, places, 1);
+  refused.hidden = [](std::size_t i, std::size_t j) { return i != 0 && j != 0; };
+  for (int t = 0; t < 300; ++t) refused.tick();
+  EXPECT_EQ(refused.states[0].links.size(), 12);
+  EXPECT_EQ(refused.states[13].tally.repairs, 0U);
+}
+
+// Each a metre from the next.
+std::vector<Vec2> circle(std::size_t robots) {
+  std::vector<Vec2> places;
+  const float angle = 6.2831853F / static_cast<float>(robots);
+  for (std::size_t i = 0; i < robots; ++i) places.push_back(unit_vector(angle * static_cast<float>(i)) * (1.0F / angle));
+  return places;
+}
+
+// Bids that go round a circle come back in time, whatever a step lasts.
+TEST(LinkConsensus, LongStepsGiveUpLinksToo) {
+  for (const double every : {1.0, 3.0, 4.0, 8.0, 15.0}) {
+    Robots_ net(Params{}, circle(7), 1);
+    net.params.liveness_period_s = 10.0F;
+    net.params.root_silence_s = 60.0F;
+    net.period.assign(net.at.size(), every);
+    for (int t = 0; t < 60.0 * every; ++t) net.tick();
+    ASSERT_GE(kept_links(net), 7U) << every;
+    net.params.add_distance_m = 0.1F;
+    net.params.nominate_distance_m = 0.11F;
+    for (int t = 0; t < 300.0 * every; ++t) net.tick();
+    EXPECT_EQ(kept_links(net), 6U) << "steps of " << every << " ticks";
+  }
+}
+
+// Clocks that run apart, steps that do not fit into ticks, packets that take long or get lost: the kept links never fall
+// into parts while everybody wants to be rid of them.
+TEST(LinkConsensus, NoClockAndNoDelayMakesAnAgreementCutTheNetwork) {
+  const std::uint64_t seeds = is_long() ? 400 : 12;
+  std::size_t given_up = 0, spare = 0;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Draw draw(seed);
+    Robots_ net(eager(), seed % 3 == 0 ? circle(12 + seed % 7) : connected_places(14, 3.0, 1.15, draw), seed);
+    for (std::size_t i = 0; i < net.at.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        if (distance(net.at[i], net.at[j]) > 1.5F || net.states[i].links.full() || net.states[j].links.full()) continue;
+        net.states[i].links.offer(static_cast<RobotId>(j), false);
+        net.states[j].links.offer(static_cast<RobotId>(i), false);
+      }
+    net.params.liveness_period_s = 15.0F;
+    net.params.root_silence_s = 600.0F;
+    net.states[0].root = nobody;  // no links are spared because they are somebody's way to a root: all are proposed
+    net.states[0].way = not_rooted;
+    for (int t = 0; t < 2; ++t) net.tick();
+    ASSERT_EQ(kept_parts(net), 1U) << seed;
+    const std::size_t first = kept_links(net);
+    net.loss = 0.1 * static_cast<double>(seed % 5);
+    net.latency = 1 + seed / 3 % 3;
+    const double slowest = seed % 4 == 0 ? 1.0 : seed % 4 == 1 ? 1.3 : 7.0;
+    for (std::size_t i = 0; i < net.at.size(); ++i) {
+      net.period.push_back(draw(1.0, slowest));
+      net.stepped[i] = static_cast<double>(net.ticks);
+    }
+    for (int t = 0; t < 2500; ++t) {
+      net.tick();
+      ASSERT_EQ(kept_parts(net), 1U) << "seed " << seed << ", tick " << t;
+    }
+    given_up += first - kept_links(net);
+    spare += first - (net.at.size() - 1);
+  }
+  EXPECT_GT(spare, 10 * seeds);
+  EXPECT_GT(3 * given_up, spare) << given_up << " of " << spare;
 }
 
 // ---- Motion ----

@@ -3,15 +3,25 @@
 // counted from outside.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
+#include <map>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "banyan/controller/core/inputs.hpp"
 #include "banyan/controller/core/trig.hpp"
 
 namespace banyan::rivals {
+
+// BANYAN_LONG=1 asks for long searches.
+inline bool is_long() {
+  const char* value = std::getenv("BANYAN_LONG");
+  return value != nullptr && std::string(value) != "0" && *value != '\0';
+}
 
 // A random stream of the test's own (Lehmer 1951).
 class Draw {
@@ -62,13 +72,24 @@ struct Net {
   std::function<bool(std::size_t, std::size_t)> hidden = [](std::size_t, std::size_t) { return false; };
   double loss = 0.0;
   std::vector<Orders> orders;  // nobody is sent unless it says so
+  std::vector<double> period;  // ticks between the steps of each robot; none: each steps at every tick
+  std::size_t latency = 1;     // ticks until a message is heard
   Draw draw;
+  // Since each robot's last step, by its number; and what was said in ticks before, the last first
+  std::vector<Vec2> driven;
+  std::vector<double> stepped;
+  std::vector<std::map<std::size_t, typename R::Message>> inbox;
+  std::vector<std::vector<typename R::Message>> said_before;
+  std::size_t ticks = 0;
 
   Net(typename R::Params p, std::vector<Vec2> positions, std::uint64_t seed) : params(p), at(std::move(positions)), draw(seed) {
     for (std::size_t i = 0; i < at.size(); ++i) {
       states.push_back(R::initial(static_cast<RobotId>(i), false, i == 0));
       orders.emplace_back();
       facing.push_back(unit_vector(static_cast<float>(draw(-3.0, 3.0))));
+      driven.push_back({});
+      stepped.push_back(0.0);
+      inbox.emplace_back();
       said.push_back({});
       said.back().id = static_cast<RobotId>(i);
     }
@@ -78,20 +99,30 @@ struct Net {
   }
   // All have been moved by `ways` since the last tick.
   void tick(const std::vector<Vec2>& ways = {}) {
-    const std::vector<typename R::Message> last = said;
+    said_before.insert(said_before.begin(), said);
+    said_before.resize(std::min(said_before.size(), latency));
+    const std::vector<typename R::Message>& last = said_before.back();
+    ++ticks;
     for (std::size_t i = 0; i < at.size(); ++i)
       if (!ways.empty()) at[i] += ways[i];
     for (std::size_t i = 0; i < at.size(); ++i) {
-      std::vector<typename R::Heard> heard;
+      std::map<std::size_t, typename R::Message>& waiting = inbox[i];
       for (std::size_t j = 0; j < at.size(); ++j)
-        if (hears(i, j) && draw() >= loss) heard.push_back({&last[j], rotate_back(facing[i], at[j] - at[i])});
+        if (hears(i, j) && draw() >= loss) waiting[j] = last[j];
+      if (!ways.empty()) driven[i] += ways[i];
+      const double every = period.empty() ? 1.0 : period[i];
+      if (static_cast<double>(ticks) - stepped[i] < every - 1e-6) continue;
+      std::vector<typename R::Heard> heard;
+      for (const auto& [j, message] : waiting) heard.push_back({&message, rotate_back(facing[i], at[j] - at[i])});
       Senses senses;
       senses.orders = orders[i];
-      if (!ways.empty()) {
-        const Vec2 way = rotate_back(facing[i], ways[i]);
-        senses.odometry = {way.x, way.y, 0.0F};
-      }
+      const Vec2 way = rotate_back(facing[i], driven[i]);
+      senses.odometry = {way.x, way.y, 0.0F};
+      if (!period.empty()) senses.elapsed_s = static_cast<float>(every) * params.tick_s;
       said[i] = R::step(params, states[i], heard, senses).message;
+      stepped[i] += every;
+      driven[i] = {};
+      waiting.clear();
     }
   }
   [[nodiscard]] std::size_t radio_parts() const {

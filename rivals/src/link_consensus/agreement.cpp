@@ -16,8 +16,9 @@ namespace {
 constexpr int detour_reach = 2;       // by a common neighbour
 constexpr int first_reach = 8;        // where there is none
 constexpr int longest_reach = 32;     // for the second attempt
-constexpr int lease_slack_ticks = 10; // a lease lasts twice the reach and so much longer,
-constexpr int commit_margin_ticks = 4;  // and the owner acts by it only before the last of it, for its clock may be slower
+constexpr int lease_slack_steps = 10; // a lease lasts twice the reach and so many steps longer,
+constexpr int commit_margin = 4;      // and the owner acts by it only before the last fourth of it, for its clock may be slower
+constexpr int longest_lease_ticks = 20000;  // so that three of them can be counted
 constexpr int rest_ticks = 20;        // after a round of bids that all failed
 
 Bid received(const Message& m) noexcept {
@@ -43,8 +44,7 @@ void release(State& self) noexcept {
 // My bid found no path in time: either there is none, or some robot on it vouched for another bid. Owners rest for
 // different times, so that they do not meet again.
 void note_failure(State& self) noexcept {
-  const int lease_ticks = 2 * self.reach + lease_slack_ticks;
-  self.rest_ticks = static_cast<std::uint16_t>((self.id * 7919U + self.serial * 104729U) % static_cast<unsigned>(3 * lease_ticks));
+  self.rest_ticks = static_cast<std::uint16_t>((self.id * 7919U + self.serial * 104729U) % (3U * self.own_lease_ticks));
   self.insists = !self.insists;
   if (!self.insists) self.tried_cm = self.bid.length_cm;
 }
@@ -53,7 +53,7 @@ void age(Robot& robot) noexcept {
   State& self = robot.self;
   self.rest_ticks = static_cast<std::uint16_t>(std::max(0, self.rest_ticks - robot.elapsed_ticks));
   if (self.bid.owner == nobody) return;
-  self.bid.lease_ticks = static_cast<std::uint8_t>(std::max(0, self.bid.lease_ticks - robot.elapsed_ticks));
+  self.bid.lease_ticks = static_cast<std::uint16_t>(std::max(0, self.bid.lease_ticks - robot.elapsed_ticks));
   if (self.bid.lease_ticks > 0) return;
   if (self.bid.owner == self.id) note_failure(self);
   release(self);
@@ -63,7 +63,7 @@ void age(Robot& robot) noexcept {
 void settle(Robot& robot) noexcept {
   State& self = robot.self;
   const int k = robot.table().find(self.bid.other);
-  if (k < 0 || self.bid.lease_ticks <= commit_margin_ticks) return;
+  if (k < 0 || commit_margin * self.bid.lease_ticks <= self.own_lease_ticks) return;
   const Message& m = robot.table().message(k);
   if (!m.agrees || !is_same(m.bid, self.bid)) return;
   const int l = self.links.find(self.bid.other);
@@ -99,10 +99,12 @@ Bid nominate(Robot& robot) noexcept {
   return best;
 }
 
-void open_bid(State& self, Bid bid) noexcept {
+// A bid goes on a hop in each step.
+void open_bid(Robot& robot, Bid bid) noexcept {
+  State& self = robot.self;
   bid.serial = ++self.serial;
-  self.reach = bid.reach;
-  bid.lease_ticks = static_cast<std::uint8_t>(2 * bid.reach + lease_slack_ticks);
+  self.own_lease_ticks = static_cast<std::uint16_t>(std::min((2 * bid.reach + lease_slack_steps) * robot.step_ticks, longest_lease_ticks));
+  bid.lease_ticks = self.own_lease_ticks;
   self.bid = bid;
 }
 
@@ -126,7 +128,7 @@ void agree(Robot& robot) noexcept {
     if (bid.owner != self.id && !is_same(bid, self.last_bid) && is_more_urgent(bid, best)) best = bid;
   }
   const Bid own = self.rest_ticks == 0 ? nominate(robot) : Bid{};
-  if (is_more_urgent(own, best)) open_bid(self, own);
+  if (is_more_urgent(own, best)) open_bid(robot, own);
   else self.bid = best;
   self.agrees = self.bid.other == self.id && self.links.keeps(self.bid.owner);
 }

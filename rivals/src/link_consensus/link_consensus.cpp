@@ -67,7 +67,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
                         [&](RobotId id) { return state.links.find(id) >= 0; });
   state.errand.follow(senses.orders, carry);
 
-  Robot robot{params, state, gate.elapsed_ticks()};
+  Robot robot{params, state, state.ticks.advance(senses, params), gate.elapsed_ticks()};
   follow_root(robot);
   renew_links(robot);
   agree(robot);
@@ -92,13 +92,13 @@ Report report(const State& s) noexcept {
 void add_to(Digest& digest, const State& s) noexcept {
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   const auto add_bid = [&](const Bid& b) { add(b.owner, b.other, b.length_cm, b.serial, b.reach, b.lease_ticks); };
-  add(s.id, s.errand.sent, s.errand.known, s.errand.target);
-  add(s.root, s.beat, s.way, s.parent, s.silent_ticks, s.lost_root, s.lost_beat);
+  add(s.id, s.errand.sent, s.errand.known, s.errand.target, s.ticks.left());
+  add(s.root, s.beat, s.way, s.parent, s.silent_ticks, s.lost_root, s.lost_beat, s.lost_ticks);
   add(s.links.size(), s.given_up);
-  for (int l = 0; l < s.links.size(); ++l) add(s.links[l].to, s.links[l].kept, s.links[l].offered_ticks);
+  for (int l = 0; l < s.links.size(); ++l) add(s.links[l].to, s.links[l].kept, s.links[l].repairs, s.links[l].offered_steps);
   add_bid(s.bid);
   add_bid(s.last_bid);
-  add(s.agrees, s.serial, s.reach, s.insists, s.tried_cm, s.rest_ticks);
+  add(s.agrees, s.serial, s.own_lease_ticks, s.insists, s.tried_cm, s.rest_ticks);
   add(s.tally.repairs, s.tally.elections, s.tally.rejected);
   s.neighbors.add_to(digest);
 }

@@ -9,8 +9,7 @@
 namespace banyan::rivals::link_consensus {
 namespace {
 
-constexpr int offer_ticks = 10;         // an offer that is not taken up is withdrawn
-constexpr float alone_s = 1.0F;          // without a root for so long is cut off
+constexpr int offer_steps = 10;         // an offer that is not taken up is withdrawn
 constexpr float room_to_move = 0.97F;   // of the longest link: a link must not be too long from its first moment
 
 void drop_lost(Robot& robot) noexcept {
@@ -21,12 +20,13 @@ void drop_lost(Robot& robot) noexcept {
     const int k = table.find(link.to);
     const bool answered = k >= 0 && lists(table.message(k), self.id);
     if (answered) {
+      if (link.repairs) ++self.tally.repairs;
       link.kept = true;
+      link.repairs = false;
     } else if (k < 0 || link.kept) {  // silent for long, or given up by the other end
       self.links.remove(l);
     } else {
-      link.offered_ticks = static_cast<std::uint8_t>(std::min(link.offered_ticks + robot.elapsed_ticks, 255));
-      if (link.offered_ticks > offer_ticks) self.links.remove(l);
+      if (++link.offered_steps > offer_steps) self.links.remove(l);
     }
   }
   const int k = self.given_up == nobody ? -1 : table.find(self.given_up);
@@ -74,8 +74,8 @@ int way_back(const Robot& robot) noexcept {
   return nearest;
 }
 
-void offer(State& self, RobotId id) noexcept {
-  if (id != self.given_up && self.links.find(id) < 0) self.links.offer(id);
+void offer(State& self, RobotId id, bool repairs) noexcept {
+  if (id != self.given_up && self.links.find(id) < 0) self.links.offer(id, repairs);
 }
 
 }  // namespace
@@ -94,11 +94,8 @@ void renew_links(Robot& robot) noexcept {
   State& self = robot.self;
   drop_lost(robot);
   for (int k = 0; k < robot.table().size(); ++k)
-    if (robot.table().age(k) == 0 && wants(robot, k)) offer(self, robot.table().id(k));
-  const int back = way_back(robot);
-  if (back < 0 || self.links.find(robot.table().id(back)) >= 0) return;
-  offer(self, robot.table().id(back));
-  ++self.tally.repairs;
+    if (robot.table().age(k) == 0 && wants(robot, k)) offer(self, robot.table().id(k), false);
+  if (const int back = way_back(robot); back >= 0) offer(self, robot.table().id(back), true);
 }
 
 }  // namespace banyan::rivals::link_consensus

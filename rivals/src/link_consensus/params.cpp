@@ -25,6 +25,7 @@ std::span<const Parameter<Params>> parameters() noexcept { return of_link_consen
 std::string_view fault(const Params& params) noexcept {
   if (!(params.add_distance_m < params.nominate_distance_m)) return "add_distance must be below nominate_distance";
   if (!(params.nominate_distance_m < params.longest_link_m)) return "nominate_distance must be below longest_link";
+  if (!(params.root_silence_s / params.tick_s < 65000.0F)) return "root_silence_s must be below 65000 ticks";
   return {};
 }
 

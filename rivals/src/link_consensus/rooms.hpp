@@ -6,11 +6,14 @@
 
 namespace banyan::rivals::link_consensus {
 
+inline constexpr float alone_s = 1.0F;  // without a root for so long is cut off
+
 // A robot within its step.
 struct Robot {
   const Params& params;
   State& self;
-  int elapsed_ticks;
+  int elapsed_ticks;  // none, if it steps more often than once a tick
+  int step_ticks;     // as long as the step was, at least one
 
   [[nodiscard]] const Table<Message>& table() const noexcept { return self.neighbors; }
 };

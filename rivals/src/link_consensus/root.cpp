@@ -13,19 +13,29 @@ namespace {
 constexpr int beat_slack = 16;     // a count so far behind the newest still counts as heard now: it took a longer way
 constexpr int long_link_cost = 8;  // hops that a way may be longer to avoid a link that is about to be proposed
 
+// News of a root that has fallen silent is no news; the rule for silence is that of every counter here (serial.hpp).
 bool names_a_root(const State& self, const Message& m) noexcept {
-  const bool lost = m.root == self.lost_root && !is_newer(m.beat, self.lost_beat);
+  const bool lost = m.root == self.lost_root && !is_news(m.beat, self.lost_beat, self.lost_ticks);
   return m.root != nobody && m.way != not_rooted && !lost && m.root != self.id;
 }
 
 void forget_root(State& self) noexcept {
   self.lost_root = self.root;
   self.lost_beat = self.beat;
+  self.lost_ticks = self.silent_ticks;
   self.root = nobody;
   self.way = not_rooted;
   self.parent = nobody;
-  self.silent_ticks = 0;
 }
+
+// The one with the smallest id is the first to take a lost root's place. The others give it time to be heard of.
+bool is_first(const Robot& robot) noexcept {
+  for (int k = 0; k < robot.table().size(); ++k)
+    if (robot.table().id(k) < robot.self.id && is_kept(robot, k)) return false;
+  return true;
+}
+
+int grown(int ticks, const Robot& robot) noexcept { return std::min(ticks + robot.elapsed_ticks, 0xFFFF); }
 
 // The better of two roots has the smaller id.
 RobotId best_root(const Robot& robot) noexcept {
@@ -65,6 +75,7 @@ void take_path(Robot& robot) noexcept {
 void follow_root(Robot& robot) noexcept {
   State& self = robot.self;
   const int patience = robot.params.ticks(robot.params.root_silence_s);
+  self.lost_ticks = static_cast<std::uint16_t>(grown(self.lost_ticks, robot));
   const RobotId best = best_root(robot);
   if (best != self.root) {
     self.root = best;
@@ -78,11 +89,11 @@ void follow_root(Robot& robot) noexcept {
     self.parent = nobody;
     return;
   }
-  self.silent_ticks = static_cast<std::uint16_t>(std::min(self.silent_ticks + robot.elapsed_ticks, serial_half_range));
-  if (self.root != nobody) {
-    take_path(robot);
-    if (self.silent_ticks > patience) forget_root(self);
-  } else if (self.silent_ticks > patience && !self.errand.sent && self.links.size() > 0) {
+  self.silent_ticks = static_cast<std::uint16_t>(grown(self.silent_ticks, robot));
+  if (self.root != nobody) take_path(robot);
+  if (self.root != nobody && self.silent_ticks > patience) forget_root(self);
+  if (self.root != nobody || self.errand.sent || self.links.size() == 0) return;
+  if (self.silent_ticks > patience + (is_first(robot) ? 0 : robot.params.ticks(alone_s))) {
     self.root = self.id;
     self.silent_ticks = 0;
     ++self.tally.elections;

@@ -19,7 +19,7 @@ struct Bid {
   std::uint16_t length_cm = 0;  // the longest link is the most urgent
   std::uint8_t serial = 0;      // the owner's bids are numbered
   std::uint8_t reach = 0;       // hops that it may go on
-  std::uint8_t lease_ticks = 0;  // for so long who vouches for it vouches for no other
+  std::uint16_t lease_ticks = 0;  // for so long who vouches for it vouches for no other
 
   friend bool operator==(const Bid&, const Bid&) = default;
 };

@@ -7,6 +7,7 @@
 
 #include "banyan/rivals/common/motion.hpp"
 #include "banyan/rivals/common/table.hpp"
+#include "banyan/rivals/common/ticks.hpp"
 #include "banyan/rivals/link_consensus/message.hpp"
 
 namespace banyan::rivals::link_consensus {
@@ -15,7 +16,8 @@ namespace banyan::rivals::link_consensus {
 struct Link {
   RobotId to = nobody;
   bool kept = false;
-  std::uint8_t offered_ticks = 0;
+  bool repairs = false;            // it is the way back of a robot that was cut off
+  std::uint8_t offered_steps = 0;
 };
 
 // The links of a robot, in the order in which they were made.
@@ -34,8 +36,8 @@ class Links {
     const int k = find(to);
     return k >= 0 && (*this)[k].kept;
   }
-  void offer(RobotId to) noexcept {
-    if (!full()) links_[static_cast<std::size_t>(size_++)] = {to, false, 0};
+  void offer(RobotId to, bool repairs) noexcept {
+    if (!full()) links_[static_cast<std::size_t>(size_++)] = {to, false, repairs, 0};
   }
   void remove(int k) noexcept {
     for (int j = k; j + 1 < size_; ++j) (*this)[j] = (*this)[j + 1];
@@ -50,6 +52,7 @@ class Links {
 struct State {
   RobotId id = nobody;
   Errand errand;
+  Ticks ticks;
 
   // The root and the way to it (root.cpp)
   RobotId root = nobody;
@@ -58,7 +61,8 @@ struct State {
   RobotId parent = nobody;
   std::uint16_t silent_ticks = 0;   // since the root's count last grew
   RobotId lost_root = nobody;       // the last root that fell silent,
-  Serial lost_beat = 0;             // and its last count
+  Serial lost_beat = 0;             // its last count,
+  std::uint16_t lost_ticks = 0;     // and how long that is ago
 
   // Links (links.cpp)
   Links links;
@@ -69,7 +73,7 @@ struct State {
   bool agrees = false;
   Bid last_bid;                     // vouched for before that: not again
   std::uint8_t serial = 0;          // of my last own bid
-  std::uint8_t reach = 0;           // as far as it was to go
+  std::uint16_t own_lease_ticks = 1;  // as long as it was to last
   bool insists = false;             // my next one goes as far as any
   std::uint16_t tried_cm = 0xFFFF;  // it is about a shorter link than this
   std::uint16_t rest_ticks = 0;     // until then no bid of my own

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Time as a robot counts it whose steps need not be whole ticks.
+#pragma once
+
+#include "banyan/controller/core/inputs.hpp"
+#include "banyan/controller/core/platform.hpp"
+
+namespace banyan::rivals {
+
+// Whole ticks since the last step. What is left over counts at the next one, so that what two robots count together
+// never differs by more than a tick, where one steps every 1.4 ticks, say, and the other every 1.6.
+class Ticks {
+ public:
+  // `senses` have passed the gate.
+  int advance(const Senses& senses, const Platform& platform) noexcept {
+    if (!(senses.elapsed_s > 0.0F)) return 1;
+    const float passed = senses.elapsed_s / platform.tick_s + left_;
+    const int whole = static_cast<int>(passed + 0.5F);
+    left_ = passed - static_cast<float>(whole);
+    return whole;
+  }
+  [[nodiscard]] float left() const noexcept { return left_; }
+
+ private:
+  float left_ = 0.0F;  // of a tick, in [-0.5, 0.5)
+};
+
+}  // namespace banyan::rivals
