@@ -305,7 +305,7 @@ TEST(LinkConsensus, LongStepsGiveUpLinksToo) {
 // Clocks that run apart, steps that do not fit into ticks, packets that take long or get lost: the kept links never fall
 // into parts while everybody wants to be rid of them.
 TEST(LinkConsensus, NoClockAndNoDelayMakesAnAgreementCutTheNetwork) {
-  const std::uint64_t seeds = is_long() ? 400 : 12;
+  const std::uint64_t seeds = long_search() ? 400 : 12;
   std::size_t given_up = 0, spare = 0;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     Draw draw(seed);

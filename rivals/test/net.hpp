@@ -18,7 +18,7 @@
 namespace banyan::rivals {
 
 // BANYAN_LONG=1 asks for long searches.
-inline bool is_long() {
+inline bool long_search() {
   const char* value = std::getenv("BANYAN_LONG");
   return value != nullptr && std::string(value) != "0" && *value != '\0';
 }
@@ -74,6 +74,7 @@ struct Net {
   std::vector<Orders> orders;  // nobody is sent unless it says so
   std::vector<double> period;  // ticks between the steps of each robot; none: each steps at every tick
   std::size_t latency = 1;     // ticks until a message is heard
+  double noise_m = 0.0;        // of a measured position, at most, in x and y
   Draw draw;
   // Since each robot's last step, by its number; and what was said in ticks before, the last first
   std::vector<Vec2> driven;
@@ -113,7 +114,7 @@ struct Net {
       const double every = period.empty() ? 1.0 : period[i];
       if (static_cast<double>(ticks) - stepped[i] < every - 1e-6) continue;
       std::vector<typename R::Heard> heard;
-      for (const auto& [j, message] : waiting) heard.push_back({&message, rotate_back(facing[i], at[j] - at[i])});
+      for (const auto& [j, message] : waiting) heard.push_back({&message, rotate_back(facing[i], at[j] - at[i] + noise())});
       Senses senses;
       senses.orders = orders[i];
       const Vec2 way = rotate_back(facing[i], driven[i]);
@@ -124,6 +125,11 @@ struct Net {
       driven[i] = {};
       waiting.clear();
     }
+  }
+  Vec2 noise() {
+    if (noise_m <= 0.0) return {};
+    const auto x = static_cast<float>(draw(-noise_m, noise_m));
+    return {x, static_cast<float>(draw(-noise_m, noise_m))};
   }
   [[nodiscard]] std::size_t radio_parts() const {
     Components parts(at.size());

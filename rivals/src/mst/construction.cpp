@@ -38,7 +38,7 @@ void enter_level(State& self, int level, RobotId leader, RobotId up) noexcept {
   self.up = up;
   self.ready = self.decided = false;
   self.best = self.choice = {};
-  self.unanswered_ticks = 0;
+  self.unanswered_ticks = self.decided_ticks = 0;
   self.least = self.errand.sent ? nobody : self.id;
   self.least_by = nobody;
 }
@@ -76,6 +76,17 @@ void join_next_level(Robot& robot) noexcept {
 // For an edge to the sender of m there is room at both ends.
 bool has_room(const State& self, const Message& m) noexcept {
   return self.holds(m.id) || !(m.full || self.is_full() || self.refused.has(m.id));
+}
+
+// Ends that disagree about lengths can choose edges in a circle. Both ends of an edge that is on neither's way to their
+// leader do without it.
+void cut_circles(Robot& robot) noexcept {
+  State& self = robot.self;
+  const Ends all = self.branches;
+  for (const RobotId end : all) {
+    const Message* m = robot.said_by(end);
+    if (m != nullptr && is_fellow(self, *m) && m->up != self.id && self.up != end) self.branches.remove(end);
+  }
 }
 
 // My own shortest edge out of the fragment. False while a neighbour has not come so far that it could be told.
@@ -132,10 +143,24 @@ void refuse(State& self, RobotId end) noexcept {
   self.failed = true;
 }
 
+std::uint16_t grown(std::uint16_t ticks, const Robot& robot) noexcept { return static_cast<std::uint16_t>(std::min(ticks + robot.elapsed_ticks, 0xFFFF)); }
+
+// If lengths were the same for both ends, one of the edges chosen would have been chosen from both sides, and its end
+// would lead on. If that takes too long, any leader does: whoever has been chosen by my fragment, or has chosen it, joins.
+// Leaders wait for different times, so that one of them is the first.
+bool is_stuck(const Robot& robot) noexcept {
+  const State& self = robot.self;
+  const int patience = robot.params.ticks(robot.params.liveness_period_s) + robot.params.ticks(robot.params.countdown_s);
+  const auto more = static_cast<int>((self.id * 7919U + self.level * 104729U) % static_cast<unsigned>(patience + 1));
+  return self.decided_ticks > patience + more && self.level < 255;
+}
+
 // The leader's word comes down the fragment.
 void follow_leader(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.fragment == self.id) {
+    if (self.decided) self.decided_ticks = grown(self.decided_ticks, robot);
+    if (is_stuck(robot)) return enter_level(self, self.level + 1, self.id, nobody);
     self.decided = self.ready;
     self.choice = self.best;
     if (self.ready && self.best.from == nobody) adopt_tree(self, self.least);
@@ -148,12 +173,12 @@ void follow_leader(Robot& robot) noexcept {
   if (!add_branch(self, self.choice.to)) refuse(self, self.choice.to);
 }
 
-// Of several that chose an edge to the same robot in the same moment, some may have come too late.
+// The other end has no room, since others have chosen it in the same moment, or it does not hear me.
 void give_up_refused(Robot& robot) noexcept {
   State& self = robot.self;
   const Message* m = self.decided && self.choice.from == self.id ? robot.said_by(self.choice.to) : nullptr;
-  const bool refuses = m != nullptr && m->epoch == self.epoch && m->full && !names(*m, self.id);
-  self.unanswered_ticks = static_cast<std::uint16_t>(refuses ? std::min(self.unanswered_ticks + robot.elapsed_ticks, 0xFFFF) : 0);
+  const bool refuses = m != nullptr && m->epoch == self.epoch && !names(*m, self.id);
+  self.unanswered_ticks = refuses ? grown(self.unanswered_ticks, robot) : std::uint16_t{0};
   if (self.unanswered_ticks <= robot.params.ticks(robot.params.liveness_period_s)) return;
   refuse(self, self.choice.to);
   for (Ends* ends : {&self.branches, &self.tree, &self.old}) ends->remove(self.choice.to);
@@ -208,6 +233,7 @@ void construct(Robot& robot) noexcept {
   if (self.fragment == nobody || self.done) return;
   answer_branches(robot);
   join_next_level(robot);
+  cut_circles(robot);
   if (!self.ready) self.ready = gather(robot);
   follow_leader(robot);
   give_up_refused(robot);

@@ -104,7 +104,7 @@ void add_to(Digest& digest, const State& s) noexcept {
   add_ends(s.tree);
   add_ends(s.old);
   add(s.has_tree, s.parent, s.root, s.tree_epoch, s.epoch, s.next, s.countdown, s.epoch_ticks);
-  add(s.level, s.fragment, s.up, s.ready, s.decided, s.done, s.failed, s.least, s.least_by, s.unanswered_ticks);
+  add(s.level, s.fragment, s.up, s.ready, s.decided, s.done, s.failed, s.least, s.least_by, s.unanswered_ticks, s.decided_ticks);
   for (const Edge& e : {s.best, s.choice}) add(e.from, e.to, e.length);
   add_ends(s.branches);
   add_ends(s.refused);

@@ -77,7 +77,8 @@ struct State {
   RobotId least_by = nobody;         // the branch over which it is found; nobody: it is mine
   Ends branches;
   Ends refused;                      // they had no room for an edge to me: not chosen before there is a tree
-  std::uint16_t unanswered_ticks = 0;  // since I chose an edge whose other end is full
+  std::uint16_t unanswered_ticks = 0;  // for so long the other end of the edge that I chose has not named it
+  std::uint16_t decided_ticks = 0;   // a leader: since it chose
   std::array<Candidate, neighbor_capacity> candidates{};
   std::uint8_t candidate_count = 0;
 
