@@ -53,6 +53,26 @@ std::optional<double> disorder(const Algorithm& algorithm, const Setup& setup) {
   return sum;
 }
 
+bool has_fault(const TunePlan& plan, const world::Scenario& world, std::span<const double> point) {
+  const auto scenario = with_parameters(world, plan.bounds, point);
+  return !world::algorithm_of(scenario).fault(world::setup_of(scenario)).empty();
+}
+
+// Of parameters that do not fit together for whatever reason: the share of the way to those without tuning at which
+// they do; nothing if not even these fit. No algorithm has to say why.
+std::optional<double> way_back(const TunePlan& plan, const world::Scenario& world, std::span<const double> point) {
+  const auto home = plan.initial.empty() ? untuned_point(plan) : plan.initial;
+  if (has_fault(plan, world, home)) return std::nullopt;
+  double out = 0.0, back = 1.0;
+  for (int halving = 0; halving < 20; ++halving) {
+    const double middle = 0.5 * (out + back);
+    std::vector<double> between;
+    for (std::size_t k = 0; k < home.size(); ++k) between.push_back(point[k] + middle * (home[k] - point[k]));
+    (has_fault(plan, world, between) ? out : back) = middle;
+  }
+  return back;
+}
+
 }  // namespace
 
 std::optional<Trial> trial_of(std::string_view run_csv_row) {
@@ -97,7 +117,8 @@ double infeasibility(const TunePlan& plan, std::span<const double> point) {
     const Algorithm& algorithm = world::algorithm_of(scenario);
     const Setup setup = world::setup_of(scenario);
     if (algorithm.fault(setup).empty()) continue;
-    const auto distance = disorder(algorithm, setup);
+    auto distance = disorder(algorithm, setup);
+    if (!distance) distance = way_back(plan, world.scenario, point);
     worst = std::max(worst, distance ? std::max(*distance / (1.0 + *distance), least) : 1.0);
   }
   return worst;

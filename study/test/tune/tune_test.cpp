@@ -314,6 +314,30 @@ TEST_F(Tune, InfeasibilityGrowsWithTheDistance) {
   EXPECT_LE(at(3.0, 0.5), 1.0);
 }
 
+// Also where the reason is another than the paper's chain of lengths, for whatever algorithm.
+TEST_F(Tune, WhateverDoesNotFitHasASlopeThatLeadsBack) {
+  auto p = plan(file("", "avoidance_gain = [0.1, 5.0]\n"));
+  const auto look = [&](const char* algorithm, std::initializer_list<TuneBound> bounds) {
+    for (auto& world : p.worlds) world.scenario.mission.algorithm = algorithm;
+    p.bounds = bounds;
+  };
+  look("mst", {{"trigger_distance", 0.5, 1.0}, {"longest_link", 0.5, 1.0}});  // the first below the second; by default 0.8 and 0.95
+  const auto at = [&](double a, double b) { return infeasibility(p, std::vector{a, b}); };
+  EXPECT_EQ(at(0.8, 0.9), 0.0);
+  double before = 0.0;
+  for (const double trigger : {0.61, 0.7, 0.8, 0.9, 1.0}) {
+    EXPECT_GT(at(trigger, 0.6), before) << trigger;
+    before = at(trigger, 0.6);
+  }
+  EXPECT_LT(before, 1.0);
+  // From (1, 0.6) to (0.8, 0.95) they meet after 0.4 / 0.55 of the way.
+  EXPECT_NEAR(before, 0.4 / 0.55 / (1.0 + 0.4 / 0.55), 1e-4);
+  look("link-consensus", {{"add_distance", 0.1, 1.0}, {"nominate_distance", 0.1, 1.0}});
+  EXPECT_EQ(at(0.5, 0.6), 0.0);
+  EXPECT_GT(at(0.9, 0.5), at(0.6, 0.5));
+  EXPECT_GT(at(0.6, 0.5), 0.0);
+}
+
 // --------------------------------------------------------------------------------- the search --
 
 // Calls of bowl().
