@@ -66,17 +66,41 @@ std::string default_text(const Algorithm& algorithm, std::string_view key) {
 // As wide as its name, or as the numbers below it.
 int column_width(const Algorithm& algorithm) { return std::max(9, static_cast<int>(algorithm.name().size())); }
 
+// What a row says besides its number: by the algorithms that say the same.
+struct Said {
+  const ParameterInfo* info;
+  std::string names;
+};
+bool is_same(const ParameterInfo& a, const ParameterInfo& b) { return a.meaning == b.meaning && a.advice == b.advice && a.source == b.source; }
+
+std::vector<Said> said_of(std::string_view key, const std::vector<const Algorithm*>& list) {
+  std::vector<Said> said;
+  for (const Algorithm* algorithm : list)
+    for (const ParameterInfo* info : algorithm->parameters()) {
+      if (info->key != key) continue;
+      const auto same = std::find_if(said.begin(), said.end(), [&](const Said& s) { return is_same(*s.info, *info); });
+      if (same == said.end()) said.push_back({info, std::string(algorithm->name())});
+      else same->names += ", " + std::string(algorithm->name());
+    }
+  return said;
+}
+
+// A row for each key that one of them has. Where they mean different things by it, each says so.
 std::string table_text(const std::vector<const Algorithm*>& list) {
   std::string head = format("%-26s %-8s %-4s", "parameter", "symbol", "unit");
   for (const Algorithm* algorithm : list) head += format("  %-*s", column_width(*algorithm), std::string(algorithm->name()).c_str());
   std::string text = head + "  source\n";
-  for (const auto& info : algorithms().parameters()) {
-    text += format("%-26s %-8s %-4s", std::string(info.key).c_str(), std::string(info.symbol).c_str(),
-                   std::string(info.unit).c_str());
-    for (const Algorithm* algorithm : list) text += format("  %-*s", column_width(*algorithm), default_text(*algorithm, info.key).c_str());
-    text += "  " + std::string(info.source) + "\n    " + std::string(info.meaning);
-    if (const auto owner = platform_key(info.key); !owner.empty()) text += " (set by " + std::string(owner) + ")";
-    text += "\n    " + std::string(info.advice) + "\n";
+  for (const auto& row : algorithms().parameters()) {
+    const std::vector<Said> said = said_of(row.key, list);
+    if (said.empty()) continue;
+    text += format("%-26s %-8s %-4s", std::string(row.key).c_str(), std::string(said[0].info->symbol).c_str(), std::string(said[0].info->unit).c_str());
+    for (const Algorithm* algorithm : list) text += format("  %-*s", column_width(*algorithm), default_text(*algorithm, row.key).c_str());
+    text += "  " + std::string(said[0].info->source) + "\n";
+    for (const auto& [info, names] : said) {
+      text += "    " + (said.size() > 1 ? names + ": " : "") + std::string(info->meaning);
+      if (const auto owner = platform_key(row.key); !owner.empty()) text += " (set by " + std::string(owner) + ")";
+      text += "\n    " + std::string(info->advice) + (said.size() > 1 && info != said[0].info ? " (" + std::string(info->source) + ")" : "") + "\n";
+    }
   }
   return text;
 }

@@ -499,6 +499,27 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
   }
 }
 
+// Two algorithms may mean different things by one key.
+TEST_F(Program, EachAlgorithmSaysWhatItsOwnParametersMean) {
+  for (const Algorithm* algorithm : algorithms()) {
+    const auto text = run({"algorithms", std::string(algorithm->name())}).out;
+    std::size_t at = 0;
+    for (const ParameterInfo* info : algorithm->parameters()) {
+      const auto row = text.find("\n" + std::string(info->key) + " ");
+      ASSERT_NE(row, std::string::npos) << algorithm->name() << ": " << info->key;
+      const auto next = text.find("\n    ", text.find("\n    ", row) + 1);
+      const auto end = text.find('\n', next + 1);
+      EXPECT_TRUE(has(text.substr(row, end - row), std::string(info->meaning))) << text.substr(row, end - row);
+      EXPECT_TRUE(has(text.substr(row, end - row), std::string(info->advice))) << text.substr(row, end - row);
+      ++at;
+    }
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), static_cast<std::ptrdiff_t>(8 + 3 * at)) << "and nothing about parameters of others";
+  }
+  const auto all = run({"algorithms"}).out;
+  for (const Algorithm* algorithm : algorithms())
+    for (const ParameterInfo* info : algorithm->parameters()) EXPECT_TRUE(has(all, std::string(info->meaning))) << algorithm->name() << ": " << info->key;
+}
+
 TEST_F(Program, EveryCommandHelpsWithExamples) {
   const auto help = run({"--help"});
   EXPECT_EQ(help.code, 0);
