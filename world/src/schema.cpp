@@ -136,7 +136,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"seed", of<&Scenario::seed>, "", any_seed, "decides everything random; the same seed gives the same run",
      {.only_in_files = true}},
 
-    {"mission.algorithm", word<&Mission::algorithm, algorithm_names>, "", any_value, "how the tree grows"},
+    {"mission.algorithm", word<&Mission::algorithm, algorithm_names>, "", any_value, "how the robots keep together on the way"},
     {"mission.reading", word<&Mission::reading, reading_names>, "", any_value,
      "the paper as printed (literal), or with its gaps closed (corrected)"},
     {"mission.scale", of<&Mission::scale>, "", {0.0, 1000.0, true},
