@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The page as plain static files: relative addresses, so that any web server, in any folder, can
 // serve them. BANYAN_LIVE is the folder with the compiled simulation, BANYAN_PAGE where to build.
-import { fileURLToPath } from 'node:url';
+import { readFileSync } from 'node:fs';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { defineConfig } from 'vite';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const live = process.env.BANYAN_LIVE ?? here('../build/wasm/viewer');
 
+// The page offers the algorithms that the simulation it is built with knows.
+const { default: createLive } = await import(pathToFileURL(`${live}/banyan_live.mjs`).href);
+const algorithms: string[] = (await createLive({ wasmBinary: readFileSync(`${live}/banyan_live.wasm`) })).algorithms();
+
 export default defineConfig({
+  define: { builtInAlgorithms: JSON.stringify(algorithms) },
   base: './',
   root: here('.'),
   publicDir: here('public'),

@@ -87,6 +87,11 @@ val recording(const Live& live) {
 // The page has all algorithms.
 Live* make() { return new Live(banyan::algorithms()); }  // the page deletes it
 val columns() { return lines(Live::columns()); }
+val algorithm_names() {
+  std::vector<std::string> names;
+  for (const std::string_view name : banyan::algorithms().names()) names.emplace_back(name);
+  return lines(names);
+}
 
 }  // namespace
 
@@ -118,6 +123,7 @@ EMSCRIPTEN_BINDINGS(banyan_live) {
       .function("scenarioToml", &Door<&Live::scenario_toml>::call)
       .function("recording", &recording);
   emscripten::function("columns", &columns);
+  emscripten::function("algorithms", &algorithm_names);
   emscripten::function("version", &Live::version);
   emscripten::function("git", &Live::git);
 }

@@ -66,6 +66,8 @@ export interface BanyanLive {
   Live: new () => Live;
   /** Must be `columns` of src/frame.ts. */
   columns(): string[];
+  /** What mission.algorithm chooses from. */
+  algorithms(): string[];
   version(): string;
   git(): string;
 }

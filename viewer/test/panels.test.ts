@@ -3,9 +3,16 @@
 import { describe, expect, it } from 'vitest';
 import type { RunEvent } from '../src/frame';
 import { lastAt } from '../src/panels/events_list';
+import { algorithms } from '../src/algorithms';
 import { facts, messageFacts } from '../src/panels/inspector';
 import { shortened } from '../src/panels/notice';
 import { frameOf } from './scene_frames';
+
+describe('the panel of a live run', () => {
+  it('offers the algorithms that the simulation knows', () => {
+    for (const name of ['convoy', 'outwards', 'inwards', 'link-consensus', 'mst']) expect(algorithms).toContain(name);
+  });
+});
 
 describe('the inspector', () => {
   it('counts the living as children, and no spares', () => {
@@ -18,7 +25,11 @@ describe('the inspector', () => {
     expect(nothing).toEqual(['position', 'heading', 'alive']);
     expect(names({ x_m: [0, 1], role: [0, 3] })).toEqual(['position', 'heading', 'role', 'target', 'alive', 'connected']);
     expect(names({ x_m: [0, 1], target: [-1, 2] })).toEqual(['position', 'heading', 'target', 'alive']);
-    for (const tree of [{ parent: [-1, 0] }, { old_parent: [-1, 0] }, { epoch: [0, 1] }, { phase: [0, 1] }, { depth: [0, 1] }, { label_cm: [-1, 0] }]) {
+    // Algorithms of others have links and perhaps a tree, but nothing of the paper's way to one.
+    expect(names({ x_m: [0, 1], role: [0, 3], parent: [-1, 0], want_m: [0, 2] })).toEqual(
+      ['position', 'heading', 'role', 'parent', 'children', 'want', 'target', 'alive', 'connected']);
+    expect(names({ x_m: [0, 1], parent: [-1, 0], epoch: [3, 3] })).toEqual(['position', 'heading', 'epoch', 'parent', 'children', 'alive']);
+    for (const tree of [{ old_parent: [-1, 0] }, { phase: [0, 1] }, { depth: [0, 1] }, { label_cm: [-1, 0] }]) {
       const rows = names({ x_m: [0, 1], ...tree });
       expect(rows, JSON.stringify(tree)).toContain('parent');
       expect(rows).not.toContain('role');

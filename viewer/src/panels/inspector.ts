@@ -15,7 +15,7 @@ const nobody = '–';
 
 /** What a frame has where the algorithm has no such thing: of these columns, whatever no report has touched. */
 const untouched: Partial<Record<Column, number>> = {
-  role: 0, target: -1, phase: 0, epoch: 0, label_cm: -1, depth: 0, parent: -1, old_parent: -1,
+  role: 0, target: -1, phase: 0, epoch: 0, label_cm: -1, depth: 0, parent: -1, old_parent: -1, want_m: 0,
 };
 
 /** Whether some robot's report has something in one of these columns. Before the first tick nobody has taken part in a
@@ -24,11 +24,14 @@ function reported(frame: Frame, ...names: Column[]): boolean {
   return names.some((name) => column(frame, name).some((value) => value !== untouched[name]));
 }
 
-/** What the frame says of a robot, in the order of the inspector: of an algorithm without roles or without a
- *  tree, neither. */
+/** What the frame says of a robot, in the order of the inspector: of an algorithm without roles, or that builds no trees
+ *  as the paper does, only what its reports have. */
 export function facts(frame: Frame, robot: number): Fact[] {
   const hasRoles = reported(frame, 'role');
-  const hasTree = reported(frame, 'phase', 'epoch', 'label_cm', 'depth', 'parent', 'old_parent') || (frame.tick === 0 && hasRoles);
+  const hasTree = reported(frame, 'phase', 'label_cm', 'depth', 'old_parent') || (frame.tick === 0 && hasRoles);
+  const own: Partial<Record<string, boolean>> = {
+    epoch: reported(frame, 'epoch'), parent: reported(frame, 'parent'), children: reported(frame, 'parent'), want: reported(frame, 'want_m'),
+  };
   const get = (name: Column) => column(frame, name)[robot];
   const who = (name: Column, help: string): Fact => {
     const other = get(name);
@@ -59,7 +62,7 @@ export function facts(frame: Frame, robot: number): Fact[] {
     { name: 'position', value: `${get('x_m').toFixed(4)}, ${get('y_m').toFixed(4)} m`, help: 'The truth; the robot does not know it' },
     { name: 'heading', value: `${get('heading_rad').toFixed(4)} rad`, help: 'The truth' },
     ...(hasRoles ? [{ name: 'role', value: role }] : []),
-    ...(hasTree ? ofTree : []),
+    ...ofTree.filter(({ name }) => hasTree || own[name] === true),
     ...(hasRoles || reported(frame, 'target') ? [{ name: 'target', value: target < 0 ? nobody : `T${target}`, help: 'That it was sent to' }] : []),
     { name: 'alive', value: get('alive') === 1 ? 'yes' : 'no' },
     ...(hasRoles ? [{ name: 'connected', value: get('connected') === 1 ? 'yes' : 'no', help: 'Alive and in one radio component with the root' }] : []),

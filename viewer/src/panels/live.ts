@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The handles of a live run: what to run, and what to do to it. Everything here becomes either a start
 // or an intervention; the panel keeps only what has been typed in.
+import { algorithms } from '../algorithms';
 import { button, h, setText } from '../dom';
 import { scenarios as builtIn, type Scenario } from '../scenarios';
 import type { Intervention } from '../source/protocol';
 import type { Settings } from '../state/controls';
-
-export const algorithms = ['convoy', 'outwards', 'inwards'] as const;
 
 /** What the pointer does in the picture, beside looking. */
 export type Tool = 'look' | 'add_target' | 'kill_area';
