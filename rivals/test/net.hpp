@@ -114,6 +114,7 @@ struct Net {
       const double every = period.empty() ? 1.0 : period[i];
       if (static_cast<double>(ticks) - stepped[i] < every - 1e-6) continue;
       std::vector<typename R::Heard> heard;
+      heard.reserve(waiting.size());
       for (const auto& [j, message] : waiting) heard.push_back({&message, rotate_back(facing[i], at[j] - at[i] + noise())});
       Senses senses;
       senses.orders = orders[i];

@@ -29,11 +29,10 @@ bool wants_new_tree(const Robot& robot) noexcept {
   if (meets_strangers(robot)) return true;
   if (!self.done) return self.failed || self.epoch_ticks > robot.params.ticks(robot.params.build_timeout_s);
   if (self.root == self.id && self.errand.sent) return true;  // a worker is no root
-  for (const RobotId end : self.tree) {
+  return std::any_of(self.tree.begin(), self.tree.end(), [&](RobotId end) {
     const int k = robot.table().find(end);
-    if (k < 0 || robot.table().range(k) > robot.params.trigger_distance_m) return true;
-  }
-  return false;
+    return k < 0 || robot.table().range(k) > robot.params.trigger_distance_m;
+  });
 }
 
 // A tree that is wanted, and in how many ticks its construction begins.
