@@ -16,7 +16,7 @@ Vec2 push_from(Vec2 there, float d, const RivalParams& params) noexcept {
 
 }  // namespace
 
-void Errand::follow(const Orders& orders, const Carry& carry) noexcept {
+void Assignment::follow(const Orders& orders, const Carry& carry) noexcept {
   sent = orders.sent;
   if (!sent) known = false;
   if (known) target = carry.point(target);
@@ -26,9 +26,9 @@ void Errand::follow(const Orders& orders, const Carry& carry) noexcept {
   }
 }
 
-Vec2 target_pull(const Errand& errand, const RivalParams& params) noexcept {
-  if (!errand.sent || !errand.known) return {};
-  return unit(errand.target) * (params.target_gain * std::min(1.0F, norm(errand.target) / params.arrival_distance_m));
+Vec2 target_pull(const Assignment& assignment, const RivalParams& params) noexcept {
+  if (!assignment.sent || !assignment.known) return {};
+  return unit(assignment.target) * (params.target_gain * std::min(1.0F, norm(assignment.target) / params.arrival_distance_m));
 }
 
 Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles, const RivalParams& params) noexcept {

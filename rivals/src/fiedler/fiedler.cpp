@@ -47,7 +47,7 @@ Vec2 connectivity_gradient(const Params& params, const State& state) noexcept {
 State initial_state(RobotId id, bool worker, bool root) noexcept {
   State state;
   state.id = id;
-  state.errand.sent = worker;
+  state.assignment.sent = worker;
   if (root) state.root = id;
   return state;
 }
@@ -60,7 +60,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   carry_to_now(packets, senses, params);
   const Carry carry(senses.odometry);
   state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params, [](RobotId) { return false; });
-  state.errand.follow(senses.orders, carry);
+  state.assignment.follow(senses.orders, carry);
 
   state.ticks = static_cast<std::uint16_t>(std::min(state.ticks + gate.elapsed_ticks(), 0xFFFF));
 
@@ -69,23 +69,23 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   // Neighbours' components are those of the last tick, as mine is until the iteration.
   const Vec2 control = connectivity_control(robot);
   iterate(robot);
-  const Vec2 task = state.ticks > params.ticks(params.settling_s) ? target_pull(state.errand, params) : Vec2{};
+  const Vec2 task = state.ticks > params.ticks(params.settling_s) ? target_pull(state.assignment, params) : Vec2{};
   const Vec2 u = task + control + avoidance(state.neighbors, senses.obstacles, params);
   return {composed(state), move(u, Guard{}, params)};
 }
 
 // It promises no link in particular, only lambda_2 > 0: no parent, nothing kept.
 Report report(const State& s) noexcept {
-  return {.role = s.errand.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
-          .serves = s.errand.sent ? s.id : nobody,
+  return {.role = s.assignment.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
+          .serves = s.assignment.sent ? s.id : nobody,
           .root = s.root,
-          .want_m = s.errand.distance_m(),
+          .want_m = s.assignment.distance_m(),
           .tally = s.tally};
 }
 
 void add_to(Digest& digest, const State& s) noexcept {
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
-  add(s.id, s.errand.sent, s.errand.known, s.errand.target, s.ticks);
+  add(s.id, s.assignment.sent, s.assignment.known, s.assignment.target, s.ticks);
   add(s.links, s.largest_degree, s.degree_age, s.root, s.root_age, s.rootless_ticks);
   add(s.component, s.lambda, s.draws);
   for (const Average& a : {s.mean, s.square, s.product}) add(a.value, a.integral);

@@ -44,7 +44,7 @@ void follow_degree(Robot& robot) noexcept {
 void follow_root(Robot& robot) noexcept {
   State& self = robot.self;
   const bool was_root = self.root == self.id;
-  RobotId best = was_root && !self.errand.sent ? self.id : nobody;
+  RobotId best = was_root && !self.assignment.sent ? self.id : nobody;
   int best_age = 0;
   for (int k = 0; k < robot.table().size(); ++k) {
     const Message& m = robot.table().message(k);
@@ -54,7 +54,7 @@ void follow_root(Robot& robot) noexcept {
     best_age = age;
   }
   self.rootless_ticks = static_cast<std::uint8_t>(best == nobody ? std::min(self.rootless_ticks + robot.elapsed_ticks, 255) : 0);
-  if (self.rootless_ticks > news_ticks && !self.errand.sent) {
+  if (self.rootless_ticks > news_ticks && !self.assignment.sent) {
     best = self.id;
     ++self.tally.elections;
   }

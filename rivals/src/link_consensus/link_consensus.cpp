@@ -22,7 +22,7 @@ float tension(float d, float longest_m) noexcept {
 Vec2 desired_motion(const Robot& robot, std::span<const Vec2> obstacles) noexcept {
   const Params& p = robot.params;
   const Table<Message>& table = robot.table();
-  Vec2 u = target_pull(robot.self.errand, p) + avoidance(table, obstacles, p);
+  Vec2 u = target_pull(robot.self.assignment, p) + avoidance(table, obstacles, p);
   for (int l = 0; l < robot.self.links.size(); ++l) {
     const int k = table.find(robot.self.links[l].to);
     if (k < 0 || !robot.self.links[l].kept) continue;
@@ -48,7 +48,7 @@ Message composed(const State& self) noexcept {
 State initial_state(RobotId id, bool worker, bool root) noexcept {
   State state;
   state.id = id;
-  state.errand.sent = worker;
+  state.assignment.sent = worker;
   if (root) {
     state.root = id;
     state.way = 0;
@@ -65,7 +65,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   const Carry carry(senses.odometry);
   state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params,
                         [&](RobotId id) { return state.links.find(id) >= 0; });
-  state.errand.follow(senses.orders, carry);
+  state.assignment.follow(senses.orders, carry);
 
   Robot robot{params, state, state.ticks.advance(senses, params), gate.elapsed_ticks()};
   follow_root(robot);
@@ -77,11 +77,11 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
 }
 
 Report report(const State& s) noexcept {
-  Report r{.role = s.errand.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
+  Report r{.role = s.assignment.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
            .parent = s.parent,
-           .serves = s.errand.sent ? s.id : nobody,
+           .serves = s.assignment.sent ? s.id : nobody,
            .root = s.root,
-           .want_m = s.errand.distance_m(),
+           .want_m = s.assignment.distance_m(),
            .tally = s.tally};
   std::size_t kept = 0;
   for (int l = 0; l < s.links.size(); ++l)
@@ -92,7 +92,7 @@ Report report(const State& s) noexcept {
 void add_to(Digest& digest, const State& s) noexcept {
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };
   const auto add_bid = [&](const Bid& b) { add(b.owner, b.other, b.length_cm, b.serial, b.reach, b.lease_ticks); };
-  add(s.id, s.errand.sent, s.errand.known, s.errand.target, s.ticks.left());
+  add(s.id, s.assignment.sent, s.assignment.known, s.assignment.target, s.ticks.left());
   add(s.root, s.beat, s.way, s.parent, s.silent_ticks, s.lost_root, s.lost_beat, s.lost_ticks);
   add(s.links.size(), s.given_up);
   for (int l = 0; l < s.links.size(); ++l) add(s.links[l].to, s.links[l].kept, s.links[l].repairs, s.links[l].offered_steps);

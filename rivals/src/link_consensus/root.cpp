@@ -92,7 +92,7 @@ void follow_root(Robot& robot) noexcept {
   self.silent_ticks = static_cast<std::uint16_t>(grown(self.silent_ticks, robot));
   if (self.root != nobody) take_path(robot);
   if (self.root != nobody && self.silent_ticks > patience) forget_root(self);
-  if (self.root != nobody || self.errand.sent || self.links.size() == 0) return;
+  if (self.root != nobody || self.assignment.sent || self.links.size() == 0) return;
   if (self.silent_ticks > patience + (is_first(robot) ? 0 : robot.params.ticks(alone_s))) {
     self.root = self.id;
     self.silent_ticks = 0;

@@ -39,7 +39,7 @@ void enter_level(State& self, int level, RobotId leader, RobotId up) noexcept {
   self.ready = self.decided = false;
   self.best = self.choice = {};
   self.unanswered_ticks = self.decided_ticks = 0;
-  self.least = self.errand.sent ? nobody : self.id;
+  self.least = self.assignment.sent ? nobody : self.id;
   self.least_by = nobody;
 }
 
@@ -108,7 +108,7 @@ bool gather(Robot& robot) noexcept {
   State& self = robot.self;
   Edge best;
   if (!find_own_edge(robot, best)) return false;
-  RobotId least = self.errand.sent ? nobody : self.id, by = nobody;
+  RobotId least = self.assignment.sent ? nobody : self.id, by = nobody;
   for (const RobotId end : self.branches) {
     if (end == self.up) continue;
     const Message* m = robot.said_by(end);

@@ -28,7 +28,7 @@ bool wants_new_tree(const Robot& robot) noexcept {
   if (self.epoch_ticks < robot.params.ticks(robot.params.least_period_s)) return false;
   if (meets_strangers(robot)) return true;
   if (!self.done) return self.failed || self.epoch_ticks > robot.params.ticks(robot.params.build_timeout_s);
-  if (self.root == self.id && self.errand.sent) return true;  // a worker is no root
+  if (self.root == self.id && self.assignment.sent) return true;  // a worker is no root
   return std::any_of(self.tree.begin(), self.tree.end(), [&](RobotId end) {
     const int k = robot.table().find(end);
     return k < 0 || robot.table().range(k) > robot.params.trigger_distance_m;

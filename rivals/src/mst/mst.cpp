@@ -17,7 +17,7 @@ constexpr std::uint8_t first_tree_ticks = 10;
 Vec2 desired_motion(const Robot& robot, std::span<const Vec2> obstacles) noexcept {
   const Table<Message>& table = robot.table();
   const Vec2 u = avoidance(table, obstacles, robot.params);
-  if (robot.self.errand.sent) return robot.self.has_tree ? u + target_pull(robot.self.errand, robot.params) : u;
+  if (robot.self.assignment.sent) return robot.self.has_tree ? u + target_pull(robot.self.assignment, robot.params) : u;
   Vec2 sum;
   float count = 0.0F;
   for (const RobotId end : robot.self.tree) {
@@ -55,7 +55,7 @@ Message composed(const State& s) noexcept {
 State initial_state(RobotId id, bool worker, bool root) noexcept {
   State state;
   state.id = id;
-  state.errand.sent = worker;
+  state.assignment.sent = worker;
   state.next = 1;  // the first tree is wanted at once: as soon as everybody has been heard, whatever is lost
   state.countdown = first_tree_ticks;
   if (root) state.root = id;
@@ -71,7 +71,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   const Carry carry(senses.odometry);
   state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params,
                         [&](RobotId id) { return state.holds(id); });
-  state.errand.follow(senses.orders, carry);
+  state.assignment.follow(senses.orders, carry);
 
   Robot robot{params, state, gate.elapsed_ticks()};
   follow_epoch(robot);
@@ -83,15 +83,15 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
 }
 
 Report report(const State& s) noexcept {
-  const Role role = s.errand.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector;
+  const Role role = s.assignment.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector;
   return {.role = role,
           .parent = role == Role::root ? nobody : s.parent,
           .kept = s.held().all(),
-          .serves = s.errand.sent ? s.id : nobody,
+          .serves = s.assignment.sent ? s.id : nobody,
           .root = s.root,
           .root_sequence = s.tree_epoch,
           .epoch = s.epoch,
-          .want_m = s.errand.distance_m(),
+          .want_m = s.assignment.distance_m(),
           .tally = s.tally};
 }
 
@@ -100,7 +100,7 @@ void add_to(Digest& digest, const State& s) noexcept {
   const auto add_ends = [&](const Ends& ends) {
     for (const RobotId end : ends.all()) add(end);
   };
-  add(s.id, s.errand.sent, s.errand.known, s.errand.target);
+  add(s.id, s.assignment.sent, s.assignment.known, s.assignment.target);
   add_ends(s.tree);
   add_ends(s.old);
   add(s.has_tree, s.parent, s.root, s.tree_epoch, s.epoch, s.next, s.countdown, s.epoch_ticks);

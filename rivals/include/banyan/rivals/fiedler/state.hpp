@@ -12,7 +12,7 @@ namespace banyan::rivals::fiedler {
 
 struct State {
   RobotId id = nobody;
-  Errand errand;
+  Assignment assignment;
 
   std::uint16_t ticks = 0;            // since the start, up to 65535
 

@@ -47,7 +47,7 @@ struct Candidate {
 
 struct State {
   RobotId id = nobody;
-  Errand errand;
+  Assignment assignment;
 
   // The tree that is kept
   bool has_tree = false;             // or had one
