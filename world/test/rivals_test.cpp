@@ -110,7 +110,7 @@ TEST_P(Rival, ReachesTargetsThatAreNear) {
 }
 
 // Whatever clocks, delays and missions do, nobody is let go while all live.
-TEST_P(Rival, NobodyIsLostWhileAllLive) {
+TEST_P(KeptLinks, NobodyIsLostWhileAllLive) {
   for (std::uint64_t seed = 1; seed <= worlds(8, 200); ++seed) {
     const Scenario s = trying(GetParam(), seed);
     World world(s);
@@ -139,7 +139,7 @@ bool has_its_root(const World& world) {
 }
 
 // Who dies takes links along. Those who are left and within reach of one another are one again soon.
-TEST_P(Rival, TheLivingWithinReachBecomeOneAgain) {
+TEST_P(KeptLinks, TheLivingWithinReachBecomeOneAgain) {
   std::size_t harm = 0;
   for (std::uint64_t seed = 1; seed <= worlds(6, 100); ++seed) {
     Scenario s = trying(GetParam(), seed);

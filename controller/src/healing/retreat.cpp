@@ -12,9 +12,7 @@ constexpr float regroup_for_s = 40.0F;  // at most, then it waits again
 constexpr int lost_ticks = 22;  // an orphan that has found no hold for so long has none in reach
 
 bool is_cut_off(const HealingRobot& robot) noexcept {
-  const int usual_ticks = 2 * std::max<int>(robot.liveness_ticks(), 2 * robot.self.usual_silence);
-  const int first_ticks = robot.self.phase < Phase::grow_tree ? longest_silence_ticks : 0;
-  return robot.self.silence_ticks > robot.params.ticks(robot.params.retreat_after_s) + usual_ticks + first_ticks;
+  return robot.self.silence_ticks > robot.params.ticks(robot.params.retreat_after_s) + 2 * robot.liveness_ticks();
 }
 
 // Whoever hears nobody ties nobody, and may look for the others: a root with nobody left, or hidden among bodies, and

@@ -9,15 +9,6 @@
 namespace banyan {
 namespace {
 
-// Where the radio loses packets, who has not been heard may have driven away since, and knows no better where I am.
-[[gnu::noinline]] float strayed_m(const TreeRobot& robot, int k) noexcept {
-  constexpr int at_once = 2;
-  constexpr int at_most = 30;
-  if (robot.tie_ticks == 0) return 0.0F;
-  const TreeParams& p = robot.params;
-  return p.speed_gain_m_s * p.tick_s * static_cast<float>(std::clamp(robot.table().age(k) - at_once, 0, at_most));
-}
-
 // The neighbour whose distance counts as d^parent: the parent, else the old one, else the hold; -1 if none.
 int nearest_up(const TreeRobot& robot) noexcept {
   return robot.parent >= 0 ? robot.parent : robot.old_parent >= 0 ? robot.old_parent : robot.hold;
@@ -128,7 +119,7 @@ void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   if (!robot.reading.guards_edges) return;
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m - robot.table().spread_m() - strayed_m(robot, k), robot.params.guard_rate_per_s);
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m - robot.table().spread_m(), robot.params.guard_rate_per_s);
   });
 }
 
@@ -138,18 +129,13 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   const float longest_m = longest_link * p.communication_range_m;
   const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // nearer, full speed is allowed
   const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
-  // In a grown tree only those of its own epoch wait for a hold: one of another hears nobody, or comes from elsewhere.
-  const bool waits_for_all = robot.self.phase < Phase::grow_tree;
-  const auto holds_me = [&](int k) {
-    if (!table.alive(k)) return !lets_go && robot.obstacles.empty() && table.age(k) <= robot.tie_ticks && is_tie(robot, k);
-    const TreeStanding& m = table.message(k);
-    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || waits_for_all);
-    return !robot.is_tree_neighbor(k) && (untied || waits || k == robot.hold || hold_of(m) == robot.self.id);
-  };
   for (int k = 0; k < table.size(); ++k) {
-    const float strayed = strayed_m(robot, k);
-    if (table.range(k) + strayed <= limited_m || k == robot.parent || k == robot.old_parent || !holds_me(k)) continue;
-    guard.add(table.position(k), longest_m - table.spread_m() - strayed, p.guard_rate_per_s);
+    if (table.range(k) <= limited_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+    const TreeStanding& m = table.message(k);
+    const bool tied_to_me = k == robot.hold || hold_of(m) == robot.self.id;
+    // In a grown tree only those of its own epoch wait for a hold: one of another hears nobody, or comes from elsewhere.
+    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || robot.self.phase < Phase::grow_tree);
+    if (tied_to_me || (!lets_go && (untied || waits))) guard.add(table.position(k), longest_m - table.spread_m(), p.guard_rate_per_s);
   }
 }
 

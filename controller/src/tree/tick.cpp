@@ -73,11 +73,9 @@ void file_heard(TreeRobot& robot) noexcept {
 
 void forget_silent(TreeRobot& robot, FunctionRef<void(int, int)> close) noexcept {
   TreeTable& table = robot.self.neighbors;
-  const auto keeps = [&](int k) {
-    return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || (table.age(k) <= longest_silence_ticks && is_tie(robot, k));
-  };
+  const std::array<RobotId, 2> keep{robot.self.parent, robot.self.old_parent};
   const int liveness_ticks = robot.liveness_ticks();
-  for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keeps)) >= 0;) {
+  for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keep)) >= 0;) {
     close_gap(table.standings, k, table.size() + 1);
     close(k, table.size() + 1);
   }

@@ -30,15 +30,6 @@ void index_neighbors(TreeRobot& robot) noexcept {
   robot.call_hops = call_hops;
 }
 
-bool is_tie(const TreeRobot& robot, int k) noexcept {
-  const TreeState& self = robot.self;
-  if (robot.tie_ticks == 0) return false;
-  const TreeStanding& m = robot.table().message(k);
-  if (m.parent == self.id || m.old_parent == self.id) return m.role != Role::spare;
-  const bool untied = robot.held == nobody && self.parent == nobody && self.old_parent == nobody && !robot.is_root();
-  return untied || is_untied(m) || hold_of(m) == self.id || robot.table().id(k) == robot.held;
-}
-
 void update_role(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   if (robot.is_root()) {

@@ -27,8 +27,6 @@ struct HealingRobot : TreeRobot {
   HealingRobot(const HealingParams& params_, HealingState& self_, const Admitted& admitted) noexcept
       : TreeRobot(params_, corrected_reading, self_, admitted), params(params_), self(self_) {
     loss_ticks = self.loss_ticks;
-    held = self.hold;
-    tie_ticks = self.usual_silence;
   }
 
   const HealingParams& params;   // the same objects as the tree's

@@ -67,9 +67,6 @@ class Admitted : public Gate {
   std::span<Heard> heard_;
 };
 
-// A silent neighbour to which a robot is tied is remembered for so long.
-inline constexpr int longest_silence_ticks = 100;
-
 // Longest link that may be relied on, of C: beyond, the next step might break it.
 inline constexpr float longest_link = 0.95F;
 
@@ -87,8 +84,6 @@ struct TreeRobot {
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
   Carry carry;                      // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
-  RobotId held = nobody;            // the hold of the last step
-  int tie_ticks = 0;                // so long does a silent neighbour tie me; 0: no packets get lost, who is silent is hidden or gone
   int loss_ticks = 0;               // for so long lost packets may silence a living neighbour; 0: unknown
   bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
 
@@ -132,9 +127,5 @@ struct TreeRobot {
   [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && table().alive(parent); }
   [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && table().alive(old_parent); }
 };
-
-// Neighbour k hangs on me, I have nobody else, or the last that it said was that it had nobody: if it is silent, it may
-// be because packets get lost.
-[[nodiscard]] bool is_tie(const TreeRobot& robot, int k) noexcept;
 
 }  // namespace banyan
