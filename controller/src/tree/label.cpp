@@ -22,21 +22,14 @@ bool somebody_between(const TreeRobot& robot, int k) noexcept {
 void take_label(TreeRobot& robot, bool patient) noexcept {
   constexpr int wait_ticks = 2;       // lets nearer labelled neighbours speak up
   constexpr int wait_far_ticks = 6;   // if all heard so far are near the edge of the range
-  constexpr int wait_tied_ticks = 50; // for the flood to come by the old tree, rather than over a link that nobody holds
   TreeState& self = robot.self;
   const TreeTable& table = robot.table();
   int best = -1;
   std::uint16_t best_label = unknown_label;
   float nearest_m = robot.params.communication_range_m;
-  const float longest_m = !patient && robot.old_parent_alive() && self.label_wait_ticks < wait_tied_ticks ? longest_link * nearest_m : nearest_m;
-  bool too_far = false;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
     if (!table.alive(k) || m.epoch != self.epoch || m.label_cm == unknown_label) continue;
-    if (table.range(k) > longest_m) {
-      too_far = true;
-      continue;
-    }
     nearest_m = std::min(nearest_m, table.range(k));
     const std::uint16_t label = label_below(m.label_cm, table.range(k));
     if (label < best_label) {
@@ -44,10 +37,7 @@ void take_label(TreeRobot& robot, bool patient) noexcept {
       best = k;
     }
   }
-  if (best < 0) {
-    if (too_far) ++self.label_wait_ticks;
-    return;
-  }
+  if (best < 0) return;
   const bool far = nearest_m > 0.85F * robot.params.communication_range_m;
   if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) && (patient || somebody_between(robot, best))) return;
   self.label_cm = best_label;

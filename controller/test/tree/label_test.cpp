@@ -60,26 +60,6 @@ TEST(Label, WhoIsNotPatientWaitsOnlyForWhomItHears) {
   EXPECT_EQ(ticks_until_labelled({0.5F, 0.2F}, 1.9F), 7);
 }
 
-// Nobody holds a link beyond 0.95 C: the flood is soon to come by the edges of the old tree.
-TEST(Label, WhoIsTiedToTheOldTreeDoesNotTakeItOverALinkThatNobodyHolds) {
-  for (const bool tied : {false, true}) {
-    Bench bench = starting();
-    if (tied) bench.state.old_parent = 5;
-    bench.put(9, {1.95F, 0}).label_cm = 0;
-    bench.put(5, {-1.0F, 0});
-    const auto ticks = [&](int count) {
-      while (count-- > 0) {
-        auto robot = bench.tick();
-        index_neighbors(robot);
-        update_label(robot, false);
-      }
-      return bench.state.label_cm;
-    };
-    EXPECT_EQ(ticks(50), tied ? unknown_label : 195);
-    EXPECT_EQ(ticks(1), 195) << "rather than none at all";
-  }
-}
-
 TEST(Label, OfAnotherEpochCountsNothing) {
   Bench bench = starting();
   bench.put(9, {1.0F, 0}).label_cm = 0;
