@@ -47,14 +47,6 @@ Vec2 pull_of(const ConvoyRobot& robot, int k) noexcept {
   return from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, robot.table().position(k));
 }
 
-// Child k is a junction, and next to it somebody calls for a spare, while its edge to me has slack. A worker with
-// children is one, too: it pulls like a branch.
-bool has_slack_for_junction(const ConvoyRobot& robot, int k) noexcept {
-  const TreeStanding& m = robot.table().message(k);
-  const int branches = robot.convoy_of(k).child_count + (m.role == Role::worker ? 1 : 0);
-  return branches > 1 && m.call_hops == 1 && robot.table().range(k) < robot.params.recruitment_distance_m;
-}
-
 // Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
 // junctions stay with the spares as long as they can: there their edges grow and are split.
 Vec2 tow(const ConvoyRobot& robot) noexcept {
@@ -78,7 +70,6 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
       u += pull_of(robot, k);
       return;
     }
-    if (!robot.is_root() && has_slack_for_junction(robot, k)) u += pull_of(robot, k);
     // A child at a corner needs its parent there before it can go round.
     const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width_m);
     u += unit(table.position(k)) * weight;
@@ -254,16 +245,14 @@ Vec2 before_tree(const ConvoyRobot& robot) noexcept {
 
 bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
   const ConvoyState& self = robot.self;
-  const bool stands = self.is_worker && robot.target != nullptr && norm(*robot.target) < robot.params.arrival_distance_m;
-  const bool junction = robot.useful_children + (self.is_worker ? 1 : 0) > 1 && robot.call_hops == 0;
-  if (!stands && !junction) return false;
+  if (!self.is_worker || robot.target == nullptr || norm(*robot.target) >= robot.params.arrival_distance_m) return false;
   const TreeTable& table = robot.table();
   int best = -1;
   for (const int k : robot.children)
     if (table.message(k).role != Role::spare && table.message(k).want_cm > (best < 0 ? 0 : table.message(best).want_cm)) best = k;
   if (best < 0) return false;
-  pull = unit(table.position(best));
-  return stands || dot(self.pull, pull) < 0.5F;  // two that pull at a right angle
+  pull = pull_of(robot, best);
+  return true;
 }
 
 bool prunes(const ConvoyParams& params) noexcept { return params.merge_distance_m > 0.0F; }

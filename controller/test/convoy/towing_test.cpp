@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "chain.hpp"
 
 namespace banyan {
@@ -38,49 +36,6 @@ TEST_F(ConvoyChain, AJunctionStaysUntilItsEdgesAreNearTheirLimit) {
   bench.move(3, {1.88F, 0.0F});
   bench.move(4, {0.0F, 1.88F});
   EXPECT_GT(norm(motion()), norm(waits) + 0.2F);
-}
-
-// Two branches at right angles, one of which calls in vain; then the pull that it sends leads to the farther one.
-TEST_F(ConvoyChain, AJunctionThatIsPulledApartSaysWhereAChildIs) {
-  bench.say(3).call_hops = 0;
-  auto& other = bench.put(4, {0.0F, 1.8F});
-  other.role = Role::connector;
-  other.parent = 1;
-  other.want_cm = 500;
-  const auto passes_on = [&](Vec2 mean) {
-    auto robot = bench.tick();
-    bench.state.pull = mean;
-    Vec2 pull;
-    const bool passes = passes_pull_on(robot, pull);
-    EXPECT_TRUE(!passes || distance(pull, {0.0F, 1.0F}) < 1e-5F);
-    return passes;
-  };
-  EXPECT_TRUE(passes_on({0.5F, 0.45F}));
-  EXPECT_FALSE(passes_on({0.4F, 0.6F})) << "it can go with both";
-  bench.say(3).call_hops = 1;
-  EXPECT_FALSE(passes_on({0.5F, 0.45F})) << "spares are on their way";
-}
-
-// There is slack above a junction that cannot move: its parent goes where it says.
-TEST_F(ConvoyChain, IsTowedPastAJunctionThatIsPulledApart) {
-  auto& junction = bench.say(3);
-  junction.role = Role::connector;
-  junction.child_count = 2;
-  junction.call_hops = 1;
-  junction.pull_y = static_cast<std::int16_t>(pull_unit);
-  bench.move(3, {1.2F, 0.0F});
-  EXPECT_GT(std::abs(motion().y), 0.9F);
-  junction.role = Role::worker;
-  junction.child_count = 1;
-  EXPECT_GT(std::abs(motion().y), 0.9F) << "a worker pulls like a branch";
-  junction.child_count = 0;
-  EXPECT_LT(std::abs(motion().y), 0.1F) << "no junction";
-  junction.child_count = 1;
-  junction.call_hops = 2;
-  EXPECT_LT(std::abs(motion().y), 0.1F) << "nobody calls there";
-  junction.call_hops = 1;
-  bench.move(3, {1.7F, 0.0F});
-  EXPECT_LT(std::abs(motion().y), 0.1F) << "no slack";
 }
 
 TEST_F(ConvoyChain, HoldsStillInAReconstructionWhenAllHaveArrived) {

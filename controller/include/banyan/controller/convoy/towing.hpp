@@ -14,9 +14,7 @@ namespace banyan {
 // Neighbour k is a worker that has arrived: it may be the parent of others whose workers have arrived.
 [[nodiscard]] bool is_relay(const ConvoyRobot& robot, int k) noexcept;
 
-// A worker at its target, and a junction whose branches pull it apart while one of them calls in vain, say where the
-// child is that has farthest to go, not where they pull: their parent is towed past them, to where that child can take
-// it as its own.
+// A worker at its target says where those that hang on it pull, not itself.
 [[nodiscard]] bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept;
 
 // A robot of the tree: a worker drives to its target, a connector follows the children that tow it;
