@@ -62,8 +62,8 @@ describe('a source', () => {
     expect(source.series.value.alive[0]).toBe(18);
     expect(source.events.value.at(-1)!.kind).toBe('complete');
     expect(source.settingAt(3)!.range_m).toBe(2);
-    const message = await source.message(0, 10);
-    if (message !== null) expect(message).toMatchObject({ id: 0, phase: 2 }); // older recordings have none
+    const message = await source.message(0, 20);
+    if (message !== null) expect(message).toMatchObject({ id: 0, phase: 3 }); // older recordings have none
     await expect(source.intervene(3, [])).rejects.toThrow('a recording cannot be changed');
     expect(source.failure.value).toBeNull();
   });
