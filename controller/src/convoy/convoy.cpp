@@ -211,7 +211,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   watch_branch(robot);                                 // has the last below me died?
   update_role(robot);
   advance_and_count(robot, state.subtree_workers >= state.flood_workers, may_reconstruct(robot));   // the root's barriers
-  update_label(robot, false);                          // Start Tree
+  update_label(robot, {.waits_for_anybody = false});   // Start Tree
   select_parent(robot, {.may_join = state.is_worker || is_named_parent(robot),                      // Select Parent, repair
                         .workers_relay = true,
                         .accepts = [](int) { return true; },

@@ -18,18 +18,6 @@ bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
   return parent < 0 || fades(robot, parent) || table.message(parent).subtree_workers > task_capacity;
 }
 
-// While the child by which the worker was below me lives, its news comes by it, in turn with that of many others: that
-// it is old is no reason to doubt before those torn off could be heard of.
-void count_from_silence(const HealingRobot& robot, Task& task) noexcept {
-  const int child = task.via == nobody ? -1 : robot.table().find(task.via);
-  if (child >= 0 && fades(robot, child)) task.age_ticks = static_cast<std::uint16_t>(std::min<int>(task.age_ticks, robot.table().age(child)));
-}
-
-bool is_missed(const HealingRobot& robot, const Task& task) noexcept {
-  const int child = task.via == nobody ? -1 : robot.table().find(task.via);
-  return task.via != nobody && (child < 0 || fades(robot, child));
-}
-
 }  // namespace
 
 void begin_doubt(const HealingRobot& robot, Task& task) noexcept {
@@ -46,9 +34,14 @@ void doubt(HealingRobot& robot) noexcept {
     Task& task = self.tasks[static_cast<std::size_t>(k)];
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
     if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;
-    count_from_silence(robot, task);
+    if (task.via == nobody) continue;
+    // While that child lives the worker's news comes by it, in turn with that of many others: that it is old is no
+    // reason to doubt before those torn off could be heard of.
+    const int child = robot.table().find(task.via);
+    const bool fading = child >= 0 && fades(robot, child);
+    if (fading) task.age_ticks = static_cast<std::uint16_t>(std::min<int>(task.age_ticks, robot.table().age(child)));
     if (task.age_ticks > std::max(outdated_ticks, 2 * doubt_ticks)) task.via = nobody;
-    else if (task.age_ticks > doubt_ticks && is_missed(robot, task)) begin_doubt(robot, task);
+    else if (task.age_ticks > doubt_ticks && (child < 0 || fading)) begin_doubt(robot, task);
   }
 }
 

@@ -55,24 +55,6 @@ void locate_root(HealingRobot& robot) noexcept {
   }
 }
 
-}  // namespace
-
-bool hears_nobody(const HealingRobot& robot) noexcept {
-  const TreeTable& table = robot.table();
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k)) return false;
-  return true;
-}
-
-void follow_heartbeat(HealingRobot& robot) noexcept {
-  if (!robot.params.heals()) return;
-  if (robot.is_root()) return beat(robot);
-  hear_heartbeat(robot);
-  locate_root(robot);
-}
-
-namespace {
-
 // Its heartbeat has stopped, and I am the one near where it was.
 bool outlives_root(const HealingRobot& robot) noexcept {
   const HealingParams& p = robot.params;
@@ -93,6 +75,20 @@ bool misses_first_root(const HealingRobot& robot) noexcept {
 }
 
 }  // namespace
+
+bool hears_nobody(const HealingRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k)) return false;
+  return true;
+}
+
+void follow_heartbeat(HealingRobot& robot) noexcept {
+  if (!robot.params.heals()) return;
+  if (robot.is_root()) return beat(robot);
+  hear_heartbeat(robot);
+  locate_root(robot);
+}
 
 void claim_root(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;

@@ -47,8 +47,11 @@ void find_hold(HealingRobot& robot) noexcept {
     // Until the flood of a new epoch has come by, the last epoch's hold will do; and for whoever has children until
     // that epoch's tree goes: by the new labels one that hangs on me through it may be ahead.
     const bool relied_on = self.phase < Phase::grow_tree && robot.children.size + robot.old_children.size > 0;
-    if (const int last = self.hold == nobody ? -1 : table.find(self.hold); self.label_cm == unknown_label || (relied_on && last >= 0 && table.alive(last)))
-      robot.hold = last >= 0 && table.alive(last) ? last : -1;
+    if (const bool unlabelled = self.label_cm == unknown_label; unlabelled || relied_on) {
+      const int last = self.hold == nobody ? -1 : table.find(self.hold);
+      if (last >= 0 && table.alive(last)) robot.hold = last;
+      else if (unlabelled) robot.hold = -1;
+    }
     // The others of the tree get ahead of a spare that keeps up with the one it would like best, and that one
     // at last; one that is about to join an edge stays behind.
     if (wish >= 0 && self.role == Role::spare && self.phase >= Phase::grow_tree && self.request == nobody) keep_up(robot, wish);

@@ -19,7 +19,7 @@ bool somebody_between(const TreeRobot& robot, int k) noexcept {
 }
 
 // Fixed once: recomputed every tick, motion would leave robots in local minima without candidate.
-void take_label(TreeRobot& robot, bool patient) noexcept {
+void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
   constexpr int wait_ticks = 2;       // lets nearer labelled neighbours speak up
   constexpr int wait_far_ticks = 6;   // if all heard so far are near the edge of the range
   TreeState& self = robot.self;
@@ -39,7 +39,7 @@ void take_label(TreeRobot& robot, bool patient) noexcept {
   }
   if (best < 0) return;
   const bool far = nearest_m > 0.85F * robot.params.communication_range_m;
-  if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) && (patient || somebody_between(robot, best))) return;
+  if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) && (rule.waits_for_anybody || somebody_between(robot, best))) return;
   self.label_cm = best_label;
   self.flood_parent = table.id(best);
 }
@@ -80,14 +80,14 @@ std::uint16_t label_below(std::uint16_t label_cm, float range_m) noexcept {
   return static_cast<std::uint16_t>(std::min<std::uint32_t>(std::uint32_t{label_cm} + edge_cm(range_m), unknown_label - 1));
 }
 
-void update_label(TreeRobot& robot, bool patient) noexcept {
+void update_label(TreeRobot& robot, const LabelRule& rule) noexcept {
   TreeState& self = robot.self;
   if (self.phase == Phase::init) return;
   if (robot.is_root()) {
     // A root by hand-over keeps its label until the epoch that it opens.
     if (self.phase == Phase::start_tree) self.label_cm = 0;
   } else if (self.label_cm == unknown_label) {
-    take_label(robot, patient);
+    take_label(robot, rule);
   }
   if (self.phase == Phase::start_tree && self.label_cm != unknown_label) echo(robot);
 }

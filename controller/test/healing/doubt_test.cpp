@@ -34,6 +34,14 @@ struct ForgetfulWatch : Watch {
     m.task_below = true;
     return m;
   }
+  // The worker is not in sight, but below this child of mine.
+  void child_above_worker(RobotId id) {
+    auto& m = bench.put(id, {1.0F, 0.0F});
+    m.role = Role::connector;
+    m.parent = 1;
+    tell_of_target(id, {1.0F, 0.0F}, {3.0F, 0.0F}, worker_id, 10);
+    m.task_below = true;
+  }
   void hear_worker(int ticks) {
     for (int k = 0; k < ticks; ++k) {
       ++bench.say(worker_id).task_beat;
@@ -109,11 +117,7 @@ TEST(Doubt, WhoDrivesOutOfRangeIsNotMissed) {
 
 TEST(Doubt, AnAncestorMissesAWorkerBelowTheChildThatFellSilent) {
   ForgetfulWatch watch;
-  auto& child = watch.bench.put(20, {1.0F, 0.0F});
-  child.role = Role::connector;
-  child.parent = 1;
-  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, worker_id, 10);
-  child.task_below = true;
+  watch.child_above_worker(20);
   watch.hear_root(5);
   EXPECT_EQ(watch.task().via, 20);
   watch.bench.silence(20);
@@ -123,11 +127,7 @@ TEST(Doubt, AnAncestorMissesAWorkerBelowTheChildThatFellSilent) {
 
 TEST(Doubt, WhoDoubtsWaitsForAnAnswerEvenIfItsNewsIsOld) {
   ForgetfulWatch watch;
-  auto& child = watch.bench.put(20, {1.0F, 0.0F});
-  child.role = Role::connector;
-  child.parent = 1;
-  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, worker_id, 10);
-  child.task_below = true;
+  watch.child_above_worker(20);
   watch.hear_root(outdated_ticks - 20);
   watch.bench.silence(20);
   const auto& p = watch.bench.params;
@@ -139,11 +139,7 @@ TEST(Doubt, WhoDoubtsWaitsForAnAnswerEvenIfItsNewsIsOld) {
 // However old the news by it is: those torn off have time to find another parent, and to be heard of.
 TEST(Doubt, TheClockStartsWithTheSilenceOfTheChild) {
   ForgetfulWatch watch;
-  auto& child = watch.bench.put(20, {1.0F, 0.0F});
-  child.role = Role::connector;
-  child.parent = 1;
-  watch.tell_of_target(20, {1.0F, 0.0F}, {3.0F, 0.0F}, worker_id, 10);
-  child.task_below = true;
+  watch.child_above_worker(20);
   watch.hear_root(outdated_ticks - 20);
   watch.bench.silence(20);
   watch.hear_root(doubt_ticks(watch) - 5);

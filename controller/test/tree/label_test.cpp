@@ -50,7 +50,7 @@ TEST(Label, WhoIsNotPatientWaitsOnlyForWhomItHears) {
     bench.put(5, other);
     for (int ticks = 1;; ++ticks) {
       auto robot = bench.tick();
-      update_label(robot, false);
+      update_label(robot, {.waits_for_anybody = false});
       if (bench.state.label_cm != unknown_label) return ticks;
     }
   };

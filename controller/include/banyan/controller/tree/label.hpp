@@ -7,8 +7,10 @@
 
 namespace banyan {
 
-// `patient`: a robot waits for nearer neighbours to speak up even if there is nobody who could.
-void update_label(TreeRobot& robot, bool patient = true) noexcept;
+struct LabelRule {
+  bool waits_for_anybody = true;  // a robot waits for nearer neighbours to speak up even if there is nobody who could
+};
+void update_label(TreeRobot& robot, const LabelRule& rule = {}) noexcept;
 
 // Length of an edge in the label's unit; at least 1, so that a label grows along every edge.
 [[nodiscard]] std::uint16_t edge_cm(float range_m) noexcept;
