@@ -11,6 +11,7 @@
 
 #include "../src/fiedler/exponential.hpp"
 #include "net.hpp"
+#include "wild_senses.hpp"
 
 namespace banyan::rivals::fiedler {
 namespace {
@@ -198,30 +199,16 @@ TEST(Fiedler, PromisesNoLink) {
 }
 
 TEST(Fiedler, NothingSensedMakesAVelocityInfinite) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const float infinite = std::numeric_limits<float>::infinity();
   Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);
   for (int t = 0; t < 60; ++t) net.tick();
   Message wild = net.said[1];
   wild.component = -largest_real;
   wild.mean = wild.square = wild.product = {largest_real, -largest_real};
   wild.largest_degree = 0;
-  for (const float bad : {nan, infinite, -infinite, 0.0F, 1e30F}) {
-    State s = net.states[0];
-    const std::array obstacles{Vec2{bad, 0.1F}, Vec2{0, 0}};
-    Senses senses;
-    senses.odometry = {bad, 0, bad};
-    senses.orders = {true, Vec2{bad, 0}};
-    senses.obstacles = obstacles;
-    senses.elapsed_s = bad;
-    for (int t = 0; t < 50; ++t) {
-      std::vector<Heard> heard{{&wild, {bad, 0}, bad}, {&net.said[2], {0, 0}}, {&wild, {1, 0}}};
-      const Velocity v = step(net.params, s, heard, senses).velocity;
-      ASSERT_TRUE(std::isfinite(v.forward_m_s) && std::isfinite(v.turn_rad_s)) << bad;
-      ASSERT_LE(std::fabs(s.component), largest_real);
-      ASSERT_LE(std::fabs(s.product.value), largest_real);
-    }
-  }
+  expect_finite_motion<Robots>(net, wild, 50, [](const State& s, Message&, int) {
+    EXPECT_LE(std::fabs(s.component), largest_real);
+    EXPECT_LE(std::fabs(s.product.value), largest_real);
+  });
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "net.hpp"
+#include "wild_senses.hpp"
 
 namespace banyan::rivals::link_consensus {
 namespace {
@@ -383,28 +384,13 @@ TEST(LinkConsensus, ALinkRestsAtItsLeastPotential) {
 }
 
 TEST(LinkConsensus, NothingSensedMakesAVelocityInfinite) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const float infinite = std::numeric_limits<float>::infinity();
   Robots_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);
   for (int t = 0; t < 10; ++t) net.tick();
   Message wild = net.said[1];
   wild.links.fill(0);
   wild.bid = {1, 0, 0xFFFF, 7, 255, 255};
   wild.way = 0xFFFE;
-  for (const float bad : {nan, infinite, -infinite, 0.0F, 1e30F}) {
-    State s = net.states[0];
-    const std::array obstacles{Vec2{bad, 0.1F}, Vec2{0, 0}};
-    Senses senses;
-    senses.odometry = {bad, 0, bad};
-    senses.orders = {true, Vec2{bad, 0}};
-    senses.obstacles = obstacles;
-    senses.elapsed_s = bad;
-    for (int t = 0; t < 3; ++t) {
-      std::vector<Heard> heard{{&wild, {bad, 0}, bad}, {&net.said[2], {0, 0}}, {&wild, {1, 0}}};
-      const Velocity v = step(net.params, s, heard, senses).velocity;
-      EXPECT_TRUE(std::isfinite(v.forward_m_s) && std::isfinite(v.turn_rad_s)) << bad;
-    }
-  }
+  expect_finite_motion<Robots>(net, wild, 3);
 }
 
 }  // namespace

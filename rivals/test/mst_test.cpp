@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "net.hpp"
+#include "wild_senses.hpp"
 
 namespace banyan::rivals::mst {
 namespace {
@@ -310,8 +311,6 @@ TEST(Mst, LengthsKeepTheirOrderWhateverTheRange) {
 }
 
 TEST(Mst, NothingSensedMakesAVelocityInfinite) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const float infinite = std::numeric_limits<float>::infinity();
   Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);
   for (int t = 0; t < 60; ++t) net.tick();
   Message wild = net.said[1];
@@ -320,21 +319,7 @@ TEST(Mst, NothingSensedMakesAVelocityInfinite) {
   wild.level = 255;
   wild.best = wild.choice = {0, 0, 0};
   wild.decided = wild.ready = true;
-  for (const float bad : {nan, infinite, -infinite, 0.0F, 1e30F}) {
-    State s = net.states[0];
-    const std::array obstacles{Vec2{bad, 0.1F}, Vec2{0, 0}};
-    Senses senses;
-    senses.odometry = {bad, 0, bad};
-    senses.orders = {true, Vec2{bad, 0}};
-    senses.obstacles = obstacles;
-    senses.elapsed_s = bad;
-    for (int t = 0; t < 5; ++t) {
-      std::vector<Heard> heard{{&wild, {bad, 0}, bad}, {&net.said[2], {0, 0}}, {&wild, {1, 0}}};
-      const Velocity v = step(net.params, s, heard, senses).velocity;
-      EXPECT_TRUE(std::isfinite(v.forward_m_s) && std::isfinite(v.turn_rad_s)) << bad;
-      wild.up = static_cast<RobotId>(t);
-    }
-  }
+  expect_finite_motion<Robots>(net, wild, 5, [](const State&, Message& m, int t) { m.up = static_cast<RobotId>(t); });
 }
 
 }  // namespace

@@ -38,8 +38,7 @@ float draw(State& self) noexcept {
 }
 
 // The mean begins where its input is: seen from one that lags far behind, all robots would seem to deviate alike. And
-// lambda_2 begins at its
-// bound: with gains that are too small the vector fades before it is known.
+// lambda_2 begins at its bound: with gains that are too small the vector fades before it is known.
 void begin_anew(State& self, float largest_lambda) noexcept {
   self.component = draw(self);
   self.mean = {self.component, 0.0F};
@@ -69,13 +68,12 @@ void average(Average& a, float input, float gamma, const Differences& d) noexcep
 void iterate(Robot& robot) noexcept {
   State& self = robot.self;
   const Table<Message>& table = robot.table();
-  float degree = 0.0F, laplacian = 0.0F;
+  float laplacian = 0.0F;
   Differences mean, square, product;
   for (int k = 0; k < table.size(); ++k) {
-    const float a = weight(robot.params, table.position(k));
+    const float a = robot.links[k];
     if (!(a > 0.0F)) continue;
     const Message& m = table.message(k);
-    degree += a;
     laplacian += a * (self.component - m.component);
     // Metropolis weights: the averages come together as fast in a chain as in a crowd, whatever its links weigh.
     const float w = 1.0F / static_cast<float>(1 + std::max(self.links, m.links));
@@ -84,7 +82,7 @@ void iterate(Robot& robot) noexcept {
     product.add(w, self.product, m.product);
   }
   // lambda_2 of N robots is at most N / (N - 1) times the least degree (Fiedler 1973): a bound that does not lag.
-  const float bound = self.links > 0 ? degree * static_cast<float>(self.links + 1) / static_cast<float>(self.links) : 0.0F;
+  const float bound = self.links > 0 ? robot.links.degree * static_cast<float>(self.links + 1) / static_cast<float>(self.links) : 0.0F;
   self.lambda = std::clamp(self.product.value / std::max(self.square.value, least_square), 0.0F, bound);
   const float rate = robot.params.iteration_rate;
   const float h = rate * per_weight / static_cast<float>(std::max<int>(self.largest_degree, 1));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "banyan/controller/core/gate.hpp"
 #include "rooms.hpp"
 
 namespace banyan::rivals::fiedler {
@@ -19,11 +18,21 @@ float csch_squared(float u) noexcept {
   return 4.0F * q / ((1.0F - q) * (1.0F - q));
 }
 
+// (5)  N dlambda_2 / dp_i = sum a_ij / sigma^2 (x_i - x_j)^2 / z2 (p_j - p_i)
+Vec2 gradient(const Params& params, const State& state, const Links& links) noexcept {
+  Vec2 sum;
+  for (int k = 0; k < state.neighbors.size(); ++k) {
+    const float difference = state.component - state.neighbors.message(k).component;
+    sum += state.neighbors.position(k) * (links[k] * difference * difference);
+  }
+  return sum / (params.weight_width_m * params.weight_width_m * std::max(state.square.value, least_to_divide));
+}
+
 // (6)  V = coth(lambda_2 - epsilon),  u_c = -gain dV / dp = gain csch^2(lambda_2 - epsilon) dlambda_2 / dp
 Vec2 connectivity_control(const Robot& robot) noexcept {
   const Params& p = robot.params;
   const float slope = csch_squared(std::max(robot.self.lambda - p.least_connectivity, least_margin));
-  return clamped(connectivity_gradient(p, robot.self) * (p.connectivity_gain * slope), most_control);
+  return clamped(gradient(p, robot.self, robot.links) * (p.connectivity_gain * slope), most_control);
 }
 
 Message composed(const State& s) noexcept {
@@ -33,16 +42,7 @@ Message composed(const State& s) noexcept {
 
 }  // namespace
 
-// (5)  N dlambda_2 / dp_i = sum a_ij / sigma^2 (x_i - x_j)^2 / z2 (p_j - p_i)
-Vec2 connectivity_gradient(const Params& params, const State& state) noexcept {
-  Vec2 sum;
-  for (int k = 0; k < state.neighbors.size(); ++k) {
-    const Vec2 there = state.neighbors.position(k);
-    const float difference = state.component - state.neighbors.message(k).component;
-    sum += there * (weight(params, there) * difference * difference);
-  }
-  return sum / (params.weight_width_m * params.weight_width_m * std::max(state.square.value, least_to_divide));
-}
+Vec2 connectivity_gradient(const Params& params, const State& state) noexcept { return gradient(params, state, Links(params, state.neighbors)); }
 
 State initial_state(RobotId id, bool worker, bool root) noexcept {
   State state;
@@ -54,13 +54,7 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
 
 Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
   Gate gate(sensed, params);
-  const Senses& senses = gate.senses();
-  const std::span<Heard> packets = gate.packets(heard, params);
-  state.tally.rejected += gate.rejected();
-  carry_to_now(packets, senses, params);
-  const Carry carry(senses.odometry);
-  state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params, [](RobotId) { return false; });
-  state.assignment.follow(senses.orders, carry);
+  begin_step(params, state, heard, gate, [](RobotId) { return false; });
 
   state.ticks = static_cast<std::uint16_t>(std::min(state.ticks + gate.elapsed_ticks(), 0xFFFF));
 
@@ -70,7 +64,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   const Vec2 control = connectivity_control(robot);
   iterate(robot);
   const Vec2 task = state.ticks > params.ticks(params.settling_s) ? target_pull(state.assignment, params) : Vec2{};
-  const Vec2 u = task + control + avoidance(state.neighbors, senses.obstacles, params);
+  const Vec2 u = task + control + avoidance(state.neighbors, gate.senses().obstacles, params);
   return {composed(state), move(u, Guard{}, params)};
 }
 

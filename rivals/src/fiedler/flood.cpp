@@ -15,16 +15,9 @@ constexpr int news_ticks = 64;  // news that are older are none; so many hops ma
 // How old the news of neighbour k are by now.
 int age_now(int said, const Table<Message>& table, int k) noexcept { return said + 1 + table.age(k); }
 
-void measure_links(Robot& robot) noexcept {
-  float degree = 0.0F;
-  int links = 0;
-  for (int k = 0; k < robot.table().size(); ++k) {
-    const float a = weight(robot.params, robot.table().position(k));
-    degree += a;
-    links += a > 0.0F ? 1 : 0;
-  }
-  robot.self.links = static_cast<std::uint8_t>(links);
-  robot.self.largest_degree = to_fixed<std::uint16_t>(degree, per_weight);
+void say_own_links(Robot& robot) noexcept {
+  robot.self.links = robot.links.count;
+  robot.self.largest_degree = to_fixed<std::uint16_t>(robot.links.degree, per_weight);
   robot.self.degree_age = 0;
 }
 
@@ -65,7 +58,7 @@ void follow_root(Robot& robot) noexcept {
 }  // namespace
 
 void spread_news(Robot& robot) noexcept {
-  measure_links(robot);
+  say_own_links(robot);
   follow_degree(robot);
   follow_root(robot);
 }

@@ -2,19 +2,12 @@
 // The parts of a step of Fiedler control, in their order.
 #pragma once
 
+#include <array>
+
 #include "banyan/rivals/fiedler/fiedler.hpp"
 #include "exponential.hpp"
 
 namespace banyan::rivals::fiedler {
-
-// A robot within its step.
-struct Robot {
-  const Params& params;
-  State& self;
-  int elapsed_ticks;
-
-  [[nodiscard]] const Table<Message>& table() const noexcept { return self.neighbors; }
-};
 
 // (1)  a_ij = exp(-d^2 / (2 sigma^2)) up to the longest link, zero beyond.
 [[nodiscard]] inline float weight(const Params& params, Vec2 neighbor) noexcept {
@@ -22,6 +15,32 @@ struct Robot {
   if (!(square < params.longest_link_m * params.longest_link_m)) return 0.0F;
   return exp_minus(square / (2.0F * params.weight_width_m * params.weight_width_m));
 }
+
+// What each entry of the table weighs, once for the whole step.
+struct Links {
+  std::array<float, neighbor_capacity> weights{};
+  float degree = 0.0F;
+  std::uint8_t count = 0;  // of those that weigh anything
+
+  Links(const Params& params, const Table<Message>& table) noexcept {
+    for (int k = 0; k < table.size(); ++k) {
+      const float a = weights[static_cast<std::size_t>(k)] = weight(params, table.position(k));
+      degree += a;
+      if (a > 0.0F) ++count;
+    }
+  }
+  [[nodiscard]] float operator[](int k) const noexcept { return weights[static_cast<std::size_t>(k)]; }
+};
+
+// A robot within its step.
+struct Robot {
+  const Params& params;
+  State& self;
+  int elapsed_ticks;
+  Links links{params, self.neighbors};
+
+  [[nodiscard]] const Table<Message>& table() const noexcept { return self.neighbors; }
+};
 
 // flood.cpp: how many links I have, what the largest weighted degree is, who is root.
 void spread_news(Robot& robot) noexcept;

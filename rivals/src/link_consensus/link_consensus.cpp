@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "banyan/controller/core/gate.hpp"
 #include "rooms.hpp"
 
 namespace banyan::rivals::link_consensus {
@@ -58,22 +57,15 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
 
 Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
   Gate gate(sensed, params);
-  const Senses& senses = gate.senses();
-  const std::span<Heard> packets = gate.packets(heard, params);
-  state.tally.rejected += gate.rejected();
-  carry_to_now(packets, senses, params);
-  const Carry carry(senses.odometry);
-  state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params,
-                        [&](RobotId id) { return state.links.find(id) >= 0; });
-  state.assignment.follow(senses.orders, carry);
+  begin_step(params, state, heard, gate, [&](RobotId id) { return state.links.find(id) >= 0; });
 
-  Robot robot{params, state, state.ticks.advance(senses, params), gate.elapsed_ticks()};
+  Robot robot{params, state, state.ticks.advance(gate.senses(), params), gate.elapsed_ticks()};
   follow_root(robot);
   renew_links(robot);
   agree(robot);
   Guard guard;
   guard_links(robot, guard);
-  return {composed(state), move(desired_motion(robot, senses.obstacles), guard, params)};
+  return {composed(state), move(desired_motion(robot, gate.senses().obstacles), guard, params)};
 }
 
 Report report(const State& s) noexcept {

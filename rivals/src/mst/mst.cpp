@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "banyan/controller/core/gate.hpp"
 #include "rooms.hpp"
 
 namespace banyan::rivals::mst {
@@ -64,14 +63,7 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
 
 Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
   Gate gate(sensed, params);
-  const Senses& senses = gate.senses();
-  const std::span<Heard> packets = gate.packets(heard, params);
-  state.tally.rejected += gate.rejected();
-  carry_to_now(packets, senses, params);
-  const Carry carry(senses.odometry);
-  state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params,
-                        [&](RobotId id) { return state.holds(id); });
-  state.assignment.follow(senses.orders, carry);
+  begin_step(params, state, heard, gate, [&](RobotId id) { return state.holds(id); });
 
   Robot robot{params, state, gate.elapsed_ticks()};
   follow_epoch(robot);
@@ -79,7 +71,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   drop_old_edges(robot);
   Guard guard;
   guard_tree(robot, guard);
-  return {composed(state), move(desired_motion(robot, senses.obstacles), guard, params)};
+  return {composed(state), move(desired_motion(robot, gate.senses().obstacles), guard, params)};
 }
 
 Report report(const State& s) noexcept {

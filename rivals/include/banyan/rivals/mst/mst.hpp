@@ -6,33 +6,19 @@
 
 #include <span>
 
-#include "banyan/controller/core/output.hpp"
+#include "banyan/rivals/common/robots.hpp"
 #include "banyan/rivals/mst/params.hpp"
 #include "banyan/rivals/mst/state.hpp"
 
 namespace banyan::rivals::mst {
 
-struct Heard {
-  const Message* message;
-  Vec2 position;
-  float age_s = 0.0F;
-};
+using Heard = HeardOf<Message>;
 
 [[nodiscard]] State initial_state(RobotId id, bool worker, bool root) noexcept;
 [[nodiscard]] Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept;
 [[nodiscard]] Report report(const State& state) noexcept;
 void add_to(Digest& digest, const State& state) noexcept;
 
-// For core/swarm_of.hpp.
-struct Robots {
-  using Params = mst::Params;
-  using State = mst::State;
-  using Message = mst::Message;
-  using Heard = mst::Heard;
-  static State initial(RobotId id, bool worker, bool root) { return initial_state(id, worker, root); }
-  static Output<Message> step(const Params& p, State& s, std::span<Heard> heard, const Senses& senses) { return mst::step(p, s, heard, senses); }
-  static Report report(const State& s) { return mst::report(s); }
-  static void add_to(Digest& digest, const State& s) { mst::add_to(digest, s); }
-};
+using Robots = RobotsOf<Params, State, Message, initial_state, step, report, add_to>;
 
 }  // namespace banyan::rivals::mst
