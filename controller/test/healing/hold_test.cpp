@@ -112,6 +112,19 @@ TEST(Hold, KeepsUpOnlyWithTheOneItWouldLikeBest) {
   EXPECT_EQ(f.bench.state.seqno, 12);
 }
 
+// One that is no nearer to the tree than I am may hang on me: it would never get ahead.
+TEST(Hold, WaitsForNobodyWhoIsFartherFromTheTree) {
+  for (const int my_hops : {1, 2}) {
+    Follower f;
+    f.bench.move(2, {1.8F, 0.0F});
+    f.bench.say(2).seqno = 12;
+    f.bench.say(3).seqno = 8;
+    f.bench.state.tree_hops = static_cast<std::uint8_t>(my_hops);
+    EXPECT_EQ(f.hold(), 2) << "3 is behind";
+    EXPECT_EQ(f.bench.state.seqno, my_hops > 1 ? 10 : 12) << "it is 3 that it would like best, if 3 could get ahead";
+  }
+}
+
 TEST(Hold, OfTheLastEpochWillDoUntilTheFloodComesBy) {
   Follower f;
   EXPECT_EQ(f.hold(), 2);
