@@ -57,6 +57,20 @@ TEST(Hold, IsOfTheTreeAndItSaysSo) {
   EXPECT_EQ(f.bench.state.hold, 2) << "the strained link is better than none";
 }
 
+// A robot that turned to another whenever it came a little nearer would get nowhere.
+TEST(Hold, IsKeptWhileNoOtherIsClearlyBetter) {
+  for (const RobotId held : {RobotId{3}, RobotId{4}}) {
+    Follower f;
+    f.bench.silence(2);
+    f.bench.put(4, {0.3F, 0.0F}) = f.bench.say(3);
+    f.bench.say(4).id = 4;
+    f.bench.state.hold = held;
+    EXPECT_EQ(f.hold(), held) << "both are spares of the same hops";
+    f.bench.say(4).tree_hops = 0;
+    EXPECT_EQ(f.hold(), 4) << "of the tree";
+  }
+}
+
 // A branch whose root is lost may hang on me in a while, however near it is.
 TEST(Hold, IsNotOfALostBranchAsLongAsThereIsAnother) {
   Follower f;
