@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
         Claim{"protocol.md", R"(a count more than (\d+) behind)", "healing/takeover.cpp", "rival_beats"},
         Claim{"protocol.md", R"(passed on in the same way for (\d+) s)", "healing/takeover.cpp", "pass_on_ticks", 0.1},
         Claim{"protocol.md", R"(from elsewhere either for ([\d.]+) s beyond I)", "healing/doubt.cpp", "hesitate_s"},
-        Claim{"protocol.md", R"(whoever heard it within ([\d.]+) C)", "healing/doubt.cpp", "well_in_range"},
+        Claim{"protocol.md", R"(robot that heard it within ([\d.]+) C)", "healing/doubt.cpp", "well_in_range"},
         Claim{"protocol.md", R"(a random walk of q = (\d+) times)", "core/position_filter.cpp", "wander"},
         Claim{"protocol.md", R"(root mean square, less ([\d.]+) times)", "core/position_filter.cpp", "explained"},
         Claim{"protocol.md", R"(an edge asks for a spare (\d+) spreads sooner)", "convoy/convoy.cpp", "asks_sooner"},
