@@ -9,7 +9,7 @@ namespace banyan {
 [[nodiscard]] const Algorithm& outwards() noexcept;
 [[nodiscard]] const Algorithm& inwards() noexcept;
 [[nodiscard]] const Algorithm& convoy() noexcept;
-// Of other authors (rivals/).
+// By other authors (rivals/).
 [[nodiscard]] const Algorithm& link_consensus() noexcept;
 [[nodiscard]] const Algorithm& mst() noexcept;
 [[nodiscard]] const Algorithm& fiedler() noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A look into the robots of a tree: what one remembers and what it said last. For tests and debuggers;
-// observers go by reports.
+// A look into the robots of a tree: its state and its last message. For tests and debuggers;
+// observers use reports.
 #pragma once
 
 #include <typeinfo>
@@ -9,13 +9,13 @@
 
 namespace banyan {
 
-// A swarm as what it is made of; throws std::bad_cast if that is something else.
+// A swarm as its own type; throws std::bad_cast if it is of another type.
 template <class Algorithm>
 [[nodiscard]] const SwarmOf<Algorithm>& swarm_as(const Swarm& swarm) {
   return dynamic_cast<const SwarmOf<Algorithm>&>(swarm);
 }
 
-// Calls look(swarm) with a swarm of the tree as what it is, whichever it is; throws std::bad_cast if it is none.
+// Calls look(swarm) with a swarm of a tree algorithm as its own type; throws std::bad_cast if it is none.
 template <class Look>
 decltype(auto) inside(const Swarm& swarm, Look look) {
   if (const auto* s = dynamic_cast<const SwarmOf<CorrectedSwarm<outwards_step>>*>(&swarm)) return look(*s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Algorithms as hosts meet them: how their tables, readings and steps become an Algorithm. One over the tree's blocks
-// needs nothing else; any other Params need a bind() and a cross_fault() beside them (rivals.cpp).
+// Algorithms as hosts meet them: how their tables, readings and steps become an Algorithm. An algorithm over the tree's
+// blocks needs nothing else; any other Params need a bind() and a cross_fault() beside them (rivals.cpp).
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct BoundParameter {
 void resolve(std::span<const float> values, std::span<const BoundParameter> rows, const Platform& platform);
 // The first value out of its range, by its key.
 [[nodiscard]] std::string range_fault(std::span<const float> values, std::span<const BoundParameter> rows);
-// What does not fit together.
+// The first fault among values that depend on each other.
 [[nodiscard]] inline std::string_view cross_fault(const HealingParams& params) { return tree_fault(params); }
 [[nodiscard]] inline std::string_view cross_fault(const ConvoyParams& params) {
   const std::string_view text = tree_fault(params);
@@ -84,7 +84,7 @@ class TreeAlgorithm : public Algorithm {
   bool follows_range_;
 };
 
-// The whole of it for an A (core/swarm_of.hpp) that has one reading.
+// All of this for an A (core/swarm_of.hpp) that has one reading.
 template <class A>
 class TreeAlgorithmOf final : public TreeAlgorithm<typename A::Params> {
  public:

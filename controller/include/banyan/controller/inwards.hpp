@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The inwards algorithm (paper Sec. III-E): branches grow from the workers towards the root; only who is named as
-// a parent joins.
+// The inwards algorithm (paper Sec. III-E): branches grow from the workers towards the root; only robots that are
+// named as a parent join.
 #pragma once
 
 #include "banyan/controller/core/output.hpp"

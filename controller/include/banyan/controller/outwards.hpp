@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outwards algorithm (paper Sec. III-D): a spanning tree that grows from the root; branches without
+// The outwards algorithm (paper Sec. III-D): a spanning tree that grows from the root; branches without a
 // worker are pruned from their leaves.
 #pragma once
 

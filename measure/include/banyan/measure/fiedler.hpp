@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Algebraic connectivity (paper Sec. II-B): is lambda_2 of a graph below a threshold, and what is it.
+// Algebraic connectivity (paper Sec. II-B): whether lambda_2 of a graph is below a threshold, and its value.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class Fiedler {
   // allocation once it has seen a graph of this size.
   struct Components { std::uint32_t count = 0; std::uint32_t eccentricity = 0; };
   Components components(const Graph& graph);
-  // Of each node from node 0, as the last call of any of these found them. Of a connected graph.
+  // The hops of each node from node 0, as the last call of any of these found them. Of a connected graph.
   [[nodiscard]] std::span<const std::uint32_t> hops() const noexcept { return level_; }
   // lambda_2 < threshold? Settled by the cheapest of: components; lambda_2 >= 4 / (n diameter) with
   // diameter <= 2 eccentricity; how much must flow through the narrowest links if every node is to

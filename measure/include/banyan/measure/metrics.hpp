@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The metrics of protocol 11: what one tick looked like, and what a whole run came to.
+// The metrics of protocol 11: the values of one tick, and the results of a whole run.
 #pragma once
 
 #include <cstdint>
@@ -68,11 +68,11 @@ struct Run {
   double fiedler_time_ratio = 0.0;
   double fiedler_time_ratio_by_distance = 0.0;
   std::uint64_t two_roots_ticks = 0;       // more than one living root
-  double longest_two_roots_s = 0.0;        // the longest time of that without a break
+  double longest_two_roots_s = 0.0;        // the longest such time without a break
   std::uint64_t insertions = 0, handovers = 0, repairs = 0;
   std::uint64_t elections = 0, replacements = 0;  // of a root, of a worker that had fallen silent
   std::uint64_t epochs = 0;                // the highest epoch reached
-  double start_phase_ticks = 0.0;          // mean length of a barrier phase, as lived by the root
+  double start_phase_ticks = 0.0;          // mean length of a barrier phase at the root
   double select_phase_ticks = 0.0;
   double bytes_per_robot_s = 0.0;          // broadcast
   std::uint32_t deaths = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Watches a world tick by tick and keeps the account of a run. Reads only the world's public view.
+// Watches a world tick by tick and sums up the metrics of a run. Reads only the world's public view.
 #pragma once
 
 #include <functional>
@@ -20,15 +20,15 @@ class Observer {
   // only whether it is below 1e-3. The reference is valid until the next call.
   const Tick& observe(const world::World& world, bool exact_fiedler = false);
   // lambda_2 of tens of thousands of robots may take a minute: `asked` is called every few milliseconds meanwhile,
-  // and once it says true nothing is waited for. What was not found out is as it was one tick before.
+  // and once it returns true the computation is given up. A value that was not found is that of the tick before.
   void stop_when(const std::function<bool()>& asked);
   [[nodiscard]] const Tick& last() const noexcept;
   [[nodiscard]] const Run& run() const noexcept;
   // Nothing dies: complete (Tick::complete; with mission.stop_when_complete, then
   // mission.settle_s later, even beyond the time limit), or the time limit reached. Robots die, and
-  // stop_when_complete: a complete run goes on until no deaths are to come and the swarm has
-  // recovered or can no longer (recovery.hpp); one that is not complete at its limit ends there, or
-  // once that is settled for the last death so far.
+  // stop_when_complete: a complete run goes on until no more deaths are due and it is decided whether
+  // the swarm has recovered (recovery.hpp); a run not complete at its limit ends there, or
+  // once that is decided for the last death so far.
   [[nodiscard]] bool finished() const noexcept;
   [[nodiscard]] Run result(const world::World& world) const;   // run() with hash and means filled in
 
@@ -41,7 +41,7 @@ class Observer {
 // ticks, and the start is none.
 [[nodiscard]] Tick at_start(const world::World& world, bool exact_fiedler = false);
 
-// For plots: whether this is a tick at which lambda_2 itself is worth its time, the first of each simulated
+// For plots: whether lambda_2 itself is worth computing at this tick, the first of each simulated
 // second, in swarms of at most 1,000 robots (1 ms with 94, 10 ms with 1,000).
 [[nodiscard]] bool is_plotted(const world::World& world) noexcept;
 

@@ -11,8 +11,8 @@ namespace banyan::measure {
 constexpr double recovery_limit_s = 200.0;
 constexpr double recovery_hold_s = 20.0;
 
-// What is whole is the caller's to say. Time is counted in ticks, from the first observation after
-// the last death: a swarm that is whole then, and stays so, needed no time. Every further death
+// The caller decides what is whole. Time is counted in ticks, from the first observation after
+// the last death: a swarm that is whole then, and stays so, recovered in no time. Every further death
 // begins anew.
 class Recovery {
  public:

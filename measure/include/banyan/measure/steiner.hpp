@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The yardstick for "as few robots as possible": how short a network joining the targets can be.
+// A lower bound for the number of robots: how short a network that joins the targets can be.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct SteinerLength {
 // Euclidean Steiner minimal tree of the terminals; equal ones count once. Exact (Smith 1992:
 // topologies by branch and bound) up to 12 terminals: random ones and rings take 2 ms for 8 and
 // some 20 ms, 100 ms at worst, for 12; lattices 0.1 s for 10 and up to 3 s for 12, when it may give
-// up, always at the same point. Where it gives up, and above 12, the upper bound is the shortest
+// up, always at the same point. If it gives up, and above 12 terminals, the upper bound is the shortest
 // tree found (above 12: the minimum spanning tree) and the lower one the larger of 0.8241 times the
 // minimum spanning tree (Chung & Graham 1985) and what is known of 12, 10 or 8 terminals far apart.
 [[nodiscard]] SteinerLength steiner_length(const std::vector<world::Vec2>& terminals);

@@ -30,12 +30,12 @@ class Bodies {
   [[nodiscard]] virtual std::unique_ptr<Bodies> clone() const = 0;
   // Advances all robots by one tick. `command`: one per robot, zero for dead and frozen ones
   // (noise is the model's own, drawn by (seed, robot, tick)). Writes `poses` and what each robot's
-  // odometry measures: the motion of its wheels, not the push it got from a neighbour.
+  // odometry measures: the motion of its wheels, not a push by a neighbour.
   virtual void step(std::span<const Velocity> command, NearPairs near, std::uint64_t tick, Poses& poses,
                     std::span<Odometry> odometry) = 0;
-  // From now on robot i has no body: nobody touches it. Its command stays zero.
+  // From now on robot i has no body and touches no other. Its command stays zero.
   virtual void remove(std::size_t) {}   // where contacts are only those of `near` there is nothing to do
-  // From the next step on these are the obstacles. Who is inside one then is pushed out of it.
+  // From the next step on these are the obstacles. A robot that is then inside one is pushed out of it.
   virtual void set_obstacles(std::span<const Obstacle> obstacles) = 0;
   // Adds what the model remembers beside the poses (velocities) to a running hash.
   [[nodiscard]] virtual std::uint64_t hash(std::uint64_t h) const noexcept = 0;
@@ -47,7 +47,7 @@ class Bodies {
 [[nodiscard]] std::unique_ptr<Bodies> make_linear(const Scenario& scenario, std::size_t robots);
 // False in the browser's build: make_box2d() throws there.
 [[nodiscard]] bool has_box2d() noexcept;
-// The least side that box2d needs this box to have where it is, m: thinner, it would end the program.
+// The least side that box2d needs this box to have where it is, m: a thinner one would end the program.
 [[nodiscard]] double least_side_in_box2d_m(const Box& box) noexcept;
 
 }  // namespace banyan::world

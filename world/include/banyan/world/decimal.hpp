@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The shortest decimal text of a number, the same everywhere: std::to_chars where the library has
-// it for floating point, and where it has not (libc++ 14, for the browser) the same by other means.
+// it for floating point, elsewhere (libc++ 14, for the browser) the same by other means.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ char* write_fixed(char* at, double value, int decimals) noexcept;
 // 1.9F as the double 1.9.
 [[nodiscard]] double widened(float value);
 
-// What stands in where std::to_chars is missing; here so that tests can compare the two.
+// The replacement where std::to_chars is missing; here so that tests can compare the two.
 namespace without_to_chars {
 char* write_shortest(char* at, double value) noexcept;
 char* write_shortest(char* at, float value) noexcept;

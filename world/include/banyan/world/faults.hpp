@@ -24,13 +24,13 @@ struct Fault {
 // targets in obstacles, robots that do not fit, targets out of reach of the swarm. Safe for any content.
 [[nodiscard]] std::vector<Fault> faults(const Scenario& scenario);
 
-// What an event of a running world meets.
+// The present state that an event of a running world is checked against.
 struct Present {
   std::size_t targets = 0;          // that have been there, given up or not
   std::vector<Obstacle> obstacles;  // where they are
 };
 // The part of faults() that is about events and how many robots they need, for a scenario whose other
-// parts are without faults. With `now` its last event is also held against that.
+// parts are without faults. With `now` its last event is also checked against that.
 [[nodiscard]] std::vector<Fault> event_faults(const Scenario& scenario, const Present* now = nullptr);
 
 }  // namespace banyan::world

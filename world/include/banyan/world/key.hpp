@@ -57,7 +57,7 @@ template <class Owner> struct Access {
 // What else is to be said of a key.
 struct Terms {
   bool required = false;             // where it applies
-  std::string_view otherwise = "";   // what holds without it, where that is no value
+  std::string_view otherwise = "";   // what holds without it, if that is not a value
   std::string_view not_beside = "";  // a key of the same section: one of the two
   std::string_view selector = "";    // the path of the key that decides whether it applies, if not its section's
   std::string_view parameter = "";   // of the controller, which follows from it
@@ -91,7 +91,7 @@ template <class Owner> struct Key {
 template <class Owner> [[nodiscard]] Value get(const Key<Owner>& key, const Owner& owner) {
   return key.is_angle() ? in_degrees(key.access.get(owner)) : key.access.get(owner);
 }
-// Of the key's type and where it applies; everything else is the caller's to find out first.
+// Of the key's type and where it applies; the caller checks everything else first.
 template <class Owner> void set(const Key<Owner>& key, Owner& owner, Value value) {
   key.access.set(owner, key.is_angle() ? in_radians(std::move(value)) : std::move(value));
 }

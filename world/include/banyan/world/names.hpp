@@ -27,9 +27,9 @@ namespace banyan::world {
   return row[b.size()];
 }
 
-// The first of the nearest names; nothing if none is near enough to be meant.
+// The first of the nearest names; nothing if none is near enough.
 [[nodiscard]] inline std::string_view nearest_name(std::string_view word, std::span<const std::string_view> known) {
-  word = word.substr(0, 100);  // a very long word is like nothing anyway
+  word = word.substr(0, 100);  // a very long word is near none anyway
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
   for (const std::string_view name : known) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who can hear whom: links by range and exact line of sight, all pairs, every tick.
+// Which robots can hear each other: links by range and exact line of sight, all pairs, every tick.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class Radio {
   Radio(const Scenario& scenario, std::size_t robots);
 
   // Finds links, blocked pairs and near pairs at the given poses. O(N + pairs in range) time, but what
-  // nobody can have changed by moving is not looked at again: every verdict comes with how far robots may
-  // move until it could be another. The result is that of deciding every pair anew, to the bit.
+  // no motion can have changed is not looked at again: every verdict comes with the distance that robots
+  // may move before it could change. The result is that of deciding every pair anew, to the bit.
   void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor);
 
   // From the next update on these block, and blocking counts or not.
@@ -36,7 +36,7 @@ class Radio {
     all_anew_ = true;
   }
 
-  // Robot i has vanished since the last update: it is near to nobody.
+  // Robot i has vanished since the last update: it is near no other robot.
   void forget(std::uint32_t i);
 
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept { return links_.of(i); }
@@ -74,19 +74,19 @@ class Radio {
     Mark close_until;        // by the clock of the three: until then the witness changes nothing,
     Mark wide_until;         // by the clock of the pair: nor does anything else
   };
-  // What a pair has become: 1 linked or near, -1 no longer, 0 as before.
+  // How a pair has changed: 1 linked or near, -1 no longer, 0 unchanged.
   struct Change {
     Couple couple;
     int link, near;
   };
-  // The row of a robot: everybody within reach when it was written.
+  // The row of a robot: all robots within reach when it was written.
   struct Row {
     bool known = false;
     Way written = 0;         // by the clock of the row
     Way quiet_until = 0;     // by the fast clock of the row: until then no pair runs out
   };
   struct Scratch {           // one per thread
-    std::vector<std::uint32_t> index;   // everybody within reach of a robot, ascending; the first `size` are valid
+    std::vector<std::uint32_t> index;   // all robots within reach of a robot, ascending; the first `size` are valid
     std::size_t size = 0;
     std::vector<Pair> old;              // a row before it was written anew
     std::vector<float> x, y;            // from a robot to each of its row, world frame, padded to whole chunks
@@ -106,8 +106,8 @@ class Radio {
     Scratch& s;
     bool looked = false;   // s.x, s.y and s.obstacles are those of this robot
   };
-  // Whether a body is in the way, and which. If none is: how far the nearest, and how far everybody else,
-  // is from being in the way.
+  // Whether a body is in the way, and which. If none is: how far the nearest body, and how far all others,
+  // are from being in the way.
   struct View {
     bool blocked;
     std::uint32_t witness;
@@ -148,7 +148,7 @@ class Radio {
   double reach_m_;      // how far a row reaches
   double units_per_m_;
   Way skin_;            // a row is written anew once its clock has gone on so far; to the end of
-  Way valid_;           // this it misses nobody that matters
+  Way valid_;           // this it misses no robot that matters
   bool line_of_sight_;
   bool dead_vanish_;
   std::vector<Obstacle> obstacles_;
@@ -159,8 +159,8 @@ class Radio {
   bool all_anew_ = true;                  // every pair is to be decided again: sight or obstacles have changed
 
   std::uint32_t nobody_;                  // the index after the last robot's; never moves
-  std::vector<Way> path_;                 // how far each robot has come
-  std::vector<Way> around_;               // the farthest that anybody within its reach has moved, summed over ticks
+  std::vector<Way> path_;                 // how far each robot has moved
+  std::vector<Way> around_;               // the farthest move of any robot within its reach, summed over ticks
   std::vector<Row> rows_;
   Rows<std::uint32_t> lower_;             // of each row those with a smaller index,
   Rows<Pair> pairs_;                      // and those with a larger one; ascending

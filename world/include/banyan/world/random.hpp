@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random numbers as a function of what they are for: (seed, purpose, a, b, tick) -> bits. No
+// Random numbers as a function of their purpose: (seed, purpose, a, b, tick) -> bits. No
 // generator has a state, so neither thread count nor order of calls can change a draw.
 #pragma once
 

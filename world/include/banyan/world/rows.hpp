@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of varying length, one after the other in one array. Each has some room to grow, so that the
-// array is laid out anew now and then, not for every newcomer.
+// array is laid out anew now and then, not for every new item.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A world as a user describes it: pure data with defaults, no file format. config/ reads it from
 // TOML or JSON by the table of keys in schema.hpp; tests and programs build it directly. Lengths in
-// m, angles in rad, times in s. Below the data: what it stands for.
+// m, angles in rad, times in s. Below the data: functions of what it stands for.
 #pragma once
 
 #include <cstddef>
@@ -84,7 +84,7 @@ struct RadioModel {
   double path_loss_exponent = 3.0;      // path_loss: n
   double edge_loss = 0.5;               // path_loss: share of the packets lost at distance C, without shadowing
   double shadowing_db = 3.0;            // path_loss: sigma of the shadowing of a pair
-  double shadowing_s = 5.0;             // path_loss: after which it is another; 0: it stays
+  double shadowing_s = 5.0;             // path_loss: time after which it is drawn anew; 0: never
   double one_way_share = 0.2;           // one_way: of the pairs of robots, those in which one never hears the other
   int slots = 0;                        // packets a robot can receive in one tick; 0: no limit
 };
@@ -153,14 +153,14 @@ struct AddTarget {
 };
 struct Kill {
   static constexpr std::string_view kind = "kill";
-  // Whom it draws from: the living who broadcast the role when it acts.
+  // Which robots it draws from: the living that broadcast the role when it acts.
   enum class Of : std::uint8_t { robots, connectors, root, worker, worker_and_parent };
   Of of = Of::robots;
   std::optional<double> share{};        // of those it draws from when it begins, rounded; not beside count
   std::optional<std::size_t> count{};   // how many; neither: one
-  double every_s = 0.0;                 // one by one, so far apart; 0: all at once
+  double every_s = 0.0;                 // one by one, this long apart; 0: all at once
 };
-struct Blackout {                        // nobody hears anything
+struct Blackout {                        // no robot hears anything
   static constexpr std::string_view kind = "blackout";
   double duration_s = 0.0;              // above 0
 };
@@ -191,7 +191,7 @@ struct Event {
 };
 
 // Without it all robots step at the beginning of every tick. With it each has its own phase, uniform in
-// its period, and its own rate; bodies move and packets fly in `substeps` steps per tick.
+// its period, and its own rate; bodies move and packets travel in `substeps` steps per tick.
 struct Clocks {
   bool asynchronous = false;
   double drift = 0.0;                   // a clock's rate is 1 + uniform(-drift, drift), drawn once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whether a network holds together where it matters: the living robots of the tree (workers, connectors,
-// roots) and the radio links between them. Spares count neither as missing, since the mission does
-// without one that is cut off behind a door, nor as a way: nothing keeps them where they are.
+// roots) and the radio links between them. Spares do not count: the mission does not
+// need one that is cut off behind a door, and nothing keeps those in place that are part of a link.
 #pragma once
 
 #include <cstddef>

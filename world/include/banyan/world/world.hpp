@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A simulated world: a value that can be copied, stepped and thrown away; thousands live in one
-// process. One tick is act -> bodies -> radio -> sense -> step (world.cpp); whoever observes does
-// so between ticks, through the read-only view below.
+// process. One tick is act -> bodies -> radio -> sense -> step (world.cpp); observers read
+// it between ticks, through the read-only view below.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class World {
   void step();
   void step(Executor& executor);
 
-  // What somebody does to the running world: `event` acts at the beginning of the next step, as if the
+  // An intervention in the running world: `event` acts at the beginning of the next step, as if the
   // scenario had had it from the start as its last event, with time_s = time_s(); scenario() has it from
   // now on. So a world made from that scenario has the same hash() at every tick. `event.time_s` is
   // ignored. Throws std::invalid_argument with all faults_now(event). Allocates.
@@ -53,22 +53,22 @@ class World {
 
   [[nodiscard]] const Scenario& scenario() const noexcept;
   [[nodiscard]] const Algorithm& algorithm() const noexcept;
-  [[nodiscard]] const Swarm& swarm() const noexcept;      // for who looks into the robots; the world goes by reports
+  [[nodiscard]] const Swarm& swarm() const noexcept;      // to look into the robots; the world itself uses reports
   [[nodiscard]] std::uint64_t tick() const noexcept;      // 0 before the first step
   [[nodiscard]] double time_s() const noexcept;           // tick x tick_s
   [[nodiscard]] std::size_t size() const noexcept;        // robots, dead ones included
   [[nodiscard]] std::span<const Vec2> positions() const noexcept;
   [[nodiscard]] std::span<const Vec2> headings() const noexcept;   // unit vectors
-  // What each robot makes known of itself, as of its last step; of a dead one, as of its last before it died.
+  // The report of each robot, as of its last step; of a dead one, as of its last step before it died.
   [[nodiscard]] std::span<const Report> reports() const noexcept;
   [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays)
   [[nodiscard]] std::span<const Target> targets() const noexcept;
   // As they are now; scenario() has them as they were at the start.
   [[nodiscard]] std::span<const Obstacle> obstacles() const noexcept;
   [[nodiscard]] bool line_of_sight() const noexcept;
-  // Who holds targets()[target]: the living robot that broadcasts the role of a worker, serves this
+  // The robot that holds targets()[target]: the living robot that broadcasts the role of a worker, serves this
   // target and is within mission.target_tolerance_m of it; the nearest, then the first, of several.
-  // Need not be targets()[target].worker: a spare may have taken over. None if nobody does, if the
+  // Need not be targets()[target].worker: a spare may have taken over. None if no robot does, if the
   // target was given up or if there is no such target. O(N).
   [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
   [[nodiscard]] std::size_t deaths() const noexcept;               // since the start
@@ -78,7 +78,7 @@ class World {
   // wait for a moment of the mission included.
   [[nodiscard]] bool pending_kills() const noexcept;
   // Robots that robot i could hear and be heard by at the current positions: in range, line of
-  // sight free, both alive. Ascending. Packet loss is not in it.
+  // sight free, both alive. Ascending. Packet loss is not considered.
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
   // Pairs (i < j) in range, both alive, but without line of sight; ascending. Listed anew each time: O(pairs in range).
   [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> blocked() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Convoy (docs/convoy.md), our own: the tree of inwards, but towed by the workers instead of pushed by
-// springs. Slack gathers near the root, where the spares are, and a spare joins an edge at once.
+// springs. Gaps open near the root, where the spares are, and a spare joins an edge at once.
 #pragma once
 
 #include "banyan/controller/convoy/params.hpp"

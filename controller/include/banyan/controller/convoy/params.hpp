@@ -8,7 +8,7 @@ namespace banyan {
 
 struct ConvoyParams : HealingParams {
   float pull_start_m = 1.35F;        // a child farther than this pulls its parent along
-  float pull_width_m = 0.3F;         // and with full strength from so much farther on
+  float pull_width_m = 0.3F;         // and with full strength this much farther away
   float tension_gain = 0.4F;         // edges are taut strings: straight chains, junctions of 120 degrees
   float tension_start_m = 0.3F;
   float tension_width_m = 0.3F;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Chains from target to target (docs/convoy.md, rule 11). What robots see locally never finds an edge
-// between two distant targets; but everybody is told where the targets are (healing.hpp). Once all
+// between two distant targets; but all robots are told where the targets are (healing.hpp). Once all
 // workers have arrived, the root plans a tree through the targets if that takes fewer robots than the
 // tree has: for each target a host, the target where its branch is to begin. The plan travels down the
 // tree. The topmost robot of a branch that serves one target alone leads it there: from robot to robot
-// of the other branch, with its own in tow. The distance from a point on one side of a triangle to the
-// opposite corner is largest at one of that side's ends, so a branch that is to be no longer in the end
-// than it was at first is long enough all the way.
+// of the other branch, with its own branch in tow. The distance from a point on one side of a triangle to the
+// opposite corner is largest at one of that side's ends, so a branch that ends no longer than it
+// began is long enough all the way.
 #pragma once
 
 #include "banyan/controller/convoy/robot.hpp"

@@ -13,7 +13,7 @@ namespace banyan {
 
 // What a robot of convoy hears is what robots of convoy say.
 inline const ConvoyMessage& convoy_message(const TreeMessage& m) noexcept {
-  return static_cast<const ConvoyMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): all of a swarm run the same
+  return static_cast<const ConvoyMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
 }
 
 struct ConvoyRobot : HealingRobot {
@@ -25,7 +25,7 @@ struct ConvoyRobot : HealingRobot {
 
   [[nodiscard]] const ConvoyStanding& convoy_of(int k) const noexcept { return self.convoy_standings[static_cast<std::size_t>(k)]; }
   [[nodiscard]] const CornerStanding& corner_of(int k) const noexcept { return self.corners.of(k); }
-  // Neighbour k, a worker: whose target it serves.
+  // Neighbour k, a worker: the target it serves, by the robot first sent there.
   [[nodiscard]] RobotId served_by(int k) const noexcept { return self.healing_standings[static_cast<std::size_t>(k)].serves; }
   // What my parent has said this tick; null if I did not hear it.
   [[nodiscard]] const ConvoyMessage* parent_message() const noexcept {

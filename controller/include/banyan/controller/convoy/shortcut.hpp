@@ -11,7 +11,7 @@ namespace banyan {
 // Once a tick: the first of these changes that is due.
 void take_shortcuts(ConvoyRobot& robot) noexcept;
 
-inline constexpr int pending_limit_ticks = 15;  // a seqno rests no longer: more than those of two branches differ
+inline constexpr int pending_limit_ticks = 15;  // a seqno rests at most this long; seqnos of branches differ by less
 
 // Neighbour k belongs to the rooted tree and does not name me as parent: heard this tick or the last.
 [[nodiscard]] bool is_rooted(const ConvoyRobot& robot, int k) noexcept;
@@ -19,25 +19,25 @@ inline constexpr int pending_limit_ticks = 15;  // a seqno rests no longer: more
 // And it may be my parent now: no farther than range_m, and ahead of me.
 [[nodiscard]] bool may_be_parent(const ConvoyRobot& robot, int k, float range_m) noexcept;
 
-// Neighbour k is a worker at its target, as far as I know where that is: it follows nobody.
+// Neighbour k is a worker at its target, as far as I know where that is: it cannot be towed.
 [[nodiscard]] bool stands_at_target(const ConvoyRobot& robot, int k) noexcept;
 // Neighbour k is a worker, and my target is in reach from its own (from where it is, if I do not know that one).
 [[nodiscard]] bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept;
 
 // ---- link_repair.cpp ----
 
-// How my line of sight to my parent stands. There must be a parent.
+// The state of my line of sight to my parent. There must be a parent.
 struct Outlook {
-  bool endangered;  // hidden, warned, or somebody stands near to it
-  bool urgent;      // hidden, warned, or somebody stands all but in it
+  bool endangered;  // hidden, warned, or a robot is near it
+  bool urgent;      // hidden, warned, or a robot is about to block it
 };
 [[nodiscard]] Outlook outlook(const ConvoyRobot& robot) noexcept;
 
-// Endangered: takes another parent, or lets the own seqno rest until it can.
+// Endangered: takes another parent, or lets its own seqno rest until it can.
 void keep_in_sight(ConvoyRobot& robot, bool urgent) noexcept;
 
-// I hide my parent from its own parent: I become the child of that one, so that my parent can become mine.
-// True if so.
+// I hide my parent from its own parent: I become a child of that robot, so that my parent can become my child.
+// True if I did.
 [[nodiscard]] bool step_before_parent(ConvoyRobot& robot) noexcept;
 
 // The child whose line of sight to me is about to be cut; nobody if there is none.
@@ -45,8 +45,8 @@ void keep_in_sight(ConvoyRobot& robot, bool urgent) noexcept;
 
 // ---- pruning.cpp ----
 
-// My branch has arrived: takes a parent that makes a robot of the branch superfluous, now or as soon as one that
-// is wanted is ahead.
+// My branch has arrived: takes a parent that makes a robot of the branch superfluous, now or as soon as the
+// pending parent is ahead.
 void prune(ConvoyRobot& robot) noexcept;
 
 }  // namespace banyan

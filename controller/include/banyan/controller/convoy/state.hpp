@@ -11,7 +11,7 @@
 namespace banyan {
 
 struct ConvoyState : HealingState {
-  std::uint16_t pending_ticks = 0;       // for so long I have been waiting for pending_parent to get ahead of me
+  std::uint16_t pending_ticks = 0;       // how long I have been waiting for pending_parent to get ahead of me
   RobotId warned = nobody;               // the child that I am about to lose sight of
 
   // Chains from target to target (plan.cpp)
@@ -20,8 +20,8 @@ struct ConvoyState : HealingState {
   RobotId lead_to = nobody;              // I lead my branch to that target
   RobotId led_from = nobody;             // the parent it had then
   std::uint16_t lead_ticks = 0;          // since its parent changed
-  std::uint16_t settled_ticks = 0;       // the root: all workers have arrived
-  std::uint16_t unsettled_ticks = 0;     // or no longer have
+  std::uint16_t settled_ticks = 0;       // the root: since all workers arrived
+  std::uint16_t unsettled_ticks = 0;     // or since one no longer has
   std::uint16_t plan_ticks = 0;          // of the plan that is being carried out
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 

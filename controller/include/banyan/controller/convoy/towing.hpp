@@ -9,16 +9,16 @@ namespace banyan {
 
 // Whether branches that have arrived save robots (rule 9) at all: merge_distance 0 switches it off.
 [[nodiscard]] bool prunes(const ConvoyParams& params) noexcept;
-// All workers below me stand at their targets, and there is one: my branch may save robots.
+// There are workers below me, and all stand at their targets: my branch may save robots.
 [[nodiscard]] bool has_arrived(const ConvoyRobot& robot) noexcept;
 // Neighbour k is a worker that has arrived: it may be the parent of others whose workers have arrived.
 [[nodiscard]] bool is_relay(const ConvoyRobot& robot, int k) noexcept;
 
-// A worker at its target says where those that hang on it pull, not itself.
+// A worker at its target passes on the pull of its children instead of its own.
 [[nodiscard]] bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept;
 
 // A robot of the tree: a worker drives to its target, a connector follows the children that tow it;
-// tension straightens chains; nobody stays in another edge's line of sight. In units of speed_gain.
+// tension straightens chains; no robot stays in another edge's line of sight. In units of speed_gain.
 [[nodiscard]] Vec2 towed_motion(const ConvoyRobot& robot) noexcept;
 
 // A spare: where it is, unless it is called, in the way, or left behind.

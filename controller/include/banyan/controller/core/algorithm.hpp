@@ -31,7 +31,7 @@ struct Setup {
   Platform platform;
   double arrival_distance_m = 0.2;                          // the mission's tolerance
   std::vector<std::pair<std::string, double>> parameters;   // by key, in the units of the table
-  std::size_t history = 1;                                  // packets are heard at most so many ticks after they were sent
+  std::size_t history = 1;                                  // longest time from sending to hearing, ticks
 };
 
 class Algorithm {
@@ -56,8 +56,8 @@ class Algorithm {
   ~Algorithm() = default;
 };
 
-// The algorithms that a program has, in the order in which they are listed. Whoever composes the program hands
-// its list down: algorithms/ has the list of those that come with Banyan.
+// The algorithms that a program has, in the order in which they are listed. The program hands its list
+// down: algorithms/ has the list of those that come with Banyan.
 class AlgorithmList {
  public:
   // They must outlive the list.

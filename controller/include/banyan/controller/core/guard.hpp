@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What keeps links from getting too long, whatever a robot would like to do: half-planes of velocities. And what
-// the motors make of a velocity, within them.
+// What keeps links from getting too long, whatever a robot tries to do: half-planes of velocities. And what
+// the motors make of a velocity, within these limits.
 #pragma once
 
 #include <array>

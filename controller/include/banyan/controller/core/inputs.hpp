@@ -16,7 +16,7 @@ using RobotId = std::uint16_t;
 inline constexpr RobotId nobody = 0xFFFF;
 
 // The robot's own motion since its last step, in the body frame it had then, as its wheels measure it.
-// A differential robot that has turned while it drove reports the chord: `sideways_m` is by how much the
+// A differential robot that has turned while it drove reports the chord: `sideways_m` is how far the
 // arc has left the straight line, zero if the robot does not measure it.
 struct Odometry {
   float forward_m = 0.0F;
@@ -26,13 +26,13 @@ struct Odometry {
 
 // What the mission tells a robot, over whatever channel the host has.
 struct Orders {
-  // Somebody has sent this robot to a target. It stays sent until this is false again. A robot may
-  // resign, or serve another's target instead; the host need not know.
+  // This robot has been sent to a target. It stays sent until this is false again. A robot may
+  // resign, or serve another robot's target instead; the host need not know.
   bool sent = false;
   // While it is sent: from the robot to that target, m. None: not sensed in this tick.
   std::optional<Vec2> target;
   // A target that has been given up, named by the robot first sent there: the robot that serves it stops.
-  // Said once.
+  // Announced once.
   RobotId given_up = nobody;
 };
 
@@ -44,7 +44,7 @@ struct Senses {
   // Since the last step; a host without ticks may step when it likes. Counted in whole ticks, at least one. What the
   // paper gives in seconds, and every age and silence, grows by that time. What follows from how news travels, a hop
   // a message (a barrier that holds, an orphan without a parent, a question without an answer), counts steps, and
-  // so do the root's and the workers' signs of life: those who step less often than once a tick wait longer for them.
+  // so do the root's and the workers' signs of life: robots that step less often than once a tick wait longer for them.
   float elapsed_s = 0.0F;   // 0: one tick
 };
 

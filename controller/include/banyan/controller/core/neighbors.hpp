@@ -36,7 +36,7 @@ class Neighbors {
   // counts), then remove_next() until there is nothing to remove.
   // `way_m`: the longest that a neighbour drives in a tick, if measurements are to be filtered; else 0.
   void begin(int elapsed_ticks, float way_m) noexcept;
-  // Where the sender stands; -1 if it is new. `before`: where it was a tick ago, in the frame of then; left alone
+  // The index of the sender; -1 if it is new. `before`: where it was a tick ago, in the frame of then; left alone
   // if it was not heard then, or has been filed in this tick already.
   int file(RobotId id, Vec2 position, Vec2& before, const Carry& carry) noexcept {
     const int k = next_rank_ < size_ && ids_[by_id_[next_rank_]] == id ? by_id_[next_rank_++] : find_next(id);
@@ -45,11 +45,11 @@ class Neighbors {
     put(k, k < watched_ && ages_[k] > 0 ? filtered(k, carry.point(positions_[k]), position) : position);
     return k;
   }
-  // Where a new one comes to stand; -1 if there is no room for it. When more robots are heard than the table
-  // holds, those that tie stay (`must`: the sender does; `ties(k)`: entry k does), and of the others the nearest.
+  // The index of a new sender; -1 if there is no room for it. When more robots are heard than the table holds,
+  // those that must not be lost stay (`must`: the sender; `ties(k)`: entry k), and of the others the nearest.
   int enter(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
   // From entry `from` on: removes the first that is older than `liveness_ticks` and none of `keep`, neighbours
-  // whose silence matters; those behind it move up by one. Where it was; -1 if there is none.
+  // whose silence matters; those behind it move up by one. Its index; -1 if there is none.
   int remove_next(int from, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) noexcept;
 
   // About `entries` entries are needed soon.
@@ -60,7 +60,7 @@ class Neighbors {
   [[nodiscard]] int find(RobotId id) const noexcept;
   [[nodiscard]] RobotId id(int k) const noexcept { return ids_[k]; }
   [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
-  // m; where ranges are noisy, one standard deviation more than the distance of position(k): so far it may well be.
+  // m; where ranges are noisy, one standard deviation more than the distance of position(k): it may be that far away.
   [[nodiscard]] float range(int k) const noexcept { return ranges_m_[k]; }
   [[nodiscard]] const PositionFilter& filter() const noexcept { return filter_; }
   [[nodiscard]] float spread_m() const noexcept { return filter_.spread_m(); }

@@ -9,15 +9,15 @@ namespace banyan {
 
 // What a length is measured in, and what it grows with.
 enum class Scaling : unsigned char {
-  none,       // a time, a gain, or a length that is what it is
+  none,       // a time, a gain, or a length that does not scale
   mission,    // m; times mission.scale, and for algorithms made for any radio times C / 2 m
   range,      // in units of C; in Params in metres
   body,       // likewise; but bodies do not shrink with the radio: it is never shorter than where C is 2 m, for wheels
               // farther apart or nearer in proportion
 };
 
-// The radio for which lengths in Params have their defaults. For another, whoever sets up a robot multiplies those
-// that grow with it by C / nominal_range_m (algorithms/src/tree_algorithm.cpp).
+// The radio for which lengths in Params have their defaults. For another radio, lengths
+// that grow with it are multiplied by C / nominal_range_m (algorithms/src/tree_algorithm.cpp).
 inline constexpr float nominal_range_m = 2.0F;
 
 struct ParameterInfo {

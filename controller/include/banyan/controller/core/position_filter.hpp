@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How far a robot believes a measured position (protocol 1): a Kalman filter in its steady state, for range and
-// bearing apart. A neighbour wanders like a random walk of `walk_m` a tick, for it keeps its course for a while;
-// the gain is then the walk over the root mean square of the innovations (what is measured less what was
-// expected), so that the noise need not be known: the robot learns it from the innovations (Mehra 1970). Without
+// How far a robot trusts a measured position (protocol 1): a Kalman filter in its steady state, for range and
+// bearing separately. A neighbour moves like a random walk of `walk_m` a tick, for it keeps its course for a while;
+// the gain is then the walk over the root mean square of the innovations (measured minus expected
+// values), so that the noise need not be known: the robot learns it from the innovations (Mehra 1970). Without
 // noise these are no larger than a neighbour moves, the gain is exactly 1, and a measurement is taken as it is.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What an observer may know of a robot: never read by an algorithm. The first part is what every
-// algorithm can say; what one has no use for stays as it is here.
+// algorithm can say; what an algorithm does not use keeps its default here.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Tally {
   std::uint32_t insertions = 0;    // times it was inserted into an edge
   std::uint32_t handovers = 0;     // times it took over the root token
   std::uint32_t repairs = 0;       // times it replaced a lost parent or re-attached as an orphan
-  std::uint32_t elections = 0;     // times it made itself root because the root had fallen silent
+  std::uint32_t elections = 0;     // times it became root because the root had fallen silent
   std::uint32_t replacements = 0;  // times it took over the target of a worker that had fallen silent
   std::uint32_t rejected = 0;      // sensor readings that did not pass the gate (gate.hpp)
 };
@@ -48,7 +48,7 @@ struct Report {
   RobotId parent = nobody;         // the edges that it promises to keep
   RobotId old_parent = nobody;
   KeptLinks kept = no_links();     // an algorithm without a tree: the links that it promises to keep, then nobody
-  RobotId serves = nobody;         // a worker: whose target, by the robot first sent there
+  RobotId serves = nobody;         // a worker: its target, by the robot first sent there
   RobotId root = nobody;           // the robot that it believes to be root,
   Serial root_sequence = 0;        // by a token with this number: the newest names the root
 

@@ -3,7 +3,7 @@
 // compared as in RFC 1982. Of two numbers the one is newer that is ahead by less than half the range.
 //
 // The one rule for silence: a robot that has heard nothing of a counter for half its range of ticks cannot
-// tell old from new any more, and takes whatever it hears as newer (`is_news`).
+// tell old from new any more, and takes anything it hears as newer (`is_news`).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The seam between algorithms and hosts. A host (the simulated world, the page, a process on a robot)
 // runs robots of one algorithm through this interface and knows nothing else of them; an algorithm knows
-// nothing of its host. One virtual call serves a range of robots, so that the loops within stay static.
+// nothing of its host. One virtual call serves a range of robots, so that calls inside the loop are not virtual.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@
 
 namespace banyan {
 
-// A packet as one robot received it: who sent it, how many ticks ago that was (1: what it composed in the
+// A packet as one robot received it: its sender, how many ticks ago it was sent (1: what it composed in the
 // tick before), and where it was then, in the receiver's body frame (m). `age_s`: if the position is not as
-// of now, so long ago it was measured, in the receiver's frame of then.
+// of now, how long ago it was measured, in the receiver's frame of then.
 struct Packet {
   std::uint32_t sender = 0;  // index in the swarm, or a place that receive() has given
   std::uint32_t age_ticks = 1;

@@ -5,8 +5,8 @@
 //   A::Params, A::State, A::Message   values; a message has `blocks` and visit_fields() (wire.hpp)
 //   A::Heard                          {const Message-or-a-base* message; Vec2 position; float age_s}
 //   A::initial(id, worker, root)      a State
-//   A::step(params, state, heard, senses)   an Output<Message>; a Gate (gate.hpp) comes first in it: what hosts
-//                                     hand in may be anything
+//   A::step(params, state, heard, senses)   an Output<Message>; it begins with a Gate (gate.hpp), because hosts
+//                                     may hand in anything
 //   A::report(state), A::add_to(digest, state)
 #pragma once
 
@@ -83,7 +83,7 @@ class SwarmOf final : public Swarm {
   using Message = typename A::Message;
   using Heard = typename A::Heard;
 
-  // `history`: packets are heard at most so many ticks after they were sent.
+  // `history`: packets are heard at most this many ticks after they were sent.
   template <class Members>
   SwarmOf(const Params& params, const Members& members, std::size_t history) : params_(params), slots_(history + 1) {
     states_.reserve(members.size());

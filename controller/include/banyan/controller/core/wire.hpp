@@ -30,7 +30,7 @@ inline constexpr std::uint8_t tree = 0;          // always there
 inline constexpr std::uint8_t healing = 1U << 4;
 inline constexpr std::uint8_t obstacles = 1U << 5;
 inline constexpr std::uint8_t convoy = 1U << 6;
-inline constexpr std::uint8_t wide_ids = 1U << 7;  // ids of 32 bits; nobody sends them yet
+inline constexpr std::uint8_t wide_ids = 1U << 7;  // ids of 32 bits; no robot sends them yet
 }  // namespace block
 inline constexpr std::uint8_t wire_version = 6;    // the low four bits
 
@@ -38,7 +38,7 @@ inline constexpr std::size_t largest_wire = 96;    // bytes
 
 namespace wire {
 
-// Visitors are inlined: on a chip nothing of the names and meanings is left.
+// Visitors are inlined: firmware then contains no names and meanings.
 
 // First pass: what is packed into bits.
 class BitWriter {

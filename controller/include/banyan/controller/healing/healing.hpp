@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Healing (protocol 12): any robot may die at any moment, the root included, and nobody is told. The
-// root and the workers count ticks, everybody passes on the largest counts heard, and where the root
-// and the targets are: a robot that falls silent is replaced by one that knows what to do.
+// Healing (protocol 12): any robot may die at any moment, the root included, and no robot is told. The
+// root and the workers count ticks. All robots pass on the largest counts heard, and where the root
+// and the targets are. So a robot that falls silent can be replaced by one that knows enough.
 #pragma once
 
 #include "banyan/controller/healing/robot.hpp"
@@ -18,7 +18,7 @@ void estimate_loss(HealingRobot& robot) noexcept;
 
 void follow_heartbeat(HealingRobot& robot) noexcept;
 [[nodiscard]] bool hears_nobody(const HealingRobot& robot) noexcept;
-// Close to where the root fell silent: makes itself root and opens an epoch.
+// Close to where the root fell silent: becomes root and opens an epoch.
 void claim_root(HealingRobot& robot) noexcept;
 
 // ---- task_memory.cpp: which targets a robot knows of ----
@@ -36,34 +36,34 @@ inline void set_place(Task& task, Vec2 target) noexcept {
   return task.via != nobody || (self.is_worker && self.serves == task.serves);
 }
 
-// A doubt is a question to all, for a minute: then nobody is going to answer, and none has been free to take over.
+// A doubt is a question to all, for a minute: later no answer will come, and no spare was free to take over.
 inline constexpr int question_ticks = 600;
 [[nodiscard]] inline bool is_asked_about(const Task& task) noexcept { return task.silent && task.age_ticks <= question_ticks; }
 
 // How much a robot needs to know of a target, least first. With more targets than it can remember, those that
 // matter more take the place of those that matter less.
 enum class Concern : std::uint8_t { outdated, none, below, child, urgent, own };
-inline constexpr int outdated_ticks = 100;  // old news says nothing of the moment in which a branch tears
+inline constexpr int outdated_ticks = 100;  // older news says nothing about the moment in which a branch tears
 [[nodiscard]] Concern concern_of(const HealingState& self, const Task& task) noexcept;
-// Room for one more; null if there is none for so small a concern. `target`: where it is, if I know. Who has no room
-// for all says so: from then on nobody takes silence alone for death.
+// Room for one more; null if there is none for so small a concern. `target`: where it is, if I know. A robot without
+// room for all says so: from then on no robot takes silence alone for death.
 [[nodiscard]] Task* add_task(HealingState& self, RobotId serves, const Vec2* target, Concern concern) noexcept;
 
-// ---- doubt.cpp: who may say that a worker is dead ----
+// ---- doubt.cpp: which robots may say that a worker is dead ----
 
 // Where robots forget, news of a living worker may not come through; then only those in charge of it doubt that
-// it lives: who heard it, or the child by which it was below them, and no longer does. The doubt is a question
-// to all. Whoever knows of a later sign of life answers, first of all the worker.
+// it lives: robots that no longer hear it, or the child by which it was below them. The doubt is a question to
+// all. Every robot that knows of a later sign of life answers, first of all the worker.
 void doubt(HealingRobot& robot) noexcept;
 // Its clock starts with it, however old the news of the worker: the rest of the patience is for answers.
 void begin_doubt(const HealingRobot& robot, Task& task) noexcept;
 
 // ---- takeover.cpp: does every target have its worker? ----
 
-// Learns of targets and their workers, gives up a target that is served by somebody with precedence,
+// Learns of targets and their workers, gives up a target that a robot with precedence serves,
 // takes over one whose worker has fallen silent.
 void watch_tasks(HealingRobot& robot) noexcept;
-// Serves no target any more; says nothing of who does.
+// Serves no target any more; does not say which robot does.
 void resign(HealingRobot& robot) noexcept;
 
 // ---- progress.cpp: a worker that gets no nearer ----
@@ -75,14 +75,14 @@ void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept;
 
 // ---- dangling_branch.cpp: the end of a torn branch ----
 
-// Notes that this connector's only child has fallen silent for good. It stays in the tree and goes where the
-// child was, as a worker would, to meet the robots below it.
+// Notes that this connector's only child has fallen silent for good. It stays in the tree and drives to where
+// the child was, as a worker would, to meet the robots below it.
 void watch_branch(HealingRobot& robot) noexcept;
 // Until it is there: robot.carries_on.
 
-// ---- retreat.cpp: back to where the others must be ----
+// ---- retreat.cpp: back to where the others should be ----
 
-// A worker whose edge has waited in vain for a spare: its branch does not reach. Where robots can change their
+// A worker whose edge has waited in vain for a spare: its branch is too short. Where robots can change their
 // parents between reconstructions (convoy) it drives home, joins the robots nearest to the root, and sets out
 // anew from there: it regroups.
 [[nodiscard]] bool is_left_waiting(const HealingRobot& robot) noexcept;
@@ -93,13 +93,13 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
 // Towards where the root was, in units of speed_gain.
 [[nodiscard]] Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept;
 
-// How far this robot goes for a reason of its own, m: to where the last robot below it was.
+// How far this robot has to drive for a reason of its own, m: to where the last robot below it was.
 [[nodiscard]] inline float own_want_m(const HealingRobot& robot) noexcept { return robot.carries_on ? norm(robot.self.lost_child) : 0.0F; }
 
 // ---- fragments.cpp: two networks meet ----
 
-// What listen() does, in a swarm that may have been torn apart: of two roots that meet, the one of the larger
-// fragment stays.
+// What listen() does, in a swarm that may have been torn apart: when two roots meet, the root of the
+// larger fragment stays.
 void listen_among_fragments(HealingRobot& robot) noexcept;
 // accept_offer() and advance(), with the size of the root's fragment.
 void accept_offered_root(HealingRobot& robot) noexcept;

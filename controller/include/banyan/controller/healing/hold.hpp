@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What ties a robot to the others while it has no parent: its hold (protocol 12, corrected). It obeys the order
 // of the tree (is_ahead), so parents, old parents and holds lead from each robot towards the root and never in a
-// circle, and both ends look after every such link. A robot that has no hold yet keeps all that it hears, and
-// nobody leaves it. So a network that begins in one piece stays in one, in every phase and from every start.
+// circle, and both ends guard every such link. A robot without a hold stays in range of all that it hears,
+// and they of it. So a network that begins in one piece stays in one, in every phase and from every start.
 #pragma once
 
 #include "banyan/controller/healing/robot.hpp"
@@ -10,7 +10,7 @@
 namespace banyan {
 
 // Sets robot.hold, and lets a spare keep up with the order. -1: it has a parent or is the root, or knows of
-// nobody who is tied to one.
+// no robot that is tied to one.
 void find_hold(HealingRobot& robot) noexcept;
 
 }  // namespace banyan

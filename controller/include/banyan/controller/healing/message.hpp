@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a robot also broadcasts so that the living can take the place of the dead (protocol 12): everybody
-// passes on where the root and the targets are, at each tick one target to one addressee. All others use
-// the counts alone.
+// What a robot also broadcasts so that living robots can take the place of dead ones (protocol 12): every
+// robot passes on where the root and the targets are, at each tick one target to one addressee. The other
+// receivers use the counts alone.
 #pragma once
 
 #include "banyan/controller/tree/message.hpp"
@@ -22,11 +22,11 @@ struct HealingNews {
   std::int16_t root_x_cm = 0;         // root - addressee, edge frame to `told`
   std::int16_t root_y_cm = 0;
   RobotId task_serves = nobody;       // a target, by its first worker; nobody: I know none
-  RobotId task_holder = nobody;       // gossip: who serves it; nobody: it has been given up
+  RobotId task_holder = nobody;       // gossip: the robot that serves it; nobody: it has been given up
   Serial task_beat = 0;               // gossip: the holder's count of ticks
   bool task_reached = false;          // gossip: its holder is there
-  bool task_silent = false;           // gossip: who heard the holder last no longer hears it
-  bool task_below = false;            // the holder is below me in the tree, or I am
+  bool task_silent = false;           // gossip: the robots that heard the holder last no longer hear it
+  bool task_below = false;            // the holder is below me in the tree, or I am the holder
   bool forgets = false;               // gossip: some robot has had no room for a target
   std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `told`
   std::int16_t task_y_cm = 0;
@@ -44,7 +44,7 @@ template <class Visitor, class M>
 constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
   visit.flag("root_told", "1: knows where the root is", m.root_told);
   visit.flag("task_reached", "1: the holder of `task` is at the target", m.task_reached);
-  visit.flag("task_silent", "1: who heard the holder of `task` last no longer hears it", m.task_silent);
+  visit.flag("task_silent", "1: the robots that heard the holder of `task` last no longer hear it", m.task_silent);
   visit.flag("task_below", "1: the holder of `task` is the sender, or below it in the tree", m.task_below);
   visit.flag("forgets", "1: some robot has had no room for a target", m.forgets);
   visit.number("root_size", "robots that this root counted last, 0: none yet", m.root_size);
@@ -54,7 +54,7 @@ constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
   visit.number("root_x_cm", "where the root is, relative to `told`, along the edge from the sender to it", m.root_x_cm);
   visit.number("root_y_cm", "the same, to the left of that edge", m.root_y_cm);
   visit.robot("task", "a target, by the worker first sent there, -1: none", m.task_serves);
-  visit.robot("task_holder", "who serves it, -1: given up", m.task_holder);
+  visit.robot("task_holder", "the robot that serves it, -1: given up", m.task_holder);
   visit.number("task_beat", "the holder's count of ticks, modulo 65536", m.task_beat);
   visit.number("task_x_cm", "where it is, relative to `told`, along the edge from the sender to it", m.task_x_cm);
   visit.number("task_y_cm", "the same, to the left of that edge", m.task_y_cm);

@@ -7,16 +7,16 @@
 namespace banyan {
 
 struct HealingParams : TreeParams {
-  float healing = 1.0F;                // 0: nobody takes the place of the dead
+  float healing = 1.0F;                // 0: dead robots are not replaced
   float claim_radius_m = 0.9F;         // a robot nearer than this to where the root fell silent may become root
   float claim_after_s = 0.5F;          // without heartbeat, beyond 2 I
-  float claim_spread_s_m = 1.0F;       // and so much longer per metre from that place, so that one claims first
-  float retreat_after_s = 2.5F;        // without heartbeat: all drive to where the root was
+  float claim_spread_s_m = 1.0F;       // additional silence per metre from that place, so that one robot claims first
+  float retreat_after_s = 2.5F;        // without heartbeat, beyond 2 I: all drive to where the root was
   float succession_after_s = 3.0F;     // without a sign of a target's worker, beyond 2 I
-  float succession_spread_s_m = 0.5F;  // and so much longer per metre from the target
+  float succession_spread_s_m = 0.5F;  // additional silence per metre from the target
   float pursue_for_s = 12.0F;          // a connector whose last child fell silent looks for it
-  float regroup_after_s = 40.0F;       // a worker waits so long for a spare, then drives home and sets out anew
-  float give_up_after_s = 10.0F;       // a worker that drives so long in vain leaves its target to others
+  float regroup_after_s = 40.0F;       // a worker waits this long for a spare, then drives home and sets out anew
+  float give_up_after_s = 10.0F;       // a worker that drives this long in vain leaves its target to others
   float largest_loss = 0.9F;           // liveness adapts to the share of packets lost, up to this
 
   [[nodiscard]] bool heals() const noexcept { return healing > 0.5F; }

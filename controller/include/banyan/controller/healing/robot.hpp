@@ -34,8 +34,8 @@ struct HealingRobot : TreeRobot {
   bool target_strays = false;    // it is not where it would be if it stood still and my wheels had not slipped
 };
 
-// Who has been silent for longer will be forgotten within two ticks, or at the next step where steps are longer: the
-// last moment at which what it said can be read.
+// A neighbour silent for longer will be forgotten within two ticks, or at the next step where steps are longer: this
+// is the last moment at which its message can be read.
 [[nodiscard]] inline int fading_ticks(const HealingRobot& robot) noexcept {
   constexpr int notice_ticks = 2;
   return robot.liveness_ticks() - std::max(notice_ticks, robot.elapsed_ticks);
@@ -46,7 +46,7 @@ struct HealingRobot : TreeRobot {
 
 // What a healing robot hears is what healing robots say.
 inline const HealingMessage& healing_message(const TreeMessage& m) noexcept {
-  return static_cast<const HealingMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): all of a swarm run the same
+  return static_cast<const HealingMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
 }
 inline const HealingMessage& said(const Heard& h) noexcept { return healing_message(*h.message); }
 

@@ -16,24 +16,24 @@ inline constexpr int task_capacity = 12;  // of more targets each robot knows so
 // A target, as all robots know it that may have to take it over (takeover.cpp).
 struct Task {
   RobotId serves = nobody;       // the worker first sent there: the target's name
-  RobotId holder = nobody;       // who serves it; nobody: it has been given up
+  RobotId holder = nobody;       // the robot that serves it; nobody: it has been given up
   Serial beat = 0;               // the holder's count of ticks, the newest heard of
   std::uint16_t age_ticks = 0;   // since it grew; in doubt: since I know that it is, and before
   Vec2 target;                   // m, own frame
   RobotId via = nobody;          // the child by which its holder is below me in the tree; nobody: it is not
-  bool silent : 1 = false;       // in doubt: who heard the holder last no longer hears it
+  bool silent : 1 = false;       // in doubt: the robots that heard the holder last no longer hear it
   bool reached : 1 = false;      // the holder is there
   bool gave_up : 1 = false;      // I went there in vain (progress.cpp)
   bool unlocated : 1 = false;    // I do not know where it is, and only pass on question and answer
-  std::uint8_t urgent_ticks = 0; // news that everybody has to pass on, for so long
+  std::uint8_t urgent_ticks = 0; // for how long all robots have to pass on the news of it
 };
 
 inline constexpr std::uint16_t first_gap = 200;  // sixteenths of ticks: taken for granted at first
 
-// How a worker gets on (progress.cpp).
+// The progress of a worker (progress.cpp).
 struct Progress {
   std::uint16_t least_cm = UINT16_MAX;   // the nearest that it has come to its target, since something was in the way
-  std::uint16_t vain_ticks = 0;          // eighteenths of ticks at full speed towards it since, for nothing
+  std::uint16_t vain_ticks = 0;          // eighteenths of ticks at full speed towards it since, in vain
 };
 
 struct HealingState : TreeState {
@@ -45,18 +45,18 @@ struct HealingState : TreeState {
   float expected_packets = 0.0F;         // packets that were to be heard in the last ticks, fading
   float missed_packets = 0.0F;           // and those of them that were not heard
   RobotId serves = nobody;               // worker: whose target this is, the id of the worker first sent there
-  std::uint16_t loss_ticks = 0;          // what this loss requires in place of I; 0: I will do
+  std::uint16_t loss_ticks = 0;          // what this loss requires in place of I; 0: I is long enough
   std::uint16_t root_size = 0;           // robots that this root counted last; 0: none yet
   std::uint16_t flood_counted = 0;       // the root, of its last START TREE: the most robots that the flood had found,
   std::uint16_t flood_ticks = 0;         // and when that was
   Serial heartbeat = 0;
-  std::uint16_t silence_ticks = 0;       // since the heartbeat grew; the root: since it heard anybody
+  std::uint16_t silence_ticks = 0;       // since the heartbeat grew; the root: since it heard any robot
   RootToken heart;                       // the root whose heartbeat it is
-  std::uint16_t turn = 0;                // whom I tell next
-  RobotId hold = nobody;                 // whom I stay with while I have no parent
-  std::uint16_t dangling_ticks = 0;      // the last robot below me has died: for so long I still go after it
+  std::uint16_t turn = 0;                // which neighbour and target come next
+  RobotId hold = nobody;                 // the robot that I stay with while I have no parent
+  std::uint16_t dangling_ticks = 0;      // the last robot below me has died: how long I still drive to where it was
   Progress progress;
-  Vec2 root_at;                          // m, own frame: where that root is or was; the root: where it last heard anybody
+  Vec2 root_at;                          // m, own frame: where that root is or was; the root: where it last heard one
   Vec2 lost_child;                       // m, own frame: where it was
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   Detour detour;                         // obstacles: the way round one

@@ -9,7 +9,7 @@ namespace banyan {
 
 [[nodiscard]] HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept;
 
-// A robot that has resigned from its target, or serves another's, goes on with that, however long it is sent.
+// A robot that has resigned from its target, or serves another's, stays with that, however long it is sent.
 void follow_orders(HealingRobot& robot, const Orders& orders) noexcept;
 
 void carry_memory(HealingState& self, const Carry& carry) noexcept;

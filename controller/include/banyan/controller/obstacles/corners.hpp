@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines of sight past obstacles: a few points of those that a robot has passed are remembered, so that no
+// Lines of sight past obstacles: a robot remembers a few of the points that it has passed, so that no
 // tree edge is cut by a corner. Children tell their parent of the corner nearest to their edge.
 #pragma once
 
@@ -9,11 +9,11 @@ namespace banyan {
 
 struct Guard;  // motion.hpp
 
-// What is broadcast of it, and kept of each neighbour.
+// What a robot broadcasts of this, and keeps of each neighbour.
 struct CornerStanding {
   std::int16_t hinge_x_cm = 0;   // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
   std::int16_t hinge_y_cm = 0;
-  bool pinned = false;           // a corner is about to cut the edge to my parent, and I have to go on
+  bool pinned = false;           // a corner is about to cut the edge to my parent, and I still have to travel
 
   friend bool operator==(const CornerStanding&, const CornerStanding&) = default;
 };
@@ -57,8 +57,8 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
 // Away from obstacles that are about to cut one of the robot's tree edges. In units of speed_gain.
 [[nodiscard]] Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept;
 
-// An obstacle is about to cut the edge to the parent, and this robot has to go on, or is towed by a child farther
-// than `towing_start_m`: the parent has to come up to the corner.
+// An obstacle is about to cut the edge to the parent, and this robot has to travel, or is towed by a child farther
+// away than `towing_start_m`: the parent has to come up to the corner.
 [[nodiscard]] bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_start_m) noexcept;
 
 // No obstacle known to me is nearer than `clearance_m` to the inside of segment a-b (own frame, m).

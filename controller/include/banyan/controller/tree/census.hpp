@@ -10,9 +10,9 @@
 namespace banyan {
 
 // Sums over the children into subtree, subtree_workers, count, q, pull, want; at the root q is the
-// centroid. During a switch the children that still know only the old tree count by it.
-// `rest_distance_m`: a worker this close to its target has no way left to go; `own_want_m`: how far this robot
-// has to go for a reason of its own.
+// centroid. While trees are switched, children that know only the old tree are counted by that.
+// `rest_distance_m`: a worker this close to its target has no distance left; `own_want_m`: how far this robot
+// has to travel for a reason of its own.
 void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m = 0.0F) noexcept;
 
 // Alg. 2 as printed, with the sum over children instead of "neighbors" (docs/algorithms.md, row 5):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Epochs, phases and barriers (paper Fig. 1, protocol 4). "Go" spreads by gossip over the whole radio
-// graph and only grows, so a lost message delays a robot but never strands it.
+// Epochs, phases and barriers (paper Fig. 1, protocol 4). (epoch, phase) spreads by gossip over the whole
+// radio graph and only grows, so a lost message delays a robot but never strands it.
 #pragma once
 
 #include "banyan/controller/tree/robot.hpp"
@@ -21,9 +21,9 @@ struct EpochPhase {
 void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept;
 
 // The root's barriers: opens the next phase when its condition holds, or its time is over.
-// `tree_complete`: everybody who should be in the tree is (barrier of SELECT PARENT); `may_reconstruct`: a new
+// `tree_complete`: every robot that should be in the tree is in it (barrier of SELECT PARENT); `may_reconstruct`: a new
 // epoch may begin once R is over.
-// `patience_ticks`: for so long it waits in START TREE and SELECT PARENT.
+// `patience_ticks`: how long it waits in START TREE and SELECT PARENT.
 void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int patience_ticks) noexcept;
 // barrier_timeout_s, however deep the tree.
 void advance(TreeRobot& robot, bool tree_complete) noexcept;

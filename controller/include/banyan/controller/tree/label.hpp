@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // START TREE: the distance to the root along hops, fixed once per epoch, and the echo by which the
-// root learns that everybody has one (protocol 4, 5).
+// root learns that all robots have one (protocol 4, 5).
 #pragma once
 
 #include "banyan/controller/tree/robot.hpp"
@@ -8,7 +8,7 @@
 namespace banyan {
 
 struct LabelRule {
-  bool waits_for_anybody = true;  // a robot waits for nearer neighbours to speak up even if there is nobody who could
+  bool waits_for_anybody = true;  // a robot waits for labels of nearer neighbours, even if there is no such neighbour
 };
 void update_label(TreeRobot& robot, const LabelRule& rule = {}) noexcept;
 

@@ -43,7 +43,7 @@ struct TreeStanding {
   Serial seqno = 0;                 // the root's count as it came down the tree: (seqno, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
-  std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need nobody has answered
+  std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need no spare has answered
   RobotId parent = nobody;
   RobotId old_parent = nobody;
   RobotId flood_parent = nobody;
@@ -62,7 +62,7 @@ struct TreeStanding {
   friend bool operator==(const TreeStanding&, const TreeStanding&) = default;
 };
 
-// What is made use of in the tick in which it is heard, and passed on.
+// What a receiver uses only in the tick in which it is heard, or passes on.
 struct TreeNews {
   RootToken root;                     // gossip: the newest root token I know
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
@@ -79,8 +79,8 @@ struct TreeMessage : TreeStanding, TreeNews {
 };
 
 inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: +-2
-// Largest |component| of q. A sender keeps within it and decode() rejects what exceeds it, or one
-// robot's nonsense would overflow the sums of all above it.
+// Largest |component| of q. A sender keeps within it and decode() rejects what exceeds it, because one
+// robot's wrong values could overflow the sums of all robots above it.
 inline constexpr float q_limit_m = 1.0e9F;
 
 // The tree block, field by field (wire.hpp).
@@ -90,7 +90,7 @@ constexpr void visit_tree_block(Visitor& visit, M& m) noexcept {
   visit.choice("phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", m.phase, 3, Phase::select_root);
   visit.choice("need", "of the edge to the parent: 0 no_need, 1 need, 2 await", m.need, 2, Need::await);
   visit.flag("committed", "1: in this epoch's tree", m.committed);
-  visit.flag("flood_done", "1: everybody below in the flood has answered", m.flood_done);
+  visit.flag("flood_done", "1: all robots below in the flood have answered", m.flood_done);
   visit.flag("parent_silent", "1: the parent has not been heard for too long", m.parent_silent);
   visit.robot("id", "of the sender", m.id);
   visit.number("epoch", "counts the trees", m.epoch);
@@ -108,17 +108,17 @@ constexpr void visit_tree_block(Visitor& visit, M& m) noexcept {
   visit.number("flood_workers", "workers among them", m.flood_workers);
   visit.number("subtree", "1 + sum over the children", m.subtree);
   visit.number("subtree_workers", "workers among them", m.subtree_workers);
-  visit.number("count", "c of Alg. 2; nobody decides by it", m.count);
+  visit.number("count", "c of Alg. 2; no rule uses it", m.count);
   visit.number("want_cm", "largest remaining way of a worker below, 0: all have arrived", m.want_cm);
   visit.real("q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent", m.q.x, q_limit_m);
   visit.real("q_y_m", "the same, to the left of that edge", m.q.y, q_limit_m);
   visit.scaled("pull_x", "attraction to the targets below, along the edge from the sender to its parent, -2 to 2", m.pull_x, pull_unit);
   visit.scaled("pull_y", "the same, to the left of that edge", m.pull_y, pull_unit);
-  visit.robot("grant", "the spare let into the edge to the parent; without a parent: whom the sender stays with, -1: nobody", m.grant);
+  visit.robot("grant", "the spare let into the edge to the parent; without a parent: the hold, -1: nobody", m.grant);
   visit.robot("request", "the owner of the edge a spare wants to join, -1: nobody", m.request);
   visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody", m.inserted_child);
-  visit.robot("new_root", "to whom the root token is offered, -1: nobody", m.new_root);
-  visit.number("centroid_x_cm", "with the offer: the centroid, seen from the heir along the edge to it", m.centroid_x_cm);
+  visit.robot("new_root", "the robot to which the root token is offered, -1: nobody", m.new_root);
+  visit.number("centroid_x_cm", "with the offer: centroid relative to that robot, along the edge to it", m.centroid_x_cm);
   visit.number("centroid_y_cm", "the same, to the left of that edge", m.centroid_y_cm);
 }
 
@@ -132,21 +132,21 @@ constexpr void visit_fields(Visitor& visit, const TreeMessage& m) noexcept { vis
 constexpr RobotId up_of(const TreeStanding& m) noexcept {
   return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent;
 }
-// Without a parent: the robot that it stays with.
+// The hold of a robot without a parent: the robot that it stays with.
 constexpr RobotId hold_of(const TreeStanding& m) noexcept { return m.role == Role::root || up_of(m) != nobody ? nobody : m.grant; }
 // Nothing leads from it to a root.
 constexpr bool is_untied(const TreeStanding& m) noexcept { return m.role != Role::root && up_of(m) == nobody && m.grant == nobody; }
 
 // One received packet. Its sender is in the receiver's body frame (x forward, y left; m), from range and
 // bearing: where it was `age_s` ago, in the frame of then; 0: as of now. `message` lives as long as the step.
-// What a healing algorithm hears is a HealingMessage, and so on: all of a swarm run the same.
+// In a healing algorithm it is a HealingMessage, and so on: all robots of a swarm run the same algorithm.
 struct Heard {
   const TreeMessage* message;
   Vec2 position;
   float age_s = 0.0F;
   // The step's own notes
   Vec2 before{};            // where the sender was at the last step, in the frame of then; zero: not heard then
-  std::int16_t place = -1;  // where it stands in the neighbour table, until somebody is removed from there; -1: nowhere
+  std::int16_t place = -1;  // where it stands in the neighbour table, until an entry is removed; -1: nowhere
   Heard* next_news = nullptr;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robot motion (paper Sec. III-G, protocol 9): virtual forces, and what the guard (core/guard.hpp) holds.
+// Robot motion (paper Sec. III-G, protocol 9): virtual forces, and the limits for the guard (core/guard.hpp).
 #pragma once
 
 #include "banyan/controller/core/guard.hpp"
@@ -7,7 +7,7 @@
 
 namespace banyan {
 
-// Who is nearer than this stands where I am: there is no direction, and powers of 1 / d would overflow.
+// A robot nearer than this is where I am: it has no direction, and powers of 1 / d would overflow.
 inline constexpr float same_spot_m = 1e-6F;
 
 // The paper's u_i for a robot of the tree: springs along its edges, the target's pull within f.
@@ -30,7 +30,7 @@ inline constexpr float same_spot_m = 1e-6F;
 void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
 
 // Corrected: adds the links that tie robots without a parent to the others (healing/hold.hpp). `lets_go`: except
-// those to robots that are tied to nobody.
+// those to robots that are untied.
 void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
 
 // The velocity (m/s, own frame) nearest to `u`, in units of speed_gain, within the guard and the wheels' limits.

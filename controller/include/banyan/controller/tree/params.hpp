@@ -31,7 +31,7 @@ struct TreeParams : Platform {
   float barrier_timeout_s = 10.0F;     // START and SELECT PARENT never wait longer (protocol 4)
   float handover_timeout_s = 2.0F;     // unacknowledged offer of the root token (protocol 8)
   float insertion_timeout_s = 25.0F;   // EXTEND EDGE gives up (protocol 7)
-  float call_after_s = 2.0F;           // a need unanswered for so long calls spares from afar (corrected; protocol 7)
+  float call_after_s = 2.0F;           // a need unanswered for this long calls spares from afar (corrected; protocol 7)
   float connector_patience_s = 3.0F;   // childless connector turns spare (protocol 3)
   float centroid_margin_m = 0.05F;     // a better root is closer by more than this (protocol 8)
   float arrival_distance_m = 0.2F;     // a worker's pull fades within this (protocol 9)

@@ -12,7 +12,7 @@ namespace banyan {
 // by is_candidate() for every rule: its order keeps the tree free of cycles.
 struct ParentRule {
   bool may_join;                            // a robot without parent may join the tree now
-  bool workers_relay;                       // a worker may be somebody's parent (protocol 5: not in the paper)
+  bool workers_relay;                       // a worker may be a parent (protocol 5: not in the paper)
   FunctionRef<bool(int k)> accepts;         // neighbour k of the table is a candidate for this algorithm
   FunctionRef<bool(int a, int b)> prefers;  // candidate a is better than candidate b
 };
@@ -21,13 +21,13 @@ struct ParentRule {
 // than mine, and ahead of me.
 [[nodiscard]] bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept;
 
-// Neighbour k's (seqno, label) is ahead of mine: fresher, or as fresh and nearer to the root. No robot
-// ever falls back behind a pair it has sent, and nobody takes a parent that is not ahead; so the pairs
+// Neighbour k's (seqno, label) is ahead of mine: a newer number, or the same and a smaller label. No robot
+// ever falls back behind a pair it has sent, and none takes a parent that is not ahead; so the pairs
 // strictly rise along every chain of parents, however old the messages are, and no chain can close
 // (the feasibility condition of EIGRP and Babel, RFC 8966 sec. 2.4).
 [[nodiscard]] bool is_ahead(const TreeRobot& robot, int k) noexcept;
 
-// The pair (seqno, label) flows down the tree: as fresh as neighbour k's, and behind it.
+// The pair (seqno, label) flows down the tree: the seqno of neighbour k, and a label above its label.
 void keep_up(TreeRobot& robot, int k) noexcept;
 
 // A living child of this epoch that is no spare names me as its parent.

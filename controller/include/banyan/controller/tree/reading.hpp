@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How the paper's misprints and gaps are read (protocol 2, docs/algorithms.md). Its two values are all
-// the difference between `literal` and `corrected` within the rooms of the tree. That `corrected` also heals
-// and keeps off obstacles can be seen in the steps of the algorithms.
+// How the paper's misprints and gaps are read (protocol 2, docs/algorithms.md). Its two values are the
+// whole difference between `literal` and `corrected` within tree/. The steps of the algorithms show that
+// `corrected` also heals and keeps away from obstacles.
 #pragma once
 
 #include <string_view>
@@ -12,14 +12,14 @@ struct Reading {
   std::string_view name;
   bool keeps_margin;         // a parent is chosen within delta - parent_margin_m; printed: within C
   bool guards_edges;         // no robot lengthens an edge faster than (delta - d) / 2 allows; printed: not at all
-  bool keeps_links;          // a robot without a parent stays with those that tie it to the root; printed: nothing of it
+  bool keeps_links;          // a robot without a parent stays with those that tie it to the root; printed: no such rule
   bool slides_beyond_safe;   // beyond S only the motion away from the parent is dropped; printed: all but the springs
-  bool asks_while_wanted;    // an edge asks for a spare only while a worker below has to go on; printed: always
-  bool calls_spares;         // needs that nobody answers call spares from out of sight; printed: nothing of it
+  bool asks_while_wanted;    // an edge asks for a spare only while a worker below still has to travel; printed: always
+  bool calls_spares;         // needs that no spare answers call spares from out of sight; printed: no such rule
   bool spares_stand_still;   // near their reference; printed: they orbit it
-  bool avoids_obstacles;     // printed: nothing of it
+  bool avoids_obstacles;     // obstacle points repel, too; printed: no such rule
   bool prefers_safe_parent;  // inwards: among candidates those within S first; printed: the smallest distance to the root
-  bool filters_positions;    // noisy measurements of neighbours are filtered; printed: nothing of it
+  bool filters_positions;    // noisy measurements of neighbours are filtered; printed: no such rule
   bool counts_edges_once;    // an edge of both trees has one force; printed: u_tree,old + u_tree,new
 };
 

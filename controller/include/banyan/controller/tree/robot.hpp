@@ -26,7 +26,7 @@ struct IndexList {
 };
 
 // Those of the packets heard that say something that this robot did not know at the beginning of the step, in order.
-// Most only repeat what has gone round already, and whoever follows gossip need not look at them.
+// The others, most of them, only repeat what is known, and rules that follow gossip need not look at them.
 struct NewsList {
   struct Iterator {
     const Heard* at;
@@ -67,7 +67,7 @@ class Admitted : public Gate {
   std::span<Heard> heard_;
 };
 
-// Longest link that may be relied on, of C: beyond, the next step might break it.
+// Longest link that may be relied on, of C: the next step might break a longer one.
 inline constexpr float longest_link = 0.95F;
 
 struct TreeRobot {
@@ -84,7 +84,7 @@ struct TreeRobot {
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
   Carry carry;                      // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
-  int loss_ticks = 0;               // for so long lost packets may silence a living neighbour; 0: unknown
+  int loss_ticks = 0;               // how long lost packets may silence a living neighbour; 0: unknown
   bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
 
   // The index (tree_index.hpp)
@@ -110,8 +110,8 @@ struct TreeRobot {
     return reading.keeps_margin ? params.ideal_distance_m - params.parent_margin_m : params.communication_range_m;
   }
   // A point, relative to me, that the sender has written for me in its edge frame (cm). False if it was not
-  // heard in the tick before: what it wrote then holds for where both were then, and over a distance a bearing
-  // that is a tick old makes an error of decimetres.
+  // heard in the tick before: what it wrote refers to where both were then, and over a distance a bearing that
+  // is a tick old makes an error of decimetres.
   [[nodiscard]] bool read_point(const Heard& h, std::int16_t x_cm, std::int16_t y_cm, Vec2& point) const noexcept {
     if (h.before == Vec2{}) return false;
     point = carry.point({}) + from_edge_frame({metres(x_cm), metres(y_cm)}, carry.vector(h.before));

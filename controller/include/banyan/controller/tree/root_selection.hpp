@@ -11,8 +11,8 @@ namespace banyan {
 // Takes the token if it is offered to this robot. The offer that was taken; null if there was none.
 const TreeMessage* accept_offer(TreeRobot& robot) noexcept;
 
-// One that was root, by a token with the number `held`, and has heard of its heir's token is tied to the heir from
-// then on. To be called before it enters the epoch that the heir may have opened already: that forgets the offer.
+// A former root, by a token with the number `held`, that has heard of its successor's token is tied to that robot from
+// then on. Call it before the robot enters an epoch that its successor may have opened, which forgets the offer.
 void hand_over(TreeRobot& robot, Serial held) noexcept;
 
 // The root in SELECT ROOT: offer the token to a better neighbour, wait for the acknowledgement, take

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Spare management (paper Sec. III-F, Fig. 5): stretched edges ask for a spare, spares look for
-// edges, and one at a time is let in. An edge is owned by its child end.
+// edges, and each edge lets one in at a time. An edge is owned by its child end.
 #pragma once
 
 #include "banyan/controller/core/function_ref.hpp"
@@ -23,7 +23,7 @@ void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept;
 // Ticks in NEED without a grant.
 void count_unserved(TreeRobot& robot, bool unserved) noexcept;
 
-// The edge to my parent is too long, and some worker below still wants to go on. As printed (literal)
+// The edge to my parent is too long, and some worker below still has to travel. As printed (literal)
 // the second half is missing, and the first reads "smaller" (docs/algorithms.md, row 2).
 [[nodiscard]] bool is_stretched(const TreeRobot& robot) noexcept;
 // A child that is no spare is in NEED.
@@ -33,8 +33,8 @@ void count_unserved(TreeRobot& robot, bool unserved) noexcept;
 // False if it does not know both ends.
 [[nodiscard]] bool edge_midpoint(const TreeRobot& robot, RobotId owner, Vec2& midpoint) noexcept;
 
-// The robot a spare stays with: the nearest of the tree, else the one through which the tree is nearest. It
-// keeps the one it has while that is as good: a robot that turns to another every tick gets nowhere.
+// The robot a spare stays with: the nearest of the tree, else the one through which the tree is nearest. It keeps
+// its present reference while that is as good, because a robot that turns to another every tick gets nowhere.
 [[nodiscard]] RobotId nearest_reference(const TreeRobot& robot) noexcept;
 
 }  // namespace banyan

@@ -12,7 +12,7 @@
 
 namespace banyan {
 
-// The neighbour table, and what each of them said of the tree.
+// The neighbour table, and what each neighbour said of the tree.
 struct TreeTable : Neighbors {
   std::array<TreeStanding, neighbor_capacity> standings{};
 
@@ -31,7 +31,7 @@ struct TreeState {
   Phase phase = Phase::init;
   std::uint16_t phase_ticks = 0;      // since this robot entered the phase
   RootToken root;
-  std::uint16_t done_ticks = 0;       // the root's barrier has held for so long
+  std::uint16_t done_ticks = 0;       // how long the root's barrier has held
 
   // Label: distance to the root and the echo (label.hpp)
   std::uint16_t label_cm = unknown_label;
@@ -46,7 +46,7 @@ struct TreeState {
   RobotId old_parent = nobody;
   bool committed = false;
   std::uint16_t search_ticks = 0;        // without a candidate parent
-  std::uint16_t orphan_ticks = 0;        // depth invalid though I matter
+  std::uint16_t orphan_ticks = 0;        // depth invalid, while I am a worker or have a child that is no spare
   std::uint16_t childless_ticks = 0;     // connector without a child that is no spare
   Serial seqno = 0;
   std::uint16_t seqno_ticks = 0;         // since it changed
@@ -62,7 +62,7 @@ struct TreeState {
   float want_m = 0.0F;                   // largest remaining worker distance below me
   Vec2 pull;                             // target pull, own frame
   float least_want_m = 0.0F;             // the least want_m since it last grew
-  std::uint16_t stalled_ticks = 0;       // since least_want_m last shrank by a hand's breadth
+  std::uint16_t stalled_ticks = 0;       // since want_m last changed by 10 cm
 
   // Root selection (root_selection.hpp)
   Vec2 centroid;                         // m, own frame

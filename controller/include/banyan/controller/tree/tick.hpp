@@ -21,10 +21,10 @@ void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept;
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept;
 void carry_memory(TreeState& self, const Carry& carry) noexcept;
 
-// The neighbour table and the tree's array beside it are brought up to date in two steps: who has spoken comes to
-// stand in it (Heard::place), and who has been silent for too long goes. Who heals keeps arrays of its own in
-// step, and writes them in between. `close(k, size)`: entry k has gone, and those behind it, up to `size`, move
-// up by one.
+// The neighbour table and the tree's array beside it are brought up to date in two steps: robots that were heard
+// are entered (Heard::place), and those silent for too long are removed. Algorithms that heal keep arrays of their
+// own in step, and write them in between. `close(k, size)`: entry k is removed, and those behind it, up to `size`,
+// move up by one.
 void file_heard(TreeRobot& robot) noexcept;
 void forget_silent(TreeRobot& robot, FunctionRef<void(int k, int size)> close) noexcept;
 

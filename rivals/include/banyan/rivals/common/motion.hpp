@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What moves a robot of any rival: its target, whoever is too near, and the limits of the links that it keeps.
+// What moves a robot of any rival: its target, robots that are too near, and the limits of the links that it keeps.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace banyan::rivals {
 
-// Where a robot has been sent, as in every algorithm here: the target is carried along while it is not sensed.
+// Where a robot has been sent, as in every algorithm here: its position is updated by odometry while it is not sensed.
 struct Assignment {
   bool sent = false;
   bool known = false;

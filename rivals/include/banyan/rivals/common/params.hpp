@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every rival needs to be told, whatever its paper: how far a link may reach, what a target is worth, when a
+// Parameters that every rival has: how far a link may reach, how strongly a target attracts, when a
 // neighbour is gone. Keys and ranges are those of the paper's algorithms where the meaning is the same.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is the same in every rival, whatever it does in a step: what it is handed, how a step begins, and how a Swarm
-// finds its functions.
+// What all rivals share: the arguments of a step, how a step begins, and how a Swarm finds their functions.
+// What the step does is their own.
 #pragma once
 
 #include <span>

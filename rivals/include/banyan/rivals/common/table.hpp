@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The neighbour table of a rival: who was heard, where, and the whole of what it said last.
+// The neighbour table of a rival: which robots were heard, where, and the whole last message of each.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct Table : Neighbors {
 
   [[nodiscard]] const Message& message(int k) const noexcept { return messages[static_cast<std::size_t>(k)]; }
 
-  // One tick: files what was heard and forgets who has been silent for longer than `liveness_ticks`. If more are
+  // One tick: files what was heard and forgets robots silent for longer than `liveness_ticks`. If more are
   // heard than there is room for, those of which `ties(id)` is true stay, and of the others the nearest.
   template <class Heard, class Ties>
   void renew(RobotId me, std::span<Heard> heard, const Carry& carry, int elapsed_ticks, int liveness_ticks, const Platform& platform,

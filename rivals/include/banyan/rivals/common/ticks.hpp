@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Time as a robot counts it whose steps need not be whole ticks.
+// Time in ticks, for a robot whose steps need not be whole ticks.
 #pragma once
 
 #include "banyan/controller/core/inputs.hpp"
@@ -7,8 +7,8 @@
 
 namespace banyan::rivals {
 
-// Whole ticks since the last step. What is left over counts at the next one, so that what two robots count together
-// never differs by more than a tick, where one steps every 1.4 ticks, say, and the other every 1.6.
+// Whole ticks since the last step. What is left over counts at the next step, so that the counts of two robots
+// never differ by more than a tick, even if one steps every 1.4 ticks, say, and the other every 1.6.
 class Ticks {
  public:
   // `senses` have passed the gate.

@@ -19,7 +19,7 @@ using Heard = HeardOf<Message>;
 [[nodiscard]] Report report(const State& state) noexcept;
 void add_to(Digest& digest, const State& state) noexcept;
 
-// Where a robot would go for a larger lambda_2: (5) of docs/rivals.md. In its own frame, in 1 / m.
+// The direction in which a robot would increase lambda_2: (5) of docs/rivals.md. In its own frame, in 1 / m.
 [[nodiscard]] Vec2 connectivity_gradient(const Params& params, const State& state) noexcept;
 
 using Robots = RobotsOf<Params, State, Message, initial_state, step, report, add_to>;

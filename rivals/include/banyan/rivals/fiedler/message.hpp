@@ -12,7 +12,7 @@ namespace banyan::rivals::fiedler {
 inline constexpr float largest_real = 1e4F;    // no number in a message is larger
 inline constexpr float per_weight = 512.0F;    // units of a weighted degree in a message
 
-// A proportional-integral average consensus estimator: `value` comes to the mean of all robots' inputs.
+// A proportional-integral average consensus estimator: `value` converges to the mean of all robots' inputs.
 struct Average {
   float value = 0.0F;
   float integral = 0.0F;
@@ -27,7 +27,7 @@ struct Message {
   Average mean;                   // of x
   Average square;                 // of (x - mean)^2
   Average product;                // of (x - mean) (L x)
-  float lambda = 0.0F;            // its estimate of lambda_2; for observers alone
+  float lambda = 0.0F;            // its estimate of lambda_2; only for observers
   std::uint8_t links = 0;         // how many it has
   std::uint16_t largest_degree = 0;  // the largest weighted degree that it knows of,
   std::uint8_t degree_age = 0;       // from so many ticks ago

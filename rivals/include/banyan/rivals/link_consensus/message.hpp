@@ -18,8 +18,8 @@ struct Bid {
   RobotId other = nobody;
   std::uint16_t length_cm = 0;  // the longest link is the most urgent
   std::uint8_t serial = 0;      // the owner's bids are numbered
-  std::uint8_t reach = 0;       // hops that it may go on
-  std::uint16_t lease_ticks = 0;  // for so long who vouches for it vouches for no other
+  std::uint8_t reach = 0;       // hops that it may still travel
+  std::uint16_t lease_ticks = 0;  // for so long robots that vouch for it vouch for no other
 
   friend bool operator==(const Bid&, const Bid&) = default;
 };
@@ -51,7 +51,7 @@ constexpr void visit_all(Visitor& visit, M& m) noexcept {
                                    "link_7", "link_8", "link_9", "link_10", "link_11", "link_12"};
   static_assert(std::size(names) == most_kept_links);
   for (std::size_t k = 0; k < most_kept_links; ++k) visit.robot(names[k], "the other end of a link that it keeps or offers, -1: none", m.links[k]);
-  visit.robot("bid_owner", "who proposes to give up a link, -1: nobody", m.bid.owner);
+  visit.robot("bid_owner", "the robot that proposes to give up a link, -1: nobody", m.bid.owner);
   visit.robot("bid_other", "to whom the link is, -1: nobody", m.bid.other);
   visit.number("bid_length_cm", "length of that link", m.bid.length_cm);
   visit.number("bid_serial", "number of the bid among its owner's", m.bid.serial);

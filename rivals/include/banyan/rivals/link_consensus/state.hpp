@@ -73,10 +73,10 @@ struct State {
   bool agrees = false;
   Bid last_bid;                     // vouched for before that: not again
   std::uint8_t serial = 0;          // of my last own bid
-  std::uint16_t own_lease_ticks = 1;  // as long as it was to last
-  bool insists = false;             // my next one goes as far as any
-  std::uint16_t tried_cm = 0xFFFF;  // it is about a shorter link than this
-  std::uint16_t rest_ticks = 0;     // until then no bid of my own
+  std::uint16_t own_lease_ticks = 1;  // its full length
+  bool insists = false;             // my next bid has the largest reach
+  std::uint16_t tried_cm = 0xFFFF;  // my next bid is about a link shorter than this
+  std::uint16_t rest_ticks = 0;     // time until my next bid
 
   Tally tally;                      // never read
   Table<Message> neighbors;

@@ -23,7 +23,7 @@ struct Message {
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
   Serial epoch = 0;              // the tree under construction, or the last
-  Serial next = 0;               // the epoch after it, once somebody has asked for it; else the same
+  Serial next = 0;               // the epoch after it, once a robot has asked for it; else the same
   std::uint8_t countdown = 0;    // ticks until that begins
   std::uint8_t level = 0;        // Boruvka's round
   RobotId fragment = nobody;     // by its leader
@@ -48,7 +48,7 @@ constexpr void visit_all(Visitor& visit, M& m) noexcept {
   visit.flag("full", "there is no room for edges beside those that it keeps", m.full);
   visit.robot("id", "of the sender", m.id);
   visit.number("epoch", "number of the tree under construction, or of the last", m.epoch);
-  visit.number("next", "number of the tree that somebody has asked for", m.next);
+  visit.number("next", "number of the tree that a robot has asked for", m.next);
   visit.number("countdown", "ticks until its construction begins", m.countdown);
   visit.number("level", "round of the construction", m.level);
   visit.robot("fragment", "leader of the fragment, -1: none yet", m.fragment);

@@ -74,16 +74,16 @@ struct State {
   Edge best;
   Edge choice;
   RobotId least = nobody;            // the smallest id below me that is no worker; of a complete tree of all
-  RobotId least_by = nobody;         // the branch over which it is found; nobody: it is mine
+  RobotId least_by = nobody;         // the branch in which it is; nobody: it is my own id
   Ends branches;
   Ends refused;                      // they had no room for an edge to me: not chosen before there is a tree
-  std::uint16_t unanswered_ticks = 0;  // for so long the other end of the edge that I chose has not named it
+  std::uint16_t unanswered_ticks = 0;  // how long the other end of the edge that I chose has not named it
   std::uint16_t decided_ticks = 0;   // a leader: since it chose
   std::array<Candidate, neighbor_capacity> candidates{};
   std::uint8_t candidate_count = 0;
 
   [[nodiscard]] bool holds(RobotId end) const noexcept { return tree.has(end) || old.has(end) || branches.has(end); }
-  // All edges that are promised, at most so many as a report has room for: nothing is added beyond that.
+  // All edges that are promised, at most as many as a report has room for: none is added beyond that.
   [[nodiscard]] Ends held() const noexcept {
     Ends all = tree;
     all.add_all(old);
