@@ -15,9 +15,9 @@ using OutputKey = world::Key<record::Output>;
 // Of the recording; they follow its switch.
 constexpr OutputKey recording_rows[] = {
     {"output.record_every", world::of<&record::Output::record_every>, "ticks", {1.0, 1e6},
-     "record the robots every so many ticks; metrics at every tick"},
+     "record the robots only every this many ticks; metrics at every tick"},
     {"output.messages", world::of<&record::Output::messages>, "", {},
-     "record what each robot broadcast, beside where it was"},
+     "record what each robot broadcast, besides where it was"},
 };
 
 template <std::size_t format> bool* wanted(record::Output& output) noexcept { return &output.wanted[format]; }

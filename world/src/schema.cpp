@@ -114,14 +114,14 @@ constexpr Section section_list[] = {
     {"swarm", "How many robots. Give `robots` or `redundancy`, not both."},
     {"swarm.start", "Where the robots begin: connected, by default a compact cluster.", "layout"},
     {"robot", "One robot's body and wheels. The defaults are a Khepera IV."},
-    {"radio", "Who hears whom, and how well.", "model"},
+    {"radio", "Which robots hear each other, and how well.", "model"},
     {"clocks", "When robots step: all together, or each by its own clock."},
     {"targets", "Where the workers have to go.", "layout"},
     {"obstacles",
-     "An obstacle each: `[[obstacles]]` as often as needed. They block motion and, with "
+     "One obstacle each: repeat `[[obstacles]]` as often as needed. They block motion and, with "
      "`radio.line_of_sight`, the radio. Robots see them only within `robot.proximity_m`.",
      "kind", true},
-    {"events", "What happens to the world at a given time or moment of the mission: `[[events]]` as often as needed.",
+    {"events", "What happens at a given time or moment of the mission: repeat `[[events]]` as often as needed.",
      "kind", true},
 };
 
@@ -133,7 +133,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"description", of<&Scenario::description>, "", any_value, "what this world is about, for readers"},
     {"tick_s", of<&Scenario::tick_s>, "s", {0.01, 1.0},
      "length of a tick; robots broadcast, decide and move once a tick", {.parameter = "tick_s"}},
-    {"seed", of<&Scenario::seed>, "", any_seed, "decides everything random; the same seed gives the same run",
+    {"seed", of<&Scenario::seed>, "", any_seed, "determines everything random; the same seed gives the same run",
      {.only_in_files = true}},
 
     {"mission.algorithm", word<&Mission::algorithm, algorithm_names>, "", any_value, "how the robots keep together on the way"},
@@ -169,7 +169,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      {.not_beside = "pitch_share"}},
     {"swarm.start.pitch_share", by<pitch_share_of>, "", any_part,
      "the same as a share of radio.range_m; not beside pitch_m", {.otherwise = "pitch_m counts"}},
-    {"swarm.start.jitter_m", by<jitter_of>, "m", {0.0, 1000.0}, "each robot is off its point by up to this"},
+    {"swarm.start.jitter_m", by<jitter_of>, "m", {0.0, 1000.0}, "each robot is displaced from its point by up to this"},
     {"swarm.start.link_share", by<link_share_of>, "", any_part,
      "spacing of the bridge, or longest link over which a random start grows, as a share of radio.range_m"},
     {"swarm.start.bridge_robots", by<bridge_robots_of>, "", {1.0, most_ids}, "robots between the two clusters"},
@@ -205,7 +205,7 @@ constexpr Key<Scenario> scenario_rows[] = {
 
     {"radio.model", of<&RadioModel::model>, "", any_value,
      "which packets are lost within range and sight: disc, each with the same probability; bursts, many in a row; "
-     "path_loss, more the farther they fly; one_way, between some pairs all in one direction"},
+     "path_loss, more the farther away the sender is; one_way, between some pairs all in one direction"},
     {"radio.range_m", of<&RadioModel::range_m>, "m", {0.05, 100.0},
      "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
@@ -219,23 +219,23 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"radio.edge_loss", by<radio_of<&RadioModel::edge_loss, Radios::path_loss>>, "", {0.001, 0.999},
      "share of the packets that is lost at distance range_m"},
     {"radio.shadowing_db", by<radio_of<&RadioModel::shadowing_db, Radios::path_loss>>, "dB", {0.0, 20.0},
-     "sigma of how much stronger or weaker a pair's signal is than its distance says"},
+     "sigma of the difference between a pair's signal and what its distance predicts"},
     {"radio.shadowing_s", by<radio_of<&RadioModel::shadowing_s, Radios::path_loss>>, "s", {0.0, 1e6},
-     "time after which it is drawn anew; 0: it stays the same for the whole run"},
+     "time after which that difference is drawn anew; 0: it stays the same for the whole run"},
     {"radio.one_way_share", by<radio_of<&RadioModel::one_way_share, Radios::one_way>>, "", any_share,
      "share of the pairs of robots in which one never hears the other"},
     {"radio.range_noise_m", of<&RadioModel::range_noise_m>, "m", {0.0, 1000.0}, "sigma of the measured range"},
     {"radio.bearing_noise_deg", of<&RadioModel::bearing_noise_rad>, "deg", {0.0, 180.0},
      "sigma of the measured bearing"},
     {"radio.latency_ticks", of<&RadioModel::latency_ticks>, "ticks", {1.0, 100.0},
-     "a message is heard so many ticks after it was sent"},
+     "a message is heard this many ticks after it was sent"},
     {"radio.slots", of<&RadioModel::slots>, "", {0.0, 65535.0}, "packets a robot can receive in one tick; 0: no limit"},
 
     {"clocks.asynchronous", of<&Clocks::asynchronous>, "", any_value,
      "each robot steps at its own moments, not all of them at the beginning of every tick"},
     {"clocks.drift", of<&Clocks::drift>, "", {0.0, 0.5}, "each clock's rate is 1 + uniform(-drift, drift), drawn once"},
     {"clocks.substeps", of<&Clocks::substeps>, "", {2.0, 100.0},
-     "parts of a tick after each of which bodies move and packets fly (asynchronous)"},
+     "parts of a tick, after each of which bodies move and packets travel (asynchronous)"},
 
     {"targets.layout", of<&Scenario::targets>, "", any_value,
      "a list of positions, equal angles on a circle, or random in an annulus"},
@@ -261,7 +261,7 @@ constexpr Key<Obstacle> obstacle_rows[] = {
 };
 
 constexpr Key<Event> event_rows[] = {
-    {"events.time_s", of<&Event::time_s>, "s", any_time, "when: so long after what `when` says", {.required = true}},
+    {"events.time_s", of<&Event::time_s>, "s", any_time, "time after the moment that `when` names", {.required = true}},
     {"events.when", of<&Event::when>, "", any_value,
      "what time_s counts from: time, the start; half-way, the workers' remaining distances have fallen to half; "
      "complete, all targets are held at once for the first time, by a tree in one piece. An event whose moment never "
@@ -270,7 +270,7 @@ constexpr Key<Event> event_rows[] = {
     {"events.robot", of<&Die::robot, &Freeze::robot>, "", {0.0, most_ids - 1},
      "index of the robot, counted from 0", {.required = true}},
     {"events.duration_s", of<&Freeze::duration_s, &Blackout::duration_s>, "s", any_time,
-     "how long it stands still (freeze; 0: for good) or nobody hears anything (blackout; above 0)"},
+     "how long the robot stands still (freeze; 0: for good) or no robot hears anything (blackout; above 0)"},
     {"events.loss", of<&SetLoss::loss>, "", any_share, "the new radio.loss", {.required = true}},
     {"events.line_of_sight", of<&SetLineOfSight::line_of_sight>, "", any_value,
      "the new radio.line_of_sight; the robots are told", {.required = true}},
@@ -284,13 +284,13 @@ constexpr Key<Event> event_rows[] = {
     {"events.speed_m_s", of<&MoveTarget::speed_m_s>, "m/s", {0.0, 100.0},
      "the target drives there in a straight line; 0: it jumps"},
     {"events.of", of<&Kill::of>, "", any_value,
-     "whom the dead are drawn from: the living, by the role they broadcast when it acts; worker_and_parent: a worker "
-     "and its parent in the tree"},
+     "which robots the dead are drawn from: the living, by the role they broadcast when the event acts; "
+     "worker_and_parent: a worker and its parent in the tree"},
     {"events.share", of<&Kill::share>, "", any_share,
-     "how many die: so much of those they are drawn from when it begins, rounded",
+     "how many die: this share of the robots they are drawn from when the event begins, rounded",
      {.otherwise = "count counts", .not_beside = "count"}},
     {"events.count", of<&Kill::count>, "", {1.0, most_ids}, "how many die; not beside share", {.otherwise = "1"}},
-    {"events.every_s", of<&Kill::every_s>, "s", any_time, "they die one by one, so far apart; 0: all at once"},
+    {"events.every_s", of<&Kill::every_s>, "s", any_time, "they die one by one, this long apart; 0: all at once"},
 };
 // clang-format on
 

@@ -7,19 +7,19 @@ namespace {
 constexpr float smallest_range = 4.5F;  // distances between the wheels, three and a half bodies
 
 constexpr Parameter<ConvoyParams> of_convoy[] = {
-    {{"pull_start", "", "C", "convoy: a child farther than this pulls its parent along",
+    {{"pull_start", "", "C", "convoy: a child farther away than this pulls its parent along",
       "Smaller keeps chains slack; larger stretches edges before the next robot moves.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::pull_start_m},
-    {{"pull_width", "", "C", "convoy: the pull has full strength so much beyond pull_start",
+    {{"pull_width", "", "C", "convoy: the pull reaches full strength this far beyond pull_start",
       "Smaller is stiffer: faster, and less smooth with noise.", "convoy 2", 0.001F, 1.0F, Scaling::range}, &ConvoyParams::pull_width_m},
     {{"tension_gain", "", "", "convoy: tree edges pull like strings with this strength",
       "Larger straightens chains sooner and holds workers back.", "convoy 2", 0.0F, 10.0F}, &ConvoyParams::tension_gain},
-    {{"tension_start", "", "C", "convoy: shorter edges have no tension", "Most users need not change it.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::tension_start_m},
-    {{"tension_width", "", "C", "convoy: tension has full strength so much beyond tension_start",
+    {{"tension_start", "", "C", "convoy: edges shorter than this have no tension", "Most users need not change it.", "convoy 2", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::tension_start_m},
+    {{"tension_width", "", "C", "convoy: tension reaches full strength this far beyond tension_start",
       "Most users need not change it.", "convoy 2", 0.001F, 1.0F, Scaling::range}, &ConvoyParams::tension_width_m},
     {{"slack_gain", "", "", "convoy: the edges of a chain share their slack with this strength",
       "Matters only while robots are short.", "convoy 8", 0.0F, 10.0F}, &ConvoyParams::slack_gain},
-    {{"first_edge", "", "C", "convoy: parents are chosen this near while there is a choice",
-      "Above the distance at which the swarm stands at first.", "convoy 1", 0.01F, 1.0F, Scaling::range}, &ConvoyParams::first_edge_m},
+    {{"first_edge", "", "C", "convoy: parents nearer than this are preferred",
+      "Above the distance between neighbours at the start.", "convoy 1", 0.01F, 1.0F, Scaling::range}, &ConvoyParams::first_edge_m},
     {{"clearance", "", "C", "convoy: a robot this near to a segment counts as blocking it",
       "More than a body's radius; larger loses fewer lines of sight and finds fewer parents.", "convoy 1", 0.0F, 1.0F, Scaling::body}, &ConvoyParams::clearance_m},
     {{"corridor_width", "", "C", "convoy: robots this near to a tree edge move away from it",
@@ -28,17 +28,17 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
     {{"join_margin", "", "C", "convoy: a spare joins an edge if both ends are nearer than delta minus this",
       "More with latency, noise or loss.", "convoy 4", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::join_margin_m},
     {{"shortest_split", "", "C", "convoy: edges shorter than this are not split", "Larger ends with fewer robots.", "convoy 4", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::shortest_split_m},
-    {{"call_distance", "", "C", "convoy: a longer edge whose need nobody answers calls spares from afar",
+    {{"call_distance", "", "C", "convoy: an edge longer than this whose need no spare answers calls spares from afar",
       "Smaller calls sooner, and spares crowd the chain.", "convoy 7", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::call_distance_m},
     {{"release_distance", "", "C", "convoy: a grandparent nearer than this becomes the parent",
-      "Below pull_start plus pull_width, or robots are taken out and put in by turns.", "convoy 5", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::release_distance_m},
-    {{"spare_avoidance", "", "C", "convoy: spares repel within this", "About two body diameters.", "convoy 2", 0.0F, 1.0F, Scaling::body}, &ConvoyParams::spare_avoidance_m},
-    {{"merge_distance", "", "C", "convoy: longest edge made to save a robot once all below have arrived",
+      "Below pull_start plus pull_width, or robots are released and inserted by turns.", "convoy 5", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::release_distance_m},
+    {{"spare_avoidance", "", "C", "convoy: spares repel other robots within this", "About two body diameters.", "convoy 2", 0.0F, 1.0F, Scaling::body}, &ConvoyParams::spare_avoidance_m},
+    {{"merge_distance", "", "C", "convoy: longest edge that is made to save a robot once all workers below have arrived",
       "0 saves none. Larger saves more, and leaves less margin for noise.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::merge_distance_m},
     {{"compact_distance", "", "C", "convoy: chains that have arrived stretch their edges to this",
       "Below delta and merge_distance.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::compact_distance_m},
-    {{"plan_after_s", "", "s", "convoy: so long after all have arrived chains from target to target are planned; 0: never",
-      "0 where targets drive: the plan is for targets that stay.", "convoy 11", 0.0F, 600.0F}, &ConvoyParams::plan_after_s},
+    {{"plan_after_s", "", "s", "convoy: time from the arrival of all workers to the planning of chains from target to target; 0: never",
+      "0 where targets drive: a plan is for targets that stay.", "convoy 11", 0.0F, 600.0F}, &ConvoyParams::plan_after_s},
 };
 
 }  // namespace
@@ -47,7 +47,7 @@ std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept { return o
 
 std::string_view convoy_fault(const ConvoyParams& params) noexcept {
   if (!(params.pull_start_m < params.ideal_distance_m)) return "pull_start must be below ideal_distance_m (delta) / C";
-  if (!(params.communication_range_m >= smallest_range * params.wheel_distance_m)) return "the radio range C must be at least 4.5 times the distance between the wheels: in a crowd of bodies so wide nobody gets anywhere";
+  if (!(params.communication_range_m >= smallest_range * params.wheel_distance_m)) return "the radio range C must be at least 4.5 times the distance between the wheels: wider bodies block each other's way";
   if (!(params.join_margin_m < params.ideal_distance_m)) return "join_margin must be below ideal_distance_m (delta) / C";
   return {};
 }

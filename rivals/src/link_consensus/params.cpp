@@ -13,7 +13,7 @@ constexpr Parameter<Params> of_link_consensus[] = {
     {{"link_gain", "", "", "link consensus: gain of the potential along a kept link",
       "Smaller lets a target's pull stretch links nearer to their limit.", "link consensus", 0.0F, 10.0F}, &Params::link_gain},
     {{"root_silence_s", "", "s", "link consensus: silence of the root after which another robot takes its place",
-      "More than news take to come through the longest chain.", "link consensus", 0.5F, 600.0F}, &Params::root_silence_s},
+      "More than news takes to come through the longest chain.", "link consensus", 0.5F, 600.0F}, &Params::root_silence_s},
 };
 
 }  // namespace
