@@ -176,7 +176,7 @@ bool Ffmpeg::finish() {
     const pid_t ended = ::waitpid(child_, &status, WNOHANG);
     if (ended == child_) break;
     if (ended < 0 && errno != EINTR)
-      throw CommandError(exit_lost, output_ + ": nobody knows how ffmpeg ended: " + std::strerror(errno));
+      throw CommandError(exit_lost, output_ + ": the exit status of ffmpeg cannot be read: " + std::strerror(errno));
     if (stop_signal() != 0) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

@@ -92,7 +92,7 @@ constexpr const char* keys_footer =
 
 constexpr const char* tune_footer =
     "Writes best.toml (parameters for a scenario), tune.json, generations.csv and the figure fitness;\n"
-    "nsga2 also front.csv. If it is stopped, the same command resumes where it was and ends with the same\n"
+    "nsga2 also front.csv. If it is stopped, the same command resumes there and ends with the same\n"
     "result. docs/tuning.md describes the file. Over several machines: mpirun banyan tune FILE.\n\n"
     "Examples:\n"
     "  banyan tune studies/tune-outwards-small.toml --dry-run\n"
@@ -100,7 +100,7 @@ constexpr const char* tune_footer =
 
 constexpr const char* study_footer =
     "Writes runs.csv (a row per run), statistics.csv, comparisons.csv, figures/ and study.json. If it is\n"
-    "stopped, the same command resumes where it was. docs/studies.md describes the file.\n\n"
+    "stopped, the same command resumes there. docs/studies.md describes the file.\n\n"
     "Examples:\n"
     "  banyan study studies/first.toml --dry-run\n"
     "  banyan study studies/first.toml\n"
@@ -114,11 +114,11 @@ constexpr const char* collect_footer =
     "  banyan collect studies/paper.toml --out all shards-of-a shards-of-b";
 
 constexpr const char* soak_footer =
-    "Runs random missions of every kind and looks, at every tick, for what must not happen; docs/soak.md\n"
-    "says what that is. What it finds it makes smaller and writes beside its journal, soak.csv, with the\n"
-    "command that runs it again. The same seed and number are the same mission; called again, it goes on\n"
-    "where it was. With a FILE it watches that scenario. The exit code is 1 if something happened that\n"
-    "docs/soak.md promises not to happen.\n\n"
+    "Runs random missions of every kind and checks, at every tick, that nothing happens that must not;\n"
+    "docs/soak.md lists what that is. A mission with a finding is reduced to a smaller one, which is written\n"
+    "beside the journal, soak.csv, and the command that runs it again is printed. The same seed and number\n"
+    "give the same mission; called again, the soak continues after the missions in its journal. With a FILE\n"
+    "it watches that scenario. The exit code is 1 if a promise of docs/soak.md was broken.\n\n"
     "Examples:\n"
     "  banyan soak --seconds 60\n"
     "  banyan soak --seed 7 --missions 1000\n"
@@ -326,7 +326,7 @@ void add_film(CLI::App& app, std::function<int()>& action) {
   command->add_option("-o,--output", options->output, "file to write: .mp4, .webm or .gif")
       ->required()
       ->type_name("FILE");
-  command->add_option("--fps", options->fps, "frames a second, default 30, of a GIF 15")
+  command->add_option("--fps", options->fps, "frames a second; default 30, for a GIF 15")
       ->type_name("N")
       ->check(CLI::Range(1, 120).description(""));
   command->add_option("--speed", options->speed, "seconds of the run in a second of the film, 0.1 to 64")
@@ -334,10 +334,10 @@ void add_film(CLI::App& app, std::function<int()>& action) {
       ->check(number_within(0.1, 64.0));
   command->add_option("--from", options->from_s, "first moment, s")->type_name("S")->check(moment);
   command->add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment);
-  command->add_option("--width", options->width, "in pixels, default 1280, of a GIF 720")
+  command->add_option("--width", options->width, "in pixels; default 1280, for a GIF 720")
       ->type_name("PX")
       ->check(even_size(200, 7680));
-  command->add_option("--height", options->height, "in pixels, default 720, of a GIF 450")
+  command->add_option("--height", options->height, "in pixels; default 720, for a GIF 450")
       ->type_name("PX")
       ->check(even_size(150, 4320));
   command->add_option("--trail", options->trail_s, "how far back trails go, s; default 5")
@@ -417,11 +417,11 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
   command.add_option("study", options.file, "a study (.toml or .json)")->required()->type_name("FILE");
   add_overrides(command, options.overrides);
   command.add_option("-o,--out", options.out, "directory for everything, default out/<name>")->type_name("DIR");
-  command.add_flag("-f,--force", options.force, "throw away what is there and start over");
+  command.add_flag("-f,--force", options.force, "delete the results that are there and start over");
   command.add_flag("--extend", options.extend,
-                   "the study has changed since it finished: keep the runs that both have");
-  command.add_flag("--mix-versions", options.mix_versions, "go on with results of another version of banyan");
-  command.add_flag("-y,--yes", options.yes, "do not ask, however many runs it is");
+                   "the study has changed since it finished: keep the runs that both versions have");
+  command.add_flag("--mix-versions", options.mix_versions, "continue with results of another version of banyan");
+  command.add_flag("-y,--yes", options.yes, "do not ask, however many runs there are");
   command.add_flag("-q,--quiet", options.quiet, "no plan, no progress, no summary; warnings and errors only");
 }
 
@@ -431,7 +431,7 @@ void add_study(CLI::App& app, std::function<int()>& action) {
   command->footer(study_footer);
   add_study_options(*command, *options);
   command->add_flag("-n,--dry-run", options->dry_run, "print the plan and an estimate of its time, and start nothing");
-  command->add_flag("--retry", options->retry, "also run again what has failed");
+  command->add_flag("--retry", options->retry, "also run failed runs again");
   command
       ->add_option("-t,--threads", options->threads,
                    "runs at once, default all cores; under mpirun per process, default 1")
@@ -465,7 +465,7 @@ constexpr std::uint64_t most_missions = 1'000'000'000'000;
 void add_soak(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<SoakOptions>();
   auto* command =
-      app.add_subcommand("soak", "run random missions and look for what must not happen")->group(command_group);
+      app.add_subcommand("soak", "run random missions and look for faults")->group(command_group);
   command->footer(soak_footer);
   command->add_option("file", options->file, "a scenario to watch, instead of random missions")->type_name("FILE");
   command->add_option("-s,--seed", options->seed, "of the missions, default 1")
@@ -474,7 +474,7 @@ void add_soak(CLI::App& app, std::function<int()>& action) {
   command->add_option("--from", options->from, "first mission, default 0")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{0}, most_missions).description(""));
-  command->add_option("--missions", options->missions, "how many; default as many as there is time for")
+  command->add_option("--missions", options->missions, "how many; default as many as fit into the time")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, most_missions).description(""));
   command->add_option("--seconds", options->seconds, "how long; default until Ctrl-C")->type_name("S")->check(moment);
@@ -547,10 +547,10 @@ int run_program(int argc, char** argv) {
   app.footer(main_footer);
   app.get_formatter()->column_width(28);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app.set_help_flag("-h,--help", "print this help and leave");
+  app.set_help_flag("-h,--help", "print this help and exit");
   app.set_version_flag("--version",
                        "banyan " + std::string(banyan::version) + " (git " + std::string(banyan::git_id()) + ")",
-                       "print the version and leave");
+                       "print the version and exit");
   app.require_subcommand(1);
   add_run(app, action);
   add_validate(app, action);

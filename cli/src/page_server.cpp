@@ -186,7 +186,7 @@ void PageServer::Impl::add_routes() {
     // Of a recording only; file() checks them. The request is httplib's own variable, constant for handlers.
     if (request.path != "/file") const_cast<Request&>(request).ranges.clear();
     if (request.method == "GET" || request.method == "HEAD") return Result::Unhandled;
-    say(response, 405, "There is nothing to do here but to read.");
+    say(response, 405, "This server only answers GET and HEAD.");
     return Result::Handled;
   });
   server.Get("/start.json", [this](const Request&, Response& response) { start(response); });

@@ -138,7 +138,7 @@ int view_command(const ViewOptions& options) {
   content.scenarios = scenarios_folder(options);
   if (!options.file.empty() && is_recording(options.file)) {
     if (!options.overrides.empty())
-      throw CommandError(exit_usage, "a recording is what it is: --set, --seed and --with change scenarios");
+      throw CommandError(exit_usage, "a recording cannot be changed: --set, --seed and --with are for scenarios");
     check_recording(options.file);
     content.recording = options.file;
   } else if (!options.file.empty()) {

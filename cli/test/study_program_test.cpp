@@ -356,7 +356,7 @@ TEST_F(StudyProgram, AJournalThatIsTakenAwayIsNoSuccess) {
     ASSERT_EQ(::kill(child, SIGCONT), 0);
     const auto outcome = finish(child);
     EXPECT_EQ(outcome.code, 1) << outcome.err;
-    EXPECT_TRUE(has(outcome.err, "o/journal/all.jsonl: somebody has removed or replaced this file")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "o/journal/all.jsonl: this file was removed or replaced")) << outcome.err;
     EXPECT_FALSE(exists("o/study.json"));
     fs::remove_all(home_ / "o");
   }

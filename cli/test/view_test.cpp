@@ -427,7 +427,7 @@ TEST_F(ViewCommand, RefusesInWords) {
   refuse({"missing.toml"}, 2, "missing.toml: error: there is no such file");
   refuse({"missing.mcap"}, 1, "missing.mcap: cannot open: No such file or directory");
   refuse({"run.mcap"}, 1, "run.mcap: is not an MCAP file");
-  refuse({"run.mcap", "--set", "radio.loss=0"}, 2, "a recording is what it is");
+  refuse({"run.mcap", "--set", "radio.loss=0"}, 2, "a recording cannot be changed");
   refuse({"small.toml", "--port", "70000"}, 2, "--port");
   refuse({"small.toml", "--scenarios", "nowhere"}, 2, "nowhere: there is no such folder");
   refuse({"small.toml", "--page", "scenarios"}, 1, "scenarios: the page is not there (no index.html)");

@@ -170,7 +170,7 @@ void Journal::append(const JournalEntry& entry) {
 void Journal::sync() {
   if (::fdatasync(descriptor_) != 0) throw FileError(path_, "write to the disk", errno);
   if (!record::has_name(descriptor_, path_))
-    throw FileError(path_, "somebody has removed or replaced this file while runs were added to it: they are lost");
+    throw FileError(path_, "this file was removed or replaced while runs were added to it: they are lost");
   synced_ns_ = now_ns();
 }
 

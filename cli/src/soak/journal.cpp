@@ -58,7 +58,7 @@ int lock_of(const std::string& path) {
   try {
     return record::open_locked(path, O_RDWR | O_CREAT | O_CLOEXEC);
   } catch (const record::FileBusy&) {
-    throw CommandError(exit_lost, "another soak is at work on " + path);
+    throw CommandError(exit_lost, "another soak is writing to " + path);
   } catch (const record::FileError& e) { throw CommandError(exit_lost, std::string("cannot write ") + path + ": " + e.what()); }
 }
 
@@ -105,7 +105,7 @@ Journal::Journal(const std::string& path, std::uint64_t seed, bool force) : path
   std::getline(lines, line);
   for (std::size_t number = 2; std::getline(lines, line); ++number) {
     const auto row = row_from(line);
-    if (!row) throw CommandError(exit_usage, format("%s:%zu: no mission of a soak; --force begins the journal anew", path.c_str(), number));
+    if (!row) throw CommandError(exit_usage, format("%s:%zu: this is no mission of a soak; --force begins the journal anew", path.c_str(), number));
     if (row->first == seed) rows_[row->second.index] = row->second;
   }
   std::filesystem::resize_file(path, text.size(), error);

@@ -86,14 +86,14 @@ class Watch {
     const std::size_t parts = sight_.components(living, false);
     const bool deaths = !std::equal(before.begin(), before.end(), world_.alive().begin());
     if (deaths && parts > 1) excused_ = true;
-    if (parts > 1 && !excused_) find("split", format("the living are in %zu parts by distance", parts));
+    if (parts > 1 && !excused_) find("split", format("the living robots are in %zu parts by distance", parts));
     const bool hides = parts == 1 && world_.line_of_sight();
     if (!hides) hidden_split_ = 0;
     if (parts > 1) return;
     excused_ = false;
     if (!hides) return;
     hidden_split_ = sight_.components(living, true) > 1 ? hidden_split_ + 1 : 0;
-    if (hidden_split_ > hidden_ticks) find("hidden-split", "the living are in parts by sight");
+    if (hidden_split_ > hidden_ticks) find("hidden-split", "the living robots are in several parts by sight");
   }
 
   void look_at_edges() {
