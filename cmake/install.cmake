@@ -17,8 +17,11 @@ foreach(room IN ITEMS version controller rivals algorithms world measure record 
   install(EXPORT banyan-${room} FILE banyan-${room}-targets.cmake NAMESPACE banyan:: DESTINATION ${cmake_dir}
           COMPONENT development)
   if(NOT room STREQUAL version)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/ TYPE INCLUDE COMPONENT development
-            FILES_MATCHING PATTERN "*.hpp")
+    # A room has one include/, rivals/ one in each folder.
+    file(GLOB faces ${PROJECT_SOURCE_DIR}/${room}/include ${PROJECT_SOURCE_DIR}/${room}/*/include)
+    foreach(face IN LISTS faces)
+      install(DIRECTORY ${face}/ TYPE INCLUDE COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+    endforeach()
   endif()
 endforeach()
 if(TARGET banyan_version)

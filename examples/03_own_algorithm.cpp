@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "banyan/controller/core/algorithm_of.hpp"
 #include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/core/output.hpp"
-#include "banyan/controller/core/swarm_of.hpp"
 #include "banyan/world/world.hpp"
 
 using namespace banyan;
@@ -34,19 +34,9 @@ struct Spread {
   static void add_to(Digest& digest, const State& self) { digest.add(self.id); }
 };
 
-class SpreadAlgorithm final : public Algorithm {
-  std::string_view name() const noexcept override { return "spread"; }
-  std::string_view summary() const noexcept override { return "keeps a metre away from other robots"; }
-  std::vector<const ParameterInfo*> parameters() const override { return {}; }
-  std::vector<float> values(const Setup&) const override { return {}; }
-  std::string fault(const Setup&) const override { return {}; }
-  std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
-    return std::make_unique<SwarmOf<Spread>>(setup.platform, members, setup.history);
-  }
-};
+constexpr AlgorithmOf<Spread> spread({.name = "spread", .summary = "keeps a metre away from other robots"});
 
 int main() {
-  const SpreadAlgorithm spread;
   world::World world(world::Scenario{}, spread);
   const auto nearest_m = [&] {
     double least = 1e9;

@@ -59,10 +59,25 @@ const Names on_the_robot = {"algorithm", "array",   "bit",    "cmath",       "co
                             "cstdint",   "cstring", "limits", "numeric",     "optional", "span",        "string_view",
                             "tuple",     "utility", "version", "type_traits", "iterator", "initializer_list"};
 
-// The seam's side towards hosts, which have a heap. Nothing else in controller/ includes these.
-const Names for_hosts = {"swarm.hpp", "swarm_of.hpp", "algorithm.hpp"};
+// The seam's side towards hosts, which have a heap. Nothing else in controller/ includes these, and in rivals/ only
+// algorithm.cpp, which makes an Algorithm of each, and algorithm.hpp of common/.
+const Names for_hosts = {"swarm.hpp", "swarm_of.hpp", "algorithm.hpp", "algorithm_of.hpp"};
 const Names of_hosts = {"memory", "string", "vector", "new", "cstdlib", "sys/mman.h"};
-bool is_for_hosts(const fs::path& file) { return file.parent_path().filename() == "core" && for_hosts.contains(file.filename().string()); }
+bool is_for_hosts(const fs::path& file) {
+  if (file.parent_path().filename() == "core") return for_hosts.contains(file.filename().string());
+  return file.stem() == "algorithm" && std::find(file.begin(), file.end(), "rivals") != file.end();
+}
+
+// What has include/, src/ and test/: a room, and in rivals/ each of its folders.
+fs::path part_of(const fs::path& room_folder, const fs::path& file) {
+  return room_folder.filename() == "rivals" ? room_folder / *file.lexically_relative(room_folder).begin() : room_folder;
+}
+// Whether a file is no test, nor anything else besides the libraries.
+bool is_product(const fs::path& room_folder, const fs::path& file) {
+  const fs::path part = part_of(room_folder, file);
+  const std::string folder = file.lexically_relative(part).begin()->string();
+  return folder == "include" || folder == "src" || (part != room_folder && folder != "test");
+}
 
 struct Include {
   std::string name;
@@ -94,14 +109,16 @@ std::vector<fs::path> sources(const fs::path& folder) {
 }
 
 // A private header: beside the file, or in its room's src/ or test/; tests may share the helpers of
-// the tests of a room below.
+// the tests of a room below, and rivals those in common/.
 std::optional<std::string> quoted_fault(const fs::path& room_folder, const fs::path& file, const std::string& name) {
-  if (file.lexically_relative(room_folder / "test").begin()->string() != "..") {
+  const fs::path part = part_of(room_folder, file);
+  if (file.lexically_relative(part / "test").begin()->string() != "..") {
     for (const std::string& below : may_include.at(room_folder.filename().string()))
       if (fs::exists(room_folder.parent_path() / below / "test" / name) && name.find("..") == std::string::npos) return std::nullopt;
   }
   // The viewer's src/ is the page's; its C++ is in live/.
-  for (const fs::path& folder : {file.parent_path(), room_folder / "src", room_folder / "live", room_folder / "test"}) {
+  for (const fs::path& folder :
+       {file.parent_path(), part / "src", part / "live", part / "test", room_folder / "common/test"}) {
     if (!fs::exists(folder / name)) continue;
     const std::string inside = fs::weakly_canonical(folder / name).lexically_relative(fs::weakly_canonical(room_folder)).string();
     return inside.starts_with("..") ? std::optional("reaches out of its room") : std::nullopt;
@@ -113,13 +130,14 @@ std::optional<std::string> quoted_fault(const fs::path& room_folder, const fs::p
 std::optional<std::string> fault(const fs::path& room_folder, const fs::path& file, const Include& include, bool product) {
   const std::string room = room_folder.filename().string();
   const std::string& name = include.name;
+  const bool on_robot = product && (room == "controller" || room == "rivals") && !is_for_hosts(file);
   if (name.starts_with("banyan/")) {
     const std::size_t slash = name.find('/', 7);
     if (slash == std::string::npos) return room == "controller" ? std::optional("is not the controller's") : std::nullopt;
     const std::string other = name.substr(7, slash - 7);
     if (other == "controller" && product && room != "controller" && room != "algorithms" && !name.starts_with("banyan/controller/core/"))
       return "names an algorithm";
-    if (other == "controller" && room == "controller" && product && is_for_hosts(name) && !is_for_hosts(file)) return "is for hosts";
+    if (on_robot && is_for_hosts(name)) return "is for hosts";
     if (other == "algorithms" && !product && room != "controller") return std::nullopt;  // tests name them
     if (!may_include.contains(other)) return "names no room";
     if (other != room && !may_include.at(room).contains(other)) return "points up";
@@ -129,7 +147,8 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
   for (const auto& [prefix, rooms] : homes) {
     if (name.starts_with(prefix) && !rooms.contains(room)) return "belongs into another room";
   }
-  if ((room == "controller" || room == "rivals") && product && !on_the_robot.contains(name) && !(is_for_hosts(file) && of_hosts.contains(name)))
+  if (product && (room == "controller" || room == "rivals") && !on_the_robot.contains(name) &&
+      (on_robot || !of_hosts.contains(name)))
     return "has no place on a robot";
   return std::nullopt;
 }
@@ -139,7 +158,7 @@ std::vector<std::string> faults(const fs::path& house) {
   for (const auto& [room, allowed] : may_include) {
     for (const fs::path& file : sources(house / room)) {
       const std::string where = fs::relative(file, house).string();
-      const bool product = where.starts_with(room + "/include/") || where.starts_with(room + "/src/");
+      const bool product = is_product(house / room, file);
       for (const Include& include : includes(file)) {
         if (const auto what = fault(house / room, file, include, product)) found.push_back(where + ": " + include.name + " " + *what);
       }
@@ -209,12 +228,23 @@ TEST_F(WrongHouse, OnlyTheListAndTestsNameAlgorithms) {
   EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/algorithms/algorithms.hpp\""), "");
 }
 TEST_F(WrongHouse, RivalsStandOnTheCoreAlone) {
-  EXPECT_EQ(faults_of("rivals/src/x.cpp", "#include \"banyan/controller/core/guard.hpp\""), "");
-  EXPECT_EQ(faults_of("rivals/src/x.cpp", "#include \"banyan/controller/tree/motion.hpp\""),
-            "rivals/src/x.cpp: banyan/controller/tree/motion.hpp names an algorithm\n");
-  EXPECT_EQ(faults_of("rivals/src/x.cpp", "#include <vector>"), "rivals/src/x.cpp: vector has no place on a robot\n");
-  EXPECT_EQ(faults_of("rivals/src/x.cpp", "#include \"banyan/world/world.hpp\""), "rivals/src/x.cpp: banyan/world/world.hpp points up\n");
-  std::filesystem::remove(house_ / "rivals/src/x.cpp");
+  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/core/guard.hpp\""), "");
+  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/tree/motion.hpp\""),
+            "rivals/toy/src/x.cpp: banyan/controller/tree/motion.hpp names an algorithm\n");
+  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include <vector>"), "rivals/toy/src/x.cpp: vector has no place on a robot\n");
+  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""), "rivals/toy/src/x.cpp: banyan/world/world.hpp points up\n");
+  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/core/algorithm_of.hpp\""),
+            "rivals/toy/src/x.cpp: banyan/controller/core/algorithm_of.hpp is for hosts\n");
+  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/rivals/common/algorithm.hpp\""),
+            "rivals/toy/src/x.cpp: banyan/rivals/common/algorithm.hpp is for hosts\n");
+  std::filesystem::remove(house_ / "rivals/toy/src/x.cpp");
+  EXPECT_EQ(faults_of("rivals/toy/src/algorithm.cpp",
+                      "#include <vector>\n#include \"banyan/controller/core/algorithm_of.hpp\""), "");
+  EXPECT_EQ(faults_of("rivals/toy/toy.cpp", "#include <vector>"), "rivals/toy/toy.cpp: vector has no place on a robot\n");
+  std::filesystem::remove(house_ / "rivals/toy/toy.cpp");
+  EXPECT_EQ(faults_of("rivals/common/test/net.hpp", "#include <vector>"), "");
+  EXPECT_EQ(faults_of("rivals/toy/test/x_test.cpp",
+                      "#include <vector>\n#include \"net.hpp\"\n#include \"banyan/controller/core/swarm_of.hpp\""), "");
   EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""), "");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""),
             "world/src/x.cpp: banyan/rivals/common/motion.hpp points up\n");

@@ -17,6 +17,7 @@
 #include "banyan/controller/convoy/convoy.hpp"
 #include "banyan/controller/convoy/shortcut.hpp"
 #include "banyan/controller/core/gate.hpp"
+#include "banyan/controller/core/platform_parameters.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/inwards.hpp"
 #include "banyan/controller/outwards.hpp"
@@ -60,7 +61,7 @@ Numbers defaults_of(const banyan::HealingParams& params) {
   Numbers numbers;
   collect(numbers, params, banyan::tree_parameters());
   collect(numbers, params, banyan::healing_parameters());
-  collect(numbers, params, banyan::platform_parameters());
+  collect(numbers, params, banyan::platform_parameters<banyan::HealingParams>);
   return numbers;
 }
 

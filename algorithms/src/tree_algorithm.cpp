@@ -1,73 +1,59 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/algorithms/tree_algorithm.hpp"
 
-#include <algorithm>
+#include "banyan/algorithms/algorithms.hpp"
+#include "banyan/algorithms/swarms.hpp"
+#include "banyan/controller/core/platform_parameters.hpp"
 
 namespace banyan {
-namespace {
-
-template <class Params, class Rows>
-void add(std::vector<BoundParameter>& bound, Params& params, const Rows& rows) {
-  for (const auto& row : rows) bound.push_back({&row, &(params.*row.member)});
-}
-
-}  // namespace
 
 std::vector<BoundParameter> bind(HealingParams& params) {
-  std::vector<BoundParameter> bound;
-  add(bound, params, tree_parameters());
-  add(bound, params, healing_parameters());
-  add(bound, params, platform_parameters());
-  return bound;
+  return bind_all(params, tree_parameters(), healing_parameters(), platform_parameters<HealingParams>);
 }
 
 std::vector<BoundParameter> bind(ConvoyParams& params) {
-  std::vector<BoundParameter> bound;
-  add(bound, params, tree_parameters());
-  add(bound, params, convoy_parameters());
-  add(bound, params, healing_parameters());
-  add(bound, params, platform_parameters());
-  return bound;
+  return bind_all(params, tree_parameters(), convoy_parameters(), healing_parameters(),
+                  platform_parameters<ConvoyParams>);
 }
 
 namespace {
 
-bool in_units_of_range(const ParameterInfo& info) { return info.scaling == Scaling::range || info.scaling == Scaling::body; }
+// One of the paper's: a step as printed and one as corrected.
+template <auto literal_step, auto corrected_step>
+class OfPaper final : public TreeAlgorithmOf<CorrectedSwarm<corrected_step>> {
+  using Corrected = TreeAlgorithmOf<CorrectedSwarm<corrected_step>>;
+
+ public:
+  using Corrected::Corrected;
+  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
+    if (setup.reading != literal_reading_name) return Corrected::make(setup, members);
+    return std::make_unique<SwarmOf<LiteralSwarm<literal_step>>>(this->params(setup), members, setup.history);
+  }
+
+ private:
+  static constexpr std::string_view literal_reading_name = "literal";
+};
 
 }  // namespace
 
-std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows, Platform& platform,
-                             float& arrival_distance_m) {
-  const double c = static_cast<double>(setup.platform.communication_range_m);
-  const double scale = setup.scale * (follows_range ? c / static_cast<double>(nominal_range_m) : 1.0);
-  platform = setup.platform;
-  arrival_distance_m = static_cast<float>(setup.arrival_distance_m);
-  std::vector<float> values;
-  for (const BoundParameter& row : rows) {
-    float value = *row.value;
-    if (row.info->scaling == Scaling::mission) value *= static_cast<float>(scale);
-    if (in_units_of_range(*row.info)) value /= nominal_range_m;
-    for (const auto& [key, own] : setup.parameters)
-      if (row.info->key == key) value = static_cast<float>(own);
-    values.push_back(value);
-  }
-  return values;
+const Algorithm& outwards() noexcept {
+  static constexpr OfPaper<outwards_literal_step, outwards_step> algorithm(
+      "outwards", "grows a spanning tree from the root over all robots, then prunes branches without worker",
+      outwards_defaults);
+  return algorithm;
 }
 
-void resolve(std::span<const float> values, std::span<const BoundParameter> rows, const Platform& platform) {
-  const float range_m = platform.communication_range_m;
-  // The range for which this body is as large as the nominal one for the nominal range.
-  const float body_range_m = nominal_range_m * platform.wheel_distance_m / Platform{}.wheel_distance_m;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const float unit_m = rows[k].info->scaling == Scaling::body ? std::max(range_m, body_range_m) : range_m;
-    *rows[k].value = in_units_of_range(*rows[k].info) ? values[k] * unit_m : values[k];
-  }
+const Algorithm& inwards() noexcept {
+  static constexpr OfPaper<inwards_literal_step, inwards_step> algorithm(
+      "inwards", "grows a sparse tree from the workers towards the root; only robots that are needed join",
+      inwards_defaults);
+  return algorithm;
 }
 
-std::string range_fault(std::span<const float> values, std::span<const BoundParameter> rows) {
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (!(values[k] >= rows[k].info->minimum && values[k] <= rows[k].info->maximum)) return std::string(rows[k].info->key);  // NaN fails too
-  return {};
+const Algorithm& convoy() noexcept {
+  static constexpr TreeAlgorithmOf<ConvoySwarm> algorithm(
+      "convoy", "a sparse tree that its workers tow; spares join near the root, without travelling", convoy_defaults, true);
+  return algorithm;
 }
 
 }  // namespace banyan

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "banyan/controller/core/platform_parameters.hpp"
 #include "banyan/controller/tree/params.hpp"
 #include "banyan/world/decimal.hpp"
 #include "plain_scenario.hpp"
@@ -141,7 +142,7 @@ TEST(Schema, KeysOfThePlatformHaveTheRangeOfTheirParameter) {
   EXPECT_EQ(platform_key("target_gain"), "");
   EXPECT_EQ(platform_key(""), "");
   int found = 0;
-  for (const Parameter<TreeParams>& row : platform_parameters()) {
+  for (const ParameterInfo& row : platform_parameters<TreeParams>) {
     const Key<Scenario>* key = find_key(scenario_keys(), platform_key(row.key));
     if (key == nullptr) continue;  // speed_gain_m_s is the designer's
     ++found;

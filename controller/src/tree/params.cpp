@@ -44,19 +44,9 @@ constexpr Parameter<TreeParams> of_tree[] = {
       "Shorter brings spares sooner, and more of them than the edge takes; longer where the radio loses many packets.", "protocol 7", 0.1F, 600.0F}, &TreeParams::call_after_s},
 };
 
-constexpr Parameter<TreeParams> of_platform[] = {
-    {{"communication_range_m", "C", "m", "radio range", "That of the radio.", "protocol 2, row 8", 0.05F, 100.0F}, &TreeParams::communication_range_m},
-    {{"tick_s", "", "s", "control period", "That of the robot.", "protocol 9", 0.01F, 1.0F}, &TreeParams::tick_s},
-    {{"speed_gain_m_s", "K", "m/s", "speed per unit of the control law",
-      "The wheels' limit, unless the robot is to drive more slowly.", "protocol 2, row 9", 0.001F, 10.0F}, &TreeParams::speed_gain_m_s},
-    {{"wheel_limit_m_s", "", "m/s", "largest speed of a wheel", "That of the robot.", "protocol 2, row 9", 0.001F, 10.0F}, &TreeParams::wheel_limit_m_s},
-    {{"wheel_distance_m", "", "m", "distance between the wheels", "That of the robot.", "Khepera IV", 0.01F, 2.0F}, &TreeParams::wheel_distance_m},
-};
-
 }  // namespace
 
 std::span<const Parameter<TreeParams>> tree_parameters() noexcept { return of_tree; }
-std::span<const Parameter<TreeParams>> platform_parameters() noexcept { return of_platform; }
 
 std::string_view tree_fault(const TreeParams& params) noexcept {
   if (!(params.reconfiguration_period_s / params.tick_s < 65535.0F)) return "reconfiguration_period_s (R) must be below 65535 ticks";

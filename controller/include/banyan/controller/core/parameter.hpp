@@ -17,7 +17,7 @@ enum class Scaling : unsigned char {
 };
 
 // The radio for which lengths in Params have their defaults. For another radio, lengths
-// that grow with it are multiplied by C / nominal_range_m (algorithms/src/tree_algorithm.cpp).
+// that grow with it are multiplied by C / nominal_range_m (algorithm_of.hpp).
 inline constexpr float nominal_range_m = 2.0F;
 
 struct ParameterInfo {

@@ -39,8 +39,6 @@ struct TreeParams : Platform {
 };
 
 [[nodiscard]] std::span<const Parameter<TreeParams>> tree_parameters() noexcept;
-// What robot and radio decide, not the designer: C, tick, wheels.
-[[nodiscard]] std::span<const Parameter<TreeParams>> platform_parameters() noexcept;
 
 // The first fault among the values that depend on each other, in words; nothing if there is none:
 // A < E < S < delta <= C (protocol 2, row 1; delta = C leaves an edge no margin), R below 65,535 ticks.

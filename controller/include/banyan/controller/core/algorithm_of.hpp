@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// An Algorithm of any A (swarm_of.hpp): its name, its parameters and its swarms. For hosts; included where an algorithm
+// is defined, and so compiled once for each.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/controller/core/swarm_of.hpp"
+
+namespace banyan {
+
+// A row of the table and its number.
+struct BoundParameter {
+  const ParameterInfo* info;
+  float* value;
+};
+
+// Tables one after the other. Their rows are of Params or of a base of it.
+template <class Params, class... Tables>
+[[nodiscard]] std::vector<BoundParameter> bind_all(Params& params, const Tables&... tables) {
+  std::vector<BoundParameter> bound;
+  const auto bind = [&](const auto& table) {
+    for (const auto& row : table) bound.push_back({&row, &(params.*row.member)});
+  };
+  (bind(tables), ...);
+  return bound;
+}
+
+// What a designer meets of an algorithm. Its Params are derived from Platform, which the host fills in; an
+// arrival_distance_m among them is the mission's unless it is set.
+template <class P>
+struct Description {
+  static P initial_values() noexcept { return {}; }
+  static std::vector<BoundParameter> no_table(P&) { return {}; }
+  static std::string_view no_fault(const P&) noexcept { return {}; }
+
+  std::string_view name;     // as in mission.algorithm
+  std::string_view summary;  // one sentence
+  P (*defaults)() noexcept = initial_values;
+  std::vector<BoundParameter> (*bind)(P&) = no_table;             // in the order in which they are listed
+  std::string_view (*fault)(const P&) noexcept = no_fault;        // the first among values that depend on each other
+  bool follows_range = false;  // lengths among the defaults stand for C = 2 m and grow with it; Table I's are absolute
+};
+
+namespace algorithm_detail {
+
+inline bool in_units_of_range(const ParameterInfo& info) noexcept {
+  return info.scaling == Scaling::range || info.scaling == Scaling::body;
+}
+
+// In the units of the table: the defaults, which `rows` have, scaled, and the setup's own.
+inline std::vector<float> values_of(const Setup& setup, bool follows_range, std::span<const BoundParameter> rows) {
+  const double c = static_cast<double>(setup.platform.communication_range_m);
+  const double scale = setup.scale * (follows_range ? c / static_cast<double>(nominal_range_m) : 1.0);
+  std::vector<float> values;
+  for (const BoundParameter& row : rows) {
+    float value = *row.value;
+    if (row.info->scaling == Scaling::mission) value *= static_cast<float>(scale);
+    if (in_units_of_range(*row.info)) value /= nominal_range_m;
+    for (const auto& [key, own] : setup.parameters)
+      if (row.info->key == key) value = static_cast<float>(own);
+    values.push_back(value);
+  }
+  return values;
+}
+
+// Gives them to the parameters; lengths in units of C become metres, once and for all.
+inline void resolve(std::span<const float> values, std::span<const BoundParameter> rows, const Platform& platform) {
+  const float range_m = platform.communication_range_m;
+  // The range for which this body is as large as the nominal one for the nominal range.
+  const float body_range_m = nominal_range_m * platform.wheel_distance_m / Platform{}.wheel_distance_m;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const float unit_m = rows[k].info->scaling == Scaling::body ? std::max(range_m, body_range_m) : range_m;
+    *rows[k].value = in_units_of_range(*rows[k].info) ? values[k] * unit_m : values[k];
+  }
+}
+
+// The key of the first value out of its range.
+inline std::string range_fault(std::span<const float> values, std::span<const BoundParameter> rows) {
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (!(values[k] >= rows[k].info->minimum && values[k] <= rows[k].info->maximum))  // NaN fails too
+      return std::string(rows[k].info->key);
+  return {};
+}
+
+}  // namespace algorithm_detail
+
+template <class A>
+class AlgorithmOf : public Algorithm {
+ public:
+  using Params = typename A::Params;
+
+  constexpr explicit AlgorithmOf(const Description<Params>& description) : of_(description) {}
+  [[nodiscard]] std::string_view name() const noexcept override { return of_.name; }
+  [[nodiscard]] std::string_view summary() const noexcept override { return of_.summary; }
+  [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override {
+    Params params = of_.defaults();
+    const auto bound = of_.bind(params);
+    std::vector<const ParameterInfo*> rows(bound.size());
+    std::transform(bound.begin(), bound.end(), rows.begin(), [](const BoundParameter& row) { return row.info; });
+    return rows;
+  }
+  [[nodiscard]] std::vector<float> values(const Setup& setup) const override {
+    Params params = defaults_on(setup);
+    return algorithm_detail::values_of(setup, of_.follows_range, of_.bind(params));
+  }
+  [[nodiscard]] std::string fault(const Setup& setup) const override {
+    Params params = defaults_on(setup);
+    const auto bound = of_.bind(params);
+    const auto values = algorithm_detail::values_of(setup, of_.follows_range, bound);
+    std::string text = algorithm_detail::range_fault(values, bound);
+    if (!text.empty()) return text;
+    algorithm_detail::resolve(values, bound, params);
+    return std::string(of_.fault(params));
+  }
+  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
+    return std::make_unique<SwarmOf<A>>(params(setup), members, setup.history);
+  }
+
+ protected:
+  [[nodiscard]] Params params(const Setup& setup) const {
+    Params params = defaults_on(setup);
+    const auto bound = of_.bind(params);
+    algorithm_detail::resolve(algorithm_detail::values_of(setup, of_.follows_range, bound), bound, params);
+    return params;
+  }
+
+ private:
+  // The defaults on the robot, and for the mission, of this setup.
+  [[nodiscard]] Params defaults_on(const Setup& setup) const {
+    Params params = of_.defaults();
+    static_cast<Platform&>(params) = setup.platform;
+    if constexpr (requires { params.arrival_distance_m; })
+      params.arrival_distance_m = static_cast<float>(setup.arrival_distance_m);
+    return params;
+  }
+
+  Description<Params> of_;
+};
+
+}  // namespace banyan

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// What all rivals share: the arguments of a step, how a step begins, and how a Swarm finds their functions.
+// What the step does is their own.
+#pragma once
+
+#include <span>
+
+#include "banyan/controller/core/digest.hpp"
+#include "banyan/controller/core/gate.hpp"
+#include "banyan/controller/core/output.hpp"
+#include "banyan/controller/core/report.hpp"
+#include "banyan/rivals/common/params.hpp"
+
+namespace banyan {
+class Algorithm;  // controller/core/algorithm.hpp; a robot needs none
+}
+
+namespace banyan::rivals {
+
+template <class Message>
+struct HeardOf {
+  const Message* message;
+  Vec2 position;
+  float age_s = 0.0F;
+};
+
+// The beginning of a step: of what passed the gate the packets are carried to now and filed, and orders are followed.
+// Those of which `ties(id)` is true stay in a full table.
+template <class State, class Message, class Ties>
+void begin_step(const RivalParams& params, State& state, std::span<HeardOf<Message>> heard, Gate& gate, const Ties& ties) noexcept {
+  const Senses& senses = gate.senses();
+  const std::span<HeardOf<Message>> packets = gate.packets(heard, params);
+  state.tally.rejected += gate.rejected();
+  carry_to_now(packets, senses, params);
+  const Carry carry(senses.odometry);
+  state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params, ties);
+  state.assignment.follow(senses.orders, carry);
+}
+
+// The four functions of an algorithm, for core/swarm_of.hpp.
+template <class P, class S, class M, auto initial_state, auto step_of, auto report_of, auto add>
+struct RobotsOf {
+  using Params = P;
+  using State = S;
+  using Message = M;
+  using Heard = HeardOf<M>;
+  static State initial(RobotId id, bool worker, bool root) { return initial_state(id, worker, root); }
+  static Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_of(params, state, heard, senses); }
+  static Report report(const State& state) { return report_of(state); }
+  static void add_to(Digest& digest, const State& state) { add(digest, state); }
+};
+
+}  // namespace banyan::rivals

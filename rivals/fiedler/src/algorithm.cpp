@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/rivals/common/algorithm.hpp"
+#include "banyan/rivals/fiedler/fiedler.hpp"
+
+namespace banyan::rivals::fiedler {
+
+const Algorithm& algorithm() noexcept {
+  static constexpr AlgorithmOf<Robots> described({
+      .name = "fiedler",
+      .summary = "estimates the algebraic connectivity of the network, and moves up its gradient",
+      .bind = bind<Params, parameters>,
+      .fault = fault,
+      .follows_range = true,
+  });
+  return described;
+}
+
+}  // namespace banyan::rivals::fiedler

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/rivals/common/algorithm.hpp"
+#include "banyan/rivals/link_consensus/link_consensus.hpp"
+
+namespace banyan::rivals::link_consensus {
+
+const Algorithm& algorithm() noexcept {
+  static constexpr AlgorithmOf<Robots> described({
+      .name = "link-consensus",
+      .summary = "keeps radio links, and gives one up when its ends agree that a detour remains",
+      .bind = bind<Params, parameters>,
+      .fault = fault,
+      .follows_range = true,
+  });
+  return described;
+}
+
+}  // namespace banyan::rivals::link_consensus

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What robots of link consensus say.
+#include "said.hpp"
+
+#include "banyan/rivals/link_consensus/link_consensus.hpp"
+
+namespace banyan::rivals::link_consensus {
+namespace {
+
+struct Sample : Robots {
+  static constexpr const char* length_in_documents = "A message of link consensus has (\\d+) bytes";
+  static void fill(Message& m) {
+    m.id = sender();
+    m.root = word();
+    m.beat = word();
+    m.way = word();
+    m.parent = word();
+    for (RobotId& link : m.links) link = word();
+    m.bid = {word(), word(), word(), byte(), byte(), byte()};
+    m.agrees = *rc::gen::arbitrary<bool>();
+  }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(LinkConsensus, Said, Sample);
+
+}  // namespace
+}  // namespace banyan::rivals::link_consensus

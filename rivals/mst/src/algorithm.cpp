@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/rivals/common/algorithm.hpp"
+#include "banyan/rivals/mst/mst.hpp"
+
+namespace banyan::rivals::mst {
+
+const Algorithm& algorithm() noexcept {
+  static constexpr AlgorithmOf<Robots> described({
+      .name = "mst",
+      .summary = "keeps a minimum spanning tree of all robots, and builds a new one when an edge gets long",
+      .bind = bind<Params, parameters>,
+      .fault = fault,
+      .follows_range = true,
+  });
+  return described;
+}
+
+}  // namespace banyan::rivals::mst

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What robots of MST preservation say.
+#include "said.hpp"
+
+#include "banyan/rivals/mst/mst.hpp"
+
+namespace banyan::rivals::mst {
+namespace {
+
+struct Sample : Robots {
+  static constexpr const char* length_in_documents = "one of mst (\\d+)";
+  static void fill(Message& m) {
+    m.id = sender();
+    m.epoch = word();
+    m.next = word();
+    m.countdown = byte();
+    m.level = byte();
+    m.fragment = word();
+    m.up = word();
+    for (bool* flag : {&m.ready, &m.decided, &m.done, &m.full}) *flag = *rc::gen::arbitrary<bool>();
+    m.best = {word(), word(), word()};
+    m.choice = {word(), word(), word()};
+    m.root = word();
+    for (RobotId& branch : m.branches) branch = word();
+  }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(Mst, Said, Sample);
+
+}  // namespace
+}  // namespace banyan::rivals::mst
