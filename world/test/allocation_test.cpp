@@ -2,6 +2,8 @@
 // A tick of a world that has warmed up takes nothing from the heap.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "banyan/world/threads.hpp"
 #include "heap_counter.hpp"
 #include "worlds.hpp"
@@ -20,9 +22,9 @@ TEST(Allocation, TheCounterCounts) {
 // Buffers grow, by a quarter at a time, when there are more links than ever before. That ends; what is left then
 // would be an allocation in every tick.
 TEST(Allocation, ATickTakesNothingFromTheHeap) {
-  for (const char* algorithm : {"outwards", "inwards", "convoy", "link-consensus", "mst", "fiedler"}) {
+  for (const std::string_view algorithm : algorithms().names()) {
     for (const std::size_t robots : {20U, 150U}) {
-      Scenario s = hostile(algorithm, robots, 5);
+      Scenario s = hostile(std::string(algorithm), robots, 5);
       s.targets = RingTargets{3, 1.5};
       s.radio.latency_ticks = 2;
       s.radio.slots = 10;

@@ -75,10 +75,17 @@ Scenario trying(const std::string& algorithm, std::uint64_t seed) {
 std::uint64_t worlds(std::uint64_t few, std::uint64_t many) { return long_search() ? many : few; }
 void run_for(World& world, double seconds) { run_until(world, world.tick() + static_cast<std::uint64_t>(seconds / world.scenario().tick_s)); }
 
-class Rival : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(All, Rival, testing::Values("link-consensus", "mst", "fiedler"));
-// Of those that keep links, which Fiedler control does not.
-class KeptLinks : public testing::TestWithParam<const char*> {};
+// All in the list that are not over the tree.
+std::vector<std::string> rivals() {
+  std::vector<std::string> names;
+  for (const Algorithm* algorithm : algorithms())
+    if (algorithm != &outwards() && algorithm != &inwards() && algorithm != &convoy()) names.emplace_back(algorithm->name());
+  return names;
+}
+class Rival : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, Rival, testing::ValuesIn(rivals()));
+// Of those that promise to keep links, which Fiedler control does not.
+class KeptLinks : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, KeptLinks, testing::Values("link-consensus", "mst"));
 
 TEST_P(KeptLinks, WhatIsKeptJoinsAllAndNoKeptLinkOutgrowsTheRadio) {

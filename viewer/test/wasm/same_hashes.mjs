@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { readFile, readdir } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { native, open, scenarios, until } from './together.mjs';
+import { module, native, open, scenarios, until } from './together.mjs';
 
 const ticks = 200;
 const huge = ['swarm-500.toml', 'swarm-1000.toml', 'swarm-10000.toml', 'benchmark-1000.toml', 'benchmark-10000.toml'];
@@ -27,7 +27,7 @@ for (const file of (await readdir(scenarios)).sort()) {
 const threeTargets = await readFile(join(scenarios, 'three-targets.toml'), 'utf8');
 const rooms = await readFile(join(scenarios, 'rooms.toml'), 'utf8');
 
-for (const algorithm of ['outwards', 'inwards', 'convoy', 'link-consensus', 'mst', 'fiedler'])
+for (const algorithm of module.algorithms())
   for (const sight of [true, false])
     test(`rooms, ${algorithm}, line of sight ${sight}`, () =>
       compare(rooms, [`mission.algorithm=${algorithm}`, `radio.line_of_sight=${sight}`]));
