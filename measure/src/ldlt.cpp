@@ -4,6 +4,7 @@
 #include "ldlt.hpp"
 
 #include <Eigen/OrderingMethods>
+#include <utility>
 
 namespace banyan::measure {
 namespace {
@@ -14,8 +15,7 @@ constexpr std::size_t work_between_pauses = 1'000'000;
 
 // The upper triangle of the matrix in an order that leaves L sparse (minimum degree).
 SparseMatrix Ldlt::ordered(const SparseMatrix& lower) {
-  const SparseMatrix whole = lower.selfadjointView<Eigen::Lower>();
-  Eigen::AMDOrdering<int>()(whole, back_);
+  Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), back_);
   order_ = back_.inverse();
   SparseMatrix upper(lower.rows(), lower.cols());
   upper.selfadjointView<Eigen::Upper>() = lower.selfadjointView<Eigen::Lower>().twistedBy(order_);
@@ -45,11 +45,10 @@ void Ldlt::count_columns(const SparseMatrix& upper) {
   value_.resize(begin_[n]);
 }
 
-// Row k of L; returns its pivot.
-double Ldlt::eliminate_row(const SparseMatrix& upper, Eigen::Index k) {
-  const auto row = static_cast<std::size_t>(k);
+// Row k of the matrix into rest_, and the pattern of row k of L into pattern_, from the place that is returned on.
+std::size_t Ldlt::spread_row(const SparseMatrix& upper, Eigen::Index k) {
   std::size_t top = pattern_.size();
-  tag_[row] = static_cast<int>(k);
+  tag_[static_cast<std::size_t>(k)] = static_cast<int>(k);
   for (SparseMatrix::InnerIterator entry(upper, k); entry; ++entry) {
     if (entry.row() > k) continue;
     rest_[static_cast<std::size_t>(entry.row())] += entry.value();
@@ -60,19 +59,42 @@ double Ldlt::eliminate_row(const SparseMatrix& upper, Eigen::Index k) {
     }
     while (length > 0) pattern_[--top] = pattern_[--length];
   }
-  double pivot = rest_[row];
-  rest_[row] = 0.0;
-  for (; top < pattern_.size(); ++top) {
-    const auto i = static_cast<std::size_t>(pattern_[top]);
-    const double y = rest_[i];
+  return top;
+}
+
+// Row k of L; returns its pivot.
+double Ldlt::eliminate_row(const SparseMatrix& upper, Eigen::Index k) {
+  std::size_t top = spread_row(upper, k);
+  double pivot = std::exchange(rest_[static_cast<std::size_t>(k)], 0.0);
+  const auto append = [&](std::size_t i, double y) {
     rest_[i] = 0.0;
     const double factor = y / pivots_[static_cast<Eigen::Index>(i)];
-    const std::size_t end = begin_[i] + size_[i];
-    for (std::size_t p = begin_[i]; p < end; ++p) rest_[static_cast<std::size_t>(row_[p])] -= value_[p] * y;
     pivot -= factor * y;
+    const std::size_t end = begin_[i] + size_[i];
     row_[end] = static_cast<int>(k);
     value_[end] = factor;
     work_ += ++size_[i];
+  };
+  while (top < pattern_.size()) {
+    const auto i = static_cast<std::size_t>(pattern_[top++]);
+    const auto up = static_cast<std::size_t>(parent_[i]);
+    const double* const value = value_.data() + begin_[i];
+    const double y = rest_[i];
+    // Where L is dense the next column is the parent's and has the same rows but its own: both are taken off at once.
+    if (top < pattern_.size() && pattern_[top] == parent_[i] && size_[i] == size_[up] + 1) {
+      ++top;
+      const double* const value_up = value_.data() + begin_[up];
+      const double y_up = rest_[up] - value[0] * y;
+      for (std::size_t p = 0; p < size_[up]; ++p) {
+        double& rest = rest_[static_cast<std::size_t>(row_[begin_[up] + p])];
+        rest = rest - value[p + 1] * y - value_up[p] * y_up;
+      }
+      append(i, y);
+      append(up, y_up);
+    } else {
+      for (std::size_t p = 0; p < size_[i]; ++p) rest_[static_cast<std::size_t>(row_[begin_[i] + p])] -= value[p] * y;
+      append(i, y);
+    }
   }
   return pivot;
 }

@@ -26,6 +26,7 @@ class Ldlt {
  private:
   SparseMatrix ordered(const SparseMatrix& lower);
   void count_columns(const SparseMatrix& upper);
+  std::size_t spread_row(const SparseMatrix& upper, Eigen::Index k);
   double eliminate_row(const SparseMatrix& upper, Eigen::Index k);
 
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_, back_;
