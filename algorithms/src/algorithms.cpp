@@ -2,6 +2,7 @@
 // The one list. An algorithm is a line here and a folder of its own.
 #include "banyan/algorithms/algorithms.hpp"
 
+#include "banyan/rivals/cohesion/cohesion.hpp"
 #include "banyan/rivals/fiedler/fiedler.hpp"
 #include "banyan/rivals/link_consensus/link_consensus.hpp"
 #include "banyan/rivals/mst/mst.hpp"
@@ -16,6 +17,7 @@ const AlgorithmList& algorithms() noexcept {
       &rivals::link_consensus::algorithm(),
       &rivals::mst::algorithm(),
       &rivals::fiedler::algorithm(),
+      &rivals::cohesion::algorithm(),
   };
   return all;
 }

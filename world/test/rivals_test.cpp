@@ -84,7 +84,7 @@ std::vector<std::string> rivals() {
 }
 class Rival : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, Rival, testing::ValuesIn(rivals()));
-// Of those that promise to keep links, which Fiedler control does not.
+// Of those that promise to keep links, which Fiedler control and cohesive control do not.
 class KeptLinks : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, KeptLinks, testing::Values("link-consensus", "mst"));
 
@@ -188,26 +188,6 @@ TEST_P(Rival, TheSameWorldTwiceIsTheSame) {
   run_until(a, 150);
   run_until(b, 150);
   EXPECT_EQ(a.hash(), b.hash());
-}
-
-// Parts of the network by who is within range of whom.
-std::size_t parts_by_range(const World& world) {
-  std::vector<std::size_t> open(world.size());
-  std::iota(open.begin(), open.end(), std::size_t{0});
-  std::size_t parts = 0;
-  while (!open.empty()) {
-    ++parts;
-    std::vector<std::size_t> front{open.back()};
-    open.pop_back();
-    while (!front.empty()) {
-      const Vec2 here = world.positions()[front.back()];
-      front.pop_back();
-      const auto reached = std::stable_partition(open.begin(), open.end(), [&](std::size_t j) { return distance(here, world.positions()[j]) >= world.scenario().radio.range_m; });
-      front.insert(front.end(), reached, open.end());
-      open.erase(reached, open.end());
-    }
-  }
-  return parts;
 }
 
 bool stays_connected(const Scenario& scenario, std::uint64_t ticks) {

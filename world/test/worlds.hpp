@@ -2,8 +2,10 @@
 // Worlds that several tests share, and what an onlooker can tell of the trees in them.
 #pragma once
 
-#include <cstdlib>
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,28 @@ inline std::vector<std::uint8_t> said(const World& world, std::size_t i) {
   std::vector<std::uint8_t> bytes(largest_wire);
   bytes.resize(world.swarm().send(i, bytes));
   return bytes;
+}
+
+// Parts of the network by who is within range of whom.
+inline std::size_t parts_by_range(const World& world) {
+  std::vector<std::size_t> open(world.size());
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  std::size_t parts = 0;
+  while (!open.empty()) {
+    ++parts;
+    std::vector<std::size_t> front{open.back()};
+    open.pop_back();
+    while (!front.empty()) {
+      const Vec2 here = world.positions()[front.back()];
+      front.pop_back();
+      const auto reached = std::stable_partition(open.begin(), open.end(), [&](std::size_t j) {
+        return distance(here, world.positions()[j]) >= world.scenario().radio.range_m;
+      });
+      front.insert(front.end(), reached, open.end());
+      open.erase(reached, open.end());
+    }
+  }
+  return parts;
 }
 
 inline void run_until(World& world, std::uint64_t tick) {

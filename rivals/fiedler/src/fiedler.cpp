@@ -44,13 +44,7 @@ Message composed(const State& s) noexcept {
 
 Vec2 connectivity_gradient(const Params& params, const State& state) noexcept { return gradient(params, state, Links(params, state.neighbors)); }
 
-State initial_state(RobotId id, bool worker, bool root) noexcept {
-  State state;
-  state.id = id;
-  state.assignment.sent = worker;
-  if (root) state.root = id;
-  return state;
-}
+State initial_state(RobotId id, bool worker, bool root) noexcept { return state_at_start<State>(id, worker, root); }
 
 Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
   Gate gate(sensed, params);
@@ -68,14 +62,8 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   return {composed(state), move(u, Guard{}, params)};
 }
 
-// It promises no link in particular, only lambda_2 > 0: no parent, nothing kept.
-Report report(const State& s) noexcept {
-  return {.role = s.assignment.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
-          .serves = s.assignment.sent ? s.id : nobody,
-          .root = s.root,
-          .want_m = s.assignment.distance_m(),
-          .tally = s.tally};
-}
+// It promises no link in particular, only lambda_2 > 0.
+Report report(const State& state) noexcept { return report_without_links(state); }
 
 void add_to(Digest& digest, const State& s) noexcept {
   const auto add = [&](const auto&... fields) { (digest.add(fields), ...); };

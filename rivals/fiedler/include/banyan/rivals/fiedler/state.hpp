@@ -5,12 +5,13 @@
 #include <cstdint>
 
 #include "banyan/rivals/common/motion.hpp"
+#include "banyan/rivals/common/root.hpp"
 #include "banyan/rivals/common/table.hpp"
 #include "banyan/rivals/fiedler/message.hpp"
 
 namespace banyan::rivals::fiedler {
 
-struct State {
+struct State : KnownRoot {
   RobotId id = nobody;
   Assignment assignment;
 
@@ -20,9 +21,6 @@ struct State {
   std::uint8_t links = 0;
   std::uint16_t largest_degree = 0;
   std::uint8_t degree_age = 0;
-  RobotId root = nobody;
-  std::uint8_t root_age = 0;
-  std::uint8_t rootless_ticks = 0;
 
   // The estimate (estimate.cpp)
   float component = 0.0F;

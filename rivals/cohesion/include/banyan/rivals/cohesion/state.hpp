@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// All that a robot of cohesive control remembers between two steps: nearly all follows from what it hears.
+#pragma once
+
+#include "banyan/rivals/cohesion/message.hpp"
+#include "banyan/rivals/common/motion.hpp"
+#include "banyan/rivals/common/root.hpp"
+#include "banyan/rivals/common/table.hpp"
+
+namespace banyan::rivals::cohesion {
+
+struct State : KnownRoot {
+  RobotId id = nobody;
+  Assignment assignment;
+  float lasting_thickness = 0.0F;  // the thickness of the swarm here, over a second or so
+  Tally tally;                     // never read
+  Table<Message> neighbors;
+
+  // About `entries` entries of the table are needed soon, and all the rest.
+  void prefetch(std::size_t entries) const noexcept { neighbors.prefetch(entries); }
+};
+
+}  // namespace banyan::rivals::cohesion

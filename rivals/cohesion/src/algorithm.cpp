@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/rivals/cohesion/cohesion.hpp"
+#include "banyan/rivals/common/algorithm.hpp"
+
+namespace banyan::rivals::cohesion {
+
+const Algorithm& algorithm() noexcept {
+  static constexpr AlgorithmOf<Robots> described({
+      .name = "cohesion",
+      .summary = "holds together like a liquid with a tense boundary, which leaders drag into a Steiner tree",
+      .bind = bind<Params, parameters>,
+      .fault = fault,
+      .follows_range = true,
+  });
+  return described;
+}
+
+}  // namespace banyan::rivals::cohesion
