@@ -71,7 +71,7 @@ struct Thickness {
   friend bool operator==(const Thickness&, const Thickness&) = default;
 };
 [[nodiscard]] Thickness find_thickness(const Robot& robot, const Boundary& boundary) noexcept;
-[[nodiscard]] Vec2 contraction(Robot& robot, const Boundary& boundary, const Thickness& thickness) noexcept;
+[[nodiscard]] Vec2 contraction(Robot& robot, const Boundary& boundary, const Thickness& found) noexcept;
 
 // leaders.cpp: which leaders are near, how they move, whether one needs help. `velocity`: mine, by K.
 struct Leaders {

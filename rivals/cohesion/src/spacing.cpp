@@ -52,7 +52,7 @@ float weight(float d) noexcept {
 float visible_area(const Robot& robot, const Boundary& boundary) noexcept {
   const Surroundings& around = robot.around;
   const float hiding = robot.params.line_of_sight ? body : 0.0F;
-  const Sector* const outside = boundary.is_large() ? &boundary.sectors[0] : nullptr;
+  const Sector* const outside = boundary.is_large() ? boundary.sectors.data() : nullptr;
   float bodies = 0.0F, between = 0.0F;
   int counted = 0;
   bool left_out = false;
