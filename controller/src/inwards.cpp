@@ -20,7 +20,7 @@ bool may_join_inwards(const TreeRobot& robot) noexcept { return robot.self.is_wo
 
 bool all_workers_counted(const TreeRobot& robot) noexcept { return robot.self.subtree_workers >= robot.self.flood_workers; }
 
-// SELECT PARENT: the smallest distance to the root; corrected: within S if there is one.
+// SELECT PARENT: the candidate with the smallest distance to the root; corrected: within S if there is one.
 void select_inner_parent(TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const auto is_safe = [&](int k) { return robot.reading.prefers_safe_parent && table.range(k) <= robot.params.safe_range_m; };
@@ -81,10 +81,10 @@ Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& s
   listen_among_fragments(robot);
   accept_offered_root(robot);                          // Select Root, the heir's side
   follow_heartbeat(robot);                             // is there a root at all,
-  claim_root(robot);                                   // and if not, am I the one to be it?
+  claim_root(robot);                                   // and if not, should I become it?
   watch_tasks(robot);                                  // does every target have its worker?
   index_neighbors(robot);
-  watch_branch(robot);                                 // has the last below me died?
+  watch_branch(robot);                                 // has the last robot below me died?
   update_role(robot);
   advance_and_count(robot, all_workers_counted(robot));      // the root's barriers
   update_label(robot);                                 // Start Tree
@@ -106,7 +106,7 @@ Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& s
   Output<HealingMessage> output;
   write_healing(robot, output.message);
   const Vec2 v = allowed(u, guard, params);
-  watch_progress(robot, retreats, v);                  // does a worker get on?
+  watch_progress(robot, retreats, v);                  // does the worker make progress?
   output.velocity = drive(v, guard, params);
   return output;
 }

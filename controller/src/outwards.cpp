@@ -16,7 +16,7 @@
 namespace banyan {
 namespace {
 
-// Everybody joins in SELECT PARENT; later only who still matters to the tree.
+// All robots join in SELECT PARENT; later only those that still matter to the tree.
 bool may_join_outwards(const TreeRobot& robot) noexcept { return robot.self.phase == Phase::select_parent || robot.self.role != Role::spare; }
 
 // Never equality: with motion and occlusion the flood under-counts (protocol 4).
@@ -32,7 +32,7 @@ void select_nearest_parent(TreeRobot& robot) noexcept {
 
 }  // namespace
 
-HealingParams outwards_defaults() noexcept { return {}; }  // what TreeParams starts with
+HealingParams outwards_defaults() noexcept { return {}; }  // the defaults of TreeParams
 
 Output<TreeMessage> outwards_literal_step(const TreeParams& params, TreeState& state, std::span<Heard> heard, const Senses& senses) noexcept {
   const Admitted admitted(senses, heard, params, state.tally);
@@ -67,10 +67,10 @@ Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& 
   listen_among_fragments(robot);
   accept_offered_root(robot);                          // Select Root, the heir's side
   follow_heartbeat(robot);                             // is there a root at all,
-  claim_root(robot);                                   // and if not, am I the one to be it?
+  claim_root(robot);                                   // and if not, should I become it?
   watch_tasks(robot);                                  // does every target have its worker?
   index_neighbors(robot);
-  watch_branch(robot);                                 // has the last below me died?
+  watch_branch(robot);                                 // has the last robot below me died?
   update_role(robot);
   advance_and_count(robot, all_robots_counted(robot));      // the root's barriers
   update_label(robot);                                 // Start Tree
@@ -92,7 +92,7 @@ Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& 
   Output<HealingMessage> output;
   write_healing(robot, output.message);
   const Vec2 v = allowed(u, guard, params);
-  watch_progress(robot, retreats, v);                  // does a worker get on?
+  watch_progress(robot, retreats, v);                  // does the worker make progress?
   output.velocity = drive(v, guard, params);
   return output;
 }

@@ -23,8 +23,8 @@ namespace banyan {
 namespace {
 
 constexpr int silence_ticks = 2;      // a parent silent for so long counts as hidden
-constexpr float asks_sooner = 2.0F;   // of the spread of ranges: edges ask for spares, and call them
-constexpr float tight = 0.6F;         // of `clearance`: enough for who stands in the way and clears it by joining
+constexpr float asks_sooner = 2.0F;   // times the spread of ranges: so much earlier an edge asks for spares and calls
+constexpr float tight = 0.6F;         // of `clearance`: enough for a spare in the way, since joining the edge clears it
 
 // ---- Select Parent: branches grow from the workers, as in inwards, by short edges in sight (rule 1) ----
 
@@ -33,8 +33,8 @@ bool was_edge(const ConvoyRobot& robot, int k) noexcept {
   return k == robot.old_parent || robot.table().message(k).old_parent == robot.self.id;
 }
 
-// Once all below have arrived the tree stays what it has become. Else short first edges, then such as
-// need no spare, then the nearest; one that soon may be blocked is as good as far, one that is farther still.
+// Once all workers below have arrived, the tree keeps its edges. Otherwise short first edges come first, then edges
+// that need no spare, then the nearest. A link that may soon be blocked counts as a long one, one worse as longer yet.
 struct Preference {
   int rank;
   float key;
@@ -48,7 +48,7 @@ struct Preference {
     }
     float range_m = robot.table().range(k);
     if (!sees_clearly(robot, k, p.clearance_m)) range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? 5.0F * c : 10.0F * c;
-    if (robot.table().message(k).role == Role::worker) range_m += c;  // rather somebody who goes nowhere
+    if (robot.table().message(k).role == Role::worker) range_m += c;  // rather a robot that is not leaving
     rank = range_m <= p.first_edge_m ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
   }
@@ -62,21 +62,21 @@ bool is_better_parent(const ConvoyRobot& robot, int a, int b) noexcept {
 
 // ---- Grow Tree: which edges get a spare, and when (rules 3, 4 and 7) ----
 
-// My parent is a worker, which nobody tows, and my target is out of reach from where it goes.
+// My parent is a worker, which cannot be towed, and my target is out of reach from where it goes.
 bool is_anchored(const ConvoyRobot& robot) noexcept {
   if (robot.table().message(robot.parent).role != Role::worker || robot.self.want_m == 0.0F) return false;
   if (robot.target != nullptr) return !reaches_target_from(robot, robot.parent);
   return stands_at_target(robot, robot.parent) && robot.self.want_m > robot.params.ideal_distance_m - robot.table().range(robot.parent);
 }
 
-// The root and junctions give way late (towing.cpp), so their edges may stay just short of call_distance, and slow.
+// The root and junctions are towed late (towing.cpp), so their edges may stay just short of call_distance and slow.
 bool is_held_by_junction(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const bool junction = robot.table().message(robot.parent).role == Role::root || robot.convoy_of(robot.parent).child_count > 1;
   return junction && robot.table().range(robot.parent) > p.recruitment_distance_m && robot.self.unserved_ticks > p.ticks(2.0F * p.call_after_s);
 }
 
-// Not passed on upwards: towed, the chain brings its slack to where the spares are by itself.
+// The need is not passed up the tree: a chain that is towed brings its slack to where the spares are by itself.
 bool needs_spare(const ConvoyRobot& robot) noexcept {
   if (robot.parent < 0) return false;
   const float d = robot.table().range(robot.parent);
@@ -88,9 +88,9 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
          ((hidden || robot.self.corners.pinned || is_anchored(robot)) && d > robot.params.shortest_split_m);
 }
 
-// Only when the edge is about to hold the workers back; among obstacles spares come slowly, and sooner.
+// Only when the edge is about to hold the workers back; among obstacles sooner, since spares are slow there.
 bool may_call(const ConvoyRobot& robot) noexcept {
-  if (is_planned(robot.self)) return false;  // they would come along the chains, and in the way
+  if (is_planned(robot.self)) return false;  // spares would come along the chains and be in the way
   const ConvoyParams& p = robot.params;
   const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;
   if (robot.parent < 0) return false;
@@ -109,8 +109,8 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
 }
 
-// Not while the workers get on: the tree mends itself meanwhile, and a new one is not free. Nor at once while spares
-// are on their way to an edge: they would lose it.
+// Not while the workers make progress: the tree is repaired meanwhile, and a new one has its cost. And later while
+// spares are on their way to an edge, which they would lose.
 bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   constexpr float patience_s = 5.0F;
   constexpr float called_patience_s = 15.0F;
@@ -118,12 +118,12 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !is_planned(robot.self);
 }
 
-// Once all have arrived, a spare as root would be a robot more.
+// Once all workers have arrived, a spare that became root would be one more robot in the tree.
 bool may_inherit(const ConvoyRobot& robot, int k) noexcept {
   return !prunes(robot.params) || robot.self.want_m > 0.0F || robot.table().message(k).role != Role::spare;
 }
 
-// ---- The begin and the end of a tick ----
+// ---- The start and the end of a tick ----
 
 void carry_memory(ConvoyState& self, const Carry& carry) noexcept {
   carry_memory(static_cast<HealingState&>(self), carry);
@@ -204,11 +204,11 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   listen_among_fragments(robot);                       // the largest epoch, phase and root token heard
   accept_offered_root(robot);                          // Select Root, the heir's side
   follow_heartbeat(robot);                             // is there a root at all,
-  claim_root(robot);                                   // and if not, am I the one to be it?
+  claim_root(robot);                                   // and if not, should I become it?
   watch_tasks(robot);                                  // does every target have its worker?
   index_neighbors(robot);                              // who are my parent and children
   remember_corners(robot, state.corners);
-  watch_branch(robot);                                 // has the last below me died?
+  watch_branch(robot);                                 // has the last robot below me died?
   update_role(robot);
   advance_and_count(robot, state.subtree_workers >= state.flood_workers, may_reconstruct(robot));   // the root's barriers
   update_label(robot, {.waits_for_anybody = false});   // Start Tree
@@ -219,7 +219,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   take_part_in_plan(robot);                            // chains from target to target
   take_shortcuts(robot);                               // what changes between reconstructions
   state.corners.pinned = is_pinned(robot, state.corners, params.pull_start_m);
-  // Behind a target that drives a worker lags: its tree must come along before it has lost it.
+  // A worker lags behind a moving target: the tree must follow before the worker is out of tolerance.
   take_census(robot, 0.4F * params.arrival_distance_m, own_want_m(robot));                          // Alg. 1 and 2
   select_root(robot, [&](int k) { return may_inherit(robot, k); });                                 // Select Root, the root's side
   find_hold(robot);                                    // what ties me to the others while I have no parent
@@ -239,7 +239,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   Output<ConvoyMessage> output;
   write_convoy(robot, output.message);
   const Vec2 v = allowed(u, guard, params);
-  watch_progress(robot, retreats, v);                  // does a worker get on?
+  watch_progress(robot, retreats, v);                  // does the worker make progress?
   output.velocity = drive(v, guard, params);
   return output;
 }

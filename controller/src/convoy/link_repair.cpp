@@ -10,13 +10,13 @@
 namespace banyan {
 namespace {
 
-// Of `clearance`: a robot so near to the line of sight may soon be in it, and very soon.
+// Fractions of `clearance`: a robot so near to the line of sight may block it soon, or very soon.
 constexpr float danger = 0.8F;
 constexpr float urgency = 0.7F;
 constexpr float impossible = 1e9F;
 
-// How bad neighbour k would be as parent in place of one that is hidden, or soon will be: the nearer it
-// is to the old edge the better; rather one of the tree than a spare, which joins because it is named.
+// How bad neighbour k would be as parent in place of one that is hidden, or soon will be. The nearer to the
+// old edge the better, and a robot of the tree rather than a spare, which joins because I name it as parent.
 float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
@@ -45,8 +45,8 @@ Outlook outlook(const ConvoyRobot& robot) noexcept {
   return {endangered, endangered && (hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance_m))};
 }
 
-// The best link repair that is ahead of me, a spare only when it is urgent. If there is none, my
-// seqno rests, so that the others get ahead; not for long, for they may all hang on me.
+// Takes the best new parent that is ahead of me, a spare only when it is urgent. If there is none, my sequence
+// number rests, so that the others get ahead; not for long, for they may all be below me in the tree.
 void keep_in_sight(ConvoyRobot& robot, bool urgent) noexcept {
   ConvoyState& self = robot.self;
   const TreeTable& table = robot.table();
@@ -84,7 +84,7 @@ bool step_before_parent(ConvoyRobot& robot) noexcept {
   return true;
 }
 
-// Of the robots around an edge its lower end may see less than the upper: others hide them.
+// The child may not see a robot that is about to block the edge, because others hide it; its parent warns it.
 RobotId child_to_warn(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();

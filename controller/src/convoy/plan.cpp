@@ -39,9 +39,9 @@ int plan_tree(ConvoyRobot& robot, int levels) noexcept {
   ConvoyState& self = robot.self;
   const float edge_m = robot.params.compact_distance_m;
   std::array<float, task_capacity> gap_m{};  // to the tree so far
-  std::array<int, task_capacity> nearest{};  // in it; -1: me
+  std::array<int, task_capacity> nearest{};  // the nearest target in the tree; -1: me
   std::array<bool, task_capacity> done{};
-  std::array<int, task_capacity> level{};    // of the tree
+  std::array<int, task_capacity> level{};    // in the tree
   for (int k = 0; k < self.task_count; ++k) {
     done[k] = self.tasks[k].holder == nobody;
     gap_m[k] = norm(self.tasks[k].target);
@@ -68,7 +68,7 @@ int plan_tree(ConvoyRobot& robot, int levels) noexcept {
   }
 }
 
-// Once all have arrived, a level more each period.
+// Once all workers have arrived, the plan covers one more level each period.
 void command(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   const ConvoyParams& p = robot.params;
@@ -84,14 +84,14 @@ void command(ConvoyRobot& robot) noexcept {
   if (self.plan_ticks > p.ticks(plan_limit_s)) return withdraw(self);
   const int since = self.settled_ticks - p.ticks(p.plan_after_s);
   const int period = p.ticks(plan_period_s);
-  // Not before I know of all.
+  // Not before I know of all targets.
   const auto known = tasks(self);
   const bool knows_all = self.subtree_workers <= std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; });
   const bool due = knows_all && !self.forgets && p.plan_after_s > 0.0F && since >= 0 && since % period < robot.elapsed_ticks && self.settled_ticks < UINT16_MAX;
   if (due && plan_tree(robot, 1 + since / period) >= self.subtree) withdraw(self);
 }
 
-// ---- Everybody ----
+// ---- Every robot ----
 
 void hear_parent(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
@@ -116,7 +116,7 @@ void look_down(ConvoyRobot& robot) noexcept {
 RobotId lead_of(const ConvoyRobot& robot) noexcept {
   const ConvoyState& self = robot.self;
   if (self.phase != Phase::grow_tree || self.role != Role::connector || self.below == nobody || !robot.parent_alive() || !has_arrived(robot)) return nobody;
-  if (robot.convoy_of(robot.parent).below == self.below) return nobody;  // it leads
+  if (robot.convoy_of(robot.parent).below == self.below) return nobody;  // the parent leads
   const Task* served = find_active(robot, self.below);
   const Task* host = served == nullptr ? nullptr : find_active(robot, self.hosts[static_cast<std::size_t>(served - self.tasks.data())]);
   if (host == nullptr || self.above == host->serves) return nobody;
@@ -149,7 +149,7 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
   } else {
     hear_parent(robot);
   }
-  // Of more targets than robots remember, those that the root does not know keep branches that no plan would count.
+  // With more targets than robots can remember, targets unknown to the root keep branches that no plan would count.
   if (self.forgets) withdraw(self);
   const auto hosts = std::span(self.hosts).first(self.task_count);
   const bool planned = std::any_of(hosts.begin(), hosts.end(), [](RobotId host) { return host != nobody; });

@@ -14,21 +14,21 @@ namespace {
 constexpr float merge_period_s = 2.0F;
 constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
 
-// Who may carry a branch that has arrived: at rest itself, and not about to leave the tree.
+// Whether neighbour k may carry a branch that has arrived: at rest itself, and not about to leave the tree.
 bool can_carry(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   return k != robot.parent && m.want_cm == 0 && m.epoch == robot.self.epoch &&
          (m.role != Role::connector || robot.convoy_of(k).child_count > 0) && is_rooted_in_sight(robot, k);
 }
 
-// My parent serves only me: with another one for me it is not needed, nor are those above it that
-// serve only it.
+// My parent serves only me: if I take another one, it is no longer needed, and neither are the robots above
+// it that serve only it.
 bool saves_parent(const ConvoyRobot& robot) noexcept {
   const TreeStanding& parent = robot.table().message(robot.parent);
   return parent.role == Role::connector && robot.convoy_of(robot.parent).child_count == 1;
 }
 
-// Whoever is nearest to the root takes me over at once.
+// Takes the reachable neighbour nearest to the root as parent, at once.
 bool merge(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const float reach_m = robot.params.merge_distance_m;
@@ -43,9 +43,9 @@ bool merge(ConvoyRobot& robot) noexcept {
   return true;
 }
 
-// Those that are not ahead of me may hang on me, or be of another branch: I cannot tell. I let my
-// seqno rest. Who hangs on me never overtakes it. Each turn another one, or the first that hangs on
-// me would be the only one ever tried.
+// Robots that are not ahead of me may be below me in the tree or in another branch: I cannot tell. I let my
+// sequence number rest, which a robot below me never overtakes. Each turn tries another candidate; otherwise a
+// robot below me might be the only one ever tried.
 void want_parent(ConvoyRobot& robot, float reach_m, int turn) noexcept {
   const TreeTable& table = robot.table();
   IndexList carriers;
@@ -67,7 +67,7 @@ void follow_pending(ConvoyRobot& robot) noexcept {
   }
 }
 
-// I lead my branch to another target: the robot of the tree next to it that I can reach.
+// I lead my branch to another target: I want the robot of the tree nearest to it that I can reach.
 void want_next_step(ConvoyRobot& robot) noexcept {
   Vec2 goal;
   if (!find_goal(robot, goal)) return;

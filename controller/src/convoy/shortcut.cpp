@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which change of parent comes first, and rule 5: branches are shortened.
+// Which change of parent comes first, and rule 5: shortening branches.
 #include "banyan/controller/convoy/shortcut.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace banyan {
 namespace {
 
-constexpr float releases_later = 3.0F;  // of the spread of ranges: else the edge would ask for a spare again
+constexpr float releases_later = 3.0F;  // times the spread of ranges: else the edge would ask for a spare again
 
 // Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
 void release(ConvoyRobot& robot) noexcept {
@@ -24,17 +24,17 @@ void release(ConvoyRobot& robot) noexcept {
   const int k = table.find(parent.parent);
   if (k < 0 || (table.message(k).role == Role::worker && !is_relay(robot, k))) return;
   const ConvoyParams& p = robot.params;
-  // A worker cannot be towed: what is superfluous between it and the root helps the robot that hangs on it.
+  // A worker cannot be towed: a robot released between it and the root is free for the edge to its child.
   const bool helps = robot.self.is_worker && robot.self.call_hops == 1;
   const float limit_m = has_arrived(robot) || helps ? std::max(p.release_distance_m, p.merge_distance_m) : p.release_distance_m;
   const float reach_m = limit_m - releases_later * table.spread_m();
   if (may_be_parent(robot, k, reach_m)) take_parent(robot, k);
 }
 
-// A worker that stands still, and from which I reach my target: neither has to be towed.
+// A worker that stands still and from which I can reach my target: neither of us has to be towed.
 bool is_enough(const ConvoyRobot& robot, int k) noexcept { return stands_at_target(robot, k) && reaches_target_from(robot, k); }
 
-// An edge that would need a spare: a robot of the tree may stand nearer, or a worker where it is enough.
+// For an edge that would need a spare: a nearer robot of the tree, or a worker from which I can reach my target.
 void take_nearer(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
@@ -51,7 +51,7 @@ void take_nearer(ConvoyRobot& robot) noexcept {
   if (best >= 0) take_parent(robot, best);
 }
 
-// A worker goes its own way and cannot be towed: as long as I have to go on, anybody else will do.
+// A worker goes its own way and cannot be towed: as long as I have to go on, any other robot is better.
 void leave_worker(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
@@ -62,7 +62,7 @@ void leave_worker(ConvoyRobot& robot) noexcept {
   if (best >= 0) take_parent(robot, best);
 }
 
-// Who regroups takes whatever hold is nearer to the root.
+// A robot that regroups takes any parent that is nearer to the root.
 void take_inner(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const int parent_depth = table.message(robot.parent).depth;
@@ -119,7 +119,7 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   if (!view.endangered && !may_save) self.pending_parent = nobody;
   if (!view.endangered && self.pending_parent == nobody) self.pending_ticks = 0;
   if (view.endangered) return keep_in_sight(robot, view.urgent);
-  if (self.grant != nobody) return;  // the tree changes here already
+  if (self.grant != nobody) return;  // this edge is about to change already
   if (step_before_parent(robot)) return;
   if (is_left_waiting(robot)) take_inner(robot);
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);

@@ -16,9 +16,9 @@
 namespace banyan {
 namespace {
 
-constexpr float compact_gain = 0.8F;   // a branch that has arrived slides together with this strength
-constexpr float compact_width = 0.05F; // of C: with full strength so far from compact_distance
-constexpr float follow_spare = 0.25F;  // of C: so far it stays behind a spare that leads it to the tree
+constexpr float compact_gain = 0.8F;   // the strength with which a branch that has arrived contracts
+constexpr float compact_width = 0.05F; // of C: full strength when so far from compact_distance
+constexpr float follow_spare = 0.25F;  // of C: how far it stays behind a spare that leads it to the tree
 constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
 constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
 constexpr float called_follow_tree = 0.75F;
@@ -26,33 +26,33 @@ constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts 
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
 
-constexpr float tows_sooner = 4.0F;  // of the spread of ranges
+constexpr float tows_sooner = 4.0F;  // times the spread of ranges
 constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
 constexpr int slack_reach_hops = 8;
 
-// Somewhere near an edge waits in vain for a spare.
+// Somewhere near, an edge waits in vain for a spare.
 bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
-// Neighbour k stands at its target, and others that hang on it still have to go on.
+// Neighbour k stands at its target, and robots below it in the tree still have to go on.
 bool tows_past(const ConvoyRobot& robot, int k) noexcept {
   const float want_m = static_cast<float>(robot.table().message(k).want_cm) * 0.01F;
   return robot.convoy_of(k).child_count > 0 && want_m > robot.params.arrival_distance_m && stands_at_target(robot, k);
 }
 
-// What neighbour k, of which I am the parent, has said of its pull.
+// The pull that neighbour k has sent me, its parent.
 Vec2 pull_of(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   return from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, robot.table().position(k));
 }
 
-// Children that still have to go on tow: in proportion to how far the edge is stretched. The root and
+// Children that still have to go on tow me, in proportion to how far the edge is stretched. The root and
 // junctions stay with the spares as long as they can: there their edges grow and are split.
 Vec2 tow(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  // While robots are short, who is as good as there leaves the rest of the way to others.
+  // While spares are short, a child that is almost there does not tow: the slack is left to others.
   const auto least_cm = is_short_of_robots(robot) ? static_cast<int>(as_good_as_there * p.arrival_distance_m * 100.0F) : 0;
   const auto tows = [&](int k) {
     const TreeStanding& m = table.message(k);
@@ -65,7 +65,7 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
   Vec2 u;
   const auto add = [&](int k) {
     if (!tows(k)) return;
-    // Who hangs on a worker at its target tows past it: there it can take me as its parent.
+    // The child of a worker at its target tows me past that worker: there it can take me as its parent.
     if (tows_past(robot, k)) {
       u += pull_of(robot, k);
       return;
@@ -98,7 +98,7 @@ Vec2 tension(const ConvoyRobot& robot) noexcept {
   return u * p.tension_gain;
 }
 
-// While robots are short, long edges take slack from short ones.
+// While spares are short, long edges take slack from short ones.
 Vec2 shared_slack(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   if (!is_short_of_robots(robot)) return {};
@@ -110,7 +110,7 @@ Vec2 shared_slack(const ConvoyRobot& robot) noexcept {
   return u * p.slack_gain;
 }
 
-// Repulsion, from spares only when they are nearer still: they make room themselves.
+// From spares only at a smaller distance, since they make room themselves.
 Vec2 repulsion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
@@ -124,7 +124,7 @@ Vec2 repulsion(const ConvoyRobot& robot) noexcept {
   return u;
 }
 
-// Tree edges, old ones during a reconstruction, that are not mine and whose ends I know: visit(a, b).
+// Calls visit(a, b) for tree edges, and old ones during a reconstruction, that are not mine and whose ends I know.
 template <class Visit>
 void for_each_other_edge(const ConvoyRobot& robot, Visit visit) noexcept {
   const TreeTable& table = robot.table();
@@ -140,7 +140,7 @@ void for_each_other_edge(const ConvoyRobot& robot, Visit visit) noexcept {
   }
 }
 
-// Out of their lines of sight.
+// Moves out of the lines of sight of these edges.
 Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
   Vec2 u;
   for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
@@ -154,8 +154,8 @@ Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
   return u * robot.params.corridor_gain;
 }
 
-// The way of a spare that is needed elsewhere. Where others push it back so hard that it all but stops, they push
-// it aside instead, to the side to which it is pushed already; among obstacles bypass() chooses the side.
+// The course of a spare that is needed elsewhere. If others push it back so hard that it almost stops, the push is
+// turned sideways, to the side to which it is pushed already; among obstacles bypass() chooses the side.
 Vec2 past(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
   constexpr float stopped = 0.7F;
   const Vec2 apart = repulsion(robot);
@@ -167,8 +167,8 @@ Vec2 past(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
   return way + left * (aside + (aside < 0.0F ? -against : against));
 }
 
-// The way along which I can save a robot: towards my parent; the root's is towards the nearest child
-// that does nothing but pass it on.
+// The neighbour to move towards so that a robot can be saved: my parent; for the root the nearest child
+// that is a connector.
 int pruning_way(const ConvoyRobot& robot) noexcept {
   if (!robot.is_root()) return robot.parent;
   const TreeTable& table = robot.table();
@@ -178,8 +178,8 @@ int pruning_way(const ConvoyRobot& robot) noexcept {
   return best;
 }
 
-// Rule 9: a connector whose workers have arrived slides until its longest other edge is stretched. So
-// the slack of a branch gathers at one end, where a robot becomes superfluous.
+// Rule 9: a connector whose workers have arrived moves until its longest other edge is stretched. So the
+// slack of a branch gathers at one end, where a robot becomes superfluous.
 Vec2 compaction(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
@@ -194,8 +194,8 @@ Vec2 compaction(const ConvoyRobot& robot) noexcept {
   return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
 }
 
-// Among obstacles a tree neighbour that falls silent has gone behind one: its child backs up to where
-// it heard it last, and it waits meanwhile.
+// Among obstacles a tree neighbour that falls silent has gone behind one: the child drives back to where it last
+// heard its parent, and the parent waits meanwhile.
 bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
   constexpr int silent_ticks = 2;
   const TreeTable& table = robot.table();
@@ -209,14 +209,14 @@ bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
 Vec2 pull_past_obstacles(const ConvoyRobot& robot) noexcept {
   const Vec2 pull = robot.self.pull;
   const float goal_m = robot.target != nullptr ? norm(*robot.target) : robot.self.want_m;
-  // The last bit straight, as near as obstacles let it: a dead worker may lie on its successor's target.
+  // The last bit straight, as near as obstacles allow: a dead worker may lie on its successor's target.
   constexpr float last_bit = 0.15F;  // of C
   if (goal_m < last_bit * robot.params.communication_range_m) return pull;
   return bypass(robot, unit(pull) * goal_m) * norm(pull);
 }
 
-// While the tree is reconstructed nobody can mend a line of sight. When all have arrived there is no
-// hurry either: best nobody moves.
+// While the tree is reconstructed, a lost line of sight cannot be repaired. If all workers have arrived,
+// there is no hurry either: it is best that no robot moves.
 bool holds_still(const ConvoyRobot& robot) noexcept {
   if (robot.self.phase != Phase::start_tree && robot.self.phase != Phase::select_parent) return false;
   if (robot.self.want_m > 0.0F) return false;
@@ -226,8 +226,8 @@ bool holds_still(const ConvoyRobot& robot) noexcept {
   return true;
 }
 
-// Without a parent: as far as the hold lets it, which draws it back the more the farther it is; to turn about at some
-// distance would be to turn about for ever. Before it has one it turns on the spot.
+// A worker without a parent goes as far as its hold allows, which draws it back in proportion to the distance: turning
+// back at a fixed distance would oscillate for ever. While it hears no neighbour it only turns on the spot.
 Vec2 before_tree(const ConvoyRobot& robot) noexcept {
   constexpr float turning = 0.001F;
   constexpr float hold_width = 0.1F;  // of C
@@ -273,10 +273,10 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (up >= 0 && !robot.table().alive(up)) return bypass(robot, robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
-  // The first tree takes its time, and a target may be added in mid-mission: not without the tree.
+  // The first tree takes time to build, and a target may be added in mid-mission: a worker does not go without a tree.
   if (up < 0 && !robot.is_root()) return before_tree(robot);
-  // At its target it may stand off a little, if that lets another reach its own; it ends before the
-  // target is out of tolerance.
+  // At its target a worker may give way a little, if that lets another one reach its own; this fades out
+  // before the target is out of tolerance.
   constexpr float fading = 0.1F;
   const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
   if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + repulsion(robot);
@@ -293,7 +293,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
-  // Nobody around has heard the tree for a while: it has gone behind an obstacle.
+  // No robot near has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m) return bypass(robot, self.corners.seen_from) + repulsion(robot);
   // The root is about to go round a corner, and waits for spares.
   const int root = robot.table().find(self.root.id);
@@ -301,26 +301,26 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
     return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   if (holds_still(robot)) return {};
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
-  // Called in a crowd, it might wait for others to move while the tree goes away.
+  // In a crowd, a called spare might wait for others to move while the tree goes away.
   if (const int home = self.called && robot.hold >= 0 ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
     const float home_c = robot.table().message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
     if (robot.table().range(home) > home_c * c) k = home;
   }
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
-  // Sight can be lost at any distance: it follows in good time, and a spare that leads it even earlier.
+  // Sight can be lost at any distance: the spare follows in good time, and earlier still if a spare leads it.
   const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
   const float reach_m = (led ? follow_spare : follow_tree) * c;
-  // On its way along a chain it may come nearer to the line of sight than while it waits.
-  const float way_m = p.line_of_sight ? 2.0F * p.clearance_m : 0.0F;  // an edge that nobody can hide is no fence
+  // A spare under way along a chain may come nearer to lines of sight than one that waits.
+  const float way_m = p.line_of_sight ? 2.0F * p.clearance_m : 0.0F;  // none where robots hide no edges
   if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
   if (d > reach_m)
     return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
-  // There, but an obstacle or the distance hides the edge that calls: round the robot that passed the call on.
-  // Where many edges meet, others wait on its far side, and it would only cross their sight.
+  // It is there, but cannot hear the edge that calls, hidden or too far: it goes round the robot that passed on the
+  // call. Not where many edges meet: spares wait on the far side, too, and it would only cross lines of sight.
   const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= 3);
   if (self.called && roomy && d > 0.0F) {
-    // Away from where the tree comes from, if that is known: there the edge begins.
+    // Away from that robot's own parent, if that is known: there the edge that calls begins.
     Vec2 round = left_of(reference);
     const int up = self.corners.landmarks.size > 0 ? -1 : robot.table().find(up_of(robot.table().message(k)));
     if (up >= 0 && dot(round, reference - robot.table().position(up)) < 0.0F) round = -round;

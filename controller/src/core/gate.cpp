@@ -25,7 +25,7 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept : senses_(se
   admit_obstacles(limit_m);
 }
 
-// They stay where they are, unless some of them must go.
+// Valid readings stay where they are, unless some of them must be removed.
 void Gate::admit_obstacles(float limit_m) noexcept {
   const auto passes = [&](Vec2 o) { return is_within(o, limit_m); };
   const std::span<const Vec2> all = senses_.obstacles;

@@ -8,8 +8,8 @@
 namespace banyan {
 namespace {
 
-// Where to turn for `v`. Beside an edge that must not grow, a heading that is a hair too far outwards stops the
-// robot, and the last of it is never turned: so a little farther inwards, once for each such edge.
+// The heading to turn to for `v`. Beside an edge that must not grow, a heading slightly too far outwards stops the
+// robot, and the turn is never completed: so aim a little farther inwards, once for each such edge.
 Vec2 aim(Vec2 v, float speed, const Guard& guard) noexcept {
   constexpr float inwards = 0.05F;  // rad
   for (int k = 0; k < guard.size; ++k)
@@ -42,7 +42,7 @@ Vec2 Guard::apply(Vec2 v) const noexcept {
     }
     if (!violated) return v;
   }
-  // What is left is cut by standing still as far as needed: 0 is allowed while no edge is too long.
+  // What still violates a bound is scaled down: standing still is allowed while no edge is too long.
   float scale = 1.0F;
   for (int k = 0; k < size; ++k) {
     const float limit = planes[k].limit_m_s;

@@ -4,8 +4,8 @@
 namespace banyan {
 namespace {
 
-constexpr int witnesses = 16;  // entries from which the noise is learnt: all have the same sensor
-constexpr int sentries = 1;    // from which it is noticed
+constexpr int witnesses = 16;  // entries from which the noise is learnt: one sensor measures them all
+constexpr int sentries = 1;    // entries from which noise is noticed at first
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void Neighbors::prefetch(std::size_t entries) const noexcept {
 // How many of the first `among` in by_id_ have a smaller id.
 int Neighbors::rank_of(RobotId id, int among) const noexcept {
   int rank = 0;
-  while (among > 0) {  // without a branch that depends on ids: nobody can guess it
+  while (among > 0) {  // no branch that depends on ids: it could not be predicted
     const int half = (among + 1) / 2;
     rank += ids_[by_id_[rank + half - 1]] < id ? half : 0;
     among -= half;
@@ -36,7 +36,7 @@ int Neighbors::find(RobotId id) const noexcept {
   return rank < size_ && ids_[by_id_[rank]] == id ? by_id_[rank] : -1;
 }
 
-// As find(), by walking on from the last one where that is near.
+// Like find(), but walks on from the last entry found if that is near.
 int Neighbors::find_next(RobotId id) noexcept {
   int rank = next_rank_;
   if (rank > 0 && ids_[by_id_[rank - 1]] >= id) rank = rank_of(id, size_);
@@ -46,7 +46,7 @@ int Neighbors::find_next(RobotId id) noexcept {
   return found ? by_id_[rank] : -1;
 }
 
-// Entry k is to be another's.
+// Takes entry k out of the order by id, so that it can be another robot's.
 void Neighbors::leave(int k) noexcept {
   const auto end = by_id_.begin() + size_;
   std::move(std::find(by_id_.begin(), end, k) + 1, end, std::find(by_id_.begin(), end, k));
@@ -97,7 +97,7 @@ int Neighbors::evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noex
   return farthest;
 }
 
-// Only the silent are dead-reckoned: who was heard just now has a fresh position.
+// Only silent neighbours are dead-reckoned: one heard just now has a fresh position.
 int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) noexcept {
   liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
   for (int k = from, size = size_; k < size; ++k) {
@@ -113,7 +113,7 @@ int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, std
   return -1;
 }
 
-// Order is kept: entries stand in the order in which they were first heard.
+// Keeps the order: entries stand in the order in which they were first heard.
 void Neighbors::remove(int k) noexcept {
   leave(k);
   for (int rank = 0; rank < size_ - 1; ++rank)

@@ -7,9 +7,9 @@ namespace banyan {
 namespace {
 
 constexpr float hesitate_s = 2.5F;      // beyond I
-constexpr float well_in_range = 0.85F;  // of C: whoever was farther away may only have left
+constexpr float well_in_range = 0.85F;  // of C: a worker farther away may only have gone out of range
 
-// I heard the worker, and its parent is not there to miss it, or has more workers below than it can remember.
+// I heard the worker, and its parent is gone, too, or has more workers below than it can remember.
 bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
   const TreeTable& table = robot.table();
   const int holder = table.find(task.holder);
@@ -28,15 +28,15 @@ void begin_doubt(const HealingRobot& robot, Task& task) noexcept {
 void doubt(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (!self.forgets) return;
-  // A body may stand between for a moment.
+  // A robot may stand in between for a moment.
   const int doubt_ticks = robot.liveness_ticks() + robot.params.ticks(hesitate_s);
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[static_cast<std::size_t>(k)];
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
     if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;
     if (task.via == nobody) continue;
-    // While that child lives the worker's news comes by it, in turn with that of many others: that it is old is no
-    // reason to doubt before those torn off could be heard of.
+    // While that child lives, news of the worker comes through it, in turn with news of many others. Old news is no
+    // reason for doubt until a branch torn off would have had time to be heard of.
     const int child = robot.table().find(task.via);
     const bool fading = child >= 0 && fades(robot, child);
     if (fading) task.age_ticks = static_cast<std::uint16_t>(std::min<int>(task.age_ticks, robot.table().age(child)));

@@ -8,9 +8,9 @@
 namespace banyan {
 namespace {
 
-// A newer token than mine. Two fragments may each have had a root: when they meet, the larger keeps
-// its own. Each further token is of a larger fragment than the last, so that there is an end to it.
-// True if I remain root and all have to hear of it.
+// A token newer than mine. Two fragments may each have a root: when they meet, the larger one keeps its own.
+// Each further token comes from a larger fragment than the last, so that this ends. True if I remain root
+// and all robots have to hear of it.
 bool hear_token(HealingRobot& robot, const HealingMessage& m) noexcept {
   HealingState& self = robot.self;
   const bool rival = robot.is_root() && m.root.id != self.id && m.root.id != self.new_root;
@@ -23,8 +23,8 @@ bool hear_token(HealingRobot& robot, const HealingMessage& m) noexcept {
   return false;
 }
 
-// The root waits while the flood still finds robots, however many hops away; and for the parents, who are chosen
-// along the same way, no less than it took.
+// The root waits while the flood still finds robots, however many hops away. For the choice of parents, which spreads
+// along the same way, it waits at least as long as the flood took.
 int barrier_patience_ticks(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const int least = robot.params.ticks(robot.params.barrier_timeout_s);
@@ -48,7 +48,7 @@ void listen_among_fragments(HealingRobot& robot) noexcept {
     if (newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
   if (!robot.is_root()) hand_over(robot, held);
   const EpochPhase newest = newest_phase(robot);
-  // A root is ahead of everybody but those who had another one: it opens an epoch for them, too.
+  // Only robots that had another root can be ahead of this one: it opens an epoch for them, too.
   const bool ahead = is_newer(newest.epoch, self.epoch) && robot.params.heals();
   if (robot.is_root() && (contested || ahead)) return enter(robot, static_cast<Serial>(newest.epoch + 1), Phase::start_tree);
   follow_phase(robot, newest);

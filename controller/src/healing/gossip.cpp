@@ -7,14 +7,14 @@
 namespace banyan {
 namespace {
 
-// A point as the neighbour at `addressee` is told it.
+// A point in the edge frame of the neighbour at `addressee`.
 void write(Vec2 point, Vec2 addressee, std::int16_t& x_cm, std::int16_t& y_cm) noexcept {
   const Vec2 v = to_edge_frame(point - addressee, addressee);
   x_cm = to_fixed<std::int16_t>(v.x, per_cm);
   y_cm = to_fixed<std::int16_t>(v.y, per_cm);
 }
 
-// Only who was heard this tick can be told a point: it is written relative to where that robot is.
+// Only a robot heard in this tick can be told a point, since that is written relative to the robot's position.
 int next_heard(const TreeTable& table, int turn) noexcept {
   const int size = table.size();
   const int first = size > 0 ? turn % size : 0;
@@ -25,14 +25,14 @@ int next_heard(const TreeTable& table, int turn) noexcept {
   return -1;
 }
 
-// Of which target I speak, and to whom I tell where it is: to the robot above me, or in turn to all.
+// The target that my message is about, and who is told where it is: the robot above me, or all in turn.
 struct Topic {
   int task = -1;     // -1: none
   int turn = 0;      // whose turn it is
   bool upwards = false;
 };
 
-// Every pair of a neighbour and a target for which `counts` has its turn; not all robots speak of the same at once.
+// Each pair of a neighbour and a target for which `counts` holds has its turn; robots begin at different targets.
 template <class Counts>
 Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
   const auto end = self.tasks.begin() + self.task_count;
@@ -43,8 +43,8 @@ Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
   return {static_cast<int>(chosen - self.tasks.begin()), turn / among};
 }
 
-// Every second turn is for what all have to know soon. Where robots forget, the rest is for those above me: my own
-// target and those of the workers below.
+// Every second turn is for what all robots have to know soon. Where robots forget, the rest is for those above me:
+// my own target and those of the workers below.
 Topic choose_topic(const HealingState& self) noexcept {
   int turn = self.turn + self.id;
   const auto is_urgent = [&](const Task& task) { return is_asked_about(task) || task.urgent_ticks > 0; };

@@ -11,14 +11,14 @@ void beat(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   self.heart = self.root;
   ++self.heartbeat;
-  // Nobody hears it: the others were where it has been until now (retreat.cpp).
+  // No robot hears it: root_at stays where the others were last (retreat.cpp).
   if (self.root_known && hears_nobody(robot)) return robot.add_elapsed(self.silence_ticks);
   self.silence_ticks = 0;
   self.root_at = {};
   self.root_known = true;
 }
 
-// The largest count of the newest root; whoever does not know that root yet counts for nothing.
+// The largest count of the newest root. Messages of robots that do not know that root yet are ignored.
 void hear_heartbeat(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   robot.add_elapsed(self.silence_ticks);
@@ -33,7 +33,7 @@ void hear_heartbeat(HealingRobot& robot) noexcept {
   }
 }
 
-// From the root itself, else from somebody who is at least nearly as near to it: the count says so.
+// From the root itself, else from a robot nearly as near to it as I am or nearer, as its count shows.
 void locate_root(HealingRobot& robot) noexcept {
   constexpr int stale_ticks = 1;
   HealingState& self = robot.self;
@@ -45,7 +45,7 @@ void locate_root(HealingRobot& robot) noexcept {
       self.root_known = true;
       return;
     }
-    // The root silent, copies of copies would only drift.
+    // Once the root is silent, copies of copies would only drift.
     if (m.told != self.id || !m.root_told || ahead_by(m.heartbeat, self.heartbeat) < -stale_ticks) continue;
     if (self.root_known && self.silence_ticks > robot.liveness_ticks()) continue;
     Vec2 point;
@@ -55,7 +55,7 @@ void locate_root(HealingRobot& robot) noexcept {
   }
 }
 
-// Its heartbeat has stopped, and I am the one near where it was.
+// The root's heartbeat has stopped, and I am near where it was.
 bool outlives_root(const HealingRobot& robot) noexcept {
   const HealingParams& p = robot.params;
   const float away_m = norm(robot.self.root_at);
@@ -63,10 +63,10 @@ bool outlives_root(const HealingRobot& robot) noexcept {
   return robot.self.silence_ticks > 2 * robot.liveness_ticks() + p.ticks(p.claim_after_s + p.claim_spread_s_m * away_m);
 }
 
-// There has never been one, it died before anybody heard it: the first of those around is to be it. Several may claim
-// far from each other; one token wins.
+// No root has ever been heard: it died too early. The robot with the smallest id among its neighbours becomes root.
+// Several robots far from each other may claim; one token wins.
 bool misses_first_root(const HealingRobot& robot) noexcept {
-  constexpr float first_root_s = 20.0F;  // the first token has come 200 hops far
+  constexpr float first_root_s = 20.0F;  // by then the first token has travelled 200 hops
   const TreeTable& table = robot.table();
   if (robot.self.silence_ticks <= robot.params.ticks(first_root_s) || hears_nobody(robot)) return false;
   for (int k = 0; k < table.size(); ++k)
@@ -95,7 +95,7 @@ void claim_root(HealingRobot& robot) noexcept {
   if (!robot.params.heals() || robot.is_root() || self.is_worker) return;
   if (self.root_known ? !outlives_root(robot) : !misses_first_root(robot)) return;
   self.root = {static_cast<std::uint16_t>(self.root.sequence + 1), self.id};
-  self.root_size = 0;  // nobody has been counted: whoever still has a root keeps it
+  self.root_size = 0;  // no robot has been counted yet: a fragment that still has a root keeps it
   self.role = Role::root;
   enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
   beat(robot);

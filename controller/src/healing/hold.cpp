@@ -6,15 +6,15 @@
 namespace banyan {
 namespace {
 
-// A spare's hops to the tree; a branch that has lost its root comes last.
+// A spare's hops to the tree, -1 in the tree itself; a branch that has lost its root comes last.
 int hops_to_tree(const TreeStanding& m) noexcept {
   if (m.role == Role::spare) return m.tree_hops;
   return m.depth != invalid_depth ? -1 : unreachable;
 }
 
-// How bad neighbour k would be: what comes first weighs more than all that follows. A branch that has lost its root
-// ties nobody to it, however near. The one it has is kept while it is as good: a robot that turns to another every
-// tick gets nowhere. Among links that are too long the shortest is drawn in, however many hops away.
+// How bad neighbour k would be as hold: each term outweighs all that follow. A branch that has lost its root is the
+// last choice, however near. The present hold is kept while it is as good as another: a robot that changes its hold
+// every tick gets nowhere. Of links that are too long the shortest is drawn in, however many hops away.
 float cost(const HealingRobot& robot, int k, int hops) noexcept {
   constexpr float strained = 0.85F;  // of C: beyond, the guard slows both ends down
   const float range = robot.table().range(k) / robot.params.communication_range_m;
@@ -29,7 +29,7 @@ void find_hold(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   robot.hold = -1;
-  int wish = -1;  // the best if the order allowed it
+  int wish = -1;  // the best one, whether or not it is ahead
   if (!robot.is_root() && robot.up() < 0) {
     float hold_cost = 0.0F;
     float wish_cost = 0.0F;
@@ -38,22 +38,22 @@ void find_hold(HealingRobot& robot) noexcept {
       if (!table.alive(k) || m.epoch != self.epoch || is_untied(m)) continue;
       const bool ahead = is_ahead(robot, k);
       const int hops = hops_to_tree(m);
-      // Whoever is farther from the tree than I may hang on me: it would never get ahead.
+      // A robot farther from the tree than I am may depend on me: it would never get ahead.
       if (!ahead && hops >= self.tree_hops) continue;
       const float c = cost(robot, k, hops);
       if (wish < 0 || c < wish_cost) wish = k, wish_cost = c;
       if (ahead && (robot.hold < 0 || c < hold_cost)) robot.hold = k, hold_cost = c;
     }
-    // Until the flood of a new epoch has come by, the last epoch's hold will do; and for whoever has children until
-    // that epoch's tree goes: by the new labels one that hangs on me through it may be ahead.
+    // Until the flood of a new epoch has arrived, the last epoch's hold will do. A robot with children keeps it until
+    // that epoch's tree is dropped: by the new labels a robot that depends on me through them may be ahead.
     const bool relied_on = self.phase < Phase::grow_tree && robot.children.size + robot.old_children.size > 0;
     if (const bool unlabelled = self.label_cm == unknown_label; unlabelled || relied_on) {
       const int last = self.hold == nobody ? -1 : table.find(self.hold);
       if (last >= 0 && table.alive(last)) robot.hold = last;
       else if (unlabelled) robot.hold = -1;
     }
-    // The others of the tree get ahead of a spare that keeps up with the one it would like best, and that one
-    // at last; one that is about to join an edge stays behind.
+    // A spare adopts the sequence number of the hold it would like best, which is ahead of it then, like the rest
+    // of the tree. A spare that is about to join an edge stays behind.
     if (wish >= 0 && self.role == Role::spare && self.phase >= Phase::grow_tree && self.request == nobody) keep_up(robot, wish);
   }
   self.hold = robot.hold < 0 ? nobody : table.id(robot.hold);

@@ -6,14 +6,14 @@
 namespace banyan {
 namespace {
 
-constexpr float fading = 0.99F;           // per tick: what counts are the last hundred
-constexpr float prior_packets = 2.0F;     // heard before the first
+constexpr float fading = 0.99F;           // per tick: about the last hundred ticks count
+constexpr float prior_packets = 2.0F;     // counted as heard before the first one
 constexpr float silent_by_chance = 1e-5F;
 
 }  // namespace
 
-// Whoever was heard a tick ago is there, so that its silence now is a lost packet. Those silent for
-// longer may be dead or hidden and say nothing about the radio.
+// A robot heard a tick ago is still there, so that its silence now is a lost packet. One silent for
+// longer may be dead or hidden and says nothing about the radio.
 void estimate_loss(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   self.loss_ticks = 0;

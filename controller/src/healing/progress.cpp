@@ -10,8 +10,8 @@ namespace {
 constexpr int nearer_cm = 5;
 constexpr int patience_hindered = 18;  // times as long: the way round may be long, and the target may drive away
 
-// How much of a tick at full speed towards the target this velocity is, in eighteenths; back and forth is nothing.
-// Round an obstacle every way is one towards it.
+// How much of a tick at full speed towards the target this velocity is, in eighteenths; back and forth adds to 0.
+// On the way round an obstacle every motion counts as one towards the target.
 int eighteenths(const HealingRobot& robot, Vec2 v, bool hindered) noexcept {
   const float towards = dot(v, unit(*robot.target)) / robot.params.wheel_limit_m_s;
   if (!hindered) return static_cast<int>(static_cast<float>(patience_hindered) * towards);
@@ -38,12 +38,12 @@ void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept {
     return;
   }
   const auto left_cm = to_fixed<std::uint16_t>(left_m, per_cm);
-  if (retreats) {  // all that it goes back lies before it again
+  if (retreats) {  // what it drives back it will have to drive again
     self.progress.least_cm = left_cm;
     return;
   }
   const bool hindered = self.detour.side != 0 || !robot.obstacles.empty() || robot.target_strays;
-  if (hindered) {  // what lies behind the obstacle is a new way; a tick that brings it nearer is not in vain
+  if (hindered) {  // behind the obstacle begins a new way; a tick that brings it nearer is not in vain
     const bool nearer = left_cm < self.progress.least_cm;
     self.progress.least_cm = left_cm;
     if (nearer) return;
@@ -54,7 +54,7 @@ void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept {
   const int most = patience_hindered * p.ticks(p.give_up_after_s);
   const int vain = self.progress.vain_ticks + eighteenths(robot, v, hindered) * robot.elapsed_ticks;
   self.progress.vain_ticks = static_cast<std::uint16_t>(std::clamp(vain, 0, most));
-  if (vain <= 0) self.progress.least_cm = left_cm;  // what it has been led away it has to drive again
+  if (vain <= 0) self.progress.least_cm = left_cm;  // it has been led away, and has to drive that again
   if (vain > most) give_up(robot);
 }
 

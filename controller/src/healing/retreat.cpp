@@ -15,25 +15,25 @@ bool is_cut_off(const HealingRobot& robot) noexcept {
   return robot.self.silence_ticks > robot.params.ticks(robot.params.retreat_after_s) + 2 * robot.liveness_ticks();
 }
 
-// Whoever hears nobody ties nobody, and may look for the others: a root with nobody left, or hidden among bodies, and
-// whoever has come back to where the root was and found nobody. As patient as who waits in vain for a spare: a
-// radio may fall silent for a while, and then everybody had better stay. Who has never heard anybody waits, too.
+// A robot that hears no other keeps none connected and may search: a root left alone or hidden among bodies, or a
+// robot that came back to where the root was and found no other. It first waits as long as a worker to which no spare
+// comes, since after a short radio failure all should be where they were. One that has never heard any waits, too.
 bool is_alone(const HealingRobot& robot) noexcept {
   const HealingState& self = robot.self;
   return self.silence_ticks > robot.params.ticks(robot.params.regroup_after_s) && self.expected_packets > 0.0F && hears_nobody(robot);
 }
 
-// A spiral about the place where the others were. It needs no compass.
+// A spiral around the place where the others were. It needs no compass.
 Vec2 search(const HealingRobot& robot) noexcept {
   constexpr float pitch = 0.08F;    // of C, a turn's growth of the radius over 2 pi: turns are C/2 apart
-  constexpr float stride = 0.25F;   // of C: so far ahead it looks for a way past obstacles
+  constexpr float stride = 0.25F;   // of C: how far ahead it looks for a way past obstacles
   const Vec2 in = robot.self.root_at;
   const float c = robot.params.communication_range_m;
   const Vec2 along = Vec2{in.y, -in.x} - unit(in) * (pitch * c);
   return bypass(robot, (norm(in) > same_spot_m ? unit(along) : Vec2{1.0F, 0.0F}) * (stride * c));
 }
 
-// The neighbour by which the rooted tree is nearest, none of my own branch; -1 if there is none.
+// The nearest neighbour that knows a way to the rooted tree and is no child of mine; -1 if there is none.
 int way_home(const HealingRobot& robot, bool workers_relay) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
@@ -54,7 +54,7 @@ bool is_left_waiting(const HealingRobot& robot) noexcept {
          self.want_m > p.arrival_distance_m && self.unserved_ticks > p.ticks(p.regroup_after_s);
 }
 
-// A worker that still gets on, however slowly, has spares on their way.
+// For a worker that still makes progress, however slowly, spares are on their way.
 void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept {
   HealingState& self = robot.self;
   const int after_ticks = robot.params.ticks(robot.params.regroup_after_s);

@@ -8,11 +8,11 @@ namespace banyan {
 
 namespace {
 
-constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of all that is under way
-constexpr int rival_beats = 30;     // a count farther behind mine is a dead worker's
-constexpr std::uint8_t pass_on_ticks = 40;  // news goes before everything else for so long
+constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of the news under way
+constexpr int rival_beats = 30;     // a count farther behind mine is that of a dead worker
+constexpr std::uint8_t pass_on_ticks = 40;  // how long news has priority
 constexpr float second_try_s = 40.0F;
-constexpr int per_tick = 16;     // of news_gap
+constexpr int per_tick = 16;     // units of news_gap
 constexpr int gap_memory = 64;   // pieces of news
 constexpr int gap_patience = 2;  // times as long as other news was missing of late
 
@@ -21,9 +21,9 @@ struct TaskNews {
   RobotId serves;
   RobotId holder;
   Serial beat;
-  bool reached;           // it is there
+  bool reached;           // the holder is at the target
   bool silent;            // in doubt
-  RobotId via;            // my child, below which the holder is; nobody: the sender is none, or says that it is not
+  RobotId via;            // my child at or above the holder; nobody: the sender is no child, or denies it
 };
 
 TaskNews news_in(const HealingRobot& robot, const HealingMessage& m) noexcept {
@@ -46,7 +46,7 @@ void serve(HealingState& self, Task& task, bool reached) noexcept {
   ++task.beat;
 }
 
-// Who is at the target stays, else the worker first sent there, else the one with the smaller id.
+// First the one at the target, then the worker first sent there, then the one with the smaller id.
 struct Claim {
   RobotId id;
   bool reached;
@@ -56,8 +56,8 @@ bool has_precedence(Claim a, Claim b, RobotId serves) noexcept {
   return a.id == serves || (b.id != serves && a.id < b.id);
 }
 
-// Somebody else is said to serve what I serve. Counts far behind may be a dead worker's; a living
-// rival hears of mine, then.
+// Another robot is said to serve my target. A count far behind may be a dead worker's and is ignored; a rival
+// that lives will hear my count.
 void settle_rivalry(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
   if (news.holder == nobody || ahead_by(news.beat, task.beat) < -rival_beats) return;
   if (has_precedence({news.holder, news.reached}, {robot.self.id, task.reached}, task.serves)) {
@@ -71,11 +71,11 @@ void settle_rivalry(HealingRobot& robot, Task& task, const TaskNews& news) noexc
   }
 }
 
-constexpr float trust = 0.2F;  // in what one of those says who only remember
+constexpr float trust = 0.2F;  // weight of what a robot says that only remembers the place
 
-// Where the target is. From somebody about as near to the worker. The worker silent, or itself one that goes by memory,
-// copies of copies would only drift, and wheels slip in a crowd: the mean of what all around remember is the best
-// there is.
+// Where the target is, as told by a robot about as near to its worker as I am. If the worker is silent, or itself goes
+// by memory, copies of copies would only drift, and wheels slip in a crowd: then the mean of what all neighbours
+// remember is best.
 void locate(const HealingRobot& robot, Task& task, const TaskNews& news, Vec2 told) noexcept {
   constexpr int stale_ticks = 3;
   const bool silent = robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
@@ -84,7 +84,7 @@ void locate(const HealingRobot& robot, Task& task, const TaskNews& news, Vec2 to
   else if (ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks)) task.target = told;
 }
 
-// The longest time without news of a worker that lived on, of late: in a long thin network news comes in bunches.
+// The longest recent gap in the news of a worker that was alive: in a long thin network news comes in bursts.
 void measure_gap(HealingState& self, const Task& task) noexcept {
   const int gap = self.news_gap - self.news_gap / gap_memory;
   self.news_gap = static_cast<std::uint16_t>(std::max(gap, std::min<int>(task.age_ticks * per_tick, UINT16_MAX)));
@@ -93,7 +93,7 @@ void measure_gap(HealingState& self, const Task& task) noexcept {
 // A later sign of life, or another holder.
 void renew(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
   if (news.holder == task.holder && !task.silent) measure_gap(robot.self, task);
-  // It has lived on since I missed it: somebody else is in charge of it.
+  // It has been alive since I missed it: another robot is in charge of it.
   if (task.silent && !news.silent && ahead_by(news.beat, task.beat) > robot.liveness_ticks() / 2) task.via = nobody;
   if (news.silent != task.silent || news.holder != task.holder) task.urgent_ticks = pass_on_ticks;
   task.beat = news.beat;
@@ -106,10 +106,10 @@ void renew(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
 void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, const Vec2* target) noexcept {
   HealingState& self = robot.self;
   const bool mine = self.is_worker && self.serves == news.serves;
-  if (news.holder == self.id && !mine) return;  // said of me before I resigned
+  if (news.holder == self.id && !mine) return;  // old news, from before I resigned
   Task* task = find_task(self, news.serves);
   if (task == nullptr) {
-    if (target == nullptr && !news.silent) return;  // a question goes on to all, also by those who are not told where
+    if (target == nullptr && !news.silent) return;  // a question is passed on even without the place
     task = add_task(self, news.serves, target, mine ? Concern::own : concern_of(news));
     if (task == nullptr) return;
     task->beat = static_cast<std::uint16_t>(news.beat - 1);
@@ -117,7 +117,7 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
     if (news.holder == nobody) task->urgent_ticks = pass_on_ticks;
   }
   if (mine) {
-    // Told from outside, nobody knows better than I where it is.
+    // If the mission tells me where it is, no other robot knows better.
     if (target != nullptr && robot.target == nullptr) task->target += (*target - task->target) * trust;
     if (news.silent) task->urgent_ticks = pass_on_ticks;
     if (news.holder != self.id) settle_rivalry(robot, *task, news);
@@ -133,13 +133,13 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
   }
 }
 
-// Where the targets stand in the list, by the last bits of their names: every packet speaks of one.
+// Finds targets in the list by the last bits of their names: every packet is about one.
 class TaskIndex {
  public:
   explicit TaskIndex(const HealingState& self) noexcept : tasks_(self.tasks) {
     for (int k = 0; k < self.task_count; ++k) place_[tasks_[k].serves % places] = static_cast<std::uint8_t>(k);
   }
-  // Null if it is not known, or another has its place.
+  // Null if the target is not known, or if another one has its slot.
   [[nodiscard]] const Task* find(RobotId serves) const noexcept {
     const Task& task = tasks_[place_[serves % places]];
     return task.serves == serves ? &task : nullptr;
@@ -159,8 +159,8 @@ void hear_of_tasks(HealingRobot& robot) noexcept {
     const HealingMessage& m = said(h);
     self.forgets = self.forgets || m.forgets;
     if (m.task_serves == nobody) continue;
-    // Most of it is known: a count no newer than mine, in no doubt, of a target that others serve, told to somebody
-    // else, and nothing new about where in the tree its holder is.
+    // Most news is old: a count no newer than mine, no doubt, a target that others serve, a place told to another
+    // robot, and nothing new about where in the tree its holder is.
     const Task* task = m.told == me ? nullptr : index.find(m.task_serves);
     const bool below = m.task_below && up_of(m) == me;
     if (task != nullptr && !m.task_silent && (task->via == m.id) == below && !is_news(m.task_beat, task->beat, task->age_ticks) && (!self.is_worker || self.serves != m.task_serves)) continue;
@@ -177,12 +177,12 @@ void grow_older(HealingRobot& robot) noexcept {
   }
 }
 
-// Whether I am where the target is.
+// Whether I am at the target.
 bool is_there(const HealingRobot& robot, const Task& task) noexcept {
   return !task.unlocated && norm(task.target) <= robot.params.arrival_distance_m;
 }
 
-// My own target. One that was taken from me from outside has been given up; everybody shall know.
+// My own target. One that the mission has taken from me is given up, and all robots are to know.
 void mind_own(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const RobotId me = self.id;
@@ -218,14 +218,14 @@ void take_over(HealingRobot& robot, Task& task) noexcept {
   ++self.tally.replacements;
 }
 
-// Of a branch that has parted from mine I hear by way of the root, and every robot on the way speaks of all targets in
-// turn: half of them, on average, before the one. A robot without label waits longest, for its tree.
+// News of another branch reaches me through the root, and every robot on the way sends news of all targets in turn: on
+// average half of them before this one. A robot without a label waits longest, until it has a tree.
 int way_of_news_ticks(const HealingRobot& robot) noexcept {
   const float hops = static_cast<float>(robot.self.label_cm) * 0.01F / robot.params.communication_range_m;
   return robot.self.forgets ? 0 : static_cast<int>(hops * static_cast<float>(robot.self.task_count));
 }
 
-// The nearer to the target, the sooner: the first tells the others.
+// The nearer to the target, the sooner: the first robot tells the others.
 void succeed(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const HealingParams& p = robot.params;
@@ -238,7 +238,7 @@ void succeed(HealingRobot& robot) noexcept {
     if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
     const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
     const int patience_ticks = least_ticks + way_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
-    const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // a doubt has its own clock
+    const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // doubt has waited already
     if (task.age_ticks > std::max(patience_ticks, rare_ticks)) return take_over(robot, task);
   }
 }
@@ -259,7 +259,7 @@ void watch_tasks(HealingRobot& robot) noexcept {
   hear_of_tasks(robot);
   doubt(robot);
   succeed(robot);
-  // A successor has its target from the table, not from outside.
+  // A successor has its target from the task list, not from the mission.
   if (!self.is_worker || robot.target != nullptr) return;
   if (const Task* task = find_task(self, self.serves); task != nullptr && !task->unlocated) robot.target = &task->target;
 }

@@ -20,8 +20,8 @@ namespace {
 
 constexpr float nowhere_m = 1e9F;
 
-// Of those of equal concern. Of doubts the nearer ones: it is there that I may be the successor. Of workers in
-// nobody's charge each robot likes others best, so that of many in one place all are known to somebody.
+// Decides between tasks of equal concern. Of doubts the nearer ones, since there I may be the successor. Of workers
+// in no robot's charge each robot prefers different ones, so that of many in one place each is known to some robot.
 float liking(const HealingState& self, Concern concern, RobotId serves, const Vec2* target) noexcept {
   if (concern != Concern::none) return target != nullptr ? -norm(*target) : -nowhere_m;
   return static_cast<float>(static_cast<std::uint16_t>((serves ^ (self.id * 0x9E37U)) * 0x6A2DU));
@@ -53,7 +53,7 @@ Task* add_task(HealingState& self, RobotId serves, const Vec2* target, Concern c
     self.forgets = true;
     task = &least_concern(self);
     const Concern least = concern_of(self, *task);
-    // Those in my charge stay as they are.
+    // Tasks in my charge are not replaced by others of the same concern.
     const bool changes = concern == Concern::none || concern == Concern::urgent;
     const bool better = liking(self, concern, serves, target) > liking(self, least, *task);
     if (concern < least || (concern == least && !(changes && better))) return nullptr;

@@ -7,7 +7,7 @@
 namespace banyan {
 namespace {
 
-constexpr float target_moved_m = 0.3F;  // at once: the way begins anew
+constexpr float target_moved_m = 0.3F;  // in one step: progress counts from the start again
 constexpr float straying = 0.2F;        // of v
 
 }  // namespace
@@ -32,7 +32,7 @@ void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
     self.serves = self.id;
   }
   self.was_sent = orders.sent;
-  for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up})  // whoever gave it up in vain says so no more
+  for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up})  // no longer given up in vain
     if (Task* task = ended == nobody ? nullptr : find_task(self, ended); task != nullptr) task->gave_up = false;
   if (!orders.sent) self.target_known = false;
   if (orders.target) {

@@ -9,16 +9,16 @@
 namespace banyan {
 namespace {
 
-constexpr float keep_m = 0.04F;           // between body and obstacle, while it slides along
+constexpr float keep_m = 0.04F;           // between body and obstacle while driving along it
 constexpr float same_obstacle_m = 0.20F;  // the contact point moves on by less in a tick
 constexpr float progress_m = 0.05F;
 constexpr float first_span = 0.35F;        // of C
 constexpr float goal_moved_m = 0.30F;
 
-// ---- One obstacle point: which directions it leaves ----
+// ---- One obstacle point: which directions it leaves free ----
 
-// The largest cosine between a direction of motion and that of an obstacle `d` away: along it where it
-// is near enough, towards it where there is room.
+// The largest allowed cosine between a direction of motion and that of an obstacle `d` away: only along the
+// obstacle if it is near, towards it if there is room.
 float allowed_cosine(const TreeRobot& robot, float d) noexcept {
   const float gap = d - body_m(robot);
   return std::clamp((gap - keep_m) / (near_m - keep_m), -0.5F, 1.0F);
@@ -41,7 +41,7 @@ struct Course {
   Vec2 contact;
 };
 
-// Along the obstacle at `contact`, and along whatever else turns up on this side.
+// Along the obstacle at `contact`, and along any other that blocks the way on this side.
 Course sweep(const TreeRobot& robot, Vec2 contact, int side) noexcept {
   Course course{{}, contact};
   for (std::size_t round = 0; round <= robot.obstacles.size(); ++round) {
@@ -57,18 +57,18 @@ Course sweep(const TreeRobot& robot, Vec2 contact, int side) noexcept {
 
 // ---- A detour ----
 
-// It may have been in vain: of where it began and how wide it was the robot takes note.
+// It may have been in vain: the robot remembers where the detour began and how wide it was.
 void end(Detour& detour) noexcept {
   if (detour.side != 0) detour.last_side = detour.side;
   detour.side = 0;
 }
 
-// The side on which the obstacle takes me less far from the goal; of equal ones each robot its own,
-// so that several find out more.
+// Takes the side that leads less far away from the goal; if both are equal, robots choose differently, so
+// that several of them explore both.
 void begin(const TreeRobot& robot, Detour& detour, Vec2 goal, Vec2 contact) noexcept {
   detour.contact = contact;
-  // Back where the last one began, and no nearer to the goal: that goes on, and is not left so easily again.
-  // Otherwise the two ends of a pocket, or of a row of bodies, would be tried in turn for ever.
+  // Back where the last detour began, and no nearer to the goal: continue that one, and end it less easily.
+  // Otherwise the robot would alternate for ever between the two ends of a pocket, or of a row of robots.
   const float before_m = distance(detour.origin, detour.goal);
   if (detour.last_side != 0 && norm(goal) > before_m - progress_m) {
     detour.side = detour.last_side;
@@ -104,8 +104,8 @@ Vec2 followed(const TreeRobot& robot, const Detour& detour) noexcept {
 }  // namespace
 
 void carry_detour(Detour& detour, const Carry& carry) noexcept {
-  // A robot that is pushed back on the way round would never get as near to the goal as it was, and would
-  // circle for ever: what it has to reach to be round grows with the way that it drives.
+  // A robot pushed back on its way round might never get as near to the goal as it was, and would circle
+  // for ever: so the distance at which the detour counts as done grows with the way driven.
   constexpr float allowance = 0.25F;
   constexpr float allowance_again = 0.025F;
   if (detour.side == 0 && detour.last_side == 0) return;
@@ -115,7 +115,7 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept {
 
 Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
   const Vec2 straight = unit(goal);
-  // Out of where it has searched, or to another goal.
+  // It has left the area that it searched, or has another goal.
   if (detour.last_side != 0 && detour.side == 0 && (norm(detour.origin) > detour.span_m || distance(goal, detour.goal) > goal_moved_m)) detour = {};
   if (robot.obstacles.empty()) {
     end(detour);
@@ -124,7 +124,7 @@ Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
   const int blocking = find_blocking(robot, straight);
   Vec2 contact = detour.side != 0 ? followed(robot, detour) : Vec2{};
   if (detour.side != 0) {
-    if (distance(goal, detour.goal) > goal_moved_m) {  // another goal, or one that drives
+    if (distance(goal, detour.goal) > goal_moved_m) {  // another goal, or one that moves
       detour.goal = goal;
       detour.leave_m = norm(goal);
     }

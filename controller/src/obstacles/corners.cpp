@@ -13,13 +13,13 @@
 namespace banyan {
 namespace {
 
-constexpr float sight_margin_m = 0.03F;   // no line of sight comes nearer to a corner by own motion
-constexpr float sight_width_m = 0.12F;    // and robots make room within this
-constexpr float hinge_width_m = 0.30F;    // of such a corner the parent is told
+constexpr float sight_margin_m = 0.03F;   // own motion brings no line of sight nearer to a corner than this
+constexpr float sight_width_m = 0.12F;    // robots make room for lines nearer to a corner than this
+constexpr float hinge_width_m = 0.30F;    // the parent is told of a corner so near to the edge
 constexpr float pin_width_m = 0.06F;
 constexpr float pin_shortest_m = 0.30F;   // a parent nearer than this need not come up
-constexpr float spacing_m = 0.06F;        // of remembered points
-constexpr float forget = 1.0F;            // of C: an edge is no longer
+constexpr float spacing_m = 0.06F;        // between remembered points
+constexpr float forget = 1.0F;            // of C: points farther away are forgotten, since no edge is longer
 
 template <class Visit>
 void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit visit) noexcept {
@@ -61,14 +61,14 @@ void for_each_edge_of_both_trees(const TreeRobot& robot, Visit visit) noexcept {
     if (table.message(k).role != Role::spare) visit(k);
 }
 
-// How far a point is from the nearest of my tree edges: how little it matters.
+// How far a point is from the nearest of my tree edges: the farther, the less it matters.
 float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
   float nearest_m = norm(p);
   for_each_edge_of_both_trees(robot, [&](int k) { nearest_m = std::min(nearest_m, norm(nearest_on_segment(-p, robot.table().position(k) - p))); });
   return nearest_m;
 }
 
-// Of more than there is room for, those go that matter least.
+// Remembers a point; when there is no room, the one that matters least is dropped.
 void file(const TreeRobot& robot, Corners& corners, Vec2 o) noexcept {
   Landmarks& known = corners.landmarks;
   const auto begin = known.points.begin();
@@ -82,7 +82,7 @@ void file(const TreeRobot& robot, Corners& corners, Vec2 o) noexcept {
   if (key(o) <= key(least)) least = o;
 }
 
-// What children know of corners beside their edge to me.
+// Remembers corners that children report beside their edge to me.
 void hear_of_corners(const TreeRobot& robot, Corners& corners) noexcept {
   const TreeTable& table = robot.table();
   const auto hear = [&](int k) {
@@ -95,8 +95,8 @@ void hear_of_corners(const TreeRobot& robot, Corners& corners) noexcept {
   for (const int k : robot.old_children) hear(k);
 }
 
-// Where to go when the tree falls silent: a robot of the tree to where it stood, a spare to where the
-// nearest robot of the tree was.
+// Where to go when the tree falls silent: a robot of the tree goes to where it stood, a spare to where
+// the nearest robot of the tree was.
 void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
   TreeState& self = robot.self;
   const TreeTable& table = robot.table();
@@ -104,7 +104,7 @@ void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
     if (table.age(robot.parent) == 0) corners.seen_from = {};
     return;
   }
-  // By way of whom the root's count comes, there is the tree.
+  // The tree is where the root's newest sequence number comes from.
   int nearest = -1;
   int hops = std::numeric_limits<int>::max();
   float range_m = 0.0F;
@@ -127,8 +127,8 @@ float room_beside(const TreeRobot& robot, const Corners& corners, Vec2 neighbor)
   return room_m;
 }
 
-// The root is where the spares are: it must not lose the last of them behind a corner. Index of the
-// one that it sees best; -1 if that one is in no danger, or for all other robots.
+// The spares are around the root, which must not lose sight of the last of them behind a corner. Index of
+// the spare that the root sees best; -1 if that one is in no danger, and for all other robots.
 int last_in_sight(const TreeRobot& robot, const Corners& corners) noexcept {
   if (!robot.is_root() || corners.landmarks.size == 0) return -1;
   const TreeTable& table = robot.table();
@@ -145,7 +145,7 @@ int last_in_sight(const TreeRobot& robot, const Corners& corners) noexcept {
   return best;
 }
 
-// A child that has to go on is held back by me.
+// Whether I hold back a child that has to go on.
 bool is_towed(const TreeRobot& robot, const Corners& corners, float start_m) noexcept {
   const TreeTable& table = robot.table();
   const auto tows = [&](int k) {
@@ -160,7 +160,7 @@ void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
   float nearest_m = body_m(robot) + near_m;
   for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
   const float far_m = forget * robot.params.communication_range_m;
-  // A point nearer than anything that is sensed is not there any more, or never was.
+  // A point nearer than everything that is sensed no longer exists, or never did.
   const auto is_wrong = [&](Vec2 p) { return norm(p) > far_m || norm(p) < nearest_m - spacing_m; };
   const auto end = std::remove_if(known.points.begin(), known.points.begin() + known.size, is_wrong);
   known.size = static_cast<std::uint8_t>(end - known.points.begin());

@@ -7,10 +7,10 @@
 namespace banyan {
 namespace {
 
-constexpr float obstacle_clearance_m = 0.05F;  // a tree edge may graze a corner, but not by a hair
+constexpr float obstacle_clearance_m = 0.05F;  // a tree edge must pass a corner at least this far away
 
-// `p` is nearer than `clearance_m` to the inside of the segment from `a` along `d`; the ends are
-// the robots that talk: who stands beside them is no obstacle.
+// `p` is nearer than `clearance_m` to the inside of the segment from `a` along `d`. The ends are the robots
+// that communicate; a point beyond them blocks nothing.
 bool blocks(Vec2 p, Vec2 a, Vec2 d, float d2, float clearance_m) noexcept {
   const Vec2 k = p - a;
   const float along = dot(k, d);

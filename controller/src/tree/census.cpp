@@ -9,7 +9,7 @@ namespace banyan {
 namespace {
 
 struct Sums {
-  Vec2 a;                      // Alg. 1's accumulator
+  Vec2 a;                      // accumulator of Alg. 1
   std::uint32_t robots = 1;
   std::uint32_t workers = 0;
   std::uint32_t counts = 0;    // of Alg. 2
@@ -22,7 +22,7 @@ struct Sums {
 // `counts`: whether the child belongs to the tree that is being counted; its pull counts always.
 void add_child(const TreeRobot& robot, int k, bool counts, Sums& sums) noexcept {
   const TreeStanding& m = robot.table().message(k);
-  if (up_of(m) != robot.self.id) return;  // its vectors are addressed to somebody else
+  if (up_of(m) != robot.self.id) return;  // its vectors are addressed to another robot
   const Vec2 sender = robot.table().position(k);
   if (counts) {
     sums.a += from_edge_frame(m.q, sender);
@@ -43,10 +43,10 @@ void add_own_target(const TreeRobot& robot, float rest_distance_m, Sums& sums) n
   const float distance_m = norm(*robot.target);
   sums.pull = unit(*robot.target) * (p.target_gain * std::min(1.0F, distance_m / p.arrival_distance_m));
   sums.pulling = 1;
-  if (distance_m > rest_distance_m) sums.want_m = std::max(sums.want_m, distance_m);  // of those that hang on it, too
+  if (distance_m > rest_distance_m) sums.want_m = std::max(sums.want_m, distance_m);  // its own and that of all below
 }
 
-// Whether the workers below get any nearer to their targets.
+// How long the workers below have not come any nearer to their targets.
 void watch_progress(const TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   constexpr float hand_m = 0.1F;
@@ -90,7 +90,7 @@ void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m) noex
   if (!selecting || robot.children.size == 0)
     for (const int k : robot.old_children) add_child(robot, k, !selecting, sums);
   if (self.is_worker && robot.target != nullptr) add_own_target(robot, rest_distance_m, sums);
-  // Sent, but never yet told where to: it has not arrived.
+  // Sent, but not yet told where to: it has not arrived.
   else if (self.is_worker) sums.want_m = std::max(sums.want_m, robot.params.communication_range_m);
   sums.want_m = std::max(sums.want_m, own_want_m);
 

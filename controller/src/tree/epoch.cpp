@@ -7,7 +7,7 @@ namespace {
 
 void begin_epoch(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  // A robot that has only an old parent keeps it: it is the one edge that ties it to the tree.
+  // A robot that has only an old parent keeps it: this edge is its only tie to the tree.
   if (self.parent != nobody) {
     self.old_parent = self.parent;
     robot.old_parent = robot.parent;
@@ -30,15 +30,15 @@ void begin_epoch(TreeRobot& robot) noexcept {
   self.new_root = nobody;
 }
 
-// GROW TREE: the old parent goes. Whoever found no new one keeps it as a constraint on its motion
-// until it has: dropped, the branch would drift out of range before it can re-attach.
+// GROW TREE: the old parent is dropped. A robot that has found no new one keeps it as a constraint on its motion
+// until it has one: otherwise the branch would drift out of range before it could re-attach.
 void forget_old_tree(TreeRobot& robot) noexcept {
   if (robot.self.parent == nobody && robot.self.role != Role::spare && !robot.is_root()) return;
   robot.self.old_parent = nobody;
   robot.old_parent = -1;
 }
 
-// The barrier of the root's phase: may it open the next one?
+// The barrier of the root's phase: whether the root may open the next one.
 bool barrier_holds(const TreeRobot& robot, bool tree_complete) noexcept {
   const TreeState& self = robot.self;
   switch (self.phase) {

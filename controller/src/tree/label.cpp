@@ -6,7 +6,7 @@
 namespace banyan {
 namespace {
 
-// A neighbour without label is nearer to me and to neighbour `k` than the two are to one another.
+// Whether a neighbour without a label is nearer to me and to neighbour `k` than we two are to each other.
 bool somebody_between(const TreeRobot& robot, int k) noexcept {
   const TreeTable& table = robot.table();
   const float range_m = table.range(k);
@@ -18,9 +18,9 @@ bool somebody_between(const TreeRobot& robot, int k) noexcept {
   return false;
 }
 
-// Fixed once: recomputed every tick, motion would leave robots in local minima without candidate.
+// Fixed once an epoch: if recomputed every tick, motion would leave robots in local minima, with no candidate.
 void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
-  constexpr int wait_ticks = 2;       // lets nearer labelled neighbours speak up
+  constexpr int wait_ticks = 2;       // gives nearer labelled neighbours time to be heard
   constexpr int wait_far_ticks = 6;   // if all heard so far are near the edge of the range
   TreeState& self = robot.self;
   const TreeTable& table = robot.table();
@@ -44,8 +44,8 @@ void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
   self.flood_parent = table.id(best);
 }
 
-// Echo (Chang 1982): done when all around have a label and all below are done. Who fell silent just
-// before the epoch opened may have left: waiting for it would hold up everybody for I.
+// Echo (Chang 1982): done when all neighbours have a label and all robots below are done. A robot that fell silent
+// just before the epoch opened may have left: waiting for it would delay all robots by I.
 constexpr int echo_silence_ticks = 4;
 
 void echo(TreeRobot& robot) noexcept {

@@ -24,7 +24,7 @@ void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
     if (k != robot.parent && k != robot.old_parent) visit(k);
 }
 
-// In how many of the two trees neighbour k is at the other end of an edge of mine.
+// In how many of the two trees an edge joins neighbour k and me.
 int edges_to(const TreeRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   const bool in_new = k == robot.parent || m.parent == robot.self.id;
@@ -54,7 +54,7 @@ Vec2 adjust_position(const TreeRobot& robot) noexcept {
     if (d > p.safe_range_m) return unit(reference);
     return unit(Vec2{reference.y, -reference.x}) * p.target_gain + avoidance(robot);
   }
-  // Near a robot of the tree within reach of its edges; a crowd far from the tree stays spread out.
+  // A spare next to the tree stays within reach of its edges; a crowd far from the tree stays spread out.
   const float reach_m = robot.table().message(k).role != Role::spare ? 0.5F * p.recruitment_distance_m : p.safe_range_m;
   const bool called = robot.self.called && d > p.avoidance_range_m;
   return d > reach_m || called ? unit(reference) + avoidance(robot) : avoidance(robot);
@@ -85,8 +85,8 @@ Vec2 spring_motion(const TreeRobot& robot) noexcept {
   const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
   const float d = norm(parent);
   const bool silent = up >= 0 && !robot.table().alive(up);
-  if (robot.reading.keeps_links && up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // whom to keep is not known yet
-  // Emergency: u = p_parent, at full speed. A silent parent may be anywhere: to where it must be.
+  if (robot.reading.keeps_links && up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // none heard yet
+  // Emergency: u = p_parent, at full speed; towards a silent parent's estimated position.
   if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
   if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};
   const Vec2 u = clamped(robot.self.pull + avoidance(robot), 1.0F);
@@ -127,13 +127,13 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   const TreeTable& table = robot.table();
   const TreeParams& p = robot.params;
   const float longest_m = longest_link * p.communication_range_m;
-  const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // nearer, full speed is allowed
+  const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // below it full speed is allowed
   const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
   for (int k = 0; k < table.size(); ++k) {
     if (table.range(k) <= limited_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
     const TreeStanding& m = table.message(k);
     const bool tied_to_me = k == robot.hold || hold_of(m) == robot.self.id;
-    // In a grown tree only those of its own epoch wait for a hold: one of another hears nobody, or comes from elsewhere.
+    // In a grown tree only robots of its epoch wait for a hold: those of another are cut off, or of another fragment.
     const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || robot.self.phase < Phase::grow_tree);
     if (tied_to_me || (!lets_go && (untied || waits))) guard.add(table.position(k), longest_m - table.spread_m(), p.guard_rate_per_s);
   }

@@ -8,8 +8,8 @@
 namespace banyan {
 namespace {
 
-constexpr int patience_flood_ticks = 4;     // without candidate, then the flood parent will do
-constexpr int patience_relabel_ticks = 7;   // then a childless robot may sort itself in anew
+constexpr int patience_flood_ticks = 4;     // without a candidate, then the flood parent will do
+constexpr int patience_relabel_ticks = 7;   // then a childless robot may take a new place in the order
 constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
@@ -18,7 +18,7 @@ constexpr std::uint16_t largest_label = unknown_label - 1;  // where label_below
 
 bool may_relay(const ParentRule& rule, const TreeStanding& m) noexcept { return m.role != Role::worker || rule.workers_relay; }
 
-// The best candidate by the rule, -1 if none. `in_tree`: committed robots that are no spares only.
+// The best candidate by the rule, -1 if none. `in_tree`: only committed robots that are not spares.
 int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
@@ -31,8 +31,8 @@ int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) 
   return best;
 }
 
-// No candidate for a while: the flood parent, even beyond the range in which a parent is chosen, as
-// long as the order holds.
+// No candidate for a while: the flood parent, even beyond the range in which parents are chosen, if it
+// is ahead.
 int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   const TreeState& self = robot.self;
   const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
@@ -42,7 +42,7 @@ int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   return near && may_relay(rule, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
 }
 
-// Still none: nobody hangs on a childless robot, so it may move behind any committed neighbour.
+// Still none: a childless robot has no robot below it, so it may move behind any committed neighbour.
 int nearest_committed(const TreeRobot& robot, const ParentRule& rule) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
@@ -70,7 +70,7 @@ void join(TreeRobot& robot, const ParentRule& rule) noexcept {
   if (k >= 0) take_parent(robot, k);
 }
 
-// Parent silent for longer than I: another one, or keep it and drive to where it must be.
+// The parent has been silent for longer than I: take another one, or keep it and drive to where it should be.
 void repair(TreeRobot& robot, const ParentRule& rule) noexcept {
   TreeState& self = robot.self;
   if (self.role == Role::spare) return leave_tree(robot);
@@ -80,8 +80,8 @@ void repair(TreeRobot& robot, const ParentRule& rule) noexcept {
   ++self.tally.repairs;
 }
 
-// The neighbour over which the rooted tree is nearest: part of it, or a free spare that can be
-// drafted towards it. Never one whose own depth is invalid: it might hang on me.
+// The neighbour through which the rooted tree is nearest: a robot of the tree, or a free spare that can be
+// drafted towards it. Never an orphan: it might be below me in the tree.
 int way_to_tree(const TreeRobot& robot, const ParentRule& rule, float range_m) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
@@ -115,25 +115,25 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
   ++self.tally.repairs;
 }
 
-// The order is still that of the old tree, in which those are ahead that led away from the root that is now:
-// whoever has passed the token on would take a parent that hangs on it.
+// The order is still that of the old root: a robot that has handed over the token is ahead of its heir, and
+// would take as parent a robot that is below it in the tree.
 bool hangs_on_heir(const TreeRobot& robot) noexcept {
   return robot.reading.keeps_links && robot.self.phase == Phase::select_root && robot.self.parent == nobody && robot.old_parent_alive();
 }
 
-// A spare that has just joined my edge has its parent's seqno of a tick ago: I wait for it.
+// A spare that has just joined my edge has its parent's sequence number of the last tick: I wait for it.
 bool awaits_inserted(const TreeRobot& robot) noexcept {
   const int k = robot.self.grant == nobody ? -1 : robot.table().find(robot.self.grant);
   return k >= 0 && robot.table().alive(k) && robot.table().message(k).inserted_child == robot.self.id;
 }
 
-// While I wait for another parent to get ahead, my seqno rests: the other's overtakes it, unless that one
-// is below me.
+// While I wait for another parent to get ahead, my sequence number rests: the other robot's overtakes it, unless
+// that robot is below me.
 void update_seqno(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   const bool was_fresh = self.seqno_ticks < serial_half_range;
   robot.add_elapsed(self.seqno_ticks);
-  // So old that others could take it for new: this robot has no place in the order any more (serial.hpp).
+  // So old that others could take it for new: this robot no longer has a place in the order (serial.hpp).
   if (was_fresh && self.seqno_ticks >= serial_half_range && !robot.is_root()) self.label_cm = unknown_label;
   if (robot.is_root()) {
     ++self.seqno;
@@ -143,10 +143,10 @@ void update_seqno(TreeRobot& robot) noexcept {
   }
 }
 
-// Depth flows down; an orphan's is invalid, and so within a hop per tick are all below it.
+// Depth flows down; an orphan's is invalid, which spreads to all robots below it by a hop per tick.
 void update_depth(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  // In GROW TREE an old parent is but a constraint: it may by now hang on me.
+  // In GROW TREE an old parent is only a constraint: it may be below me in the tree by now.
   const int up = self.parent != nobody ? robot.parent : self.phase < Phase::grow_tree ? robot.old_parent : -1;
   if (robot.is_root()) {
     self.depth = 1;
@@ -164,7 +164,7 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   if (self.depth != invalid_depth || self.role != Role::spare || self.parent != nobody) return;
   const TreeTable& table = robot.table();
   int nearest = -1;
-  int hops = unreachable - 1;  // the most that is passed on: whoever knows no way has more
+  int hops = unreachable - 1;  // the most that is passed on; robots that know no way have more
   Serial freshest = 0;
   for (int k = 0, size = table.size(); k < size; ++k) {
     const TreeStanding& m = table.message(k);
@@ -175,7 +175,7 @@ void update_tree_hops(TreeRobot& robot) noexcept {
     nearest = k;
   }
   self.tree_hops = nearest < 0 ? unreachable : static_cast<std::uint8_t>(hops + 1);
-  // Whoever drafts this spare (in GROW TREE) must find it ahead; one about to join an edge stays behind.
+  // For an orphan that drafts this spare (in GROW TREE) it must be ahead; one about to join an edge stays behind.
   if (nearest >= 0 && !robot.reading.keeps_links && self.phase >= Phase::grow_tree && self.request == nobody) keep_up(robot, nearest);
 }
 
@@ -218,7 +218,7 @@ void take_parent(TreeRobot& robot, int k) noexcept {
   self.search_ticks = 0;
   self.pending_parent = nobody;
   keep_up(robot, k);
-  // As fresh as its parent, a robot without label must not come to stand before it.
+  // A robot without a label that is as fresh as its parent must not be ahead of it.
   if (robot.reading.keeps_links && self.label_cm == unknown_label)
     self.label_cm = label_below(robot.table().message(k).label_cm, robot.table().range(k));
   if (self.phase >= Phase::grow_tree) {

@@ -9,8 +9,8 @@
 namespace banyan {
 namespace {
 
-// A neighbour heard this tick, no worker, nearer to the centroid than the root by a margin. The two will have an
-// edge (hand_over), so it must not be about to leave.
+// A neighbour heard in this tick, not a worker, nearer to the centroid than the root by a margin. The two will have
+// an edge (hand_over), so it must not be about to leave.
 int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept {
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();
@@ -31,11 +31,11 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noex
 
 }  // namespace
 
-// Gossip of the successor is the acknowledgement. The edge to it leads on towards the root all those who hang
-// on me: until they have parents of the new epoch they know of nobody else.
+// The successor's gossip is the acknowledgement. The edge to it connects all robots below me to the new root: until
+// they have parents of the new epoch, they know no other way.
 void hand_over(TreeRobot& robot, Serial held) noexcept {
   TreeState& self = robot.self;
-  // The heir has taken it, and may have passed it on already; or a rival has one of the same number.
+  // The heir has taken the token, and may have passed it on already; or a rival has one of the same number.
   const bool taken = self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != static_cast<Serial>(held + 1));
   const int heir = taken ? robot.table().find(self.new_root) : -1;
   if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) {
@@ -85,7 +85,7 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept 
   if (self.new_root != nobody) {
     robot.add_elapsed(self.offer_ticks);
     if (self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks())) return;
-    self.root.sequence = static_cast<std::uint16_t>(self.root.sequence + 2);  // beats an acceptance that I never heard of
+    self.root.sequence = static_cast<std::uint16_t>(self.root.sequence + 2);  // beats an acceptance not heard
     self.new_root = nobody;
     return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
   }

@@ -23,7 +23,7 @@ void end_grant(TreeState& self) noexcept {
   self.need = Need::no_need;
 }
 
-// The granted spare arrives, gives up, or falls silent.
+// Ends the grant when the spare has arrived, has given up, or has fallen silent.
 void follow_grant(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   const int k = robot.table().find(self.grant);
@@ -115,7 +115,7 @@ RobotId nearest_edge_in_need(const TreeRobot& robot) noexcept {
   return best;
 }
 
-// The neighbour by which an unanswered need is nearest.
+// The neighbour through which an unanswered need is nearest.
 RobotId nearest_caller(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
@@ -124,10 +124,10 @@ RobotId nearest_caller(const TreeRobot& robot) noexcept {
   return best < 0 ? nobody : table.id(best);
 }
 
-// Corrected reading: a spare that stands still may be far from where it is needed. Needs that nobody
+// Corrected reading: a spare that stands still may be far from where it is needed. Needs that no spare
 // answers spread hop by hop, and spares without an edge in sight follow the gradient.
-// True if a call is about: when it is over, the hops that the robots tell each other count up, which
-// is no gradient to follow.
+// True while a call is live: once it is over, the hops that robots tell each other count up, which is no
+// gradient to follow.
 bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
   TreeState& self = robot.self;
   const bool steady = robot.call_hops < self.call_hops;
@@ -148,7 +148,7 @@ void join_edge(TreeRobot& robot, int owner) noexcept {
   TreeState& self = robot.self;
   const TreeTable& table = robot.table();
   const int parent = table.find(table.message(owner).parent);
-  if (!is_ahead(robot, parent)) return;  // its seqno will overtake mine
+  if (!is_ahead(robot, parent)) return;  // its sequence number will overtake mine
   const TreeStanding& above = table.message(parent);
   auto label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + above.label_cm) / 2);
   if (label_cm <= above.label_cm) label_cm = label_below(above.label_cm, 0.0F);
@@ -204,7 +204,7 @@ void watch_inserted_child(TreeRobot& robot) noexcept {
 RobotId nearest_reference(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
-  // Hops, and among free spares any other counts half a hop more than the one it has.
+  // In half hops: among free spares, any but the present reference counts half a hop more.
   int best_hops = std::numeric_limits<int>::max();
   float best_m = 0.0F;
   for (int k = 0, size = table.size(); k < size; ++k) {
@@ -250,7 +250,7 @@ bool is_at_midpoint(const TreeRobot& robot, int owner, int parent) noexcept {
 void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept {
   TreeState& self = robot.self;
   const bool call = spread_call(robot, rule);
-  self.called = false;  // look_for_edge() finds out anew
+  self.called = false;  // look_for_edge() decides again
   if (self.inserted_child != nobody) watch_inserted_child(robot);
   if (self.role != Role::spare) {
     self.request = nobody;

@@ -22,7 +22,7 @@ void index_neighbors(TreeRobot& robot) noexcept {
     call_hops = std::min(call_hops, m.call_hops);
     const bool names_me = m.parent == me;
     if (!names_me && m.old_parent != me) continue;
-    // Whoever has not entered this epoch yet names the parent of the last one.
+    // A robot that has not entered this epoch yet names its parent of the last one.
     (names_me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
     if (m.role == Role::spare) continue;
     ++robot.useful_children;
@@ -42,7 +42,7 @@ void update_role(TreeRobot& robot) noexcept {
     self.role = Role::connector;
     self.childless_ticks = 0;
   } else if (self.role != Role::spare) {
-    self.role = Role::connector;  // a root that has handed over is one, too
+    self.role = Role::connector;  // so is a root that has handed over
     // Patience: a child may only have been silent, or be about to name me (protocol 3).
     robot.add_elapsed(self.childless_ticks);
     if (self.childless_ticks > robot.patience_ticks()) {
