@@ -85,7 +85,7 @@ Vec2 spring_motion(const TreeRobot& robot) noexcept {
   const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
   const float d = norm(parent);
   const bool silent = up >= 0 && !robot.table().alive(up);
-  if (robot.reading.keeps_links && up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // none heard yet
+  if (robot.reading.keeps_links && up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // none heard
   // Emergency: u = p_parent, at full speed; towards a silent parent's estimated position.
   if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
   if (is_orphan(robot)) return d > p.safe_range_m ? unit(parent) : Vec2{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Power iteration for the Fiedler vector, after Yang et al. 2010: each robot has one component and a step a tick. What
 // it needs of all robots, three means, comes from proportional-integral average consensus (Freeman, Yang & Lynch 2006),
-// which forgets wrong beginnings: robots may come, die and lose packets.
+// which forgets wrong initial values: robots may join, die and lose packets.
 #include <algorithm>
 
 #include "rooms.hpp"
@@ -9,26 +9,26 @@
 namespace banyan::rivals::fiedler {
 namespace {
 
-// Gains of the sources, made for one step a tick. Those of the iteration are in units of s = h lambda_2, the rate at
-// which its vector fades: what is slow in a long chain must not be corrected fast, or the correction swings.
+// Gains of the sources, scaled to one step a tick. Those of the iteration are in units of s = h lambda_2, the rate at
+// which its vector decays: what is slow in a long chain must not be corrected fast, or the correction oscillates.
 constexpr float deflation = 0.05F;          // k1
 constexpr float normalisation = 1.2F;       // k3
 constexpr float input_gain = 1.2F;          // gamma
-constexpr float least_mean_input = 0.02F;   // gamma at least, of the mean
-constexpr float least_input = 0.05F;        // and of the others, whose errors cancel in their quotient
+constexpr float least_mean_input = 0.02F;   // smallest gamma, of the mean
+constexpr float least_input = 0.05F;        // and of the other two, whose errors cancel in their quotient
 constexpr float proportional = 0.5F;        // K_P
 constexpr float integral = 0.4F;            // K_I
-constexpr float least_fading = 0.01F;       // s at least, in units of the iteration rate
-constexpr float most_fading = 0.5F;         // s at most
+constexpr float least_fading = 0.01F;       // smallest s, in units of the iteration rate
+constexpr float most_fading = 0.5F;         // largest s
 
-constexpr float least_square = 1e-5F;       // to divide by
+constexpr float least_square = 1e-5F;       // smallest divisor
 constexpr float first_square = 0.3F;
-constexpr float faded = 0.02F;              // a mean square below this: there is no vector any more
+constexpr float faded = 0.02F;              // a mean square below this: the vector has vanished
 constexpr float largest_component = 100.0F;
 
 float limited(float v) noexcept { return std::clamp(v, -largest_real, largest_real); }
 
-// In [-1, 1], another one at each call and for each robot (Steele, Lea & Flood's mixer of 32 bits).
+// In [-1, 1], different at each call and for each robot (Steele, Lea & Flood's mixer of 32 bits).
 float draw(State& self) noexcept {
   std::uint32_t h = (self.id + 1U) * 0x9E3779B9U + self.draws++ * 0x85EBCA6BU;
   h = (h ^ h >> 16U) * 0x7FEB352DU;
@@ -37,8 +37,8 @@ float draw(State& self) noexcept {
   return static_cast<float>(h >> 8U) * (2.0F / 16777216.0F) - 1.0F;
 }
 
-// The mean begins where its input is: seen from one that lags far behind, all robots would seem to deviate alike. And
-// lambda_2 begins at its bound: with gains that are too small the vector fades before it is known.
+// The mean starts at its input: relative to one that lags far behind, all robots would seem to deviate alike. And
+// lambda_2 starts at its bound: with gains that are too small the vector would decay before it is known.
 void begin_anew(State& self, float largest_lambda) noexcept {
   self.component = draw(self);
   self.mean = {self.component, 0.0F};
@@ -46,7 +46,7 @@ void begin_anew(State& self, float largest_lambda) noexcept {
   self.product = {first_square * largest_lambda, 0.0F};
 }
 
-// Differences to neighbours: sums over links of weight times what I have more than they.
+// Differences to neighbours: sums over links of weight times (mine - theirs).
 struct Differences {
   float value = 0.0F;
   float integral = 0.0F;
@@ -75,7 +75,7 @@ void iterate(Robot& robot) noexcept {
     if (!(a > 0.0F)) continue;
     const Message& m = table.message(k);
     laplacian += a * (self.component - m.component);
-    // Metropolis weights: the averages come together as fast in a chain as in a crowd, whatever its links weigh.
+    // Metropolis weights: averages converge independently of what the links weigh.
     const float w = 1.0F / static_cast<float>(1 + std::max(self.links, m.links));
     mean.add(w, self.mean, m.mean);
     square.add(w, self.square, m.square);

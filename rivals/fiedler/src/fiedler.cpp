@@ -62,7 +62,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
   return {composed(state), move(u, Guard{}, params)};
 }
 
-// It promises no link in particular, only lambda_2 > 0.
+// It guarantees no particular link, only lambda_2 > 0.
 Report report(const State& state) noexcept { return report_without_links(state); }
 
 void add_to(Digest& digest, const State& s) noexcept {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Two things that all robots must know alike spread with an age, and are forgotten unless their owner goes on saying
-// them: the largest weighted degree, by which the step of the power iteration is chosen, and the root, which metrics
-// ask for and no source has.
+// Two values that all robots must agree on spread with an age, and are forgotten unless their owner keeps sending
+// them: the largest weighted degree, which sets the step of the power iteration, and the root, which the metrics
+// need and no source has.
 #include "banyan/controller/core/fixed_point.hpp"
 #include "rooms.hpp"
 

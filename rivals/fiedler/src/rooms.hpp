@@ -16,11 +16,11 @@ namespace banyan::rivals::fiedler {
   return exp_minus(square / (2.0F * params.weight_width_m * params.weight_width_m));
 }
 
-// What each entry of the table weighs, once for the whole step.
+// The weight of the link to each entry of the table, once for the whole step.
 struct Links {
   std::array<float, neighbor_capacity> weights{};
   float degree = 0.0F;
-  std::uint8_t count = 0;  // of those that weigh anything
+  std::uint8_t count = 0;  // of links with a weight
 
   Links(const Params& params, const Table<Message>& table) noexcept {
     for (int k = 0; k < table.size(); ++k) {
@@ -42,7 +42,7 @@ struct Robot {
   [[nodiscard]] const Table<Message>& table() const noexcept { return self.neighbors; }
 };
 
-// flood.cpp: how many links I have, what the largest weighted degree is, who is root.
+// flood.cpp: how many links I have, what the largest weighted degree is, which robot is root.
 void spread_news(Robot& robot) noexcept;
 // estimate.cpp: one step of the power iteration and of the averages.
 void iterate(Robot& robot) noexcept;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// To give up a link. Its owner, the end with the smaller id, makes a bid, which travels over kept links, but not over
-// the link itself. Who vouches for it vouches for no other until its lease has run out, and gives up no link meanwhile.
-// If the bid reaches the other end, a path of robots that vouch for it joins the two: the other agrees, the owner hears
-// it directly, and gives the link up. No link of that path can be given up before the lease ends, so the kept graph
-// stays connected, whatever else is agreed elsewhere at the same time and whatever is lost.
+// How a link is given up. Its owner, the end with the smaller id, makes a bid, which travels over kept links, but not
+// over the link itself. A robot that vouches for it vouches for no other and gives up no link until its lease has run
+// out. If the bid reaches the other end, a path of robots that vouch for it joins the two: the other agrees, the owner
+// hears that directly and gives up the link. No link of that path can be given up before the lease ends, so the kept
+// graph stays connected, whatever is agreed elsewhere at the same time and whatever packets are lost.
 #include <algorithm>
 #include <optional>
 
@@ -13,12 +13,12 @@
 namespace banyan::rivals::link_consensus {
 namespace {
 
-constexpr int detour_reach = 2;       // by a common neighbour
+constexpr int detour_reach = 2;       // through a common neighbour
 constexpr int first_reach = 8;        // where there is none
 constexpr int longest_reach = 32;     // for the second attempt
 constexpr int lease_slack_steps = 10; // a lease lasts twice the reach and so many steps longer,
-constexpr int commit_margin = 4;      // and the owner acts by it only before the last fourth of it, for its clock may be slower
-constexpr int longest_lease_ticks = 20000;  // so that three of them can be counted
+constexpr int commit_margin = 4;      // and the owner acts on it only before its last quarter, since clocks may differ
+constexpr int longest_lease_ticks = 20000;  // so that three times as many fit into 16 bits
 constexpr int rest_ticks = 20;        // after a round of bids that all failed
 
 Bid received(const Message& m) noexcept {
@@ -42,7 +42,7 @@ void release(State& self) noexcept {
 }
 
 // My bid found no path in time: either there is none, or some robot on it vouched for another bid. Owners rest for
-// different times, so that they do not meet again.
+// different times, so that their bids do not collide again.
 void note_failure(State& self) noexcept {
   self.rest_ticks = static_cast<std::uint16_t>((self.id * 7919U + self.serial * 104729U) % (3U * self.own_lease_ticks));
   self.insists = !self.insists;
@@ -74,9 +74,9 @@ void settle(Robot& robot) noexcept {
   release(self);
 }
 
-// The link that I would most like to be rid of, longer than nominate_distance or with a detour by a robot nearer to
-// both ends. Those on my way to the root, or on the other's, may be the last; every circle of links has one that is
-// not. Of those as long as one that was tried in vain none, until all have been tried.
+// The best link to give up: longer than nominate_distance, or with a detour through a robot nearer to both ends. Not
+// one on a shortest path to the root, mine or the other end's: it may be the only one, and every cycle has other links.
+// None as long as one that has been tried in vain, or longer, until all shorter ones have been tried.
 Bid nominate(Robot& robot) noexcept {
   State& self = robot.self;
   const Table<Message>& table = robot.table();
@@ -99,7 +99,7 @@ Bid nominate(Robot& robot) noexcept {
   return best;
 }
 
-// A bid goes on a hop in each step.
+// The bid will travel one hop in each step.
 void open_bid(Robot& robot, Bid bid) noexcept {
   State& self = robot.self;
   bid.serial = ++self.serial;

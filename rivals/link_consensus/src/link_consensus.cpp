@@ -9,9 +9,9 @@ namespace banyan::rivals::link_consensus {
 namespace {
 
 // (1)  phi(s) = 1 / s^2 + 1 / (1 - s^2),  s = d / R: the potential of a link of length d, infinite at 0 and at R.
-// (2)  what it does to either end, towards the other: phi'(s) / 2 = s / (1 - s^2)^2 - 1 / s^3, zero at s = 1 / sqrt 2.
+// (2)  its force on either end, towards the other: phi'(s) / 2 = s / (1 - s^2)^2 - 1 / s^3, zero at s = 1 / sqrt 2.
 float tension(float d, float longest_m) noexcept {
-  constexpr float least = 0.05F, most = 0.99F;  // within the clamp already
+  constexpr float least = 0.05F, most = 0.99F;  // beyond these the clamp holds anyway
   const float s = std::clamp(d / longest_m, least, most);
   const float rest = 1.0F - s * s;
   return s / (rest * rest) - 1.0F / (s * s * s);

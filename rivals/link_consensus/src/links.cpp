@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which links there are. New ones are those of the relative neighbourhood graph (Toussaint 1980): no third robot is
-// nearer to both ends. It needs nothing but where the neighbours are, and holds the Euclidean minimum spanning tree,
-// so that it is connected wherever the radio graph is: the local choice of Cornejo et al. 2009.
+// Which links exist. New ones are those of the relative neighbourhood graph (Toussaint 1980): no third robot is nearer
+// to both ends. It needs only the neighbours' positions and contains the Euclidean minimum spanning tree, so that it
+// is connected wherever the radio graph is: the local choice of Cornejo et al. 2009.
 #include <algorithm>
 
 #include "rooms.hpp"
@@ -10,7 +10,7 @@ namespace banyan::rivals::link_consensus {
 namespace {
 
 constexpr int offer_steps = 10;         // an offer that is not taken up is withdrawn
-constexpr float room_to_move = 0.97F;   // of the longest link: a link must not be too long from its first moment
+constexpr float room_to_move = 0.97F;   // of the longest link: a new link must not be too long at once
 
 void drop_lost(Robot& robot) noexcept {
   State& self = robot.self;
@@ -42,7 +42,7 @@ bool is_relative_neighbor(const Robot& robot, int k) noexcept {
   return true;
 }
 
-// Neighbour k belongs to the root, or to a better one than I do.
+// The sender of m is joined to a root and I am not, or to a better root than mine.
 bool stands_better(const Robot& robot, const Message& m) noexcept {
   const State& self = robot.self;
   if (m.way == not_rooted) return false;
@@ -50,7 +50,7 @@ bool stands_better(const Robot& robot, const Message& m) noexcept {
   return m.root < self.root;
 }
 
-// An offer is taken up if the link is short, or if one of the two is cut off.
+// An offer is taken up if the link is short, or if it joins a robot that is cut off, or two roots.
 bool takes_up(const Robot& robot, int k) noexcept {
   const Message& m = robot.table().message(k);
   const State& self = robot.self;
@@ -63,7 +63,7 @@ bool wants(const Robot& robot, int k) noexcept {
   return robot.table().range(k) < robot.params.add_distance_m && is_relative_neighbor(robot, k);
 }
 
-// Who is cut off offers a link to the nearest robot that is not; -1: none.
+// A robot that is cut off offers a link to the nearest robot that is not; -1: none.
 int way_back(const Robot& robot) noexcept {
   const Table<Message>& table = robot.table();
   int nearest = -1;

@@ -6,19 +6,19 @@
 
 namespace banyan::rivals::link_consensus {
 
-inline constexpr float alone_s = 1.0F;  // without a root for so long is cut off
+inline constexpr float alone_s = 1.0F;  // a robot without a root for so long is cut off
 
 // A robot within its step.
 struct Robot {
   const Params& params;
   State& self;
-  int elapsed_ticks;  // none, if it steps more often than once a tick
-  int step_ticks;     // as long as the step was, at least one
+  int elapsed_ticks;  // 0 if it steps more often than once a tick
+  int step_ticks;     // the length of the step, at least one
 
   [[nodiscard]] const Table<Message>& table() const noexcept { return self.neighbors; }
 };
 
-// root.cpp: is there a root, and which neighbour is the way to it?
+// root.cpp: is there a root, and which neighbour is the next hop to it?
 void follow_root(Robot& robot) noexcept;
 // links.cpp: links that are gone, and new ones.
 void renew_links(Robot& robot) noexcept;
@@ -28,7 +28,7 @@ void agree(Robot& robot) noexcept;
 [[nodiscard]] inline bool is_kept(const Robot& robot, int k) noexcept {
   return robot.self.links.keeps(robot.table().id(k)) && lists(robot.table().message(k), robot.self.id);
 }
-// And it is not about to be given up.
+// Whether it is also not about to be given up.
 [[nodiscard]] bool is_open(const Robot& robot, int k) noexcept;
 // links.cpp: the ends of the link to neighbour k have a neighbour that is nearer to both, over kept links.
 [[nodiscard]] bool is_detoured(const Robot& robot, int k) noexcept;

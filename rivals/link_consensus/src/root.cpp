@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// No source of link consensus has a root. The mission names one, and what is reported of it here decides nothing but
-// who needs a new link, a robot that no path of kept links joins to it, and which links are worth a proposal: those on
-// nobody's way to it. The root counts ticks, and the count spreads over kept links; where it has been silent for long,
-// the robots elect another, the one with the smallest id.
+// No source of link consensus has a root. Here the mission names one, and it decides only two things: which robots
+// need a new link (those that no path of kept links joins to it) and which links may be proposed (those on no
+// robot's shortest path to it). The root counts ticks, and the count spreads over kept links. Where it has stopped
+// for long, the robots elect another root, the one with the smallest id.
 #include <algorithm>
 
 #include "rooms.hpp"
@@ -10,10 +10,10 @@
 namespace banyan::rivals::link_consensus {
 namespace {
 
-constexpr int beat_slack = 16;     // a count so far behind the newest still counts as heard now: it took a longer way
-constexpr int long_link_cost = 8;  // hops that a way may be longer to avoid a link that is about to be proposed
+constexpr int beat_slack = 16;     // a count so far behind the newest still counts as fresh: it took a longer path
+constexpr int long_link_cost = 8;  // how many hops longer a path may be to avoid a link that may be proposed
 
-// News of a root that has fallen silent is no news; the rule for silence is that of every counter here (serial.hpp).
+// Old counts of a root that has fallen silent are ignored, by the rule for every counter here (serial.hpp).
 bool names_a_root(const State& self, const Message& m) noexcept {
   const bool lost = m.root == self.lost_root && !is_news(m.beat, self.lost_beat, self.lost_ticks);
   return m.root != nobody && m.way != not_rooted && !lost && m.root != self.id;
@@ -28,7 +28,7 @@ void forget_root(State& self) noexcept {
   self.parent = nobody;
 }
 
-// The one with the smallest id is the first to take a lost root's place. The others give it time to be heard of.
+// The robot with the smallest id is the first to take a lost root's place; the others give it time to be heard.
 bool is_first(const Robot& robot) noexcept {
   for (int k = 0; k < robot.table().size(); ++k)
     if (robot.table().id(k) < robot.self.id && is_kept(robot, k)) return false;

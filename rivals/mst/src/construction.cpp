@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Boruvka's algorithm (1926) among robots, as in Gallager, Humblet & Spira 1983, but by what each says of itself at
-// every tick instead of by messages that must not be lost. A fragment is a subtree of the minimum spanning tree; at
-// first each robot is one. In a round each fragment finds the shortest edge that leads out of it: robots report it
-// towards their leader, and the leader's choice comes back. Fragments grow together along the edges chosen. Exactly one
-// of these has been chosen from both sides; of its ends the one with the larger id leads the new fragment.
+// Boruvka's algorithm (1926) among robots, as in Gallager, Humblet & Spira 1983, but each robot sends its own state at
+// every tick, instead of messages that must not be lost. A fragment is a subtree of the minimum spanning tree; at
+// first each robot is one. In a round each fragment finds its shortest outgoing edge: robots report candidates towards
+// their leader, and the leader's choice comes back. Fragments merge along the chosen edges. Exactly one of these has
+// been chosen from both sides; of its ends, the one with the larger id leads the new fragment.
 #include <algorithm>
 
 #include "banyan/controller/core/fixed_point.hpp"
@@ -13,8 +13,8 @@ namespace banyan::rivals::mst {
 namespace {
 
 constexpr float per_mm = 1000.0F;
-constexpr float most_units = 65000.0F;  // of a length; 16 bits hold 65,535
-constexpr float room_to_move = 0.97F;  // of the longest link: an edge must not be too long from its first moment
+constexpr float most_units = 65000.0F;  // largest length; 16 bits hold 65,535
+constexpr float room_to_move = 0.97F;  // of the longest link: a new edge must not be too long at once
 
 bool comes_first(const Edge& a, const Edge& b) noexcept {
   if (a.from == nobody || b.from == nobody) return b.from == nobody && a.from != nobody;
@@ -24,7 +24,7 @@ bool comes_first(const Edge& a, const Edge& b) noexcept {
   return a_low != b_low ? a_low < b_low : a_high < b_high;
 }
 
-// So fine that every link that is shorter than C has a length of its own, and the same for all robots.
+// As fine as 16 bits allow for links up to C, 1 mm at most, and the same for all robots.
 std::uint16_t units(const Robot& robot, float length_m) noexcept {
   return to_fixed<std::uint16_t>(length_m, std::min(per_mm, most_units / robot.params.communication_range_m));
 }
@@ -43,15 +43,15 @@ void enter_level(State& self, int level, RobotId leader, RobotId up) noexcept {
   self.least_by = nobody;
 }
 
-// False if there is no room for it: the other end must not count on it, and nobody tells it so.
+// False if there is no room: the other end sees that I do not name it.
 bool add_branch(State& self, RobotId end) noexcept {
   if (!self.holds(end) && self.is_full()) return false;
   self.branches.add(end);
   return true;
 }
 
-// Who names me as the end of an edge of the tree is one of mine, as long as there is room: whoever has chosen the edge
-// sees that I am full and do not name it.
+// A robot that names me as the end of a tree edge becomes an end of mine, as long as there is room: otherwise it sees
+// that I am full and do not name it.
 void answer_branches(Robot& robot) noexcept {
   State& self = robot.self;
   for (int k = 0; k < robot.table().size(); ++k) {
@@ -60,7 +60,7 @@ void answer_branches(Robot& robot) noexcept {
   }
 }
 
-// The new fragment's leader has been heard of over an edge that both ends name, or is me.
+// Enters the new fragment when its leader is known over an edge that both ends name, or is me.
 void join_next_level(Robot& robot) noexcept {
   State& self = robot.self;
   for (const RobotId end : self.branches) {
@@ -73,13 +73,13 @@ void join_next_level(Robot& robot) noexcept {
   }
 }
 
-// For an edge to the sender of m there is room at both ends.
+// Whether both ends have room for an edge to the sender of m.
 bool has_room(const State& self, const Message& m) noexcept {
   return self.holds(m.id) || !(m.full || self.is_full() || self.refused.has(m.id));
 }
 
-// Ends that disagree about lengths can choose edges in a circle. Both ends of an edge that is on neither's way to their
-// leader do without it.
+// If ends disagree about lengths, the chosen edges can close a cycle. Both ends of an edge that is on neither's path to
+// their leader drop it.
 void cut_circles(Robot& robot) noexcept {
   State& self = robot.self;
   const Ends all = self.branches;
@@ -89,7 +89,7 @@ void cut_circles(Robot& robot) noexcept {
   }
 }
 
-// My own shortest edge out of the fragment. False while a neighbour has not come so far that it could be told.
+// My own shortest edge out of the fragment. False while a neighbour is not far enough for me to know its fragment.
 bool find_own_edge(const Robot& robot, Edge& edge) noexcept {
   const State& self = robot.self;
   for (int c = 0; c < self.candidate_count; ++c) {
@@ -103,7 +103,7 @@ bool find_own_edge(const Robot& robot, Edge& edge) noexcept {
   return true;
 }
 
-// The shortest of mine and of those below me. False while somebody is not ready.
+// The shortest edge of mine and of the robots below me. False while one of them is not ready.
 bool gather(Robot& robot) noexcept {
   State& self = robot.self;
   Edge best;
@@ -112,9 +112,9 @@ bool gather(Robot& robot) noexcept {
   for (const RobotId end : self.branches) {
     if (end == self.up) continue;
     const Message* m = robot.said_by(end);
-    if (m == nullptr) self.failed = true;  // gone, with all below it
+    if (m == nullptr) self.failed = true;  // gone, with all robots below it
     if (m == nullptr || m->epoch != self.epoch || m->level < self.level) return false;
-    if (!is_fellow(self, *m)) continue;  // another fragment's that has chosen the edge to me
+    if (!is_fellow(self, *m)) continue;  // of another fragment, which has chosen the edge to me
     if (m->up != self.id || !m->ready) return false;
     if (comes_first(m->best, best)) best = m->best;
     if (m->root < least) by = end;
@@ -126,7 +126,7 @@ bool gather(Robot& robot) noexcept {
   return true;
 }
 
-// The construction ended at its leader; the parents are to lead to the root: down where it is below me, else up.
+// The construction ended at its leader, but parents must lead to the root: down if it is below me, else up.
 void adopt_tree(State& self, RobotId root) noexcept {
   self.done = self.has_tree = true;
   self.parent = self.least == root && root != nobody ? self.least_by : self.up;
@@ -137,7 +137,7 @@ void adopt_tree(State& self, RobotId root) noexcept {
   self.tree_epoch = self.epoch;
 }
 
-// Without the edge that was chosen the construction cannot end; the next is to do without it.
+// Without the chosen edge the construction cannot end; the next one is to avoid it.
 void refuse(State& self, RobotId end) noexcept {
   self.refused.add(end);
   self.failed = true;
@@ -145,9 +145,9 @@ void refuse(State& self, RobotId end) noexcept {
 
 std::uint16_t grown(std::uint16_t ticks, const Robot& robot) noexcept { return static_cast<std::uint16_t>(std::min(ticks + robot.elapsed_ticks, 0xFFFF)); }
 
-// If lengths were the same for both ends, one of the edges chosen would have been chosen from both sides, and its end
-// would lead on. If that takes too long, any leader does: whoever has been chosen by my fragment, or has chosen it, joins.
-// Leaders wait for different times, so that one of them is the first.
+// If both ends agreed about lengths, one chosen edge would have been chosen from both sides, and one of its ends would
+// lead the next level. If that takes too long, any leader starts it: fragments joined to mine by a chosen edge follow.
+// Leaders wait for different times, so that one of them is first.
 bool is_stuck(const Robot& robot) noexcept {
   const State& self = robot.self;
   const int patience = robot.params.ticks(robot.params.liveness_period_s) + robot.params.ticks(robot.params.countdown_s);
@@ -155,7 +155,7 @@ bool is_stuck(const Robot& robot) noexcept {
   return self.decided_ticks > patience + more && self.level < 255;
 }
 
-// The leader's word comes down the fragment.
+// The leader's choice travels down the fragment.
 void follow_leader(Robot& robot) noexcept {
   State& self = robot.self;
   if (self.fragment == self.id) {
@@ -173,7 +173,7 @@ void follow_leader(Robot& robot) noexcept {
   if (!add_branch(self, self.choice.to)) refuse(self, self.choice.to);
 }
 
-// The other end has no room, since others have chosen it in the same moment, or it does not hear me.
+// The other end has no room, since others have chosen it at the same moment, or it does not hear me.
 void give_up_refused(Robot& robot) noexcept {
   State& self = robot.self;
   const Message* m = self.decided && self.choice.from == self.id ? robot.said_by(self.choice.to) : nullptr;
@@ -186,7 +186,7 @@ void give_up_refused(Robot& robot) noexcept {
 
 bool is_short(const Robot& robot, int k) noexcept { return robot.table().range(k) < robot.params.longest_link_m * room_to_move; }
 
-// No third robot is nearer to both ends: if everybody sees everybody, all edges of the minimum spanning tree are so.
+// No third robot is nearer to both ends, as with every edge of the minimum spanning tree when all robots are in range.
 bool is_narrow(const Table<Message>& table, int k) noexcept {
   const float d = table.range(k);
   for (int j = 0; j < table.size(); ++j)
@@ -199,7 +199,7 @@ bool is_narrow(const Table<Message>& table, int k) noexcept {
 void begin_construction(Robot& robot) noexcept {
   State& self = robot.self;
   const Table<Message>& table = robot.table();
-  // Of a construction that came to no end all that has been held is held on.
+  // All edges kept by an unfinished construction stay kept.
   if (!self.done) self.old.add_all(self.branches);
   const auto earlier = self.candidates;
   const int earlier_count = self.done ? 0 : self.candidate_count;
@@ -217,8 +217,8 @@ void begin_construction(Robot& robot) noexcept {
   enter_level(self, 0, self.id, nobody);
 }
 
-// An edge of an earlier tree is kept until its other end is in the same tree as I am, or gone: whatever went wrong with
-// a construction, nobody is let go by it.
+// An edge of an earlier tree is kept until its other end is in the same tree as I am, or gone: so a construction that
+// fails disconnects no robot.
 void drop_old_edges(Robot& robot) noexcept {
   State& self = robot.self;
   const Ends all = self.old;

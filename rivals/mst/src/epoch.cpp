@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // When a tree is built: triggered, as in Aragues et al. 2014, by an edge that gets long, besides by one that is lost.
-// The word spreads with a countdown, so that all measure their links at the same moment: two ends of a link that
-// disagree about its length may choose edges that close a circle.
+// The call spreads with a countdown, so that all measure their links at the same moment: two ends of a link that
+// disagree about its length may choose edges that close a cycle.
 #include <algorithm>
 
 #include "rooms.hpp"
@@ -9,8 +9,8 @@
 namespace banyan::rivals::mst {
 namespace {
 
-// Neighbour k is in a complete tree with the number of mine, and I am not: two networks have met, or it was closed
-// before I came.
+// Neighbour k is in another complete tree with the same number as mine: two networks have met, or the tree was
+// complete before I came.
 bool is_stranger(const Robot& robot, int k) noexcept {
   const State& self = robot.self;
   const Message& m = robot.table().message(k);
@@ -41,8 +41,8 @@ struct Call {
   int ticks;
 };
 
-// What neighbour k says of it. That a tree with a number ahead of mine is complete, without me, says that two networks
-// have met that have built different numbers of trees: the next is one for both.
+// What neighbour k says of it. If a tree with a number ahead of mine is complete without me, two networks have met that
+// have built different numbers of trees: the next tree is one for both.
 Call called_by(const Robot& robot, int k) noexcept {
   const Message& m = robot.table().message(k);
   if (m.next != m.epoch) return {m.next, m.countdown - 1};

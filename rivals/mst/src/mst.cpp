@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::uint8_t first_tree_ticks = 10;
 
-// (1)  u = tau pull to the target                                   who has been sent, once there is a tree
-// (2)  u = gain (mean of x_j over the tree neighbours j - x)        everybody else
+// (1)  u = tau pull to the target                                   robots that are sent, once there is a tree
+// (2)  u = gain (mean of x_j over the tree neighbours j - x)        all others
 // and in both cases + avoidance.
 Vec2 desired_motion(const Robot& robot, std::span<const Vec2> obstacles) noexcept {
   const Table<Message>& table = robot.table();
@@ -28,7 +28,7 @@ Vec2 desired_motion(const Robot& robot, std::span<const Vec2> obstacles) noexcep
   return count > 0.0F ? u + clamped(sum * (robot.params.consensus_gain / count), 1.0F) : u;
 }
 
-// The tree, what is known of the next one, and while that is built what may yet be of it.
+// Guards the tree, the earlier edges and, while the next tree is built, its edges and those that may become such.
 void guard_tree(const Robot& robot, Guard& guard) noexcept {
   const State& self = robot.self;
   const auto add = [&](RobotId end) {
@@ -55,7 +55,7 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
   State state;
   state.id = id;
   state.assignment.sent = worker;
-  state.next = 1;  // the first tree is wanted at once: as soon as everybody has been heard, whatever is lost
+  state.next = 1;  // the first tree is wanted at once, after time enough to hear all neighbours
   state.countdown = first_tree_ticks;
   if (root) state.root = id;
   return state;

@@ -13,7 +13,7 @@ struct Robot {
   int elapsed_ticks;
 
   [[nodiscard]] const Table<Message>& table() const noexcept { return self.neighbors; }
-  // Nobody has a message; its answer is not waited for.
+  // Null for `nobody` and for robots not heard.
   [[nodiscard]] const Message* said_by(RobotId id) const noexcept {
     const int k = table().find(id);
     return k < 0 ? nullptr : &table().message(k);
