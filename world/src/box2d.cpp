@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Rigid discs with mass, inertia, friction and bounded motors, by Debian's Box2D 2.4.1: the check
-// that `disks` tells no fairy tale. Numbers as ARGoS has them for a Khepera IV: 0.4 kg, 1.5 N,
+// that results of `disks` are realistic. Numbers as in ARGoS for a Khepera IV: 0.4 kg, 1.5 N,
 // 1.5 Nm, friction 0.7, no restitution, and the inertia of a disc of twice the body's radius.
 //
 // A Box2D world remembers the order in which contacts began and their impulses, and cannot be
-// copied. So it is built anew every tick from poses and velocities, which are then all there is to
-// remember: a clone goes on bit by bit as its original. That costs 5 % of a tick with 94 robots and
-// 12 % with 1,000. What is given up: the impulses of lasting contacts are found again in the first
-// sub-step of each tick instead of being carried over.
+// copied. So it is rebuilt every tick from poses and velocities, which are then its whole state: a
+// clone continues bit by bit like its original. That costs 5 % of a tick with 94 robots and 12 %
+// with 1,000. The price: the impulses of lasting contacts are found again in the first sub-step of
+// each tick instead of being carried over.
 //
 // Lengths are scaled by 8 inside: Box2D keeps a slop of 5 mm and a skin of 10 mm, which would
-// show on a robot of 70 mm. A power of two, so that poses go to and fro without rounding.
+// show on a robot of 70 mm. A power of two, so that poses are converted without rounding.
 #include <box2d/box2d.h>
 
 #include <algorithm>
@@ -129,7 +129,7 @@ class Box2d final : public Bodies {
   }
 
  private:
-  // What a robot's wheels are told, and where they have rolled to within this tick, in the body
+  // The commands of a robot's wheels, and how far they have rolled within this tick, in the body
   // frame of its start.
   struct Path {
     Twist wheels;
@@ -162,7 +162,7 @@ class Box2d final : public Bodies {
     }
   }
 
-  // Wheels push the body towards the wanted velocity, sideways slip included, as hard as they can.
+  // Wheels push the body towards the commanded velocity, against sideways slip, too, as hard as they can.
   void drive(b2Body& body, const Twist& wheels, Vec2 heading) const {
     const b2Vec2 wanted = to_box2d(heading * wheels.forward_m_s);
     b2Vec2 impulse = mass_.mass * (wanted - body.GetLinearVelocity());
@@ -196,16 +196,16 @@ class Box2d final : public Bodies {
   std::vector<Momentum> momentum_;
   std::vector<b2Body*> body_;  // of the tick under way
   std::vector<Path> path_;
-  std::vector<std::uint8_t> gone_;   // 1: no body any more; follows from who is alive, so not in the hash
+  std::vector<std::uint8_t> gone_;   // 1: no body any more; follows from which robots are alive, so not in the hash
 };
 
 }  // namespace
 
 bool has_box2d() noexcept { return true; }
 
-// Corners nearer to each other than half a slop are one to Box2D, 0.31 mm with our scale. And it knows them in
-// single precision, to 0.06 millionths of their coordinates, from which it works out on which side of an edge
-// the others lie. What is left then has no area, and an assertion of the library ends the program.
+// Corners nearer to each other than half a slop, 0.31 mm with our scale, are one to Box2D. It stores them in single
+// precision, to 0.06 millionths of their coordinates, and computes from these on which side of an edge the others
+// lie. A shape may then be left without area, and an assertion of the library ends the program.
 double least_side_in_box2d_m(const Box& box) noexcept {
   constexpr double welded_m = 0.0004, rounding = 1e-6;
   const double reach_m = std::max(std::abs(box.center.x), std::abs(box.center.y)) + 0.5 * norm(box.size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A tick in which each robot steps when its own clock strikes. Bodies move and packets fly in equal
-// parts of the tick; a robot's message, composed when it steps, travels in the part after.
+// A tick in which each robot steps when its own clock says so. Bodies move and packets travel in equal
+// parts of the tick; a robot's message, composed when it steps, travels in the next part.
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +36,7 @@ void World::Impl::step_by_clocks(Executor& executor) {
   for (const std::uint64_t r : received_by) received += r;
 }
 
-// Increments are in the frame of their own begin; the sum is in that of the robot's last step.
+// Each increment is in the frame in which it starts; the sum is in that of the robot's last step.
 void World::Impl::count_wheel_turns() {
   for (std::size_t i = 0; i < clocked.size(); ++i) {
     Clocked& robot = clocked[i];
@@ -106,8 +106,8 @@ bool World::Impl::strikes(std::size_t i) const noexcept {
   return periods(moment + 1) > periods(moment);
 }
 
-// What has arrived since its last step is carried along by its odometry to where it is now. Its odometry
-// begins anew.
+// What has arrived since its last step is carried along by its odometry to where it is now. The odometry is
+// then reset.
 void World::Impl::collect(std::size_t i, std::vector<Packet>& packets) {
   Clocked& robot = clocked[i];
   const auto arrived =

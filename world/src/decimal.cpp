@@ -57,9 +57,9 @@ struct Digits {
   }
 };
 
-// The fewest digits that read back as `value` > 0, and of those the nearest. Rounded to so many digits
-// it is the nearest there is, but above a power of two more reads back than below it: the next one up
-// may, where the nearest does not.
+// The fewest digits that read back as `value` > 0, and of those the nearest. Rounding to so many digits
+// gives the nearest; but at a power of two the interval that reads back is wider above than below, so
+// that the next one up may read back where the nearest does not.
 template <class Float> Digits shortest_digits(Float value) noexcept {
   std::array<char, 40> text;
   for (int size = 1;; ++size) {
@@ -97,7 +97,7 @@ char* write_scientific(char* at, const Digits& digits) noexcept {
 }
 
 char* write_plain(char* at, const Digits& digits, double value) noexcept {
-  // A whole number with more digits than tell it apart is written exactly, as by printf().
+  // A whole number with more digits than needed to identify it is written exactly, as by printf().
   if (digits.point > digits.size) return at + std::snprintf(at, longest_shortest, "%.0f", value);
   if (digits.point <= 0) {
     at = copy(at, "0.");

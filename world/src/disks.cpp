@@ -63,7 +63,7 @@ class Disks final : public Bodies {
         overlap = true;
         const double length = std::sqrt(d2);
         const Vec2 n = length > 1e-9 ? d / length : Vec2{1.0, 0.0};
-        const Vec2 shift = n * (0.5 * (reach - length) + 1e-6);  // a hair more, so that rounds end
+        const Vec2 shift = n * (0.5 * (reach - length) + 1e-6);  // slightly more, so that rounds end
         poses.position[i] -= shift;
         poses.position[j] += shift;
       }

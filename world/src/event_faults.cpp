@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be wrong with the events of a scenario together: each is looked at in the world that those
-// before it leave behind.
+// What can be wrong with the events of a scenario taken together: each is checked against the state that
+// the events before it leave behind.
 #include <algorithm>
 #include <numeric>
 
@@ -11,7 +11,7 @@
 namespace banyan::world {
 namespace {
 
-// What the events before one leave behind, as far as that can be told beforehand.
+// The state that earlier events leave behind, as far as it can be known in advance.
 struct Sequel {
   std::size_t targets;  // that have been there, given up or not
   std::size_t served;   // those that are not given up
@@ -31,7 +31,7 @@ bool may_last_until(const Scenario& scenario, double time_s) {
           std::any_of(scenario.events.begin(), scenario.events.end(), deadly));
 }
 
-// Whom and what an event refers to exists when it happens.
+// Checks that what an event refers to exists when it happens.
 class CheckEventFits {
  public:
   CheckEventFits(FaultList& list, const Scenario& scenario, std::size_t index, std::size_t robots, const Sequel& before)

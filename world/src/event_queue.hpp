@@ -31,11 +31,11 @@ class EventQueue {
   void add(const Event& event);
   // Whether an event waits for this moment of the mission.
   [[nodiscard]] bool waits_for(Event::When moment) const noexcept;
-  // The moment has come: what waits for it is due event.time_s after `now_s`.
+  // The moment has come: events that wait for it are due event.time_s after `now_s`.
   void come(Event::When moment, double now_s);
   // Takes out the next event that is due at `now_s`; none if there is none yet.
   [[nodiscard]] std::optional<Entry> take(double now_s);
-  // What take(now_s) is going to give, in its order.
+  // What take(now_s) will return, in that order.
   template <class Visit>
   void each_due(double now_s, const Visit& visit) const {
     for (auto entry = due_.rbegin(); entry != due_.rend() && entry->due_s <= now_s; ++entry) visit(entry->event);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens to a world at the beginning of a tick: targets drive, robots die, freeze or fall silent,
+// What happens to a world at the beginning of a tick: targets move, robots die, freeze or fall silent,
 // missions change.
 #include <algorithm>
 #include <limits>
@@ -65,7 +65,7 @@ bool World::Impl::half_way() const noexcept {
   return any && now <= 0.5 * at_first;
 }
 
-// Held and connected (tree_parts.hpp), as of the last step.
+// Whether every target is held and connected (tree_parts.hpp), as of the last step.
 bool World::Impl::complete() {
   bool any = false;
   for (std::size_t t = 0; t < targets.size(); ++t) {
@@ -132,7 +132,7 @@ void World::Impl::die(std::size_t i) {
   radio.forget(static_cast<std::uint32_t>(i));
 }
 
-// How many is settled when the event begins, who is drawn anew each time.
+// How many die is fixed when the event begins; which robots, is drawn each time.
 void World::Impl::kill(const Kill& event, EventQueue::Entry entry) {
   if (!entry.begun) {
     entry.begun = true;
@@ -172,7 +172,7 @@ std::size_t World::Impl::count_among(Kill::Of of) const noexcept {
   return count;
 }
 
-// Every one of them with the same chance. With nobody left to draw from, nobody dies.
+// Each candidate with the same chance. If none is left, no robot dies.
 void World::Impl::draw_victim(Kill::Of of, const EventQueue::Entry& entry) {
   const double u = to_uniform(bits(scenario.seed, Purpose::kill, entry.number, entry.drawn));
   auto rank = static_cast<std::size_t>(u * static_cast<double>(count_among(of)));
@@ -192,9 +192,9 @@ void World::Impl::move_target(std::size_t target, Vec2 position, double speed_m_
   courses[target].speed_m_s = speed_m_s;
 }
 
-// A new target goes to the nearest living spare, since others hang on a connector; to the nearest
-// connector if there is none. One that was sent to a target before stays out: its id names that one
-// for as long as somebody may serve it.
+// A new target goes to the nearest living spare, since a connector has others below it; to the nearest
+// connector if there is no spare. Not to a robot sent to a target before: its id names that target for
+// as long as any robot may serve it.
 void World::Impl::assign_target(Vec2 position) {
   std::size_t best = alive.size();
   const auto key = [&](std::size_t i) { return std::pair(reports[i].role != Role::spare, squared_norm(poses.position[i] - position)); };
@@ -202,13 +202,13 @@ void World::Impl::assign_target(Vec2 position) {
     if (alive[i] == 0 || is_worker(i) || reports[i].role == Role::root || target_of[i] >= 0) continue;
     if (best == alive.size() || key(i) < key(best)) best = i;
   }
-  if (best == alive.size()) return;  // nobody is left to send
+  if (best == alive.size()) return;  // no robot is left to send
   target_of[best] = static_cast<std::int32_t>(targets.size());
   targets.push_back({.position = position, .worker = best});
   courses.push_back({.start_m = distance(poses.position[best], position)});
 }
 
-// Whoever serves the target is told to stop.
+// The robot that serves the target is told to stop.
 void World::Impl::give_up(std::size_t target) {
   if (target >= targets.size() || !targets[target].active) return;
   targets[target].active = false;
@@ -219,7 +219,7 @@ void World::Impl::give_up(std::size_t target) {
     if (reports[i].serves == static_cast<RobotId>(first)) given_up[i] = static_cast<RobotId>(first);
 }
 
-// The robots are told: with their parameter they look out for what is in the way, or do not.
+// The robots are told, too: their parameter of the same name follows.
 void World::Impl::set_line_of_sight(bool on) {
   line_of_sight = on;
   swarm->set_line_of_sight(on);
@@ -233,7 +233,7 @@ void World::Impl::move_obstacle(std::size_t obstacle, Vec2 center) {
   proximity.set_obstacles(obstacles);
 }
 
-// ---- What somebody does to a running world ----
+// ---- Interventions in a running world ----
 
 Scenario World::Impl::with(const Event& event) const {
   Scenario changed = scenario;

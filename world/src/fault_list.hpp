@@ -43,12 +43,12 @@ class FaultList {
 
 // Every value of every event, on its own.
 void check_event_values(FaultList& list, const std::vector<Event>& events);
-// Whom and what events refer to exists when they happen. False if there are more targets than robots
-// that can be sent.
+// Checks that what events refer to exists when they happen. False if there are more targets than
+// robots that can be sent.
 bool check_events_fit(FaultList& list, const Scenario& scenario, std::size_t targets, std::size_t robots);
-// The body model can hold this obstacle where it is.
+// Checks that the body model can represent this obstacle.
 void check_obstacle_body(FaultList& list, const Scenario& scenario, const std::string& key, const Obstacle& obstacle);
-// A robot gets near enough to a target at p, which a fault names and finds at `key`.
+// Checks that a robot can get near enough to a target at p, named as in a fault, with key `key`.
 void check_target_room(FaultList& list, const Scenario& scenario, const std::vector<Obstacle>& obstacles,
                        const std::string& key, const std::string& name, Vec2 p);
 

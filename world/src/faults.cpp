@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that can be wrong with a scenario. Checks run in two rounds: values one by one, as the
-// table of keys has them, then, only if these are sane, how they fit together.
+// Everything that can be wrong with a scenario. Checks run in two rounds: values one by one, against
+// the table of keys, and, only if these are valid, how they fit together.
 #include "banyan/world/faults.hpp"
 
 #include <algorithm>
@@ -88,7 +88,7 @@ std::size_t most(std::string_view path) {
   return static_cast<std::size_t>(find_key(scenario_keys(), path)->range.maximum);
 }
 
-// What a list start leaves out, and what needs one.
+// Keys that a list start excludes, and keys that need one.
 void check_layout(FaultList& list, const SwarmModel& swarm) {
   const Start& start = swarm.start;
   if (start.layout != Layout::list) {
@@ -241,7 +241,7 @@ void check_spacing(FaultList& list, const Scenario& scenario) {
                                             short_text(pitch) + " m");
 }
 
-// Obstacles and the edge of the world leave the start whole.
+// Obstacles and the edge of the world must not cut into the start.
 void check_placed(FaultList& list, const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
   const std::vector<Vec2> p = place(scenario).position;
@@ -268,7 +268,7 @@ void check_placed(FaultList& list, const Scenario& scenario) {
                                  " groups");
 }
 
-// A start that a layout stands for.
+// A start given by a layout.
 void check_laid_out(FaultList& list, const Scenario& scenario) {
   const Start& start = scenario.swarm.start;
   check_spacing(list, scenario);

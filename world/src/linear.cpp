@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The paper's Sec. II-A as it stands: x(t+1) = A x(t) + B u(t) with x = [p, v], both bounded.
+// The paper's Sec. II-A as printed: x(t+1) = A x(t) + B u(t) with x = [p, v], both bounded.
 // With tick h and constant acceleration within a tick,
 //
 //       | 1 0 h 0 |        | 0 0 h^2/2 0     |
@@ -10,7 +10,7 @@
 // `a` brings v to the commanded velocity as fast as its bound allows. Robots are points to each
 // other: the paper has no contact, so bodies may overlap here and `near` is not used. Obstacles
 // bound the positions (the paper's X_i): a robot that would enter one is set back to its surface
-// and loses the velocity into it. Turning is not part of x: a holonomic robot turns as told.
+// and loses the velocity into it. Turning is not part of x: a holonomic robot turns as commanded.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -17,7 +17,7 @@ double frame_reception(double noise_ratio) noexcept {
   const double bit = 1.0 - 0.5 * deterministic_exp(-noise_ratio / bandwidth_ratio);
   return deterministic_exp(frame_bits * deterministic_log(bit));
 }
-// The ratio at which so many frames are received, in (0, 1).
+// The signal to noise ratio at which this share of frames, in (0, 1), is received.
 double noise_ratio_for(double reception) noexcept {
   const double bit = deterministic_exp(deterministic_log(reception) / frame_bits);
   return -bandwidth_ratio * deterministic_log(2.0 * (1.0 - bit));
@@ -41,9 +41,9 @@ bool Losses::lost_without_disc(std::uint64_t receiver, std::uint64_t sender, std
              reception(std::min(receiver, sender), std::max(receiver, sender), moment, distance_m);
 }
 
-// Gilbert (1960): good times without and bad ones with nothing but losses. Such a chain of two states forgets
-// its past at random moments, at each with the same probability, and is then bad with its mean share. So its
-// state is what was drawn at the last such moment, which is looked for backwards, and nobody has to keep it.
+// Gilbert (1960): good periods without losses and bad ones in which every packet is lost. Such a chain of two
+// states forgets its past at random moments, at each with the same probability, and is then bad with its mean share.
+// So its state is what was drawn at the last such moment; that is searched backwards, and no state is stored.
 bool Losses::in_burst(std::uint64_t receiver, std::uint64_t sender, std::uint64_t moment, double loss) const noexcept {
   if (loss <= 0.0 || loss >= 1.0) return loss >= 1.0;
   const double forgets = std::min(1.0, moment_s_ / radio_.burst_s / (1.0 - loss));
@@ -59,8 +59,8 @@ double Losses::reception(std::uint64_t a, std::uint64_t b, std::uint64_t moment,
   return frame_reception(edge_noise_ratio_ * deterministic_exp(std::clamp(gain, -50.0, 50.0)));
 }
 
-// Normal at every moment, the same in both directions; between two draws so far apart as it takes to
-// decorrelate it goes over from one to the other, at the same variance.
+// Normal at every moment, the same in both directions. Draws are one decorrelation time apart; in between it
+// moves from one draw to the next at constant variance.
 double Losses::shadowing_db(std::uint64_t a, std::uint64_t b, std::uint64_t moment) const noexcept {
   if (radio_.shadowing_db == 0.0) return 0.0;
   const auto drawn = [&](std::uint64_t k) { return to_normal(bits(seed_, Purpose::shadowing, a, b, k)); };
@@ -72,7 +72,7 @@ double Losses::shadowing_db(std::uint64_t a, std::uint64_t b, std::uint64_t mome
   return radio_.shadowing_db * mixed / std::sqrt((1.0 - share) * (1.0 - share) + share * share);
 }
 
-// Of a pair that has one, which direction is deaf is drawn too.
+// For a pair with one deaf direction the draw also decides which one.
 bool Losses::is_deaf(std::uint64_t receiver, std::uint64_t sender) const noexcept {
   const std::uint64_t drawn = bits(seed_, Purpose::one_way, std::min(receiver, sender), std::max(receiver, sender));
   return to_uniform(drawn) < radio_.one_way_share && ((drawn & 1U) != 0) == (receiver < sender);

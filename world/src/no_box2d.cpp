@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stands in for box2d.cpp where there is no Box2D: faults() refuses the body model before anybody
-// gets here.
+// Stands in for box2d.cpp where there is no Box2D: faults() refuses the body model before any of
+// this is called.
 #include <stdexcept>
 
 #include "banyan/world/bodies.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The proximity sensor: where the surface of each obstacle within reach is nearest. Living robots
-// are not seen, they can be heard; the dead that stay are.
+// The proximity sensor: the nearest point on the surface of each obstacle within reach. Dead robots
+// that stay are sensed, living ones are not, since they can be heard.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ class Proximity {
   void set_obstacles(std::span<const Obstacle> obstacles);
   // Where the dead lie now. O(dead log dead), nothing while all live or the dead vanish.
   void update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, std::size_t dead);
-  // What robot i sees, in its body frame, m: ascending by distance, equal ones obstacles before
-  // bodies and each in their order. Returns how many of `seen` are valid. O(obstacles + log dead).
+  // What robot i sees, in its body frame, m: ascending by distance; at equal distance obstacles before
+  // bodies, each in their order. Returns how many of `seen` are valid. O(obstacles + log dead).
   std::size_t sense(const Poses& poses, std::size_t i, Seen& seen) const noexcept;
 
  private:

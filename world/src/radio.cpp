@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Every verdict on a pair comes with a margin: how far robots may move until it could be another. Clocks
-// add up how far they have moved, and a pair is looked at again when its clock has passed the margin.
-// Margins are rounded down and clocks up, so that a verdict is always the one that the exact test would
-// give now.
+// Every verdict on a pair comes with a margin: how far robots may move before it could change. Clocks add up
+// how far they have moved, and a pair is tested again when its clock has passed the margin. Margins are rounded
+// down and clocks up, so that a verdict is always the one that the exact test would give at this
+// moment.
 //
-// The clock of a pair is the sum of three ways: the robot's, the other's, and the farthest that anybody
-// around the robot has moved in each tick. The first two bound how far the ends of the line of sight
-// have come, the last how far a body beside it has. Mostly one body matters, the one in the way or the
-// one nearest to it: the clock of the three has its way instead of everybody's, and is far slower.
+// The clock of a pair is the sum of three distances: the robot's, the other's, and the largest that any robot
+// around the first has moved in each tick. The first two bound how far the ends of the line of sight have
+// moved, the last how far a body beside it has. Usually one body matters, the one in the way or the one
+// nearest to it: the clock of the three counts its distance instead of the largest, and is far slower.
 #include "banyan/world/radio.hpp"
 
 #include <algorithm>
@@ -21,13 +21,13 @@
 namespace banyan::world {
 namespace {
 
-constexpr std::size_t few_cells = 15;   // so few, and scanning everybody beats the grid
+constexpr std::size_t few_cells = 15;   // so few, and scanning all robots beats the grid
 constexpr float far_away = 1e30F;
 constexpr double skin_share = 0.1;      // of the range
 
-// What a body that blocks the segment from the origin to `d` may do until it is out of the way, as a
-// way by the clock of the three. Across the segment nobody gets out faster than the clock goes. Along it
-// the turning of the segment counts too, by less than a third, since it is no shorter than four radii.
+// How far a body that blocks the segment from the origin to `d` may move until it is out of the way, as a
+// distance on the clock of the three. Across the segment no body gets out faster than the clock runs. Along it
+// the turning of the segment counts, too, by less than a third, since it is at least four radii long.
 double depth(Vec2 k, Vec2 d, double d2, double radius) noexcept {
   if (d2 < 16.0 * radius * radius) return 0.0;
   const double length = std::sqrt(d2);
@@ -43,7 +43,7 @@ double distance_beside(Vec2 k, Vec2 d, double d2, double radius) noexcept {
   return norm(k - d * along) - radius;
 }
 
-// Four at a time. The compilers make them of loops too, but not of all that follow.
+// Four at a time. Compilers vectorise loops themselves, but not all of the following ones.
 using Four = float __attribute__((vector_size(16)));
 Four four(float v) noexcept { return Four{v, v, v, v}; }
 Four load(const float* from) noexcept {
@@ -55,7 +55,7 @@ Four smaller(Four a, Four b) noexcept { return a < b ? a : b; }
 // Not by a < b: a compiler that finds that comparison twice shares it, and takes no instruction for either any more.
 Four larger(Four a, Four b) noexcept { return a > b ? a : b; }
 
-// The least and the next of what has been offered, in each of four lanes.
+// The smallest and the second smallest of the values offered, in each of four lanes.
 struct TwoLeast {
   Four least = four(far_away);
   Four second = four(far_away);
@@ -67,7 +67,7 @@ struct TwoLeast {
     second = smaller(smaller(second, other.second), larger(least, other.least));
     least = smaller(least, other.least);
   }
-  // The lanes joined: in the first one what is least in all.
+  // Joins the lanes: the first one then holds the smallest of all.
   [[nodiscard]] TwoLeast joined() const noexcept {
     TwoLeast all = *this;
     all.offer(TwoLeast{Four{least[2], least[3], least[0], least[1]}, Four{second[2], second[3], second[0], second[1]}});
@@ -96,8 +96,8 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       cell_of_(robots, 0),
       sorted_(robots, 0),
       links_(robots) {
-  // Who blocks a pair is within its range and a radius of both. What is beyond that in the reach may be used up
-  // until the row is written anew: the skin, and what two robots move in the tick in which it is.
+  // A body that blocks a pair is within the range and a radius of both. The rest of the reach may be used up before
+  // the row is rewritten: the skin, and the distance that two robots move in the tick of the rewriting.
   const double skin_m = skin_share * range_m_;
   const double tick_m = 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s;
   reach_m_ = std::max(range_m_, near_m_) + radius_m_ + skin_m + tick_m;
@@ -134,7 +134,7 @@ void Radio::forget(std::uint32_t i) {
   std::erase_if(near_, [i](const Couple& couple) { return couple.first == i || couple.second == i; });
 }
 
-// ---- How far everybody has moved ----
+// ---- How far all robots have moved ----
 
 // Brings the clocks up to date. False if nothing has happened since the last update.
 bool Radio::follow(std::span<const Vec2> positions, std::span<const std::uint8_t> alive) {
@@ -157,7 +157,7 @@ bool Radio::follow(std::span<const Vec2> positions, std::span<const std::uint8_t
     motion_[cell_of_[i]] = std::max(motion_[cell_of_[i]], up);
     farthest = std::max(farthest, up);
   }
-  // Whoever jumps was around somebody without being counted there.
+  // A robot that jumps arrives near others that have not counted its motion.
   if (rows_anew || 2 * farthest > valid_)
     for (Row& row : rows_) row.known = false;
   if (farthest > 0) spread_motion();
@@ -168,7 +168,7 @@ bool Radio::follow(std::span<const Vec2> positions, std::span<const std::uint8_t
   return farthest > 0 || all_anew_ || rows_anew;
 }
 
-// Cells are as wide as a row reaches, so that everybody within reach is in the same cell or one beside it.
+// Cells are as wide as a row reaches, so that every robot within reach is in the same cell or one beside it.
 // The number of cells stays below 4 N, so that a wide, thin swarm costs no more memory than a dense one:
 // the cells grow instead.
 void Radio::lay_grid(std::span<const Vec2> positions) {
@@ -193,7 +193,7 @@ void Radio::lay_grid(std::span<const Vec2> positions) {
   }
 }
 
-// Around each robot everybody has moved by no more than the farthest in its cell and the eight beside it.
+// Around a robot none has moved farther than the one that moved farthest in its cell and the eight beside it.
 void Radio::spread_motion() {
   across_.resize(motion_.size());
   for (std::size_t l = 0; l < lines_; ++l) {
@@ -221,7 +221,7 @@ void Radio::sort_into_cells() {
   // The loop has moved every start one cell up: cell c now begins at cell_start_[c + 1].
 }
 
-// Everybody within reach of robot i who is still there, ascending.
+// All robots within reach of robot i that are still there, ascending.
 void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const {
   s.size = 0;
   if (dead_vanish_ && alive_[i] == 0) return;
@@ -231,7 +231,7 @@ void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) c
   const auto reserve = [&](std::size_t more) {
     if (s.index.size() < size + more + 1) s.index.resize(2 * (size + more) + chunk);
   };
-  // Written unconditionally and kept by advancing: no branch for the processor to guess.
+  // Written unconditionally and kept by advancing: no branch to be mispredicted.
   const auto consider = [&](std::size_t j) {
     s.index[size] = static_cast<std::uint32_t>(j);
     size += static_cast<std::size_t>(squared_norm(positions[j] - here) < reach2) & static_cast<std::size_t>(j != i);
@@ -261,9 +261,9 @@ void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) c
   s.size = size;
 }
 
-// Who is within reach of robot i now. What was known of pairs goes over into the new row, if its clock
-// has not gone too far: until then nobody whom the row missed has mattered. Not of those out of range: while
-// they were out of reach too, nobody here has counted how far they have come. False: there is no room.
+// Rewrites the row of robots within reach of robot i. What was known of pairs is kept, if its clock has not run
+// too far: until then no robot missing from the row has mattered. Not for pairs out of range: while they were out
+// of reach, too, their motion was not counted here. False: there is no room.
 bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s) {
   gather(i, positions, s);
   const auto begin = s.index.begin();
@@ -301,7 +301,7 @@ bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s
   return true;
 }
 
-// Lays the rows out anew, with room for those that had none.
+// Allots the rows again, with room for those that had none.
 void Radio::make_room(std::span<const Vec2> positions) {
   Scratch& s = scratch_[0];
   const auto count = [&](std::size_t i) {
@@ -338,7 +338,7 @@ void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) 
   row.quiet_until = fast_clock(i) + static_cast<Way>(std::max(0, least - 1)) * units_per_step;
 }
 
-// Takes down what a pair has become. The list has the room that it needs at most.
+// Records the new state of a pair. The list has room for the most that can occur.
 void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s) {
   const int link = static_cast<int>(now.linked) - static_cast<int>(before.linked);
   const int near = static_cast<int>(now.near) - static_cast<int>(before.near);
@@ -381,14 +381,14 @@ void Radio::decide(Site& site, Pair& pair) const {
   note(site.i, before, pair, site.s);
 }
 
-// The witness of a pair, who changes nothing until the three have come so far.
+// Sets the witness of a pair: the verdict holds until the three have moved this far.
 void Radio::hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept {
   pair.witness = witness;
   pair.close_until = mark(clock_of_three(site.i, pair.other, witness) + way(lasts_m));
 }
 
-// Whether there is a line of sight. Returns for how long that is so whatever anybody but the witness does, as a
-// way by the clock of the pair.
+// Whether there is a line of sight. Returns how long that holds whatever robots other than the witness do, as a
+// distance on the clock of the pair.
 double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const {
   const Vec2 there = site.positions[pair.other];
   const auto hides = [&](const Obstacle* o) { return blocks(*o, site.here, there); };
@@ -400,7 +400,7 @@ double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const {
   const bool was_blocked = pair.blocked != 0;
   pair.blocked = 1;
   pair.linked = 0;
-  // Who blocked the pair before mostly still does.
+  // The body that blocked the pair before usually still does.
   if (was_blocked && pair.witness != nobody_ && !(dead_vanish_ && alive_[pair.witness] == 0) &&
       disc_blocks(site.positions[pair.witness] - site.here, d, d2, radius_m_))
     return block(pair.witness);
@@ -419,7 +419,7 @@ double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const {
   return lasts_m;
 }
 
-// Who and what could be in the way of a robot's lines of sight.
+// The robots and obstacles that could block a robot's lines of sight.
 void Radio::look_around(Site& site) const {
   if (std::exchange(site.looked, true)) return;
   Scratch& s = site.s;
@@ -442,8 +442,8 @@ void Radio::look_around(Site& site) const {
     if (clearance(obstacle, site.here) < range_m_) s.obstacles.push_back(&obstacle);
 }
 
-// Who is in the way from the robot to the other of the pair, or nearest to it. Single precision leaves out
-// who is clearly beside the line; the exact test decides on the rest.
+// The body in the way from the robot to the other of the pair, or nearest to that line. Single precision leaves
+// out bodies that are clearly beside the line; the exact test decides on the rest.
 Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept {
   Scratch& s = site.s;
   const std::size_t lower = site.lower.size();
@@ -451,7 +451,7 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double d2) c
   const auto target = lower + static_cast<std::size_t>(&pair - site.pairs.data());
   const auto body = [&](std::size_t at) { return at < lower ? site.lower[at] : site.pairs[at - lower].other; };
   const auto length = static_cast<float>(std::sqrt(d2));
-  const bool has_direction = length > 1e-3F;                  // if not, everybody is tested
+  const bool has_direction = length > 1e-3F;                  // if not, all bodies are tested
   const Four ux = four(has_direction ? static_cast<float>(d.x) / length : 0.0F);
   const Four uy = four(has_direction ? static_cast<float>(d.y) / length : 0.0F);
   const Four half = four(0.5F * length);
@@ -484,7 +484,7 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double d2) c
   View view{false, nearest < size ? body(nearest) : nobody_, 0.0F, 0.0F};
   const auto blocks = [&](std::size_t at) { return at != target && disc_blocks(site.positions[body(at)] - site.here, d, d2, radius_m_); };
   if (two.least[0] < beside2) {
-    // Who is nearest to the line is deepest in the way, and will be there longest.
+    // The body nearest to the line is deepest in the way, and will stay there longest.
     view.blocked = nearest < size && blocks(nearest);
     for (std::size_t at = 0; at < size && !view.blocked; ++at) {
       if (gaps[at] >= beside2 || !blocks(at)) continue;
@@ -526,7 +526,7 @@ void Radio::apply_changes() {
     }
 }
 
-// Pairs of all robots, in order, into rows that are ascending at both ends.
+// Writes the pairs of all robots, in order, into rows that are ascending for both ends.
 void Radio::merge() {
   const std::size_t robots = rows_.size();
   near_.clear();

@@ -64,7 +64,7 @@ double spanning_tree_length(const std::vector<Vec2>& points) {
   return length;
 }
 
-// ceil that forgives the rounding of sines and divisions.
+// ceil that tolerates the rounding of sines and divisions.
 std::size_t robots_for(double x) noexcept { return static_cast<std::size_t>(std::max(0.0, std::ceil(x - 1e-9))); }
 
 }  // namespace
@@ -88,8 +88,8 @@ double start_pitch_m(const Scenario& scenario) {
   return start.pitch_share ? *start.pitch_share * scenario.radio.range_m : start.pitch_m;
 }
 
-// A packet is heard so many steps of the swarm after it was composed, at most: it flies, and waits until its
-// receiver's clock strikes.
+// The most steps of the swarm between composing and hearing a packet: it travels, and waits until its receiver
+// steps.
 static std::size_t longest_way(const Scenario& scenario) {
   const auto latency = static_cast<std::size_t>(std::max(1, scenario.radio.latency_ticks));
   if (!scenario.clocks.asynchronous) return latency;

@@ -22,7 +22,7 @@
 namespace banyan::world {
 namespace {
 
-// Where robots may stand, and which neighbours no obstacle parts.
+// Where robots may stand, and which neighbours no obstacle separates.
 class Ground {
  public:
   Ground(std::span<const Obstacle> obstacles, double room) : obstacles_{obstacles}, room_{room} {}
@@ -136,7 +136,7 @@ std::vector<Vec2> bridge(std::size_t count, const Start& start, double pitch, do
   const std::size_t left = (count - between + 1) / 2;
   const Ground flat({}, 0.0);
   const std::vector<Vec2> cluster = Lattice(Layout::hexagonal, {}, pitch, flat).nearest(left);
-  double edge = 0.0;  // of the row that the bridge goes on with
+  double edge = 0.0;  // of the row that the bridge continues
   for (const Vec2 p : cluster)
     if (p.y == 0.0) edge = std::max(edge, p.x);
   const double half = 0.5 * link * static_cast<double>(between + 1);
@@ -173,7 +173,7 @@ class Spaced {
  private:
   [[nodiscard]] std::int32_t index(double x) const noexcept { return static_cast<std::int32_t>(std::clamp(std::floor(x / least_), -2e9, 2e9)); }
   double least_;
-  std::unordered_map<std::uint64_t, std::vector<Vec2>> squares_;  // looked up, never walked through
+  std::unordered_map<std::uint64_t, std::vector<Vec2>> squares_;  // looked up, never iterated
 };
 
 // Each robot stands in the ring around one that is already there, drawn evenly among them and within

@@ -21,7 +21,7 @@ namespace banyan::world {
 namespace {
 
 std::unique_ptr<Bodies> make_bodies(Scenario scenario, const Poses& poses) {
-  if (scenario.clocks.asynchronous) scenario.tick_s /= scenario.clocks.substeps;  // clocks.cpp moves them so often
+  if (scenario.clocks.asynchronous) scenario.tick_s /= scenario.clocks.substeps;  // the part moved by clocks.cpp
   switch (scenario.robot.body) {
     case BodyModel::box2d: return make_box2d(scenario, poses);
     case BodyModel::linear: return make_linear(scenario, poses.position.size());
@@ -41,7 +41,7 @@ Scenario checked(const Scenario& scenario) {
   return scenario;
 }
 
-// With an algorithm of one's own: parameters are its business, and keys that it does not know are ignored.
+// With a custom algorithm: it checks its parameters itself, and keys that it does not know are ignored.
 Scenario checked(Scenario scenario, const Algorithm& own) {
   const AlgorithmList only{&own};
   scenario.mission.algorithm = own.name();
@@ -118,7 +118,7 @@ void World::step(Executor& executor) {
     impl_->moment = impl_->tick;
     impl_->act();                // commands of the last tick become motion
     impl_->broadcast(executor);  // messages of the last tick travel: links, losses, delays
-    impl_->think(executor);      // what is sensed and heard goes through each robot's controller
+    impl_->think(executor);      // each robot's controller gets what is sensed and heard
   }
   ++impl_->tick;
 }
@@ -170,7 +170,7 @@ void World::Impl::think(Executor& executor) {
     flight->count.assign(n, 0);
     flight->packets.resize(flight->offsets.back());
   }
-  const bool silence = tick == 0 || tick < silent_until;  // nobody has said anything yet, or a blackout
+  const bool silence = tick == 0 || tick < silent_until;  // nothing has been sent yet, or a blackout
 
   executor.parallel_for(n, [&](std::size_t begin, std::size_t end, int worker) {
     Inbox& inbox = inboxes[static_cast<std::size_t>(worker)];
@@ -198,7 +198,7 @@ void World::Impl::think(Executor& executor) {
   for (const std::uint64_t r : received_by) received += r;
 }
 
-// What robot i hears in this tick. Returns how many packets.
+// Collects what robot i hears in this tick. Returns how many packets.
 std::size_t World::Impl::gather(std::size_t i, std::span<Packet> room, Flight* flight, bool silence) {
   if (flight == nullptr) return silence ? 0 : receive(i, room);
   // Drawn now, heard later: what was sent latency - 1 ticks ago arrives.
@@ -261,7 +261,7 @@ banyan::Vec2 World::Impl::measure(std::size_t i, std::uint32_t sender) const noe
   return blurred(i, sender, rotate_back(poses.heading[i], poses.position[sender] - poses.position[i]));
 }
 
-// What the sensor makes of a sender that is at `d`.
+// What the sensor measures of a sender at `d`.
 banyan::Vec2 World::Impl::blurred(std::size_t i, std::uint32_t sender, Vec2 d) const noexcept {
   const RadioModel& model = scenario.radio;
   if (model.range_noise_m > 0.0) {
@@ -277,7 +277,7 @@ banyan::Vec2 World::Impl::blurred(std::size_t i, std::uint32_t sender, Vec2 d) c
 // ---- The view from outside ----
 
 World::World(const Scenario& scenario) {
-  const Scenario sound = checked(scenario);  // before anybody asks for its algorithm
+  const Scenario sound = checked(scenario);  // before its algorithm is looked up
   impl_ = std::make_unique<Impl>(sound, algorithm_of(sound));
 }
 World::World(const Scenario& scenario, const Algorithm& algorithm) : impl_(std::make_unique<Impl>(checked(scenario, algorithm), algorithm)) {}

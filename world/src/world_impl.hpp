@@ -28,9 +28,9 @@ struct Flight {
   std::vector<Packet> packets;
 };
 
-// What a target does beside being somewhere.
+// The motion of a target, and the distance that its worker had to it.
 struct Course {
-  double start_m = 0.0;     // how far its worker was from it at first
+  double start_m = 0.0;     // how far its worker was from it at the start
   Vec2 goal{};              // where it drives
   double speed_m_s = 0.0;   // 0: it stands
 };
@@ -132,7 +132,7 @@ struct World::Impl {
   std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
   std::vector<Odometry> odometry;
   EventQueue event_queue;
-  std::uint64_t silent_until = 0;              // tick; nobody hears anything before
+  std::uint64_t silent_until = 0;              // tick; no packet is heard before
   std::size_t deaths = 0;
   std::optional<std::uint64_t> last_death;     // tick
   std::vector<Flight> flights;                 // ring of latency_ticks - 1
