@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// lambda_2 by the cheapest means that settles the question. Iterative solvers miss repeated zeros,
-// so none is asked before the graph is known to be connected.
+// lambda_2 by the cheapest method that answers the question. Iterative solvers miss repeated zeros,
+// so none is used before the graph is known to be connected.
 #include "banyan/measure/fiedler.hpp"
 
 #include <Eigen/Dense>
@@ -76,7 +76,7 @@ double rayleigh_quotient(const Graph& graph, const std::vector<T>& x) {
     size += (xi - mean) * (xi - mean);
     for (const std::uint32_t j : graph.of(i)) {
       const double d = xi - static_cast<double>(x[j]);
-      energy += d * d;  // every edge comes twice
+      energy += d * d;  // every edge occurs twice
     }
   }
   return size > 0.0 ? 0.5 * energy / size : std::numeric_limits<double>::infinity();
@@ -200,7 +200,7 @@ double Fiedler::sparse(const Graph& graph, double lower_bound) {
   if (eigenvector_.size() != graph.size()) eigenvector_.assign(level_.begin(), level_.end());
   Vector start = Eigen::Map<const Vector>(eigenvector_.data(), n);
   start.array() -= start.mean();
-  // A remembered vector can be orthogonal to the one sought; a grain of noise never is.
+  // A remembered vector can be orthogonal to the one sought; with some noise it never is.
   const double grain = 0.01 * start.norm() / std::sqrt(static_cast<double>(n));
   for (Eigen::Index i = 0; i < n; ++i) start(i) += grain * noise(static_cast<std::uint64_t>(i));
   InverseOffConstants inverse(graph, pause_);

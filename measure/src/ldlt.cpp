@@ -22,7 +22,7 @@ SparseMatrix Ldlt::ordered(const SparseMatrix& lower) {
   return upper;
 }
 
-// The elimination tree and how much each column of L holds, by walking up from every entry.
+// The elimination tree and the number of entries in each column of L, by walking up from every entry.
 void Ldlt::count_columns(const SparseMatrix& upper) {
   const auto n = static_cast<std::size_t>(upper.cols());
   parent_.assign(n, -1);

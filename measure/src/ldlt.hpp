@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The factors L D L' of a sparse symmetric matrix: what Eigen's SimplicialLDLT finds, to the last bit, but it can be
-// stopped on the way, which at 65,000 robots may take a minute.
+// The factors L D L' of a sparse symmetric matrix: as by Eigen's SimplicialLDLT, to the last bit, but a computation
+// can be stopped, which matters with 65,000 robots, where one may take a minute.
 #pragma once
 
 #include <Eigen/Dense>
@@ -17,8 +17,8 @@ using Vector = Eigen::VectorXd;
 
 class Ldlt {
  public:
-  // Of the matrix with this lower triangle. `pause` is called every few milliseconds of work; what it throws ends it.
-  // False if a pivot is zero.
+  // Factorises the matrix with this lower triangle. `pause` is called every few milliseconds of work; an exception of
+  // its own ends the work. False if a pivot is zero.
   bool compute(const SparseMatrix& lower, const std::function<void()>& pause);
   [[nodiscard]] const Vector& pivots() const noexcept { return pivots_; }
   [[nodiscard]] Vector solve(const Vector& right_side) const;  // after a compute() that was true

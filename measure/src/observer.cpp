@@ -21,7 +21,7 @@ constexpr double low_fiedler = 1e-3;        // paper Sec. IV-B
 constexpr std::size_t every_tick_limit = 150;  // robots up to which lambda_2 is judged at every tick
 constexpr double sample_period_s = 2.0;     // above that
 
-// Communication graph of the living robots, which are numbered anew without gaps.
+// Communication graph of the living robots, which are renumbered without gaps.
 class LivingGraph {
  public:
   void build(const world::World& world) {
@@ -73,8 +73,8 @@ class LivingGraph {
   std::vector<std::uint32_t> number_, end_;
 };
 
-// At least as many hops as each robot is from the first living one. As long as everybody else has a link to
-// somebody with a smaller number, all are connected.
+// For each robot a number at least as large as its hops from the first living one. As long as every other robot
+// has a link to one with a smaller number, all are connected.
 class HopCount {
  public:
   // As they have just been counted.
@@ -90,8 +90,8 @@ class HopCount {
     }
   }
   void forget() noexcept { hops_.clear(); }
-  // Whether everybody is still connected; false if that is not certain. Who has lost its link to somebody with a
-  // smaller number gets a larger one, and so may those who counted on it; if that goes on, counting is cheaper.
+  // Whether all robots are still connected; false if that is not certain. A robot that has lost its link to one with a
+  // smaller number gets a larger one, and so may those that relied on it; if this spreads, counting again is cheaper.
   [[nodiscard]] bool holds(const world::World& world) {
     constexpr int most_rounds = 5;
     if (hops_.empty() || world.alive()[first_] == 0) return false;
@@ -110,7 +110,7 @@ class HopCount {
   [[nodiscard]] std::uint32_t farthest() const { return *std::max_element(hops_.begin(), hops_.end()); }
 
  private:
-  // If not, nearer_[i] is the place of who is nearest all the same. Mostly it is where it was.
+  // If not, nearer_[i] is still the place of the nearest one. Usually it is where it was.
   [[nodiscard]] bool has_nearer(std::span<const std::uint32_t> links, std::size_t i) {
     if (nearer_[i] < links.size() && hops_[links[nearer_[i]]] < hops_[i]) return true;
     const auto nearer = std::min_element(links.begin(), links.end(), [&](std::uint32_t a, std::uint32_t b) { return hops_[a] < hops_[b]; });
@@ -118,7 +118,7 @@ class HopCount {
     return nearer != links.end() && hops_[*nearer] < hops_[i];
   }
   std::vector<std::uint32_t> hops_;     // by robot; empty: not connected
-  std::vector<std::uint32_t> nearer_;   // by robot: place of somebody nearer in its row of links
+  std::vector<std::uint32_t> nearer_;   // by robot: place of a nearer robot in its row of links
   std::size_t first_ = 0;
 };
 
@@ -142,7 +142,7 @@ struct Spectrum {
     else if (is_high(graph.size(), found.eccentricity)) low = false;
     else if (sample) judge_value(graph);
   }
-  // What is not known because it was stopped is as it was.
+  // If it was stopped, the result stays what it was.
   void judge_value(const Graph& graph) {
     try {
       low = fiedler.below(graph, low_fiedler);
@@ -209,7 +209,7 @@ std::vector<world::Vec2> active_positions(const world::World& world) {
 
 bool is_of_tree(const world::World& world, std::size_t i) { return world.alive()[i] != 0 && world.reports()[i].role != Role::spare; }
 
-// The links that robot i keeps besides edges to parents, but for those that the other end tells of: it has i as a
+// The links that robot i keeps besides edges to parents, except those counted at the other end: that has i as its
 // parent, or keeps the link, too, and has the smaller id.
 template <class Visit>
 void for_each_kept_link(const world::World& world, std::size_t i, Visit visit) {
@@ -323,7 +323,7 @@ void Observer::Impl::judge_graph(const world::World& world, bool exact_fiedler) 
   tick.fiedler_low_by_distance = by_distance.low;
 }
 
-// The graph itself is looked at only if what was known of it does not settle the matter.
+// The graph itself is examined only if what is known of it does not decide the question.
 void Observer::Impl::judge_links(const world::World& world, bool sample, bool exact_fiedler) {
   if (!exact_fiedler && hop_count.holds(world)) {
     Spectrum& spectrum = with_occlusion;
@@ -367,7 +367,7 @@ void Observer::Impl::measure_targets(const world::World& world) {
   run.normalized_time = tick.time_s / run.time_limit_s;
 }
 
-// Barrier lengths as the root lives them; the newest token decides who that is.
+// Barrier lengths as seen by the root; the newest token decides which robot that is.
 void Observer::Impl::time_phases(const world::World& world) {
   const auto alive = world.alive();
   const Report* root = nullptr;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Euclidean Steiner trees by Smith's (1992) branch and bound: full topologies grow by one terminal
 // at a time, and the shortest tree of a partial topology bounds all that grow from it, because
-// taking a terminal out of a tree never makes it longer. Which terminal is next is decided anew for
-// each topology (after Fampa & Anstreicher 2008). The shortest tree of a topology is a
+// taking a terminal out of a tree never makes it longer. Which terminal is next is decided for each
+// topology (after Fampa & Anstreicher 2008). The shortest tree of a topology is the solution of a
 // convex problem, sum of |edge|; it is solved by Newton's method on sqrt(|edge|^2 + e^2) for
 // falling e. Every bound is the value of a feasible point of the dual problem (a flow of unit
 // vectors), so nothing is cut off by rounding or by stopping early.
@@ -27,7 +27,7 @@ using world::Vec2;
 constexpr std::size_t exact_limit = 12;
 constexpr int most_looks = 150'000;       // topologies relaxed before a search gives up: some seconds
 constexpr double steiner_ratio = 0.8241;  // Chung & Graham 1985
-constexpr double tolerance = 2e-7;        // relative; what is not better by this is not looked at
+constexpr double tolerance = 2e-7;        // relative; what is not better by this is skipped
 
 double spanning_tree_length(const std::vector<Vec2>& points) {
   std::vector<double> gap(points.size(), std::numeric_limits<double>::infinity());
@@ -287,8 +287,8 @@ class Search {
     return found;
   }
 
-  // What is under a branch dwindles fast with the share of the room, between the topology it grows
-  // from and the best tree, that its bound takes up.
+  // The work below a branch shrinks fast as its bound rises from that of the topology it grows
+  // from to the length of the best tree.
   [[nodiscard]] double work_in(const std::vector<Branch>& branches, double before) const noexcept {
     const double room = std::max(best_ - before, tolerance * best_);
     double work = 0.0;
@@ -307,8 +307,8 @@ class Search {
     return next;
   }
 
-  // A lower bound for the topology, only as good as it takes to decide: above the best tree, or
-  // (unfinished topologies) certainly not. A finished one that is better becomes the best tree.
+  // A lower bound for the topology, only as tight as needed to decide whether it is above the best tree
+  // or, for unfinished topologies, cannot be. A finished one that is better becomes the best tree.
   double relax(Tree& tree) {
     ++looks_;
     const bool finished = tree.terminals == static_cast<int>(terminals_.size());
