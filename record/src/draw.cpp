@@ -70,7 +70,7 @@ struct ExtentOfObstacle {
   }
 };
 
-// The colours that are not those of roles: what they are drawn on, and what must be told from it.
+// The colours other than those of roles: the background, and what must stand out from it.
 struct Theme {
   std::string_view paper, ink, faint_ink, target_ink, outline;
   Color tree, link, obstacle;
@@ -95,7 +95,7 @@ constexpr Theme dark{.paper = "#12161c",
                      .obstacle = {0x6E, 0x69, 0x62, "#6e6962"},
                      .trail_opacity = " stroke-opacity=\"0.65\""};
 
-// Where what goes: the map fills its box as far as its shape allows.
+// The layout: the map fills its box as far as its shape allows.
 struct Layout {
   bool panel = false;   // title and legend in a column at the left, else above and below
   Vec2 low, high;       // the box of the map, px, y downwards
@@ -412,7 +412,7 @@ void Picture::obstacles() {
 }
 
 void Picture::radio() {
-  // In pieces: what crosses within one path costs a renderer far more than what lies on top of another.
+  // In pieces: lines that cross within one path cost a renderer far more than separate paths on top of each other.
   constexpr std::size_t piece = 50;
   const auto draw = [this](const Color& color, double width_px, const auto& list, std::string_view more) {
     for (std::size_t first = 0; first < list.size(); first += piece) {
@@ -426,7 +426,7 @@ void Picture::radio() {
           more);
     }
   };
-  // Where everybody hears everybody, links would cover all else: the more there are, the finer.
+  // If all robots hear each other, links would cover everything else: the more there are, the finer.
   const double robots = std::max(1.0, static_cast<double>(frame_.robots.size()));
   const double per_robot = static_cast<double>(links_.open.size()) / robots;
   const double width = per_robot > 20.0 ? 0.25 : per_robot > 8.0 ? 0.5 : 0.8;
@@ -460,7 +460,7 @@ void Picture::targets() {
     attribute("cx", at.x);
     attribute("cy", at.y);
     attribute("r", radius);
-    if (!target.active) {  // given up: where it was, and no more than that
+    if (!target.active) {  // given up: only where it was
       attribute("fill", "none");
       attribute("stroke", palette::target.hex);
       attribute("stroke-width", 1.0);
@@ -551,7 +551,7 @@ void Picture::headings() {
       " stroke-linecap=\"round\"");
 }
 
-// Below everything: who took over from a dead robot may stand where it does.
+// Below everything: a robot that took over from a dead one may stand where that one is.
 void Picture::dead() {
   for (const RobotFrame& robot : frame_.robots) {
     if (robot.alive) continue;
@@ -577,7 +577,7 @@ void Picture::ids() {
   for (std::size_t k = 0; k < frame_.targets.size(); ++k) {
     const Vec2 at = screen(frame_.targets[k].position);
     const double away = std::max(setting_.target_tolerance_m * layout_.scale, robot_px_ + 3.0) * 0.75 + 3.0;
-    // Towards the inside of the picture, so that a label never leaves it.
+    // Towards the middle of the picture, so that a label never leaves it.
     const bool right = at.x < width_ - 4.0 * margin_px;
     std::string label("T");
     label += std::to_string(k);
@@ -653,7 +653,7 @@ void Picture::add_what_may_come() {
       {[this](Vec2 at) { robot_symbol(at, Role::spare, false, 5.5); }, "dead " + std::to_string(dead), dead > 0});
 }
 
-// In a film a count may get a digit more: nothing may jump then.
+// In a film a count may gain a digit: nothing may jump then.
 double Picture::width_of(const LegendEntry& entry) const {
   std::size_t letters = entry.words.size();
   const std::size_t digits = std::to_string(frame_.robots.size()).size();
@@ -736,8 +736,8 @@ std::string Picture::svg() {
   trails();
   targets();
   dead();
-  // Headings below the bodies, so that only what sticks out is seen; spares below the tree, and
-  // the few that matter on top of the many.
+  // Headings below the bodies, so that only their tips are seen; spares below the tree, and the
+  // other roles on top.
   headings();
   robots({Role::spare});
   trees();

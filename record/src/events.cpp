@@ -37,7 +37,7 @@ bool has_robot(const Frame& frame, std::int32_t i) {
   return i >= 0 && static_cast<std::size_t>(i) < frame.robots.size();
 }
 
-// As World::holder has it: whoever serves the target now need not be the one first sent there.
+// As in World::holder: the robot that serves the target now need not be the one first sent there.
 bool serves(const Frame& frame, std::size_t i, std::size_t k) {
   if (i >= frame.robots.size()) return false;
   const RobotFrame& robot = frame.robots[i];
@@ -58,7 +58,7 @@ std::int32_t holder_of(const Setting& setting, const Frame& frame, std::size_t k
   return best;
 }
 
-// To the target it serves, when that was set: else it serves in place of another.
+// Whether the robot was sent to the target that it serves; if not, it has taken another one's place.
 bool was_sent(const Frame& frame, std::size_t i) {
   const auto target = static_cast<std::size_t>(frame.robots[i].target);  // -1: beyond all
   return target < frame.targets.size() && frame.targets[target].worker == static_cast<std::int32_t>(i);
@@ -112,7 +112,7 @@ void judge_edge(const Setting& setting, const Frame& frame, std::size_t i, bool 
   if (!edge.why.empty()) broken.push_back(std::move(edge));
 }
 
-// O(edges x robots): for the moments at which something has broken.
+// O(edges x robots): used only at moments at which an edge has broken.
 std::vector<BrokenEdge> broken_edges(const Setting& setting, const Frame& frame) {
   std::vector<BrokenEdge> broken;
   for (std::size_t i = 0; i < frame.robots.size(); ++i) {
@@ -149,7 +149,7 @@ const std::vector<RecordedEvent>& EventWatcher::watch(const Setting& setting, co
   return events_;
 }
 
-// What moves on and on is said once, when it begins.
+// Continuous motion is reported once, when it begins.
 void EventWatcher::watch_setting(const Setting& setting) {
   if (setting.line_of_sight != setting_.line_of_sight) {
     add("line_of_sight", -1, -1,
@@ -181,7 +181,7 @@ void EventWatcher::watch_death(const Frame& frame, std::size_t i) {
   add("death", robot, before.target, std::move(text));
 }
 
-// The token is offered to a neighbour in the tree; who takes it from elsewhere has elected itself.
+// The token is offered to a neighbour in the tree; a robot that gets it otherwise has elected itself.
 void EventWatcher::watch_root(const Frame& frame, std::size_t i) {
   const RobotFrame& before = last_.robots[i];
   const auto robot = static_cast<std::int64_t>(i);
@@ -246,8 +246,8 @@ void EventWatcher::watch_robots(const Frame& frame) {
   }
 }
 
-// A target that moves on and on is said once. Of one that has moved a new arrival is worth telling only
-// once its worker had really lost it.
+// A target that keeps moving is reported once. After a move, a new arrival is reported only if the
+// worker had really lost the target.
 void EventWatcher::watch_target(const Setting& setting, const Frame& frame, std::size_t k) {
   constexpr double lost = 1.5;  // tolerances
   const TargetFrame& target = frame.targets[k];
@@ -267,7 +267,7 @@ void EventWatcher::watch_target(const Setting& setting, const Frame& frame, std:
   const bool near = serves(frame, who, k) && (!moved || distance(frame.robots[who].position, target.position) <=
                                                             lost * setting.target_tolerance_m);
   if (near) return;
-  reached_[k] = -1;  // moved away, or its worker has died or resigned: whoever comes now arrives
+  reached_[k] = -1;  // moved away, or its worker has died or resigned: the next worker there arrives
   complete_ = false;
 }
 
@@ -306,7 +306,7 @@ void EventWatcher::watch_radio(const measure::Tick& tick) {
   if (tick.components <= 1 && last_tick_.components > 1) add("joined", -1, -1, "the radio graph is in one piece");
 }
 
-// Whenever more of them are broken than a tick ago: which have come to it.
+// Whenever more edges are broken than a tick ago: the new ones.
 void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const measure::Tick& tick) {
   const auto broken = [](const measure::Tick& t) { return t.broken_by_distance + t.broken_by_occlusion; };
   const auto before = broken(last_tick_), now = broken(tick);

@@ -26,7 +26,7 @@ std::string directory_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// A rename replaces a symbolic link itself; whoever made the link wants its target written.
+// A rename would replace a symbolic link itself; the user wants its target written.
 std::string resolved(const std::string& path) {
   char* real = ::realpath(path.c_str(), nullptr);
   if (real == nullptr) return path;
@@ -35,8 +35,8 @@ std::string resolved(const std::string& path) {
   return result;
 }
 
-// A part that is locked: nobody else writes it. One that was renamed by its writer while we opened it is a finished
-// file and stays as it is.
+// A locked part, which no other process writes. One that its writer renamed while we opened it is a finished file and
+// stays as it is.
 int open_part(const std::string& part, const std::string& path) {
   int descriptor = -1;
   try {
@@ -158,7 +158,7 @@ void OutputFile::commit() {
 void OutputFile::rename_part() {
   const std::string target = part_path_.substr(0, part_path_.size() - std::string_view(".part").size());
   if (existing_ == Existing::keep) {
-    // link(), unlike rename(), refuses atomically to replace a file that has appeared meanwhile.
+    // link(), unlike rename(), atomically refuses to replace a file that has appeared meanwhile.
     if (::link(part_path_.c_str(), target.c_str()) == 0) {
       ::unlink(part_path_.c_str());
       return;

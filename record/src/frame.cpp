@@ -34,7 +34,7 @@ void capture_robot(const Report& state, RobotFrame& robot) noexcept {
   robot.target = -1;
 }
 
-// A worker names its target by the robot first sent there, which a successor is not.
+// A worker names its target by the robot first sent there, which for a successor is another robot.
 void capture_targets(const world::World& world, Frame& frame) {
   static thread_local std::vector<std::int32_t> target_of;  // by that robot
   target_of.assign(world.size(), -1);
@@ -50,7 +50,7 @@ void capture_targets(const world::World& world, Frame& frame) {
   }
 }
 
-// During a hand-over there may be two; the newer token is the one that lasts.
+// During a hand-over there may be two; the newer token decides.
 std::optional<std::uint32_t> newest_root(const world::World& world) noexcept {
   std::optional<std::uint32_t> root;
   for (std::uint32_t i = 0; i < world.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The JSON messages of a recording: written fast by hand, read back with a library that has seen
+// The JSON messages of a recording: written by hand for speed, read back with a library that handles
 // every kind of broken input. One table of fields serves writing, reading and the schema.
 #pragma once
 

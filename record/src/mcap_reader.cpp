@@ -316,7 +316,7 @@ void Reader::Impl::scan_loose(const Record& r, std::uint64_t offset, std::uint64
 }
 
 void Reader::Impl::scan_chunk(std::uint64_t offset, std::uint64_t length) {
-  // The times of the header are not trusted: the messages say when they were.
+  // The times of the header are not trusted: messages have their own.
   Stretch s{0, 0, offset, length, true, {}};
   if (!load(s)) return;
   loaded = nullptr;                        // `s` is about to go

@@ -12,7 +12,7 @@
 
 namespace banyan::record {
 
-// What all robots of a swarm broadcast last.
+// The last broadcasts of all robots of a swarm.
 struct MessageNumbers {
   std::span<const FieldInfo> fields;  // valid for the whole program
   std::vector<double> numbers;        // robot by robot, as many as there are fields
@@ -22,8 +22,8 @@ struct MessageNumbers {
 void capture_messages(const Swarm& swarm, MessageNumbers& into);
 
 // Whether /banyan/messages has the field. /banyan/frame has what is also in a report (want_cm as want_m; id is
-// the index). Vectors to an addressee that changes at every tick are noise to any compression: the four of
-// them would take as much room as all the rest, and say nothing without their addressee.
+// the index). Vectors to an addressee that changes at every tick do not compress: these four would take as
+// much room as all the rest, and mean nothing without their addressee.
 [[nodiscard]] bool is_recorded(const FieldInfo& field) noexcept;
 
 // One object with all fields of robot i in their order; role, phase and need by name.

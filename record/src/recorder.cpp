@@ -75,7 +75,7 @@ void Recorder::Impl::add_channels() {
   if (options.scene_period_s > 0.0) scene = add("/scene", "foxglove.SceneUpdate", scene_update_schema, large);
 }
 
-// Its fields are those of the algorithm, which the first frame of a world tells.
+// Its fields are those of the algorithm, which is known from the first frame of a world.
 void Recorder::Impl::add_messages_channel() {
   if (messages != 0) return;
   const auto schema = mcap.add_schema("banyan.Messages", "jsonschema", messages_schema(last_messages.fields));
@@ -171,7 +171,7 @@ Recorder::~Recorder() {
     impl_->mcap.end_chunks();  // what there is can be read back by scanning
     impl_->file.flush();
   } catch (const std::exception&) {
-    // Whoever threw away an unfinished recorder has been told by another exception.
+    // The caller that drops an unfinished recorder has had another exception already.
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sinks, and that one that fails stays alone with it (sink.hpp).
+// Sinks; a failure of one does not affect the others (sink.hpp).
 #include "banyan/record/sink.hpp"
 
 #include <algorithm>

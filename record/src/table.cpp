@@ -279,7 +279,7 @@ std::string run_json(const RunRow& row, std::string_view config_json) {
   }
   out.drop_last();
   out.put("\n  },\n  \"config\": ");
-  // What is no JSON must not make the whole file unreadable.
+  // Text that is not JSON must not make the whole file unreadable.
   if (nlohmann::json::accept(config_json)) {
     out.put(config_json.substr(0, config_json.find_last_not_of(" \n\r\t") + 1));
   } else {

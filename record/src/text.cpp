@@ -109,7 +109,7 @@ void Text::fixed_of(double value) {
 
 void Text::fixed(double value, int decimals, std::string_view otherwise) {
   if (!std::isfinite(value)) return put(otherwise);
-  // Four and two decimals are what frames are made of; known divisors become multiplications.
+  // Frames consist of numbers with four and two decimals; known divisors become multiplications.
   if (decimals == 4 && std::fabs(value) < exact_limit / 1e4) return fixed_of<4>(value);
   if (decimals == 2 && std::fabs(value) < exact_limit / 1e2) return fixed_of<2>(value);
   const std::uint64_t unit = power[static_cast<std::size_t>(decimals)];

@@ -40,7 +40,7 @@ Decompressor::Decompressor() : impl_(std::make_unique<Impl>()) {
 }
 Decompressor::~Decompressor() = default;
 
-// Grows with what really comes out, so that a forged size costs no memory.
+// Grows with the actual output, so that a forged size costs no memory.
 bool Decompressor::decompress(std::string_view data, std::uint64_t size, std::string& into) {
   ZSTD_DCtx_reset(impl_->zstd, ZSTD_reset_session_only);
   ZSTD_inBuffer in{data.data(), data.size(), 0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the run went: run.csv, a table of one row, and run.json, the same with the configuration that it had, which
-// `banyan run` takes as a scenario.
+// The result of the run: run.csv, a table of one row, and run.json, the same with the configuration of the run,
+// which `banyan run` accepts as a scenario.
 #include "banyan/record/outputs.hpp"
 #include "banyan/record/table.hpp"
 
