@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t queued_per_worker = 4;  // enough that nobody waits, few enough to keep no memory
+constexpr std::size_t queued_per_worker = 4;  // enough to keep all workers busy, few enough to save memory
 
 std::string task_of(const Plan& plan, const PlannedRun& run, const std::string& runs_folder) {
   const auto configuration = configuration_of(plan, run);
@@ -34,7 +34,7 @@ class Execution {
 
   Execution(const Execution&) = delete;
   Execution& operator=(const Execution&) = delete;
-  // What still runs refers to this: an exception of run() must not leave it behind.
+  // Running tasks refer to this object: an exception of run() must not leave them behind.
   ~Execution() {
     {
       const std::lock_guard lock(mutex_);
@@ -143,7 +143,7 @@ double estimate_s(const Plan& plan, const std::vector<std::size_t>& todo, double
   if (todo.empty()) return 0.0;
   double work = 0.0, sampled_work = 0.0, sampled_s = 0.0;
   for (const auto run : todo) work += plan.runs[run].cost;
-  // A walk by the golden section visits all of the plan evenly, however soon it ends.
+  // Steps of the golden section cover the plan evenly, however soon they end.
   double at = 0.0;
   for (std::size_t n = 0; n < std::min<std::size_t>(todo.size(), 64) && sampled_s < patience_s; ++n) {
     const auto& run = plan.runs[todo[static_cast<std::size_t>(at * static_cast<double>(todo.size()))]];

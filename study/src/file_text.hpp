@@ -7,7 +7,7 @@
 
 namespace banyan::study {
 
-// At most 60 characters; whatever does not suit every file system and shell becomes '-'.
+// At most 60 characters; characters that some file system or shell does not accept become '-'.
 [[nodiscard]] inline std::string file_text(std::string_view label) {
   std::string text;
   for (const char c : label) {

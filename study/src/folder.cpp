@@ -25,7 +25,7 @@ constexpr std::string_view study_format = "banyan.study";
 
 ordered_json study_json(const Study& study, const Plan& plan, const Outcomes& outcomes, const Results& results,
                         const std::vector<std::string>& builds) {
-  double runs_wall_s = 0.0;  // of all runs one after the other, however many were done at once
+  double runs_wall_s = 0.0;  // sum over all runs, however many ran at once
   for (const auto& run : plan.runs) {
     if (const auto at = outcomes.find(run.id); at != outcomes.end()) runs_wall_s += at->second.wall_s;
   }
@@ -83,7 +83,7 @@ std::optional<Finished> finished(const Folder& folder) {
   return Finished{*study, *plan, *runs};
 }
 
-// The same run, whatever it was called and whoever made it: all columns from the first of the results on.
+// The same run, whatever its name and origin: all columns from the first of the results on.
 static bool same_result(const std::string& row, const std::string& other) {
   if (row == other) return true;
   const auto first = record::csv_cells(row), second = record::csv_cells(other);
@@ -95,7 +95,7 @@ static bool same_result(const std::string& row, const std::string& other) {
   return true;
 }
 
-// What this program can put into its tables. A row of other columns is none.
+// The rows that this program can put into its tables. A row with other columns is ignored.
 static Outcome readable(const Outcome& outcome) {
   if (!outcome.error.empty() || record::csv_cells(outcome.row).size() == record::run_columns().size()) return outcome;
   return {"", "its row has other columns: written by another version of banyan", outcome.wall_s};
@@ -139,7 +139,7 @@ Written write_results(const Study& study, const Plan& plan, const Gathered& gath
     if (error) throw FileError(folder.figures(), "cannot be created: " + error.message());
     drawn = draw_figures(study, results, folder.figures());
   }
-  // Last: it says that the rest is there.
+  // Last, since it shows that the rest is complete.
   // Paths may hold any bytes.
   const auto json = study_json(study, plan, gathered.outcomes, results, gathered.builds);
   record::write_file(folder.json(), json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n",

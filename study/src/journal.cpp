@@ -60,7 +60,7 @@ json header(const std::string& study, const std::string& version, const std::str
           {"git", git}};
 }
 
-// Takes in who has written what follows; false if the line does not say.
+// Reads which program wrote the following lines; false if the line does not say so.
 bool read_header(const json& line, JournalContent& content) {
   const auto study = value_in<std::string>(line, "study"), version = value_in<std::string>(line, "version"),
              git = value_in<std::string>(line, "git");
@@ -124,7 +124,7 @@ std::int64_t now_ns() {
       .count();
 }
 
-// For a writer, or for whoever wants to be none's.
+// For a writer, or to make sure that there is none.
 int open_journal(const std::string& path, int flags) {
   try {
     return record::open_locked(path, flags);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Values of files that hold JSON: whoever has written them, what is in them may be anything.
+// Values of JSON files: any program may have written them, and they may hold anything.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,8 @@ namespace {
 using config::Node;
 using config::Problem;
 
-// What a run is, without what only says how it is called and what is kept of it: the same text for all seeds but
-// for the seed.
+// The identity of a run, without its name and its outputs: the same text for all seeds except for the seed
+// itself.
 class Identity {
  public:
   explicit Identity(config::Configuration bare) {
@@ -25,11 +25,11 @@ class Identity {
     bare.scenario.description.clear();
     bare.scenario.seed = 0;
     text_ = config::config_json(bare);
-    // [output] as it was when the first studies were made: their runs keep their ids, whatever can be kept today.
+    // [output] with the keys of the first version: ids of runs do not change when new outputs are added.
     constexpr std::string_view key = "\"output\":{", seed = "\"seed\":";
     const auto begin = text_.find(key) + key.size();
     text_.replace(begin, text_.find('}', begin) - begin, R"("record":true,"record_every":1,"series":false)");
-    // And the radio: a disc has no name there.
+    // Likewise the radio: a disc has no name there.
     constexpr std::string_view disc = "\"radio\":{\"model\":\"disc\",", radio = "\"radio\":{";
     if (const auto at = text_.find(disc); at != std::string::npos) text_.replace(at, disc.size(), radio);
     seed_at_ = text_.find(seed) + seed.size();
@@ -65,7 +65,7 @@ class Planner {
   }
 
  private:
-  // The same problem in many combinations is told once.
+  // The same problem in many combinations is reported once.
   struct Found {
     Problem problem;
     std::string first;      // combination
@@ -127,12 +127,12 @@ class Planner {
       root = tree_of(scenario);
     } catch (const config::DocumentError& e) { return {{}, {e.problem}}; }
     const config::Place place = root.place;
-    // What a single run keeps unasked, recordings for one, thousands keep on request only.
+    // Outputs that a single run keeps by default, such as recordings, are kept in studies only on request.
     for (const auto& format : record::output_formats) {
       if (format.key.empty() || !format.by_default) continue;
       (void)config::assign(root, "output." + std::string(format.key), {false, place});
     }
-    // What is checked is a run of the study: the scenario's own seed may be one that has no world.
+    // A run of the study is checked: with the scenario's own seed there may be no valid world.
     if (!part.seeds.empty()) (void)config::assign(root, "seed", {static_cast<std::int64_t>(part.seeds.front()), place});
     const auto change = [&](const Change& c) {
       if (c.key.empty())
@@ -182,7 +182,7 @@ class Planner {
     return plan_.runs.size() - 1;
   }
 
-  // Two parts ask for the same run: if only the later one wants its files, it is done as that one says.
+  // Two parts have the same run: if only the later one wants its files, the run is done for that one.
   void share_run(PlannedRun& first, const PlannedRun& again, const config::Configuration& configuration) {
     if (!keeps_files(configuration) || keeps_files(plan_.combinations[first.combination])) return;
     first.combination = again.combination;

@@ -165,7 +165,7 @@ class Comparer {
  private:
   static double p_of(const Comparison& c) { return c.result.pairs > 0 ? c.result.p : std::nan(""); }
 
-  // Tests that answer one question are one family: a metric, over all groups of one grouping.
+  // Tests of one question form a family: a metric, over all groups of one grouping.
   [[nodiscard]] std::vector<double> corrected() const {
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> families;
     for (std::size_t i = 0; i < comparisons_.size(); ++i)
@@ -255,7 +255,7 @@ const Axis* axis_of(const Part& part, const std::string& name) {
   return nullptr;
 }
 
-// Labels of an axis that `where` lets through, in the order of the file; {""} for no axis.
+// Labels of an axis that `where` selects, in the order of the file; {""} for no axis.
 Labels labels_of(const Part& part, const std::string& name, const Where& where) {
   const Axis* axis = axis_of(part, name);
   if (!axis) return {""};
@@ -407,7 +407,7 @@ std::string statistics_csv(const Study& study, const Results& results) {
   for (std::size_t p = 0; p < study.parts.size(); ++p) {
     const auto rows = rows_of(results, p);
     for (const auto& by : groupings(study, study.parts[p])) {
-      std::map<GroupKey, std::size_t> planned;  // also of groups of which nothing is there
+      std::map<GroupKey, std::size_t> planned;  // also of groups without runs
       for (const auto& row : results.plan().rows) {
         if (row.part == p) ++planned[key_of(study.parts[p], row, by)];
       }

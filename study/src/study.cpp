@@ -415,7 +415,7 @@ class StudyReader {
     return labels;
   }
 
-  // Without [[figures]]: time and connection of every part, over as many axes as a figure can show.
+  // Without [[figures]]: time and connectivity of every part, over as many axes as a figure can show.
   static void add_standard_figures(Study& study) {
     for (const auto& part : study.parts) {
       std::vector<std::string> left;
@@ -485,14 +485,14 @@ class StudyReader {
     }
   }
 
-  // "key=value" for later: a key may reach into a list that only the scenario has.
+  // "key=value", applied later: a key may refer to a list that only the scenario has.
   std::optional<Change> read_assignment(const config::Override& o) {
     const auto equals = std::min(o.assignment.find('='), o.assignment.size());
     std::string key = o.assignment.substr(0, equals);
     key.erase(0, key.find_first_not_of(' '));
     key.erase(key.find_last_not_of(' ') + 1);
     Node tree{Node::Table{}, {}};
-    const bool whole = key.empty() || equals == o.assignment.size();  // not of that form: to be told so
+    const bool whole = key.empty() || equals == o.assignment.size();  // not of that form: reported later
     auto found = config::apply(tree, {whole ? o.assignment : "value" + o.assignment.substr(equals), o.origin});
     if (key == "seed") {
       Problem problem;

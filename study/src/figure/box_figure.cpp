@@ -123,7 +123,7 @@ void draw_boxes(Script& script, const BoxFigure& figure, std::size_t panel, cons
     const std::string color = "rgb '" + std::string(style.color) + "'", data = block("box", panel, s);
     plots += ", \\\n    " + data + " using 1:3:2:6:5:(width) with candlesticks whiskerbars 0.5 lw 1.2 lc " + color +
              " fs " + std::string(style.fill) + " border lc " + color + " notitle";
-    // A box without height is its median line alone, which then shows whose it is.
+    // A box without height is only its median line, which then has the colour of its series.
     plots += ", \\\n    " + data + " using ($1-width/2):4:(width):(0):($3==$5 ? 0x" +
              std::string(style.color.substr(1)) + " : 0x1a1a1a) with vectors nohead lw 2.5 lc rgb variable notitle";
   }

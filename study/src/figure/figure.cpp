@@ -39,7 +39,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-// gnuplot does not tell of a full disk: what it wrote must have the end of a whole picture.
+// gnuplot does not report a full disk: so its output must have the end of a complete picture.
 std::string picture(const std::string& path, std::string_view end) {
   std::string bytes;
   try {

@@ -55,7 +55,7 @@ class Settings {
   explicit Settings(int messages) {
     ::posix_spawn_file_actions_init(&actions_);
     ::posix_spawnattr_init(&attributes_);
-    // Its standard output may not mix with ours, which can be somebody's JSON.
+    // Its standard output must not mix with ours, which may be JSON for another program.
     int error = ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions_, messages, STDOUT_FILENO);
     if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions_, messages, STDERR_FILENO);
@@ -73,7 +73,7 @@ class Settings {
   [[nodiscard]] const posix_spawnattr_t* attributes() const noexcept { return &attributes_; }
 
  private:
-  // A thread of ours that blocks signals would else make a gnuplot that Ctrl-C cannot end.
+  // Otherwise a thread that blocks signals would start a gnuplot that Ctrl-C cannot end.
   int default_signals() {
     sigset_t none, ended_by;
     ::sigemptyset(&none);
@@ -93,7 +93,7 @@ class Settings {
   posix_spawnattr_t attributes_{};
 };
 
-// Until gnuplot ends. What is beyond the first bytes is read too, or it would wait for ever.
+// Reads until gnuplot ends. Output beyond the first bytes is read, too, or it would wait for ever.
 std::string read_all(int descriptor) {
   std::string said;
   std::array<char, 4096> buffer{};

@@ -49,8 +49,8 @@ Checkpoint from_body(const Json& body) {
   return checkpoint;
 }
 
-// Whether it can be of this plan at all; the digests have said so, but a program is not to crash
-// on a file.
+// Whether it can belong to this plan at all; the digests match already, but no file may crash the
+// program.
 bool plausible(const Checkpoint& checkpoint, const TunePlan& plan) {
   const std::size_t islands = plan.optimizer.islands;
   bool good = checkpoint.generation <= plan.optimizer.generations && checkpoint.islands.size() == islands &&

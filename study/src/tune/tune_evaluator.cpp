@@ -11,7 +11,7 @@ namespace banyan::study {
 
 using namespace std::chrono_literals;
 
-// What is under way for one caller. The workers share it: their last words may come after the
+// The work under way for one caller. The workers share it: their last results may come after the
 // caller has given up.
 struct Evaluator::Batch {
   std::mutex mutex;

@@ -58,8 +58,8 @@ bool has_fault(const TunePlan& plan, const world::Scenario& world, std::span<con
   return !world::algorithm_of(scenario).fault(world::setup_of(scenario)).empty();
 }
 
-// Of parameters that do not fit together for whatever reason: the share of the way to those without tuning at which
-// they do; nothing if not even these fit. No algorithm has to say why.
+// For parameters that do not fit together: how far, as a share, to move towards the untuned ones until they fit;
+// nothing if not even these fit. So an algorithm need not say which rule they break.
 std::optional<double> way_back(const TunePlan& plan, const world::Scenario& world, std::span<const double> point) {
   const auto home = plan.initial.empty() ? untuned_point(plan) : plan.initial;
   if (has_fault(plan, world, home)) return std::nullopt;

@@ -95,8 +95,8 @@ Algorithm make_algorithm(const TuneOptimizer& o, unsigned seed) {
                     "sbx", "polynomial", "tournament", seed);
 }
 
-// pagmo's cmaes has a member that it never sets nor uses, but archives: whatever was in the memory,
-// not a number perhaps. These write such numbers so that they can be read again.
+// pagmo's cmaes has a member that it neither sets nor uses, but archives: an arbitrary value, perhaps NaN.
+// These write such numbers so that they can be read again.
 constexpr unsigned archive_flags = boost::archive::no_codecvt;
 std::locale archive_locale() {
   const std::locale writes(std::locale::classic(), new boost::math::nonfinite_num_put<char>);
@@ -105,8 +105,8 @@ std::locale archive_locale() {
 
 }  // namespace
 
-// Hands nsga2's whole generations to the evaluator. Archives contain it without its pointers:
-// whoever reads one sets it anew.
+// Hands nsga2's whole generations to the evaluator. Archives contain it without its pointers,
+// which must be set again after reading.
 class WholeGeneration {
  public:
   WholeGeneration() = default;
@@ -187,7 +187,7 @@ void Island::populate() {
 
 void Island::evolve() {
   auto& s = *search_;
-  // Anew every time, so that a population read from a checkpoint is in no way different.
+  // Built every time, so that a population read from a checkpoint makes no difference.
   auto population = s.empty();
   for (std::size_t i = 0; i < s.units.size(); ++i) population.push_back(s.units[i], s.objectives[i]);
   population = std::visit([&](auto& algorithm) { return algorithm.evolve(population); }, s.algorithm);

@@ -11,7 +11,7 @@
 
 namespace banyan::study {
 
-// All that a search needs to go on as if it had never stopped.
+// All that a search needs to continue as if it had never stopped.
 struct IslandState {
   std::vector<std::vector<double>> points;      // the population, in the unit cube
   std::vector<std::vector<double>> objectives;  // what pagmo minimises: one number, or two for nsga2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whose folder it is: one tuning at a time, and never a folder with other people's files.
+// Ownership of a folder: one tuning at a time, and never a folder with files of other origin.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ int lock(const std::string& path) {
 TuneLock::TuneLock(const std::string& directory) : path_(directory + "/tune.lock"), descriptor_(lock(path_)) {}
 
 TuneLock::~TuneLock() {
-  // Before it is unlocked, so that nobody has locked what is removed. Somebody's own file stays.
+  // Before it is unlocked, so that no other process has locked the removed file. A file of the user's stays.
   struct stat now {};
   if (::fstat(descriptor_, &now) == 0 && now.st_size == 0) ::unlink(path_.c_str());
   ::close(descriptor_);

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using config::number_text;
 
-// What tells whose they are goes last: stopped half-way, they are still known for what they were.
+// The file that identifies them goes last: if this is stopped half-way, the rest is still recognised.
 constexpr const char* files[] = {"generations.csv", "best.toml",   "front.csv",        "fitness.gp",
                                  "fitness.svg",     "fitness.png", "checkpoint.jsonl", "tune.json"};
 
@@ -30,7 +30,7 @@ bool is_there(const std::string& path) {
   return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
 }
 
-// Whether a file starts like this, or is empty: a power failure may have left nothing of it.
+// Whether a file starts with this, or is empty, as after a power failure.
 bool starts_with(const std::string& path, std::string_view start) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
@@ -58,7 +58,7 @@ std::string in_words(const world::Scenario& scenario) {
          ", loss " + number_text(scenario.radio.loss) + ".";
 }
 
-// A fragment for a scenario. What it says of itself is the same however often the tuning stopped.
+// A fragment for a scenario. Its header is the same however often the tuning was stopped.
 std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
   const auto& o = plan.optimizer;
   const auto& mission = plan.worlds.front().scenario.mission;
@@ -126,8 +126,8 @@ std::vector<double> mean_over_islands(const TunePlan& plan, const std::vector<Ge
   return sums;
 }
 
-// From the lowest to the highest value, to round numbers: near the end all that counts is in the last
-// per cent.
+// From the lowest to the highest value, rounded: near the end all the difference is in the last per
+// cent.
 void fit_axis(CurveFigure& figure) {
   double low = figure.curves.front().y.front(), high = low;
   for (const auto& curve : figure.curves) {
@@ -248,7 +248,7 @@ void write_results(const std::string& directory, const TunePlan& plan, const std
     result.warnings.push_back(std::string("the figure could not be drawn: ") + e.what());
   }
   record::write_file(directory + "/tune.json", result_json(plan, result), replace);
-  std::error_code ignored;  // it would be in nobody's way
+  std::error_code ignored;  // if it stays, it does no harm
   std::filesystem::remove(checkpoint_path(directory), ignored);
 }
 

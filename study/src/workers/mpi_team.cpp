@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One thread of every process talks MPI, and nothing else does: whatever the main thread and those
-// that work are busy with, messages go on, and MPI need not cope with several callers.
+// In every process only one thread calls MPI: messages continue whatever the main thread and the
+// workers are busy with, and MPI need not support several callers.
 #include <mpi.h>
 
 #include <algorithm>
@@ -21,10 +21,10 @@ namespace banyan::study {
 namespace {
 
 // A task and its result have the tag of the slot that the first process keeps for it: 1, 2, ….
-// Under this one another process tells how many threads it has, and the first one lets go.
+// With this tag another process reports its number of threads, and the first one releases it.
 constexpr int control_tag = 0;
 
-// Between looks for messages: waiting in Open MPI itself would keep a core busy.
+// Time between polls for messages: waiting in Open MPI itself would keep a core busy.
 class Idle {
  public:
   void pause() {
@@ -45,7 +45,7 @@ class Other {
   [[nodiscard]] std::size_t free() const { return free_; }
   [[nodiscard]] bool busy() const { return free_ < slots_.size(); }
 
-  // One more task than threads lies there, so that a thread that is done needs not wait for us.
+  // One more task than threads is queued there, so that a thread that is done need not wait for us.
   void announce(std::size_t threads) {
     announced_ = true;
     free_ = threads == 0 ? 0 : threads + 1;
@@ -252,7 +252,7 @@ void MpiTeam::follow() {
 }
 
 void MpiTeam::accept(Message task) {
-  // A result that got lost would be waited for without end: better to end here.
+  // A lost result would be waited for without end: better to end here.
   served_->post({std::move(task.bytes), [this, tag = task.tag](std::string result) noexcept {
                    const std::lock_guard lock(mutex_);
                    results_.push_back({0, tag, std::move(result)});

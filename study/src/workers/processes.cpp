@@ -33,7 +33,7 @@ void refuse_company() {
 }
 #endif
 
-// The launcher's Ctrl-C reaches every process. Only the first one knows what to make of it.
+// The launcher's Ctrl-C reaches every process. Only the first one handles it.
 class StopSignalsIgnored {
  public:
   StopSignalsIgnored() {
@@ -88,7 +88,7 @@ class ProcessWorkers final : public Workers {
 
 struct Processes::Impl {
   std::unique_ptr<StopSignalsIgnored> ignored;
-  std::unique_ptr<Team> team;  // null: a single process. Goes before the signals mean something again
+  std::unique_ptr<Team> team;  // null: a single process. Destroyed before the signals are restored
 };
 
 Processes::Processes() : impl_(std::make_unique<Impl>()) {

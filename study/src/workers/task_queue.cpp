@@ -38,7 +38,7 @@ void TaskQueue::deliver(QueuedTask task, std::string result) {
   try {
     task.done(std::move(result));
   } catch (...) { fail(std::current_exception()); }
-  task.done = nullptr;  // whoever waits may let go of what it refers to
+  task.done = nullptr;  // the waiting caller may destroy what it refers to
   settle(1);
 }
 
@@ -66,8 +66,8 @@ bool TaskQueue::closed() const {
   return closed_;
 }
 
-// Unlocked in between, for what a Done holds is free to call us when it goes; counted as running
-// until then.
+// Unlocked in between, since destroying what a Done holds may call us; counted as running until
+// then.
 void TaskQueue::drop(std::unique_lock<std::mutex>& lock) {
   std::deque<QueuedTask> dropped;
   dropped.swap(queued_);
@@ -88,12 +88,12 @@ void TaskQueue::fail(std::exception_ptr thrown) {
 void TaskQueue::settle(std::size_t count) {
   const std::lock_guard lock(mutex_);
   running_ -= count;
-  // Under the lock: who waits may destroy the queue as soon as it has it.
+  // Under the lock: a waiting caller may destroy the queue as soon as it gets it.
   if (idle()) settled_.notify_all();
 }
 
 Threads::Threads(TaskQueue& queue, Work work, std::size_t count) {
-  // Nobody catches what Work throws: it must not.
+  // An exception of Work is not caught: it must not throw.
   const auto run = [&queue, work]() noexcept {
     while (auto task = queue.take()) {
       std::string result = work(task->bytes);

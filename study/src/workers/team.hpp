@@ -15,7 +15,7 @@ class Team {
   Team() = default;
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
-  // The first process lets go of the others; each of the others waits for that.
+  // The first process releases the others; each of the others waits for that.
   virtual ~Team() = default;
 
   [[nodiscard]] virtual int rank() const = 0;
@@ -33,7 +33,7 @@ class Team {
 };
 
 #ifdef BANYAN_HAVE_MPI
-// Waits for all processes of the launcher. std::runtime_error if this MPI cannot do with threads.
+// Waits for all processes of the launcher. std::runtime_error if this MPI does not support threads.
 [[nodiscard]] std::unique_ptr<Team> join_team();
 #endif
 
