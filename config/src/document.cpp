@@ -40,7 +40,7 @@ Node from_toml(const toml::node& node, const std::shared_ptr<const std::string>&
       // toml++ gives an inline or dotted table no line of its own; its key has one.
       if (from_file) members.back().value.place.line = static_cast<int>(key.source().begin.line);
     }
-    // toml++ sorts its tables; a reader expects complaints in the order of the file.
+    // toml++ sorts its tables; a reader expects messages in the order of the file.
     std::stable_sort(members.begin(), members.end(),
                      [](const auto& a, const auto& b) { return a.value.place.line < b.value.place.line; });
     result.value = std::move(members);

@@ -50,7 +50,7 @@ const Node* find_path(const Node& root, std::string_view path) {
   return at;
 }
 
-// Every name that may stand in a file, as (section, name): what a misspelt one may have meant.
+// Every name allowed in a file, as (section, name): candidates for a misspelt one.
 std::vector<std::pair<std::string, std::string>> known_names(const AlgorithmList& algorithms) {
   std::vector<std::pair<std::string, std::string>> names;
   const auto add = [&](const auto& keys) {
@@ -208,7 +208,7 @@ void ScenarioReader::read_key(const Part& part, const Node::Member& member, std:
   if (value.index() != 0 && counts) set(*key, owner, value);
 }
 
-// Of two keys that exclude each other an option beats the file; else both together are a problem.
+// Of two keys that exclude each other, an option overrides the file; otherwise having both is a problem.
 template <class Owner>
 bool ScenarioReader::excluded(const Part& part, const Node& node, const Key<Owner>& key,
                               std::span<const Key<Owner>> keys) {
@@ -263,7 +263,7 @@ void ScenarioReader::report_unknown(const Place& place, const Part& part, const 
     return elsewhere_paths[static_cast<std::size_t>(std::find(elsewhere.begin(), elsewhere.end(), word) -
                                                     elsewhere.begin())];
   };
-  // The same name in another section beats a similar one in this section.
+  // The same name in another section is a better guess than a similar one in this section.
   std::string meant;
   if (std::find(elsewhere.begin(), elsewhere.end(), name) != elsewhere.end())
     meant = path_of(name);
@@ -398,7 +398,7 @@ Value ScenarioReader::read_point(const Node& node, const std::string& path, cons
   return Vec2{std::get<double>(x), std::get<double>(y)};
 }
 
-// In lists zero stands in for what is wrong, so that the rest can be looked at.
+// In lists zero stands in for wrong values, so that the rest can be checked.
 Value ScenarioReader::read_points(const Node& node, const std::string& path, const Range& range,
                                   std::string_view unit) {
   if (!node.array()) {

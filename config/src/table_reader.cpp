@@ -10,7 +10,7 @@ namespace {
 
 constexpr double most_seeds = 1e7;
 
-// Whole numbers only, so that "1.5-3" or " 1-3" is none.
+// Whole numbers only, so that "1.5-3" or " 1-3" is not a range.
 std::optional<std::uint64_t> whole_number(std::string_view text) {
   std::uint64_t value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The complete configuration as JSON and as TOML. The text is what the ids of runs in a study are made
-// of: another order or form of the same values makes every finished run a new one.
+// The complete configuration as JSON and as TOML. The ids of runs in a study are computed from this text:
+// with another order or form of the same values, every finished run would count as a new one.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -22,7 +22,7 @@ struct ToJson {
   template <class Plain> Json operator()(const Plain& value) const { return value; }
 };
 
-// The keys of one section that say something.
+// The keys of one section that have an effect.
 template <class Owner>
 void add_section(Json& table, std::string_view section, std::span<const world::Key<Owner>> keys, const Owner& owner) {
   for (const auto& key : keys) {
