@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `banyan algorithms`: what can be chosen as mission.algorithm, and every number of it.
+// `banyan algorithms`: the choices for mission.algorithm, with all their parameters.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -66,7 +66,7 @@ std::string default_text(const Algorithm& algorithm, std::string_view key) {
 // As wide as its name, or as the numbers below it.
 int column_width(const Algorithm& algorithm) { return std::max(9, static_cast<int>(algorithm.name().size())); }
 
-// What a row says besides its number: by the algorithms that say the same.
+// The text of a row besides its numbers: grouped by algorithms with the same text.
 struct Said {
   const ParameterInfo* info;
   std::string names;
@@ -85,7 +85,7 @@ std::vector<Said> said_of(std::string_view key, const std::vector<const Algorith
   return said;
 }
 
-// A row for each key that one of them has. Where they mean different things by it, each says so.
+// A row for each key that one of them has. Where its meaning differs, each meaning is printed.
 std::string table_text(const std::vector<const Algorithm*>& list) {
   std::string head = format("%-26s %-8s %-4s", "parameter", "symbol", "unit");
   for (const Algorithm* algorithm : list) head += format("  %-*s", column_width(*algorithm), std::string(algorithm->name()).c_str());

@@ -2,12 +2,12 @@
 // `banyan bench`: how many robot-steps per second this machine does, with everything on that a run
 // has by default: the full controller, line of sight, all metrics at every tick; one thread.
 //
-// Where the layout is to stay as it is while robots move, spares that orbit their reference robot
+// Where the layout is to stay the same while robots move, spares that orbit their reference robot
 // (the literal reading) keep nearly every robot moving, and targets just beside the swarm keep the
-// workers at work without pulling it apart. Each window steps from the same settled state and goes
-// back to it after `lap_ticks`, and the number of neighbours at the start and end of a window is
-// part of the result, so that a layout that drifted would show. A mission is what users run: a
-// window is all of it, from the first tick on.
+// workers busy without pulling it apart. Each window starts from the same settled state and returns
+// to it after `lap_ticks`, and the number of neighbours at the start and end of a window is part of
+// the result, so that a drifting layout would show. A mission is what users run: there a window is
+// all of it, from the first tick on.
 #include <time.h>
 #include <unistd.h>
 
@@ -64,8 +64,8 @@ world::Scenario standing_scenario(const BenchLayout& layout) {
   s.swarm.robots = layout.robots;
   s.radio.line_of_sight = true;
   if (layout.kind == Kind::dense) {
-    // Without the tree's springs, which would push everybody apart to S, and with avoidance only
-    // from the lattice's own pitch on.
+    // Without the tree's springs, which would push all robots apart to S, and with avoidance only
+    // below the lattice's own pitch.
     s.mission.algorithm = "inwards";
     s.mission.parameters = {{"avoidance_range_m", dense_pitch_m}, {"interaction_gain", 0.0}};
     s.swarm.start.pitch_m = dense_pitch_m;
@@ -137,7 +137,7 @@ struct Sample {
   std::string algorithm;
   std::size_t robots = 0;
   std::vector<double> rates;              // robot-steps per second of wall time, one per window
-  std::vector<double> cpu_rates;          // the same per second of processor time: when others are at work too
+  std::vector<double> cpu_rates;          // the same per second of processor time, for a busy machine
   Neighbors start, end;                   // first and last tick of the windows
   double moving_share = 0.0;              // robots that moved in the last tick, mean over windows
   double startup_s = 0.0;                 // from the scenario to a world that can step, observer included

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The commands of the program, one function and one struct of options each; main.cpp fills the
-// structs. Each returns an exit code and throws CommandError or record::FileError for what went
-// wrong.
+// structs. Each returns an exit code and throws CommandError or record::FileError if something
+// fails.
 #pragma once
 
 #include <cstdint>

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is drawn has few colours and sharp edges. yuv420p and +faststart: players and pages that know
-// nothing else can show it, before all of it has come.
+// The pictures have few colours and sharp edges. yuv420p and +faststart: every player and page can show
+// the film, and start before it is loaded.
 std::vector<std::string> encoder(FilmKind kind) {
   const std::string video = "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
   std::vector<std::string> list;
@@ -108,7 +108,7 @@ Ffmpeg::Ffmpeg(std::string output, int width, int height, int fps, bool replace)
 
 void Ffmpeg::start(const std::vector<std::string>& arguments) {
   ::signal(SIGPIPE, SIG_IGN);  // an ffmpeg that gives up is then an error of write()
-  ::signal(SIGCHLD, SIG_DFL);  // whoever started us may have ignored it: then nobody would hear how ffmpeg ended
+  ::signal(SIGCHLD, SIG_DFL);  // if inherited as ignored, we could not learn how ffmpeg ended
   std::array<int, 2> ends{-1, -1};
   log_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
   if (log_ < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -120,7 +120,7 @@ void Ffmpeg::start(const std::vector<std::string>& arguments) {
   ::posix_spawn_file_actions_adddup2(&files, ends[0], STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&files, log_, STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&files, log_, STDERR_FILENO);
-  // In a group of its own: Ctrl-C is for us, and we end it.
+  // In a process group of its own: Ctrl-C goes to us, and we end ffmpeg.
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);

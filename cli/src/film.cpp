@@ -46,7 +46,7 @@ struct Cut {
   }
 };
 
-// The slowest at which the whole is not longer than it should be.
+// The slowest speed at which the film is not too long.
 double chosen_speed(double length_s, double wanted_s) {
   constexpr std::array<double, 15> speeds{1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 48, 64};
   const auto fits = std::find_if(speeds.begin(), speeds.end(), [&](double s) { return length_s / s <= wanted_s; });
@@ -72,8 +72,8 @@ Cut make_cut(const record::Recording& recording, const FilmOptions& options, boo
   return cut;
 }
 
-// The frames that the film is made of, in order, those before its begin that are needed for its trails
-// and the one at its end included. `visit` returns false to stop.
+// The frames of the film in order, including those before its start that its trails need, and the one at
+// its end. `visit` returns false to stop.
 void read_frames(record::Recording& recording, const Cut& cut, const std::function<bool(const record::Frame&)>& visit) {
   const double before_s = std::max(recording.start_s(), cut.from_s - cut.trail_s);
   const double begin_s = recording.frame_at(before_s).time_s;
@@ -178,7 +178,7 @@ void shoot(record::Recording& recording, const Cut& cut, Studio& studio, Progres
     earlier = frame;
     return stop_signal() == 0;
   });
-  // What is later than the last recorded frame shows that one.
+  // Moments later than the last recorded frame show that one.
   if (earlier && next < cut.moving() && stop_signal() == 0) {
     record::Frame last = *earlier;
     last.time_s = cut.to_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a run's files go, and that nothing that is already there gets lost.
+// Where a run's files go; makes sure that no existing file gets lost.
 #pragma once
 
 #include <string>

@@ -84,7 +84,7 @@ std::string scenarios_json(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
   for (fs::directory_iterator at(folder, ignored); !ignored && at != fs::directory_iterator(); at.increment(ignored)) {
-    std::error_code odd;  // a folder of that name, a pipe that nobody writes to
+    std::error_code odd;  // a folder of that name, a pipe without a writer
     if (at->path().extension() == ".toml" && at->is_regular_file(odd)) files.push_back(at->path());
   }
   std::sort(files.begin(), files.end());
@@ -92,7 +92,7 @@ std::string scenarios_json(const fs::path& folder) {
   for (const fs::path& file : files) {
     const auto text = text_of(file);
     if (!text) continue;
-    // One with faults is offered too: the page says what they are.
+    // A scenario with faults is offered, too: the page shows them.
     const auto loaded = config::parse_configuration(file.filename(), *text, algorithms());
     const std::string name = loaded.ok() ? loaded.configuration.scenario.name : file.stem().string();
     list.push_back({{"name", name}, {"description", loaded.configuration.scenario.description}, {"text", *text}});
@@ -145,7 +145,7 @@ struct PageServer::Impl {
 };
 
 void PageServer::Impl::bind(int wanted) {
-  // httplib would share a port with whoever has it already (SO_REUSEPORT).
+  // httplib would share a port with a process that has it already (SO_REUSEPORT).
   server.set_socket_options([](socket_t socket) {
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -163,8 +163,8 @@ void PageServer::Impl::bind(int wanted) {
   throw CommandError(exit_lost, name + " of this machine can be used: " + why);
 }
 
-// A page of somebody else could have its name resolved to this machine and read what we serve: its requests
-// carry its name, not ours (DNS rebinding).
+// A foreign page could have its host name resolved to this machine and read what we serve: its requests carry
+// its name, not ours (DNS rebinding).
 bool PageServer::Impl::is_ours(const Request& request) const {
   const std::string given = request.get_header_value("Host");
   constexpr std::array names{"127.0.0.1", "localhost", "[::1]"};
@@ -204,7 +204,7 @@ void PageServer::Impl::page(const Request& request, Response& response) const {
   response.set_content(*text, type_of(*path));
 }
 
-// Anew for every request: it may have grown, been replaced or gone.
+// Opened again for every request: it may have grown, been replaced or removed.
 std::shared_ptr<record::InputFile> PageServer::Impl::open_recording(Response& response) const {
   if (content.recording.empty()) {
     say(response, 404, "No recording was given.");

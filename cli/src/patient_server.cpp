@@ -37,7 +37,7 @@ bool await(socket_t socket, short events, Clock::time_point until) {
   }
 }
 
-// A connection whose reading ends at one moment, however often something comes.
+// A connection whose reading ends at a deadline, however often data arrives.
 class Connection final : public httplib::Stream {
  public:
   Connection(socket_t socket, std::chrono::milliseconds patience) : socket_(socket), until_(Clock::now() + patience) {}
@@ -62,7 +62,7 @@ class Connection final : public httplib::Stream {
     return is_writable() ? ::send(socket_, bytes, size, MSG_DONTWAIT | MSG_NOSIGNAL) : -1;
   }
 
-  void get_remote_ip_and_port(std::string&, int&) const override {}  // nobody asks: all are this machine's
+  void get_remote_ip_and_port(std::string&, int&) const override {}  // not used: all are this machine's
   void get_local_ip_and_port(std::string&, int&) const override {}
   [[nodiscard]] socket_t socket() const override { return socket_; }
 
@@ -75,7 +75,7 @@ class Connection final : public httplib::Stream {
 
 }  // namespace
 
-// Who is there, and the threads that see to them.
+// The open connections, and the threads that serve them.
 class Crowd final : public httplib::TaskQueue {
  public:
   Crowd() { threads_.reserve(PatientServer::most_visitors); }
@@ -107,7 +107,7 @@ class Crowd final : public httplib::TaskQueue {
     else
       make_room();
   }
-  // Under the lock: a socket that is closed may be another's the next moment.
+  // Under the lock: the number of a closed socket may be reused at once.
   void leave(socket_t socket) {
     const std::lock_guard lock(mutex_);
     if (staying_.remove(socket) == 0) --leaving_;
@@ -119,7 +119,7 @@ class Crowd final : public httplib::TaskQueue {
   void add_thread() {
     try {
       threads_.emplace_back([this] { run(); });
-    } catch (const std::system_error&) {  // the system has no more: those that there are have to do
+    } catch (const std::system_error&) {  // the system has no more: the existing ones must do
       no_more_ = true;
     }
   }
@@ -139,7 +139,7 @@ class Crowd final : public httplib::TaskQueue {
     }
   }
 
-  // Whoever waits finds a thread that is idle, new or about to be free.
+  // For each waiting connection there is a thread that is idle, new or about to be free.
   void make_room() {
     if (threads_.size() < PatientServer::most_visitors && !no_more_) return;
     while (waiting_.size() > idle_ + leaving_ && !staying_.empty()) send_away();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An HTTP server that visitors who are slow, or many, cannot keep from answering the next one. httplib's own has
-// eight threads, and whoever sends a byte every few seconds holds one of them for minutes.
+// An HTTP server that slow or many visitors cannot keep from answering the next one. httplib's own has eight threads,
+// and a client that sends a byte every few seconds occupies one of them for minutes.
 #pragma once
 
 #include <httplib.h>
@@ -18,8 +18,8 @@ class PatientServer : public httplib::Server {
   static constexpr std::size_t most_visitors = 128;
 
   explicit PatientServer(std::chrono::milliseconds patience);
-  // Once it is bound: httplib has room for five that nobody has opened to yet, and lets the next ones try again in a
-  // second.
+  // Called once it is bound: httplib lets five connections wait to be accepted, and makes further ones try again
+  // after a second.
   void lengthen_queue() const;
 
  private:

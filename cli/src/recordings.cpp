@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `banyan export` and `banyan draw`: what can be got out of a recording.
+// `banyan export` and `banyan draw`: tables and pictures from a recording.
 #include <unistd.h>
 
 #include <algorithm>

@@ -9,10 +9,10 @@
 
 namespace banyan::cli {
 
-// Tells its warnings. Throws record::FileError if it cannot be read, CommandError if it holds no frame.
+// Prints its warnings. Throws record::FileError if it cannot be read, CommandError if it holds no frame.
 [[nodiscard]] record::Recording open_recording(const std::string& path);
 
-// Tells the warnings that were not among those of the opening: of a damaged chunk only who reads it hears.
+// Prints the warnings that are new since opening: a damaged chunk is noticed only when it is read.
 void tell_further_warnings(const record::Recording& recording, const std::string& path,
                            const std::vector<std::string>& told);
 

@@ -45,7 +45,7 @@ std::string progress_text(const record::Simulation& simulation) {
 void show(Progress& progress, const record::Simulation& simulation) {
   const auto& world = simulation.world();
   const double share = world.time_s() / std::max(simulation.run().time_limit_s, world.scenario().tick_s);
-  progress.show(share < 1.0 ? share : 0.0, progress_text(simulation), true);  // how long yet, nobody knows
+  progress.show(share < 1.0 ? share : 0.0, progress_text(simulation), true);  // the time left is unknown
 }
 
 void tell_of_rest(const std::string& rest, const char* before = "") {
@@ -54,7 +54,7 @@ void tell_of_rest(const std::string& rest, const char* before = "") {
     complain(before + ("what was recorded until then is in " + rest));
 }
 
-// Tells of outputs that have failed, and does so at once: the run may take hours yet.
+// Reports outputs that have failed, at once: the run may still take hours.
 class Complaints {
  public:
   Complaints(const record::Sinks& sinks, Progress& progress) : sinks_(sinks), progress_(progress) {}
@@ -86,7 +86,7 @@ Loaded load_or_leave(const RunOptions& options) {
   return loaded;
 }
 
-// Steps until the mission ends or a signal comes. What is thrown here costs the run; an output that fails does not.
+// Steps until the mission ends or a signal comes. An exception here ends the run; an output that fails does not.
 record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, Complaints& complaints,
                         Progress& progress) {
   world::Executor executor(threads);

@@ -27,7 +27,7 @@ std::string sbatch_script(const StudyOptions& options, const std::string& name, 
     changes += o.file.empty() ? " --set " + quoted(o.assignment) : " --with " + quoted(fs::absolute(o.file).string());
   const bool plain = options.sbatch.find_first_of("\n'\"$`\\ ") == std::string::npos;
   const std::string script = options.sbatch == "-" || !plain ? "THIS-FILE" : options.sbatch;
-  // Whoever writes the script has been asked already.
+  // The user has confirmed already when writing the script.
   const std::string more =
       std::string(options.extend ? " --extend" : "") + (options.mix_versions ? " --mix-versions" : "");
   return "#!/bin/bash\n"

@@ -69,7 +69,7 @@ struct Prepared {
   Plan plan;
 };
 
-// The study and its plan, or exit_usage with every problem told.
+// The study and its plan, or exit_usage after printing every problem.
 bool prepare(const StudyOptions& options, Prepared& prepared) {
   auto loaded = load_study(options.file, options.overrides);
   if (!loaded.ok()) {
@@ -99,7 +99,7 @@ Folder folder_of(const StudyOptions& options, const Study& study) {
 // Whether a study has left its results, or a beginning of them, in the folder.
 bool is_of_a_study(const Folder& folder) { return !journals_in(folder.path).empty() || finished(folder).has_value(); }
 
-// Files of these names that no study has written are somebody else's.
+// Files of these names that no study has written belong to the user.
 void check_strangers(const Folder& folder) {
   if (is_of_a_study(folder)) return;
   std::error_code ignored;
@@ -110,8 +110,8 @@ void check_strangers(const Folder& folder) {
   }
 }
 
-// Nobody may be at work here, from the first file that goes to the last: what somebody has begun meanwhile would go
-// with the rest. study.json goes last: until then the folder is known as a study's.
+// No other process may work here while files are removed: its new files would be removed with the rest. study.json
+// goes last: until then the folder is recognised as that of a study.
 void throw_away(const Folder& folder) {
   namespace fs = std::filesystem;
   std::vector<JournalLock> journals;
@@ -126,7 +126,7 @@ void throw_away(const Folder& folder) {
   fs::remove(folder.json(), ignored);
 }
 
-// Nothing that is there may get lost: a folder is used only if it is of this very study.
+// No existing results may get lost: a folder is used only if it belongs to this very study.
 void check_folder(const Folder& folder, const Prepared& prepared, const StudyOptions& options) {
   namespace fs = std::filesystem;
   std::error_code ignored;
@@ -281,7 +281,7 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
   return finish(prepared, gathered, folder, options.quiet);
 }
 
-// What came from other folders, so that this one can go on by itself.
+// Rows from other folders, so that this one is complete by itself.
 void keep_collected(const Prepared& prepared, const Gathered& all, const Folder& folder) {
   const auto own = gather(journals_in(folder.path), prepared.study.name);
   Journal journal(folder.path + "/journal/collected.jsonl", prepared.study.name, std::string(version),

@@ -22,14 +22,14 @@ namespace {
 // A signal handler can reach nothing but a global, and runs on whichever thread the system chooses.
 std::atomic<int> caught_signal{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
-static_assert(std::atomic<int>::is_always_lock_free);  // else a handler might wait for itself
+static_assert(std::atomic<int>::is_always_lock_free);  // otherwise a handler might wait for itself
 
 constexpr double silent_s = 2.0;  // shorter runs need no progress
 constexpr double terminal_period_s = 0.2;
 constexpr double log_period_s = 10.0;
 
 void write_error(std::string_view text) {
-  // Nobody left to tell when even this fails.
+  // If even this fails, there is nowhere to report it.
   [[maybe_unused]] const auto written = std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
@@ -44,7 +44,7 @@ std::size_t terminal_width() {
 void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = [](int number) { caught_signal = number; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // not SA_RESTART: a blocked write shall notice
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // not SA_RESTART: a blocked write is to be interrupted
   ::sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
@@ -65,7 +65,7 @@ const char* stop_signal_name() noexcept {
 void reserve_standard_streams() noexcept {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-    // The lowest that is free is this one. Opened the wrong way round: it may be there, but not be used.
+    // The lowest free descriptor is this one. Opened for the opposite direction: it exists, but using it fails.
     static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
   }
 }

@@ -33,8 +33,8 @@ void catch_stop_signals();
 [[nodiscard]] int stop_signal() noexcept;
 [[nodiscard]] const char* stop_signal_name() noexcept;
 
-// Takes the places of standard input, output and error where they are closed: the next file that is opened would get
-// them, and what is said to the user would end up in a recording. What is written there still fails.
+// Occupies standard input, output and error where they are closed: otherwise the next file opened would get their
+// number, and messages to the user would end up in a recording. Writing there still fails.
 void reserve_standard_streams() noexcept;
 
 // Writes everything to standard output; throws CommandError(exit_lost) when that fails (disk full).

@@ -60,7 +60,7 @@ bool is_recording(const std::string& file) {
          file.ends_with(".mcap.part");
 }
 
-// Says now what would not work later. A part is being written and may be large: its begin must do.
+// Reports now what would fail later. A part is still being written and may be large: its start must do.
 void check_recording(const std::string& file) {
   const record::InputFile input(file);
   std::string start;
@@ -70,8 +70,8 @@ void check_recording(const std::string& file) {
   for (const auto& warning : recording.warnings()) complain(file + ": warning: " + warning);
 }
 
-// The scenario for /start.json: its text as it is and what the command line changes. Files that the
-// command line lays over it cannot be read by the page: then the text is what all comes to.
+// The scenario for /start.json: its text as it is, and the changes of the command line. The page cannot read
+// files that the command line merges into it: then the text is the merged result.
 json scenario_start(const ViewOptions& options, std::string text, const Configuration& configuration) {
   json overrides = json::array();
   bool files = false;
@@ -88,7 +88,7 @@ json scenario_start(const ViewOptions& options, std::string text, const Configur
   return {{"scenario", {{"name", name}, {"text", text}, {"overrides", overrides}}}};
 }
 
-// Nothing if the scenario has faults, which are told. It is read once: it may be a pipe.
+// Nothing if the scenario has faults, which are printed. It is read once: it may be a pipe.
 std::optional<json> checked_start(const ViewOptions& options) {
   std::string text;
   try {
@@ -109,7 +109,7 @@ void open_browser(const std::string& address) {
     return value != nullptr && *value != '\0';
   };
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) return;
-  // Neither waited for nor heard: some browsers stay in the foreground and talk.
+  // Not waited for, and its output is dropped: some browsers stay in the foreground and print messages.
   posix_spawn_file_actions_t files;
   ::posix_spawn_file_actions_init(&files);
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -118,7 +118,7 @@ void open_browser(const std::string& address) {
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF);
-  sigset_t ours;  // that we ignore or catch is no business of a browser
+  sigset_t ours;  // a browser must not inherit which signals we ignore or catch
   ::sigemptyset(&ours);
   for (const int number : {SIGCHLD, SIGPIPE, SIGXFSZ}) ::sigaddset(&ours, number);
   ::posix_spawnattr_setsigdefault(&attributes, &ours);
@@ -147,7 +147,7 @@ int view_command(const ViewOptions& options) {
     content.scenario = start->dump(-1, ' ', false, json::error_handler_t::replace);
   }
   catch_stop_signals();
-  ::signal(SIGCHLD, SIG_IGN);  // nobody waits for the browser
+  ::signal(SIGCHLD, SIG_IGN);  // the browser is not waited for
   ::signal(SIGPIPE, SIG_IGN);  // a browser that is closed must not end us
   const PageServer server(content, options.port);
   print(server.address() + "\n");

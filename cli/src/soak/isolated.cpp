@@ -27,7 +27,7 @@ void write_all(int pipe, std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = ::write(pipe, text.data(), text.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return;  // nobody listens any more
+    if (n <= 0) return;  // the reader is gone
     text.remove_prefix(static_cast<std::size_t>(n));
   }
 }
@@ -57,7 +57,7 @@ Isolated::Isolated(const world::Scenario& scenario, bool twice) {
   const pid_t soak = ::getpid();
   process_ = ::fork();
   if (process_ == 0) {
-    static_cast<void>(::prctl(PR_SET_PDEATHSIG, SIGKILL));  // nobody would listen any more
+    static_cast<void>(::prctl(PR_SET_PDEATHSIG, SIGKILL));  // there would be no reader
     if (::getppid() != soak) ::_exit(1);
     static_cast<void>(::close(ends[0]));
     live(scenario, twice, ends[1]);

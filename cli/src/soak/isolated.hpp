@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Missions in processes of their own: whatever becomes of one, the soak goes on and can tell.
+// Missions in processes of their own: however one ends, the soak continues and reports it.
 #pragma once
 
 #include <sys/types.h>
@@ -22,7 +22,7 @@ class Isolated {
 
   // Becomes readable when there is something to take.
   [[nodiscard]] int descriptor() const noexcept { return pipe_; }
-  // Takes what it has said; the outcome once it has ended. A process that dies has found a "crash", and so
+  // Reads its output; returns the outcome once it has ended. A process that dies has found a "crash", and so
   // has one that takes longer than `most_s`.
   [[nodiscard]] std::optional<Outcome> take();
   // Nothing if this program is told to stop meanwhile.

@@ -23,7 +23,7 @@ struct Row {
 };
 [[nodiscard]] Row row_of(std::uint64_t index, const world::Scenario& scenario, const Outcome& outcome);
 
-// Nobody else writes to the file meanwhile. A last line that was cut off is none.
+// No other process writes to the file meanwhile. An incomplete last line is ignored.
 class Journal {
  public:
   // Throws CommandError for a file that is in use, of another version, damaged, or not to be written.

@@ -164,7 +164,7 @@ bool is_possible(const Scenario& scenario) {
 
 }  // namespace
 
-// What does not fit, a target in a box, say, is drawn again.
+// A draw that does not fit, such as a target in a box, is repeated.
 Scenario mission(std::uint64_t seed, std::uint64_t index) {
   for (std::uint64_t attempt = 0;; ++attempt)
     if (Scenario s = drawn(seed, index, attempt); is_possible(s)) return s;

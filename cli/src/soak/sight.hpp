@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who is in range and sight of whom, told anew from positions: by school geometry, over all robots, and
-// by nothing that the world or measure/ use for it. What is cut by less than a millimetre does not count.
+// Which robots are in range and sight of each other, computed from positions alone: by school geometry, over
+// all pairs, with no code of the world or measure/. A cut by less than a millimetre does not count.
 #pragma once
 
 #include <cstddef>

@@ -126,8 +126,8 @@ class Soak {
     }
   }
 
-  // The first of each kind, and every one that was promised not to happen. A known one is made smaller only
-  // while there is time, and one that does not end not at all.
+  // Shrinks the first finding of each kind, and every one that breaks a promise: a known weakness only while
+  // there is time, and a mission that does not end not at all.
   void keep(std::uint64_t index, const world::Scenario& scenario, const Finding& finding, bool promised) {
     const auto again = [&](const world::Scenario& s) {
       if (stop_signal() != 0 || (!promised && is_over())) return false;
@@ -182,7 +182,7 @@ class Soak {
   std::map<std::string, Count> counts_;
 };
 
-// A scenario of any kind under the same eyes.
+// A given scenario, watched in the same way.
 int watch_file(const SoakOptions& options) {
   const config::Loaded loaded = config::load_configuration(options.file, algorithms());
   print_problems(loaded.problems);

@@ -56,7 +56,7 @@ class Watch {
     if (world_.time_s() >= limit_s_ - 1e-9) return true;
     return outcome_.complete && !world_.pending_kills() && world_.time_s() >= quiet_since() + after_completion_s;
   }
-  // Since when nothing more is to happen: the last of completion, deaths and events at their time.
+  // The moment after which nothing more is to happen: the last of completion, deaths and timed events.
   [[nodiscard]] double quiet_since() const {
     double since = outcome_.complete_s;
     for (const Event& event : world_.scenario().events)
@@ -80,7 +80,7 @@ class Watch {
     }
   }
 
-  // Deaths that tear the living apart by distance excuse a split, until they are together again.
+  // Deaths that leave the living out of range of each other excuse a split until they are reunited.
   void look_for_splits(const std::vector<std::uint8_t>& before) {
     std::vector<bool> living(world_.alive().begin(), world_.alive().end());
     const std::size_t parts = sight_.components(living, false);
@@ -131,13 +131,13 @@ class Watch {
     if (static_cast<double>(two_roots_) * world_.scenario().tick_s > two_roots_s)
       find("two-roots", format("%zu roots for more than %.0f s", roots, two_roots_s));
     if (traits_.deaths) return;
-    // Who freezes, or cannot get to a target for an obstacle, may be replaced with reason.
+    // A robot that freezes, or cannot reach its target past an obstacle, may rightly be replaced.
     const bool held_up = traits_.changes || traits_.obstacles;
     if (replaced > 0) find("replaced", held_up ? "a living worker is replaced; it may have been held up" : "a living worker is replaced");
     if (elected > 0) find("elected", "a root is elected although it lives");
   }
 
-  // Held by position and what the worker says it serves; connected as in Sight.
+  // Held: by the worker's position and the target that it reports; connected: as in Sight.
   void look_at_targets() {
     if (outcome_.complete) return;
     for (const Target& target : world_.targets()) {
