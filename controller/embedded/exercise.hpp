@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One robot fed with bytes as from its radio, for a while: what firmware does each tick, reduced to
-// a number. The firmware runs it on the chip, the tests on the host.
+// One robot that gets bytes as from its radio, for a while: the work of firmware in each tick, reduced
+// to a number. The firmware runs it on the chip, the tests on the host.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ namespace banyan::embedded {
 // The neighbours of the exercise: enough to fill a part of the table, near enough to be edges.
 inline constexpr std::size_t neighbors = 8;
 
-// What neighbour k broadcasts in a tick: what the robot itself said last, as somebody one hop nearer to the root.
+// What neighbour k broadcasts in a tick: the robot's own last message, as from a robot one hop nearer to the root.
 inline void speak_as(std::size_t k, int tick, TreeMessage& message) noexcept {
   message.id = static_cast<RobotId>(k + 1);
   message.phase = static_cast<Phase>((tick / 40) % 5);
@@ -36,9 +36,9 @@ inline void speak_as(std::size_t k, int tick, TreeMessage& message) noexcept {
   message.parent = static_cast<RobotId>(k);
 }
 
-// A thousand ticks of a robot. In each, two of three neighbours say something (`say`: what reaches the robot over
-// the wire; null if it is rejected) from places on a slowly turning ring, and it moves (`move`). Velocities go
-// to `digest`.
+// A thousand ticks of a robot. In each, two of three neighbours send a message (`say`: what reaches the robot over
+// the wire; null if it is rejected) from places on a slowly turning ring, and the robot moves (`move`). Velocities
+// go to `digest`.
 inline void run(bool worker, Drive drive, FunctionRef<const TreeMessage*(std::size_t, int)> say,
                 FunctionRef<Velocity(std::span<Heard>, const Senses&)> move, Digest& digest) noexcept {
   std::array<Heard, neighbors> heard;

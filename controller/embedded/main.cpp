@@ -2,7 +2,7 @@
 // The smallest firmware around the controller: reset, one static robot per drive and algorithm,
 // and the loop. It exists to prove that the controller links without heap, exceptions or an
 // operating system and to measure its size; a real robot replaces exercise() by its radio.
-// semihosting.cpp adds the voice with which an emulated chip reports to the tests.
+// semihosting.cpp adds the output with which an emulated chip reports to the tests.
 #include <cstdint>
 
 #include "exercise.hpp"
@@ -20,7 +20,7 @@ void __cxa_pure_virtual() {
 [[noreturn]] void reset();
 }
 
-// What becomes of the results: nothing, unless semihosting.cpp is linked too.
+// What is done with the results: nothing, unless semihosting.cpp is linked, too.
 namespace banyan::embedded {
 [[gnu::weak]] void report(const char*, std::uint64_t) noexcept {}
 [[gnu::weak]] void finish() noexcept {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lets an emulated (or debugged) chip speak: ARM semihosting, `name digest` per line.
+// Output of an emulated (or debugged) chip: ARM semihosting, `name digest` per line.
 #include <cstdint>
 
 namespace {
