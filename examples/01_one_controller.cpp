@@ -15,7 +15,7 @@ int main() {
   Odometry odometry[2];     // how each moved since then; the root does not
   const Vec2 target{1.2F, 0.4F};
   Vec2 position[2] = {{0.0F, 0.0F}, {0.3F, 0.0F}};
-  Vec2 heading[2] = {{1.0F, 0.0F}, {0.0F, 1.0F}};  // the worker looks past the target
+  Vec2 heading[2] = {{1.0F, 0.0F}, {0.0F, 1.0F}};  // the worker does not face the target
 
   for (int tick = 0; tick < 150; ++tick) {
     Output<HealingMessage> output[2];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A whole run from C++: build a scenario, step its world, let an observer keep the account. The
-// same hash as `banyan run` gives for the same scenario, on any machine.
+// A whole run from C++: build a scenario, step its world, let an observer compute the metrics. It has
+// the same hash as `banyan run` prints for the same scenario, on any machine.
 #include <cinttypes>
 #include <cstdio>
 

@@ -26,7 +26,7 @@ struct Spread {
   static State initial(RobotId id, bool, bool) { return {id}; }
   static Output<Hello> step(const Params& params, State& self, std::span<Heard> heard, const Senses& senses) {
     Vec2 away;
-    for (const Heard& h : Gate(senses, params).packets(heard, params))  // nothing passes that is not finite or too far
+    for (const Heard& h : Gate(senses, params).packets(heard, params))  // drops what is not finite or too far
       if (const float d = norm(h.position); d < 1.0F && d > 0.0F) away -= h.position * ((1.0F - d) / d);
     return {{self.id}, {std::clamp(away.x, 0.0F, 0.1F), 0.0F, std::clamp(4.0F * away.y, -1.0F, 1.0F)}};
   }
