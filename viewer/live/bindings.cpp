@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Live's door to JavaScript (live.d.ts): C++ texts become strings, faults become Error objects with
-// their words, ticks become numbers. Nothing is decided here.
+// Live's interface to JavaScript (live.d.ts): C++ texts become strings, faults become Error objects
+// with their text, ticks become numbers. There is no logic here.
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
@@ -19,7 +19,7 @@ namespace {
 using banyan::viewer::Live;
 using emscripten::val;
 
-// A C++ exception would reach JavaScript as a number, or as an object without words.
+// A C++ exception would reach JavaScript as a number, or as an object without a text.
 template <class Call> auto in_words(const Call& call) -> decltype(call()) {
   std::string words;
   try {

@@ -47,7 +47,7 @@ void replay(record::Simulation& simulation, const std::vector<Intervention>& int
   for (intervene(); simulation.world().tick() < tick; intervene()) step();
 }
 
-// The last tick there is, in the terms of a recording, and what has happened up to it.
+// The last tick simulated, in the terms of a recording, and the events up to it.
 struct Head final : record::Sink {
   void start(const world::World& world) override {
     watcher = {};
@@ -72,7 +72,7 @@ struct Head final : record::Sink {
 
   measure::Tick metrics;
   record::Frame frame;
-  std::vector<double> packed;  // the same; empty until somebody asks
+  std::vector<double> packed;  // the same; empty until requested
   record::Setting setting;
   std::uint64_t setting_version = 0;
   record::EventWatcher watcher;
@@ -202,7 +202,7 @@ std::string about_event(const std::string& key, const std::string& text, std::si
   return line;
 }
 
-// What is wrong with a text that is no table at all.
+// The problems of a text that is not a table at all.
 std::string about_text(std::string text) {
   constexpr std::string_view scenario = "a scenario is";
   if (text.starts_with(scenario)) text.replace(0, scenario.size(), "an intervention is");

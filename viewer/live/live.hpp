@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A run that somebody watches and interferes with: what the page's live source (src/source/) asks for,
-// without JavaScript, so that it is tested natively. Whatever is handed out is in the terms of
-// src/frame.ts and src/source/protocol.ts.
+// A run that a visitor watches and interferes with: what the page's live source (src/source/) needs,
+// without JavaScript, so that it can be tested natively. All results are in the terms of src/frame.ts
+// and src/source/protocol.ts.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +42,7 @@ class Live {
   [[nodiscard]] bool finished() const;       // `banyan run` would have stopped here or earlier
   [[nodiscard]] bool complete() const;       // all targets have been held at once
 
-  // Goes back to `tick` <= tick(): the run begins anew with the interventions that acted before, and
+  // Goes back to `tick` <= tick(): the run starts again with the interventions that acted before, and
   // what was done from then on is forgotten, interventions at `tick` itself included. Going back to
   // tick() changes nothing. Takes as long as simulating that far. Throws std::invalid_argument for
   // a tick that has not been.

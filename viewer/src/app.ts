@@ -92,12 +92,12 @@ export class App {
     requestAnimationFrame((now) => this.loop(now));
   }
 
-  /** Where something is on the screen: for who scripts the page, and its tests. */
+  /** Where something is on the screen: for scripts that drive the page, and its tests. */
   place(kind: Item['kind'], index: number, stage = 0): Spot | null {
     return this.stages[stage]?.placeOf({ kind, index }) ?? null;
   }
 
-  /** Opens what `banyan view` was given; else shows a first run, so that the first thing seen moves. */
+  /** Opens what `banyan view` was given; otherwise runs a scenario, so that a visitor sees motion at once. */
   async begin(): Promise<void> {
     const [start, scenarios] = await Promise.all([askServer(), askScenarios()]);
     if (scenarios && scenarios.length > 0) this.live.setScenarios(scenarios);
@@ -126,7 +126,7 @@ export class App {
     }
   }
 
-  /** The keys belong to the run then: the same button once more would start it anew. */
+  /** Keys go to the run then: otherwise they would press the same button and start it again. */
   private async startByHand(choice: LiveChoice): Promise<void> {
     const focused = document.activeElement;
     if (await this.startLive(choice) && document.activeElement === focused) this.transport.focus();
@@ -338,7 +338,7 @@ export class App {
 
   private intervene(events: Intervention[]): void { this.act(() => events); }
 
-  /** Does to each run what is said for it. Standing still, the page goes on to where that is seen. */
+  /** Applies each run's own interventions. If the clock stands still, it moves on until they are seen. */
   private act(eventsFor: (stage: Stage) => Intervention[]): void {
     if (!this.isLive) return;
     const { timeS } = this.player;
@@ -354,7 +354,7 @@ export class App {
     this.draw();
   }
 
-  /** To the start; what was done to the run never happened. */
+  /** Back to the start, without the interventions. */
   private reset(): void {
     this.player.home();
     this.controls.forget();

@@ -23,7 +23,7 @@ export function nameIn(hash: string): string {
   try {
     return decodeURIComponent(written);
   } catch {
-    return written; // a % that stands for nothing
+    return written; // a % that encodes nothing
   }
 }
 

@@ -15,14 +15,14 @@ export interface Targets {
   worker: Int32Array; // index of the robot first sent there, -1: nobody, `givenUp`
 }
 
-/** In Targets.worker: nobody is to go there any more. In that array, so that whoever copies targets keeps it. */
+/** In Targets.worker: the target is given up. Stored in that array, so that copies of targets keep it. */
 export const givenUp = -2;
 
 export interface Frame {
   tick: number;
   timeS: number;
   robots: number;
-  /** Column by column: robot i's `columns[c]` is data[c * robots + i]. Nobody and unknown are -1. */
+  /** Column by column: robot i's `columns[c]` is data[c * robots + i]. "None" and "unknown" are -1. */
   data: Float64Array;
   targets: Targets;
 }

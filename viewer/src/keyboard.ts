@@ -34,8 +34,8 @@ function isTyping(target: EventTarget | null, key: string): boolean {
   return target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
 }
 
-/** Space and Enter press what has the focus. `clicked`: it has it from the pointer, and who clicked a button does
- *  not mean it any more with the next space. */
+/** Space and Enter press the control that has the focus. `clicked`: it got the focus by the pointer; then the next
+ *  space is not meant for it. */
 function presses(target: EventTarget | null, key: string, clicked: boolean): boolean {
   if (key !== ' ' && key !== 'Enter' || !(target instanceof HTMLElement)) return false;
   if (key === ' ' && clicked && target.closest('button') !== null) return false;

@@ -7,7 +7,7 @@ import { wordsOf } from './source/problem';
 import type { Stage } from './stage';
 
 export class RobotWatch {
-  private source: Source | null = null; // whom everything below is about
+  private source: Source | null = null; // the robot that everything below is about
   private asked = '';
   private busy = false;
   private answer: (Said & { robot: number }) | null = null;

@@ -29,12 +29,12 @@ export interface Shared {
 
 export interface StageActions {
   select(item: Item | null): void;
-  // To live runs, to all of them alike.
+  // Interventions, in all live runs alike.
   moveTarget(target: number, toM: Spot): void;
   moveObstacle(obstacle: number, toM: Spot): void;
   addTarget(atM: Spot): void;
   killArea(area: Bounds): void;
-  /** The visitor moved the picture by hand: nobody is followed any more. */
+  /** The visitor moved the picture by hand: no robot is followed any more. */
   moved(): void;
   changed(): void; // draw again
 }
@@ -49,7 +49,7 @@ export class Stage {
   private readonly caption = h('div', { class: 'caption' }, h('i', { class: 'run-line', 'aria-hidden': 'true' }), this.captionText);
   private readonly legend = new Legend(firstMarks, (mark) => mark); // the words in full are in the help
   private camera: Camera | null = null;
-  private touched = false; // the camera is the visitor's; else everything is kept in the picture
+  private touched = false; // the visitor controls the camera; otherwise everything is kept in view
   private hovered: Item | null = null;
   private dragged: { item: Item; toM: Spot } | null = null;
   private area: Bounds | null = null;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How an event looks on the timeline and in the list: a colour of the page's and how tall its mark is.
-// Told apart by height too, since colours are not for everybody.
+// Told apart by height, too, since not every visitor can tell the colours apart.
 
 export interface Mark {
   color: string; // a CSS variable

@@ -72,7 +72,7 @@ export class EventsList {
     this.view.scrollTop = Math.max(0, this.now * rowPx - this.view.clientHeight / 2);
   }
 
-  /** Whoever opens the list wants to see what is now. */
+  /** A visitor who opens the list wants to see the present moment. */
   private resize(): void {
     const visible = this.view.clientHeight > 0;
     if (visible && !this.visible) this.scrollToNow();
@@ -97,7 +97,7 @@ export class EventsList {
     this.rows.forEach((row, k) => row.show(this.shown[this.first + k], this.first + k - this.now));
   }
 
-  /** Makes the rows those of the events from `from` to before `to`; who is in both stays. */
+  /** Shows the events from `from` to before `to`; rows in both ranges stay. */
   private move(from: number, to: number): void {
     if (from >= this.first + this.rows.length || to <= this.first) this.clear(from);
     while (this.first < from) {

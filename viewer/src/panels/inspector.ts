@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One robot, whole: what it believes, who its neighbours are, what it said last.
+// One robot in full: its state, its neighbours, its last message.
 import { button, h, setText } from '../dom';
 import { column, type Column, type Frame, needs, phases, roles, spareStates } from '../frame';
 
@@ -13,13 +13,13 @@ export interface Fact {
 
 const nobody = '–';
 
-/** What a frame has where the algorithm has no such thing: of these columns, whatever no report has touched. */
+/** The values in a frame where the algorithm has no such quantity: what no report has set in these columns. */
 const untouched: Partial<Record<Column, number>> = {
   role: 0, target: -1, phase: 0, epoch: 0, label_cm: -1, depth: 0, parent: -1, old_parent: -1, want_m: 0,
 };
 
-/** Whether some robot's report has something in one of these columns. Before the first tick nobody has taken part in a
- *  tree yet: there roles stand for it. */
+/** Whether some robot's report has a value in one of these columns. Before the first tick no robot has been in a
+ *  tree yet: there the roles decide. */
 function reported(frame: Frame, ...names: Column[]): boolean {
   return names.some((name) => column(frame, name).some((value) => value !== untouched[name]));
 }
@@ -187,7 +187,7 @@ export class Inspector {
     // It may be older than the tick that was asked for.
     setText(this.messageTitle, said?.fields ? `Last message up to tick ${said.tick}` : 'Last message');
     if (said !== null) this.fill(this.message, messageFacts(said, shown.live));
-    // Of somebody else until the answer comes; the rows stay, or the panel would jump.
+    // Of another robot until the answer comes; the rows stay, or the panel would jump.
     else for (const row of this.message.rows) setText(row.cells[1], '…');
   }
 }

@@ -4,7 +4,7 @@ import { h } from '../dom';
 import { legendSvg, legendWords, type LegendMark } from '../scene/legend';
 import type { Theme } from '../scene/themes';
 
-/** The few that everybody needs beside the picture. */
+/** The few that every visitor needs beside the picture. */
 export const firstMarks: readonly LegendMark[] = ['root', 'worker', 'connector', 'spare', 'target'];
 
 export class Legend {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The handles of a live run: what to run, and what to do to it. Everything here becomes either a start
+// The controls of a live run: what to run, and what to do to it. Everything here becomes either a start
 // or an intervention; the panel keeps only what has been typed in.
 import { algorithms } from '../algorithms';
 import { button, h, setText } from '../dom';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Panels that share one place, with the keyboard's manners of tabs: arrows change, Tab goes in.
+// Panels that share one place, with the usual keys of tabs: arrows change the tab, Tab enters it.
 import { h } from '../dom';
 
 export interface Tab {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots by cells of a grid, so that whoever is near is found without looking at all the others.
+// Robots by cells of a grid, so that near robots are found without testing all the others.
 
 const mostM = 1e6; // beyond, a position is damage; such a robot is in no cell
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What follows from a recorded tick and does not change until the next one: links, whether edges are whole, how much
-// of the tree hangs on each robot. Found once a tick, the expensive parts only if somebody asks.
+// of the tree is below each robot. Computed once a tick, the expensive parts only when needed.
 import { column, type Frame, type Setting } from '../frame';
 import { Radio, type Link, type Links } from './links';
 
@@ -35,13 +35,13 @@ export class Facts {
   /** Robots that have this one on their way to the root, itself included. */
   get subtreeSizes(): Int32Array { return (this.sizesMade ??= subtreeSizes(this)); }
 
-  /** Is there an edge from i to its parent? Spares have none, whatever they listen to. */
+  /** Is there an edge from i to its parent? Spares have none, whatever their `parent` is. */
   hasEdge(i: number, to: Float64Array): boolean {
     const j = to[i]!;
     return this.alive[i] === 1 && this.role[i] !== 0 && j >= 0 && j < this.frame.robots && j !== i;
   }
 
-  /** The robots from i to the root along parents, i first; ends early where nobody is parent. */
+  /** The robots from i to the root along parents, i first; ends early at a robot without a parent. */
   pathToRoot(i: number): number[] {
     const path: number[] = [];
     const been = new Set<number>();

@@ -76,7 +76,7 @@ export class Input {
     this.stop.abort();
   }
 
-  /** Calls off what is under way; for Escape. Whether anything was. */
+  /** Cancels what is under way; for Escape. Whether anything was. */
   cancel(): boolean {
     const busy = this.gesture.kind !== 'none' && this.gesture.kind !== 'over';
     this.end(this.lastPx(), false);
@@ -182,7 +182,7 @@ export class Input {
     const atPx = press.fromPx;
     const twice = timeMs - this.lastClick.timeMs < doubleMs && far(atPx, this.lastClick.atPx) < 2 * tapPx;
     if (this.mode === 'add' || (twice && !press.item)) {
-      this.lastClick = { atPx, timeMs: -Infinity }; // a third click begins anew
+      this.lastClick = { atPx, timeMs: -Infinity }; // a third click starts a new one
       this.to.add(atPx);
       return;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Radio links from positions alone: in range, both alive and, with line of sight, nobody and nothing in between.
-// Says the same as record/src/links.cpp, which the tests compare it with.
+// Radio links from positions alone: in range, both alive and, with line of sight, no body or obstacle in between.
+// Gives the same result as record/src/links.cpp, which the tests compare it with.
 import { column, type Frame, type Setting } from '../frame';
 import { Cells } from './cells';
 import { blocks, discBlocks } from './sight';
@@ -54,7 +54,7 @@ export class Radio {
     return this.setting.line_of_sight && this.isBlocked(i, j) ? 'blocked' : 'open';
   }
 
-  /** Whom robot i hears. */
+  /** The robots that robot i hears. */
   neighbours(i: number): number[] {
     const found: number[] = [];
     this.forEachNear(i, (j) => { if (this.link(i, j) === 'open') found.push(j); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is under the pointer. Robots go before targets, these before obstacles: the smaller thing is the one that
-// somebody aims at.
+// What is under the pointer. Robots go before targets, these before obstacles: a visitor aims at the smaller
+// thing.
 import { column, type Frame, type Obstacle, type Setting } from '../frame';
 import { toPxX, toPxY, toWorld, type Bounds, type Camera, type Spot } from './camera';
 import type { Item } from './view';

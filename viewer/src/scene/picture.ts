@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture of a run: a canvas and its layers, drawn anew whenever the page says that something has changed. Why
+// The picture of a run: a canvas and its layers, redrawn whenever the page says that something has changed. Why
 // Canvas 2D: it is several times as fast as WebGL where there is no GPU (docs/viewer.md).
 import { Backdrop } from './backdrop';
 import { FactsCache, type Facts } from './facts';
@@ -48,7 +48,7 @@ export class Scene {
   facts(view: SceneView): Facts { return this.factsCache.of(view.frame, view.recorded, view.setting); }
 
   draw(view: SceneView): void {
-    if (document.hidden) return; // nobody looks; `changed` comes when somebody does
+    if (document.hidden) return; // not visible; `changed` comes when it is
     const pen = this.surface.begin();
     const { shot } = this;
     const ratio = this.surface.ratio;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the layers share while one picture is drawn: where everybody is in pixels, how large, and what to draw with.
-// One object lives as long as the scene; its arrays are filled anew for each picture.
+// What the layers share while one picture is drawn: all robots' places and sizes in pixels, and what to draw with.
+// One object lives as long as the scene; its arrays are refilled for each picture.
 import { column, roles } from '../frame';
 import { toPxX, toPxY } from './camera';
 import type { Facts } from './facts';
@@ -16,7 +16,7 @@ const smallestPx = [2.6, 4.2, 5, 6] as const;
 const smallestOfManyPx = [1.6, 2.8, 3.8, 5] as const;
 export const many = 500;
 
-/** Bounds for the tree's lines, px: the outermost edge, the one that carries everybody. */
+/** Bounds for the tree's lines, px: the outermost edge, and one with all robots below it. */
 export const thinnestEdgePx = 1.8;
 
 export class Shot {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A canvas that fills its host, with as many pixels as the screen has there.
 
-const mostRatio = 3; // more is not seen, and costs
+const mostRatio = 3; // more is invisible and expensive
 /** Device pixels in one picture at most: beyond, a large screen without a GPU would crawl. */
 const mostPixels = 8.5e6;
 

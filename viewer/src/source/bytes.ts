@@ -37,7 +37,7 @@ export class BlobBytes implements Bytes {
     try {
       return await this.blob.slice(offset, offset + length).arrayBuffer();
     } catch {
-      // What browsers say here ("A requested file or directory could not be found ...") helps nobody.
+      // The browsers' own messages ("A requested file or directory could not be found ...") do not help.
       throw new Problem('cannot be read; is it a directory, or was it changed, moved or deleted?');
     }
   }

@@ -58,7 +58,7 @@ export class Chunks {
   constructor(private readonly bytes: Bytes, private readonly decompress: Decompress,
               private readonly warnings: Warnings, private readonly mostBytes = 64 << 20) {}
 
-  /** Null if it is damaged. `keep` false: whoever reads everything once does not push out what is in use. */
+  /** Null if it is damaged. `keep` false: reading everything once does not displace chunks in use. */
   async load(stretch: Stretch, keep = true): Promise<Loaded | null> {
     const found = this.kept.get(stretch);
     if (found !== undefined) {

@@ -41,7 +41,7 @@ export class Source {
   readonly failure = new Observable<Problem | null>(null);
   /** Not null: some frames could not be had even after several attempts, in words; retry() tries again. */
   readonly trouble = new Observable<Problem | null>(null);
-  /** Called with the time (s) after which nothing is as it was: somebody interfered with a live run. */
+  /** Called with the time (s) after which everything may differ: a live run was interfered with. */
   readonly rewound = new Observable<number>(Infinity);
   /** Called when frames have come. */
   readonly arrived = new Observable<number>(0);
@@ -52,7 +52,7 @@ export class Source {
   private readonly inFlight = new Set<string>();
   private readonly attempts = new Map<string, number>();
   private nextId = 1;
-  private generation = 0; // of the cache: what was asked for before a rewind is not taken
+  private generation = 0; // of the cache: answers to requests before a rewind are dropped
   private lastS = 0; // of the last frame that there is
   private undoing = 0; // changes of the past that the worker has not confirmed yet
 
@@ -146,7 +146,7 @@ export class Source {
     return this.changePast(tick * this.tickS, (id) => ({ type: 'intervene', id, tick, events }));
   }
 
-  /** To the start; what was done to the run never happened. */
+  /** Back to the start, without the interventions. */
   reset(): Promise<void> {
     return this.changePast(0, (id) => ({ type: 'reset', id }));
   }
@@ -242,7 +242,7 @@ export class Source {
   }
 
   private takeHeader(header: Header): void {
-    // One that was under way when the past was changed tells of an end that there is no more.
+    // A reply under way when the past was changed reports an end that no longer exists.
     this.lastS = this.undoing > 0 ? Math.min(this.lastS, header.endS) : header.endS;
     this.cache ??= new FrameCache(header.settings[0].setting.tick_s, header.robots, this.cacheBytes);
     this.header.set(header);

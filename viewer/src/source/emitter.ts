@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A value that tells whoever wants to know when it changes.
+// A value that notifies its listeners when it changes.
 
 export type Listener<T> = (value: T) => void;
 export type Unsubscribe = () => void;

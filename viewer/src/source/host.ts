@@ -66,7 +66,7 @@ export abstract class Host {
   }
 
   protected fail(id: number, error: unknown): void {
-    if (!(error instanceof Problem)) console.error(error); // for whoever looks into it
+    if (!(error instanceof Problem)) console.error(error); // for debugging
     const problems = error instanceof Problem ? error.problems : [];
     this.send({ type: 'failed', id, text: wordsOf(error), ...(problems.length > 0 && { problems }) });
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON that somebody else wrote: nothing is taken for granted about what is in it.
+// JSON from other programs: nothing about its content is taken for granted.
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type JsonObject = { [key: string]: Json };

@@ -15,7 +15,7 @@ import { parseSetting } from './setting';
 
 const framesBytes = 192 << 20;
 const messagesBytes = 64 << 20;
-/** Up to here everybody's messages are kept; in larger swarms only those of robots asked for, from then on. */
+/** Up to this size all robots' messages are kept; in larger swarms only those of robots asked for, from then on. */
 const mostListened = 40;
 
 interface Spoken extends Kept {
@@ -66,7 +66,7 @@ export class LiveRun {
     return run;
   }
 
-  /** The scenario once more, as if nobody had interfered. */
+  /** The scenario again, without the interventions. */
   reset(): void {
     this.frames = new History<Packed>(framesBytes);
     this.messages = new History<Spoken>(messagesBytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Answers the page's requests from a live run, simulating as far as somebody wants to see.
+// Answers the page's requests from a live run, simulating as far as they need.
 import { Host, nextTurn, type Post } from './host';
 import { LiveRun } from './live';
 import type { LiveModule } from './live_module';

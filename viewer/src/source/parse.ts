@@ -14,7 +14,7 @@ interface Range {
   least: number;
   most: number;
   whole: boolean;
-  /** Index of a robot: one that there is not is nobody. */
+  /** Index of a robot; -1 for one that does not exist. */
   robot?: boolean;
 }
 const real = (least: number, most: number): Range => ({ least, most, whole: false });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the page and a source of frames say to each other. A source is a worker: one reads a recording,
+// The messages between the page and a source of frames. A source is a worker: one reads a recording,
 // the other runs the simulation. Both answer the same requests; a live run is a recording whose end
-// moves when somebody wants to see what comes next.
+// moves when the page requests what comes next.
 import type { Frame, RunEvent, Series, Setting } from '../frame';
 
 /** Sent once, when a source is open, and again whenever something in it has changed (a live run that was
@@ -69,7 +69,7 @@ export type Request =
   // Live only. An intervention acts at the beginning of the step after `tick`; what was simulated
   // beyond it is forgotten and a new header is sent.
   | { type: 'intervene'; id: number; tick: number; events: Intervention[] }
-  /** The scenario from its beginning, as if nobody had interfered; a new header is sent. */
+  /** The scenario from its beginning, without the interventions; a new header is sent. */
   | { type: 'reset'; id: number }
   /** The state hash after so many ticks, which `banyan run` has there too. */
   | { type: 'hash'; id: number; tick: number }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a recording says about itself: who made it, what a picture needs to know, how the run ended.
+// What a recording says about itself: its program, what a picture needs to know, how the run ended.
 import type { Setting } from '../frame';
 import { Malformed } from './json';
 import type { Warnings } from './problem';

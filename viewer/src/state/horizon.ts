@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How far a run has been seen. A live run is simulated ahead of what is shown; plots, lists and the
-// timeline tell only of what has been seen, or they would tell a future that a visitor may still change.
+// timeline show only what has been seen, or they would show a future that a visitor may still change.
 import type { RunEvent, Series } from '../frame';
 
 const tellEveryS = 0.5; // s of the run: plots and lists grow so often
@@ -20,7 +20,7 @@ export class Horizon {
   /** s; Infinity for a recording. */
   get timeS(): number { return this.live ? this.seen : Infinity; }
 
-  /** This moment is shown. True: plots and lists are to be made anew. */
+  /** This moment is shown. True: plots and lists are to be rebuilt. */
   see(timeS: number): boolean {
     if (!this.live || timeS <= this.seen) return false;
     this.seen = timeS;

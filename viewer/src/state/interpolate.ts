@@ -3,7 +3,7 @@
 // go on a line, headings the shorter way, everything else is as in the earlier frame.
 import { columns, type Frame, type Targets } from '../frame';
 
-// Who went further than this between two frames was put there, and is not smeared across the picture.
+// A robot that went further than this between two frames did not drive there, and is not interpolated.
 const leap = 1; // m
 const leapSpeed = 5; // m/s, faster than anything here drives
 

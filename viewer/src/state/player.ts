@@ -56,7 +56,7 @@ export class Player {
   get tickS(): number {
     return this.open.length === 0 ? 0.1 : Math.min(...this.open.map((s) => s.tickS));
   }
-  /** Every how manieth tick is shown at this speed: a power of two. */
+  /** The stride of the ticks shown at this speed: a power of two. */
   get stride(): number {
     if (!this.playing) return 1;
     const most = this.speed / (shownPerS * this.tickS);
@@ -66,7 +66,7 @@ export class Player {
     return !this.growing && this.timeS >= this.endS - slack;
   }
 
-  /** At the end it begins anew. */
+  /** At the end it starts again. */
   play(): void {
     if (this.atEnd) this.jump(this.startS);
     this.playing = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's state: one plain object, and who wants to know of what in it.
+// The page's state: one plain object, and its listeners.
 
 import { defaultSwitches, type Item, type Switches } from '../scene/view';
 
@@ -14,7 +14,7 @@ export interface State {
 
 export const initialState: Readonly<State> = { selection: null, followed: null, switches: defaultSwitches, theme: 'auto' };
 
-// What a visitor chose for good; the rest belongs to what is looked at just now.
+// The visitor's lasting choices; the rest belongs to the run being shown.
 const kept = ['switches', 'theme'] as const;
 const storageKey = 'banyan.viewer';
 

@@ -13,7 +13,7 @@ export function drawGround({ pen, view, theme }: Shot): void {
   pen.fillRect(0, 0, camera.widthPx, camera.heightPx);
   const step = niceLength(cellPx / camera.scale);
   const world = seen(camera);
-  // Whole pixels: a line between two would be wide and grey.
+  // Whole pixels: a line between two pixels would be wide and grey.
   const crisp = (px: number) => Math.round(px) + 0.5;
   pen.beginPath();
   for (let k = Math.ceil(world.minX / step); k * step <= world.maxX; ++k) {

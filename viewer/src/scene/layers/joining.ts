@@ -42,7 +42,7 @@ function traceArrow(shot: Shot, i: number, owner: number, head: boolean): void {
   const dx = toX - x[i]!, dy = toY - y[i]!;
   const length = Math.hypot(dx, dy);
   const start = shot.radiusOf(i) + 2;
-  if (length < start + headPx) return; // as good as there
+  if (length < start + headPx) return; // almost there
   const ux = dx / length, uy = dy / length;
   pen.moveTo(x[i]! + start * ux, y[i]! + start * uy);
   pen.lineTo(toX, toY);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Radio links: the fine mesh behind everything else. Where everybody hears everybody it would cover all else, and
-// drawing it is what takes the time: the more links, the fainter, and beyond a number only the shortest.
+// Radio links: the fine mesh behind everything else. If all robots hear each other it would cover all else, and
+// drawing it takes most of the time: the more links, the fainter, and beyond a number only the shortest.
 import type { Shot } from '../shot';
 import { mixed } from '../themes';
 

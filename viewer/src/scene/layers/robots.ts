@@ -57,7 +57,7 @@ export function drawHeadings(shot: Shot): void {
   pen.stroke();
 }
 
-/** Below the tree, which must not be hidden by the many who wait. */
+/** Below the tree, which the many spares must not hide. */
 export function drawSparesAndDead(shot: Shot): void {
   const { theme } = shot;
   const isSpare = (i: number) => shot.role(i) === spare && shot.isAlive(i);

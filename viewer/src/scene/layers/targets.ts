@@ -27,7 +27,7 @@ export function traceTarget(pen: CanvasRenderingContext2D, x: number, y: number,
   pen.arc(x, y, radius, 0, 2 * Math.PI);
 }
 
-/** Where it was, and no more than that. */
+/** Only where it was. */
 function drawGivenUp({ pen, theme }: Shot, x: number, y: number, radius: number): void {
   pen.beginPath();
   traceTarget(pen, x, y, radius);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The trees. The current one in ink, thicker the more of it hangs on an edge, as in the tree that Banyan is named
+// The trees. The current one in ink, an edge the thicker the more robots are below it, as in the tree Banyan is named
 // after; the old one in dashed orange beside it; edges that do not hold in dotted vermillion with a break mark.
 import type { Edge } from '../facts';
 import { connector, thinnestEdgePx, type Shot } from '../shot';
