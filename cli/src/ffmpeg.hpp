@@ -43,7 +43,7 @@ class Ffmpeg {
   bool replace_;
   pid_t child_ = -1;
   int pipe_ = -1;
-  int log_ = -1;  // what ffmpeg says, in memory
+  int log_ = -1;  // ffmpeg's messages, in memory
 };
 
 }  // namespace banyan::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `banyan study` says at the end.
+// What `banyan study` prints at the end.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `banyan run` says at the end: at most 25 lines for a person.
+// What `banyan run` prints at the end: at most 25 lines for a person.
 #pragma once
 
 #include <string>

@@ -44,7 +44,7 @@ void complain(std::string_view text);
 // All problems to standard error, at most a hundred; then, for errors, their number.
 void print_problems(const std::vector<config::Problem>& problems);
 
-// A line on standard error that tells how far a run is: rewritten in place on a terminal, else a
+// A line on standard error with the progress of a run: rewritten in place on a terminal, else a
 // line every ten seconds. Silent for runs shorter than two seconds and when not wanted.
 class Progress {
  public:

@@ -42,7 +42,7 @@ std::string fallback_of(const world::Key<Owner>& key, std::span<const world::Key
   return std::visit(ValueText{}, get(key, owner));
 }
 
-// `owner` says what else the choices depend on.
+// `owner`: what else the choices depend on.
 template <class Owner>
 KeyRow row_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> keys, const Owner& owner) {
   const auto with = applies_with(key, keys);

@@ -32,7 +32,7 @@ class ScenarioReader {
     std::string shown;         // as users write it: "swarm.start", "events[2]"
     std::string_view section;  // as the tables of keys have it: "swarm.start", "events"
   };
-  // What a selector says ("layout", "kind"), on which depends what other keys mean.
+  // The value of a selector ("layout", "kind"), on which the meaning of other keys depends.
   struct Choice {
     std::string name;
     bool known = true;        // false: the selector itself is wrong or missing

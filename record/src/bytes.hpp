@@ -103,7 +103,7 @@ struct Record {
   std::uint8_t op = 0;
   std::string_view content;
 };
-// The next record, or nothing at the end or when its length is not there (fields.ok() tells).
+// The next record; nothing at the end, or when its length is missing (then fields.ok() is false).
 inline std::optional<Record> next_record(Fields& fields) noexcept {
   if (fields.done()) return std::nullopt;
   Record record;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a result says of the machine it was made on.
+// What a result records of the machine it was made on.
 #pragma once
 
 #include <fstream>
@@ -7,7 +7,7 @@
 
 namespace banyan::study {
 
-// The processor's name, "" where the system does not tell.
+// The processor's name, "" where the system does not provide it.
 [[nodiscard]] inline std::string processor_name() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page: which runs are open, and the way from what a visitor does to what is shown. Sources bring
-// frames, the player says which moment, stages and panels show it; nothing here draws or computes.
+// frames, the player chooses the moment, stages and panels show it; nothing here draws or computes.
 import { button, download, h } from './dom';
 import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge, nameIn } from './files';
 import { Keyboard } from './keyboard';
@@ -33,7 +33,7 @@ import { Stage, type Shared, type StageActions } from './stage';
 
 const trailS = 10; // how far back trails go
 const panelEveryMs = 80; // panels are read, not watched: twelve times a second is enough
-const tellEveryMs = 250; // lists and plots tell of all there is: the longer the run, the more work
+const tellEveryMs = 250; // lists and plots cover the whole run: the longer it is, the more work
 
 export class App {
   private readonly store = new Store();

@@ -14,7 +14,7 @@ export async function judge(file: File): Promise<Opened> {
     if (file.size > largestScenario) throw new Error(`${file.name} is too large for a scenario (${Math.round(file.size / 1e6)} MB)`);
     return { scenario: { name: file.name, text: await file.text() } };
   }
-  return { recording: file }; // its reader says what is wrong with it
+  return { recording: file }; // its reader reports what is wrong with it
 }
 
 /** The scenario that an address names after its #; "" without one. */

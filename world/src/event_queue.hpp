@@ -44,7 +44,7 @@ class EventQueue {
   void again(const Entry& entry);
   // Whether a robot is still to die by an event, drawn or named.
   [[nodiscard]] bool deaths_to_come() const noexcept;
-  // Adds what later ticks depend on. Events at fixed times are told by how many have acted.
+  // Adds what later ticks depend on. For events at fixed times that is how many have acted.
   void add_to(Digest& digest) const noexcept;
 
  private:

@@ -344,7 +344,7 @@ void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s)
   const int near = static_cast<int>(now.near) - static_cast<int>(before.near);
   if (link == 0 && near == 0) return;
   if (s.changes.size() < s.changes.capacity()) s.changes.push_back({{static_cast<std::uint32_t>(i), now.other}, link, near});
-  else s.rebuild = true;  // so many that all are laid out anew
+  else s.rebuild = true;  // so many that all rows are rebuilt
 }
 
 // Whether the body that blocks a line of sight still does, or the one nearest to it still leaves it free, and

@@ -125,7 +125,7 @@ constexpr Section section_list[] = {
      "kind", true},
 };
 
-// A row: key, member, unit, range, meaning, and what else is to be said.
+// A row: key, member, unit, range, meaning, and further properties.
 // clang-format off
 constexpr Key<Scenario> scenario_rows[] = {
     {"name", of<&Scenario::name>, "", any_value,

@@ -25,7 +25,7 @@ constexpr double largest_seed = 9007199254740992.0;  // 2^53: exact in every rea
 
 std::string in_quotes(std::string_view name) { return "\"" + std::string(name) + "\""; }
 
-// Another fault than those of one value on its own: cannot be told while values are missing.
+// Whether there are only warnings; otherwise it is too early to check how values fit together.
 bool sound(const std::vector<Problem>& problems) {
   return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
 }
@@ -239,7 +239,7 @@ class Reader {
       }
     }
   }
-  // What is wrong with [set] would be told once per world.
+  // Problems of [set] would be reported once per world.
   void add_once(Problem problem) {
     if (told_.insert(config::to_string(problem)).second) problems_.push_back(std::move(problem));
   }

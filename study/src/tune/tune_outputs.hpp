@@ -23,7 +23,7 @@ struct FrontPoint {
 // Of all islands' last populations, ascending in `disconnected`, each pair of goals once.
 [[nodiscard]] std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandState>& islands);
 
-// Everything that a finished tuning leaves, tune.json last: it is what says that it is finished.
+// All files of a finished tuning, tune.json last, since it marks the tuning as finished.
 // What could not be drawn is a warning of `result`. Throws record::FileError.
 void write_results(const std::string& directory, const TunePlan& plan, const std::vector<GenerationRow>& history,
                    const std::vector<FrontPoint>& front, TuneResult& result);

@@ -227,7 +227,7 @@ void MpiTeam::serve(TaskQueue& queue, std::size_t threads) {
   changed_.wait(lock, [this] { return let_go_; });
 }
 
-// A process that leaves without having served says that it has no threads and waits like the others.
+// A process that leaves without having served reports that it has no threads and waits like the others.
 void MpiTeam::follow() {
   {
     std::unique_lock lock(mutex_);

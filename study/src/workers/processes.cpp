@@ -14,7 +14,7 @@
 namespace banyan::study {
 namespace {
 
-// What Open MPI's mpirun, srun with PMIx and srun with PMI or PMI-2 tell a process, in this order.
+// The variables that Open MPI's mpirun, srun with PMIx and srun with PMI or PMI-2 set for a process, in this order.
 bool launched() {
   return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMIX_RANK") != nullptr ||
          std::getenv("PMI_RANK") != nullptr;

@@ -99,7 +99,7 @@ export function messageFacts(said: Said, live: boolean): Fact[] {
 export interface Inspected {
   frame: Frame;
   robot: number;
-  algorithm: string; // of the run; told when two stand side by side
+  algorithm: string; // of the run; shown when two stand side by side
   neighbours: number[]; // robots it can hear
   said: Said | null; // null: not there yet
   followed: boolean;

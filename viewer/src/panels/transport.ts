@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The clock's controls: play, speed, a timeline with the run's events on it. Shows what it is told and
-// reports what the visitor wants; it keeps no time of its own.
+// reports what the visitor does; it keeps no time of its own.
 import type { RunEvent } from '../frame';
 import { button, h, icon, setText } from '../dom';
 import { fastest, slowest } from '../state/player';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words as small bitmaps. Writing text with a halo costs some 50 times as much as copying it, and ids do not change.
+// Labels as small bitmaps. Drawing text with a halo costs some 50 times as much as copying it, and ids do not change.
 import type { Theme } from './themes';
 
 export interface LabelSprite { image: ImageBitmap | HTMLCanvasElement; widthPx: number; heightPx: number }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A source as the page sees it: a worker behind promises, what it told so far, and the frames around what
+// A source as the page sees it: a worker behind promises, its replies so far, and the frames around what
 // is shown, fetched ahead of need.
 import type { Frame, RunEvent, Series, Setting } from '../frame';
 import { FrameCache, type Pair, type Span } from './cache';

@@ -26,7 +26,7 @@ export function parseObject(text: string): JsonObject {
   return value;
 }
 
-// Only what the text itself says: "constructor" is not in it unless it is written there.
+// Only the text's own keys: "constructor" is not one of them unless it is written there.
 export function member(object: JsonObject, name: string): Json | undefined {
   return Object.hasOwn(object, name) ? object[name] : undefined;
 }

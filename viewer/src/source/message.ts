@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What one robot broadcast, from a /banyan/messages message: arrays by field, a number per robot. What the
-// frame of the same tick says already is not repeated there, so it is taken from that.
+// frame of the same tick has already is not repeated there, so it is taken from that.
 import { type Column, column, type Frame } from '../frame';
 import { parseObject } from './json';
 import type { MessageFields } from './protocol';

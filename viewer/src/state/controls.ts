@@ -10,7 +10,7 @@ export interface Settings {
 
 interface Asked {
   fromS: number;
-  holdsS: number; // from then on frames tell
+  holdsS: number; // after that, frames decide
   values: Partial<Settings>;
 }
 

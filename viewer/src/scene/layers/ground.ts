@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ground: a quiet metric grid, and the bar that says how long a metre is.
+// The ground: a faint metric grid, and the scale bar.
 import { niceLength, noInsets, seen, toPxX, toPxY } from '../camera';
 import type { Shot } from '../shot';
 
