@@ -109,6 +109,7 @@ TEST_P(Hexagon, ItsBoundariesAreKnownAndWhichIsTheOuter) {
 TEST(Cohesion, EachSideOfARingHasAMeanOfItsOwn) {
   constexpr int n = 20;
   std::vector<Vec2> places;
+  places.reserve(n);
   for (int k = 0; k < n; ++k) places.push_back(unit_vector(2.0F * pi<float> * static_cast<float>(k) / n) * 3.36F);
   Swarm_ net(Params{}, places, 1);
   for (int t = 0; t < 150; ++t) net.tick();
@@ -164,9 +165,10 @@ TEST(Cohesion, ThicknessIsThatOfTheAuthorsFigure) {
                                            "444444444", "444444444", "444444444", "444444444",
                                            "144444441", "114444411", "111444111", "111141111"};
   std::vector<Vec2> places;
+  constexpr int middle = columns / 2;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c)
-      places.push_back(unit_vector(0.0101F * static_cast<float>(c - columns / 2)) *
+      places.push_back(unit_vector(0.0101F * static_cast<float>(c - middle)) *
                        (100.0F + 1.02F * static_cast<float>(r)));
   Swarm_ net(Params{}, places, 1);
   for (int t = 0; t < 400; ++t) net.tick();
@@ -176,7 +178,7 @@ TEST(Cohesion, ThicknessIsThatOfTheAuthorsFigure) {
   int same = 0;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
-      const Message& m = net.said[static_cast<std::size_t>(columns * r + c)];
+      const Message& m = net.said[static_cast<std::size_t>(columns) * static_cast<std::size_t>(r) + static_cast<std::size_t>(c)];
       EXPECT_EQ(m.depth, depth[r][c] - '0') << r << ", " << c;
       same += m.thickness == figure(r, c) ? 1 : 0;
       if (m.thickness == figure(r, c)) continue;

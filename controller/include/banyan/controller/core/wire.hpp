@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "banyan/controller/core/inputs.hpp"
 
@@ -117,7 +118,8 @@ class ByteWriter {
   [[nodiscard]] std::uint8_t* end() const noexcept { return out_; }
 
  private:
-  template <std::integral T> void put(T v) noexcept {
+  template <std::signed_integral T> void put(T v) noexcept { put(static_cast<std::make_unsigned_t<T>>(v)); }
+  template <std::unsigned_integral T> void put(T v) noexcept {
     const auto u = static_cast<std::uint32_t>(v);
     for (std::size_t k = 0; k < sizeof(T); ++k) *out_++ = static_cast<std::uint8_t>(u >> (8 * k) & 0xFFU);
   }
