@@ -56,22 +56,25 @@ float visible_area(const Robot& robot, const Boundary& boundary) noexcept {
   float bodies = 0.0F, between = 0.0F;
   int counted = 0;
   bool left_out = false;
+  const auto hidden = [&](float d) { return angle_of(Vec2{d, hiding}); };
+  float d = norm(around.place(around.next(0)));
+  float half = hidden(d);
   for (int i = 0; i < around.size; ++i) {
-    const float d = norm(around.place(around.next(i))), e = norm(around.place(around.next(i + 1)));
-    const float half = angle_of(Vec2{d, hiding});
+    const float next_d = norm(around.place(around.next(i + 1)));
+    const float next_half = hidden(next_d);
+    const float clear = around.gap(i) - half - next_half;
     bodies += d * d * half;
     if (outside != nullptr && outside->right == around.next(i)) {
       left_out = true;
-      continue;
-    }
-    const float clear = around.gap(i) - half - angle_of(Vec2{e, hiding});
-    if (clear > 0.0F) {
+    } else if (clear > 0.0F) {
       between += 0.5F * clear * per_square;
       ++counted;
     } else {
-      const float longer = std::max(d, e);
+      const float longer = std::max(d, next_d);
       bodies += 0.5F * clear * longer * longer;
     }
+    d = next_d;
+    half = next_half;
   }
   if (left_out && counted > 0) between += between / static_cast<float>(counted);
   return std::max(bodies + between, least_area);

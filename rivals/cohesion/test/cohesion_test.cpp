@@ -12,6 +12,7 @@
 
 #include "../src/rooms.hpp"
 #include "net.hpp"
+#include "no_links.hpp"
 #include "wild_senses.hpp"
 
 namespace banyan::rivals::cohesion {
@@ -270,14 +271,7 @@ TEST(Cohesion, OneRobotIsRootAndAnotherFollowsItsSilence) {
   EXPECT_EQ(net.states[3].root, 1);
 }
 
-TEST(Cohesion, PromisesNoLink) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
-  for (int t = 0; t < 20; ++t) net.tick();
-  for (const State& s : net.states) {
-    EXPECT_EQ(report(s).parent, nobody);
-    EXPECT_EQ(report(s).kept, no_links());
-  }
-}
+TEST(Cohesion, PromisesNoLink) { expect_no_links<Robots>(Swarm_(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1)); }
 
 TEST(Cohesion, NothingSensedMakesAVelocityInfinite) {
   Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);

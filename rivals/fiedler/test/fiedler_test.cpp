@@ -11,6 +11,7 @@
 
 #include "../src/exponential.hpp"
 #include "net.hpp"
+#include "no_links.hpp"
 #include "wild_senses.hpp"
 
 namespace banyan::rivals::fiedler {
@@ -189,14 +190,7 @@ TEST(Fiedler, OneRobotIsRootAndAnotherFollowsItsSilence) {
   EXPECT_EQ(roots(0), std::vector<std::size_t>{0});
 }
 
-TEST(Fiedler, PromisesNoLink) {
-  Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1);
-  for (int t = 0; t < 20; ++t) net.tick();
-  for (const State& s : net.states) {
-    EXPECT_EQ(report(s).parent, nobody);
-    EXPECT_EQ(report(s).kept, no_links());
-  }
-}
+TEST(Fiedler, PromisesNoLink) { expect_no_links<Robots>(Swarm_(Params{}, {{0, 0}, {1, 0}, {2, 0}}, 1)); }
 
 TEST(Fiedler, NothingSensedMakesAVelocityInfinite) {
   Swarm_ net(Params{}, {{0, 0}, {1, 0}, {1, 1}}, 1);

@@ -45,13 +45,8 @@ Message composed(const State& self) noexcept {
 }  // namespace
 
 State initial_state(RobotId id, bool worker, bool root) noexcept {
-  State state;
-  state.id = id;
-  state.assignment.sent = worker;
-  if (root) {
-    state.root = id;
-    state.way = 0;
-  }
+  State state = state_at_start<State>(id, worker, root);
+  if (root) state.way = 0;
   return state;
 }
 
@@ -69,12 +64,8 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
 }
 
 Report report(const State& s) noexcept {
-  Report r{.role = s.assignment.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
-           .parent = s.parent,
-           .serves = s.assignment.sent ? s.id : nobody,
-           .root = s.root,
-           .want_m = s.assignment.distance_m(),
-           .tally = s.tally};
+  Report r = report_without_links(s);
+  r.parent = s.parent;
   std::size_t kept = 0;
   for (int l = 0; l < s.links.size(); ++l)
     if (s.links[l].kept) r.kept[kept++] = s.links[l].to;

@@ -52,12 +52,9 @@ Message composed(const State& s) noexcept {
 }  // namespace
 
 State initial_state(RobotId id, bool worker, bool root) noexcept {
-  State state;
-  state.id = id;
-  state.assignment.sent = worker;
+  State state = state_at_start<State>(id, worker, root);
   state.next = 1;  // the first tree is wanted at once, after time enough to hear all neighbours
   state.countdown = first_tree_ticks;
-  if (root) state.root = id;
   return state;
 }
 
@@ -75,16 +72,12 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
 }
 
 Report report(const State& s) noexcept {
-  const Role role = s.assignment.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector;
-  return {.role = role,
-          .parent = role == Role::root ? nobody : s.parent,
-          .kept = s.held().all(),
-          .serves = s.assignment.sent ? s.id : nobody,
-          .root = s.root,
-          .root_sequence = s.tree_epoch,
-          .epoch = s.epoch,
-          .want_m = s.assignment.distance_m(),
-          .tally = s.tally};
+  Report r = report_without_links(s);
+  r.parent = r.role == Role::root ? nobody : s.parent;
+  r.kept = s.held().all();
+  r.root_sequence = s.tree_epoch;
+  r.epoch = s.epoch;
+  return r;
 }
 
 void add_to(Digest& digest, const State& s) noexcept {

@@ -37,6 +37,26 @@ void begin_step(const RivalParams& params, State& state, std::span<HeardOf<Messa
   state.assignment.follow(senses.orders, carry);
 }
 
+// The State with which a robot begins, so far as it is the same for all rivals.
+template <class State>
+[[nodiscard]] State state_at_start(RobotId id, bool worker, bool root) noexcept {
+  State state;
+  state.id = id;
+  state.assignment.sent = worker;
+  if (root) state.root = id;
+  return state;
+}
+
+// What all rivals report. One that keeps no links has no more to say; the others add their parent and links.
+template <class State>
+[[nodiscard]] Report report_without_links(const State& s) noexcept {
+  return {.role = s.assignment.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
+          .serves = s.assignment.sent ? s.id : nobody,
+          .root = s.root,
+          .want_m = s.assignment.distance_m(),
+          .tally = s.tally};
+}
+
 // The four functions of an algorithm, for core/swarm_of.hpp.
 template <class P, class S, class M, auto initial_state, auto step_of, auto report_of, auto add>
 struct RobotsOf {

@@ -47,24 +47,4 @@ struct KnownRoot {
   }
 };
 
-// The State, a KnownRoot, with which a robot begins.
-template <class State> State state_at_start(RobotId id, bool worker, bool root) noexcept {
-  State state;
-  state.id = id;
-  state.assignment.sent = worker;
-  if (root) state.root = id;
-  return state;
-}
-
-// What an algorithm reports that keeps no links: no parent, nothing kept.
-template <class State> Report report_without_links(const State& s) noexcept {
-  return {.role = s.assignment.sent ? Role::worker
-                  : s.root == s.id  ? Role::root
-                                    : Role::connector,
-          .serves = s.assignment.sent ? s.id : nobody,
-          .root = s.root,
-          .want_m = s.assignment.distance_m(),
-          .tally = s.tally};
-}
-
 }  // namespace banyan::rivals
