@@ -207,7 +207,11 @@ void keep_up(TreeRobot& robot, int k) noexcept {
   if (m.epoch != self.epoch || m.label_cm >= largest_label || !is_news(m.seqno, self.seqno, self.seqno_ticks)) return;
   self.seqno = m.seqno;
   self.seqno_ticks = 0;
-  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm) self.label_cm = label_below(m.label_cm, robot.table().range(k));
+  // A newer number permits a smaller label. Labels that only grew would in a long epoch reach the largest one, behind
+  // which there is no place.
+  const std::uint16_t below_cm = label_below(m.label_cm, robot.table().range(k));
+  const bool renews = robot.reading.renews_labels && self.phase >= Phase::grow_tree;
+  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm || (renews && self.label_cm > below_cm)) self.label_cm = below_cm;
 }
 
 void take_parent(TreeRobot& robot, int k) noexcept {

@@ -81,6 +81,24 @@ TEST(Ahead, IsFresherOrAsFreshAndNearerToTheRoot) {
   EXPECT_FALSE(ahead(11, unknown_label));
 }
 
+// Parents change all the time in a long epoch, and a robot behind the largest label there is could have none.
+TEST(Label, ShrinksToTheWayAlongTheTreeWithANewerNumber) {
+  const auto label_after = [](auto bench, Phase phase, std::uint16_t seqno) {
+    bench.state.phase = phase;
+    bench.state.is_worker = true;
+    bench.state.parent = 5;
+    bench.state.label_cm = 5000;
+    bench.state.seqno = 10;
+    committed(bench, 5, {1.5F, 0}, 300).seqno = seqno;
+    bench.step();
+    return bench.state.label_cm;
+  };
+  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::grow_tree, 11), 450);
+  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::grow_tree, 10), 5000) << "it would be ahead of where it was believed";
+  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::select_parent, 11), 5000) << "the labels of START TREE decide on the parents";
+  EXPECT_EQ(label_after(selecting<OutwardsLiteral>(), Phase::grow_tree, 11), 5000);
+}
+
 TEST(Outwards, TakesTheClosestCommittedCandidate) {
   Bench bench = selecting();
   committed(bench, 5, {1.5F, 0}, 50);

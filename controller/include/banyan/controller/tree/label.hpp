@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// START TREE: the distance to the root along hops, fixed once per epoch, and the echo by which the
+// START TREE: the distance to the root along hops, and the echo by which the
 // root learns that all robots have one (protocol 4, 5).
 #pragma once
 

@@ -39,7 +39,7 @@ struct TreeStanding {
   bool committed = false;       // I am in this epoch's tree
   bool parent_silent = false;   // my parent has not been heard for longer than I
   Serial epoch = 0;
-  std::uint16_t label_cm = unknown_label;  // distance to the root along hops, fixed once an epoch
+  std::uint16_t label_cm = unknown_label;  // distance to the root along hops (label.hpp, keep_up)
   Serial seqno = 0;                 // the root's count as it came down the tree: (seqno, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
