@@ -18,6 +18,14 @@ bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
   return parent < 0 || fades(robot, parent) || table.message(parent).subtree_workers > task_capacity;
 }
 
+// The child has taken another parent, and its workers along, or serves none any more.
+bool has_left(const HealingRobot& robot, int child) noexcept {
+  if (child < 0 || !robot.table().alive(child)) return false;
+  const TreeStanding& m = robot.table().message(child);
+  const RobotId up = up_of(m);
+  return up != robot.self.id && (up != nobody || m.role == Role::spare);
+}
+
 }  // namespace
 
 void begin_doubt(const HealingRobot& robot, Task& task) noexcept {
@@ -32,12 +40,14 @@ void doubt(HealingRobot& robot) noexcept {
   const int doubt_ticks = robot.liveness_ticks() + robot.params.ticks(hesitate_s);
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[static_cast<std::size_t>(k)];
+    int child = task.via == nobody ? -1 : robot.table().find(task.via);
+    if (has_left(robot, child)) task.via = nobody;
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
     if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;
     if (task.via == nobody) continue;
     // While that child lives, news of the worker comes through it, in turn with news of many others. Old news is no
     // reason for doubt until a branch torn off would have had time to be heard of.
-    const int child = robot.table().find(task.via);
+    child = robot.table().find(task.via);
     const bool fading = child >= 0 && fades(robot, child);
     if (fading) task.age_ticks = static_cast<std::uint16_t>(std::min<int>(task.age_ticks, robot.table().age(child)));
     if (task.age_ticks > std::max(outdated_ticks, 2 * doubt_ticks)) task.via = nobody;

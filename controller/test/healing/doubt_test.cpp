@@ -161,6 +161,25 @@ TEST(Doubt, AChildThatHangsElsewhereIsInTheChargeOfOthers) {
   EXPECT_FALSE(watch.task().silent);
 }
 
+// It may no longer speak of the worker: a spare speaks of none.
+TEST(Doubt, AChildThatNamesAnotherParentTakesItsWorkersAlong) {
+  struct Case { Role role; RobotId parent; bool doubts; };
+  for (const Case c : {Case{Role::connector, 30, false}, Case{Role::spare, nobody, false}, Case{Role::connector, nobody, true}}) {
+    ForgetfulWatch watch;
+    watch.child_above_worker(20);
+    watch.hear_root(5);
+    auto& child = watch.bench.say(20);
+    child.task_serves = nobody;
+    child.role = c.role;
+    child.parent = c.parent;
+    watch.hear_root(2);
+    EXPECT_EQ(watch.task().via, c.doubts ? 20 : nobody);
+    watch.bench.silence(20);
+    watch.hear_root(doubt_ticks(watch) + 5);
+    EXPECT_EQ(watch.task().silent, c.doubts);
+  }
+}
+
 // The clock of a doubt starts with the doubt, however old what the robot knew before.
 TEST(Doubt, ThereIsTimeForAnAnswer) {
   ForgetfulWatch watch;
