@@ -47,7 +47,6 @@ Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
 // my own target and those of the workers below.
 Topic choose_topic(const HealingState& self) noexcept {
   int turn = self.turn + self.id;
-  const auto is_urgent = [&](const Task& task) { return is_asked_about(task) || task.urgent_ticks > 0; };
   if (std::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
     if (turn % 2 != 0) return next_topic(self, turn / 2, is_urgent);
     turn /= 2;

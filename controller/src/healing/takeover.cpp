@@ -222,7 +222,18 @@ void take_over(HealingRobot& robot, Task& task) noexcept {
 // average half of them before this one. A robot without a label waits longest, until it has a tree.
 int way_of_news_ticks(const HealingRobot& robot) noexcept {
   const float hops = static_cast<float>(robot.self.label_cm) * 0.01F / robot.params.communication_range_m;
-  return robot.self.forgets ? 0 : static_cast<int>(hops * static_cast<float>(robot.self.task_count));
+  return static_cast<int>(hops * static_cast<float>(robot.self.task_count));
+}
+
+// Where robots forget, an answer comes straight from near the target, in turn with all that is urgent, which has every
+// second message: how much longer that takes than the spread allows for.
+int way_of_answer_ticks(const HealingRobot& robot, const Task& task) noexcept {
+  constexpr float hop = 0.5F;  // of C
+  const HealingState& self = robot.self;
+  const auto urgent = std::count_if(self.tasks.begin(), self.tasks.begin() + self.task_count, [](const Task& t) { return is_urgent(t); });
+  const float hops = norm(task.target) / (hop * robot.params.communication_range_m);
+  const int spread_ticks = robot.params.ticks(robot.params.succession_spread_s_m * norm(task.target));
+  return std::max(0, static_cast<int>(hops * 2.0F * static_cast<float>(urgent)) - spread_ticks);
 }
 
 // The nearer to the target, the sooner: the first robot tells the others.
@@ -232,11 +243,11 @@ void succeed(HealingRobot& robot) noexcept {
   const bool free = self.role == Role::spare || self.dangling_ticks > 0;
   const int least_ticks = 2 * robot.liveness_ticks();
   if (!free || self.is_worker || robot.is_root() || self.silence_ticks > least_ticks) return;
-  const int way_ticks = way_of_news_ticks(robot);
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
     if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
     const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
+    const int way_ticks = self.forgets ? way_of_answer_ticks(robot, task) : way_of_news_ticks(robot);
     const int patience_ticks = least_ticks + way_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
     const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // doubt has waited already
     if (task.age_ticks > std::max(patience_ticks, rare_ticks)) return take_over(robot, task);

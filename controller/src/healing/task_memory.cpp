@@ -11,7 +11,7 @@ Task* find_task(HealingState& self, RobotId serves) noexcept {
 
 Concern concern_of(const HealingState& self, const Task& task) noexcept {
   if (self.is_worker && self.serves == task.serves) return Concern::own;
-  if (is_asked_about(task) || task.urgent_ticks > 0) return Concern::urgent;
+  if (is_urgent(task)) return Concern::urgent;
   if (task.via == nobody) return task.age_ticks > outdated_ticks ? Concern::outdated : Concern::none;
   return task.via == task.holder ? Concern::child : Concern::below;
 }

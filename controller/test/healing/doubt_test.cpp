@@ -194,6 +194,27 @@ TEST(Doubt, ThereIsTimeForAnAnswer) {
   EXPECT_EQ(watch.bench.state.tally.replacements, 1U);
 }
 
+// Question and answer take turns with all others that are under way.
+TEST(Doubt, WhereManyAskAnAnswerTakesLonger) {
+  constexpr float away_m = 4.0F;
+  const auto patience_ticks = [](int questions) {
+    ForgetfulWatch watch;
+    for (int k = 0; k < questions; ++k) {
+      const auto id = static_cast<RobotId>(20 + k);
+      // The others are far away, so that nobody here takes them over first.
+      watch.tell_of_target(id, {1.0F, 0.01F * static_cast<float>(k)}, {k == 0 ? away_m : 60.0F, 0.0F}, static_cast<RobotId>(worker_id + k), 10);
+      watch.hear_root(2);
+      watch.bench.say(id).task_silent = true;
+    }
+    int ticks = 2 * (questions - 1);  // since the first
+    while (watch.bench.state.tally.replacements == 0 && ticks < very_long) watch.hear_root(1), ++ticks;
+    return ticks;
+  };
+  const int alone = patience_ticks(1);
+  EXPECT_EQ(patience_ticks(2), alone) << "the spread allows for two";
+  EXPECT_NEAR(patience_ticks(6), alone + 6 * 2 * 4 - 20, 1);
+}
+
 TEST(Doubt, ALaterSignOfLifeEndsItAndIsPassedOn) {
   ForgetfulWatch watch;
   watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, worker_id, 10);

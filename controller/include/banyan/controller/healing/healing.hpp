@@ -39,6 +39,8 @@ inline void set_place(Task& task, Vec2 target) noexcept {
 // A doubt is a question to all, for a minute: later no answer will come, and no spare was free to take over.
 inline constexpr int question_ticks = 600;
 [[nodiscard]] inline bool is_asked_about(const Task& task) noexcept { return task.silent && task.age_ticks <= question_ticks; }
+// Every robot has to pass it on soon: a question, or news that has priority.
+[[nodiscard]] inline bool is_urgent(const Task& task) noexcept { return is_asked_about(task) || task.urgent_ticks > 0; }
 
 // How much a robot needs to know of a target, least first. With more targets than it can remember, those that
 // matter more take the place of those that matter less.
