@@ -61,7 +61,7 @@ class Starved : public testing::TestWithParam<Mission> {};
 
 TEST_P(Starved, NobodyWaitsForASpareForLong) {
   World world(scenario_of(GetParam()));
-  const double limit_s = 1.5 * straight_drive_s(world);
+  const double limit_s = 1.6 * straight_drive_s(world);
   double longest_m = 0.0;
   while (!all_held(world) && world.time_s() < limit_s) {
     world.step();
