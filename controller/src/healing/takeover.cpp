@@ -12,6 +12,7 @@ constexpr int takeover_beats = 60;  // a successor's count starts so far ahead o
 constexpr int rival_beats = 30;     // a count farther behind mine is that of a dead worker
 constexpr std::uint8_t pass_on_ticks = 40;  // how long news has priority
 constexpr float second_try_s = 40.0F;
+constexpr float news_hop = 0.7F;      // of C
 constexpr int per_tick = 16;     // units of news_gap
 constexpr int gap_memory = 64;   // pieces of news
 constexpr int gap_patience = 2;  // times as long as other news was missing of late
@@ -218,11 +219,13 @@ void take_over(HealingRobot& robot, Task& task) noexcept {
   ++self.tally.replacements;
 }
 
-// News of another branch reaches me through the root, and every robot on the way sends news of all targets in turn: on
-// average half of them before this one. A robot without a label waits longest, until it has a tree.
-int way_of_news_ticks(const HealingRobot& robot) noexcept {
-  const float hops = static_cast<float>(robot.self.label_cm) * 0.01F / robot.params.communication_range_m;
-  return static_cast<int>(hops * static_cast<float>(robot.self.task_count));
+// News of another branch goes in to the root and out to me, and every robot on the way sends news of all targets in
+// turn: on average half of them before this one. A robot without a label waits longest, until it has a tree.
+int way_of_news_ticks(const HealingRobot& robot, const Task& task) noexcept {
+  const HealingState& self = robot.self;
+  const float in_m = self.root_known ? distance(self.root_at, task.target) : 0.0F;
+  const float out_m = static_cast<float>(self.label_cm) * 0.01F;
+  return static_cast<int>((in_m + out_m) / (news_hop * robot.params.communication_range_m) * static_cast<float>(self.task_count));
 }
 
 // Where robots forget, an answer comes straight from near the target, in turn with all that is urgent, which has every
@@ -247,7 +250,7 @@ void succeed(HealingRobot& robot) noexcept {
     Task& task = self.tasks[k];
     if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
     const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
-    const int way_ticks = self.forgets ? way_of_answer_ticks(robot, task) : way_of_news_ticks(robot);
+    const int way_ticks = self.forgets ? way_of_answer_ticks(robot, task) : way_of_news_ticks(robot, task);
     const int patience_ticks = least_ticks + way_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
     const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // doubt has waited already
     if (task.age_ticks > std::max(patience_ticks, rare_ticks)) return take_over(robot, task);
