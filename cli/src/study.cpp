@@ -328,16 +328,17 @@ int collect_command(const CollectOptions& options) {
   if (!prepare(of, prepared)) return exit_usage;
   const auto folder = folder_of(of, prepared.study);
   if (!of.force) check_folder(folder, prepared, of);
-  auto journals = journals_in(folder.path);
+  auto sources = sources_in(folder.path);
   for (const auto& from : options.from) {
-    const auto more = journals_in(from);
+    const auto more = sources_in(from);
     if (more.empty())
-      throw CommandError(exit_usage, from + " holds no results of a study (" + from + "/journal/*.jsonl)");
-    journals.insert(journals.end(), more.begin(), more.end());
+      throw CommandError(exit_usage,
+                         from + " holds no results of a study (" + from + "/journal/*.jsonl or runs.csv)");
+    sources.insert(sources.end(), more.begin(), more.end());
   }
-  if (journals.empty())
+  if (sources.empty())
     throw CommandError(exit_usage, folder.path + " holds no results of a study; run banyan study first");
-  const auto gathered = gather(journals, prepared.study.name);
+  const auto gathered = gather(sources, prepared.study.name);
   check_builds(gathered, of);
   const auto missing = runs_to_do(prepared.plan, {}, gathered.outcomes, false);
   if (!missing.empty()) {

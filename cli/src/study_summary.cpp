@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "banyan/study/compare.hpp"
 #include "banyan/study/statistics.hpp"
 #include "terminal.hpp"
 
@@ -40,6 +41,41 @@ std::string row_text(const Results& results, const std::string& name, const std:
   return text + "\n";
 }
 
+std::string number_text(double value) {
+  if (std::isinf(value)) return value < 0.0 ? "-inf" : "inf";
+  return format("%+.*f", std::abs(value) < 10.0 ? 3 : 1, value);
+}
+
+std::string p_text(double p) { return p < 0.001 ? "< 0.001" : format("%.3f", p); }
+
+std::string comparison_text(const Study& study, const Comparison& c) {
+  const std::string part = study.parts[c.part].name;
+  const std::string name = (part.empty() ? "" : part + ", ") + c.first + " - " + c.second;
+  const std::string interval = number_text(c.test.interval.low) + " to " + number_text(c.test.interval.high);
+  const std::string misses = format("%zu : %zu", c.first_missed, c.second_missed);
+  std::string text = format("  %-38s %6zu %8s  %-18s %8s %11s  ", name.substr(0, 38).c_str(), c.ranked,
+                            number_text(c.test.estimate).c_str(), interval.c_str(), p_text(c.test.p).c_str(),
+                            misses.c_str()) +
+                     verdict_text(c);
+  if (c.first_missed + c.second_missed > 0) text += "; misses: " + misses_text(c);
+  return text + "\n";
+}
+
+// The time of every two values of the compared axis, all worlds of a part together.
+std::string comparisons_text(const Study& study, const Results& results) {
+  std::string rows;
+  for (const auto& c : compare_pooled(study, results, {"normalized_time"}))
+    if (c.pairs > 0) rows += comparison_text(study, c);
+  if (rows.empty()) return rows;
+  const std::string interval = format("%g %% interval", 100.0 * study.statistics.confidence);
+  return format("\n  %-38s %6s %8s  %-18s %8s %11s  %s\n", "time / limit, first - second", "pairs", "shift",
+                interval.c_str(), "p", "missed", "the first is") +
+         rows +
+         format("  (signed ranks of the pairs that both complete, within each world; no difference: within %g %% of\n"
+                "  the second's median. Every group of runs, corrected for their number: comparisons.csv)\n",
+                100.0 * study.statistics.margin);
+}
+
 }  // namespace
 
 std::string study_summary(const Study& study, const Results& results, const Folder& folder, const Written& written) {
@@ -63,7 +99,8 @@ std::string study_summary(const Study& study, const Results& results, const Fold
         text += row_text(results, part.name + (part.name.empty() || label.empty() ? "" : ", ") + label, rows);
     }
   }
-  text += "  (time: completion / limit, 1 if never complete; the last two: share of runs with any such tick)\n\n";
+  text += "  (time: completion / limit, 1 if never complete; the last two: share of runs with any such tick)\n";
+  text += comparisons_text(study, results) + "\n";
   text +=
       "  table      " + folder.table() + "\n  statistics " + folder.statistics() + ", " + folder.comparisons() + "\n";
   if (!written.figures.empty())

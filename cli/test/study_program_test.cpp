@@ -193,6 +193,43 @@ TEST_F(StudyProgram, ShardsOfSeveralMachinesAreCollected) {
   expect_same_tables("all", wanted);
 }
 
+// Results that are kept as a table, without the journal: new statistics need no new runs.
+TEST_F(StudyProgram, ATableIsCollectedLikeAJournal) {
+  const auto wanted = reference("s.toml");
+  const std::string table = read(wanted + "/runs.csv");
+  write("kept/runs.csv", table);
+  const auto outcome = run({"collect", "s.toml", "--out", "again", "kept"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "outwards - inwards")) << outcome.out;
+  expect_same_tables("again", wanted);
+  expect_each_once("again", 20);
+
+  // A table of an earlier version has fewer columns: what it lacks is empty, and the rest counts.
+  std::string earlier;
+  for (const auto& line : lines_of(table)) earlier += line.substr(0, line.rfind(',')) + "\n";
+  ASSERT_FALSE(has(earlier, "format_version"));
+  write("earlier/runs.csv", earlier);
+  ASSERT_EQ(run({"collect", "s.toml", "--out", "from-earlier", "earlier"}).code, 0);
+  for (const char* made : {"/statistics.csv", "/comparisons.csv"})
+    EXPECT_EQ(read("from-earlier" + std::string(made)), read(wanted + made));
+}
+
+TEST_F(StudyProgram, ATableThatIsNoneIsRefused) {
+  const std::string table = read(reference("s.toml") + "/runs.csv");
+  const auto collect = [&](const std::string& text) {
+    write("kept/runs.csv", text);
+    const auto outcome = run({"collect", "s.toml", "--out", "new", "kept"});
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_FALSE(exists("new"));
+    return outcome.err;
+  };
+  EXPECT_TRUE(has(collect("a,b\n1,2\n"), "runs.csv: has no columns \"study\", \"run\" and \"error\""));
+  EXPECT_TRUE(has(collect(table.substr(0, table.size() - 20)), "runs.csv: line 21 has"));
+  std::string other = table;
+  other.replace(other.find("\ns,") + 1, 1, "t");
+  EXPECT_TRUE(has(collect(other), "belongs to the study \"t\", not to \"s\""));
+}
+
 TEST_F(StudyProgram, MoreShardsThanRunsAreNoFault) {
   const auto outcome = run({"study", "s.toml", "--shard", "21/50"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -101,28 +101,104 @@ static Outcome readable(const Outcome& outcome) {
   return {"", "its row has other columns: written by another version of banyan", outcome.wall_s};
 }
 
-Gathered gather(const std::vector<std::string>& journals, const std::string& study) {
+static void add_build(Gathered& gathered, const std::string& build) {
+  if (std::find(gathered.builds.begin(), gathered.builds.end(), build) == gathered.builds.end())
+    gathered.builds.push_back(build);
+}
+
+static void add_outcome(Gathered& gathered, const std::string& path, const std::string& id, const Outcome& written) {
+  const Outcome outcome = readable(written);
+  const auto [at, added] = gathered.outcomes.emplace(id, outcome);
+  if (added) return;
+  if (!at->second.error.empty())
+    at->second = outcome;
+  else if (outcome.error.empty() && !same_result(outcome.row, at->second.row))
+    throw FileError(path, "holds another result of the run " + id +
+                              " than was read before: builds or "
+                              "machines that do not agree");
+}
+
+static void gather_journal(Gathered& gathered, const std::string& path, const std::string& study) {
+  const auto content = read_journal(path);
+  if (content.bytes == 0) return;  // killed before its first line
+  if (content.study != study)
+    throw FileError(path, "belongs to the study \"" + content.study + "\", not to \"" + study + "\"");
+  for (const auto& build : content.builds) add_build(gathered, build);
+  for (const auto& entry : content.entries) add_outcome(gathered, path, entry.id, entry.outcome);
+}
+
+// Where the columns of a table stand. Those of a run are found by name: a table of an earlier version has fewer, and
+// what it lacks stays empty.
+struct TableColumns {
+  std::size_t study = 0, run = 0, error = 0, count = 0;
+  std::vector<std::size_t> of_run;  // by column of a run; count: not there
+};
+
+static TableColumns table_columns(const std::string& path, const std::string& header) {
+  const auto names = record::csv_cells(header);
+  const auto find = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  TableColumns columns{find("study"), find("run"), find("error"), names.size(), {}};
+  if (std::max({columns.study, columns.run, columns.error}) == names.size())
+    throw FileError(path, "has no columns \"study\", \"run\" and \"error\": not the table of a study");
+  for (const auto& column : record::run_columns()) columns.of_run.push_back(find(column.name));
+  return columns;
+}
+
+static void gather_row(Gathered& gathered, const std::string& path, const std::vector<std::string>& cells,
+                       const TableColumns& columns) {
+  std::string row, version, git;
+  for (std::size_t c = 0; c < columns.of_run.size(); ++c) {
+    const std::string cell = columns.of_run[c] < columns.count ? cells[columns.of_run[c]] : "";
+    row += (c > 0 ? "," : "") + record::csv_quoted(cell);
+    if (record::run_columns()[c].name == "version") version = cell;
+    if (record::run_columns()[c].name == "git") git = cell;
+  }
+  const std::string& error = cells[columns.error];
+  add_build(gathered, build_text(version, git));
+  add_outcome(gathered, path, cells[columns.run], {error.empty() ? row : "", error, 0.0});
+}
+
+static void gather_table(Gathered& gathered, const std::string& path, const std::string& study) {
+  const record::InputFile file(path);
+  std::string text;
+  if (!file.read(0, file.size(), text)) throw FileError(path, "cannot be read");
+  std::size_t number = 0;
+  TableColumns columns;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (++number == 1) {
+      columns = table_columns(path, line);
+      continue;
+    }
+    const auto cells = record::csv_cells(line);
+    if (cells.size() != columns.count)
+      throw FileError(path, "line " + std::to_string(number) + " has " + std::to_string(cells.size()) + " cells of " +
+                                std::to_string(columns.count));
+    if (cells[columns.study] != study)
+      throw FileError(path, "belongs to the study \"" + cells[columns.study] + "\", not to \"" + study + "\"");
+    gather_row(gathered, path, cells, columns);
+  }
+}
+
+std::vector<std::string> sources_in(const std::string& folder) {
+  auto sources = journals_in(folder);
+  std::error_code none;
+  if (const std::string table = Folder{folder}.table(); sources.empty() && std::filesystem::exists(table, none))
+    sources.push_back(table);
+  return sources;
+}
+
+Gathered gather(const std::vector<std::string>& sources, const std::string& study) {
   Gathered gathered;
-  for (const auto& path : journals) {
-    const auto content = read_journal(path);
-    if (content.bytes == 0) continue;  // killed before its first line
-    if (content.study != study)
-      throw FileError(path, "belongs to the study \"" + content.study + "\", not to \"" + study + "\"");
-    for (const auto& build : content.builds) {
-      if (std::find(gathered.builds.begin(), gathered.builds.end(), build) == gathered.builds.end())
-        gathered.builds.push_back(build);
-    }
-    for (const auto& entry : content.entries) {
-      const Outcome outcome = readable(entry.outcome);
-      const auto [at, added] = gathered.outcomes.emplace(entry.id, outcome);
-      if (added) continue;
-      if (!at->second.error.empty())
-        at->second = outcome;
-      else if (outcome.error.empty() && !same_result(outcome.row, at->second.row))
-        throw FileError(path, "holds another result of the run " + entry.id +
-                                  " than an earlier journal: builds or "
-                                  "machines that do not agree");
-    }
+  for (const auto& path : sources) {
+    if (path.ends_with(".csv"))
+      gather_table(gathered, path, study);
+    else
+      gather_journal(gathered, path, study);
   }
   return gathered;
 }

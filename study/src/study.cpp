@@ -312,6 +312,7 @@ class StudyReader {
     plan.compare = table.text("compare", plan.compare);
     if (table.has("compare")) check_axis(table, "compare", plan.compare, known);
     plan.confidence = table.number("confidence", plan.confidence, {0.5, 0.9999});
+    plan.margin = table.number("margin", plan.margin, {0.0, 1.0});
     plan.resamples = static_cast<std::size_t>(table.whole("resamples", 2000, {100, 1e6}));
     if (const Node* by = table.list("by")) {
       for (const auto& group : *by->array()) {

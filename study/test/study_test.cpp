@@ -289,6 +289,9 @@ TEST_F(StudyFile, SaysWhatIsWrongWithStatisticsAndFigures) {
   EXPECT_TRUE(says(with("[statistics]\nby = [[\"q\"]]\n"), "is no axis here"));
   EXPECT_TRUE(
       says(with("[statistics]\nconfidence = 1.5\n"), "s.toml:8: error: statistics.confidence: is 1.5; allowed"));
+  EXPECT_TRUE(says(with("[statistics]\nmargin = -0.1\n"), "s.toml:8: error: statistics.margin: is -0.1; allowed"));
+  EXPECT_EQ(good(head + axes + "[statistics]\nconfidence = 0.9\n").statistics.margin, 0.05);
+  EXPECT_EQ(good(head + axes + "[statistics]\nmargin = 0.1\n").statistics.margin, 0.1);
   EXPECT_TRUE(says(with("[statistics]\nresamples = 0.5\n"), "must be a whole number"));
   const std::string figure = "[[figures]]\nmetric = \"committed\"\n";
   EXPECT_TRUE(says(with("[[figures]]\nname = \"x\"\n"), "s.toml:7: error: figures[0].metric: is missing"));

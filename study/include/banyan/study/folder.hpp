@@ -35,15 +35,17 @@ struct Finished {
 // Nothing if the study has not finished there; throws record::FileError for a study.json that is none.
 [[nodiscard]] std::optional<Finished> finished(const Folder& folder);
 
-// Results of several journals together.
+// What is known of the runs of a study: its journals, or the table runs.csv of a folder that was kept without them.
+[[nodiscard]] std::vector<std::string> sources_in(const std::string& folder);
+// Results of several journals and tables together.
 struct Gathered {
   Outcomes outcomes;
   std::vector<std::string> builds;  // "0.1.0 (git 123abc)" of each journal, each once
 };
 // A run that failed and succeeded elsewhere has succeeded; one whose row has other columns than this program's has
-// failed. Throws record::FileError for what
-// read_journal() throws, for a journal of another study, and for two different results of one run.
-[[nodiscard]] Gathered gather(const std::vector<std::string>& journals, const std::string& study);
+// failed. Throws record::FileError for what read_journal() throws, for a source of another study, for a table that is
+// damaged, and for two different results of one run.
+[[nodiscard]] Gathered gather(const std::vector<std::string>& sources, const std::string& study);
 
 // "0.1.0 (git 123abc)" of this program.
 [[nodiscard]] std::string this_build();

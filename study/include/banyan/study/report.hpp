@@ -11,9 +11,7 @@ namespace banyan::study {
 
 // Tidy CSVs: a row per part, grouping, group of runs and metric; "*" for an axis that is pooled.
 [[nodiscard]] std::string statistics_csv(const Study& study, const Results& results);
-// A row per group, pair of values of the axis `compare` and metric: runs paired by seed and by all
-// pooled axes. Wilcoxon's test for numbers, McNemar's for booleans; Holm's correction over the
-// tests of one metric in all groups of one grouping.
+// A row per group, pair of values of the axis `compare` and metric (compare.hpp).
 [[nodiscard]] std::string comparisons_csv(const Study& study, const Results& results);
 
 // Draws the study's figures into `folder`; returns what went wrong, if anything (no gnuplot), and

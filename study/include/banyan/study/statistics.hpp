@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,31 +42,11 @@ struct SummaryOptions {
 // Throws std::invalid_argument if hits > count or the confidence is not in (0, 1).
 [[nodiscard]] Interval wilson(std::size_t hits, std::size_t count, double confidence);
 
-// Paired tests, two-sided. `first` and `second` are of the same length, the pairs at the same index.
-// Two values are equal, and two differences of one size, if they are so up to the rounding of their
-// decimals (8 units in the last place of the larger value): 0.3 - 0.2 and 0.2 - 0.1 are ties.
-// Throw std::invalid_argument if the lengths differ, a value or difference is not finite or the
-// confidence not in (0, 1). No pairs: p = 1, effect 0, the medians NaN.
-struct PairedTest {
-  std::size_t pairs = 0;
-  double median_difference = std::numeric_limits<double>::quiet_NaN();  // of first - second
-  Interval difference_interval;                                         // bootstrap of that median
-  std::size_t first_larger = 0, second_larger = 0;                      // the rest are ties
-  double effect = 0.0;  // matched-pairs rank-biserial correlation, -1 to 1 (Kerby 2014); 0 if all are ties
-  double p = 1.0;
-};
-// Wilcoxon's signed-rank test: exact up to 50 differences, beyond them the normal approximation with
-// tie and continuity correction. Differences of one size share the mean of their ranks, in both. Zero
-// differences are dropped (Wilcoxon 1945). p = 1 if all are zero.
-[[nodiscard]] PairedTest wilcoxon(std::span<const double> first, std::span<const double> second,
-                                  const SummaryOptions& options = {});
-// McNemar's exact test, for values that are 0 or 1: the binomial test on the pairs that differ.
-// Throws std::invalid_argument if a value is neither.
-[[nodiscard]] PairedTest mcnemar(std::span<const double> first, std::span<const double> second,
-                                 const SummaryOptions& options = {});
-
 // Holm's step-down correction (Holm 1979) of a family of p values: adjusted values in the same
 // order, each at most 1, monotone with the raw ones. NaN stays NaN and does not count.
 [[nodiscard]] std::vector<double> holm(std::span<const double> p);
+// The level at which Holm's procedure tests each of them in a family of error rate alpha: p < its level if and only
+// if the adjusted p < alpha. So an interval at that level says the same as the adjusted p. NaN: alpha.
+[[nodiscard]] std::vector<double> holm_levels(std::span<const double> p, double alpha);
 
 }  // namespace banyan::study

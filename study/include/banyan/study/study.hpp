@@ -71,6 +71,7 @@ struct StatisticsPlan {
   std::string compare = "algorithm";  // axis whose values are compared pair by pair, in parts that have it;
                                       // the first axis of the study if there is none of this name
   double confidence = 0.95;
+  double margin = 0.05;  // of the median of the second value; of shares the difference: less does not matter
   std::size_t resamples = 2000;
 };
 
