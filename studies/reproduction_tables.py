@@ -61,6 +61,8 @@ class Statistics:
 
     def compare(self, part, metric, pair=tuple(ALGORITHMS), **labels):
         of_pair = [r for r in self.comparisons[(part, metric)] if (r["first"], r["second"]) == pair]
+        if of_pair and "shift" not in of_pair[0]:
+            sys.exit("comparisons.csv is of an earlier version: make it anew with banyan collect (docs/studies.md)")
         return self._find(of_pair, labels)
 
 
@@ -94,23 +96,39 @@ def p_value(text):
     return "< 0.001" if value > 1e-300 else "0"
 
 
+def signed(row, field, low, high):
+    if row[low] == "-inf":
+        return f"{float(row[field]):+.3f} ({row['ranked']} pairs: no interval)"
+    return f"{float(row[field]):+.3f} ({float(row[low]):+.3f} to {float(row[high]):+.3f})"
+
+
+def missed(row):
+    return int(row["first_missed"]) + int(row["second_missed"]) > 0
+
+
 def difference(row):
-    """The median of the paired differences with its interval."""
-    return f"{float(row['median_difference']):+.3f} ({float(row['difference_low']):+.3f} to {float(row['difference_high']):+.3f})"
+    """The shift where both complete, with its interval at the level of p after Holm's correction; p; and the verdict."""
+    verdict = row["verdict"] + (f"; misses: {row['misses']}" if missed(row) else "")
+    return [signed(row, "shift", "holm_low", "holm_high"), p_value(row["p_holm"]), verdict]
 
 
-def time_row(row):
-    """Medians, paired difference with interval, who was sooner, p."""
-    pairs = int(row["pairs"])
-    return [number(row["first_median"]), number(row["second_median"]), difference(row),
-            f"{100 * int(row['second_larger']) / pairs:.0f}", p_value(row["p_holm"])]
+def time_row(s, part, **labels):
+    """Medians of all runs, who missed, shift where both complete, who was sooner there, verdict. Restricted means stand
+    where somebody missed: elsewhere they would be a second answer to the question of the shift."""
+    row = s.compare(part, "normalized_time", **labels)
+    shift, p, verdict = difference(row)
+    return ([number(s.of(part, "normalized_time", algorithm=a, **labels)["median"]) for a in ALGORITHMS]
+            + [f"{row['first_missed']} / {row['second_missed']} of {row['pairs']}", shift, p,
+               f"{100 * int(row['second_larger']) / int(row['ranked']):.0f}",
+               signed(row, "mean_difference", "mean_low", "mean_high") if missed(row) else "", verdict])
 
 
-TIME_HEADER = ["outwards", "inwards", "outwards − inwards (95 %)", "outwards sooner, % of pairs", "p (Holm)"]
+TIME_HEADER = ["outwards", "inwards", "missed", "outwards − inwards where both complete", "p (Holm)",
+               "outwards sooner there, %", "means up to the limit, outwards − inwards", "outwards is"]
 
 
 def time(s):
-    rows = [[reading, los, f"{r} m"] + time_row(s.compare("worlds", "normalized_time", reading=reading, los=los, r=r))
+    rows = [[reading, los, f"{r} m"] + time_row(s, "worlds", reading=reading, los=los, r=r)
             for reading in READINGS for los in SIGHT for r in RADII]
     return table(["reading", "line of sight", "r"] + TIME_HEADER, rows)
 
@@ -206,7 +224,7 @@ def gain(s):
 
 
 def pull(s):
-    rows = [[reading, tau, f"{r} m"] + time_row(s.compare("pull", "normalized_time", reading=reading, tau=tau, r=r))
+    rows = [[reading, tau, f"{r} m"] + time_row(s, "pull", reading=reading, tau=tau, r=r)
             for reading in READINGS for tau in ("0.2539", "0.49", "1") for r in RADII]
     return table(["reading", "τ of both", "r"] + TIME_HEADER, rows)
 
@@ -220,7 +238,7 @@ def real(s):
                 labels = dict(reading=reading, los="off", body=body)
                 done = [percent(s.of(part, "complete", algorithm=a, **labels)) for a in shown(reading)]
                 rows.append([text, reading, body, " / ".join(done)]
-                            + time_row(s.compare(part, "normalized_time", **labels)))
+                            + time_row(s, part, **labels))
     return table(["set-up", "reading", "bodies", "complete, %, outwards / inwards (/ convoy)"] + TIME_HEADER, rows)
 
 
@@ -270,10 +288,10 @@ def equal_pull(s):
             row = [tau, f"{r} m", all_three("normalized_time", "median", 3)]
             for algorithm in ALGORITHMS:
                 test = s.compare("pull", "normalized_time", pair=(algorithm, "convoy"), **labels)
-                row += [difference(test), p_value(test["p_holm"])]
+                row += difference(test)
             rows.append(row + [all_three("committed", "mean", 1)])
-    return table(["τ of all", "r", "median time, outwards / inwards / convoy", "outwards − convoy (95 %)", "p (Holm)",
-                  "inwards − convoy (95 %)", "p (Holm)", "robots in the tree at the end, mean"], rows)
+    return table(["τ of all", "r", "median time, outwards / inwards / convoy", "outwards − convoy", "p (Holm)", "outwards is",
+                  "inwards − convoy", "p (Holm)", "inwards is", "robots in the tree at the end, mean"], rows)
 
 
 TABLES = {"convoy": convoy, "equal-pull": equal_pull, "time": time, "complete": complete, "broken": broken,

@@ -109,6 +109,7 @@ constexpr const char* study_footer =
     "  banyan study studies/paper.toml --sbatch paper.sbatch --shards 50";
 
 constexpr const char* collect_footer =
+    "A folder in which only runs.csv was kept will do as well: new statistics need no new runs.\n\n"
     "Examples:\n"
     "  banyan collect studies/paper.toml\n"
     "  banyan collect studies/paper.toml --out all shards-of-a shards-of-b";
@@ -455,7 +456,7 @@ void add_collect(CLI::App& app, std::function<int()>& action) {
       app.add_subcommand("collect", "merge the shards of a study into its tables and figures")->group(command_group);
   command->footer(collect_footer);
   add_study_options(*command, options->study);
-  command->add_option("folders", options->from, "more folders that shards have written to")->type_name("DIR");
+  command->add_option("folders", options->from, "more folders with results of this study")->type_name("DIR");
   command->add_flag("--partial", options->partial, "make the tables although runs are missing");
   command->callback([options, &action] { action = [options] { return collect_command(*options); }; });
 }
