@@ -267,8 +267,8 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
     standing = execute(prepared.plan, todo, *workers, journal, folder.runs(), progress_watch(progress));
   }
   if (standing.stopped) {
-    complain(format("stopped by %s after %zu of %zu runs; the same command goes on from there",
-                    stop_signal_name(), standing.done, standing.wanted));
+    complain(format("stopped by %s after %zu of %zu runs; the same command goes on from there", stop_signal_name(),
+                    standing.done, standing.wanted));
     return exit_signal + stop_signal();
   }
   gathered = gather(journals_in(folder.path), prepared.study.name);
@@ -332,8 +332,7 @@ int collect_command(const CollectOptions& options) {
   for (const auto& from : options.from) {
     const auto more = sources_in(from);
     if (more.empty())
-      throw CommandError(exit_usage,
-                         from + " holds no results of a study (" + from + "/journal/*.jsonl or runs.csv)");
+      throw CommandError(exit_usage, from + " holds no results of a study (" + from + "/journal/*.jsonl or runs.csv)");
     sources.insert(sources.end(), more.begin(), more.end());
   }
   if (sources.empty())

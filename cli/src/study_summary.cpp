@@ -53,10 +53,10 @@ std::string comparison_text(const Study& study, const Comparison& c) {
   const std::string name = (part.empty() ? "" : part + ", ") + c.first + " - " + c.second;
   const std::string interval = number_text(c.test.interval.low) + " to " + number_text(c.test.interval.high);
   const std::string misses = format("%zu : %zu", c.first_missed, c.second_missed);
-  std::string text = format("  %-38s %6zu %8s  %-18s %8s %11s  ", name.substr(0, 38).c_str(), c.ranked,
-                            number_text(c.test.estimate).c_str(), interval.c_str(), p_text(c.test.p).c_str(),
-                            misses.c_str()) +
-                     verdict_text(c);
+  std::string text =
+      format("  %-38s %6zu %8s  %-18s %8s %11s  ", name.substr(0, 38).c_str(), c.ranked,
+             number_text(c.test.estimate).c_str(), interval.c_str(), p_text(c.test.p).c_str(), misses.c_str()) +
+      verdict_text(c);
   if (c.first_missed + c.second_missed > 0) text += "; misses: " + misses_text(c);
   return text + "\n";
 }
@@ -71,9 +71,10 @@ std::string comparisons_text(const Study& study, const Results& results) {
   return format("\n  %-38s %6s %8s  %-18s %8s %11s  %s\n", "time / limit, first - second", "pairs", "shift",
                 interval.c_str(), "p", "missed", "the first is") +
          rows +
-         format("  (signed ranks of the pairs that both complete, within each world; no difference: within %g %% of\n"
-                "  the second's median. Every group of runs, corrected for their number: comparisons.csv)\n",
-                100.0 * study.statistics.margin);
+         format(
+             "  (signed ranks of the pairs that both complete, within each world; no difference: within %g %% of\n"
+             "  the second's median. Every group of runs, corrected for their number: comparisons.csv)\n",
+             100.0 * study.statistics.margin);
 }
 
 }  // namespace

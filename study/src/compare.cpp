@@ -30,7 +30,8 @@ constexpr Missable missable[] = {{"normalized_time", "complete", ""},
                                  {"recovery_time_s", "recovered", "last_death_s"}};
 
 const Missable* missable_of(std::string_view metric) noexcept {
-  const auto* at = std::find_if(std::begin(missable), std::end(missable), [&](const auto& m) { return m.metric == metric; });
+  const auto* at =
+      std::find_if(std::begin(missable), std::end(missable), [&](const auto& m) { return m.metric == metric; });
   return at == std::end(missable) ? nullptr : at;
 }
 
@@ -221,13 +222,16 @@ class Comparing {
       families[{c.part, c.grouping, c.metric, c.first, c.second}].push_back(i);
     }
     for (const auto& [claim, members] : families) {
-      const auto& [metric, boolean] = std::pair{comparisons_[members.front()].metric, comparisons_[members.front()].boolean};
+      const auto& [metric, boolean] =
+          std::pair{comparisons_[members.front()].metric, comparisons_[members.front()].boolean};
       if (boolean) {
-        judge_family(members, &Comparison::test, [&](std::size_t i) -> const PairedShares& { return tests_[i].shares; });
+        judge_family(members, &Comparison::test,
+                     [&](std::size_t i) -> const PairedShares& { return tests_[i].shares; });
       } else {
         judge_family(members, &Comparison::test, [&](std::size_t i) -> const SignedRank& { return tests_[i].ranks; });
       }
-      judge_family(members, &Comparison::misses, [&](std::size_t i) -> const PairedShares& { return tests_[i].misses; });
+      judge_family(members, &Comparison::misses,
+                   [&](std::size_t i) -> const PairedShares& { return tests_[i].misses; });
     }
   }
 
@@ -247,8 +251,7 @@ class Comparing {
     judged.margin = margin;
   }
 
-  template <class TestOf>
-  void judge_family(const Rows& members, Judged Comparison::*which, const TestOf& test_of) {
+  template <class TestOf> void judge_family(const Rows& members, Judged Comparison::*which, const TestOf& test_of) {
     std::vector<double> p;
     for (const std::size_t i : members) {
       const auto& test = test_of(i);
@@ -281,18 +284,22 @@ class Comparing {
   std::vector<Tests> tests_;  // of these
 };
 
-std::string within(std::string word, Verdict verdict) {
+std::string within(const std::string& word, Verdict verdict) {
   return verdict == Verdict::lower_within || verdict == Verdict::higher_within ? word + " (within margin)" : word;
 }
 
 std::string worded(Verdict verdict, const char* lower, const char* higher) {
   switch (verdict) {
-    case Verdict::no_difference: return "no difference";
+    case Verdict::no_difference:
+      return "no difference";
     case Verdict::lower:
-    case Verdict::lower_within: return within(lower, verdict);
+    case Verdict::lower_within:
+      return within(lower, verdict);
     case Verdict::higher:
-    case Verdict::higher_within: return within(higher, verdict);
-    case Verdict::undecided: break;
+    case Verdict::higher_within:
+      return within(higher, verdict);
+    case Verdict::undecided:
+      break;
   }
   return "undecided";
 }
@@ -301,8 +308,8 @@ std::string interval_cells(const Interval& interval) { return shown(interval.low
 
 std::string comparison_cells(const Comparison& c) {
   const auto count = [](std::size_t number) { return std::to_string(number); };
-  std::string text = (c.ranked > 0 ? verdict_text(c) : "") + "," + (c.pairs > 0 ? misses_text(c) : "") + "," +
-                     count(c.pairs) + ",";
+  std::string text =
+      (c.ranked > 0 ? verdict_text(c) : "") + "," + (c.pairs > 0 ? misses_text(c) : "") + "," + count(c.pairs) + ",";
   text += c.can_miss ? count(c.first_missed) + "," + count(c.second_missed) + "," + count(c.both_missed) : ",,";
   text += "," + count(c.ranked) + "," + shown(c.first_median) + "," + shown(c.second_median) + "," +
           shown(c.test.estimate) + "," + interval_cells(c.test.interval) + "," + shown(c.test.p) + "," +

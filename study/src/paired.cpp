@@ -43,8 +43,8 @@ double scale_of(const PairedValues& pairs) noexcept {
   return scale;
 }
 
-constexpr std::size_t exact_pairs = 50;         // every count of signings stays under 2^53
-constexpr std::int64_t exact_total = 1 << 20;   // places of the table
+constexpr std::size_t exact_pairs = 50;          // every count of signings stays under 2^53
+constexpr std::int64_t exact_total = 1 << 20;    // places of the table
 constexpr std::int64_t finest_weight = 1 << 30;  // weights of strata of many different sizes are rounded to 1 / this
 
 double walsh_averages(double n) noexcept { return n * (n + 1.0) / 2.0; }

@@ -70,7 +70,8 @@ double favoured(const Strata& strata, bool positive) {
 double enumerated(const Strata& strata, double sum) {
   Differences ranks;
   for (const auto& d : strata)
-    for (std::size_t i = 1; i <= d.size(); ++i) ranks.push_back(static_cast<double>(i) / static_cast<double>(d.size() + 1));
+    for (std::size_t i = 1; i <= d.size(); ++i)
+      ranks.push_back(static_cast<double>(i) / static_cast<double>(d.size() + 1));
   std::size_t upto = 0;
   for (std::size_t signs = 0; signs < std::size_t{1} << ranks.size(); ++signs) {
     double positive = 0.0;
@@ -113,9 +114,9 @@ TEST(PairedSignedRank, AgreesWithScipyOnBothSidesOfTheExactLimit) {
     std::uint64_t n;
     double p, effect;
   };
-  for (const Case& c : {Case{50, 0.5786292137562761, -0.09176470588235294},
-                        Case{51, 0.5770347251282728, -0.09049773755656108},
-                        Case{200, 0.7654500810141874, 0.02437810945273632}}) {
+  for (const Case& c :
+       {Case{50, 0.5786292137562761, -0.09176470588235294}, Case{51, 0.5770347251282728, -0.09049773755656108},
+        Case{200, 0.7654500810141874, 0.02437810945273632}}) {
     PairedValues pairs;
     for (std::uint64_t i = 1; i <= c.n; ++i) {
       pairs.first.push_back(static_cast<double>(i * 37 * 7919 % 1009) / 8.0);
@@ -355,7 +356,8 @@ TEST(PairedSignedRank, SizesBeyondMeasure) {
 TEST(PairedSignedRank, RefusesWhatHasNoMeaning) {
   EXPECT_THROW(SignedRank({{1, 2}, {1}, {}}), std::invalid_argument);
   EXPECT_THROW(SignedRank({{1, 2}, {1, 2}, {1}}), std::invalid_argument);
-  for (const double bad : {std::nan(""), infinite}) EXPECT_THROW(SignedRank({{1, bad}, {1, bad}, {}}), std::invalid_argument);
+  for (const double bad : {std::nan(""), infinite})
+    EXPECT_THROW(SignedRank({{1, bad}, {1, bad}, {}}), std::invalid_argument);
   EXPECT_THROW(SignedRank({{1e308}, {-1e308}, {}}), std::invalid_argument);
   for (const double bad : {0.0, 1.0, std::nan("")}) {
     EXPECT_THROW((void)ranks_of(Differences{1.0}).interval(bad), std::invalid_argument);

@@ -141,7 +141,8 @@ class ReportTest : public TemporaryFolder {
       const auto n = static_cast<double>(values.size());
       for (const double v : values) squares += (v - sum / n) * (v - sum / n);
       EXPECT_NEAR(cell_value(row.at("mean")), sum / n, 1e-5);
-      EXPECT_NEAR(cell_value(row.at("standard_deviation")), values.size() > 1 ? std::sqrt(squares / (n - 1)) : 0.0, 1e-5);
+      EXPECT_NEAR(cell_value(row.at("standard_deviation")), values.size() > 1 ? std::sqrt(squares / (n - 1)) : 0.0,
+                  1e-5);
       EXPECT_NEAR(cell_value(row.at("minimum")), values.front(), 1e-6);
       EXPECT_NEAR(cell_value(row.at("maximum")), values.back(), 1e-6);
       const auto half = values.size() / 2;
@@ -354,8 +355,12 @@ class ClearReport : public ReportTest {
     outcomes_[run.id] = {record::run_csv_row(out), "", 1.0};
   }
   [[nodiscard]] Row comparison(const std::string& first, const std::string& second, const std::string& r) const {
-    return picked(comparisons(), {{"part", "big"}, {"metric", "normalized_time"}, {"r", r}, {"q", "*"},
-                                  {"first", first}, {"second", second}})
+    return picked(comparisons(), {{"part", "big"},
+                                  {"metric", "normalized_time"},
+                                  {"r", r},
+                                  {"q", "*"},
+                                  {"first", first},
+                                  {"second", second}})
         .at(0);
   }
 };
@@ -382,7 +387,10 @@ TEST_F(ClearReport, NoIntervalContradictsItsP) {
   std::size_t significant = 0, not_after_holm = 0;
   for (const std::size_t seeds : {0U, 1U, 2U, 3U}) {
     for (const auto& row : plan_.rows)  // from nothing to much noise
-      set(row, 0.4 + (label(row, "way") == "tuned" ? 0.02 : 0.0) + 0.08 * static_cast<double>(seeds) * (time_of(row.run) - 0.5), true);
+      set(row,
+          0.4 + (label(row, "way") == "tuned" ? 0.02 : 0.0) +
+              0.08 * static_cast<double>(seeds) * (time_of(row.run) - 0.5),
+          true);
     for (const Row& row : comparisons()) {
       if (row.at("metric") == "complete" || row.at("p").empty()) continue;
       const auto excludes = [&](const char* low, const char* high) {

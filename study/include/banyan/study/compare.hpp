@@ -36,7 +36,7 @@ struct Comparison {
   bool can_miss = false;
   std::size_t ranked = 0, first_missed = 0, second_missed = 0, both_missed = 0;
   Judged test;
-  Judged misses;                      // McNemar's test of them
+  Judged misses;                                   // McNemar's test of them
   double first_median = 0.0, second_median = 0.0;  // of the pairs that are ranked; NaN for a boolean
   double first_mean = 0.0, second_mean = 0.0;      // of all pairs: a miss counts with the limit, a restricted mean
   double mean_difference = 0.0;                    // NaN where a miss has no limit

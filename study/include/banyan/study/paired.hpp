@@ -63,11 +63,11 @@ class SignedRank {
 
   std::vector<Stratum> strata_;
   std::size_t pairs_ = 0, first_larger_ = 0, second_larger_ = 0;
-  std::int64_t total_ = 0;        // weight of all Walsh averages
-  double scale_ = 1.0;            // units in 1
-  double deviation_ = 0.0;        // standard, of T
-  double continuity_ = 0.0;       // half of the smallest step of T
-  std::vector<double> tossed_;    // P(T <= index) up to half of total_, where it is exact
+  std::int64_t total_ = 0;      // weight of all Walsh averages
+  double scale_ = 1.0;          // units in 1
+  double deviation_ = 0.0;      // standard, of T
+  double continuity_ = 0.0;     // half of the smallest step of T
+  std::vector<double> tossed_;  // P(T <= index) up to half of total_, where it is exact
 };
 
 // McNemar's exact test: how often only the first, and only the second, of a pair has a property.
