@@ -282,6 +282,25 @@ TEST(PairedSignedRank, RanksAreGivenWithinAStratum) {
   EXPECT_EQ(SignedRank({pooled, Differences(45, 0.0), {}}).p(), ranks_of(pooled).p());
 }
 
+// Worlds of so many sizes that their weights have no common denominator within bounds, by the formulas.
+TEST(PairedSignedRank, AgreesWithTheFormulasForManyWorldsOfManySizes) {
+  Strata strata;
+  double variance = 0.0;
+  for (std::uint64_t n = 11; n <= 47; n += 2) {
+    strata.push_back(some(n, n, 0.05, false));
+    const auto size = static_cast<double>(n);
+    variance += size * (2.0 * size + 1.0) / (24.0 * (size + 1.0));
+  }
+  double above = 0.0, below = 0.0;
+  for (const auto& average : walsh(strata)) (average.value > 0.0 ? above : below) += average.weight;
+  const double distance = 0.5 * std::abs(above - below) - 0.5 / 48.0;  // half a rank of the largest world
+  const auto test = ranks_of(strata);
+  EXPECT_NEAR(test.p(), std::erfc(distance / std::sqrt(2.0 * variance)), 1e-6);
+  EXPECT_NEAR(test.shift(), weighted_median(walsh(strata)), 1e-9);
+  EXPECT_NEAR(test.effect(), (above - below) / (above + below), 1e-6);
+  EXPECT_LT(test.p(), 0.2);
+}
+
 // Logistic differences, a true shift of 0.25 in each of three worlds of 7, 9 and 11 pairs, and 60 in one: four
 // standard deviations of a share of 0.95 in 2,000 are 0.02.
 TEST(PairedSignedRank, CoversTheTruthAsOftenAsPromised) {
