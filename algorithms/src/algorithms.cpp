@@ -2,6 +2,7 @@
 // The one list. An algorithm is a line here and a folder of its own.
 #include "banyan/algorithms/algorithms.hpp"
 
+#include "banyan/rivals/chains/chains.hpp"
 #include "banyan/rivals/cohesion/cohesion.hpp"
 #include "banyan/rivals/fiedler/fiedler.hpp"
 #include "banyan/rivals/link_consensus/link_consensus.hpp"
@@ -18,6 +19,7 @@ const AlgorithmList& algorithms() noexcept {
       &rivals::mst::algorithm(),
       &rivals::fiedler::algorithm(),
       &rivals::cohesion::algorithm(),
+      &rivals::chains::algorithm(),
   };
   return all;
 }

@@ -106,13 +106,8 @@ TEST_P(KeptLinks, WhatIsKeptJoinsAllAndNoKeptLinkOutgrowsTheRadio) {
 
 TEST_P(Rival, ReachesTargetsThatAreNear) {
   World world(ring(GetParam(), 24, 3, 3.0, 7));
-  const auto all_held = [&] {
-    for (std::size_t t = 0; t < 3; ++t)
-      if (!world.holder(t)) return false;
-    return true;
-  };
-  while (world.tick() < 1500 && !all_held()) world.step();
-  EXPECT_TRUE(all_held());
+  while (world.tick() < 1500 && !all_held(world)) world.step();
+  EXPECT_TRUE(all_held(world));
   EXPECT_GT(world.tick(), 100U) << "faster than wheels";
 }
 

@@ -40,12 +40,6 @@ double straight_drive_s(const World& world) {
   return longest_m / world.scenario().robot.wheel_limit_m_s;
 }
 
-bool all_held(const World& world) {
-  for (std::size_t k = 0; k < world.targets().size(); ++k)
-    if (!world.holder(k)) return false;
-  return true;
-}
-
 double longest_edge_m(const World& world) {
   double longest_m = 0.0;
   for (std::size_t i = 0; i < world.size(); ++i) {

@@ -79,6 +79,12 @@ inline std::size_t parts_by_range(const World& world) {
   return parts;
 }
 
+inline bool all_held(const World& world) {
+  for (std::size_t k = 0; k < world.targets().size(); ++k)
+    if (!world.holder(k)) return false;
+  return true;
+}
+
 inline void run_until(World& world, std::uint64_t tick) {
   while (world.tick() < tick) world.step();
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Chains from a base: relays join each worker to the base, which stays where it is; free robots enter a chain at its
+// base end, and a chain closes up where a relay dies (SwarmRelays, Varadharajan et al. 2020, without its planner; with
+// k chains a worker as in their earlier work, 2019). docs/rivals.md has the equations and what the papers leave open.
+#pragma once
+
+#include <span>
+
+#include "banyan/rivals/chains/params.hpp"
+#include "banyan/rivals/chains/state.hpp"
+#include "banyan/rivals/common/robots.hpp"
+
+namespace banyan::rivals::chains {
+
+using Heard = HeardOf<Message>;
+
+[[nodiscard]] State initial_state(RobotId id, bool worker, bool root) noexcept;
+[[nodiscard]] Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
+                                   const Senses& sensed) noexcept;
+[[nodiscard]] Report report(const State& state) noexcept;
+void add_to(Digest& digest, const State& state) noexcept;
+
+using Robots = RobotsOf<Params, State, Message, initial_state, step, report, add_to>;
+
+// By name and with its table, for hosts.
+[[nodiscard]] const Algorithm& algorithm() noexcept;
+
+}  // namespace banyan::rivals::chains

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "banyan/rivals/chains/message.hpp"
+#include "banyan/rivals/common/params.hpp"
+
+namespace banyan::rivals::chains {
+
+// Distances in C and times are those of the authors' program, in which C is 2.5 m and a tick takes 0.1 s.
+struct Params : RivalParams {
+  constexpr Params() noexcept {
+    liveness_period_s = 4.0F;
+    longest_link_m = 1.44F;  // MAX
+  }
+  float safe_distance_m = 1.12F;      // SAFE
+  float critical_distance_m = 1.28F;  // CRITICAL
+  float chains_per_target = 1.0F;     // k
+  float request_timeout_s = 2.0F;
+  float ignore_s = 10.0F;
+  float gap_patience_s = 20.0F;
+  float side_offset_m = 0.6F;       // theirs: half as much
+  float free_spacing_m = 0.32F;
+
+  [[nodiscard]] int chains() const noexcept { return static_cast<int>(chains_per_target + 0.5F); }
+};
+
+[[nodiscard]] std::span<const Parameter<Params>> parameters() noexcept;
+// The first fault among the values that depend on each other; nothing if there is none.
+[[nodiscard]] std::string_view fault(const Params& params) noexcept;
+
+}  // namespace banyan::rivals::chains

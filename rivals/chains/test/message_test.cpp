@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What robots of chains from a base say.
+#include "banyan/rivals/chains/chains.hpp"
+#include "said.hpp"
+
+namespace banyan::rivals::chains {
+namespace {
+
+struct Sample : Robots {
+  static constexpr const char* length_in_documents = "one of chains (\\d+)";
+  static void fill(Message& m) {
+    m.id = sender();
+    for (std::uint16_t* n : {&m.worker, &m.asks, &m.root, &m.beyond_cm, &m.path_cm}) *n = word();
+    for (std::uint8_t* n : {&m.chain, &m.links, &m.root_age}) *n = byte();
+    m.whole = *rc::gen::arbitrary<bool>();
+    for (Ids* ids : {&m.above, &m.below})
+      for (RobotId& id : *ids) id = word();
+  }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(Chains, Said, Sample);
+
+}  // namespace
+}  // namespace banyan::rivals::chains
