@@ -93,8 +93,8 @@ int find_child(const Robot& robot) noexcept {
     const Message& m = robot.table().message(k);
     const bool mine = m.worker == self.worker && (is_worker(m) || m.chain == self.number);
     if (!mine || !names_as_parent(m, self.id)) continue;
-    if (found < 0 || (m.whole && !robot.table().message(found).whole)) found = k;
-    else if (m.id == self.child && m.whole == robot.table().message(found).whole) found = k;
+    const bool found_whole = found >= 0 && robot.table().message(found).whole;
+    if (found < 0 || (m.whole && !found_whole) || (m.id == self.child && m.whole == found_whole)) found = k;
   }
   return found;
 }
