@@ -54,6 +54,7 @@ std::string robots_text(const measure::Run& run) {
   std::string text = format("%u of %u committed; at least %u are needed", run.committed, run.robots, run.robots_bound);
   if (run.robots_bound > 0)
     text += format(" (%.2f times the bound)", static_cast<double>(run.committed) / run.robots_bound);
+  text += format(", an oracle has %s%u (%.2f times)", run.oracle_exact ? "" : "at most ", run.oracle_robots, run.oracle_ratio);
   return text;
 }
 

@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "banyan/measure/bottleneck.hpp"
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
+#include "banyan/measure/relays.hpp"
 #include "banyan/measure/steiner.hpp"
 #include "banyan/world/tree_parts.hpp"
 
@@ -175,6 +177,7 @@ struct Observer::Impl {
   void watch_recovery(const world::World& world);
   [[nodiscard]] bool finished() const noexcept;
   [[nodiscard]] bool survivors_suffice(const world::World& world) const;
+  void ask_oracle();
 
   Tick tick;
   Run run;
@@ -194,6 +197,9 @@ struct Observer::Impl {
   std::uint64_t two_roots_streak = 0, longest_two_roots = 0;
   std::vector<double> nearest_worker;          // by target: squared distance
   std::vector<world::Vec2> first_targets;      // those the bounds are about
+  std::vector<world::Vec2> first_others;       // where robots start that are not sent to a target
+  double speed_m_s;
+  bool oracle_asked = false;
   Recovery recovery;
   bool pending_kills;
 };
@@ -204,6 +210,15 @@ std::vector<world::Vec2> active_positions(const world::World& world) {
   std::vector<world::Vec2> positions;
   for (const world::Target& target : world.targets())
     if (target.active) positions.push_back(target.position);
+  return positions;
+}
+
+std::vector<world::Vec2> unsent_positions(const world::World& world) {
+  std::vector<char> sent(world.size(), 0);
+  for (const world::Target& target : world.targets()) sent[target.worker] = 1;
+  std::vector<world::Vec2> positions;
+  for (std::size_t i = 0; i < world.size(); ++i)
+    if (sent[i] == 0) positions.push_back(world.positions()[i]);
   return positions;
 }
 
@@ -251,13 +266,15 @@ Observer::Impl::Impl(const world::World& world)
       sample_ticks(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(sample_period_s / world.scenario().tick_s + 0.5))),
       tree_parts(world.size()),
       first_targets(active_positions(world)),
+      first_others(unsent_positions(world)),
+      speed_m_s(world.scenario().robot.wheel_limit_m_s),
       recovery(world.scenario().tick_s, stop_when_complete ? settle_s : 0.0),
       pending_kills(world.pending_kills()) {
   run.robots = static_cast<std::uint32_t>(world.size());
   run.time_limit_s = world::time_limit_s(world.scenario());
   for (const world::Target& target : world.targets()) {
     const double distance_m = distance(world.positions()[target.worker], target.position);
-    run.time_bound_s = std::max(run.time_bound_s, (distance_m - tolerance_m) / world.scenario().robot.wheel_limit_m_s);
+    run.time_bound_s = std::max(run.time_bound_s, (distance_m - tolerance_m) / speed_m_s);
   }
   run.steiner_length_m = steiner_length(first_targets).lower_m;
   run.star_length_m = star_length(first_targets);
@@ -429,6 +446,20 @@ bool Observer::Impl::survivors_suffice(const world::World& world) const {
   return run.survivors >= (targets == first_targets ? run.robots_bound : robots_bound(targets, tolerance_m, range_m));
 }
 
+// The fewest robots, and the least time in which all workers and, from the nearest starts, relays can be at their
+// places. Asked once, at the end, since it takes some milliseconds and no tick needs it. Without any relay a root is
+// needed beside the workers, which has no place of its own.
+void Observer::Impl::ask_oracle() {
+  if (std::exchange(oracle_asked, true)) return;
+  constexpr double edge_share = 0.95;
+  const RelayTree tree = fewest_relays(first_targets, edge_share * range_m);
+  const std::size_t relays = std::max<std::size_t>(1, tree.relays.size());
+  run.oracle_robots = static_cast<std::uint32_t>(first_targets.size() + relays);
+  run.oracle_exact = tree.exact;
+  if (first_others.size() < relays) return;
+  run.oracle_time_s = std::max(run.time_bound_s, bottleneck_m(first_others, tree.relays) / speed_m_s);
+}
+
 Observer::Observer(const world::World& world) : impl_(std::make_unique<Impl>(world)) {}
 Observer::Observer(Observer&&) noexcept = default;
 Observer& Observer::operator=(Observer&&) noexcept = default;
@@ -458,6 +489,7 @@ const Run& Observer::run() const noexcept { return impl_->run; }
 bool Observer::finished() const noexcept { return impl_->finished(); }
 
 Run Observer::result(const world::World& world) const {
+  impl_->ask_oracle();
   Run run = impl_->run;
   const double ticks = std::max(1.0, static_cast<double>(run.ticks));
   run.mean_committed = static_cast<double>(impl_->committed_sum) / ticks;
@@ -482,6 +514,7 @@ Run Observer::result(const world::World& world) const {
   if (impl_->ticks_since_complete > 0) run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
+  run.oracle_ratio = static_cast<double>(run.committed) / static_cast<double>(run.oracle_robots);
   run.network_length_m = network_length_m(world);
   run.longest_two_roots_s = static_cast<double>(impl_->longest_two_roots) * world.scenario().tick_s;
   run.survivors_suffice = impl_->survivors_suffice(world);

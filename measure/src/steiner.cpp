@@ -384,9 +384,4 @@ double star_length(const std::vector<Vec2>& terminals) {
   return std::min(best, length_from(hub));
 }
 
-std::uint32_t robots_bound(const std::vector<Vec2>& targets, double tolerance_m, double range_m) {
-  const double length = steiner_length(targets).lower_m - static_cast<double>(targets.size()) * tolerance_m;
-  return static_cast<std::uint32_t>(std::max(0.0, std::ceil(length / range_m - 1e-9))) + 1;
-}
-
 }  // namespace banyan::measure

@@ -207,6 +207,28 @@ TEST(Observer, KnowsTheBounds) {
   EXPECT_EQ(observer.run().robots, 20U);
 }
 
+// Robots on a line, 1 m apart, edges of at most 1.9 m: the worker at 0 drives to -2 m, the one at 5 to 8 m.
+TEST(Observer, AsksTheOracleForRobotsAndTime) {
+  Scenario s = chain(6, 1.0);
+  s.targets = std::vector<Vec2>{{-2.0, 0.0}, {8.0, 0.0}};
+  s.mission.target_tolerance_m = 0.2;
+  World world(s);
+  Observer observer(world);
+  after(world, observer, 1);
+  const measure::Run poor = observer.result(world);
+  EXPECT_EQ(poor.oracle_robots, 7U) << "ten metres: six edges";
+  EXPECT_TRUE(poor.oracle_exact);
+  EXPECT_EQ(poor.oracle_time_s, -1.0) << "five relays, and four robots";
+  EXPECT_NEAR(poor.oracle_ratio * 7.0, poor.committed, 1e-12);
+  s.targets = std::vector<Vec2>{{-2.0, 0.0}, {5.5, 0.0}};
+  World enough(s);
+  Observer watcher(enough);
+  const double v_max = s.robot.wheel_limit_m_s;
+  // Relays at -0.125, 1.75 and 3.625 m, robots left at 1, 2, 3 and 4 m: the longest drive is 1.125 m.
+  EXPECT_NEAR(watcher.result(enough).oracle_time_s, std::max(watcher.run().time_bound_s, 1.125 / v_max), 1e-9);
+  EXPECT_EQ(watcher.result(enough).oracle_robots, 5U);
+}
+
 TEST(Observer, MeasuresTheNetworkThatIsLeft) {
   Scenario s = chain(6, 1.1);
   s.events.push_back({.time_s = 15.0, .action = world::Die{2}});
@@ -214,7 +236,7 @@ TEST(Observer, MeasuresTheNetworkThatIsLeft) {
   Observer observer(world);
   after(world, observer, 150);
   EXPECT_NEAR(observer.result(world).network_length_m, 5 * 1.1, 1e-9);
-  EXPECT_EQ(observer.result(world).committed_ratio, 6.0) << "one target: one robot would do";
+  EXPECT_EQ(observer.result(world).committed_ratio, 3.0) << "one target: a worker and the root would do";
   after(world, observer, 1);
   EXPECT_NEAR(observer.result(world).network_length_m, 3 * 1.1, 1e-9) << "neither its edge nor the edge to it";
 }
@@ -489,7 +511,7 @@ TEST(Observer, SurvivorsAreComparedWithWhatTheTargetsLeftNeed) {
   EXPECT_EQ(after(world, observer, 10).active_targets, 2U);
   EXPECT_FALSE(observer.result(world).survivors_suffice) << "five";
   EXPECT_EQ(after(world, observer, 10).active_targets, 1U);
-  EXPECT_TRUE(observer.result(world).survivors_suffice) << "one target needs one robot";
+  EXPECT_TRUE(observer.result(world).survivors_suffice) << "one target needs two robots";
   EXPECT_EQ(observer.result(world).robots_bound, 6U) << "the start's";
 }
 

@@ -295,14 +295,5 @@ TEST(Star, RunsFromTheGeometricMedian) {
   }
 }
 
-TEST(RobotsBound, FollowsTheFormula) {
-  EXPECT_EQ(robots_bound({{0, 0}}, 0.2, 2.0), 1U);
-  EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.2, 2.0), 10U);  // ceil(17.6 / 2) + 1
-  EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.0, 2.0), 10U);  // 18 / 2 exactly: 9 + 1
-  EXPECT_EQ(robots_bound(ring(3, 9.0), 0.2, 2.0), 15U);       // ceil(26.4 / 2) + 1
-  EXPECT_EQ(robots_bound(ring(4, 9.0), 0.2, 2.0), 18U);       // (34.77 - 0.8) / 2 = 16.99
-  EXPECT_EQ(robots_bound(ring(3, 0.1), 0.2, 2.0), 1U);
-}
-
 }  // namespace
 }  // namespace banyan::measure

@@ -29,6 +29,9 @@ std::string hexadecimal(std::uint64_t value) {
   return text;
 }
 
+// 2: a worker for each target in robots_bound; the oracle's columns.
+constexpr int format_version = 2;
+
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
     {"algorithm", "mission.algorithm", 0, [](const Row& r) -> Cell { return r.id.algorithm; }},
@@ -67,8 +70,13 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) { return if_known(r.run.time_ratio); }},
     {"held_time_ratio", "from completion on, mean share of the targets that are held; empty if never complete", 6,
      [](const Row& r) { return if_known(r.run.held_time_ratio); }},
-    {"robots_bound", "no fewer committed robots can connect the targets", 0,
+    {"robots_bound", "no fewer committed robots, a worker for each target among them, can connect the targets", 0,
      [](const Row& r) { return natural(r.run.robots_bound); }},
+    {"oracle_robots", "workers, and the fewest relays found for edges of 0.95 C", 0,
+     [](const Row& r) { return natural(r.run.oracle_robots); }, 2},
+    {"oracle_exact", "no such tree has fewer relays", 0, [](const Row& r) -> Cell { return r.run.oracle_exact; }, 2},
+    {"oracle_time_s", "when straight drives can be over, the oracle's relays placed; empty if robots are too few", 4,
+     [](const Row& r) { return if_known(r.run.oracle_time_s); }, 2},
     {"steiner_length_m", "length of a shortest network of the targets, certified from below", 4,
      [](const Row& r) -> Cell { return r.run.steiner_length_m; }},
     {"star_length_m", "length of the shortest star of the targets, from their geometric median", 4,
@@ -76,6 +84,7 @@ constexpr Column<Row> result_table[] = {
     {"committed", "robots in the tree at the end", 0, [](const Row& r) { return natural(r.run.committed); }},
     {"mean_committed", "mean over ticks", 4, [](const Row& r) -> Cell { return r.run.mean_committed; }},
     {"committed_ratio", "committed / robots_bound", 6, [](const Row& r) -> Cell { return r.run.committed_ratio; }},
+    {"oracle_ratio", "committed / oracle_robots", 6, [](const Row& r) -> Cell { return r.run.oracle_ratio; }, 2},
     {"network_length_m", "edges from living robots of the tree to their living parents, at the end", 4,
      [](const Row& r) -> Cell { return r.run.network_length_m; }},
     {"broken_ticks", "ticks with a broken tree edge", 0, [](const Row& r) { return natural(r.run.broken_ticks); }},
@@ -127,7 +136,7 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) -> Cell { return r.run.survivors_suffice; }},
     {"hash", "state hash of the world at the end, hexadecimal", 0,
      [](const Row& r) -> Cell { return hexadecimal(r.run.hash); }},
-    {"format_version", "of this table", 0, [](const Row&) { return natural(1); }},
+    {"format_version", "of this table", 0, [](const Row&) { return natural(format_version); }},
 };
 
 template <std::size_t a, std::size_t b>
@@ -309,6 +318,17 @@ std::vector<std::string> csv_cells(std::string_view line) {
       cells.back() += c;
     }
   }
+  return cells;
+}
+
+std::optional<std::vector<std::string>> run_cells(std::string_view row) {
+  std::vector<std::string> cells = csv_cells(row);
+  for (int version = 1; version < format_version; ++version) {
+    if (cells.back() != std::to_string(version)) continue;
+    for (std::size_t c = 0; c < run_table.size() && c <= cells.size(); ++c)
+      if (run_table[c].since > version) cells.emplace(cells.begin() + static_cast<std::ptrdiff_t>(c));
+  }
+  if (cells.size() != run_table.size()) return std::nullopt;
   return cells;
 }
 

@@ -93,6 +93,40 @@ TEST(Table, ColumnsOfTheResultFollowThoseThatIdentifyTheRun) {
   EXPECT_EQ(results.back().name, "format_version");
 }
 
+// The columns of version 1, word for word: journals of studies are full of such rows.
+TEST(Table, ARowOfTheFirstVersionIsReadWithEmptyFieldsForLaterColumns) {
+  const std::string first =
+      "name,algorithm,reading,body,line_of_sight,loss,targets,target_radius_m,redundancy,range_m,tick_s,"
+      "seed,version,git,robots,ticks,time_s,complete,interrupted,completion_time_s,time_limit_s,"
+      "normalized_time,time_bound_s,time_ratio,held_time_ratio,robots_bound,steiner_length_m,star_length_m,"
+      "committed,mean_committed,committed_ratio,network_length_m,broken_ticks,broken_ticks_by_distance,"
+      "broken_ticks_by_occlusion,broken_ticks_by_death,disconnected_time_ratio,"
+      "disconnected_time_ratio_by_distance,disconnected_time_ratio_by_occlusion,split_ticks,"
+      "split_ticks_by_distance,fiedler_time_ratio,fiedler_time_ratio_by_distance,two_roots_ticks,"
+      "longest_two_roots_s,insertions,handovers,repairs,elections,replacements,epochs,start_phase_ticks,"
+      "select_phase_ticks,bytes_per_robot_s,deaths,survivors,last_death_s,recovered,recovery_time_s,"
+      "survivors_suffice,hash,format_version";
+  const std::vector<std::string> names = csv_cells(first);
+  std::string row;
+  for (std::size_t k = 0; k < names.size(); ++k) row += k + 1 < names.size() ? "of " + names[k] + "," : "1";
+  const auto cells = run_cells(row);
+  ASSERT_TRUE(cells.has_value());
+  const auto columns = run_columns();
+  ASSERT_EQ(cells->size(), columns.size());
+  std::size_t empty = 0;
+  for (std::size_t k = 0; k + 1 < columns.size(); ++k) {
+    const bool known = std::find(names.begin(), names.end(), columns[k].name) != names.end();
+    EXPECT_EQ((*cells)[k], known ? "of " + std::string(columns[k].name) : "") << columns[k].name;
+    empty += known ? 0 : 1;
+  }
+  EXPECT_EQ(empty, columns.size() - names.size());
+  EXPECT_EQ(cells->back(), "1") << "which version it is of";
+  EXPECT_FALSE(run_cells(row + ",1").has_value());
+  EXPECT_FALSE(run_cells("").has_value());
+  const std::string current = run_csv_row(sample_row());
+  EXPECT_EQ(run_cells(current), csv_cells(current));
+}
+
 TEST(Table, WhatIsNotThereIsEmptyOrNull) {
   RunRow row = sample_row();
   row.run.complete = false;

@@ -95,10 +95,16 @@ static bool same_result(const std::string& row, const std::string& other) {
   return true;
 }
 
-// The rows that this program can put into its tables. A row with other columns is ignored.
+// The rows that this program can put into its tables, those of earlier versions with empty fields for what they lack.
+// A row with other columns is ignored.
 static Outcome readable(const Outcome& outcome) {
-  if (!outcome.error.empty() || record::csv_cells(outcome.row).size() == record::run_columns().size()) return outcome;
-  return {"", "its row has other columns: written by another version of banyan", outcome.wall_s};
+  if (!outcome.error.empty()) return outcome;
+  const auto cells = record::run_cells(outcome.row);
+  if (!cells) return {"", "its row has other columns: written by another version of banyan", outcome.wall_s};
+  Outcome current{"", "", outcome.wall_s};
+  for (const auto& cell : *cells) current.row += record::csv_quoted(cell) + ",";
+  current.row.pop_back();
+  return current;
 }
 
 static void add_build(Gathered& gathered, const std::string& build) {

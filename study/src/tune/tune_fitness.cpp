@@ -76,8 +76,9 @@ std::optional<double> way_back(const TunePlan& plan, const world::Scenario& worl
 }  // namespace
 
 std::optional<Trial> trial_of(std::string_view run_csv_row) {
-  const auto cells = record::csv_cells(run_csv_row);
-  if (cells.size() != record::run_columns().size()) return std::nullopt;
+  const auto row = record::run_cells(run_csv_row);
+  if (!row) return std::nullopt;
+  const auto& cells = *row;
   const std::string& complete = cells[column("complete")];
   // Of the ticks rather than of the rounded ratio: a single broken tick of a long run counts.
   const auto ticks = number_in(cells, "ticks"), broken = number_in(cells, "broken_ticks"),

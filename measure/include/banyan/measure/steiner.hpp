@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A lower bound for the number of robots: how short a network that joins the targets can be.
+// How short a network that joins the targets can be.
 #pragma once
 
 #include <vector>
@@ -25,8 +25,5 @@ struct SteinerLength {
 // Length of the shortest star, from the targets' geometric median (Weiszfeld 1937, stopped when it moves
 // by less than 1e-9 of the extent), within 1e-6 relative. 0 for less than two targets.
 [[nodiscard]] double star_length(const std::vector<world::Vec2>& terminals);
-
-// ceil((Steiner - T tolerance) / C) + 1 with the certified lower length (protocol 11).
-[[nodiscard]] std::uint32_t robots_bound(const std::vector<world::Vec2>& targets, double tolerance_m, double range_m);
 
 }  // namespace banyan::measure
