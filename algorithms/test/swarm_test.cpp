@@ -127,7 +127,7 @@ TEST_P(EverySwarm, RangesInAnyOrderAreOneTick) {
 
 TEST_P(EverySwarm, ACopyGoesItsOwnWay) {
   Row r = row();
-  for (int t = 0; t < 30; ++t) r.tick();
+  for (int t = 0; t < 5; ++t) r.tick();  // later a swarm may have come to rest
   const std::uint64_t before = r.digest();
   std::unique_ptr<Swarm> copy = r.swarm->clone();
   r.tick();
