@@ -31,6 +31,7 @@ struct Part {
 
 std::vector<Vec2> points_of(const std::vector<Vec2>& targets, const std::vector<std::size_t>& members) {
   std::vector<Vec2> points;
+  points.reserve(members.size());
   for (const std::size_t i : members) points.push_back(targets[i]);
   return points;
 }
@@ -325,6 +326,7 @@ std::uint32_t robots_bound(const std::vector<Vec2>& targets, double tolerance_m,
 RelayTree fewest_relays(const std::vector<Vec2>& targets, double range_m) {
   if (targets.size() < 2) return {{}, {}, true};
   std::vector<Vec2> scaled;
+  scaled.reserve(targets.size());
   for (const Vec2 t : targets) scaled.push_back(t / range_m);
   const bool few = targets.size() <= most_programmed;
   Laid laid(targets, range_m);

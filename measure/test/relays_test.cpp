@@ -21,6 +21,7 @@ using world::Vec2;
 
 std::vector<Vec2> circle_of(int count, double radius) {
   std::vector<Vec2> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     points.push_back({radius * std::cos(2 * M_PI * i / count), radius * std::sin(2 * M_PI * i / count)});
   return points;
@@ -33,6 +34,7 @@ double drawn(std::uint64_t seed, std::uint64_t which, std::uint64_t axis) {
 // In a square of this side.
 std::vector<Vec2> scattered(std::uint64_t seed, int count, double side) {
   std::vector<Vec2> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     points.push_back({side * drawn(seed, static_cast<std::uint64_t>(i), 0), side * drawn(seed, static_cast<std::uint64_t>(i), 1)});
   return points;
@@ -73,19 +75,44 @@ std::size_t relays_of_spanning_tree(const std::vector<Vec2>& targets, double ran
   return relays;
 }
 
+// With each node's cost the least over all ways from those that have one; the first `t` nodes are targets and free.
+void spread_along_links(std::vector<int>& cost, const std::vector<std::vector<std::size_t>>& near, std::size_t t) {
+  const auto own = [t](std::size_t v) { return v < t ? 0 : 1; };
+  constexpr int most = 60;
+  for (int level = 0; level < most; ++level) {
+    for (std::size_t v = 0; v < cost.size(); ++v) {
+      if (cost[v] != level) continue;
+      for (const std::size_t w : near[v]) cost[w] = std::min(cost[w], level + own(w));
+      // A target costs nothing: those behind it are still of this level.
+      for (const std::size_t w : near[v])
+        if (w < t && cost[w] == level)
+          for (const std::size_t x : near[w]) cost[x] = std::min(cost[x], level + own(x));
+    }
+  }
+}
+
+// The targets, then the places of a grid over [0, side]^2.
+std::vector<Vec2> with_grid(std::vector<Vec2> nodes, double side, int cells) {
+  const double step = side / cells;
+  for (int x = 0; x <= cells; ++x)
+    for (int y = 0; y <= cells; ++y) nodes.push_back({x * step, y * step});
+  return nodes;
+}
+
+std::vector<std::vector<std::size_t>> links_within(const std::vector<Vec2>& nodes, double range_m) {
+  std::vector<std::vector<std::size_t>> near(nodes.size());
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    for (std::size_t b = 0; b < nodes.size(); ++b)
+      if (a != b && distance(nodes[a], nodes[b]) <= range_m * (1 + 1e-9)) near[a].push_back(b);
+  return near;
+}
+
 // The fewest relays on a grid, by dynamic programming over sets of targets and places of the grid (Dreyfus & Wagner
 // with costs on nodes). All targets must lie within [0, side]^2.
 std::size_t relays_on_grid(const std::vector<Vec2>& targets, double range_m, double side, int cells) {
-  const double step = side / cells;
-  std::vector<Vec2> nodes = targets;
-  for (int x = 0; x <= cells; ++x)
-    for (int y = 0; y <= cells; ++y) nodes.push_back({x * step, y * step});
+  const std::vector<Vec2> nodes = with_grid(targets, side, cells);
+  const std::vector<std::vector<std::size_t>> near = links_within(nodes, range_m);
   const std::size_t n = nodes.size(), t = targets.size();
-  std::vector<std::vector<std::size_t>> near(n);
-  for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b < n; ++b)
-      if (a != b && distance(nodes[a], nodes[b]) <= range_m * (1 + 1e-9)) near[a].push_back(b);
-  const auto own = [t](std::size_t v) { return v < t ? 0 : 1; };
   constexpr int far = 1000;
   std::vector<std::vector<int>> best(std::size_t{1} << t, std::vector<int>(n, far));  // with v itself counted
   for (std::size_t set = 1; set < best.size(); ++set) {
@@ -93,17 +120,9 @@ std::size_t relays_on_grid(const std::vector<Vec2>& targets, double range_m, dou
     for (std::size_t v = 0; v < n; ++v) {
       if (v < t && set == std::size_t{1} << v) now[v] = 0;
       for (std::size_t one = (set - 1) & set; one > 0; one = (one - 1) & set)
-        now[v] = std::min(now[v], best[one][v] + best[set ^ one][v] - own(v));
+        now[v] = std::min(now[v], best[one][v] + best[set ^ one][v] - (v < t ? 0 : 1));
     }
-    for (int level = 0; level < 60; ++level)
-      for (std::size_t v = 0; v < n; ++v) {
-        if (now[v] != level) continue;
-        for (const std::size_t w : near[v]) now[w] = std::min(now[w], level + own(w));
-        // A target costs nothing: those behind it are still of this level.
-        for (const std::size_t w : near[v])
-          if (w < t && now[w] == level)
-            for (const std::size_t x : near[w]) now[x] = std::min(now[x], level + own(x));
-      }
+    spread_along_links(now, near, t);
   }
   return static_cast<std::size_t>(best.back()[0]);
 }

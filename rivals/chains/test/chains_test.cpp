@@ -110,6 +110,7 @@ Swarm_ mission(Params params, std::vector<Vec2> free, Vec2 at, float target_m, s
 }
 std::vector<Vec2> row(int count, float first_m, float apart_m) {
   std::vector<Vec2> places;
+  places.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) places.push_back({first_m + static_cast<float>(i) * apart_m, 0.05F});
   return places;
 }

@@ -29,8 +29,8 @@ struct RelayTree {
 // Workers relay, too. Exact for up to five targets: all topologies, with whole numbers of edges on their branches,
 // in ascending order of the sum; whether one can be laid out is decided in closed form (discs.hpp). Six to nine:
 // the best tree all of whose full components (parts with targets only as leaves) have up to five targets. More: the
-// same components with up to four, chosen greedily by what each saves, above 40 targets up to three. Then `exact` is
-// true where the lower bound is met. Cost (a 3 GHz core): 0.1 ms for four targets, 2 ms for six, 40 ms for nine.
+// same components with up to four, chosen greedily by what each saves, above 40 targets up to three. With six to nine
+// `exact` is true where the lower bound is met, with more only if no relay is needed.
 [[nodiscard]] RelayTree fewest_relays(const std::vector<world::Vec2>& targets, double range_m);
 
 }  // namespace banyan::measure
