@@ -287,7 +287,7 @@ constexpr const char* as_written =
     R"("robot":{"body":"disks","radius_m":0.0704,"wheel_distance_m":0.1054,"wheel_limit_m_s":0.2,)"
     R"("wheel_noise":0.0,"wheel_bias":0.0,"odometry_noise":0.0,"mass_kg":0.4,"max_force_n":1.5,)"
     R"("max_torque_nm":1.5,"max_acceleration_m_s2":1.0,"dead_bodies":true,"proximity_m":0.3},)"
-    R"("radio":{"model":"disc","range_m":2.0,"line_of_sight":false,"loss":0.0,"range_noise_m":0.0,)"
+    R"("radio":{"model":"disc","range_m":2.0,"line_of_sight":false,"sight_leak":0.0,"loss":0.0,"range_noise_m":0.0,)"
     R"("bearing_noise_deg":1.7,)"
     R"("latency_ticks":1,"slots":0},)"
     R"("clocks":{"asynchronous":false,"drift":0.0,"substeps":5},)"

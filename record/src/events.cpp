@@ -82,16 +82,17 @@ struct BrokenEdge {
 
 // Why robots in range of each other have no line of sight; "" if they have one.
 std::string hidden_by(const Setting& setting, const Frame& frame, std::int32_t i, std::int32_t j) {
-  const Vec2 a = frame.robots[static_cast<std::size_t>(i)].position;
-  const Vec2 b = frame.robots[static_cast<std::size_t>(j)].position;
+  const RobotFrame& here = frame.robots[static_cast<std::size_t>(i)];
+  const RobotFrame& there = frame.robots[static_cast<std::size_t>(j)];
+  const Vec2 a = here.position;
+  const Vec2 b = there.position;
   const Vec2 middle = 0.5 * (a + b);
   const double reach = 0.5 * distance(a, b) + setting.radius_m;
   for (std::size_t k = 0; k < frame.robots.size(); ++k) {
     const Vec2 p = frame.robots[k].position;
     if (std::fabs(p.x - middle.x) > reach || std::fabs(p.y - middle.y) > reach) continue;
     if (static_cast<std::int32_t>(k) == i || static_cast<std::int32_t>(k) == j) continue;
-    if (hides(setting, frame.robots[k], a, b))
-      return "hidden by " + robot_name(static_cast<std::int64_t>(k));
+    if (hides(setting, frame.robots[k], here, there)) return "hidden by " + robot_name(static_cast<std::int64_t>(k));
   }
   for (std::size_t k = 0; k < setting.obstacles.size(); ++k) {
     if (world::blocks(setting.obstacles[k], a, b)) return "hidden by obstacle " + std::to_string(k);

@@ -87,6 +87,7 @@ void capture(const world::World& world, Frame& frame) {
     robot.position = world.positions()[i];
     robot.heading_rad = angle_of(world.headings()[i]);
     robot.alive = world.alive()[i] != 0;
+    robot.raised = i < world.raised().size() && world.raised()[i] != 0;
     capture_robot(world.reports()[i], robot);
   }
   mark_connected(world, frame.robots);
@@ -123,6 +124,7 @@ Setting setting_of(const world::World& world) {
   setting.radius_m = scenario.robot.radius_m;
   setting.range_m = scenario.radio.range_m;
   setting.line_of_sight = world.line_of_sight();
+  setting.sight_leak = scenario.radio.sight_leak;
   setting.dead_bodies = scenario.robot.dead_bodies;
   setting.target_tolerance_m = scenario.mission.target_tolerance_m;
   setting.time_limit_s = world::time_limit_s(scenario);

@@ -2,6 +2,7 @@
 // The JSON messages of a recording (frame_json.hpp).
 #include "frame_json.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -26,6 +27,7 @@ struct Field {
   double minimum, maximum;
   double (*get)(const RobotFrame&);
   void (*set)(RobotFrame&, double);
+  bool optional = false;  // left out where it is 0 for all robots
 };
 
 constexpr double far = 1e12;                 // m: beyond, a position is damage
@@ -48,8 +50,13 @@ constexpr Field real(std::string_view key, int decimals, double minimum, double 
   return {key, meaning, decimals, minimum, maximum, get<member>, set<member>};
 }
 
+constexpr Field if_any(Field field) {
+  field.optional = true;
+  return field;
+}
+
 using R = RobotFrame;
-constexpr std::array<Field, 18> of_robot{{
+constexpr std::array<Field, 19> of_robot{{
     {"x_m", "position", 4, -far, far, [](const R& r) { return r.position.x; },
      [](R& r, double v) { r.position.x = v; }},
     {"y_m", "position", 4, -far, far, [](const R& r) { return r.position.y; },
@@ -70,6 +77,8 @@ constexpr std::array<Field, 18> of_robot{{
     whole<&R::request>("request", -1, 65535, "the owner of the edge a spare wants to join, -1: nobody"),
     real<&R::want_m>("want_m", 2, 0, far, "largest remaining worker distance below"),
     whole<&R::target>("target", -1, 65535, "index of the target the robot serves, -1: none"),
+    if_any(whole<&R::raised>("raised", 0, 1,
+                             "where sight leaks, 1: the antenna looks over bodies; left out if none does")),
 }};
 
 void key(Text& out, std::string_view name) {
@@ -274,6 +283,8 @@ void pack(const Frame& frame, std::vector<double>& into) {
 void write_frame(Text& out, const Frame& frame) {
   write_stamp(out, frame.tick, frame.time_s);
   for (const Field& field : of_robot) {
+    const auto is_zero = [&](const RobotFrame& robot) { return field.get(robot) == 0.0; };
+    if (field.optional && std::all_of(frame.robots.begin(), frame.robots.end(), is_zero)) continue;
     array(out, field.key, frame.robots, [&](const RobotFrame& robot) {
       const double value = field.get(robot);
       field.decimals == 0 ? write_whole(out, value) : out.fixed(value, field.decimals);
@@ -309,6 +320,7 @@ void read_frame(std::string_view text, Frame& frame) {
   if (!first.is_array()) fail("x_m", "is not an array");
   frame.robots.assign(first.size(), {});
   for (const Field& field : of_robot) {
+    if (field.optional && !object.contains(field.key)) continue;
     const json& values = array_of(object, field.key, frame.robots.size());
     for (std::size_t i = 0; i < frame.robots.size(); ++i) {
       field.set(frame.robots[i], number(values[i], field.key, field.minimum, field.maximum));
@@ -439,6 +451,7 @@ void write_setting(Text& out, const Setting& s) {
   real("range_m", s.range_m);
   key(out, "line_of_sight");
   out.put(s.line_of_sight ? "true," : "false,");
+  real("sight_leak", s.sight_leak);
   key(out, "dead_bodies");
   out.put(s.dead_bodies ? "true," : "false,");
   real("target_tolerance_m", s.target_tolerance_m);
@@ -464,6 +477,7 @@ Setting read_setting(std::string_view text) {
   s.radius_m = number_of(o, "radius_m", 0.0, far);
   s.range_m = number_of(o, "range_m", 0.0, far);
   s.line_of_sight = flag_of(o, "line_of_sight");
+  if (o.contains("sight_leak")) s.sight_leak = number_of(o, "sight_leak", 0.0, 1.0);  // older recordings lack it
   s.dead_bodies = flag_of(o, "dead_bodies", true);
   s.target_tolerance_m = number_of(o, "target_tolerance_m", 0.0, far);
   s.time_limit_s = number_of(o, "time_limit_s", 0.0, far);
@@ -482,6 +496,7 @@ std::string frame_schema() {
   }
   out.put("},\"required\":[\"tick\",\"time_s\"");
   for (const Field& field : of_robot) {
+    if (field.optional) continue;
     out.put(',');
     out.json_string(field.key);
   }
@@ -552,6 +567,8 @@ std::string setting_schema() {
   schema_property(out, "radius_m", "number", "of a robot");
   schema_property(out, "range_m", "number", "of the radio");
   schema_property(out, "line_of_sight", "boolean", "whether a link needs one");
+  schema_property(out, "sight_leak", "number",
+                  "share of the lines of sight past one body over which packets get through");
   schema_property(out, "dead_bodies", "boolean", "whether the dead hide what is behind them");
   schema_property(out, "target_tolerance_m", "number", "distance at which a target is reached");
   schema_property(out, "time_limit_s", "number", "of the mission");

@@ -49,7 +49,7 @@ class Sweep {
     std::size_t first = p;
     while (first > 0 && x(order_[first - 1]) > a.x - radius) --first;
     for (std::size_t k = first; k < order_.size() && x(order_[k]) < b.x + radius; ++k) {
-      if (k != p && k != q && hides(setting_, robots_[order_[k]], a, b)) return true;
+      if (k != p && k != q && hides(setting_, robots_[order_[k]], robots_[order_[p]], robots_[order_[q]])) return true;
     }
     return std::any_of(setting_.obstacles.begin(), setting_.obstacles.end(),
                        [&](const world::Obstacle& obstacle) { return world::blocks(obstacle, a, b); });

@@ -152,9 +152,15 @@ TEST(Capture, WhoServesATargetIsWhoHoldsItNow) {
 
 // The picture's links against the radio's own.
 TEST(Capture, LinksOfAPictureAreTheRadios) {
-  for (const auto& [line_of_sight, dead_bodies] : {std::pair{false, true}, {true, true}, {true, false}}) {
+  struct Case {
+    bool line_of_sight, dead_bodies;
+    double sight_leak;
+  };
+  for (const auto& [line_of_sight, dead_bodies, sight_leak] :
+       {Case{false, true, 0.0}, {true, true, 0.0}, {true, false, 0.0}, {true, true, 0.3}}) {
     world::Scenario s = scenario(60, line_of_sight);
     s.robot.dead_bodies = dead_bodies;
+    s.radio.sight_leak = sight_leak;
     for (std::size_t robot = 5; robot < 20; ++robot)
       s.events.push_back({.time_s = 1.0, .action = world::Die{robot}});
     world::World world(s);

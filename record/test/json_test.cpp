@@ -23,8 +23,8 @@ using Json = nlohmann::json;
 TEST(Pack, HasTheNumbersOfARecordedFrameColumnByColumn) {
   Frame frame;
   frame.robots.resize(3);
-  frame.robots[1] = {
-      .position = {1.25, -2.5}, .role = Role::worker, .label_cm = 17, .parent = 2, .want_m = 0.75, .target = 1};
+  frame.robots[1] = {.position = {1.25, -2.5}, .role = Role::worker, .label_cm = 17, .parent = 2, .want_m = 0.75,
+                     .target = 1, .raised = true};
   Text text;
   write_frame(text, frame);
   const Json recorded = Json::parse(text.view());
@@ -38,6 +38,25 @@ TEST(Pack, HasTheNumbersOfARecordedFrameColumnByColumn) {
   EXPECT_EQ(recorded.size(), frame_columns().size() + 2) << "tick and time_s are no columns";
 }
 
+TEST(Frames, HaveNoArrayOfAntennasWhereNoneIsRaised) {
+  Frame frame;
+  frame.robots.resize(2);
+  const auto written = [&] {
+    Text text;
+    write_frame(text, frame);
+    return std::string(text.view());
+  };
+  EXPECT_EQ(written().find("raised"), std::string::npos);
+  frame.robots[1].raised = true;
+  EXPECT_NE(written().find("\"raised\":[0,1]"), std::string::npos);
+  Frame read;
+  read_frame(written(), read);
+  EXPECT_EQ(read, frame);
+  frame.robots[1].raised = false;
+  read_frame(written(), read);
+  EXPECT_EQ(read, frame);
+}
+
 TEST(Older, FieldsThatWereNotThereHaveTheirDefaults) {
   const auto targets = read_targets(R"({"tick":0,"time_s":0,"x_m":[1,2],"y_m":[3,4],"worker":[0,-1]})");
   ASSERT_EQ(targets.size(), 2U);
@@ -46,11 +65,15 @@ TEST(Older, FieldsThatWereNotThereHaveTheirDefaults) {
   Text text;
   Setting setting;
   setting.dead_bodies = false;
+  setting.sight_leak = 0.18;
   write_setting(text, setting);
   Json object = Json::parse(text.view());
   EXPECT_FALSE(read_setting(object.dump()).dead_bodies);
   object.erase("dead_bodies");
   EXPECT_TRUE(read_setting(object.dump()).dead_bodies);
+  EXPECT_EQ(read_setting(object.dump()).sight_leak, setting.sight_leak);
+  object.erase("sight_leak");
+  EXPECT_EQ(read_setting(object.dump()).sight_leak, 0.0);
 }
 
 template <class Message>

@@ -29,9 +29,11 @@ class Identity {
     constexpr std::string_view key = "\"output\":{", seed = "\"seed\":";
     const auto begin = text_.find(key) + key.size();
     text_.replace(begin, text_.find('}', begin) - begin, R"("record":true,"record_every":1,"series":false)");
-    // Likewise the radio: a disc has no name there.
+    // Likewise the radio: a disc has no name there, nor has exact sight.
     constexpr std::string_view disc = "\"radio\":{\"model\":\"disc\",", radio = "\"radio\":{";
+    constexpr std::string_view exact = "\"sight_leak\":0.0,";
     if (const auto at = text_.find(disc); at != std::string::npos) text_.replace(at, disc.size(), radio);
+    if (const auto at = text_.find(exact); at != std::string::npos) text_.erase(at, exact.size());
     seed_at_ = text_.find(seed) + seed.size();
   }
   [[nodiscard]] std::string id(std::uint64_t seed) const {

@@ -112,6 +112,7 @@ TEST_F(PlanTest, IdsMeanWhatIsSimulated) {
                                          "radio.range_m = 2.5",
                                          "radio.line_of_sight = true",
                                          "radio.loss = 0.1",
+                                         "radio.sight_leak = 0.1",
                                          "radio.bearing_noise_deg = 3",
                                          "targets.count = 3",
                                          "targets.radius_m = 1.0",

@@ -5,7 +5,7 @@
 /** The arrays of a /banyan/frame message, in this order (record/src/frame_json.cpp). */
 export const columns = [
   'x_m', 'y_m', 'heading_rad', 'role', 'phase', 'need', 'spare_state', 'alive', 'connected', 'epoch',
-  'label_cm', 'depth', 'parent', 'old_parent', 'grant', 'request', 'want_m', 'target',
+  'label_cm', 'depth', 'parent', 'old_parent', 'grant', 'request', 'want_m', 'target', 'raised',
 ] as const;
 export type Column = (typeof columns)[number];
 
@@ -56,6 +56,8 @@ export interface Setting {
   radius_m: number;
   range_m: number;
   line_of_sight: boolean;
+  /** Share of the lines of sight past one body over which packets get through. Missing: 0. */
+  sight_leak?: number;
   /** The dead hide what is behind them; false: they vanish. Missing: true. */
   dead_bodies?: boolean;
   target_tolerance_m: number;

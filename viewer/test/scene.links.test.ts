@@ -13,15 +13,17 @@ const pairs = (data: Int32Array) => Array.from({ length: data.length / 2 }, (_, 
 
 /** Every pair and every third, without a grid. */
 function byBruteForce(setting: Setting, frame: Frame): { open: string[]; blocked: string[] } {
-  const x = column(frame, 'x_m'), y = column(frame, 'y_m'), alive = column(frame, 'alive');
+  const x = column(frame, 'x_m'), y = column(frame, 'y_m'), alive = column(frame, 'alive'), raised = column(frame, 'raised');
   const found = { open: [] as string[], blocked: [] as string[] };
   for (let i = 0; i < frame.robots; ++i) {
     for (let j = i + 1; j < frame.robots; ++j) {
       if (!alive[i] || !alive[j] || !(Math.sqrt((x[j]! - x[i]!) ** 2 + (y[j]! - y[i]!) ** 2) < setting.range_m)) continue;
       const others = Array.from({ length: frame.robots }, (_, k) => k).filter((k) => k !== i && k !== j);
       const stands = (o: Obstacle) => blocks(o, x[i]!, y[i]!, x[j]!, y[j]!);
+      const squared = (a: number, b: number) => (x[a]! - x[b]!) ** 2 + (y[a]! - y[b]!) ** 2;
+      const isUnder = (k: number) => !raised[squared(k, i) < squared(k, j) ? i : j];
       const hidden = setting.line_of_sight && (setting.obstacles.some(stands) ||
-        others.some((k) => stands({ disc: true, center_m: [x[k]!, y[k]!], radius_m: setting.radius_m })));
+        others.some((k) => isUnder(k) && stands({ disc: true, center_m: [x[k]!, y[k]!], radius_m: setting.radius_m })));
       (hidden ? found.blocked : found.open).push(`${i}-${j}`);
     }
   }
@@ -34,11 +36,12 @@ const obstacles: Obstacle[] = [
   { wall: true, from_m: [1, -2], to_m: [2, 0] },
 ];
 
-function scattered(seed: number, robots: number, spreadM: number): Frame {
+function scattered(seed: number, robots: number, spreadM: number, leak = 0): Frame {
   const roll = dice(seed);
   const some = (f: () => number) => Array.from({ length: robots }, f);
   return frameOf({
     x_m: some(() => spreadM * (roll() - 0.5)), y_m: some(() => spreadM * (roll() - 0.5)), alive: some(() => (roll() < 0.1 ? 0 : 1)),
+    raised: some(() => (roll() < leak ? 1 : 0)),
   });
 }
 
@@ -81,9 +84,12 @@ describe('lines of sight', () => {
 });
 
 describe('links', () => {
-  for (const [seed, robots, spreadM, sight] of [[1, 60, 4, true], [2, 150, 9, true], [3, 60, 1, true], [4, 80, 6, false], [5, 40, 300, true]] as const) {
-    it(`of ${robots} robots over ${spreadM} m are those of all pairs`, () => {
-      const frame = scattered(seed, robots, spreadM);
+  for (const [seed, robots, spreadM, sight, leak] of [
+    [1, 60, 4, true, 0], [2, 150, 9, true, 0], [3, 60, 1, true, 0], [4, 80, 6, false, 0.5], [5, 40, 300, true, 0],
+    [6, 150, 4, true, 0.2], [7, 60, 2, true, 0.7],
+  ] as const) {
+    it(`of ${robots} robots over ${spreadM} m are those of all pairs, ${leak} of the antennas raised`, () => {
+      const frame = scattered(seed, robots, spreadM, leak);
       const setting = settingOf({ line_of_sight: sight, obstacles });
       const radio = new Radio(setting, frame);
       const { open, blocked } = radio.links();
@@ -99,6 +105,16 @@ describe('links', () => {
     const radio = new Radio(settingOf({ range_m: 2 }), frameOf({ x_m: [0, 2, 1.999], y_m: [0, 0, 3] }));
     expect(radio.link(0, 1)).toBe('out of range');
     expect(new Radio(settingOf(), frameOf({ x_m: [0, 1.9999], y_m: [0, 0] })).link(0, 1)).toBe('open');
+  });
+
+  it('go over a body near a raised antenna, but not over obstacles', () => {
+    const x_m = [0, 0.3, 1, 5];
+    const over = (raised: number[], obstacles: Obstacle[] = []) =>
+      new Radio(settingOf({ obstacles }), frameOf({ x_m, y_m: [0, 0, 0, 0], raised })).link(0, 2);
+    expect(over([0, 1, 0, 1])).toBe('blocked');
+    expect(over([1, 0, 0, 0])).toBe('open');
+    expect(over([0, 0, 1, 0])).toBe('blocked'); // the body is nearer to the other end
+    expect(over([1, 0, 1, 0], [{ disc: true, center_m: [0.6, 0], radius_m: 0.05 }])).toBe('blocked');
   });
 
   it('are cut by bodies, also of the dead', () => {

@@ -27,7 +27,7 @@ void World::Impl::step_by_clocks(Executor& executor) {
     moment = tick * parts + part;
     act();
     count_wheel_turns();
-    radio.update(poses.position, alive, executor);
+    find_links(executor);
     proximity.update(poses.position, alive, deaths);
     deliver(executor);
     wake(executor);

@@ -106,6 +106,13 @@ void check_layout(FaultList& list, const SwarmModel& swarm) {
                                               std::to_string(start.headings_rad.size()));
 }
 
+bool switches_sight_on(const Scenario& scenario) {
+  return std::any_of(scenario.events.begin(), scenario.events.end(), [](const Event& event) {
+    const auto* change = std::get_if<SetLineOfSight>(&event.action);
+    return change != nullptr && change->line_of_sight;
+  });
+}
+
 void check_values(FaultList& list, const Scenario& scenario) {
   check_keys(list, "", scenario_keys(), scenario);
   if (scenario.algorithms == nullptr)
@@ -119,6 +126,8 @@ void check_values(FaultList& list, const Scenario& scenario) {
     list.fail("robot.body", "the body model box2d is not in the browser's build; use disks or linear");
   if (!scenario.clocks.asynchronous && scenario.clocks.drift != 0.0)
     list.warn("clocks.drift", "has no effect without clocks.asynchronous");
+  if (scenario.radio.sight_leak > 0.0 && !scenario.radio.line_of_sight && !switches_sight_on(scenario))
+    list.warn("radio.sight_leak", "has no effect without radio.line_of_sight");
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     check_keys(list, element("obstacles", i), obstacle_keys(), scenario.obstacles[i]);
     const Wall* wall = std::get_if<Wall>(&scenario.obstacles[i]);

@@ -85,8 +85,10 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       radius_m_(scenario.robot.radius_m),
       near_m_(2.0 * scenario.robot.radius_m + 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s + 0.01),
       line_of_sight_(scenario.radio.line_of_sight),
+      leaky_(scenario.radio.sight_leak > 0.0),
       dead_vanish_(!scenario.robot.dead_bodies),
       obstacles_(scenario.obstacles),
+      raised_(leaky_ ? robots : 0, 0),
       nobody_(static_cast<std::uint32_t>(robots)),
       path_(robots + 1, 0),
       around_(robots, 0),
@@ -107,13 +109,15 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
 }
 
 void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor) {
-  if (!follow(positions, alive)) return;
+  if (!follow(positions, alive) && !raised_anew_) return;
   scratch_.resize(std::max(scratch_.size(), static_cast<std::size_t>(executor.threads())));
   const auto refresh_all = [&] {
     executor.parallel_for(positions.size(), [&](std::size_t begin, std::size_t end, int worker) {
       Scratch& s = scratch_[static_cast<std::size_t>(worker)];
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t i = begin; i < end; ++i) {
         if (all_anew_ || !rows_[i].known || static_cast<std::int32_t>(rows_[i].quiet_until - fast_clock(i)) < 0) refresh(i, positions, s);
+        if (leaky_) look_over(i, positions, s);
+      }
     });
   };
   for (Scratch& s : scratch_) {
@@ -126,8 +130,14 @@ void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t
     make_room(positions);
     refresh_all();
   }
-  all_anew_ = false;
+  all_anew_ = raised_anew_ = false;
   apply_changes();
+}
+
+void Radio::raise(std::span<const std::uint8_t> raised) {
+  if (std::equal(raised.begin(), raised.end(), raised_.begin(), raised_.end())) return;
+  raised_.assign(raised.begin(), raised.end());
+  raised_anew_ = true;
 }
 
 void Radio::forget(std::uint32_t i) {
@@ -498,6 +508,40 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double d2) c
   return view;
 }
 
+// ---- Leaky sight ----
+
+// Decides for all pairs of robot i without a line of sight whether they look over what is in the way. That depends on
+// headings, which no clock follows, and on all bodies in the way, not on one: it is found anew in every update.
+void Radio::look_over(std::size_t i, std::span<const Vec2> positions, Scratch& s) {
+  if (!rows_[i].known) return;
+  Site site{i, positions[i], positions, lower_.of(i), pairs_.of(i), s};
+  for (Pair& pair : site.pairs) {
+    if (pair.blocked == 0) continue;
+    const Pair before = pair;
+    pair.linked = looks_over(site, pair) ? 1 : 0;
+    note(i, before, pair, s);
+  }
+}
+
+bool Radio::looks_over(Site& site, const Pair& pair) const {
+  const bool here = raised_[site.i] != 0;
+  const bool there = raised_[pair.other] != 0;
+  if (pair.witness == nobody_ || !(here || there)) return false;   // without a witness an obstacle is in the way
+  const Vec2 d = site.positions[pair.other] - site.here;
+  const double d2 = squared_norm(d);
+  const auto stops = [&](std::uint32_t body) {
+    const Vec2 k = site.positions[body] - site.here;
+    return !(2.0 * dot(k, d) < d2 ? here : there) && disc_blocks(k, d, d2, radius_m_);
+  };
+  if (stops(pair.witness)) return false;
+  if (std::any_of(site.lower.begin(), site.lower.end(), stops)) return false;
+  const auto stops_other = [&](const Pair& p) { return p.other != pair.other && stops(p.other); };
+  if (std::any_of(site.pairs.begin(), site.pairs.end(), stops_other)) return false;
+  look_around(site);
+  return std::none_of(site.s.obstacles.begin(), site.s.obstacles.end(),
+                      [&](const Obstacle* o) { return blocks(*o, site.here, site.positions[pair.other]); });
+}
+
 // ---- The result ----
 
 // Brings links and near pairs up to date, one change at a time unless they are many.
@@ -551,13 +595,13 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> Radio::blocked() const {
   std::vector<Couple> couples;
   for (std::size_t i = 0; i < rows_.size(); ++i)
     for (const Pair& pair : pairs_.of(i))
-      if (pair.blocked != 0) couples.emplace_back(static_cast<std::uint32_t>(i), pair.other);
+      if (pair.blocked != 0 && pair.linked == 0) couples.emplace_back(static_cast<std::uint32_t>(i), pair.other);
   return couples;
 }
 
 std::size_t Radio::memory_bytes() const noexcept {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };  // NOLINT(bugprone-sizeof-expression)
-  std::size_t total = bytes(last_) + bytes(alive_) + lower_.memory_bytes() + pairs_.memory_bytes() + bytes(path_) + bytes(around_) + bytes(rows_) +
+  std::size_t total = bytes(last_) + bytes(alive_) + bytes(raised_) + lower_.memory_bytes() + pairs_.memory_bytes() + bytes(path_) + bytes(around_) + bytes(rows_) +
                       bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(motion_) + bytes(across_) + links_.memory_bytes() +
                       bytes(count_) + bytes(near_);
   for (const Scratch& s : scratch_) total += bytes(s.index) + bytes(s.old) + bytes(s.x) + bytes(s.y) + bytes(s.gap2) + bytes(s.changes) + bytes(s.obstacles);

@@ -210,6 +210,9 @@ constexpr Key<Scenario> scenario_rows[] = {
      "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
      "robots and obstacles in between block a packet"},
+    {"radio.sight_leak", of<&RadioModel::sight_leak>, "", any_share,
+     "share of the lines of sight past one robot's body over which packets get through nevertheless, by the headings; "
+     "0: sight is exact; 0.18 as in ARGoS 3"},
     {"radio.loss", of<&RadioModel::loss>, "", any_share,
      "probability that a packet does not arrive, per packet and receiver"},
     {"radio.burst_s", by<radio_of<&RadioModel::burst_s, Radios::bursts>>, "s", {0.0, 60.0, true},

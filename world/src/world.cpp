@@ -15,6 +15,7 @@
 #include "banyan/world/placement.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/threads.hpp"
+#include "antennas.hpp"
 #include "world_impl.hpp"
 
 namespace banyan::world {
@@ -80,6 +81,7 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
   const std::vector<Vec2> positions = target_positions(s);
   const Assignment assignment = assign(s, poses, positions);
   alive.assign(n, 1);
+  if (s.radio.sight_leak > 0.0) raised.assign(n, 0);
   frozen_until.assign(n, 0);
   target_of.assign(n, -1);
   given_up.assign(n, nobody);
@@ -96,13 +98,13 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
   if (s.clocks.asynchronous) set_clocks();
   else flights.resize(static_cast<std::size_t>(std::max(1, s.radio.latency_ticks) - 1));
   Executor alone(1);
-  radio.update(poses.position, alive, alone);
+  find_links(alone);
 }
 
 World::Impl::Impl(const Impl& o)
     : scenario(o.scenario), algorithm(o.algorithm), losses(o.losses), loss(o.loss),
       line_of_sight(o.line_of_sight), obstacles(o.obstacles), tick(o.tick), poses(o.poses),
-      bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), frozen_until(o.frozen_until),
+      bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), raised(o.raised), frozen_until(o.frozen_until),
       target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), tree_parts(o.tree_parts), commands(o.commands),
       moving(o.moving), odometry(o.odometry), event_queue(o.event_queue), silent_until(o.silent_until), deaths(o.deaths),
       last_death(o.last_death), flights(o.flights), arriving(o.arriving), clocked(o.clocked),
@@ -130,10 +132,17 @@ void World::Impl::act() {
 }
 
 void World::Impl::broadcast(Executor& executor) {
-  radio.update(poses.position, alive, executor);
+  find_links(executor);
   proximity.update(poses.position, alive, deaths);
   const auto living = static_cast<std::uint64_t>(std::count(alive.begin(), alive.end(), 1));
   if (tick > 0) sent += living;
+}
+
+// Who hears whom at the poses of this moment.
+void World::Impl::find_links(Executor& executor) {
+  for (std::size_t i = 0; i < raised.size(); ++i) raised[i] = is_raised(scenario, i, poses.heading[i]) ? 1 : 0;
+  if (!raised.empty()) radio.raise(raised);
+  radio.update(poses.position, alive, executor);
 }
 
 void World::Impl::make_inboxes(const Executor& executor) {
@@ -330,6 +339,7 @@ std::size_t World::deaths() const noexcept { return impl_->deaths; }
 std::optional<std::uint64_t> World::last_death_tick() const noexcept { return impl_->last_death; }
 bool World::pending_kills() const noexcept { return impl_->event_queue.deaths_to_come(); }
 std::span<const std::uint32_t> World::links(std::size_t i) const noexcept { return impl_->radio.links(i); }
+std::span<const std::uint8_t> World::raised() const noexcept { return impl_->raised; }
 std::vector<std::pair<std::uint32_t, std::uint32_t>> World::blocked() const { return impl_->radio.blocked(); }
 std::uint64_t World::packets_received() const noexcept { return impl_->received; }
 std::uint64_t World::packets_sent() const noexcept { return impl_->sent; }
@@ -370,7 +380,7 @@ std::size_t World::memory_bytes() const noexcept {
   const Impl& w = *impl_;
   const std::size_t per_robot = sizeof(Report) + sizeof(RobotId) + 2 * sizeof(Velocity) + sizeof(Odometry) + 2 * sizeof(Vec2) +
                                 sizeof(std::uint8_t) + sizeof(std::uint64_t) + sizeof(std::int32_t);
-  std::size_t total = sizeof(Impl) + w.swarm->memory_bytes() + w.alive.size() * per_robot + w.radio.memory_bytes();
+  std::size_t total = sizeof(Impl) + w.swarm->memory_bytes() + w.raised.capacity() + w.alive.size() * per_robot + w.radio.memory_bytes();
   for (const Flight& flight : w.flights)
     total += flight.packets.capacity() * sizeof(Packet) +
              (flight.offsets.capacity() + flight.count.capacity()) * sizeof(std::uint32_t);

@@ -59,6 +59,7 @@ struct World::Impl {
   void happen();                               // events.cpp
   void act();
   void broadcast(Executor& executor);
+  void find_links(Executor& executor);
   void think(Executor& executor);
   void carry_waiting(std::size_t i, const Flight& fresh) noexcept;
 
@@ -123,6 +124,7 @@ struct World::Impl {
   std::vector<Target> targets;
   std::vector<Course> courses;                 // one per target
   std::vector<std::uint8_t> alive;
+  std::vector<std::uint8_t> raised;            // antennas; empty unless sight leaks
   std::vector<std::uint64_t> frozen_until;     // tick; 0: not frozen
   std::vector<std::int32_t> target_of;         // per robot, -1: none
   std::vector<RobotId> given_up;               // per robot: the target that it is told to serve no more, until it steps

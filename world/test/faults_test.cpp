@@ -282,6 +282,22 @@ TEST(Faults, AllWrongNumbersAreReportedAtOnce) {
   EXPECT_EQ(faults(scenario).size(), 4U) << shown(faults(scenario));
 }
 
+TEST(Faults, LeakySightIsAShareAndNeedsLinesOfSight) {
+  Scenario s = plain_scenario();
+  s.radio.sight_leak = 1.5;
+  ASSERT_EQ(faults(s).size(), 2U) << shown(faults(s));
+  EXPECT_EQ(faults(s)[0].key, "radio.sight_leak");
+  EXPECT_FALSE(faults(s)[0].warning);
+  s.radio.sight_leak = 0.2;
+  ASSERT_EQ(faults(s).size(), 1U) << shown(faults(s));
+  EXPECT_TRUE(faults(s)[0].warning);
+  Scenario switched = s;
+  switched.events = {event(SetLineOfSight{true}, 5.0)};
+  EXPECT_TRUE(faults(switched).empty()) << shown(faults(switched));
+  s.radio.line_of_sight = true;
+  EXPECT_TRUE(faults(s).empty()) << shown(faults(s));
+}
+
 bool possible(const Scenario& s) {
   const auto list = faults(s);
   return std::all_of(list.begin(), list.end(), [](const Fault& f) { return f.warning; });

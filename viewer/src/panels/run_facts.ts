@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the run comes from and how it went: everything an output of Banyan carries inside.
 import { button, h } from '../dom';
+import type { Setting } from '../frame';
 import type { Header } from '../source/protocol';
 
 function table(rows: [string, string][]): HTMLElement {
@@ -14,6 +15,12 @@ function pretty(config: string): string {
   } catch {
     return config; // damaged: as it is
   }
+}
+
+function sightOf(setting: Setting): string {
+  if (!setting.line_of_sight) return 'not needed';
+  const leak = setting.sight_leak ?? 0;
+  return leak > 0 ? `bodies and obstacles block, but bodies leak (${leak})` : 'bodies and obstacles block';
 }
 
 export class RunFacts {
@@ -33,7 +40,7 @@ export class RunFacts {
       ['algorithm', setting.reading === 'corrected' ? setting.algorithm : `${setting.algorithm}, ${setting.reading}`],
       ['seed', String(header.seed)],
       ['radio range', `${setting.range_m} m`],
-      ['line of sight', setting.line_of_sight ? 'bodies and obstacles block' : 'not needed'],
+      ['line of sight', sightOf(setting)],
       ['version', header.git === '' ? header.version : `${header.version}, ${header.git}`],
     ];
     const result = Object.entries(header.result).filter(([, value]) => value !== '');

@@ -37,6 +37,7 @@ export class Radio {
   private readonly x: Float64Array;
   private readonly y: Float64Array;
   private readonly alive: Float64Array;
+  private readonly raised: Float64Array;
   private readonly cells: Cells;
   private readonly deadHide: boolean;
 
@@ -44,6 +45,7 @@ export class Radio {
     this.x = column(frame, 'x_m');
     this.y = column(frame, 'y_m');
     this.alive = column(frame, 'alive');
+    this.raised = column(frame, 'raised');
     this.deadHide = setting.dead_bodies !== false;
     this.cells = new Cells(this.x, this.y, Math.max(setting.range_m / 8, 2 * setting.radius_m, 1e-3));
   }
@@ -105,6 +107,15 @@ export class Radio {
     return false;
   }
 
+  /** Where sight leaks: whether the nearer of i and j looks over the body of k, which is in their way. */
+  private isLookedOver(k: number, i: number, j: number): boolean {
+    if (this.raised[i] === 0 && this.raised[j] === 0) return false;
+    const dx = this.x[j]! - this.x[i]!;
+    const dy = this.y[j]! - this.y[i]!;
+    const along = (this.x[k]! - this.x[i]!) * dx + (this.y[k]! - this.y[i]!) * dy;
+    return this.raised[2 * along < dx * dx + dy * dy ? i : j] !== 0;
+  }
+
   /** a has the smaller x. In each row of cells only those are looked at that the segment, widened by a radius, passes. */
   private bodyBlocks(i: number, j: number, ax: number, ay: number, bx: number, by: number): boolean {
     const { cells } = this;
@@ -124,7 +135,7 @@ export class Radio {
       for (let m = cells.first[row * cells.columns + cells.column(ax + enter * dx - radius - slack)]!; m < to; ++m) {
         const k = cells.members[m]!;
         if (k === i || k === j || (this.alive[k] === 0 && !this.deadHide)) continue;
-        if (discBlocks(this.x[k]!, this.y[k]!, radius, ax, ay, bx, by)) return true;
+        if (discBlocks(this.x[k]!, this.y[k]!, radius, ax, ay, bx, by) && !this.isLookedOver(k, i, j)) return true;
       }
     }
     return false;

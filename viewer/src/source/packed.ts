@@ -8,6 +8,7 @@ type Kind = 'real' | 'small' | 'count' | 'index'; // index: -1 is stored as 0, 0
 const kinds: Record<Column, Kind> = {
   x_m: 'real', y_m: 'real', heading_rad: 'real', want_m: 'real',
   role: 'small', phase: 'small', need: 'small', spare_state: 'small', alive: 'small', connected: 'small',
+  raised: 'small',
   epoch: 'count', depth: 'count',
   label_cm: 'index', parent: 'index', old_parent: 'index', grant: 'index', request: 'index', target: 'index',
 };

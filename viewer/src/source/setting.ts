@@ -8,7 +8,7 @@ import { far } from './parse';
 export function defaultSetting(): Setting {
   return {
     name: '', algorithm: '', reading: '', seed: 0, tick_s: 0.1, radius_m: 0.07, range_m: 2, line_of_sight: false,
-    dead_bodies: true, target_tolerance_m: 0.2, time_limit_s: 0, obstacles: [],
+    sight_leak: 0, dead_bodies: true, target_tolerance_m: 0.2, time_limit_s: 0, obstacles: [],
   };
 }
 
@@ -44,7 +44,8 @@ export function parseSetting(text: string, warn: (text: string) => void): Settin
     });
   }
   attempt(() => { setting.line_of_sight = flagOf(object, 'line_of_sight'); });
-  // Older recordings do not have it.
+  // Older recordings do not have these.
+  if (member(object, 'sight_leak') !== undefined) attempt(() => { setting.sight_leak = numberAt(object, 'sight_leak', 0, 1); });
   if (member(object, 'dead_bodies') !== undefined) attempt(() => { setting.dead_bodies = flagOf(object, 'dead_bodies'); });
   attempt(() => { setting.obstacles = arrayAt(object, 'obstacles').slice(0, mostObstacles).map(parseObstacle); });
   return setting;

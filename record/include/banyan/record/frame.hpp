@@ -36,6 +36,7 @@ struct RobotFrame {
   std::int32_t request = -1;
   double want_m = 0.0;           // largest remaining worker distance below
   std::int32_t target = -1;      // index of the target that it serves, sent there or in place of another; -1: none
+  bool raised = false;           // where sight leaks: its antenna looks over the bodies near it
   friend bool operator==(const RobotFrame&, const RobotFrame&) = default;
 };
 
@@ -65,6 +66,7 @@ struct Setting {
   double radius_m = 0.07;
   double range_m = 2.0;
   bool line_of_sight = false;
+  double sight_leak = 0.0;       // radio.sight_leak
   bool dead_bodies = true;       // the dead hide what is behind them; false: they vanish
   double target_tolerance_m = 0.2;
   double time_limit_s = 0.0;

@@ -17,6 +17,8 @@ namespace banyan::world {
 // A link i-j exists while both live, |p_i - p_j| < C, and - with line of sight - the open segment
 // between the centres meets no obstacle and no body but their own: |p_k - segment| >= radius for
 // every other robot k beside the segment, dead ones included unless they vanish. Exactly symmetric: each pair is decided once.
+// With radio.sight_leak a raised antenna looks over bodies: a body is not in the way if the end nearer to it, along the
+// segment, is raised. Nothing looks over an obstacle.
 class Radio {
  public:
   Radio(const Scenario& scenario, std::size_t robots);
@@ -36,12 +38,15 @@ class Radio {
     all_anew_ = true;
   }
 
+  // From the next update on the antennas of these robots are raised, 1, or not, 0. Only with radio.sight_leak.
+  void raise(std::span<const std::uint8_t> raised);
+
   // Robot i has vanished since the last update: it is near no other robot.
   void forget(std::uint32_t i);
 
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept { return links_.of(i); }
   [[nodiscard]] NearPairs near() const noexcept { return near_; }
-  // Listed when asked for: a tick has no use for them.
+  // In range, but not linked for want of sight. Listed when asked for: a tick has no use for them.
   [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> blocked() const;
   [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
@@ -69,7 +74,8 @@ class Radio {
   // What was found out about robot i and another, j > i.
   struct Pair {
     std::uint32_t other : 29;
-    std::uint32_t linked : 1, blocked : 1, near : 1;   // neither linked nor blocked: out of range, or dead
+    // Neither linked nor blocked: out of range, or dead. Both: bodies are in the way, but antennas look over them.
+    std::uint32_t linked : 1, blocked : 1, near : 1;
     std::uint32_t witness;   // the body in the way, or if none is the one that is nearest to it; or nobody_
     Mark close_until;        // by the clock of the three: until then the witness changes nothing,
     Mark wide_until;         // by the clock of the pair: nor does anything else
@@ -138,6 +144,8 @@ class Radio {
   [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const;
   [[nodiscard]] bool ask_witness(const Site& site, Pair& pair) const noexcept;
   void look_around(Site& site) const;
+  void look_over(std::size_t i, std::span<const Vec2> positions, Scratch& s);
+  [[nodiscard]] bool looks_over(Site& site, const Pair& pair) const;
   [[nodiscard]] View look(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept;
   void apply_changes();
   void merge();
@@ -150,12 +158,15 @@ class Radio {
   Way skin_;            // a row is written anew once its clock has gone on so far; to the end of
   Way valid_;           // this it misses no robot that matters
   bool line_of_sight_;
+  bool leaky_;
   bool dead_vanish_;
   std::vector<Obstacle> obstacles_;
 
   // As of the last update.
   std::vector<Vec2> last_;
   std::vector<std::uint8_t> alive_;
+  std::vector<std::uint8_t> raised_;      // by robot; empty unless sight leaks
+  bool raised_anew_ = false;              // since the last update
   bool all_anew_ = true;                  // every pair is to be decided again: sight or obstacles have changed
 
   std::uint32_t nobody_;                  // the index after the last robot's; never moves

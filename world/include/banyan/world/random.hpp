@@ -14,7 +14,7 @@ namespace banyan::world {
 enum class Purpose : std::uint64_t {
   placement = 1, heading, root, targets, loss, range_noise, bearing_noise, wheel_noise, wheel_bias,
   odometry_noise, slots, kill, clock_phase, clock_rate, start,
-  burst_end, path_loss, shadowing, one_way
+  burst_end, path_loss, shadowing, one_way, antenna
 };
 
 // SplitMix64's finaliser (Steele, Lea & Flood 2014): a bijection with full avalanche.

@@ -76,6 +76,7 @@ struct RadioModel {
   Model model = Model::disc;
   double range_m = 2.0;                 // C: a link exists at distance < C (strict, symmetric)
   bool line_of_sight = false;           // blocked by robots and obstacles
+  double sight_leak = 0.0;              // share of the lines of sight past one body over which packets get through
   double loss = 0.0;                    // probability that a packet is lost, per packet and receiver
   double range_noise_m = 0.0;           // sigma
   double bearing_noise_rad = 0.0;       // sigma

@@ -77,10 +77,13 @@ class World {
   // Whether events are still to come that make robots die (Die, Kill), those that
   // wait for a moment of the mission included.
   [[nodiscard]] bool pending_kills() const noexcept;
-  // Robots that robot i could hear and be heard by at the current positions: in range, line of
-  // sight free, both alive. Ascending. Packet loss is not considered.
+  // Robots that robot i could hear and be heard by at the current poses: in range, both alive, line of sight free or,
+  // with radio.sight_leak, only with bodies in the way that antennas look over. Ascending. Packet loss is not considered.
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
-  // Pairs (i < j) in range, both alive, but without line of sight; ascending. Listed anew each time: O(pairs in range).
+  // 1: the robot's antenna looks over bodies (radio.sight_leak). Empty if sight does not leak.
+  [[nodiscard]] std::span<const std::uint8_t> raised() const noexcept;
+  // Pairs (i < j) in range, both alive, but not linked for want of sight; ascending. Listed anew each time:
+  // O(pairs in range).
   [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> blocked() const;
 
   [[nodiscard]] std::uint64_t packets_received() const noexcept;   // since the start
