@@ -13,6 +13,7 @@
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
 #include "banyan/measure/relays.hpp"
+#include "banyan/measure/silence.hpp"
 #include "banyan/measure/steiner.hpp"
 #include "banyan/world/tree_parts.hpp"
 
@@ -201,6 +202,7 @@ struct Observer::Impl {
   double speed_m_s;
   bool oracle_asked = false;
   Recovery recovery;
+  Silence silence;
   bool pending_kills;
 };
 
@@ -269,7 +271,9 @@ Observer::Impl::Impl(const world::World& world)
       first_others(unsent_positions(world)),
       speed_m_s(world.scenario().robot.wheel_limit_m_s),
       recovery(world.scenario().tick_s, stop_when_complete ? settle_s : 0.0),
+      silence(liveness_period_s(world), world.scenario().tick_s),
       pending_kills(world.pending_kills()) {
+  run.liveness_period_s = liveness_period_s(world);
   run.robots = static_cast<std::uint32_t>(world.size());
   run.time_limit_s = world::time_limit_s(world.scenario());
   for (const world::Target& target : world.targets()) {
@@ -299,19 +303,25 @@ void Observer::Impl::count_edges(const world::World& world) {
   const auto alive = world.alive();
   const auto reports = world.reports();
   const auto positions = world.positions();
+  // The count of the reason why two robots do not hear each other; null if they do.
+  const auto broken_by = [&](std::size_t i, RobotId other) -> std::uint32_t* {
+    if (alive[other] == 0) return &tick.broken_by_death;
+    if (squared_norm(positions[i] - positions[other]) >= range_m * range_m) return &tick.broken_by_distance;
+    if (!world.line_of_sight()) return nullptr;
+    const auto links = world.links(i);
+    return std::binary_search(links.begin(), links.end(), std::uint32_t{other}) ? nullptr : &tick.broken_by_occlusion;
+  };
   const auto count = [&](std::size_t i, RobotId other) {
     if (other == nobody || other >= reports.size()) return;
     ++tick.edges;
-    if (alive[other] == 0) {
-      ++tick.broken_by_death;
-    } else if (squared_norm(positions[i] - positions[other]) >= range_m * range_m) {
-      ++tick.broken_by_distance;
-    } else if (world.line_of_sight()) {
-      const auto links = world.links(i);
-      if (!std::binary_search(links.begin(), links.end(), std::uint32_t{other})) ++tick.broken_by_occlusion;
-    }
+    std::uint32_t* const broken = broken_by(i, other);
+    if (broken == nullptr) return;
+    ++*broken;
+    if (silence.is_long(static_cast<RobotId>(i), other)) ++tick.broken_after_silence;
   };
   tick.edges = tick.broken_by_death = tick.broken_by_distance = tick.broken_by_occlusion = 0;
+  tick.broken_after_silence = 0;
+  silence.next_tick();
   for (std::size_t i = 0; i < reports.size(); ++i) {
     if (!is_of_tree(world, i)) continue;
     const Report& m = reports[i];
@@ -408,6 +418,7 @@ void Observer::Impl::add_up() {
   run.broken_ticks_by_distance += tick.broken_by_distance > 0 ? 1 : 0;
   run.broken_ticks_by_occlusion += tick.broken_by_occlusion > 0 ? 1 : 0;
   run.broken_ticks_by_death += tick.broken_by_death > 0 ? 1 : 0;
+  run.broken_ticks_after_silence += tick.broken_after_silence > 0 ? 1 : 0;
   run.split_ticks += tick.components > 1 ? 1 : 0;
   run.split_ticks_by_distance += tick.components_by_distance > 1 ? 1 : 0;
   low_ticks += tick.fiedler_low ? 1 : 0;
@@ -496,6 +507,7 @@ Run Observer::result(const world::World& world) const {
   run.disconnected_time_ratio = static_cast<double>(run.broken_ticks) / ticks;
   run.disconnected_time_ratio_by_distance = static_cast<double>(run.broken_ticks_by_distance) / ticks;
   run.disconnected_time_ratio_by_occlusion = static_cast<double>(run.broken_ticks_by_occlusion) / ticks;
+  run.disconnected_time_ratio_after_silence = static_cast<double>(run.broken_ticks_after_silence) / ticks;
   run.fiedler_time_ratio = static_cast<double>(impl_->low_ticks) / ticks;
   run.fiedler_time_ratio_by_distance = static_cast<double>(impl_->low_ticks_by_distance) / ticks;
   const double epochs = std::max(1.0, static_cast<double>(run.epochs));

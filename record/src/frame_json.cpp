@@ -379,6 +379,8 @@ measure::Tick read_metrics(std::string_view text) {
   t.edges = count("edges");
   t.broken_by_distance = count("broken_by_distance");
   t.broken_by_occlusion = count("broken_by_occlusion");
+  if (o.contains("broken_after_silence"))
+    t.broken_after_silence = count("broken_after_silence");  // older recordings lack it
   t.components = count("components");
   t.components_by_distance = count("components_by_distance");
   t.fiedler_low = flag_of(o, "fiedler_low");

@@ -30,7 +30,8 @@ std::string hexadecimal(std::uint64_t value) {
 }
 
 // 2: a worker for each target in robots_bound; the oracle's columns.
-constexpr int format_version = 2;
+// 3: sight_leak; edges broken after a silence.
+constexpr int format_version = 3;
 
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
@@ -39,6 +40,8 @@ constexpr Column<Row> identifying_table[] = {
     {"body", "robot.body: disks, box2d or linear", 0, [](const Row& r) -> Cell { return r.id.body; }},
     {"line_of_sight", "radio blocked by bodies and obstacles", 0,
      [](const Row& r) -> Cell { return r.id.line_of_sight; }},
+    {"sight_leak", "share of the lines of sight past one body over which packets get through", 4,
+     [](const Row& r) -> Cell { return r.id.sight_leak; }, 3},
     {"loss", "probability that a packet is lost", 4, [](const Row& r) -> Cell { return r.id.loss; }},
     {"targets", "number of targets at the start", 0, [](const Row& r) { return natural(r.id.targets); }},
     {"target_radius_m", "the farthest target from the centre of the start", 4,
@@ -100,6 +103,12 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) -> Cell { return r.run.disconnected_time_ratio_by_distance; }},
     {"disconnected_time_ratio_by_occlusion", "the same by occlusion", 6,
      [](const Row& r) -> Cell { return r.run.disconnected_time_ratio_by_occlusion; }},
+    {"liveness_period_s", "I: a neighbour not heard for longer counts as gone", 4,
+     [](const Row& r) -> Cell { return r.run.liveness_period_s; }, 3},
+    {"broken_ticks_after_silence", "with an edge broken for longer than liveness_period_s without a break", 0,
+     [](const Row& r) { return natural(r.run.broken_ticks_after_silence); }, 3},
+    {"disconnected_time_ratio_after_silence", "broken_ticks_after_silence / ticks", 6,
+     [](const Row& r) -> Cell { return r.run.disconnected_time_ratio_after_silence; }, 3},
     {"split_ticks", "ticks with several radio components", 0, [](const Row& r) { return natural(r.run.split_ticks); }},
     {"split_ticks_by_distance", "the same without occlusion", 0,
      [](const Row& r) { return natural(r.run.split_ticks_by_distance); }},
@@ -162,6 +171,8 @@ constexpr Column<Tick> series_table[] = {
     {"broken_by_distance", "of these, of C or longer", 0, [](const Tick& t) { return natural(t.broken_by_distance); }},
     {"broken_by_occlusion", "of these, in range but without line of sight", 0,
      [](const Tick& t) { return natural(t.broken_by_occlusion); }},
+    {"broken_after_silence", "tree edges broken for longer than I without a break, to dead robots too", 0,
+     [](const Tick& t) { return natural(t.broken_after_silence); }},
     {"components", "of the radio graph of the living robots", 0, [](const Tick& t) { return natural(t.components); }},
     {"components_by_distance", "the same without occlusion", 0,
      [](const Tick& t) { return natural(t.components_by_distance); }},
@@ -237,6 +248,7 @@ Identification identify(const world::Scenario& scenario, std::string_view versio
   id.reading = scenario.mission.reading;
   id.body = body_name(scenario.robot.body);
   id.line_of_sight = scenario.radio.line_of_sight;
+  id.sight_leak = scenario.radio.sight_leak;
   id.loss = scenario.radio.loss;
   const std::vector<Vec2> targets = world::target_positions(scenario);
   id.targets = targets.size();

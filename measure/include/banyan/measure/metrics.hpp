@@ -18,8 +18,9 @@ struct Tick {
   std::uint32_t committed = 0;             // alive and no spare
   std::uint32_t edges = 0;                 // tree edges: parent and old parent of every robot that is no spare, links that it keeps
   std::uint32_t broken_by_distance = 0;    // of these, d >= C
-  std::uint32_t broken_by_occlusion = 0;   // of these, d < C but no line of sight
+  std::uint32_t broken_by_occlusion = 0;   // of these, d < C but no line of sight, nor a leak
   std::uint32_t broken_by_death = 0;       // of these, the other end is dead
+  std::uint32_t broken_after_silence = 0;  // of all broken ones, for longer than I without a break
   std::uint32_t components = 0;            // communication graph of the living robots
   std::uint32_t components_by_distance = 0;  // the same without occlusion
   std::uint32_t tree_parts = 1;            // components of the graph of the living that are no spares; 0: no root lives
@@ -67,6 +68,9 @@ struct Run {
   double disconnected_time_ratio = 0.0;    // broken_ticks / ticks
   double disconnected_time_ratio_by_distance = 0.0;
   double disconnected_time_ratio_by_occlusion = 0.0;
+  double liveness_period_s = 0.0;          // I
+  std::uint64_t broken_ticks_after_silence = 0;   // at least one tree edge broken for longer than I
+  double disconnected_time_ratio_after_silence = 0.0;
   std::uint64_t split_ticks = 0;           // communication graph in several components
   std::uint64_t split_ticks_by_distance = 0;
   double fiedler_time_ratio = 0.0;

@@ -24,6 +24,7 @@ struct Identification {
   std::string reading;
   std::string body;
   bool line_of_sight = false;
+  double sight_leak = 0.0;
   double loss = 0.0;
   std::uint64_t targets = 0;
   double target_radius_m = 0.0;    // the farthest target from the centre of the start
