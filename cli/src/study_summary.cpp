@@ -106,7 +106,12 @@ std::string study_summary(const Study& study, const Results& results, const Fold
       "  table      " + folder.table() + "\n  statistics " + folder.statistics() + ", " + folder.comparisons() + "\n";
   if (!written.figures.empty())
     text += format("  figures    %zu in ", written.figures.size()) + folder.figures() +
-            " (.svg, .png and the .gp to redraw them)\n";
+            " (.svg, .pdf, .png and the .gp to redraw them)\n";
+  if (!written.empty.empty()) {
+    text += "  not drawn, since no run has a value:";
+    for (const auto& name : written.empty) text += " " + name;
+    text += "\n";
+  }
   return text;
 }
 

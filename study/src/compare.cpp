@@ -12,67 +12,12 @@
 #include "banyan/record/table.hpp"
 #include "banyan/study/report.hpp"
 #include "groups.hpp"
+#include "misses.hpp"
 
 namespace banyan::study {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-// Times that a run may never come to an end of, and what tells that it has not.
-struct Missable {
-  std::string_view metric, reached;
-  std::string_view condition;  // a column that is empty where there was nothing to reach
-};
-constexpr Missable missable[] = {{"normalized_time", "complete", ""},
-                                 {"completion_time_s", "complete", ""},
-                                 {"time_ratio", "complete", ""},
-                                 {"held_time_ratio", "complete", ""},
-                                 {"recovery_time_s", "recovered", "last_death_s"}};
-
-const Missable* missable_of(std::string_view metric) noexcept {
-  const auto* at =
-      std::find_if(std::begin(missable), std::end(missable), [&](const auto& m) { return m.metric == metric; });
-  return at == std::end(missable) ? nullptr : at;
-}
-
-bool is_time(std::string_view metric) noexcept { return metric != "held_time_ratio" && missable_of(metric) != nullptr; }
-
-// A metric of all runs. `restricted` has the limit in the place of a miss, NaN where it has none.
-struct Column {
-  std::string name;
-  bool boolean = false, can_miss = false;
-  Values value, restricted;
-  std::vector<char> missed;
-};
-
-// The limit on a metric's scale: what a run that never completes would have at its end.
-Values limits(const Results& results, std::string_view metric) {
-  Values limit(results.rows(), unknown);
-  if (metric == "normalized_time") std::fill(limit.begin(), limit.end(), 1.0);
-  if (metric == "completion_time_s" || metric == "time_ratio") limit = results.values("time_limit_s");
-  if (metric == "time_ratio") {
-    const Values bound = results.values("time_bound_s");
-    for (std::size_t row = 0; row < limit.size(); ++row) limit[row] /= bound[row];
-  }
-  return limit;
-}
-
-Column column_of(const Results& results, const std::string& metric) {
-  Column column{metric, is_boolean(metric), false, results.values(metric), {}, {}};
-  column.missed.assign(results.rows(), 0);
-  column.restricted = column.value;
-  const Missable* rule = missable_of(metric);
-  if (rule == nullptr) return column;
-  column.can_miss = true;
-  const Values reached = results.values(rule->reached), limit = limits(results, metric);
-  const Values condition = rule->condition.empty() ? reached : results.values(rule->condition);
-  for (std::size_t row = 0; row < results.rows(); ++row) {
-    if (reached[row] != 0.0 || std::isnan(condition[row])) continue;  // or failed
-    column.missed[row] = 1;
-    column.restricted[row] = limit[row];
-  }
-  return column;
-}
 
 using Rows = std::vector<std::size_t>;
 using Paired = std::vector<std::pair<std::size_t, std::size_t>>;  // two rows
@@ -92,7 +37,7 @@ class Comparing {
  public:
   Comparing(const Study& study, const Results& results, const std::vector<std::string>& metrics)
       : study_(study), results_(results), alpha_(1.0 - study.statistics.confidence) {
-    for (const auto& metric : metrics) columns_.push_back(column_of(results, metric));
+    for (const auto& metric : metrics) columns_.push_back(metric_column(results, metric));
   }
 
   void part(std::size_t p, const std::vector<std::vector<std::string>>& groupings) {
@@ -150,7 +95,7 @@ class Comparing {
     return values;
   }
 
-  [[nodiscard]] Paired pair_up(const Column& column, const Rows& first, const Rows& second) const {
+  [[nodiscard]] Paired pair_up(const MetricColumn& column, const Rows& first, const Rows& second) const {
     const auto there = [&](std::size_t row) { return column.missed[row] != 0 || std::isfinite(column.value[row]); };
     const auto identity = [&](std::size_t row) { return std::pair{world_of(row), results_.planned(row).seed}; };
     std::map<std::pair<std::vector<std::size_t>, std::uint64_t>, std::size_t> partner;
@@ -165,7 +110,7 @@ class Comparing {
     return pairs;
   }
 
-  void fill(Comparison& c, const Column& column, const Paired& pairs) {
+  void fill(Comparison& c, const MetricColumn& column, const Paired& pairs) {
     Tests tests;
     PairedValues ranked;
     std::map<std::vector<std::size_t>, std::size_t> worlds;
@@ -279,7 +224,7 @@ class Comparing {
   const Results& results_;
   double alpha_;
   std::size_t compared_ = 0;  // index of the axis in the part
-  std::vector<Column> columns_;
+  std::vector<MetricColumn> columns_;
   std::vector<Comparison> comparisons_;
   std::vector<Tests> tests_;  // of these
 };

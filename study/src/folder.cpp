@@ -226,7 +226,7 @@ Written write_results(const Study& study, const Plan& plan, const Gathered& gath
   const auto json = study_json(study, plan, gathered.outcomes, results, gathered.builds);
   record::write_file(folder.json(), json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n",
                      Existing::replace);
-  return {drawn.figures, drawn.complaints};
+  return {drawn.figures, drawn.empty, drawn.complaints};
 }
 
 }  // namespace banyan::study

@@ -52,6 +52,7 @@ class Planner {
       : study_(study), algorithms_(algorithms), progress_(progress) {}
 
   Plan plan() {
+    plan_.algorithms.assign(algorithms_.names().begin(), algorithms_.names().end());
     for (std::size_t p = 0; p < study_.parts.size(); ++p) plan_part(p);
     for (auto& [text, found] : found_) report(std::move(found));
     std::stable_sort(plan_.problems.begin(), plan_.problems.end(),

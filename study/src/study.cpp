@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
-#include <span>
 
 #include "banyan/config/table_reader.hpp"
 #include "banyan/study/results.hpp"
+#include "figure/figure_plan.hpp"
+#include "figure/words.hpp"
+#include "study_checks.hpp"
 
 namespace banyan::study {
 namespace {
@@ -16,18 +18,12 @@ using config::Node;
 using config::Problem;
 using config::TableReader;
 
-constexpr std::size_t most_series = 8;
 constexpr const char* seeds_instead = "a study takes its seeds from its own key, seeds = \"1-50\"";
 
 std::string beside(const std::string& file, const std::string& reference) {
   const std::filesystem::path path(reference);
   if (path.is_absolute() || file == "-") return reference;
   return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
-}
-
-void check_name(TableReader& table, const std::string& name) {
-  if (table.has("name") && !config::good_name(name))
-    table.report("name", "is \"" + name + "\"; allowed: " + std::string(config::name_rule));
 }
 
 // [set]: dotted keys, quoted or not, and sections.
@@ -60,14 +56,6 @@ std::optional<Change> read_overlay(const std::string& path, const config::Place&
   }
 }
 
-std::string label_of(const Node& value) {
-  if (value.string()) return *value.string();
-  if (const auto* yes = std::get_if<bool>(&value.value)) return *yes ? "on" : "off";
-  if (const auto* whole = std::get_if<std::int64_t>(&value.value)) return std::to_string(*whole);
-  if (const auto* real = std::get_if<double>(&value.value)) return config::number_text(*real);
-  return "";
-}
-
 class StudyReader {
  public:
   StudyReader(std::string path, std::vector<Problem>& problems) : path_(std::move(path)), problems_(problems) {}
@@ -81,7 +69,7 @@ class StudyReader {
     Part common = read_part(top, Part{}, "axes");
     study.parts = read_parts(top, common);
     read_statistics(top, study);
-    read_figures(top, study);
+    read_figures(top, study, problems_);
     top.finish();
     add_overrides(study, overrides);
     return study;
@@ -164,7 +152,7 @@ class StudyReader {
     check_name(table, axis.name);
     if (taken(axis.name))
       table.report("name", "\"" + axis.name + "\" is a column of results; give the axis another name");
-    axis.title = table.text("title", axis.name);
+    axis.title = table.text("title", words_of_name(axis.name));
     table.require("values");
     if (const Node* values = table.list("values")) {
       for (const Node& value : *values->array()) {
@@ -266,35 +254,7 @@ class StudyReader {
     }
   }
 
-  // ------------------------------------------------------------------- statistics, figures --
-
-  static void check_metric(TableReader& table, std::string_view name, const std::string& metric) {
-    if (metric.empty() || is_metric(metric)) return;
-    const auto near = config::nearest(metric, metrics());
-    table.report(name, "\"" + metric + "\" is no column of numbers in the table of runs" +
-                           (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
-  }
-
-  // Views of the parts' own texts.
-  static std::vector<std::string_view> axis_names(std::span<const Part> parts) {
-    std::vector<std::string_view> names;
-    for (const auto& part : parts) {
-      for (const auto& axis : part.axes) {
-        if (std::find(names.begin(), names.end(), axis.name) == names.end()) names.push_back(axis.name);
-      }
-    }
-    return names;
-  }
-
-  static void check_axis(TableReader& table, std::string_view name, const std::string& axis,
-                         const std::vector<std::string_view>& known) {
-    if (axis.empty() || std::find(known.begin(), known.end(), axis) != known.end()) return;
-    std::string list;
-    for (const auto k : known) list += (list.empty() ? "" : ", ") + std::string(k);
-    const auto near = config::nearest(axis, known);
-    table.report(name, "\"" + axis + "\" is no axis here (axes: " + (list.empty() ? "none" : list) + ")" +
-                           (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
-  }
+  // ---------------------------------------------------------------------------- statistics --
 
   void read_statistics(TableReader& top, Study& study) {
     auto& plan = study.statistics;
@@ -327,128 +287,6 @@ class StudyReader {
       }
     }
     table.finish();
-  }
-
-  void read_figures(TableReader& top, Study& study) {
-    const auto list = top.tables("figures");
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      TableReader table(*list[i], "figures[" + std::to_string(i) + "]", problems_);
-      study.figures.push_back(read_figure(table, study));
-      table.finish();
-    }
-    std::set<std::string> names;
-    for (const auto& figure : study.figures) {
-      if (!names.insert(figure.name).second) top.report("figures", "has two figures named \"" + figure.name + "\"");
-    }
-    if (!top.has("figures")) add_standard_figures(study);
-  }
-
-  FigurePlan read_figure(TableReader& table, const Study& study) {
-    FigurePlan figure;
-    table.require("metric");
-    figure.metric = table.text("metric");
-    check_metric(table, "metric", figure.metric);
-    figure.name = table.text("name", figure.metric);
-    check_name(table, figure.name);
-    figure.title = table.text("title");
-    figure.y_title = table.text("y_title", figure.metric);
-    figure.part = table.text("part", study.parts.front().name);
-    const auto part =
-        std::find_if(study.parts.begin(), study.parts.end(), [&](const Part& p) { return p.name == figure.part; });
-    if (part == study.parts.end()) table.report("part", "\"" + figure.part + "\" is no part of this study");
-    const auto known =
-        axis_names(part == study.parts.end() ? std::span<const Part>(study.parts) : std::span<const Part>(&*part, 1));
-    figure.each = table.texts("each");
-    figure.x = table.texts("x");
-    figure.panels = table.text("panels");
-    figure.series = table.text("series");
-    for (const auto& axis : figure.each) check_axis(table, "each", axis, known);
-    for (const auto& axis : figure.x) check_axis(table, "x", axis, known);
-    check_axis(table, "panels", figure.panels, known);
-    check_axis(table, "series", figure.series, known);
-    figure.columns = static_cast<std::size_t>(table.whole("columns", 3, {1, 6}));
-    figure.y_minimum = table.number("y_minimum", config::Range{});
-    figure.y_maximum = table.number("y_maximum", config::Range{});
-    if (figure.y_minimum && figure.y_maximum && *figure.y_minimum >= *figure.y_maximum)
-      table.report("y_minimum", "must be below y_maximum");
-    if (const Node* where = table.table("where")) {
-      TableReader inner(*where, table.path("where"), problems_);
-      for (const auto& [axis, value] : *where->table()) {
-        check_axis(table, "where", axis, known);
-        figure.where.emplace_back(axis, read_picked(inner, axis, part == study.parts.end() ? nullptr : &*part));
-      }
-    }
-    if (part != study.parts.end()) check_series(table, *part, figure);
-    return figure;
-  }
-
-  static void check_series(TableReader& table, const Part& part, const FigurePlan& figure) {
-    for (const auto& axis : part.axes) {
-      if (axis.name != figure.series) continue;
-      std::size_t count = axis.values.size();
-      for (const auto& [name, labels] : figure.where) count = name == axis.name ? labels.size() : count;
-      if (count > most_series)
-        table.report("series", "\"" + axis.name + "\" has " + std::to_string(count) +
-                                   " values; a figure has colours for " + std::to_string(most_series));
-    }
-  }
-
-  // The labels of an axis, each of which must exist: a figure of nothing is a mistake.
-  static std::vector<std::string> read_picked(TableReader& table, const std::string& name, const Part* part) {
-    std::vector<std::string> labels;
-    const Node* node = table.any(name);
-    const auto* items = node->array();
-    if (items && items->empty()) table.report(name, "is an empty list: give at least one value");
-    for (std::size_t i = 0; items ? i < items->size() : i < 1; ++i)
-      labels.push_back(label_of(items ? (*items)[i] : *node));
-    if (!part) return labels;
-    for (const auto& axis : part->axes) {
-      if (axis.name != name) continue;
-      std::vector<std::string_view> known;
-      for (const auto& value : axis.values) known.push_back(value.label);
-      for (const auto& label : labels) {
-        if (std::find(known.begin(), known.end(), label) != known.end()) continue;
-        const auto near = config::nearest(label, known);
-        table.report(name, "\"" + label + "\" is no label of the axis \"" + name + "\"" +
-                               (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
-      }
-    }
-    return labels;
-  }
-
-  // Without [[figures]]: time and connectivity of every part, over as many axes as a figure can show.
-  static void add_standard_figures(Study& study) {
-    for (const auto& part : study.parts) {
-      std::vector<std::string> left;
-      std::string series;
-      for (const auto& axis : part.axes) {
-        const bool fits = axis.values.size() <= most_series;
-        if (fits && (series.empty() || axis.name == study.statistics.compare)) {
-          if (!series.empty()) left.push_back(series);
-          series = axis.name;
-        } else {
-          left.push_back(axis.name);
-        }
-      }
-      for (const char* metric : {"normalized_time", "disconnected_time_ratio"}) {
-        FigurePlan figure;
-        figure.metric = figure.y_title = metric;
-        figure.name = (part.name.empty() ? "" : part.name + "-") + std::string(metric);
-        figure.part = part.name;
-        figure.series = series;
-        auto rest = left;
-        if (!rest.empty()) {
-          figure.x = {rest.back()};
-          rest.pop_back();
-        }
-        if (!rest.empty()) {
-          figure.panels = rest.back();
-          rest.pop_back();
-        }
-        figure.each = rest;
-        study.figures.push_back(std::move(figure));
-      }
-    }
   }
 
   // ----------------------------------------------------------------------------- overrides --

@@ -182,7 +182,7 @@ TEST_F(StudyFile, FiguresAreStandardOrGivenOrNone) {
       "[[axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [3, 6]\n";
   const auto standard = good(head + axes);
   ASSERT_EQ(standard.figures.size(), 2U);
-  EXPECT_EQ(standard.figures[0].metric, "normalized_time");
+  EXPECT_EQ(standard.figures[0].metrics.at(0).column, "normalized_time");
   EXPECT_EQ(standard.figures[0].series, "algorithm");
   EXPECT_EQ(standard.figures[0].x, (std::vector<std::string>{"r"}));
   EXPECT_TRUE(good(head + "figures = []\n" + axes).figures.empty());
@@ -277,9 +277,12 @@ TEST_F(StudyFile, SaysWhatIsWrongElsewhere) {
 }
 
 TEST_F(StudyFile, SaysWhatIsWrongWithStatisticsAndFigures) {
-  const std::string axes =
-      "[[axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1, 2, 3, 4, 5, 6, 7, 8, 9]\n";  // 3 to 6
-  const auto with = [&](const std::string& text) { return bad(head + axes + text); };                // from line 7 on
+  const std::
+      string
+          axes =
+              "[[axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13, "
+              "14]\n";                                                                 // 3 to 6
+  const auto with = [&](const std::string& text) { return bad(head + axes + text); };  // from line 7 on
   EXPECT_TRUE(says(with("[statistics]\nmetrics = [\"complet\"]\n"),
                    "s.toml:8: error: statistics.metrics: \"complet\" is no column of numbers in the table of runs; did "
                    "you mean \"complete\"?"));
@@ -299,12 +302,75 @@ TEST_F(StudyFile, SaysWhatIsWrongWithStatisticsAndFigures) {
   EXPECT_TRUE(says(with(figure + "x = \"q\"\n"), "s.toml:9: error: figures[0].x: \"q\" is no axis here"));
   EXPECT_TRUE(says(with(figure + "part = \"q\"\n"), "\"q\" is no part of this study"));
   EXPECT_TRUE(says(with(figure + "series = \"r\"\n"),
-                   "s.toml:9: error: figures[0].series: \"r\" has 9 values; a figure has colours for 8"));
+                   "s.toml:9: error: figures[0].series: \"r\" has 13 values; a figure has colours for 12"));
   EXPECT_TRUE(says(with(figure + "where = { r = [10] }\n"), "\"10\" is no label of the axis \"r\""));
   EXPECT_TRUE(says(with(figure + "where = { r = [] }\n"), "is an empty list"));
   EXPECT_TRUE(says(with(figure + "y_minimum = 2\ny_maximum = 1\n"), "must be below y_maximum"));
   EXPECT_TRUE(says(with(figure + figure), "has two figures named \"committed\""));
   (void)good(head + axes + figure + "series = \"r\"\nwhere = { r = [1, 2] }\n");
+}
+
+TEST_F(StudyFile, FiguresHaveSeveralMetricsAndScales) {
+  const std::string axes =
+      "[[axes]]\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"inwards\"]\n"
+      "[[axes]]\nkey = \"targets.radius_m\"\nvalues = [3, 6]\n";
+  const auto study = good(head + axes + R"(
+[[figures]]
+metrics = ["time_ratio", "committed", "disconnected_time_ratio"]
+y_scale = ["ratio", "log", "linear"]
+ratio_to = "inwards"
+series = "algorithm"
+width_in = 3.5
+columns = 2
+)");
+  const FigurePlan& figure = study.figures.at(0);
+  ASSERT_EQ(figure.metrics.size(), 3U);
+  EXPECT_EQ(figure.name, "time_ratio");
+  EXPECT_EQ(figure.metrics[0].scale, FigureScale::ratio);
+  EXPECT_EQ(figure.metrics[0].title, "completion time / lower bound (inwards\u00a0=\u00a01)");
+  EXPECT_EQ(figure.metrics[1].scale, FigureScale::log);
+  EXPECT_EQ(figure.metrics[2].title, "share of time with a broken edge");
+  EXPECT_EQ(figure.width_in, 3.5);
+  EXPECT_EQ(figure.columns, 2U);
+  EXPECT_EQ(study.parts[0].axes[1].title, "radius (m)") << "words of the name";
+  const auto one = good(head + axes +
+                        "[[figures]]\nmetrics = [\"committed\", \"robots\"]\ny_scale = \"log\"\n"
+                        "y_title = [\"a\", \"b\"]\n");
+  EXPECT_EQ(one.figures[0].metrics[1].scale, FigureScale::log) << "one for all";
+  EXPECT_EQ(one.figures[0].metrics[1].title, "b");
+  EXPECT_FALSE(one.figures[0].width_in || one.figures[0].columns);
+}
+
+TEST_F(StudyFile, SaysWhatIsWrongWithScalesAndWidths) {
+  const std::string axes =
+      "[[axes]]\nname = \"a\"\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"inwards\"]\n";  // 3 to 6
+  const auto with = [&](const std::string& text) {
+    return bad(head + axes + "[[figures]]\nmetrics = [\"committed\", \"robots\"]\n" + text);  // from line 9 on
+  };
+  EXPECT_TRUE(
+      says(with("width_in = 5\n"), "s.toml:9: error: figures[0].width_in: is 5; allowed: 3.5, a column, or 7, a page"));
+  EXPECT_TRUE(says(with("y_scale = \"lin\"\n"),
+                   "s.toml:9: error: figures[0].y_scale: is \"lin\"; allowed: \"linear\", \"log\", \"ratio\""));
+  EXPECT_TRUE(says(with("y_scale = [\"log\", \"rato\"]\n"), "did you mean \"ratio\"?"));
+  EXPECT_TRUE(says(with("y_scale = [\"log\", \"log\", \"log\"]\n"),
+                   "s.toml:9: error: figures[0].y_scale: are 3 for 2 metrics"));
+  EXPECT_TRUE(says(with("y_title = \"x\"\n"), "s.toml:9: error: figures[0].y_title: are 1 for 2 metrics"));
+  EXPECT_TRUE(
+      says(with("y_scale = \"ratio\"\n"), "s.toml:9: error: figures[0].y_scale: \"ratio\" needs series, and ratio_to"));
+  EXPECT_TRUE(says(with("y_scale = \"ratio\"\nratio_to = \"outwards\"\n"), "\"ratio\" needs series"));
+  EXPECT_TRUE(says(with("series = \"a\"\ny_scale = \"ratio\"\nratio_to = \"outward\"\n"),
+                   "s.toml:11: error: figures[0].ratio_to: \"outward\" is no label of the axis \"a\"; did you mean "
+                   "\"outwards\"?"));
+  EXPECT_TRUE(
+      says(with("ratio_to = \"outwards\"\n"), "s.toml:9: error: figures[0].ratio_to: is for y_scale = \"ratio\""));
+  EXPECT_TRUE(says(with("y_maximum = 1\n"), "s.toml:9: error: figures[0].y_maximum: is for a figure of one metric"));
+  EXPECT_TRUE(says(with("metric = \"committed\"\n"), "s.toml:8: error: figures[0].metrics: stands beside metric"));
+  EXPECT_TRUE(
+      says(bad(head + axes + "[[figures]]\nmetrics = [\"comitted\"]\n"),
+           "s.toml:8: error: figures[0].metrics: \"comitted\" is no column of numbers in the table of runs; did "
+           "you mean \"committed\"?"));
+  EXPECT_TRUE(says(bad(head + axes + "[[figures]]\nmetric = \"robots\"\ny_scale = \"log\"\ny_minimum = 0\n"),
+                   "s.toml:10: error: figures[0].y_minimum: is 0; on a logarithmic scale it is above 0"));
 }
 
 TEST_F(StudyFile, SaysEverythingAtOnceInOrder) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "banyan/study/statistics.hpp"
 #include "box_layout.hpp"
 #include "box_numbers.hpp"
 #include "figure_check.hpp"
@@ -14,29 +15,50 @@ namespace banyan::study {
 
 namespace {
 
-constexpr double box_share = 0.80;   // of a series' slot that its box fills
-constexpr double widest_box = 0.36;  // of the distance of groups, for few series
+constexpr double flat_pt = 2.0;       // a box of less height is hardly more than its median line
+constexpr const char* late = "9e99";  // in the data: missed, so later than everything
 
-void check(const BoxFigure& figure) {
-  require(!figure.series.empty() && figure.series.size() <= most_series, "needs one to eight series");
-  require(!figure.groups.empty(), "needs a group");
-  require(!figure.panels.empty(), "needs a panel");
-  require(figure.columns >= 1, "needs a column");
-  require_ends(figure.y_minimum, figure.y_maximum);
-  for (const Panel& panel : figure.panels) {
-    require(panel.values.size() == figure.groups.size(), "every panel needs values for every group");
-    for (const auto& group : panel.values) {
-      require(group.size() == figure.series.size(), "every group needs values for every series");
-      for (const auto& values : group) {
-        const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-        require(finite, "values must be finite");
-      }
+void check_panel(const BoxFigure& figure, const Panel& panel) {
+  require(panel.measure < figure.measures.size(), "every panel needs a measure of the figure");
+  require(panel.boxes.size() == figure.groups.size(), "every panel needs boxes for every group");
+  for (const auto& group : panel.boxes) {
+    require(group.size() == figure.series.size(), "every group needs a box for every series");
+    for (const Box& box : group) {
+      const bool finite = std::all_of(box.values.begin(), box.values.end(), [](double v) { return std::isfinite(v); });
+      require(finite, "values must be finite");
+      const bool share = figure.measures[panel.measure].share_confidence.has_value();
+      require(!share || (box.missed == 0 && std::all_of(box.values.begin(), box.values.end(),
+                                                        [](double v) { return v == 0.0 || v == 1.0; })),
+              "a share is of values 0 or 1");
     }
   }
 }
 
+void check(const BoxFigure& figure) {
+  require(!figure.series.empty() && figure.series.size() <= most_series, "needs one to twelve series");
+  for (const Series& series : figure.series)
+    require(series.style.value_or(0) < most_series && series.variant < 4, "has twelve styles of four variants");
+  require(!figure.groups.empty(), "needs a group");
+  for (const OuterLabels& outer : figure.outer)
+    require(outer.labels.size() == figure.groups.size(), "every group needs its outer labels");
+  require(!figure.panels.empty(), "needs a panel");
+  require(figure.columns >= 1, "needs a column");
+  require(!figure.measures.empty(), "needs a measure");
+  for (const Measure& measure : figure.measures) {
+    require_ends(measure.minimum, measure.maximum);
+    const bool positive = measure.minimum.value_or(1.0) > 0.0 && measure.maximum.value_or(1.0) > 0.0;
+    require(measure.scale == Scale::linear || positive, "a logarithmic axis needs positive ends");
+  }
+  require(std::isfinite(figure.width_in.value_or(1.0)) && figure.width_in.value_or(1.0) >= 1.0, "is too narrow");
+  for (const Panel& panel : figure.panels) check_panel(figure, panel);
+}
+
 std::string block(const char* kind, std::size_t panel, std::size_t series) {
   return std::string("$") + kind + "_" + std::to_string(panel + 1) + "_" + std::to_string(series + 1);
+}
+
+Style look_of(const BoxFigure& figure, std::size_t series) {
+  return style_of(figure.series[series].style.value_or(series), figure.series[series].variant);
 }
 
 // Boxes of a panel's series, and the points beyond their whiskers.
@@ -44,9 +66,7 @@ struct Blocks {
   bool boxes = false, points = false;
 };
 
-double box_width(std::size_t series) {
-  return std::min(widest_box, box_share * group_share / static_cast<double>(series));
-}
+std::string late_or(double value) { return std::isinf(value) ? late : number(value); }
 
 // Points of one value would hide each other: the golden ratio spreads them over half the box.
 double jitter(std::size_t index) {
@@ -55,25 +75,34 @@ double jitter(std::size_t index) {
   return turn - std::floor(turn) - 0.5;
 }
 
-Blocks write_data(Script& script, const BoxFigure& figure, std::size_t panel, std::size_t series) {
+BoxNumbers numbers_shown(const Box& box, const Measure& measure) {
+  if (!measure.share_confidence) return numbers_of(box.values, box.missed);
+  const auto hits =
+      static_cast<std::size_t>(std::count_if(box.values.begin(), box.values.end(), [](double v) { return v > 0.0; }));
+  const double share = static_cast<double>(hits) / static_cast<double>(box.values.size());
+  const Interval interval = wilson(hits, box.values.size(), *measure.share_confidence);
+  return {interval.low, share, share, share, interval.high, {}};
+}
+
+Blocks write_data(Script& script, const BoxFigure& figure, const BoxLayout& layout, std::size_t panel,
+                  std::size_t series) {
   Blocks blocks;
   std::string points;
-  const double count = static_cast<double>(figure.series.size());
-  const double width = box_width(figure.series.size());
-  const double slot = std::min(group_share / count, width / box_share);
+  const double width = layout.box_width() / layout.pitch;
   for (std::size_t g = 0; g < figure.groups.size(); ++g) {
-    const std::vector<double>& values = figure.panels[panel].values[g][series];
-    if (values.empty()) continue;
-    const double x = static_cast<double>(g + 1) + (static_cast<double>(series) - (count - 1.0) / 2.0) * slot;
-    const BoxNumbers box = numbers_of(values);
+    const Box& box = figure.panels[panel].boxes[g][series];
+    if (box.values.empty() && box.missed == 0) continue;
+    const double x = 0.5 + layout.center(g, series, figure.series.size()) / layout.pitch;
+    const BoxNumbers numbers = numbers_shown(box, figure.measures[figure.panels[panel].measure]);
     if (!blocks.boxes)
-      script.begin_data(block("box", panel, series), "x low lower_quartile median upper_quartile high");
+      script.begin_data(block("box", panel, series), "x low lower_quartile median upper_quartile high runs missed");
     blocks.boxes = true;
-    script.line(fixed(x, 4) + " " + number(box.low) + " " + number(box.lower) + " " + number(box.median) + " " +
-                number(box.upper) + " " + number(box.high));
-    for (std::size_t i = 0; i < box.outliers.size(); ++i) {
-      points += fixed(x + 0.5 * width * jitter(i), 4) + " " + number(box.outliers[i]) + "\n";
-    }
+    std::string row = fixed(x, 4);
+    for (const double v : {numbers.low, numbers.lower, numbers.median, numbers.upper, numbers.high})
+      row += " " + late_or(v);
+    script.line(row + " " + std::to_string(box.values.size() + box.missed) + " " + std::to_string(box.missed));
+    for (std::size_t i = 0; i < numbers.outliers.size(); ++i)
+      points += fixed(x + 0.5 * width * jitter(i), 4) + " " + number(numbers.outliers[i]) + "\n";
   }
   if (blocks.boxes) script.end_data();
   if (points.empty()) return blocks;
@@ -85,55 +114,197 @@ Blocks write_data(Script& script, const BoxFigure& figure, std::size_t panel, st
   return blocks;
 }
 
-void draw_sheet(Script& script, const BoxLayout& layout, const Legend& legend) {
-  const double middle = layout.left + layout.plots_width() / 2.0;
-  script.labels(layout.title, {layout.width / 2.0, edge_px + line_px / 2.0}, Align::center, 0, true);
-  legend.draw(script, layout.width / 2.0, layout.legend_top, [](Script& to, std::size_t series, Place at) {
-    const Style& style = style_of(series);
-    const std::string color = "rgb '" + std::string(style.color) + "'";
-    to.rectangle({at.x, at.y - 6.0}, swatch_px, 12.0,
-                 "fc " + color + " fs " + std::string(style.fill) + " border lc " + color + " lw 1.2");
-  });
-  script.labels(layout.y_label, {edge_px + line_px / 2.0, layout.top + layout.plots_height() / 2.0}, Align::center, 90);
-  script.labels(layout.x_label,
-                {middle, layout.top + layout.plots_height() + layout.groups.height + 6.0 + line_px / 2.0},
-                Align::center);
+// -------------------------------------------------------------------------------------- texts --
+
+void draw_sample(Script& script, const Style& style, bool thin, Place at) {
+  if (thin) {
+    script.stroke({at.x + 1.0, at.y}, {at.x + swatch_pt - 1.0, at.y}, "front lw 1.6 lc " + rgb(style.color));
+    script.point({at.x + swatch_pt / 2.0, at.y}, 4.5, "pt " + std::to_string(style.point) + " lc " + rgb(style.color));
+  } else {
+    script.rectangle(
+        {at.x, at.y - 3.5}, swatch_pt, 7.0,
+        "fc " + rgb(style.color) + " fs solid " + number(style.fill) + " border lc " + rgb(style.color) + " lw 0.7");
+  }
 }
 
-void draw_texts(Script& script, const BoxFigure& figure, const BoxLayout& layout, std::size_t panel) {
-  const Area area = layout.area(panel);
-  const auto& title = layout.panel_titles[panel];
-  const double title_top = area.top - 6.0 - line_px * static_cast<double>(title.size());
-  script.labels(title, {(area.left + area.right) / 2.0, title_top + line_px / 2.0}, Align::center);
-  if (panel + layout.columns < figure.panels.size()) return;  // there is a panel below
-  const double pitch = layout.panel_width / static_cast<double>(figure.groups.size());
+void draw_sheet(Script& script, const BoxFigure& figure, const BoxLayout& layout) {
+  const double bottom = layout.tops.back() + layout.panel_height + layout.groups.height + layout.outer_height();
+  const double left = layout.lefts.front(), right = layout.lefts.back() + layout.panel_width;
+  script.labels(layout.title, {layout.width / 2.0, edge_pt + line_pt / 2.0}, Align::center);
+  box_legend(figure, layout)
+      .draw(script, layout.width / 2.0, layout.legend_top, [&](Script& to, std::size_t series, Place at) {
+        draw_sample(to, look_of(figure, series), layout.thin, at);
+      });
+  if (figure.measures.size() == 1) {
+    const double middle = (layout.tops.front() + layout.tops.back() + layout.panel_height) / 2.0;
+    script.labels(layout.y_labels.front(), {layout.label_lefts.front() + line_pt / 2.0, middle}, Align::center, 90);
+  }
+  double y = bottom + 3.0 + line_pt / 2.0;
+  script.labels(layout.x_label, {(left + right) / 2.0, y}, Align::center);
+  y += line_pt * (static_cast<double>(layout.x_label.size()) - (layout.note_beside ? 1.0 : 0.0));
+  if (layout.x_label.empty()) y = bottom + 1.0 + line_pt / 2.0;
+  if (!layout.note.empty()) script.label(layout.note, {right, y}, Align::right);
+}
+
+void draw_outer(Script& script, const BoxLayout& layout, const Area& area) {
+  double y = area.bottom + layout.groups.height + line_pt / 2.0;
+  for (const auto& spans : layout.outer) {
+    for (const Span& span : spans) {
+      const double from = area.left + layout.pitch * static_cast<double>(span.first);
+      const double to = area.left + layout.pitch * static_cast<double>(span.last + 1);
+      script.label(span.text, {(from + to) / 2.0, y}, Align::center);
+      if (span.first > 0) script.stroke({from, area.top}, {from, y + line_pt / 2.0}, "back lw 0.4 lc rgb '#b0b0b0'");
+    }
+    y += line_pt;
+  }
+}
+
+// Without outer labels, what tells groups of several boxes apart.
+void separate_groups(Script& script, const BoxFigure& figure, const BoxLayout& layout, const Area& area) {
+  if (!layout.outer.empty() || !layout.spread) return;
+  for (std::size_t g = 1; g < figure.groups.size(); ++g) {
+    const double x = area.left + layout.pitch * static_cast<double>(g);
+    script.stroke({x, area.top}, {x, area.bottom}, "back lw 0.4 lc rgb '#d0d0d0'");
+  }
+}
+
+void draw_group_labels(Script& script, const BoxFigure& figure, const BoxLayout& layout, const Area& area) {
+  const bool level = layout.groups.degrees == 0;
   for (std::size_t g = 0; g < figure.groups.size(); ++g) {
-    const double x = area.left + pitch * (static_cast<double>(g) + 0.5);
-    const bool level = layout.groups.degrees == 0;
-    script.labels(layout.groups.lines[g], {x, area.bottom + (level ? 6.0 + line_px / 2.0 : 9.0)},
+    const double x = area.left + layout.pitch * (static_cast<double>(g) + 0.5);
+    script.labels(layout.groups.lines[g], {x, area.bottom + (level ? 3.0 + line_pt / 2.0 : 5.0)},
                   level ? Align::center : Align::right, layout.groups.degrees);
   }
 }
 
-void draw_boxes(Script& script, const BoxFigure& figure, std::size_t panel, const std::vector<Blocks>& blocks) {
+void draw_texts(Script& script, const BoxFigure& figure, const BoxLayout& layout, std::size_t panel) {
+  const Area area = layout.area(panel);
+  const std::size_t m = figure.panels[panel].measure, column = panel % layout.columns;
+  const double strip = layout.row_misses[panel / layout.columns] ? layout.misses.height : 0.0;
+  const auto& title = layout.panel_titles[panel];
+  const double title_top = area.top - strip - 3.0 - line_pt * static_cast<double>(title.size());
+  script.labels(title, {(area.left + area.right) / 2.0, title_top + line_pt / 2.0}, Align::center);
+  if (figure.measures.size() > 1 && layout.labelled[panel])
+    script.labels(layout.y_labels[m], {layout.label_lefts[column] + line_pt / 2.0, (area.top + area.bottom) / 2.0},
+                  Align::center, 90);
+  separate_groups(script, figure, layout, area);
+  if (panel + layout.columns < figure.panels.size()) {  // there is a panel below
+    if (!layout.outer.empty()) {
+      for (const Span& span : layout.outer.back())
+        if (span.first > 0) {
+          const double x = area.left + layout.pitch * static_cast<double>(span.first);
+          script.stroke({x, area.top}, {x, area.bottom}, "back lw 0.4 lc rgb '#b0b0b0'");
+        }
+    }
+    return;
+  }
+  draw_group_labels(script, figure, layout, area);
+  draw_outer(script, layout, area);
+}
+
+// ------------------------------------------------------------------------------------- misses --
+
+void draw_miss_bar(Script& script, const Box& box, const Style& style, double x, double bottom, double width) {
+  const double share = static_cast<double>(box.missed) / static_cast<double>(box.missed + box.values.size());
+  const double height = std::max(0.5, share * miss_bar_pt);
+  script.rectangle({x - width / 2.0, bottom - height}, width, height,
+                   "fc " + rgb(style.color) + " fs solid 1.0 border lc " + rgb(style.color) + " lw 0.3");
+}
+
+void draw_misses(Script& script, const BoxFigure& figure, const BoxLayout& layout, std::size_t panel) {
+  if (!layout.row_misses[panel / layout.columns]) return;
+  const Area area = layout.area(panel);
+  const MissStrip& strip = layout.misses;
+  const bool bars = strip.kind == MissStrip::Kind::bars, level = strip.kind == MissStrip::Kind::level;
+  if (panel % layout.columns == 0)
+    script.label("missed", {area.left - 3.0, area.top - strip.height / 2.0 - (bars ? 0.0 : 1.5)}, Align::right);
+  if (bars) {
+    for (const double y : {area.top - 2.0, area.top - 2.0 - miss_bar_pt})
+      script.stroke({area.left, y}, {area.right, y}, "back lw 0.4 lc rgb '#b0b0b0'");
+  }
+  for (std::size_t g = 0; g < figure.groups.size(); ++g) {
+    for (std::size_t s = 0; s < figure.series.size(); ++s) {
+      const Box& box = figure.panels[panel].boxes[g][s];
+      if (box.missed == 0) continue;
+      const double x = area.left + layout.center(g, s, figure.series.size());
+      if (bars)
+        draw_miss_bar(script, box, look_of(figure, s), x, area.top - 2.0, layout.box_width());
+      else
+        script.label(miss_text(box), {x, area.top - (level ? 3.0 + line_pt / 2.0 : 2.5)},
+                     level ? Align::center : Align::left, level ? 0 : 90, strip.size);
+      if (level) script.stroke({x, area.top}, {x, area.top - 3.0}, "front lw 1 lc " + rgb(look_of(figure, s).color));
+    }
+  }
+}
+
+// -------------------------------------------------------------------------------------- boxes --
+
+// What misses or, on a logarithmic axis, is 0 ends at the edge; a box that is beyond it altogether is not drawn.
+constexpr const char* functions =
+    "show(v) = v > upper ? upper : v < lower ? lower : v\n"
+    "within(x, low) = low > upper ? NaN : x\n"
+    "height(v) = logarithmic ? log(show(v)/lower)/log(upper/lower) : (show(v) - lower)/(upper - lower)";
+
+std::string box_plots(const BoxFigure& figure, const std::string& data, std::size_t series) {
+  const Style style = look_of(figure, series);
+  const std::string color = rgb(style.color);
+  std::string plots = ", \\\n    " + data +
+                      " using (within($1, $2)):(show($3)):(show($2)):(show($6)):(show($5)):(width) with candlesticks "
+                      "whiskerbars 0.5 lw 0.7 lc " +
+                      color + " fs solid " + number(style.fill) + " border lc " + color + " notitle";
+  // A box hardly higher than its median line has that in the colour of its series.
+  plots += ", \\\n    " + data +
+           " using (within($1, $4) - width/2):(show($4)):(width):(0):(height($5) - height($3) < flat ? 0x" +
+           std::string(style.color.substr(1)) + " : 0x000000) with vectors nohead lw 1.4 lc rgb variable notitle";
+  return plots;
+}
+
+std::string thin_plots(const BoxFigure& figure, const std::string& data, std::size_t series) {
+  const Style style = look_of(figure, series);
+  const std::string color = rgb(style.color);
+  const auto line = [&](const char* from, const char* to, const char* width) {
+    return ", \\\n    " + data + " using (within($1, " + from + ")):(show(" + from + ")):(0):(show(" + to +
+           ") - show(" + from + ")) with vectors nohead lw " + width + " lc " + color + " notitle";
+  };
+  return line("$2", "$6", "0.5") + line("$3", "$5", "1.6") + ", \\\n    " + data +
+         " using (within($1, $4)):(show($4)) with points pt " + std::to_string(style.point) + " " + point_size(4.5) +
+         " lc " + color + " notitle";
+}
+
+void draw_boxes(Script& script, const BoxFigure& figure, const BoxLayout& layout, std::size_t panel,
+                const std::vector<Blocks>& blocks) {
   std::string plots = "plot NaN notitle";
   for (std::size_t s = 0; s < figure.series.size(); ++s) {
     if (!blocks[s].boxes) continue;
-    const Style& style = style_of(s);
-    const std::string color = "rgb '" + std::string(style.color) + "'", data = block("box", panel, s);
-    plots += ", \\\n    " + data + " using 1:3:2:6:5:(width) with candlesticks whiskerbars 0.5 lw 1.2 lc " + color +
-             " fs " + std::string(style.fill) + " border lc " + color + " notitle";
-    // A box without height is only its median line, which then has the colour of its series.
-    plots += ", \\\n    " + data + " using ($1-width/2):4:(width):(0):($3==$5 ? 0x" +
-             std::string(style.color.substr(1)) + " : 0x1a1a1a) with vectors nohead lw 2.5 lc rgb variable notitle";
+    const std::string data = block("box", panel, s);
+    const bool share = figure.measures[figure.panels[panel].measure].share_confidence.has_value();
+    plots += share || layout.thin ? thin_plots(figure, data, s) : box_plots(figure, data, s);
   }
-  for (std::size_t s = 0; s < figure.series.size(); ++s) {
+  for (std::size_t s = 0; s < figure.series.size() && !layout.thin; ++s) {
     if (!blocks[s].points) continue;
-    const Style& style = style_of(s);
-    plots += ", \\\n    " + block("out", panel, s) + " using 1:2 with points pt " + std::to_string(style.point) +
-             " ps 0.35 lc rgb '#60" + std::string(style.color.substr(1)) + "' notitle";
+    const Style style = look_of(figure, s);
+    plots += ", \\\n    " + block("out", panel, s) + " using (within($1, $2)):(show($2)) with points pt " +
+             std::to_string(style.point) + " " + point_size(3.2) + " lc " + rgb(style.color, 0.4) + " notitle";
   }
   script.line(plots);
+}
+
+void draw_panel(Script& script, const BoxFigure& figure, const BoxLayout& layout, std::size_t panel,
+                const std::vector<Blocks>& blocks) {
+  const Panel& shown = figure.panels[panel];
+  const FigureAxis& axis = layout.axes[shown.measure];
+  const Area area = layout.area(panel);
+  script.area(area);
+  script.axis('y', axis.low, axis.high, axis.scale == Scale::log, axis.tick_list(layout.labelled[panel] != 0));
+  script.line("upper = " + number(axis.high) + "; lower = " + number(axis.low) +
+              "; logarithmic = " + (axis.scale == Scale::log ? "1" : "0"));
+  draw_texts(script, figure, layout, panel);
+  draw_misses(script, figure, layout, panel);
+  if (const auto& line = figure.measures[shown.measure].line; line && *line > axis.low && *line < axis.high)
+    script.line("set arrow from graph 0, first " + number(*line) + " to graph 1, first " + number(*line) +
+                " nohead back lw 0.7 lc rgb '#606060'");
+  draw_boxes(script, figure, layout, panel, blocks);
+  script.forget_labels();
 }
 
 }  // namespace
@@ -145,26 +316,27 @@ std::string script_of(const BoxFigure& figure, const std::string& name) {
   Script script(layout.width, layout.height);
   script.begin("Boxes: quartiles and median; whiskers: last value within 1.5 times the box; points: values beyond.",
                name);
-  script.line("width = " + fixed(box_width(figure.series.size()), 4) + "  # of a box; groups are 1 apart");
+  script.line(std::string("# Runs that missed are later than all others: ") + late + ".");
+  script.line("width = " + fixed(layout.box_width() / layout.pitch, 4) + "  # of a box; groups are 1 apart");
+  script.line("flat = " + fixed(flat_pt / layout.panel_height, 4) + "  # share of the panel's height");
+  script.line(functions);
   std::vector<std::vector<Blocks>> blocks(figure.panels.size());
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
-    for (std::size_t s = 0; s < figure.series.size(); ++s) blocks[p].push_back(write_data(script, figure, p, s));
+    for (std::size_t s = 0; s < figure.series.size(); ++s)
+      blocks[p].push_back(write_data(script, figure, layout, p, s));
   }
   script.begin_drawing();
   script.line("unset xtics  # the groups have labels");
   script.line("set xrange [0.5:" + fixed(static_cast<double>(figure.groups.size()) + 0.5, 1) + "]");
-  script.line("set yrange [" + number(layout.axis.low) + ":" + number(layout.axis.high) + "]");
-  script.line("set ytics " + number(layout.axis.first_tick) + ", " + number(layout.axis.step));
-  draw_sheet(script, layout, box_legend(figure, layout));
-  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
-    script.area(layout.area(p));
-    script.line("set format y '" + (p % layout.columns == 0 ? layout.axis.format() : "") + "'");
-    draw_texts(script, figure, layout, p);
-    draw_boxes(script, figure, p, blocks[p]);
-    script.forget_labels();
-  }
+  draw_sheet(script, figure, layout);
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) draw_panel(script, figure, layout, p, blocks[p]);
   script.end_drawing();
   return script.text();
+}
+
+double width_in(const BoxFigure& figure) {
+  check(figure);
+  return box_layout(figure).width / points_in;
 }
 
 }  // namespace banyan::study

@@ -13,16 +13,15 @@ namespace banyan::study {
 
 namespace {
 
-constexpr double plot_width_px = 520.0;
-constexpr double plot_height_px = 300.0;
-constexpr double sample_px = 38.0;
+constexpr double plot_height_pt = 135.0;
+constexpr double sample_pt = 22.0;
 
 bool finite_or_gap(const std::vector<double>& values) {
   return std::none_of(values.begin(), values.end(), [](double v) { return std::isinf(v); });
 }
 
 void check(const CurveFigure& figure) {
-  require(!figure.curves.empty() && figure.curves.size() <= most_series, "needs one to eight curves");
+  require(!figure.curves.empty() && figure.curves.size() <= most_series, "needs one to twelve curves");
   require_ends(figure.y_minimum, figure.y_maximum);
   for (const Curve& curve : figure.curves) {
     require(curve.y.size() == curve.x.size(), "a curve needs as many y as x");
@@ -61,23 +60,23 @@ struct Layout {
 
 Layout place(const CurveFigure& figure, const Axes& axes) {
   Layout layout;
-  layout.y_label = fitted(figure.y_label, plot_height_px, text_px);
-  layout.x_label = fitted(figure.x_label, plot_width_px, text_px);
-  layout.area.left =
-      edge_px + line_px * static_cast<double>(layout.y_label.size()) + 8.0 + axes.y.label_width_px(text_px) + 12.0;
-  layout.area.right = layout.area.left + plot_width_px;
+  layout.width = column_in * points_in;
+  layout.y_label = fitted(figure.y_label, plot_height_pt, text_pt);
+  const auto lines = static_cast<double>(layout.y_label.size());
+  layout.area.left = edge_pt + (lines > 0.0 ? lines * line_pt + 2.0 : 0.0) + axes.y.label_width(text_pt) + tick_pt;
   // The last tick's label is centred at the right end of the axis.
-  layout.width = std::ceil(layout.area.right + edge_px + axes.x.label_width_px(text_px) / 2.0);
-  layout.title = fitted(figure.title, layout.width - 2.0 * edge_px, title_px, true);
-  layout.legend_top = edge_px + (layout.title.empty() ? 0.0 : line_px * static_cast<double>(layout.title.size()) + 6.0);
+  layout.area.right = layout.width - edge_pt - axes.x.label_width(text_pt) / 2.0;
+  layout.x_label = fitted(figure.x_label, layout.area.right - layout.area.left, text_pt);
+  layout.title = fitted(figure.title, layout.width - 2.0 * edge_pt, text_pt);
+  layout.legend_top = edge_pt + (layout.title.empty() ? 0.0 : line_pt * static_cast<double>(layout.title.size()) + 3.0);
   return layout;
 }
 
 void place_below(const Legend& legend, Layout& layout) {
-  layout.area.top = layout.legend_top + legend.height() + 10.0;
-  layout.area.bottom = layout.area.top + plot_height_px;
-  const double label = layout.x_label.empty() ? 0.0 : 4.0 + line_px * static_cast<double>(layout.x_label.size());
-  layout.height = std::ceil(layout.area.bottom + 24.0 + label + edge_px);
+  layout.area.top = layout.legend_top + legend.height() + 6.0;
+  layout.area.bottom = layout.area.top + plot_height_pt;
+  const double label = layout.x_label.empty() ? 0.0 : 3.0 + line_pt * static_cast<double>(layout.x_label.size());
+  layout.height = std::ceil(layout.area.bottom + 15.0 + label + edge_pt);
 }
 
 bool visible(const std::vector<double>& values) {
@@ -98,23 +97,24 @@ void write_data(Script& script, const Curve& curve, std::size_t index) {
   script.end_data();
 }
 
-std::string color_of(std::size_t curve) { return "lc rgb '" + std::string(style_of(curve).color) + "'"; }
-std::string line_of(std::size_t curve) { return color_of(curve) + " lw 1.8 dt " + std::string(style_of(curve).dash); }
-std::string point_of(std::size_t curve) { return "pt " + std::to_string(style_of(curve).point) + " ps 0.6"; }
+std::string color_of(std::size_t curve) { return "lc " + rgb(style_of(curve).color); }
+std::string line_of(std::size_t curve) { return color_of(curve) + " lw 1.1 dt " + std::string(style_of(curve).dash); }
+std::string point_of(std::size_t curve) { return "pt " + std::to_string(style_of(curve).point); }
+constexpr double point_pt = 4.0;
 const std::string band_fill = "fs transparent solid 0.18 noborder";
 
 void draw_sheet(Script& script, const CurveFigure& figure, const Layout& layout, const Legend& legend) {
-  script.labels(layout.title, {layout.width / 2.0, edge_px + line_px / 2.0}, Align::center, 0, true);
+  script.labels(layout.title, {layout.width / 2.0, edge_pt + line_pt / 2.0}, Align::center);
   legend.draw(script, layout.width / 2.0, layout.legend_top, [&](Script& to, std::size_t i, Place at) {
     if (visible(figure.curves[i].low)) {
-      to.rectangle({at.x, at.y - 6.0}, sample_px, 12.0, "fc rgb '" + std::string(style_of(i).color) + "' " + band_fill);
+      to.rectangle({at.x, at.y - 3.5}, sample_pt, 7.0, "fc " + rgb(style_of(i).color) + " " + band_fill);
     }
-    to.stroke(at, {at.x + sample_px, at.y}, line_of(i));
-    if (figure.curves[i].points) to.point({at.x + sample_px / 2.0, at.y}, point_of(i) + " " + color_of(i));
+    to.stroke(at, {at.x + sample_pt, at.y}, "front " + line_of(i));
+    if (figure.curves[i].points) to.point({at.x + sample_pt / 2.0, at.y}, point_pt, point_of(i) + " " + color_of(i));
   });
   const Area& area = layout.area;
-  script.labels(layout.y_label, {edge_px + line_px / 2.0, (area.top + area.bottom) / 2.0}, Align::center, 90);
-  script.labels(layout.x_label, {(area.left + area.right) / 2.0, area.bottom + 28.0 + line_px / 2.0}, Align::center);
+  script.labels(layout.y_label, {edge_pt + line_pt / 2.0, (area.top + area.bottom) / 2.0}, Align::center, 90);
+  script.labels(layout.x_label, {(area.left + area.right) / 2.0, area.bottom + 18.0 + line_pt / 2.0}, Align::center);
 }
 
 void draw_curves(Script& script, const CurveFigure& figure) {
@@ -127,18 +127,14 @@ void draw_curves(Script& script, const CurveFigure& figure) {
     const Curve& curve = figure.curves[i];
     if (!visible(curve.y)) continue;
     plots += ", \\\n    " + block(i) + " using 1:2 with " + (curve.points ? "linespoints " : "lines ") + line_of(i) +
-             (curve.points ? " " + point_of(i) : "") + " notitle";
+             (curve.points ? " " + point_of(i) + " " + point_size(point_pt) : "") + " notitle";
   }
   script.line(plots);
 }
 
 void set_axes(Script& script, const Axes& axes) {
-  for (const auto& [letter, axis] : {std::pair<const char*, const FigureAxis&>{"x", axes.x}, {"y", axes.y}}) {
-    const std::string name = letter;
-    script.line("set " + name + "range [" + number(axis.low) + ":" + number(axis.high) + "]");
-    script.line("set " + name + "tics nomirror " + number(axis.first_tick) + ", " + number(axis.step));
-    script.line("set format " + name + " '" + axis.format() + "'");
-  }
+  script.axis('x', axes.x.low, axes.x.high, false, "nomirror " + axes.x.tick_list());
+  script.axis('y', axes.y.low, axes.y.high, false, "nomirror " + axes.y.tick_list());
 }
 
 }  // namespace
@@ -149,7 +145,7 @@ std::string script_of(const CurveFigure& figure, const std::string& name) {
   Layout layout = place(figure, axes);
   std::vector<std::string> names;
   for (const Curve& curve : figure.curves) names.push_back(curve.name);
-  const Legend legend(names, sample_px, layout.width - 2.0 * edge_px);
+  const Legend legend(names, sample_pt, layout.width - 2.0 * edge_pt);
   place_below(legend, layout);
 
   Script script(layout.width, layout.height);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a figure to its three files (figure.hpp).
+// From a figure to its four files (figure.hpp).
 #include "banyan/study/figure.hpp"
 
 #include <cerrno>
@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "figure_scripts.hpp"
 #include "gnuplot.hpp"
@@ -16,7 +17,9 @@ namespace banyan::study {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::string_view end_of_svg = "</svg>", end_of_png = "IEND\xAE\x42\x60\x82";
+// The pictures, and how a complete one ends.
+constexpr std::pair<std::string_view, std::string_view> pictures[] = {
+    {".svg", "</svg>"}, {".pdf", "%%EOF"}, {".png", "IEND\xAE\x42\x60\x82"}};
 
 // gnuplot draws here; its pictures reach their place whole or not at all.
 class TemporaryFolder {
@@ -62,9 +65,10 @@ template <typename Figure> void draw_files(const Figure& figure, const std::stri
   const TemporaryFolder folder;
   const std::string drawn = folder.path() + "/figure";
   run_gnuplot(script, drawn);
-  const std::string svg = picture(drawn + ".svg", end_of_svg), png = picture(drawn + ".png", end_of_png);
-  record::write_file(stem + ".svg", svg, record::Existing::replace);
-  record::write_file(stem + ".png", png, record::Existing::replace);
+  std::vector<std::string> whole;
+  for (const auto& [ending, end] : pictures) whole.push_back(picture(drawn + std::string(ending), end));
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    record::write_file(stem + std::string(pictures[i].first), whole[i], record::Existing::replace);
 }
 
 }  // namespace

@@ -14,8 +14,10 @@ namespace banyan::study {
 namespace {
 
 constexpr int most_decimals = 6;
-constexpr double too_long = 1e6;  // from here on, "%g"
-constexpr int significant = 6;    // digits of gnuplot's "%g"
+constexpr double too_long = 1e6;       // from here on, like "%g"
+constexpr int significant = 6;         // digits of these
+constexpr double log_margin = 1.07;    // factor beyond the extreme values
+constexpr double zero_distance = 1.6;  // factor from the least value to the end that stands for 0
 
 double round_step(double range, int most_ticks) {
   const double rough = range / most_ticks;
@@ -38,6 +40,44 @@ std::string general(double value) {
   return {buffer.data(), end};
 }
 
+// Multiples of a round step within the axis.
+std::vector<Tick> even_ticks(double low, double high, int most_ticks) {
+  const double step = round_step(high - low, most_ticks);
+  const int decimals = decimals_of(step, std::max(std::fabs(low), std::fabs(high)));
+  std::vector<Tick> ticks;
+  const double first = std::ceil(low / step - 1e-9);
+  for (double n = 0.0; (first + n) * step <= high + 1e-9 * step; n += 1.0) {
+    const double at = first + n == 0.0 ? 0.0 : (first + n) * step;  // not -0
+    ticks.push_back({at, decimals < 0 ? general(at) : fixed(at, decimals)});
+  }
+  return ticks;
+}
+
+// `digits` times every `stride`-th power of ten within the axis.
+std::vector<Tick> power_ticks(double low, double high, std::initializer_list<double> digits, int stride) {
+  std::vector<Tick> ticks;
+  const int first = static_cast<int>(std::floor(std::log10(low))), last = static_cast<int>(std::ceil(std::log10(high)));
+  for (int power = first; power <= last; ++power) {
+    if (power % stride != 0) continue;
+    for (const double digit : digits) {
+      const double at = power < 0 ? digit / std::pow(10.0, -power) : digit * std::pow(10.0, power);
+      if (at >= low * (1.0 - 1e-9) && at <= high * (1.0 + 1e-9)) ticks.push_back({at, general(at)});
+    }
+  }
+  return ticks;
+}
+
+std::vector<Tick> log_ticks(double low, double high, int most_ticks) {
+  const auto most = static_cast<std::size_t>(std::max(most_ticks, 2));
+  if (auto fine = power_ticks(low, high, {1.0, 2.0, 5.0}, 1); fine.size() >= 3 && fine.size() <= most) return fine;
+  for (int stride = 1; stride < 700; ++stride) {
+    auto ticks = power_ticks(low, high, {1.0}, stride);
+    if (ticks.size() < 2) break;
+    if (ticks.size() <= most) return ticks;
+  }
+  return even_ticks(low, high, most_ticks);
+}
+
 }  // namespace
 
 void Extent::add(double value) noexcept {
@@ -47,20 +87,21 @@ void Extent::add(double value) noexcept {
   any = true;
 }
 
-std::string FigureAxis::format() const { return decimals < 0 ? "%g" : "%." + std::to_string(decimals) + "f"; }
+std::string FigureAxis::tick_list(bool labels) const {
+  std::string text = "(";
+  for (const Tick& tick : ticks)
+    text += (text.size() > 1 ? ", " : "") + in_quotes(labels ? tick.label : "") + " " + number(tick.at);
+  return text + ")";
+}
 
-double FigureAxis::label_width_px(double size_px) const {
+double FigureAxis::label_width(double size) const {
   double widest = 0.0;
-  const int ticks = static_cast<int>((high - first_tick) / step + 1e-9);
-  for (int i = 0; i <= ticks; ++i) {
-    const double at = first_tick + i * step;
-    widest = std::max(widest, text_width_px(decimals < 0 ? general(at) : fixed(at, decimals), size_px));
-  }
+  for (const Tick& tick : ticks) widest = std::max(widest, text_width(tick.label, size));
   return widest;
 }
 
 FigureAxis axis_over(const Extent& extent, std::optional<double> minimum, std::optional<double> maximum, bool from_zero,
-               double margin, int most_ticks) {
+                     double margin, int most_ticks) {
   double low = minimum.value_or(extent.any ? extent.low : 0.0);
   double high = maximum.value_or(extent.any ? extent.high : 1.0);
   const bool zero = from_zero && low >= 0.0 && !minimum && maximum.value_or(1.0) > 0.0;
@@ -75,10 +116,25 @@ FigureAxis axis_over(const Extent& extent, std::optional<double> minimum, std::o
   FigureAxis axis;
   axis.low = minimum || zero ? low : low - margin * size;
   axis.high = maximum ? high : high + margin * size;
-  axis.step = round_step(axis.high - axis.low, most_ticks);
-  axis.first_tick = std::ceil(axis.low / axis.step - 1e-9) * axis.step;
-  if (axis.first_tick == 0.0) axis.first_tick = 0.0;  // not -0
-  axis.decimals = decimals_of(axis.step, std::max(std::fabs(axis.low), std::fabs(axis.high)));
+  axis.ticks = even_ticks(axis.low, axis.high, most_ticks);
+  return axis;
+}
+
+FigureAxis log_axis_over(const Extent& extent, std::optional<double> minimum, std::optional<double> maximum, bool zeros,
+                         int most_ticks) {
+  const double low = extent.any ? extent.low : maximum ? *maximum / 10.0 : 1.0;
+  const double high = extent.any ? extent.high : minimum ? *minimum * 10.0 : 1.0;
+  FigureAxis axis;
+  axis.scale = Scale::log;
+  axis.low = minimum.value_or(low / log_margin);
+  axis.high = maximum.value_or(high * log_margin);
+  // One value only, or all beyond a given end.
+  if (!minimum && axis.low * 1.2 > axis.high) axis.low = std::min(axis.low, axis.high) / 1.5;
+  if (!maximum && axis.low * 1.2 > axis.high) axis.high = axis.low * 1.5;
+  const double least = axis.low;
+  if (zeros && !minimum) axis.low = least / zero_distance;
+  axis.ticks = log_ticks(least, axis.high, most_ticks);
+  if (zeros && !minimum) axis.ticks.insert(axis.ticks.begin(), Tick{axis.low, "0"});
   return axis;
 }
 

@@ -4,6 +4,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "banyan/study/figure.hpp"
 
 namespace banyan::study {
 
@@ -14,19 +17,30 @@ struct Extent {
   void add(double value) noexcept;  // what is not finite does not count
 };
 
+struct Tick {
+  double at = 0.0;
+  std::string label;
+};
+
 struct FigureAxis {
   double low = 0.0, high = 1.0;  // low < high
-  double first_tick = 0.0, step = 0.2;
-  int decimals = 1;  // of the tick labels; -1: "%g", for what is very large or small
+  std::vector<Tick> ticks;       // ascending, from low to high
+  Scale scale = Scale::linear;   // logarithmic: low > 0
 
-  [[nodiscard]] std::string format() const;                   // of the tick labels, for gnuplot
-  [[nodiscard]] double label_width_px(double size_px) const;  // of the widest tick label
+  [[nodiscard]] std::string tick_list(bool labels = true) const;  // for gnuplot, ("0" 0, "0.5" 0.5)
+  [[nodiscard]] double label_width(double size) const;            // of the widest tick label
 };
 
 // Covers `extent` with `margin` times its size on both sides (an extent without values counts as
 // 0 to 1); from 0 if `from_zero` and no value is below it. Given ends are kept. About
 // `most_ticks` ticks at most, at multiples of 1, 2 or 5 times a power of ten.
 [[nodiscard]] FigureAxis axis_over(const Extent& extent, std::optional<double> minimum, std::optional<double> maximum,
-                             bool from_zero, double margin, int most_ticks);
+                                   bool from_zero, double margin, int most_ticks);
+
+// The same with logarithms. `extent` is of positive values, given ends are positive. Ticks at powers of ten, with
+// their double and fivefold where these are few, and at round steps where the axis is shorter than that. With
+// `zeros`, its lower end is drawn for 0 and below, at a distance from the least value, and labelled so.
+[[nodiscard]] FigureAxis log_axis_over(const Extent& extent, std::optional<double> minimum,
+                                       std::optional<double> maximum, bool zeros, int most_ticks);
 
 }  // namespace banyan::study

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "figure_text.hpp"
 
@@ -11,21 +12,49 @@ namespace banyan::study {
 
 namespace {
 
-// Okabe & Ito's colours. Neighbours in this order differ clearly in lightness too.
+constexpr double png_pixels_in = 300.0;  // in an inch
+constexpr double svg_pixels_in = 96.0;   // as CSS has it
+
+// Okabe and Ito's colours without their yellow, which is no line on white, and five more that are as far from these,
+// and from each other, as these are: a test measures it for the colour-blind too. Neighbours differ in the lightness of
+// their fill. The points are filled; one less is the type of their open counterpart.
 constexpr std::array<Style, most_series> styles{{
-    {"#0072b2", "solid 0.55", "solid", 7},
-    {"#d55e00", "solid 0.15", "(12,5)", 9},
-    {"#009e73", "solid 0.95", "(3,4)", 5},
-    {"#cc79a7", "pattern 4", "(12,4,3,4)", 13},
-    {"#e69f00", "solid 0.30", "(20,6)", 11},
-    {"#56b4e9", "pattern 5", "(6,4)", 6},
-    {"#000000", "solid 0.50", "(2,3)", 8},
-    {"#7f7f7f", "pattern 2", "(12,4,3,4,3,4)", 4},
+    {"#0072b2", 0.55, "solid", 7},
+    {"#d55e00", 0.15, "(12,5)", 9},
+    {"#009e73", 0.90, "(3,4)", 5},
+    {"#cc79a7", 0.30, "(12,4,3,4)", 13},
+    {"#e69f00", 0.70, "(20,6)", 11},
+    {"#56b4e9", 0.20, "(6,4)", 15},
+    {"#000000", 0.00, "(2,3)", 7},
+    {"#882255", 0.45, "(8,3)", 9},
+    {"#8cb85c", 0.70, "(16,4,2,4)", 5},
+    {"#332288", 0.25, "(4,2)", 13},
+    {"#664400", 0.60, "(10,8)", 11},
+    {"#9966ff", 0.10, "(12,4,3,4,3,4)", 15},
 }};
+constexpr std::array<double, 4> fill_steps{0.0, 0.5, 0.25, 0.75};  // of variants: far from those before
 
 }  // namespace
 
-const Style& style_of(std::size_t series) { return styles.at(series); }
+Style style_of(std::size_t series, std::size_t variant) {
+  Style style = styles.at(series);
+  style.fill = std::fmod(style.fill + fill_steps.at(variant), 1.0);
+  if (variant > 0) style.point -= 1;
+  return style;
+}
+
+std::string rgb(std::string_view color, double clear) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  const auto alpha = static_cast<std::size_t>(std::lround(255.0 * clear));
+  std::string text = "rgb '#";
+  if (alpha > 0) {
+    text += digits[alpha / 16];
+    text += digits[alpha % 16];
+  }
+  return text + std::string(color.substr(1)) + "'";
+}
+
+std::string point_size(double points) { return "ps " + number(points) + "*dot"; }
 
 void Script::line(std::string_view text) {
   text_ += indent_;
@@ -35,7 +64,7 @@ void Script::line(std::string_view text) {
 
 void Script::begin(std::string_view what, const std::string& name) {
   line("# " + std::string(what));
-  line("# Run by gnuplot in its folder, this script draws an svg and a png of its own name.");
+  line("# Run by gnuplot in its folder, this script draws an svg, a pdf and a png of its own name.");
   line("reset");
   line("set encoding utf8");
   line("output = " + in_quotes("./" + name));
@@ -47,21 +76,36 @@ void Script::begin_data(const std::string& block, std::string_view columns) {
   line("# " + std::string(columns));
 }
 
+// Each terminal has units of its own. `font`.size is a size in points, a line of width 1 is 1 pt wide in all of them,
+// and `dot` is a point's size per pt of its width.
 void Script::begin_drawing() {
-  const std::string font = "font 'DejaVu Sans," + number(text_px) + "' noenhanced background rgb 'white'";
-  line("do for [format in 'svg png'] {");
+  const double svg = svg_pixels_in / points_in, png = png_pixels_in / points_in;
+  const auto inches = [](double points) { return number(points / points_in) + "in"; };
+  line("do for [format in 'svg pdf png'] {");
   indent_ = "  ";
+  line("font = format eq 'svg' ? 'sans-serif,' : 'DejaVu Sans,'  # an svg has the reader's own");
   line("if (format eq 'svg') {");
-  line("  set terminal svg size " + number(width_) + "," + number(height_) + " " + font);
-  line("} else {  # twice the size: 1.5, as pngcairo's points are 4/3 pixels");
-  line("  set terminal pngcairo size " + number(2.0 * width_) + "," + number(2.0 * height_) +
-       " fontscale 1.5 linewidth 2 pointscale 2 " + font);
+  line("  set terminal svg size " + number(std::round(width_ * svg)) + "," + number(std::round(height_ * svg)) +
+       " font font." + in_quotes(number(text_pt)) + " fontscale " + fixed(svg, 4) + " linewidth " + fixed(svg, 4) +
+       " noenhanced background rgb 'white'");
+  line("  dot = 0.167");
+  line("}");
+  line("if (format eq 'pdf') {");
+  line("  set terminal pdfcairo size " + inches(width_) + "," + inches(height_) + " font font." +
+       in_quotes(number(text_pt)) + " fontscale 0.75 linewidth 2 noenhanced background rgb 'white'");
+  line("  dot = 0.08");
+  line("}");
+  line("if (format eq 'png') {");
+  line("  set terminal pngcairo size " + number(std::round(width_ * png)) + "," + number(std::round(height_ * png)) +
+       " font font." + in_quotes(number(text_pt)) + " fontscale " + fixed(png * 0.75, 4) + " linewidth " +
+       fixed(png, 4) + " pointscale " + fixed(png, 4) + " noenhanced background rgb 'white'");
+  line("  dot = 0.08");
   line("}");
   line("set output output.'.'.format");
   line("unset label; unset object; unset arrow; unset key");
-  line("set border 3 back lc rgb '#808080' lw 1");
-  line("set tics nomirror out scale 0.5 textcolor rgb 'black'");
-  line("set grid ytics noxtics back lt 1 lc rgb '#dedede' lw 0.7");
+  line("set border 3 back lc rgb '#606060' lw 0.5");
+  line("set tics nomirror out scale 0.35 textcolor rgb 'black'");
+  line("set grid ytics noxtics back lt 1 lc rgb '#dedede' lw 0.4");
   line("set multiplot");
 }
 
@@ -76,19 +120,19 @@ std::string Script::screen(Place at) const {
   return "screen " + fixed(at.x / width_, 5) + ", screen " + fixed(1.0 - at.y / height_, 5);
 }
 
-void Script::label(std::string_view text, Place at, Align align, int degrees, bool title) {
+void Script::label(std::string_view text, Place at, Align align, int degrees, double size) {
   static constexpr std::array<std::string_view, 3> names{"left", "center", "right"};
-  std::string command =
-      "set label " + in_quotes(text) + " at " + screen(at) + " " + std::string(names.at(static_cast<std::size_t>(align)));
+  std::string command = "set label " + in_quotes(text) + " at " + screen(at) + " " +
+                        std::string(names.at(static_cast<std::size_t>(align)));
   if (degrees != 0) command += " rotate by " + std::to_string(degrees);
-  if (title) command += " font 'DejaVu Sans:Bold," + number(title_px) + "'";
+  if (size != text_pt) command += " font font." + in_quotes(number(size));
   line(command);
 }
 
-void Script::labels(const std::vector<std::string>& lines, Place at, Align align, int degrees, bool title) {
+void Script::labels(const std::vector<std::string>& lines, Place at, Align align, int degrees) {
   for (const std::string& text : lines) {
-    if (!text.empty()) label(text, at, align, degrees, title);
-    (degrees == 90 ? at.x : at.y) += line_px;
+    if (!text.empty()) label(text, at, align, degrees);
+    (degrees == 90 ? at.x : at.y) += line_pt;
   }
 }
 
@@ -98,11 +142,11 @@ void Script::rectangle(Place corner, double width, double height, const std::str
 }
 
 void Script::stroke(Place from, Place to, const std::string& style) {
-  line("set arrow from " + screen(from) + " to " + screen(to) + " nohead front " + style);
+  line("set arrow from " + screen(from) + " to " + screen(to) + " nohead " + style);
 }
 
-void Script::point(Place at, const std::string& style) {
-  line("set label '' at " + screen(at) + " front point " + style);
+void Script::point(Place at, double size, const std::string& style) {
+  line("set label '' at " + screen(at) + " front point " + point_size(size) + " " + style);
 }
 
 void Script::forget_labels() { line("unset label; unset object; unset arrow"); }
@@ -114,20 +158,40 @@ void Script::area(const Area& area) {
        fixed(1.0 - area.bottom / height_, 5));
 }
 
-Legend::Legend(const std::vector<std::string>& names, double sample_px, double room_px) : sample_px_(sample_px) {
+void Script::axis(char letter, double low, double high, bool logarithmic, const std::string& ticks) {
+  const std::string name(1, letter);
+  line((logarithmic ? "set logscale " : "unset logscale ") + name);
+  line("set " + name + "range [" + number(low) + ":" + number(high) + "]");
+  line("set " + name + "tics " + ticks);
+}
+
+Legend::Legend(const std::vector<std::string>& names, double sample, double room) : sample_(sample) {
   if (std::all_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); })) return;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::string name = clean(names[i]);
+  for (const std::string& given : names) {
+    std::string name = clean(given);
     std::replace(name.begin(), name.end(), '\n', ' ');
-    name = shortened(name, room_px - sample_px - space_px, text_px);
-    const double width = sample_px + space_px + text_width_px(name, text_px);
-    if (rows_.empty() || rows_.back().width + gap_px + width > room_px) {
-      rows_.push_back({{}, width});
-    } else {
-      rows_.back().width += gap_px + width;
-    }
-    rows_.back().entries.push_back({i, name, width});
+    names_.push_back(shortened(name, room - sample - space_pt, text_pt));
   }
+  // As many columns as fit in, and then as few as the same number of rows needs.
+  columns_ = names_.size();
+  while (columns_ > 1 && !fits(room)) --columns_;
+  const std::size_t rows = (names_.size() + columns_ - 1) / columns_;
+  columns_ = (names_.size() + rows - 1) / rows;
+  (void)fits(room);
+}
+
+bool Legend::fits(double room) {
+  lefts_.assign(columns_ + 1, 0.0);
+  for (std::size_t c = 0; c < columns_; ++c) {
+    double widest = 0.0;
+    for (std::size_t i = c; i < names_.size(); i += columns_) widest = std::max(widest, text_width(names_[i], text_pt));
+    lefts_[c + 1] = lefts_[c] + sample_ + space_pt + widest + gap_pt;
+  }
+  return lefts_.back() - gap_pt <= room;
+}
+
+double Legend::height() const noexcept {
+  return row_pt * static_cast<double>((names_.size() + columns_ - 1) / columns_);
 }
 
 }  // namespace banyan::study

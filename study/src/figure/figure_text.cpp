@@ -15,7 +15,6 @@ namespace {
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 constexpr std::string_view ellipsis = "\xE2\x80\xA6";     // U+2026
 constexpr double widest_em = 1.1;
-constexpr double bold_factor = 1.15;
 
 // Advance widths of DejaVu Sans from the space to "~", in hundredths of the font size, rounded up.
 constexpr std::array<std::uint8_t, 95> ascii_widths{
@@ -79,7 +78,7 @@ std::string clean(std::string_view text) {
   return result;
 }
 
-double text_width_px(std::string_view line, double size_px, bool bold) noexcept {
+double text_width(std::string_view line, double size) noexcept {
   double em = 0.0;
   for (const char c : line) {
     const auto b = static_cast<std::uint8_t>(c);
@@ -89,27 +88,27 @@ double text_width_px(std::string_view line, double size_px, bool bold) noexcept 
       em += widest_em;
     }
   }
-  return em * size_px * (bold ? bold_factor : 1.0);
+  return em * size;
 }
 
-std::string shortened(std::string_view line, double width_px, double size_px, bool bold) {
-  if (text_width_px(line, size_px, bold) <= width_px) return std::string(line);
-  const double room = width_px - text_width_px(ellipsis, size_px, bold);
-  while (!line.empty() && text_width_px(line, size_px, bold) > room) {
+std::string shortened(std::string_view line, double width, double size) {
+  if (text_width(line, size) <= width) return std::string(line);
+  const double room = width - text_width(ellipsis, size);
+  while (!line.empty() && text_width(line, size) > room) {
     while (continues(byte(line, line.size() - 1)) && line.size() > 1) line.remove_suffix(1);
     line.remove_suffix(1);
   }
   return std::string(line) + std::string(ellipsis);
 }
 
-std::vector<std::string> wrapped(std::string_view text, double width_px, double size_px, bool bold) {
+std::vector<std::string> wrapped(std::string_view text, double width, double size) {
   std::vector<std::string> lines;
   if (text.empty()) return lines;
   for (const std::string_view paragraph : split(text, '\n')) {
     std::string line;
     for (const std::string_view word : split(paragraph, ' ')) {
       const std::string longer = line.empty() ? std::string(word) : line + ' ' + std::string(word);
-      if (line.empty() || text_width_px(longer, size_px, bold) <= width_px) {
+      if (line.empty() || text_width(longer, size) <= width) {
         line = longer;
       } else {
         lines.push_back(line);
@@ -121,9 +120,9 @@ std::vector<std::string> wrapped(std::string_view text, double width_px, double 
   return lines;
 }
 
-std::vector<std::string> fitted(std::string_view text, double width_px, double size_px, bool bold) {
-  std::vector<std::string> lines = wrapped(clean(text), width_px, size_px, bold);
-  for (std::string& line : lines) line = shortened(line, width_px, size_px, bold);
+std::vector<std::string> fitted(std::string_view text, double width, double size) {
+  std::vector<std::string> lines = wrapped(clean(text), width, size);
+  for (std::string& line : lines) line = shortened(line, width, size);
   return lines;
 }
 

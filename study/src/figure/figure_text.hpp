@@ -13,21 +13,19 @@ namespace banyan::study {
 // becomes a space, anything else that XML forbids U+FFFD.
 [[nodiscard]] std::string clean(std::string_view text);
 
-// The width of one line in DejaVu Sans, `size_px` high; at most a little too large. Characters
-// beyond ASCII count as the widest of the Latin, Greek and CJK ones.
-[[nodiscard]] double text_width_px(std::string_view line, double size_px, bool bold = false) noexcept;
+// The width of one line in DejaVu Sans of a size, in the unit of that size; at most a little too
+// large. Characters beyond ASCII count as the widest of the Latin, Greek and CJK ones.
+[[nodiscard]] double text_width(std::string_view line, double size) noexcept;
 
-// `line` if it is at most `width_px` wide, else its beginning with an ellipsis.
-[[nodiscard]] std::string shortened(std::string_view line, double width_px, double size_px, bool bold = false);
+// `line` if it is at most that wide, else its beginning with an ellipsis.
+[[nodiscard]] std::string shortened(std::string_view line, double width, double size);
 
-// Breaks at "\n" and, where a line would be wider than `width_px`, at spaces. A single word may be
+// Breaks at "\n" and, where a line would be wider than `width`, at spaces. A single word may be
 // wider. No lines for an empty text. `text` is clean.
-[[nodiscard]] std::vector<std::string> wrapped(std::string_view text, double width_px, double size_px,
-                                               bool bold = false);
+[[nodiscard]] std::vector<std::string> wrapped(std::string_view text, double width, double size);
 
 // clean() and wrapped(), and shortened() where a word is wider still: fits in any case.
-[[nodiscard]] std::vector<std::string> fitted(std::string_view text, double width_px, double size_px,
-                                              bool bold = false);
+[[nodiscard]] std::vector<std::string> fitted(std::string_view text, double width, double size);
 
 // As a gnuplot string: in double quotes, with what gnuplot would act on there (quotes, backslashes,
 // commands in backquotes, macros) and control characters as octal numbers. Single quotes would not

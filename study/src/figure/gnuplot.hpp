@@ -6,7 +6,7 @@
 
 namespace banyan::study {
 
-// Runs the script, which draws `output`.svg and `output`.png, and waits for it. gnuplot is looked up
+// Runs the script, which draws `output`.svg, .pdf and .png, and waits for it. gnuplot is looked up
 // in PATH and started without a shell, without the user's settings and with nothing on standard
 // input. `output` is absolute. FigureError, with what gnuplot had to say, if it cannot be started
 // or fails.

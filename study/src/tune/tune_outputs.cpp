@@ -22,8 +22,8 @@ using Json = nlohmann::ordered_json;
 using config::number_text;
 
 // The file that identifies them goes last: if this is stopped half-way, the rest is still recognised.
-constexpr const char* files[] = {"generations.csv", "best.toml",   "front.csv",        "fitness.gp",
-                                 "fitness.svg",     "fitness.png", "checkpoint.jsonl", "tune.json"};
+constexpr const char* files[] = {"generations.csv", "best.toml",   "front.csv",        "fitness.gp", "fitness.svg",
+                                 "fitness.pdf",     "fitness.png", "checkpoint.jsonl", "tune.json"};
 
 bool is_there(const std::string& path) {
   std::error_code ignored;
@@ -53,9 +53,9 @@ std::string parameter_values(const std::vector<double>& point) {
 
 // "paper-large: 36 robots, radio.range_m = 2, line of sight off, loss 0".
 std::string in_words(const world::Scenario& scenario) {
-  return scenario.name + ": " + std::to_string(world::robot_count(scenario)) + " robots, radio.range_m = " +
-         number_text(scenario.radio.range_m) + ", line of sight " + (scenario.radio.line_of_sight ? "on" : "off") +
-         ", loss " + number_text(scenario.radio.loss) + ".";
+  return scenario.name + ": " + std::to_string(world::robot_count(scenario)) +
+         " robots, radio.range_m = " + number_text(scenario.radio.range_m) + ", line of sight " +
+         (scenario.radio.line_of_sight ? "on" : "off") + ", loss " + number_text(scenario.radio.loss) + ".";
 }
 
 // A fragment for a scenario. Its header is the same however often the tuning was stopped.

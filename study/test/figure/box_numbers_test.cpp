@@ -75,5 +75,30 @@ TEST(FigureNumbers, HoldForRandomSets) {
   }
 }
 
+// As if each miss were a value far beyond all others: that it is one, and not which.
+TEST(FigureNumbers, MissesAreBeyondAllValues) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const std::size_t count = seed % 17, missed = 1 + seed % 5;
+    Values values;
+    for (std::uint64_t i = 0; i < count; ++i) values.push_back(world::to_uniform(world::mix(world::mix(~seed) + i)));
+    Values all = values;
+    all.insert(all.end(), missed, 1e12);
+    const BoxNumbers with = numbers_of(values, missed), far = numbers_of(all);
+    const auto expect = [&](double is, double stands_for) {
+      if (stands_for > 1e6)
+        EXPECT_TRUE(std::isinf(is)) << is << " " << stands_for;
+      else
+        EXPECT_DOUBLE_EQ(is, stands_for);
+    };
+    expect(with.lower, far.lower);
+    expect(with.median, far.median);
+    expect(with.upper, far.upper);
+    if (!std::isinf(with.upper)) expect(with.low, far.low);
+    for (const double v : with.outliers) EXPECT_TRUE(std::isfinite(v));
+  }
+  EXPECT_TRUE(std::isinf(numbers_of({}, 3).median));
+  EXPECT_EQ(numbers_of({1, 2}, 8).outliers, (Values{1, 2})) << "points where there is no box";
+}
+
 }  // namespace
 }  // namespace banyan::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figures from end to end: the script, both pictures, their texts, and everything that can go wrong.
+// Figures from end to end: the script, the pictures, their texts, and everything that can go wrong.
 #include "banyan/study/figure.hpp"
 
 #include <gtest/gtest.h>
@@ -13,6 +13,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -72,32 +73,53 @@ std::vector<double> runs(std::uint64_t seed, std::size_t count, double from, dou
   return values;
 }
 
+Box box_of(std::vector<double> values, std::size_t missed = 0) { return {std::move(values), missed}; }
+
 BoxFigure small_figure() {
   BoxFigure figure;
   figure.x_label = "redundancy k";
-  figure.y_label = "completion time";
+  figure.measures = {{"completion time", Scale::linear, {}, {}, {}, {}}};
   figure.groups = {"1", "2"};
-  figure.series = {{"outwards"}, {"inwards"}};
-  figure.panels = {{"r = 3 m", {{{7, 100, 3, 1, 10, 5, 2, 8, 4, 6, 9}, {4}}, {{}, {2, 2, 2}}}}};
+  figure.series = {{"outwards", {}, 0}, {"inwards", {}, 0}};
+  figure.panels = {
+      {"r = 3 m", 0, {{box_of({7, 100, 3, 1, 10, 5, 2, 8, 4, 6, 9}), box_of({4})}, {box_of({}), box_of({2, 2, 2})}}}};
   return figure;
 }
 
-BoxFigure large(std::size_t panels, std::size_t groups, std::size_t series, const std::string& group_name) {
+BoxFigure large(std::size_t panels, std::size_t groups, std::size_t series, const std::string& group_name,
+                std::size_t missed = 0) {
   BoxFigure figure;
   figure.title = "A title that says at some length what is shown here, and for which algorithms";
   figure.x_label = "targets and redundancy";
-  figure.y_label = "completion time / limit";
+  figure.measures = {{"completion time / limit", Scale::linear, {}, {}, {}, {}}};
   figure.columns = 3;
   for (std::size_t g = 0; g < groups; ++g) figure.groups.push_back(group_name + std::to_string(g + 1));
-  for (std::size_t s = 0; s < series; ++s) figure.series.push_back({"algorithm " + std::to_string(s + 1)});
+  for (std::size_t s = 0; s < series; ++s) figure.series.push_back({"algorithm " + std::to_string(s + 1), {}, 0});
   for (std::size_t p = 0; p < panels; ++p) {
-    Panel panel{"communication range r = " + std::to_string(3 * p) + " m, with obstacles", {}};
+    Panel panel{"communication range r = " + std::to_string(3 * p) + " m, with obstacles", 0, {}};
     for (std::size_t g = 0; g < groups; ++g) {
-      panel.values.emplace_back();
-      for (std::size_t s = 0; s < series; ++s) panel.values.back().push_back(runs(p * 100 + g * 10 + s, 20, 0.1, 1.0));
+      panel.boxes.emplace_back();
+      for (std::size_t s = 0; s < series; ++s)
+        panel.boxes.back().push_back(box_of(runs(p * 100 + g * 10 + s, 20, 0.1, 1.0), missed));
     }
     figure.panels.push_back(panel);
   }
+  return figure;
+}
+
+// Groups of two levels, and several measures.
+BoxFigure nested(bool grid) {
+  BoxFigure figure = large(grid ? 4 : 3, 6, 4, "");
+  figure.title.clear();
+  for (std::size_t g = 0; g < 6; ++g) figure.groups[g] = std::to_string(g % 3 + 2);
+  figure.outer = {{"targets T", {"2", "2", "2", "3", "3", "3"}},
+                  {"a longer name of what is off", std::vector<std::string>(6, "on")}};
+  figure.columns = grid ? 2 : 1;
+  figure.grid = grid;
+  figure.measures = {{grid ? "completion time / that of convoy" : "", Scale::log, {}, {}, 1.0, {}},
+                     {grid ? "share of time with a broken edge" : "", Scale::linear, {}, {}, {}, {}}};
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) figure.panels[p].measure = p / (grid ? 2 : 1) % 2;
+  figure.panels[0].boxes[1][2].missed = 7;
   return figure;
 }
 
@@ -203,7 +225,7 @@ std::vector<Text> texts(const std::string& svg) {
     const Point at{attribute(tag, "translate("), std::stod(tag.substr(comma + 1))};
     const double turn = attribute(tag, "rotate(") * std::acos(-1.0) / 180.0;
     const double size = attribute(tag, "font-size=\"");
-    const double width = text_width_px(text, size, tag.find("bold") != std::string::npos);
+    const double width = text_width(text, size);
     const double from = tag.find("\"end\"") != std::string::npos      ? -width
                         : tag.find("\"middle\"") != std::string::npos ? -width / 2.0
                                                                       : 0.0;
@@ -256,6 +278,17 @@ bool shows(const std::string& svg, const std::string& text) {
   return std::any_of(all.begin(), all.end(), [&](const Text& t) { return t.text == text; });
 }
 
+// Width and height of the page of a PDF, points.
+std::pair<double, double> pdf_size(const std::string& pdf) {
+  const std::string box = "MediaBox [ 0 0 ";
+  const std::size_t at = pdf.find(box);
+  if (!pdf.starts_with("%PDF-1.") || at == std::string::npos) return {0.0, 0.0};
+  std::istringstream numbers(pdf.substr(at + box.size(), 40));
+  double width = 0.0, height = 0.0;
+  numbers >> width >> height;
+  return {width, height};
+}
+
 // Width and height of a PNG, from its first chunk.
 std::pair<double, double> png_size(const std::string& png) {
   if (png.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0 || png.size() < 24) return {0.0, 0.0};
@@ -275,10 +308,11 @@ TEST_F(FigureDraw, WritesTheNumbersOfTheBoxes) {
   // quantile(c(1:10, 100), c(.25, .5, .75)) in R: 3.5, 6, 8.5.
   const auto first = rows(script, "$box_1_1"), second = rows(script, "$box_1_2"), points = rows(script, "$out_1_1");
   ASSERT_EQ(first.size(), 1U) << "no box for no values";
-  EXPECT_EQ(std::vector<double>(first[0].begin() + 1, first[0].end()), (std::vector<double>{1, 3.5, 6, 8.5, 10}));
+  EXPECT_EQ(std::vector<double>(first[0].begin() + 1, first[0].end()),
+            (std::vector<double>{1, 3.5, 6, 8.5, 10, 11, 0}));
   ASSERT_EQ(second.size(), 2U);
-  EXPECT_EQ(std::vector<double>(second[0].begin() + 1, second[0].end()), (std::vector<double>{4, 4, 4, 4, 4}));
-  EXPECT_EQ(std::vector<double>(second[1].begin() + 1, second[1].end()), (std::vector<double>{2, 2, 2, 2, 2}));
+  EXPECT_EQ(std::vector<double>(second[0].begin() + 1, second[0].end()), (std::vector<double>{4, 4, 4, 4, 4, 1, 0}));
+  EXPECT_EQ(std::vector<double>(second[1].begin() + 1, second[1].end()), (std::vector<double>{2, 2, 2, 2, 2, 3, 0}));
   // Beside each other within their group, the point above its box.
   EXPECT_LT(first[0][0], 1.0);
   EXPECT_GT(second[0][0], 1.0);
@@ -289,31 +323,163 @@ TEST_F(FigureDraw, WritesTheNumbersOfTheBoxes) {
   EXPECT_EQ(script.find("$out_1_2"), std::string::npos);
 }
 
-TEST_F(FigureDraw, MakesThreeFilesAndNothingElse) {
+TEST_F(FigureDraw, MakesFourFilesAndNothingElse) {
   draw(small_figure(), at("time"));
-  EXPECT_EQ(names(), (std::vector<std::string>{"time.gp", "time.png", "time.svg"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{"time.gp", "time.pdf", "time.png", "time.svg"}));
   const std::string svg = contents(at("time.svg"));
   EXPECT_TRUE(well_formed(svg));
-  for (const char* text : {"redundancy k", "completion time", "1", "2", "outwards", "inwards", "r = 3 m"}) {
+  for (const char* text :
+       {"redundancy k", "completion time", "1", "2", "outwards", "inwards", "r = 3 m", "n = 1–11 runs each"}) {
     EXPECT_TRUE(shows(svg, text)) << text;
   }
-  const auto [width, height] = png_size(contents(at("time.png")));
-  EXPECT_EQ(width, 2.0 * attribute(svg, "width=\""));
-  EXPECT_EQ(height, 2.0 * attribute(svg, "height=\""));
-  EXPECT_GT(width, 800.0);
-  EXPECT_LT(width, 1400.0);
 }
 
-TEST_F(FigureDraw, ThreeColumnsAreAPageWide) {
-  draw(large(3, 9, 2, "T = 2, k = "), at("page"));
-  EXPECT_NEAR(attribute(contents(at("page.svg")), "width=\""), 900.0, 40.0);
+TEST_F(FigureDraw, HasTheSameSizeInAllFormats) {
+  for (const double inches : {3.5, 7.0}) {
+    BoxFigure figure = small_figure();
+    figure.width_in = inches;
+    draw(figure, at("time"));
+    EXPECT_EQ(width_in(figure), inches);
+    const std::string svg = contents(at("time.svg"));
+    const auto [width, height] = pdf_size(contents(at("time.pdf")));
+    EXPECT_EQ(width, 72.0 * inches);
+    EXPECT_NEAR(attribute(svg, "width=\""), 96.0 / 72.0 * width, 0.5);
+    EXPECT_NEAR(attribute(svg, "height=\""), 96.0 / 72.0 * height, 0.5);
+    const auto [pixels, lines] = png_size(contents(at("time.png")));
+    EXPECT_EQ(pixels, 300.0 * inches);
+    EXPECT_NEAR(lines, 300.0 / 72.0 * height, 0.5);
+  }
+}
+
+TEST_F(FigureDraw, HasOneFontOfEightPoints) {
+  draw(large(3, 3, 2, "group ", 1), at("font"));
+  const std::string svg = contents(at("font.svg")), pdf = contents(at("font.pdf"));
+  std::size_t found = 0;
+  for (std::size_t i = svg.find("font-family="); i != std::string::npos; i = svg.find("font-family=", i + 1), ++found) {
+    EXPECT_EQ(svg.substr(i, 24), "font-family=\"sans-serif\"");
+    EXPECT_NEAR(attribute(svg.substr(i, 80), "font-size=\""), 8.0 * 96.0 / 72.0, 0.01);
+  }
+  EXPECT_GT(found, 10U);
+  EXPECT_EQ(svg.find("font-weight"), std::string::npos);
+  found = 0;
+  for (std::size_t i = pdf.find("BaseFont /"); i != std::string::npos; i = pdf.find("BaseFont /", i + 1), ++found)
+    EXPECT_EQ(pdf.substr(i + 16, 11), "+DejaVuSans");
+  EXPECT_GT(found, 0U);
+}
+
+TEST_F(FigureDraw, IsAsWideAsItsBoxesNeed) {
+  EXPECT_EQ(width_in(small_figure()), 3.5);
+  EXPECT_EQ(width_in(large(3, 3, 2, "g")), 7.0) << "panels side by side";
+  EXPECT_EQ(width_in(large(1, 12, 3, "g")), 7.0) << "too many for a column";
+  BoxFigure narrow = large(3, 3, 2, "g");
+  narrow.columns = 1;
+  EXPECT_EQ(width_in(narrow), 3.5);
+}
+
+// Where boxes of three panels side by side would be too thin, the panels are one below the other.
+TEST_F(FigureDraw, HasFewerColumnsWhereBoxesWouldBeTooThin) {
+  const auto tops = [&](std::size_t groups) {
+    draw(large(3, groups, 3, ""), at("columns"));
+    std::set<double> found;
+    for (const Text& text : texts(contents(at("columns.svg"))))
+      if (text.text.starts_with("communication range")) found.insert(std::round(text.corners[0].y));
+    return found.size();
+  };
+  EXPECT_EQ(tops(3), 1U);
+  EXPECT_EQ(tops(9), 3U);
+}
+
+// ---- misses
+
+TEST_F(FigureDraw, RunsThatMissedAreLaterThanAllOthers) {
+  BoxFigure figure = small_figure();
+  figure.panels[0].boxes[0][0] = box_of({1, 2, 3, 4, 5}, 4);  // of nine: quartiles are the 3rd, 5th and 7th
+  figure.panels[0].boxes[0][1] = box_of({1, 2}, 8);           // no box is left
+  figure.panels[0].boxes[1][0] = box_of({}, 3);
+  draw(figure, at("time"));
+  const double late = 9e99;
+  const auto first = rows(contents(at("time.gp")), "$box_1_1"), second = rows(contents(at("time.gp")), "$box_1_2");
+  const auto numbers = [](const std::vector<double>& row) { return std::vector<double>(row.begin() + 1, row.end()); };
+  EXPECT_EQ(numbers(first.at(0)), (std::vector<double>{1, 3, 5, late, late, 9, 4}));
+  EXPECT_EQ(numbers(first.at(1)), (std::vector<double>{late, late, late, late, late, 3, 3}));
+  EXPECT_EQ(numbers(second.at(0)), (std::vector<double>{late, late, late, late, late, 10, 8}));
+  EXPECT_EQ(rows(contents(at("time.gp")), "$out_1_2").size(), 2U) << "what there is of values, as points";
+  const std::string svg = contents(at("time.svg"));
+  for (const char* text : {"missed", "4/9", "8/10", "3/3", "n = 3–10 runs each"}) EXPECT_TRUE(shows(svg, text)) << text;
+  EXPECT_FALSE(shows(contents(at("time.svg")), "0/3"));
+}
+
+// The number stands at the middle of its box, found by the left and right ends of the panel.
+TEST_F(FigureDraw, TheNumberOfMissesIsAboveItsBox) {
+  for (const std::size_t series : {1U, 4U, 10U}) {
+    BoxFigure figure = large(1, 3, series, "");
+    const std::size_t s = series - 1;
+    if (s > 0) figure.panels[0].boxes[1][s - 1].missed = 5;  // beside it: no room for both on a line
+    figure.panels[0].boxes[1][s].missed = 3;
+    draw(figure, at("misses"));
+    const auto box = rows(contents(at("misses.gp")), "$box_1_" + std::to_string(series)).at(1);
+    const std::vector<Text> all = texts(contents(at("misses.svg")));
+    const auto middle = [&](const std::string& wanted) {
+      const auto text = std::find_if(all.begin(), all.end(), [&](const Text& t) { return t.text == wanted; });
+      EXPECT_NE(text, all.end()) << wanted;
+      return text == all.end() ? 0.0 : (text->corners[0].x + text->corners[2].x) / 2.0;
+    };
+    // The labels of groups 1 and 3 are at 1 and 3 on the axis.
+    const double pitch = (middle("3") - middle("1")) / 2.0;
+    const double number = middle("3/23");
+    EXPECT_NEAR(number, middle("1") + (box[0] - 1.0) * pitch, 3.0) << series;
+    expect_texts_apart(contents(at("misses.svg")));
+  }
+}
+
+TEST_F(FigureDraw, TooManyBoxesForNumbersHaveBars) {
+  draw(large(1, 30, 3, "g", 5), at("bars"));
+  const std::string svg = contents(at("bars.svg")), script = contents(at("bars.gp"));
+  EXPECT_TRUE(shows(svg, "missed"));
+  EXPECT_FALSE(shows(svg, "5/25"));
+  std::size_t bars = 0;
+  for (std::size_t i = script.find("fs solid 1.0"); i != std::string::npos; i = script.find("fs solid 1.0", i + 1))
+    ++bars;
+  EXPECT_EQ(bars, 90U);
+  EXPECT_EQ(script.find("candlesticks"), std::string::npos) << "points and lines instead of boxes";
+}
+
+// ---- scales
+
+TEST_F(FigureDraw, ALogarithmicAxisShowsZerosAtItsEnd) {
+  BoxFigure figure = small_figure();
+  figure.measures[0].scale = Scale::log;
+  draw(figure, at("log"));
+  EXPECT_NE(contents(at("log.gp")).find(" set logscale y"), std::string::npos);
+  EXPECT_FALSE(shows(contents(at("log.svg")), "0"));
+  figure.panels[0].boxes[1][1] = box_of({0.0, 0.0, 2.0});
+  draw(figure, at("log"));
+  EXPECT_TRUE(shows(contents(at("log.svg")), "0"));
+  figure.measures[0].scale = Scale::linear;
+  draw(figure, at("linear"));
+  EXPECT_EQ(contents(at("linear.gp")).find(" set logscale y"), std::string::npos);
+}
+
+TEST_F(FigureDraw, SharesAreShownWithTheirInterval) {
+  BoxFigure figure = small_figure();
+  figure.measures[0].share_confidence = 0.95;
+  figure.panels[0].boxes = {{box_of({1, 1, 1, 0, 1, 1, 1, 1, 1, 1}), box_of({})}, {box_of({}), box_of({0, 0})}};
+  draw(figure, at("share"));
+  const auto row = rows(contents(at("share.gp")), "$box_1_1").at(0);
+  // Wilson's interval of 9 in 10, as in R's prop.test(9, 10, correct = FALSE): 0.596 to 0.982.
+  EXPECT_NEAR(row[1], 0.59585, 1e-4);
+  EXPECT_EQ(row[3], 0.9);
+  EXPECT_NEAR(row[5], 0.98212, 1e-4);
+  figure.panels[0].boxes[0][0].values[0] = 0.5;
+  EXPECT_THROW(draw(figure, at("share")), std::invalid_argument);
 }
 
 TEST_F(FigureDraw, TextsNeverOverlap) {
   int n = 0;
   for (const BoxFigure& figure :
        {large(3, 9, 2, "T = 2, k = "), large(9, 3, 3, ""), large(5, 4, 8, "two obstacles "), large(5, 12, 1, "group "),
-        large(1, 2, 1, "a very long name of one group that is far too long "), large(2, 30, 3, "g")}) {
+        large(1, 2, 1, "a very long name of one group that is far too long "), large(2, 30, 3, "g"), nested(false),
+        nested(true), large(3, 4, 2, "", 3), large(1, 4, 7, "", 30), large(2, 3, 12, "group ", 12)}) {
     const std::string stem = at(std::to_string(++n));
     SCOPED_TRACE(n);
     draw(figure, stem);
@@ -330,8 +496,47 @@ TEST_F(FigureDraw, LabelsAreOnTheEdgesOnly) {
     return std::count_if(all.begin(), all.end(), [&](const Text& t) { return t.text == text; });
   };
   EXPECT_EQ(count("group 2"), 3) << "below the last row";
-  EXPECT_EQ(count("0.4"), 2) << "left of the first column";
+  EXPECT_EQ(count("0.5"), 2) << "left of the first column";
   EXPECT_EQ(count("algorithm 1"), 1) << "one legend";
+}
+
+TEST_F(FigureDraw, GroupsHaveOuterLabels) {
+  draw(nested(false), at("outer"));
+  const std::string svg = contents(at("outer.svg"));
+  EXPECT_TRUE(shows(svg, "targets T = 2") && shows(svg, "targets T = 3"));
+  EXPECT_TRUE(shows(svg, "a longer name of what is off on"));
+  BoxFigure thin = nested(false);
+  thin.width_in = 3.5;
+  thin.outer[0].title = "how many targets there are in all, T";
+  draw(thin, at("outer"));
+  EXPECT_FALSE(shows(contents(at("outer.svg")), "how many targets there are in all, T = 2"));
+  EXPECT_NE(contents(at("outer.gp")).find("below it, how many targets"), std::string::npos);
+}
+
+// A group for each series needs no legend, and its box stands in the middle.
+TEST_F(FigureDraw, NamesBelowTheBoxesReplaceTheLegend) {
+  BoxFigure figure = small_figure();
+  figure.groups = {"outwards", "inwards"};
+  figure.panels[0].boxes = {{box_of({1, 2, 3}), box_of({})}, {box_of({}), box_of({2, 3, 4})}};
+  draw(figure, at("names"));
+  const std::vector<Text> all = texts(contents(at("names.svg")));
+  EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Text& t) { return t.text == "inwards"; }), 1);
+  EXPECT_EQ(rows(contents(at("names.gp")), "$box_1_2").at(0)[0], 2.0);
+}
+
+TEST_F(FigureDraw, ASeriesHasTheLookItIsGiven) {
+  BoxFigure figure = small_figure();
+  figure.series[0].style = 4;
+  figure.series[1] = {"inwards, tuned", 4, 1};
+  draw(figure, at("looks"));
+  const std::string script = contents(at("looks.gp"));
+  const auto fill_of = [&](const std::string& data) {
+    const std::size_t at = script.find(data + " using (within($1, $2)):(show($3))");
+    const std::string plot = script.substr(at, script.find("notitle", at) - at);
+    EXPECT_NE(plot.find("#e69f00"), std::string::npos) << plot;
+    return attribute(plot, "fs solid ");
+  };
+  EXPECT_GE(std::fabs(fill_of("$box_1_1") - fill_of("$box_1_2")), 0.2) << "told apart by the fill";
 }
 
 TEST_F(FigureDraw, CurvesHoldTheirDataAndGaps) {
@@ -352,8 +557,8 @@ TEST_F(FigureDraw, CurvesHoldTheirDataAndGaps) {
 
 TEST_F(FigureDraw, DrawsWhatIsEmpty) {
   BoxFigure boxes = small_figure();
-  for (auto& group : boxes.panels[0].values) {
-    for (auto& values : group) values.clear();
+  for (auto& group : boxes.panels[0].boxes) {
+    for (auto& box : group) box.values.clear();
   }
   draw(boxes, at("boxes"));
   EXPECT_TRUE(well_formed(contents(at("boxes.svg"))));
@@ -376,10 +581,12 @@ TEST_F(FigureDraw, TheKeptScriptDrawsTheSameByHand) {
   const std::string svg = contents(at("time.svg"));
   fs::remove(at("time.svg"));
   fs::remove(at("time.png"));
+  fs::remove(at("time.pdf"));
   // As a user would: NOLINTNEXTLINE(cert-env33-c)
   ASSERT_EQ(std::system(("cd '" + folder.string() + "' && gnuplot -d time.gp").c_str()), 0);
   EXPECT_EQ(contents(at("time.svg")), svg);
   EXPECT_TRUE(fs::exists(at("time.png")));
+  EXPECT_EQ(pdf_size(contents(at("time.pdf"))).first, 252.0);
 }
 
 // ---- texts that could do harm
@@ -388,14 +595,14 @@ TEST_F(FigureDraw, TextsAreTextsWhateverTheyHold) {
   const std::string harm = at("harm");
   const std::vector<std::string> evil{"it's \"quoted\" {/Bold x}_a^b $x @output", "\"; system('touch " + harm + "')",
                                       "'; system('touch " + harm + "') #", "`touch " + harm + "`",
-                                      "a\\b %s 50% <b> & &amp; é λ₂ EOD }"};
+                                      "a\\b %s <b> & &amp; é λ₂ EOD }"};
   BoxFigure figure = small_figure();
-  figure.columns = 1;
+  figure.width_in = 7.0;
   figure.title = evil[0] + "\n" + evil[1] + "\n" + evil[2] + "\n" + evil[3] + "\n" + evil[4] + "\\";
   figure.x_label = evil[1];
-  figure.y_label = evil[4];
+  figure.measures[0].label = evil[4];
   figure.groups = {"{a}_1", "EOD\n'"};
-  figure.series = {{evil[0]}, {"`x`"}};
+  figure.series = {{evil[0], {}, 0}, {"`x` 50%", {}, 0}};
   figure.panels[0].title = "a\x01\xff";
   for (const std::string& name : {std::string("plain"), std::string("-e it's a \"name\" `x` $(y) @output λ {1}"),
                                   std::string("|touch harm"), std::string("<touch harm"), std::string("new\nline")}) {
@@ -405,11 +612,11 @@ TEST_F(FigureDraw, TextsAreTextsWhateverTheyHold) {
     const std::string svg = contents(at(name + ".svg"));
     EXPECT_TRUE(well_formed(svg));
     EXPECT_TRUE(png_size(contents(at(name + ".png"))).first > 0.0);
-    for (const std::string& text : {evil[0], evil[4], std::string("{a}_1"), std::string("'"), std::string("`x`")}) {
+    for (const std::string& text : {evil[0], evil[4], std::string("{a}_1"), std::string("'"), std::string("`x` 50%")}) {
       EXPECT_TRUE(shows(svg, text)) << text;
     }
   }
-  EXPECT_EQ(names().size(), 15U);
+  EXPECT_EQ(names().size(), 20U);
 }
 
 TEST_F(FigureDraw, AStemMayBeRelative) {
@@ -417,7 +624,7 @@ TEST_F(FigureDraw, AStemMayBeRelative) {
   fs::current_path(folder);
   draw(small_figure(), "-time");
   fs::current_path(before);
-  EXPECT_EQ(names(), (std::vector<std::string>{"-time.gp", "-time.png", "-time.svg"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{"-time.gp", "-time.pdf", "-time.png", "-time.svg"}));
 }
 
 // ---- what can go wrong
@@ -470,13 +677,18 @@ TEST_F(FigureStandIn, ALotOfMessagesDoNotBlock) {
 
 TEST_F(FigureStandIn, HalfAPictureDoesNotReplaceAWholeOne) {
   draw(small_figure(), at("time"));
-  const std::string svg = contents(at("time.svg")), png = contents(at("time.png"));
+  const std::string svg = contents(at("time.svg")), png = contents(at("time.png")), pdf = contents(at("time.pdf"));
   EXPECT_NE(error_of("exit 0").find("did not draw"), std::string::npos);
   EXPECT_NE(error_of("echo '<svg>' > \"$4.svg\"; echo > \"$4.png\"").find("half"), std::string::npos);
-  EXPECT_NE(error_of("echo '<svg></svg>' > \"$4.svg\"; : > \"$4.png\"").find("half"), std::string::npos);
+  const std::string whole_svg = "echo '<svg></svg>' > \"$4.svg\"; ";
+  EXPECT_NE(error_of(whole_svg + "echo %PDF > \"$4.pdf\"; : > \"$4.png\"").find("half of figure.pdf"),
+            std::string::npos);
+  EXPECT_NE(error_of(whole_svg + "echo %%EOF > \"$4.pdf\"; : > \"$4.png\"").find("half of figure.png"),
+            std::string::npos);
   EXPECT_EQ(contents(at("time.svg")), svg);
   EXPECT_EQ(contents(at("time.png")), png);
-  EXPECT_EQ(names(), (std::vector<std::string>{"bin", "time.gp", "time.png", "time.svg"}));
+  EXPECT_EQ(contents(at("time.pdf")), pdf);
+  EXPECT_EQ(names(), (std::vector<std::string>{"bin", "time.gp", "time.pdf", "time.png", "time.svg"}));
 }
 
 TEST_F(FigureErrors, AFolderThatIsNotThere) {
@@ -499,15 +711,22 @@ TEST_F(FigureErrors, FiguresThatCannotBeDrawn) {
     EXPECT_THROW(draw(figure, at("time")), std::invalid_argument);
   };
   rejects([](BoxFigure& f) { f.series.clear(); });
-  rejects([](BoxFigure& f) { f.series.resize(9); });
+  rejects([](BoxFigure& f) { f.series.resize(13); });
+  rejects([](BoxFigure& f) { f.series[0].style = 12; });
+  rejects([](BoxFigure& f) { f.series[0].variant = 4; });
+  rejects([](BoxFigure& f) { f.measures.clear(); });
+  rejects([](BoxFigure& f) { f.panels[0].measure = 1; });
+  rejects([](BoxFigure& f) { f.outer = {{"T", {"2"}}}; });
+  rejects([](BoxFigure& f) { f.width_in = 0.5; });
+  rejects([](BoxFigure& f) { f.measures[0].scale = Scale::log, f.measures[0].minimum = 0.0; });
   rejects([](BoxFigure& f) { f.groups.clear(); });
   rejects([](BoxFigure& f) { f.groups.push_back("3"); });
   rejects([](BoxFigure& f) { f.panels.clear(); });
   rejects([](BoxFigure& f) { f.columns = 0; });
-  rejects([](BoxFigure& f) { f.panels[0].values[0].pop_back(); });
-  rejects([](BoxFigure& f) { f.panels[0].values[0][0][0] = std::numeric_limits<double>::quiet_NaN(); });
-  rejects([](BoxFigure& f) { f.y_minimum = std::numeric_limits<double>::infinity(); });
-  rejects([](BoxFigure& f) { f.y_minimum = 2.0, f.y_maximum = 2.0; });
+  rejects([](BoxFigure& f) { f.panels[0].boxes[0].pop_back(); });
+  rejects([](BoxFigure& f) { f.panels[0].boxes[0][0].values[0] = std::numeric_limits<double>::quiet_NaN(); });
+  rejects([](BoxFigure& f) { f.measures[0].minimum = std::numeric_limits<double>::infinity(); });
+  rejects([](BoxFigure& f) { f.measures[0].minimum = 2.0, f.measures[0].maximum = 2.0; });
   const auto rejects_curve = [&](auto change) {
     CurveFigure figure = curves();
     change(figure.curves[0]);

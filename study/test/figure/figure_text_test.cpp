@@ -33,14 +33,13 @@ TEST(FigureText, ReplacesWhatXmlForbids) {
 TEST(FigureText, IsAsWideAsItsCharacters) {
   // Advances in the font's own table, per 2048: T 1251, blank 651, = 1716, 2 1303.
   const double oracle = 12.0 * (1251 + 651 + 1716 + 651 + 1303) / 2048.0;
-  EXPECT_GE(text_width_px("T = 2", 12.0), oracle);
-  EXPECT_LE(text_width_px("T = 2", 12.0), oracle * 1.02);
-  EXPECT_EQ(text_width_px("é", 10.0), text_width_px("樹", 10.0)) << "characters, not bytes";
-  EXPECT_GT(text_width_px("abc", 12.0, true), text_width_px("abc", 12.0));
+  EXPECT_GE(text_width("T = 2", 12.0), oracle);
+  EXPECT_LE(text_width("T = 2", 12.0), oracle * 1.02);
+  EXPECT_EQ(text_width("é", 10.0), text_width("樹", 10.0)) << "characters, not bytes";
 }
 
 TEST(FigureText, BreaksAtSpacesAndNewlines) {
-  const double wide = text_width_px("two words", 12.0);
+  const double wide = text_width("two words", 12.0);
   EXPECT_EQ(wrapped("two words", wide, 12.0), (Lines{"two words"}));
   EXPECT_EQ(wrapped("two words", wide - 1.0, 12.0), (Lines{"two", "words"}));
   EXPECT_EQ(wrapped("a\n\nb", 500.0, 12.0), (Lines{"a", "", "b"}));
@@ -53,7 +52,7 @@ TEST(FigureText, FitsInAnyCase) {
        {"a few short words and an incomprehensibility", "ééééééééééééééééééé", "x", "樹樹樹樹樹樹樹樹"}) {
     for (double width = 30.0; width < 200.0; width += 7.0) {
       for (const std::string& line : fitted(text, width, 12.0)) {
-        EXPECT_LE(text_width_px(line, 12.0), width) << line;
+        EXPECT_LE(text_width(line, 12.0), width) << line;
         EXPECT_EQ(clean(line), line) << "cut within a character";
       }
     }

@@ -53,7 +53,7 @@ struct Gathered {
 // Writes everything that is made from the journals, replacing what was made before; returns what
 // went wrong with the figures. Throws record::FileError.
 struct Written {
-  std::vector<std::string> figures;
+  std::vector<std::string> figures, empty;  // drawn; not drawn, since no run has a value
   std::vector<std::string> complaints;
 };
 Written write_results(const Study& study, const Plan& plan, const Gathered& gathered, const Folder& folder);

@@ -35,6 +35,7 @@ struct Plan {
   std::vector<PlannedRun> runs;                     // no id twice
   std::vector<PlannedRow> rows;                     // parts in file order; the last axis and then the seed vary fastest
   std::uint64_t digest = 0;                         // of the ids in order
+  std::vector<std::string> algorithms;              // names of those that there are, in the order of their list
   std::vector<config::Problem> problems;            // warnings too
   [[nodiscard]] bool ok() const noexcept;
 };

@@ -15,9 +15,9 @@ namespace banyan::study {
 [[nodiscard]] std::string comparisons_csv(const Study& study, const Results& results);
 
 // Draws the study's figures into `folder`; returns what went wrong, if anything (no gnuplot), and
-// the names of the figures drawn. Throws record::FileError.
+// the names of the figures drawn, and of those for which no run has a value. Throws record::FileError.
 struct Drawn {
-  std::vector<std::string> figures;
+  std::vector<std::string> figures, empty;
   std::vector<std::string> complaints;
 };
 Drawn draw_figures(const Study& study, const Results& results, const std::string& folder);

@@ -30,7 +30,7 @@ struct AxisValue {
 // laid over it.
 struct Axis {
   std::string name;               // "r"; unique in its part
-  std::string title;              // for figures, "target radius r (m)"; the name by default
+  std::string title;              // for figures, "target radius r (m)"; the name in words by default
   std::vector<AxisValue> values;  // not empty, labels unique
 };
 
@@ -48,19 +48,29 @@ struct Part {
 // Runs picked by the labels of axes: every axis named must have one of these labels.
 using Where = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-// Box plots (paper Figs. 5-7): one figure per combination of the labels of `each`, a panel per
-// label of `panels`, a group of boxes per combination of labels of `x`, a colour per label of `series`.
+enum class FigureScale { linear, log, ratio };  // ratio: logarithmic, to the same run of another series
+
+// What a figure shows upwards.
+struct FigureMetric {
+  std::string column;  // of the table, of numbers or booleans
+  std::string title;
+  FigureScale scale = FigureScale::linear;
+};
+
+// Box plots (paper Figs. 5-7): one figure per combination of the labels of `each`, a panel per label of `panels` and
+// metric, a group of boxes per combination of labels of `x`, a colour per label of `series`.
 struct FigurePlan {
   std::string name;  // file name without ending
   std::string title;
-  std::string metric;  // column of the table, of numbers or booleans
-  std::string y_title;
+  std::vector<FigureMetric> metrics;  // not empty
+  std::string ratio_to;               // a label of `series`, where a scale is a ratio
   std::string part;
   Where where;
   std::vector<std::string> each, x;
   std::string panels, series;
-  std::size_t columns = 3;
+  std::optional<std::size_t> columns;
   std::optional<double> y_minimum, y_maximum;
+  std::optional<double> width_in;  // 3.5 or 7
 };
 
 struct StatisticsPlan {
