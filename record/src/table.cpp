@@ -335,6 +335,7 @@ std::vector<std::string> csv_cells(std::string_view line) {
 
 std::optional<std::vector<std::string>> run_cells(std::string_view row) {
   std::vector<std::string> cells = csv_cells(row);
+  if (cells.size() == run_table.size()) return cells;  // also an older row that was filled up before
   for (int version = 1; version < format_version; ++version) {
     if (cells.back() != std::to_string(version)) continue;
     for (std::size_t c = 0; c < run_table.size() && c <= cells.size(); ++c)

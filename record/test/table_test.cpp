@@ -121,6 +121,9 @@ TEST(Table, ARowOfTheFirstVersionIsReadWithEmptyFieldsForLaterColumns) {
   }
   EXPECT_EQ(empty, columns.size() - names.size());
   EXPECT_EQ(cells->back(), "1") << "which version it is of";
+  std::string filled;
+  for (const auto& cell : *cells) filled += (filled.empty() ? "" : ",") + csv_quoted(cell);
+  EXPECT_EQ(run_cells(filled), cells) << "a table keeps the version of its rows";
   EXPECT_FALSE(run_cells(row + ",1").has_value());
   EXPECT_FALSE(run_cells("").has_value());
   const std::string current = run_csv_row(sample_row());
