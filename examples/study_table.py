@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The table of a study in pandas: medians, and a paired comparison of two algorithms.
+"""The tables of a study in pandas: quartiles, misses, and the paired comparisons of the algorithms.
 
    ./banyan study studies/first.toml
    python3 examples/study_table.py out/first        (Debian: python3-pandas)
@@ -20,13 +20,15 @@ for c in runs.columns[: runs.columns.get_loc("robots")]:
         continue
     if all(runs.groupby([a, c]).ngroups > runs[a].nunique() for a in axes):
         axes.append(c)
-print(runs.groupby(axes)["normalized_time"].describe()[["count", "25%", "50%", "75%"]].to_string(), "\n")
+groups = runs.groupby(axes)
+table = groups["normalized_time"].describe()[["count", "25%", "50%", "75%"]]
+table["missed"] = groups["complete"].agg(lambda complete: (~complete).sum())
+print(table.to_string(), "\n")
 
-# The same seed is the same start: compare run by run.
-others = [a for a in axes if a != "algorithm"] + ["seed"]
-pairs = runs.pivot_table(index=others, columns="algorithm", values="normalized_time")
-if pairs.shape[1] == 2:
-    first, second = pairs.columns
-    difference = pairs[first] - pairs[second]
-    print(f"{first} - {second}: median {difference.median():+.4f} of the limit, "
-          f"{first} sooner in {(difference < 0).mean():.0%} of {len(difference)} pairs")
+# Runs of the same seed in the same world are pairs. The shift is that of Hodges and Lehmann, first - second, in the
+# pairs that both complete (ranked), with the interval of its test after Holm's correction (docs/studies.md).
+comparisons = pd.read_csv(f"{folder}/comparisons.csv")
+times = comparisons[comparisons["metric"] == "normalized_time"]
+shown = [a for a in axes if a in times and (times[a] != "*").any()]
+print(times[shown + ["first", "second", "verdict", "shift", "holm_low", "holm_high", "ranked", "first_missed",
+                     "second_missed"]].to_string(index=False))
