@@ -216,8 +216,11 @@ void draw_misses(Script& script, const BoxFigure& figure, const BoxLayout& layou
   const Area area = layout.area(panel);
   const MissStrip& strip = layout.misses;
   const bool bars = strip.kind == MissStrip::Kind::bars, level = strip.kind == MissStrip::Kind::level;
-  if (panel % layout.columns == 0)
-    script.label("missed", {area.left - 3.0, area.top - strip.height / 2.0 - (bars ? 0.0 : 1.5)}, Align::right);
+  if (panel % layout.columns == 0) {
+    const double middle = area.top - strip.height / 2.0;
+    script.label("missed", {area.left - 3.0, bars ? area.top - 2.0 - line_pt / 2.0 : middle - 1.5}, Align::right);
+    if (bars) script.label("all", {area.left - 3.0, area.top - 2.0 - miss_bar_pt}, Align::right);
+  }
   if (bars) {
     for (const double y : {area.top - 2.0, area.top - 2.0 - miss_bar_pt})
       script.stroke({area.left, y}, {area.right, y}, "back lw 0.4 lc rgb '#b0b0b0'");

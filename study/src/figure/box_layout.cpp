@@ -12,9 +12,9 @@ namespace banyan::study {
 
 namespace {
 
-constexpr double smallest_slot_pt = 6.6;  // the numbers of misses, turned, stand side by side
+constexpr double smallest_slot_pt = 6.2;  // the numbers of misses, turned, stand side by side
 constexpr double smallest_text_pt = 6.0;  // of these
-constexpr double widest_box_pt = 16.0;
+constexpr double widest_box_pt = 18.0;
 constexpr std::size_t many_groups = 9;  // from here on, labels of several lines are turned instead
 constexpr double column_gap_pt = 10.0;
 constexpr double row_gap_pt = 8.0;
@@ -112,7 +112,8 @@ void place_columns(const BoxFigure& figure, BoxLayout& layout) {
     x += layout.panel_width;
   }
   layout.pitch = layout.panel_width / static_cast<double>(figure.groups.size());
-  layout.slot = layout.pitch * group_share / (layout.spread ? static_cast<double>(figure.series.size()) : 1.0);
+  const double boxes = layout.spread ? static_cast<double>(figure.series.size()) : 1.0;
+  layout.slot = std::min(layout.pitch * group_share / boxes, widest_box_pt / box_share);
 }
 
 // Everything that follows from a number of columns in that width.
@@ -208,6 +209,7 @@ std::vector<Span> spans_of(const BoxFigure& figure, std::size_t level) {
 
 // "targets T = 2" below its groups where there is room for that, else "2", and the x axis names the title.
 void label_outer(const BoxFigure& figure, BoxLayout& layout, std::string& x_label) {
+  bool bare = false;
   for (std::size_t level = 0; level < figure.outer.size(); ++level) {
     const OuterLabels& outer = figure.outer[level];
     std::vector<Span> spans = spans_of(figure, level);
@@ -219,7 +221,10 @@ void label_outer(const BoxFigure& figure, BoxLayout& layout, std::string& x_labe
                                   [&](const Span& span) { return text_width(full(span), text_pt) <= room(span); });
     for (Span& span : spans)
       span.text = fits ? full(span) : shortened(clean(outer.labels[span.first]), room(span), text_pt);
-    if (!fits) x_label += "; below it, " + outer.title;
+    if (!fits) {
+      x_label += (bare ? "; below that, " : "; below it, ") + outer.title;
+      bare = true;
+    }
     layout.outer.push_back(std::move(spans));
   }
 }
@@ -291,8 +296,8 @@ MissStrip strip_of(const BoxFigure& figure, const BoxLayout& layout) {
   const std::string widest = widest_miss(figure);
   if (widest.empty()) return {};
   if (fit_level(figure, layout)) return {MissStrip::Kind::level, text_pt, line_pt + 3.0};
-  if (layout.slot < smallest_slot_pt) return {MissStrip::Kind::bars, text_pt, miss_bar_pt + 4.0};
-  const double size = std::clamp(std::floor(2.0 * (layout.slot - 0.4)) / 2.0, smallest_text_pt, text_pt);
+  if (layout.slot < smallest_slot_pt) return {MissStrip::Kind::bars, text_pt, miss_bar_pt + 7.0};
+  const double size = std::clamp(std::floor(2.0 * (layout.slot - 0.2)) / 2.0, smallest_text_pt, text_pt);
   return {MissStrip::Kind::turned, size, text_width(widest, size) + 5.0};
 }
 
@@ -332,7 +337,7 @@ std::string miss_text(const Box& box) {
   return std::to_string(box.missed) + "/" + std::to_string(box.values.size() + box.missed);
 }
 
-double BoxLayout::box_width() const { return std::min(box_share * slot, widest_box_pt); }
+double BoxLayout::box_width() const { return box_share * slot; }
 
 Legend box_legend(const BoxFigure& figure, const BoxLayout& layout) {
   std::vector<std::string> names;

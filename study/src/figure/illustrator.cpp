@@ -120,8 +120,8 @@ class Illustrator {
 
   BoxFigure figure() {
     BoxFigure figure;
-    figure.title =
-        plan_.title + (plan_.title.empty() || each_.empty() ? "" : ": ") + in_words(*axes_, plan_.each, each_);
+    figure.title = in_words(*axes_, plan_.each, each_);
+    if (!plan_.title.empty()) figure.title = plan_.title + (each_.empty() ? "" : " (" + figure.title + ")");
     figure.width_in = plan_.width_in;
     for (const std::string& label : places_.series) {
       const auto look = std::find_if(looks_.begin(), looks_.end(), [&](const Series& s) { return s.name == label; });

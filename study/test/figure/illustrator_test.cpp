@@ -278,7 +278,7 @@ TEST_F(Illustrations, EachCombinationIsAFigureWithItsOwnName) {
   prepare(
       "[[figures]]\nname = \"f\"\ntitle = \"Times\"\nmetric = \"normalized_time\"\nseries = \"algorithm\"\n"
       "each = [\"los\", \"r\"]\n");
-  EXPECT_EQ(figure({"on", "1.5"}).title, "Times: line of sight on, radius r = 1.5 m");
+  EXPECT_EQ(figure({"on", "1.5"}).title, "Times (line of sight on, radius r = 1.5 m)");
   const auto drawn = draw_figures(study_, results(), path(""));
   EXPECT_EQ(drawn.figures,
             (std::vector<std::string>{"f-los-off-r-1.5", "f-los-off-r-1", "f-los-on-r-1.5", "f-los-on-r-1"}));
