@@ -28,6 +28,7 @@ std::string plan_text(const TunePlan& plan) {
   const auto& o = plan.optimizer;
   const auto& mission = plan.worlds.front().scenario.mission;
   std::string text = summary_line("algorithm", mission.algorithm + " (" + mission.reading + ")");
+  text += summary_line("fitness", std::string(study::name_of(plan.fitness.judgement)));
   text += summary_line("search", std::string(study::name_of(o.search)) + ", " + plural(o.islands, "island") + " of " +
                              plural(o.population, "individual") + ", " + plural(o.generations, "generation") +
                              format(", seed %" PRIu64, o.seed));
@@ -57,9 +58,9 @@ std::string dry_run_text(const TunePlan& plan, const std::string& directory) {
   return text;
 }
 
-std::string score_text(const study::TuneScore& score) {
+std::string score_text(const study::Fitness& fitness, const study::TuneScore& score) {
   if (score.trials == 0) return "cannot be run";
-  return format("%7.4f %6.1f %% %9s %6.1f %%", score.merit.fitness(), 100.0 * score.complete_share,
+  return format("%7.4f %6.1f %% %9s %6.1f %%", fitness.of(score.merit), 100.0 * score.complete_share,
                 score.median_time_s ? format("%.1f s", *score.median_time_s).c_str() : "-",
                 100.0 * score.disconnected_share);
 }
@@ -69,7 +70,8 @@ std::string comparison_text(const TunePlan& plan, const study::TuneResult& resul
   std::string text = format("  %-12s  %-37s %s\n", "", "training seeds", "test seeds");
   text += format("  %-12s  %-37s %s\n", "", columns.c_str(), columns.c_str());
   for (const auto& c : result.candidates)
-    text += format("  %-12s  %-37s %s\n", c.name.c_str(), score_text(c.training).c_str(), score_text(c.test).c_str());
+    text += format("  %-12s  %-37s %s\n", c.name.c_str(), score_text(plan.fitness, c.training).c_str(),
+                   score_text(plan.fitness, c.test).c_str());
   text += "\n  parameter                  best        default     bounds\n";
   const auto& best = result.candidates[0];
   const auto& untuned = result.candidates[1];
@@ -88,7 +90,7 @@ std::string summary_text(const TunePlan& plan, const study::TuneResult& result, 
                          double wall_s) {
   const auto& best = result.candidates.front();
   std::string text = plan.name + format(": best fitness %.4f, %.4f on the test seeds\n\n",
-                                        best.training.merit.fitness(), best.test.merit.fitness());
+                                        plan.fitness.of(best.training.merit), plan.fitness.of(best.test.merit));
   text += plan_text(plan);
   text += summary_line("work", plural(result.evaluations, "evaluation") + format(", %.1f s", wall_s) +
                            (result.resumed_at > 0 ? format(" from generation %u on", result.resumed_at) : ""));
@@ -99,7 +101,7 @@ std::string summary_text(const TunePlan& plan, const study::TuneResult& result, 
   text += "  tune.json        everything above, with the whole configuration\n";
   text += "  generations.csv  fitness over generations; fitness.svg, fitness.png: drawn\n";
   if (plan.optimizer.search == study::Search::nsga2)
-    text += "  front.csv        " + plural(result.front, "compromise") + " between connectivity and time\n";
+    text += "  front.csv        " + plural(result.front, "compromise") + " between the two goals\n";
   return text;
 }
 

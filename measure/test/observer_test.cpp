@@ -281,6 +281,7 @@ TEST(Observer, HeldTimeCountsFromCompletionOn) {
   EXPECT_NEAR(run.held_time_ratio, held / ticks, 1e-12);
   EXPECT_LT(run.held_time_ratio, 0.9);
   EXPECT_GT(run.held_time_ratio, 0.5);
+  EXPECT_EQ(run.held_ratio, 0.5) << "at the end, one of the two";
   World started(s);
   EXPECT_EQ(Observer(started).result(started).held_time_ratio, -1.0) << "not complete";
 }

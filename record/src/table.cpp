@@ -30,7 +30,7 @@ std::string hexadecimal(std::uint64_t value) {
 }
 
 // 2: a worker for each target in robots_bound; the oracle's columns.
-// 3: sight_leak; edges broken after a silence.
+// 3: sight_leak; edges broken after a silence; held_ratio.
 constexpr int format_version = 3;
 
 constexpr Column<Row> identifying_table[] = {
@@ -73,6 +73,8 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) { return if_known(r.run.time_ratio); }},
     {"held_time_ratio", "from completion on, mean share of the targets that are held; empty if never complete", 6,
      [](const Row& r) { return if_known(r.run.held_time_ratio); }},
+    {"held_ratio", "share of the active targets that are held at the end", 6,
+     [](const Row& r) -> Cell { return r.run.held_ratio; }, 3},
     {"robots_bound", "no fewer committed robots, a worker for each target among them, can connect the targets", 0,
      [](const Row& r) { return natural(r.run.robots_bound); }},
     {"oracle_robots", "workers, and the fewest relays found for edges of 0.95 C", 0,

@@ -174,7 +174,7 @@ class Course {
     for (auto& candidate : candidates) {
       const bool as_it_is = candidate.name == "default";
       if (const double distance = as_it_is ? 0.0 : infeasibility(plan_, candidate.point); distance > 0.0) {
-        candidate.training.merit = candidate.test.merit = {distance, 1.0, 1.0};
+        candidate.training.merit = candidate.test.merit = Merit{distance};
         continue;
       }
       points.push_back(as_it_is ? std::nullopt : std::optional(candidate.point));

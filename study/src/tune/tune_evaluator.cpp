@@ -82,7 +82,7 @@ std::vector<Merit> Evaluator::merits(const std::vector<std::vector<double>>& poi
     if (const auto known = known_.find(point); known != known_.end()) {
       found[point] = known->second;
     } else if (const double distance = infeasibility(plan_, point); distance > 0.0) {
-      found[point] = {distance, 1.0, 1.0};
+      found[point] = Merit{distance};
     } else {
       found[point] = {};
       unknown.emplace_back(point);

@@ -9,6 +9,7 @@
 #include "banyan/controller/core/algorithm.hpp"
 #include "banyan/study/tune.hpp"
 #include "banyan/world/faults.hpp"
+#include "tune_base.hpp"
 #include "tune_point.hpp"
 
 namespace banyan::study {
@@ -42,11 +43,13 @@ class Reader {
     plan_.description = top_.text("description");
     read_seeds();
     read_bounds();
+    read_fitness();
     read_optimizer();
     read_worlds();
     const Node* initial = top_.table("initial");
     top_.finish();
     if (sound(problems_)) check_algorithms();
+    if (sound(problems_)) check_parameters();
     if (sound(problems_) && initial) read_initial(*initial);
     if (sound(problems_)) warn_of_narrow_bounds();
     return std::move(plan_);
@@ -126,6 +129,36 @@ class Reader {
     plan_.bounds.push_back({name, *low, *high});
   }
 
+  // ------------------------------------------------------------------------------------ fitness --
+
+  void read_fitness() {
+    const Node* node = top_.table("fitness");
+    if (!node) return;
+    TableReader table(*node, "fitness", problems_);
+    auto& fitness = plan_.fitness;
+    constexpr auto two_step = Judgement::two_step, graded = Judgement::graded;
+    fitness.judgement = static_cast<Judgement>(table.choice("kind", {name_of(two_step), name_of(graded)}, 0));
+    auto& w = fitness.weights;
+    double sum = 0.0;
+    for (auto [name, weight] : {std::pair{"held", &w.held}, std::pair{"time", &w.time},
+                                std::pair{"disconnected", &w.disconnected}, std::pair{"committed", &w.committed}}) {
+      if (fitness.judgement == two_step && table.has(name))
+        table.report(name, "has no meaning with kind = " + in_quotes(name_of(two_step)));
+      *weight = table.number(name, *weight, {0.0, 1e6});
+      sum += *weight;
+    }
+    if (!(sum > 0.0)) table.report("", "has no weight above 0: everything would be equally good");
+    table.finish();
+  }
+  // With one goal only, all that no other beats is one point.
+  void check_goals(TableReader& table) const {
+    const auto& w = plan_.fitness.weights;
+    if (plan_.optimizer.search != Search::nsga2 || plan_.fitness.judgement != Judgement::graded) return;
+    if (w.time > 0.0 && w.held + w.disconnected + w.committed > 0.0) return;
+    table.report("algorithm", "is \"nsga2\", whose two goals are the time and the rest: [fitness] needs a weight of time "
+                              "and another one above 0");
+  }
+
   // ---------------------------------------------------------------------------------- optimizer --
 
   void read_optimizer() {
@@ -149,6 +182,7 @@ class Reader {
   }
   void check_optimizer(TableReader& table) const {
     const auto& o = plan_.optimizer;
+    check_goals(table);
     const bool cmaes = o.search == Search::cmaes;
     const std::string is = "is " + std::to_string(o.population) + "; ";
     if (o.search == Search::sga && o.population % 2 != 0)
@@ -208,7 +242,9 @@ class Reader {
     const std::string file = table.text("scenario");
     read_set(table, changes);
     if (file.empty()) return;
-    const std::string where = (std::filesystem::path(path_).parent_path() / file).lexically_normal().string();
+    const auto& origin = table.place("scenario").origin;  // another file if it is the base's
+    const auto folder = std::filesystem::path(origin ? *origin : path_).parent_path();
+    const std::string where = (folder / file).lexically_normal().string();
     try {
       Node scenario = config::parse_scenario(where, config::read_text_file(where));
       std::vector<Problem> faults;
@@ -254,6 +290,18 @@ class Reader {
       if (here != first)
         problems_.push_back({places_[i], "worlds[" + std::to_string(i) + "]",
                              "runs " + here + ", the first world " + first + "; one search is for one algorithm"});
+    }
+  }
+  // Other algorithms' parameters would be searched in vain.
+  void check_parameters() {
+    const auto& scenario = plan_.worlds.front().scenario;
+    const Algorithm& algorithm = world::algorithm_of(scenario);
+    std::vector<std::string_view> known;
+    for (const auto* row : algorithm.parameters()) known.push_back(row->key);
+    for (const auto& [name, value] : *top_.table("bounds")->table()) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      const std::string whose(algorithm.name());
+      problems_.push_back({value.place, "bounds." + name, "is no parameter of " + whose + " (`banyan algorithms " + whose + "` lists them)"});
     }
   }
   void read_initial(const Node& node) {
@@ -317,6 +365,7 @@ LoadedTune parse_tune(const std::string& path, std::string_view text, const Algo
   LoadedTune loaded;
   try {
     Node root = config::parse_document(path, text);
+    root = with_base(std::move(root), path, loaded.problems);
     root.place.line = 0;
     Reader reader(root, path, algorithms, loaded.problems);
     loaded.plan = reader.read();

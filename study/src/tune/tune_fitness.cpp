@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The paper's two-step performance, from rows of the table of runs to one number.
+// From rows of the table of runs to one number, the paper's two-step performance or a graded one.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -83,30 +83,56 @@ std::optional<Trial> trial_of(std::string_view run_csv_row) {
   // Of the ticks rather than of the rounded ratio: a single broken tick of a long run counts.
   const auto ticks = number_in(cells, "ticks"), broken = number_in(cells, "broken_ticks"),
              split = number_in(cells, "split_ticks"), time = number_in(cells, "normalized_time"),
-             done_s = number_in(cells, "completion_time_s");
-  if (!ticks || !broken || !split || !time || (complete != "true" && complete != "false")) return std::nullopt;
+             done_s = number_in(cells, "completion_time_s"), held = number_in(cells, "held_ratio"),
+             committed = number_in(cells, "committed"), robots = number_in(cells, "robots");
+  if (!ticks || !broken || !split || !time || !held || !committed || !robots) return std::nullopt;
+  if (complete != "true" && complete != "false") return std::nullopt;
   Trial trial;
   trial.complete = complete == "true";
   if (trial.complete && !done_s) return std::nullopt;
   trial.disconnected = *ticks > 0.0 ? std::min(std::max(*broken, *split) / *ticks, 1.0) : 0.0;
   trial.normalized_time = std::clamp(*time, 0.0, 1.0);
   trial.completion_time_s = trial.complete ? *done_s : 0.0;
+  trial.held = std::clamp(*held, 0.0, 1.0);
+  trial.committed = *robots > 0.0 ? std::min(*committed / *robots, 1.0) : 1.0;
   return trial;
 }
 
-double Merit::fitness() const noexcept {
-  if (infeasible > 0.0) return -infeasible;
-  return disconnected > 0.0 ? 1.0 - disconnected : 2.0 - time;
+std::string_view name_of(Judgement judgement) noexcept { return judgement == Judgement::graded ? "graded" : "two-step"; }
+
+double Fitness::of(const Merit& merit) const noexcept {
+  return merit.infeasible > 0.0 ? -merit.infeasible : of_goals(goals(merit));
+}
+
+Fitness::Goals Fitness::goals(const Merit& merit) const noexcept {
+  if (judgement == Judgement::two_step) return {merit.disconnected, merit.time};
+  const double others = weights.held + weights.disconnected + weights.committed;
+  const double cost = weights.held * (1.0 - merit.held) + weights.disconnected * merit.disconnected +
+                      weights.committed * merit.committed;
+  return {others > 0.0 ? cost / others : 0.0, merit.time};
+}
+
+double Fitness::of_goals(const Goals& goals) const noexcept {
+  const auto [first, time] = goals;
+  if (judgement == Judgement::two_step) return first > 0.0 ? 1.0 - first : 2.0 - time;
+  const double others = weights.held + weights.disconnected + weights.committed;
+  return 1.0 - (others * first + weights.time * time) / (others + weights.time);
+}
+
+std::array<std::string_view, 2> Fitness::goal_names() const noexcept {
+  return {judgement == Judgement::graded ? "cost" : "disconnected_time_ratio", "normalized_time"};
 }
 
 Merit merit_of(std::span<const Trial> trials) noexcept {
-  Merit merit{0.0, 0.0, 0.0};
+  Merit merit{0.0, 0.0, 0.0, 0.0, 0.0};
   for (const auto& trial : trials) {
     merit.disconnected += trial.disconnected;
     merit.time += trial.normalized_time;
+    merit.held += trial.held;
+    merit.committed += trial.committed;
   }
-  merit.disconnected /= static_cast<double>(trials.size());
-  merit.time /= static_cast<double>(trials.size());
+  for (double* sum : {&merit.disconnected, &merit.time, &merit.held, &merit.committed})
+    *sum /= static_cast<double>(trials.size());
   return merit;
 }
 

@@ -23,16 +23,17 @@ namespace banyan::study {
 namespace {
 
 // What pagmo minimises. Infeasible points are dominated by all feasible ones, nearer ones dominate.
-pagmo::vector_double objectives_of(const Merit& merit, Search search) {
-  if (search != Search::nsga2) return {-merit.fitness()};
+pagmo::vector_double objectives_of(const Merit& merit, const TunePlan& plan) {
+  if (plan.optimizer.search != Search::nsga2) return {-plan.fitness.of(merit)};
   if (merit.infeasible > 0.0) return {1.0 + merit.infeasible, 1.0 + merit.infeasible};
-  return {merit.disconnected, merit.time};
+  const auto [first, second] = plan.fitness.goals(merit);
+  return {first, second};
 }
 
-double fitness_of(const std::vector<double>& objectives) {
+double fitness_of(const std::vector<double>& objectives, const Fitness& fitness) {
   if (objectives.size() == 1) return -objectives[0];
   if (objectives[0] > 1.0) return 1.0 - objectives[0];
-  return Merit{0.0, objectives[0], objectives[1]}.fitness();
+  return fitness.of_goals({objectives[0], objectives[1]});
 }
 
 // Evaluates points of the unit cube that lie one after the other, all at once.
@@ -43,7 +44,7 @@ pagmo::vector_double evaluate(Evaluator& evaluator, const TunePlan& plan, const 
     points.push_back(from_unit(plan.bounds, std::span(units).subspan(at, n)));
   pagmo::vector_double all;
   for (const auto& merit : evaluator.merits(points)) {
-    const auto objectives = objectives_of(merit, plan.optimizer.search);
+    const auto objectives = objectives_of(merit, plan);
     all.insert(all.end(), objectives.begin(), objectives.end());
   }
   return all;
@@ -228,7 +229,7 @@ void Island::restore(const IslandState& state) {
 
 std::vector<double> Island::fitness() const {
   std::vector<double> list;
-  for (const auto& objectives : search_->objectives) list.push_back(fitness_of(objectives));
+  for (const auto& objectives : search_->objectives) list.push_back(fitness_of(objectives, search_->plan.fitness));
   return list;
 }
 

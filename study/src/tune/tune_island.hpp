@@ -35,7 +35,7 @@ class Island {
   // Throws TuneError if this is no state of an island of this plan.
   void restore(const IslandState& state);
 
-  // The fitness of each individual (Merit::fitness), and its parameters.
+  // The fitness of each individual (Fitness::of), and its parameters.
   [[nodiscard]] std::vector<double> fitness() const;
   [[nodiscard]] std::vector<std::vector<double>> points() const;
 

@@ -67,8 +67,9 @@ std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
                      mission.reading + "),\n";
   text += "# by " + std::string(name_of(o.search)) + ": " + number(o.generations) + " generations of " +
           number(o.population) + " individuals on " + number(o.islands) + " islands, seed " + number(o.seed) + ".\n";
-  text += "# Fitness " + number_text(best.training.merit.fitness()) + " on the training seeds, " +
-          number_text(best.test.merit.fitness()) + " on the test seeds.\n";
+  text += "# Fitness (" + std::string(name_of(plan.fitness.judgement)) + ") " +
+          number_text(plan.fitness.of(best.training.merit)) + " on the training seeds, " +
+          number_text(plan.fitness.of(best.test.merit)) + " on the test seeds.\n";
   text +=
       "# Banyan " + std::string(version) + " (git " + std::string(git_id()) + "), tuning " + tune_digest(plan) + ".\n";
   for (const auto& world : plan.worlds) text += "# Tuned in " + in_words(world.scenario) + "\n";
@@ -79,21 +80,24 @@ std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
 }
 
 std::string front_csv(const TunePlan& plan, const std::vector<FrontPoint>& front) {
-  std::string text = "island,disconnected_time_ratio,normalized_time" + parameter_names(plan) + "\n";
+  const auto names = plan.fitness.goal_names();
+  std::string text = "island," + std::string(names[0]) + "," + std::string(names[1]) + parameter_names(plan) + "\n";
   for (const auto& p : front)
-    text += std::to_string(p.island) + "," + number_text(p.disconnected) + "," + number_text(p.time) +
+    text += std::to_string(p.island) + "," + number_text(p.goals[0]) + "," + number_text(p.goals[1]) +
             parameter_values(p.point) + "\n";
   return text;
 }
 
-Json score_json(const TuneScore& score) {
-  return {{"fitness", score.merit.fitness()},
+Json score_json(const Fitness& fitness, const TuneScore& score) {
+  return {{"fitness", fitness.of(score.merit)},
           {"runs", score.trials},
           {"complete_share", score.complete_share},
           {"median_completion_time_s", score.median_time_s ? Json(*score.median_time_s) : Json()},
           {"mean_normalized_time", score.merit.time},
           {"disconnected_share", score.disconnected_share},
-          {"mean_disconnected_time_ratio", score.merit.disconnected}};
+          {"mean_disconnected_time_ratio", score.merit.disconnected},
+          {"mean_held_ratio", score.merit.held},
+          {"mean_committed_share", score.merit.committed}};
 }
 
 std::string result_json(const TunePlan& plan, const TuneResult& result) {
@@ -103,8 +107,8 @@ std::string result_json(const TunePlan& plan, const TuneResult& result) {
     for (std::size_t i = 0; i < plan.bounds.size(); ++i) parameters[plan.bounds[i].parameter] = c.point[i];
     candidates.push_back({{"name", c.name},
                           {"parameters", parameters},
-                          {"training", score_json(c.training)},
-                          {"test", score_json(c.test)}});
+                          {"training", score_json(plan.fitness, c.training)},
+                          {"test", score_json(plan.fitness, c.test)}});
   }
   const Json root{{"format", "banyan.tune"},
                   {"format_version", 1},
@@ -172,7 +176,7 @@ CurveFigure fitness_figure(const TunePlan& plan, const std::vector<GenerationRow
 }
 
 bool dominates(const FrontPoint& a, const FrontPoint& b) {
-  return a.disconnected <= b.disconnected && a.time <= b.time && (a.disconnected < b.disconnected || a.time < b.time);
+  return a.goals[0] <= b.goals[0] && a.goals[1] <= b.goals[1] && a.goals != b.goals;
 }
 
 }  // namespace
@@ -219,18 +223,18 @@ std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandS
     for (std::size_t k = 0; k < islands[i].points.size(); ++k) {
       const auto& goals = islands[i].objectives[k];
       if (goals.size() == 2 && goals[0] <= 1.0)  // above: cannot be run
-        all.push_back({i, goals[0], goals[1], from_unit(plan.bounds, islands[i].points[k])});
+        all.push_back({i, {goals[0], goals[1]}, from_unit(plan.bounds, islands[i].points[k])});
     }
   }
   std::vector<FrontPoint> front;
   for (const auto& p : all) {
     const auto beaten = [&](const FrontPoint& q) { return dominates(q, p); };
-    const auto same = [&](const FrontPoint& q) { return q.disconnected == p.disconnected && q.time == p.time; };
+    const auto same = [&](const FrontPoint& q) { return q.goals == p.goals; };
     if (std::none_of(all.begin(), all.end(), beaten) && std::none_of(front.begin(), front.end(), same))
       front.push_back(p);
   }
   std::stable_sort(front.begin(), front.end(),
-                   [](const auto& a, const auto& b) { return a.disconnected < b.disconnected; });
+                   [](const auto& a, const auto& b) { return a.goals[0] < b.goals[0]; });
   return front;
 }
 

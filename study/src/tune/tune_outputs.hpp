@@ -17,10 +17,10 @@ void write_generations(const std::string& directory, const TunePlan& plan, const
 // A point that no other is better than in both goals.
 struct FrontPoint {
   std::uint32_t island = 0;
-  double disconnected = 0.0, time = 0.0;  // Merit's
-  std::vector<double> point;              // in the order of the bounds
+  Fitness::Goals goals{};
+  std::vector<double> point;  // in the order of the bounds
 };
-// Of all islands' last populations, ascending in `disconnected`, each pair of goals once.
+// Of all islands' last populations, ascending in the first goal, each pair of goals once.
 [[nodiscard]] std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandState>& islands);
 
 // All files of a finished tuning, tune.json last, since it marks the tuning as finished.

@@ -50,6 +50,14 @@ std::string tune_json(const TunePlan& plan) {
             {"seeds", {{"training", plan.training}, {"test", plan.test}}},
             {"optimizer", optimizer},
             {"bounds", bounds}};
+  if (plan.fitness.judgement == Judgement::graded) {
+    const auto& w = plan.fitness.weights;
+    root["fitness"] = {{"kind", name_of(plan.fitness.judgement)},
+                       {"held", w.held},
+                       {"time", w.time},
+                       {"disconnected", w.disconnected},
+                       {"committed", w.committed}};
+  }
   if (!initial.empty()) root["initial"] = initial;
   root["worlds"] = worlds;
   return root.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -78,14 +78,14 @@ TEST(TuneFitness, RefusesWhatIsNoRow) {
 TEST(TuneFitness, TheTwoStepsByHand) {
   const Trial quick{true, 0.0, 0.2, 20.0}, slow{true, 0.0, 0.6, 60.0}, never{false, 0.0, 1.0, 0.0},
       apart{true, 0.25, 0.1, 10.0};
-  const auto fitness = [](std::vector<Trial> trials) { return merit_of(trials).fitness(); };
+  const auto fitness = [](std::vector<Trial> trials) { return Fitness{}.of(merit_of(trials)); };
   EXPECT_DOUBLE_EQ(fitness({quick}), 1.8);
   EXPECT_DOUBLE_EQ(fitness({quick, slow}), 1.6);
   EXPECT_DOUBLE_EQ(fitness({never}), 1.0);
   EXPECT_DOUBLE_EQ(fitness({apart}), 0.75);
   // One disconnected run keeps the point on the first step, however quick the others are.
   EXPECT_DOUBLE_EQ(fitness({quick, quick, quick, apart}), 1.0 - 0.25 / 4.0);
-  EXPECT_DOUBLE_EQ((Merit{0.4, 1.0, 1.0}.fitness()), -0.4);
+  EXPECT_DOUBLE_EQ(Fitness{}.of(Merit{0.4}), -0.4);
 }
 
 TEST(TuneFitness, ScoresInNumbersForPeople) {
@@ -456,12 +456,12 @@ TEST_P(TuneSearch, FindsTheBottomOfABowl) {
   const auto& best = result.candidates.at(0);
   EXPECT_NEAR(best.point[0], 0.6, 0.05);
   EXPECT_NEAR(best.point[1], 1.0, 0.1);
-  EXPECT_GT(best.training.merit.fitness(), 1.99);
+  EXPECT_GT(p.fitness.of(best.training.merit), 1.99);
   // Table I: 2 (0.11^2 + 0.25^2) + mean of 0.001 seed.
   const double untuned = 2.0 * (0.11 * 0.11 + 0.25 * 0.25);
   EXPECT_EQ(result.candidates.at(1).name, "default");
-  EXPECT_NEAR(result.candidates[1].training.merit.fitness(), 2.0 - untuned - 0.0015, 1e-6);
-  EXPECT_NEAR(result.candidates[1].test.merit.fitness(), 2.0 - untuned - 0.012, 1e-6);
+  EXPECT_NEAR(p.fitness.of(result.candidates[1].training.merit), 2.0 - untuned - 0.0015, 1e-6);
+  EXPECT_NEAR(p.fitness.of(result.candidates[1].test.merit), 2.0 - untuned - 0.012, 1e-6);
   EXPECT_EQ(result.candidates[1].point, (std::vector<double>{0.49, 0.5}));
   EXPECT_EQ(result.evaluations, 2U * 16U * 26U);
 }
@@ -542,7 +542,7 @@ TEST_F(Tune, StartsFromTheInitialPoint) {
                 "[[worlds]]\nscenario = \"world.toml\"\n", "[initial]\ntarget_gain = 0.6\navoidance_gain = 1.0\n"));
   const auto workers = thread_workers(bowl, 1);
   const auto result = tune(p, *workers, folder("out"));
-  EXPECT_NEAR(result.candidates[0].training.merit.fitness(), 2.0 - 0.001, 1e-6);
+  EXPECT_NEAR(p.fitness.of(result.candidates[0].training.merit), 2.0 - 0.001, 1e-6);
 }
 
 TEST_F(Tune, NsgaTwoLeavesAFrontInWhichNobodyBeatsAnother) {

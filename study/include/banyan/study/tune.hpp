@@ -3,6 +3,7 @@
 // docs/tuning.md describes the file, the fitness and what a tuning leaves behind.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -41,12 +42,52 @@ struct TuneBound {
   double low = 0.0, high = 0.0;  // low < high
 };
 
+// What a point of the search space came to.
+struct Merit {
+  double infeasible = 0.0;    // 0: it can be run; else in (0, 1], the larger the farther from it
+  double disconnected = 1.0;  // means over the trials, as in Trial
+  double time = 1.0;
+  double held = 0.0;
+  double committed = 1.0;
+
+  [[nodiscard]] bool operator==(const Merit&) const = default;
+};
+
+enum class Judgement : std::uint8_t { two_step, graded };
+[[nodiscard]] std::string_view name_of(Judgement judgement) noexcept;
+
+// From a point's merit to the number that is maximised, and to nsga2's two goals.
+struct Fitness {
+  // Not negative; what counts is their share of the sum.
+  struct Weights {
+    double held = 0.3, time = 0.4, disconnected = 0.2, committed = 0.1;
+  };
+  Judgement judgement = Judgement::two_step;
+  Weights weights;  // graded
+
+  // two_step, the paper's: 1 - disconnected, in [0, 1), if any trial was disconnected at any time; else 2 - time, in
+  // [1, 2]. graded: the weighted mean of held, 1 - time, 1 - disconnected and 1 - committed, in [0, 1]. Either is below
+  // 0, as far as -1, for what cannot be run.
+  [[nodiscard]] double of(const Merit& merit) const noexcept;
+
+  // What nsga2 minimises of a point that can be run, each in [0, 1]. two_step: disconnected and time. graded: the cost,
+  // which is the weighted mean of 1 - held, disconnected and committed; and time.
+  using Goals = std::array<double, 2>;
+  [[nodiscard]] Goals goals(const Merit& merit) const noexcept;
+  // The fitness follows from the goals, and is higher if one of them is lower. (With two_step, only as long as both
+  // stay on one step.)
+  [[nodiscard]] double of_goals(const Goals& goals) const noexcept;
+  // For the columns of front.csv.
+  [[nodiscard]] std::array<std::string_view, 2> goal_names() const noexcept;
+};
+
 struct TunePlan {
   std::string name;
   std::string description;
   std::vector<config::Configuration> worlds;  // at least one, all with the same algorithm and reading
   std::vector<std::uint64_t> training;        // seeds that the search sees
   std::vector<std::uint64_t> test;            // seeds that only the final comparison sees
+  Fitness fitness;
   TuneOptimizer optimizer;
   std::vector<TuneBound> bounds;  // at least one, in the order of the file
   std::vector<double> initial;    // a point to start from, in the order of `bounds`; or empty
@@ -86,21 +127,12 @@ struct Trial {
                                    // radio graph in several pieces, whichever was more often
   double normalized_time = 1.0;    // completion time / limit, in [0, 1]; 1 if not complete
   double completion_time_s = 0.0;  // if complete
+  double held = 0.0;               // share of the targets that are held at the end, in [0, 1]
+  double committed = 1.0;          // share of the robots that are committed at the end, in [0, 1]
 };
 // From a row of the table of runs; nothing if it is no such row.
 [[nodiscard]] std::optional<Trial> trial_of(std::string_view run_csv_row);
 
-// What a point of the search space came to.
-struct Merit {
-  double infeasible = 0.0;    // 0: it can be run; else in (0, 1], the larger the farther from it
-  double disconnected = 1.0;  // mean over the trials
-  double time = 1.0;          // mean normalised time
-
-  // The paper's two steps: 1 - disconnected, in [0, 1), if any trial was disconnected at any time;
-  // else 2 - time, in [1, 2]. Below 0, as far as -1, if it cannot be run at all.
-  [[nodiscard]] double fitness() const noexcept;
-  [[nodiscard]] bool operator==(const Merit&) const = default;
-};
 // Of at least one trial.
 [[nodiscard]] Merit merit_of(std::span<const Trial> trials) noexcept;
 

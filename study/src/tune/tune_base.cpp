@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "tune_base.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace banyan::study {
+namespace {
+
+using config::Node;
+
+void drop(Node& table, std::string_view name) {
+  std::erase_if(*table.table(), [&](const Node::Member& member) { return member.name == name; });
+}
+
+void lay_over(Node& below, Node above) {
+  if (!below.table() || !above.table()) {
+    below = std::move(above);
+    return;
+  }
+  below.place = above.place;
+  for (auto& [name, value] : *above.table()) {
+    if (Node* known = below.find(name))
+      lay_over(*known, std::move(value));
+    else
+      below.table()->push_back({name, std::move(value)});
+  }
+}
+
+}  // namespace
+
+Node with_base(Node file, const std::string& path, std::vector<config::Problem>& problems) {
+  const Node* base = file.find("base");
+  if (!base) return file;
+  const auto refuse = [&](const std::string& text) { problems.push_back({base->place, "base", text}); };
+  const auto without_base = [](Node node) {
+    drop(node, "base");
+    return node;
+  };
+  if (!base->string() || base->string()->empty()) {
+    refuse("must be the name of a tune file, not " + base->describe());
+    return without_base(std::move(file));
+  }
+  const std::string where = (std::filesystem::path(path).parent_path() / *base->string()).lexically_normal().string();
+  try {
+    Node below = config::parse_document(where, config::read_text_file(where));
+    if (below.find("base")) {
+      refuse(where + " has a base itself; one is enough");
+      return without_base(std::move(file));
+    }
+    drop(below, "name");
+    lay_over(below, std::move(file));
+    return without_base(std::move(below));
+  } catch (const config::DocumentError& e) {
+    refuse(e.problem.place.text() + ": " + e.problem.text);
+    return without_base(std::move(file));
+  }
+}
+
+}  // namespace banyan::study
