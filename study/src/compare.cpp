@@ -71,21 +71,37 @@ class Comparing {
   void group(std::size_t p, std::size_t grouping, const GroupKey& key, const std::vector<Rows>& sides) {
     const Axis& axis = study_.parts[p].axes[compared_];
     for (const auto& column : columns_) {
-      for (std::size_t i = 0; i < sides.size(); ++i) {
-        for (std::size_t j = i + 1; j < sides.size(); ++j) {
-          Comparison c;
-          c.part = p;
-          c.group = key;
-          c.grouping = grouping;
-          c.metric = column.name;
-          c.first = axis.values[i].label;
-          c.second = axis.values[j].label;
-          c.boolean = column.boolean;
-          c.can_miss = column.can_miss;
-          fill(c, column, pair_up(column, sides[i], sides[j]));
-        }
+      for (const auto& [first, second] : two_by_two(axis)) {
+        Comparison c;
+        c.part = p;
+        c.group = key;
+        c.grouping = grouping;
+        c.metric = column.name;
+        c.first = axis.values[first].label;
+        c.second = axis.values[second].label;
+        c.boolean = column.boolean;
+        c.can_miss = column.can_miss;
+        fill(c, column, pair_up(column, sides[first], sides[second]));
       }
     }
+  }
+
+  // Each value with all that come after it; or with those that the study compares against, as the second.
+  [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> two_by_two(const Axis& axis) const {
+    const auto& against = study_.statistics.against;
+    const auto is_named = [&](std::size_t i) {
+      return std::find(against.begin(), against.end(), axis.values[i].label) != against.end();
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> list;
+    for (std::size_t i = 0; i < axis.values.size(); ++i) {
+      for (std::size_t j = i + 1; j < axis.values.size(); ++j) {
+        if (against.empty() || is_named(j))
+          list.emplace_back(i, j);
+        else if (is_named(i))
+          list.emplace_back(j, i);
+      }
+    }
+    return list;
   }
 
   // What two runs of a pair have in common: the world, which is the values of all other axes, and the seed.

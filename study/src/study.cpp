@@ -7,6 +7,7 @@
 
 #include "banyan/config/table_reader.hpp"
 #include "banyan/study/results.hpp"
+#include "base.hpp"
 #include "figure/figure_plan.hpp"
 #include "figure/words.hpp"
 #include "study_checks.hpp"
@@ -19,12 +20,6 @@ using config::Problem;
 using config::TableReader;
 
 constexpr const char* seeds_instead = "a study takes its seeds from its own key, seeds = \"1-50\"";
-
-std::string beside(const std::string& file, const std::string& reference) {
-  const std::filesystem::path path(reference);
-  if (path.is_absolute() || file == "-") return reference;
-  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
-}
 
 // [set]: dotted keys, quoted or not, and sections.
 std::vector<Change> read_set(TableReader& table) {
@@ -78,10 +73,10 @@ class StudyReader {
  private:
   // Scenario, seeds, [set], `with` and axes of `table`, over those of `common`.
   Part read_part(TableReader& table, Part part, std::string_view axes) {
-    if (table.has("scenario")) part.scenario = beside(path_, table.text("scenario"));
+    if (table.has("scenario")) part.scenario = beside(table.place("scenario"), path_, table.text("scenario"));
     if (auto seeds = table.seeds("seeds"); !seeds.empty()) part.seeds = std::move(seeds);
     for (const auto& file : table.texts("with")) {
-      if (auto change = read_overlay(beside(path_, file), table.place("with"), table.path("with"), problems_))
+      if (auto change = read_overlay(beside(table.place("with"), path_, file), table.place("with"), table.path("with"), problems_))
         part.changes.push_back(std::move(*change));
     }
     for (auto& change : read_set(table)) part.changes.push_back(std::move(change));
@@ -209,9 +204,9 @@ class StudyReader {
       }
       result.label = value.string()->empty() ? "none" : std::filesystem::path(*value.string()).stem().string();
       if (key == "scenario")
-        result.scenario = beside(path_, *value.string());
+        result.scenario = beside(value.place, path_, *value.string());
       else if (!value.string()->empty()) {
-        if (auto change = read_overlay(beside(path_, *value.string()), value.place, table.path("values"), problems_))
+        if (auto change = read_overlay(beside(value.place, path_, *value.string()), value.place, table.path("values"), problems_))
           result.changes.push_back(std::move(*change));
       }
       return result;
@@ -256,6 +251,22 @@ class StudyReader {
 
   // ---------------------------------------------------------------------------- statistics --
 
+  // That some part has an axis of that name with that label.
+  static void check_label(TableReader& table, std::string_view name, const std::string& label, const std::string& axis,
+                          const std::vector<Part>& parts) {
+    std::vector<std::string_view> known;
+    for (const auto& part : parts) {
+      for (const auto& one : part.axes) {
+        if (one.name == axis)
+          for (const auto& value : one.values) known.push_back(value.label);
+      }
+    }
+    if (std::find(known.begin(), known.end(), label) != known.end()) return;
+    const auto near = config::nearest(label, known);
+    table.report(name, "\"" + label + "\" is no value of the axis \"" + axis + "\"" +
+                           (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
+  }
+
   void read_statistics(TableReader& top, Study& study) {
     auto& plan = study.statistics;
     plan.metrics = {
@@ -271,6 +282,8 @@ class StudyReader {
     for (const auto& metric : plan.metrics) check_metric(table, "metrics", metric);
     plan.compare = table.text("compare", plan.compare);
     if (table.has("compare")) check_axis(table, "compare", plan.compare, known);
+    plan.against = table.texts("against");
+    for (const auto& label : plan.against) check_label(table, "against", label, plan.compare, study.parts);
     plan.confidence = table.number("confidence", plan.confidence, {0.5, 0.9999});
     plan.margin = table.number("margin", plan.margin, {0.0, 1.0});
     plan.resamples = static_cast<std::size_t>(table.whole("resamples", 2000, {100, 1e6}));
@@ -362,7 +375,7 @@ LoadedStudy parse_study(const std::string& path, std::string_view text,
                         const std::vector<config::Override>& overrides) {
   LoadedStudy loaded;
   try {
-    const Node root = config::parse_document(path, text);
+    const Node root = with_base(config::parse_document(path, text), path, loaded.problems);
     loaded.study = StudyReader(path, loaded.problems).read(root, overrides);
     loaded.study.path = path;
     loaded.study.text = text;

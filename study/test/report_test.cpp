@@ -313,6 +313,15 @@ TEST_F(ReportTest, NoTestIsMadeTwice) {
   EXPECT_EQ(picked(rows, {{"part", "small"}}).size(), 1U * 2 * 3);
 }
 
+TEST_F(ReportTest, ComparedAgainstSomeItIsTheSecond) {
+  prepare("against = [\"inwards\"]\n");
+  check_comparisons();
+  std::map<std::pair<std::string, std::string>, std::size_t> pairs;
+  for (const auto& row : comparisons()) ++pairs[{row.at("first"), row.at("second")}];
+  const std::size_t each = (4 + 1) * 2;  // worlds of both parts, metrics
+  EXPECT_EQ(pairs, (decltype(pairs){{{"outwards", "inwards"}, each}, {{"tuned", "inwards"}, each}}));
+}
+
 // A family is one metric and two values in one grouping of one part: which axes are pooled tells the grouping.
 TEST_F(ReportTest, HolmCorrectsTheTestsOfOneClaim) {
   std::map<std::string, std::vector<Row>> families;

@@ -68,6 +68,31 @@ TEST_F(StudyFile, NeedsLittle) {
   EXPECT_EQ(count_rows(study), 3.0);
 }
 
+TEST_F(StudyFile, IsLaidOverItsBase) {
+  std::filesystem::create_directories(path("deep"));
+  write("deep/base.toml", "name = \"base\"\ndescription = \"d\"\nscenario = \"w.toml\"\nseeds = [1]\n"
+                          "[set]\nradio.loss = 0.5\n[[axes]]\nkey = \"scenario\"\nvalues = [\"x.toml\"]\n");
+  const auto study = good("base = \"deep/base.toml\"\nseeds = [7, 8]\n[set]\nradio.range_m = 3\n");
+  EXPECT_EQ(study.name, "s") << "the file's, not the base's";
+  EXPECT_EQ(study.description, "d");
+  EXPECT_EQ(study.parts.at(0).scenario, path("deep/w.toml")) << "beside the base";
+  EXPECT_EQ(study.parts[0].axes.at(0).values.at(0).scenario, path("deep/x.toml"));
+  EXPECT_EQ(study.parts[0].seeds, (std::vector<std::uint64_t>{7, 8}));
+  EXPECT_EQ(study.parts[0].changes.size(), 1U) << "[set] of both, as one tree of radio";
+  write("deep/second.toml", "base = \"base.toml\"\n");
+  EXPECT_TRUE(says(parse("base = \"deep/second.toml\"\n"), "s.toml:1: error: base: "));
+  EXPECT_TRUE(says(parse("base = \"none.toml\"\n"), "none.toml"));
+  write("deep/wrong.toml", head + "seedz = 3\n");
+  EXPECT_TRUE(says(parse("base = \"deep/wrong.toml\"\n"), "deep/wrong.toml:3: error: seedz"));
+}
+
+TEST_F(StudyFile, ComparesAgainstValuesThatExist) {
+  const std::string axis = head + "[[axes]]\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"convoy\"]\n[statistics]\n";
+  EXPECT_EQ(good(axis + "against = \"convoy\"\n").statistics.against, (std::vector<std::string>{"convoy"}));
+  EXPECT_TRUE(says(parse(axis + "against = [\"convoi\"]\n"), "s.toml:7: error: statistics.against: \"convoi\" is no value of the "
+                                                           "axis \"algorithm\"; did you mean \"convoy\"?"));
+}
+
 TEST_F(StudyFile, ReadsAxesOfEveryKind) {
   write("a.toml", "radio.range_m = 3.0\n");
   const auto study = good(head + R"(

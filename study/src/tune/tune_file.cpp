@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The tune file: from its text to a plan, with everything that is wrong in it.
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -9,7 +8,7 @@
 #include "banyan/controller/core/algorithm.hpp"
 #include "banyan/study/tune.hpp"
 #include "banyan/world/faults.hpp"
-#include "tune_base.hpp"
+#include "base.hpp"
 #include "tune_point.hpp"
 
 namespace banyan::study {
@@ -242,9 +241,7 @@ class Reader {
     const std::string file = table.text("scenario");
     read_set(table, changes);
     if (file.empty()) return;
-    const auto& origin = table.place("scenario").origin;  // another file if it is the base's
-    const auto folder = std::filesystem::path(origin ? *origin : path_).parent_path();
-    const std::string where = (folder / file).lexically_normal().string();
+    const std::string where = beside(table.place("scenario"), path_, file);
     try {
       Node scenario = config::parse_scenario(where, config::read_text_file(where));
       std::vector<Problem> faults;

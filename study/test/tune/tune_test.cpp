@@ -47,6 +47,9 @@ record::RunRow row_with(bool complete, std::uint64_t ticks, std::uint64_t broken
   row.run.normalized_time = time;
   row.run.completion_time_s = complete ? 100.0 * time : -1.0;
   row.run.disconnected_time_ratio = static_cast<double>(broken) / static_cast<double>(ticks);
+  row.run.held_ratio = complete ? 1.0 : 0.25;
+  row.run.robots = 20;
+  row.run.committed = 7;
   return row;
 }
 
@@ -59,6 +62,9 @@ TEST(TuneFitness, ReadsARowOfTheTable) {
   EXPECT_DOUBLE_EQ(trial->disconnected, 8.0 / 200.0);  // the graph was split more often than an edge broken
   EXPECT_DOUBLE_EQ(trial->normalized_time, 0.25);
   EXPECT_DOUBLE_EQ(trial->completion_time_s, 25.0);
+  EXPECT_DOUBLE_EQ(trial->held, 1.0);
+  EXPECT_DOUBLE_EQ(trial->committed, 7.0 / 20.0);
+  EXPECT_DOUBLE_EQ(trial_of(record::run_csv_row(row_with(false, 200, 5, 8, 1.0)))->held, 0.25);
 }
 
 TEST(TuneFitness, ASingleBrokenTickOfALongRunCounts) {
@@ -86,6 +92,36 @@ TEST(TuneFitness, TheTwoStepsByHand) {
   // One disconnected run keeps the point on the first step, however quick the others are.
   EXPECT_DOUBLE_EQ(fitness({quick, quick, quick, apart}), 1.0 - 0.25 / 4.0);
   EXPECT_DOUBLE_EQ(Fitness{}.of(Merit{0.4}), -0.4);
+}
+
+// Held 1 and 1/4, times 0.2 and 1 (a miss is the limit), disconnected 0.1 and 0.5, committed 0.4 and 1.
+TEST(TuneFitness, TheGradedFitnessByHand) {
+  const std::vector<Trial> trials{{true, 0.1, 0.2, 20.0, 1.0, 0.4}, {false, 0.5, 1.0, 0.0, 0.25, 1.0}};
+  const Merit merit = merit_of(trials);
+  EXPECT_DOUBLE_EQ(merit.held, 0.625);
+  EXPECT_DOUBLE_EQ(merit.time, 0.6);
+  EXPECT_DOUBLE_EQ(merit.disconnected, 0.3);
+  EXPECT_DOUBLE_EQ(merit.committed, 0.7);
+  const Fitness tenths{Judgement::graded, {0.3, 0.4, 0.2, 0.1}};
+  EXPECT_DOUBLE_EQ(tenths.of(merit), 0.3 * 0.625 + 0.4 * 0.4 + 0.2 * 0.7 + 0.1 * 0.3);  // 0.5175
+  EXPECT_DOUBLE_EQ((Fitness{Judgement::graded, {3.0, 4.0, 2.0, 1.0}}.of(merit)), tenths.of(merit)) << "shares of the sum";
+  EXPECT_DOUBLE_EQ((Fitness{Judgement::graded, {0.0, 0.0, 5.0, 0.0}}.of(merit)), 0.7);
+  EXPECT_DOUBLE_EQ((Fitness{Judgement::graded, {0.0, 1.0, 0.0, 0.0}}.of(merit)), 0.4);
+  EXPECT_DOUBLE_EQ(tenths.of(Merit{0.4}), -0.4);
+  // The goals of nsga2: (0.3 (1 - 0.625) + 0.2 0.3 + 0.1 0.7) / 0.6, and the time.
+  EXPECT_DOUBLE_EQ(tenths.goals(merit)[0], (0.1125 + 0.06 + 0.07) / 0.6);
+  EXPECT_DOUBLE_EQ(tenths.goals(merit)[1], 0.6);
+}
+
+// Unlike the two steps, it tells two points apart that were both disconnected once.
+TEST(TuneFitness, TheGradedFitnessHasNoGate) {
+  const Trial quick{true, 0.01, 0.2, 20.0, 1.0, 0.5}, slow{true, 0.01, 0.6, 60.0, 1.0, 0.5},
+      whole{true, 0.0, 0.6, 60.0, 1.0, 0.5};
+  const auto of = [](Judgement judgement, const Trial& trial) { return Fitness{judgement, {}}.of(merit_of({&trial, 1})); };
+  EXPECT_EQ(of(Judgement::two_step, quick), of(Judgement::two_step, slow));
+  EXPECT_GT(of(Judgement::two_step, whole), of(Judgement::two_step, quick));
+  EXPECT_GT(of(Judgement::graded, quick), of(Judgement::graded, slow));
+  EXPECT_GT(of(Judgement::graded, quick), of(Judgement::graded, whole)) << "one tick in a hundred, and three times as fast";
 }
 
 TEST(TuneFitness, ScoresInNumbersForPeople) {
@@ -288,6 +324,91 @@ TEST_F(Tune, TellsAllFaultsAtOnceInTheOrderOfTheFile) {
   ASSERT_EQ(loaded.problems.size(), 6U);
   for (std::size_t i = 1; i < loaded.problems.size(); ++i)
     EXPECT_LE(loaded.problems[i - 1].place.line, loaded.problems[i].place.line);
+}
+
+TEST_F(Tune, ReadsTheFitness) {
+  const auto fitness = [&](const std::string& text) {
+    return plan(file("", "target_gain = [0.1, 1.1]\n", "training = [1]\ntest = [2]\n",
+                     "[[worlds]]\nscenario = \"world.toml\"\n", text)).fitness;
+  };
+  EXPECT_EQ(fitness("").judgement, Judgement::two_step);
+  EXPECT_EQ(fitness("[fitness]\nkind = \"two-step\"\n").judgement, Judgement::two_step);
+  const auto graded = fitness("[fitness]\nkind = \"graded\"\nheld = 5\ncommitted = 0\n");
+  EXPECT_EQ(graded.judgement, Judgement::graded);
+  EXPECT_EQ(graded.weights.held, 5.0);
+  EXPECT_EQ(graded.weights.time, Fitness{}.weights.time);
+  EXPECT_EQ(graded.weights.committed, 0.0);
+  EXPECT_NE(tune_digest(plan(file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nkind = \"graded\"\n")),
+            tune_digest(plan(file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nkind = \"graded\"\ntime = 0.5\n")));
+}
+
+TEST_F(Tune, EveryFaultOfTheFitnessHasItsLine) {
+  const std::string graded = file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nkind = \"graded\"\n";  // lines 9, 10
+  expect_problem(file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nkind = \"grded\"\n", 10, "did you mean \"graded\"");
+  expect_problem(graded + "held = -1\n", 11, "allowed: 0 to");
+  expect_problem(graded + "broken = 1\n", 11, "fitness.broken");
+  expect_problem(graded + "held = 0\ntime = 0\ndisconnected = 0\ncommitted = 0\n", 9, "no weight above 0");
+  expect_problem(file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nheld = 1\n", 10, "has no meaning");
+  expect_problem(file("algorithm = \"nsga2\"\n", "target_gain = [0.1, 1.1]\n") +
+                     "[fitness]\nkind = \"graded\"\ntime = 0\n", 7, "two goals");
+}
+
+TEST_F(Tune, OtherAlgorithmsParametersAreNotSearched) {
+  const std::string bounds = "target_gain = [0.1, 1.1]\nlink_gain = [0.0, 1.0]\n";
+  expect_problem(file("", bounds), 9, "is no parameter of outwards");
+  EXPECT_TRUE(load(file("", bounds, "training = [1]\ntest = [2]\n", "[[worlds]]\nscenario = \"world.toml\"\n",
+                        "[set]\n\"mission.algorithm\" = \"link-consensus\"\n")).ok());
+}
+
+// Whatever is on the list: half to one and a half times the default of every parameter of its own.
+TEST_F(Tune, EveryAlgorithmCanBeTuned) {
+  for (const Algorithm* algorithm : algorithms()) {
+    const std::string name(algorithm->name());
+    const auto rows = algorithm->parameters();
+    const auto values = algorithm->values({});
+    std::string bounds;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double low = std::max(config::widened(rows[k]->minimum), 0.5 * config::widened(values[k])),
+                   high = std::min(config::widened(rows[k]->maximum), 1.5 * config::widened(values[k]));
+      if (!config::platform_key(rows[k]->key).empty() || !(low < high)) continue;
+      bounds += std::string(rows[k]->key) + " = [" + config::number_text(low) + ", " + config::number_text(high) + "]\n";
+    }
+    const auto p = plan("name = \"" + name + "\"\n" +
+                        file("generations = 1\npopulation = 2\nislands = 1\n", bounds, "training = [1]\ntest = [2]\n",
+                             "[[worlds]]\nscenario = \"world.toml\"\n",
+                             "[set]\n\"mission.algorithm\" = \"" + name + "\"\n[fitness]\nkind = \"graded\"\n[initial]\n"));
+    ASSERT_GT(p.bounds.size(), 5U) << name;
+    const auto workers = thread_workers([](std::string_view task) { return simulate(task, algorithms()); }, 2);
+    const auto result = tune(p, *workers, folder(name));
+    const auto &best = result.candidates.at(0), &untuned = result.candidates.at(1);
+    EXPECT_GE(p.fitness.of(best.training.merit), p.fitness.of(untuned.training.merit)) << name << " starts from its defaults";
+    EXPECT_GT(p.fitness.of(untuned.training.merit), 0.0) << name;
+  }
+}
+
+TEST_F(Tune, AFileIsLaidOverItsBase) {
+  fs::create_directories(home_ / "below");
+  write("below/base.toml", "name = \"base\"\ndescription = \"d\"\n[[worlds]]\nscenario = \"../world.toml\"\n[seeds]\ntraining = "
+                           "[1, 2]\ntest = [3]\n[optimizer]\nseed = 5\ngenerations = 7\n");
+  const auto p = plan("base = \"below/base.toml\"\n[optimizer]\ngenerations = 9\n[seeds]\ntraining = [4]\n"
+                      "[bounds]\ntarget_gain = [0.1, 1.1]\n");
+  EXPECT_EQ(p.name, "tune") << "the file's, not the base's";
+  EXPECT_EQ(p.description, "d");
+  EXPECT_EQ(p.worlds.size(), 1U) << "found beside the base";
+  EXPECT_EQ(p.training, (std::vector<std::uint64_t>{4}));
+  EXPECT_EQ(p.test, (std::vector<std::uint64_t>{3}));
+  EXPECT_EQ(p.optimizer.seed, 5U);
+  EXPECT_EQ(p.optimizer.generations, 9U);
+}
+
+TEST_F(Tune, FaultsOfABaseSayWhereTheyAre) {
+  const std::string bounds = "[bounds]\ntarget_gain = [0.1, 1.1]\n";
+  expect_problem("base = 3\n" + file("", "target_gain = [0.1, 1.1]\n"), 1, "must be the name of a file");
+  expect_problem("base = \"none.toml\"\n" + file("", "target_gain = [0.1, 1.1]\n"), 1, "none.toml");
+  write("base.toml", file("generatons = 3\n", "avoidance_gain = [0.1, 1.1]\n"));
+  expect_problem("base = \"base.toml\"\n" + bounds, 7, "base.toml:7: error: optimizer.generatons");
+  write("second.toml", "base = \"base.toml\"\n");
+  expect_problem("base = \"second.toml\"\n" + file("", "target_gain = [0.1, 1.1]\n"), 1, "has a base itself");
 }
 
 TEST_F(Tune, AMissingFileIsAProblem) {
@@ -568,6 +689,31 @@ TEST_F(Tune, NsgaTwoLeavesAFrontInWhichNobodyBeatsAnother) {
     last_time = time;
   }
   EXPECT_EQ(rows, result.front);
+}
+
+TEST_F(Tune, TheGradedFrontIsOfTimeAndAllTheRest) {
+  const auto p = plan(file(optimizer("nsga2", 6)) + "[fitness]\nkind = \"graded\"\n");
+  const auto directory = folder("out");
+  const auto workers = thread_workers(conflict, 2);
+  const auto result = tune(p, *workers, directory);
+  std::istringstream table(contents(directory + "/front.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "island,cost,normalized_time,target_gain,avoidance_gain");
+  double best = 0.0;
+  std::size_t rows = 0;
+  for (char comma = 0; std::getline(table, line); ++rows) {
+    std::istringstream cells(line);
+    double island = 0.0, cost = 0.0, time = 0.0, gain = 0.0;
+    cells >> island >> comma >> cost >> comma >> time >> comma >> gain;
+    // All targets held, a share of 0.4 gain disconnected, 7 of 20 robots committed; weights 0.3, 0.2, 0.1.
+    EXPECT_NEAR(cost, (0.2 * 0.4 * gain + 0.1 * 0.35) / 0.6, 1e-4);
+    EXPECT_NEAR(time, 1.0 - 0.5 * gain, 1e-6);
+    best = std::max(best, 1.0 - 0.6 * cost - 0.4 * time);
+  }
+  EXPECT_EQ(rows, result.front);
+  EXPECT_GT(rows, 3U);
+  EXPECT_NEAR(p.fitness.of(result.candidates[0].training.merit), best, 1e-6) << "the fittest is on the front";
 }
 
 TEST_F(Tune, TheComparisonIsPartOfTheProgress) {

@@ -80,6 +80,7 @@ struct StatisticsPlan {
   std::vector<std::vector<std::string>> by;
   std::string compare = "algorithm";  // axis whose values are compared pair by pair, in parts that have it;
                                       // the first axis of the study if there is none of this name
+  std::vector<std::string> against;   // labels of it: only comparisons with one of these; empty: all pairs
   double confidence = 0.95;
   double margin = 0.05;  // of the median of the second value; of shares the difference: less does not matter
   std::size_t resamples = 2000;

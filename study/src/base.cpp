@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tune_base.hpp"
+#include "base.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -39,10 +39,10 @@ Node with_base(Node file, const std::string& path, std::vector<config::Problem>&
     return node;
   };
   if (!base->string() || base->string()->empty()) {
-    refuse("must be the name of a tune file, not " + base->describe());
+    refuse("must be the name of a file, not " + base->describe());
     return without_base(std::move(file));
   }
-  const std::string where = (std::filesystem::path(path).parent_path() / *base->string()).lexically_normal().string();
+  const std::string where = beside(base->place, path, *base->string());
   try {
     Node below = config::parse_document(where, config::read_text_file(where));
     if (below.find("base")) {
@@ -56,6 +56,13 @@ Node with_base(Node file, const std::string& path, std::vector<config::Problem>&
     refuse(e.problem.place.text() + ": " + e.problem.text);
     return without_base(std::move(file));
   }
+}
+
+std::string beside(const config::Place& written, const std::string& path, const std::string& reference) {
+  const std::filesystem::path named(reference);
+  if (named.is_absolute() || path == "-") return reference;
+  const std::filesystem::path file(written.from_file() ? *written.origin : path);
+  return (file.parent_path() / named).lexically_normal().string();
 }
 
 }  // namespace banyan::study

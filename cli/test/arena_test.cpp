@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The arena (docs/arena.md) has every algorithm on the list, as it is and tuned, each can be run there, and each has its
+// rows on the page.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "banyan/algorithms/algorithms.hpp"
+#include "banyan/study/results.hpp"
+#include "banyan/study/simulate.hpp"
+#include "banyan/study/study.hpp"
+#include "banyan/study/tune.hpp"
+
+namespace banyan::cli {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = fs::path(BANYAN_SCENARIOS).parent_path();
+
+study::Study arena(const char* name = "arena.toml") {
+  auto loaded = study::load_study((root / "studies" / name).string());
+  for (const auto& problem : loaded.problems) ADD_FAILURE() << config::to_string(problem);
+  return std::move(loaded.study);
+}
+
+// The arena's smallest world, once, for all contenders.
+study::Study tiny() {
+  study::Study study = arena();
+  study.parts.resize(1);
+  study.parts[0].seeds = {1001};
+  for (auto& axis : study.parts[0].axes)
+    if (axis.name != "contender") axis.values.resize(1);
+  return study;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST(Arena, EveryContenderRunsAndEveryAlgorithmIsOne) {
+  const study::Plan plan = study::make_plan(tiny(), algorithms());
+  ASSERT_TRUE(plan.ok()) << config::to_string(plan.problems.front());
+  std::set<std::string, std::less<>> untuned, tuned;
+  for (const auto& run : plan.runs) {
+    const auto configuration = study::configuration_of(plan, run);
+    const auto outcome = study::decode_outcome(study::simulate(study::encode(study::RunTask{config::config_json(configuration), ""}), algorithms()));
+    ASSERT_EQ(outcome.error, "") << run.directory;
+    EXPECT_TRUE(study::trial_of(outcome.row)) << run.directory;
+    const auto& mission = configuration.scenario.mission;
+    (mission.parameters.empty() ? untuned : tuned).insert(mission.algorithm);
+  }
+  for (const auto name : algorithms().names()) {
+    EXPECT_TRUE(untuned.contains(name)) << name << " is not in studies/arena.toml";
+    EXPECT_TRUE(tuned.contains(name)) << name << " is not in studies/arena.toml with the parameters of its tuning";
+  }
+}
+
+TEST(Arena, EveryTuningHasTheSameWorldsSeedsFitnessAndEffort) {
+  std::set<std::string> shared, tuned;
+  for (const auto& entry : fs::directory_iterator(root / "studies")) {
+    if (!entry.path().filename().string().starts_with("tune-arena-")) continue;
+    auto loaded = study::load_tune(entry.path().string(), algorithms());
+    ASSERT_TRUE(loaded.ok()) << config::to_string(loaded.problems.front());
+    auto& plan = loaded.plan;
+    const std::string best = "results/tune/" + plan.name.substr(5) + "/best.toml";
+    EXPECT_TRUE(fs::exists(root / best)) << best;
+    tuned.insert(plan.worlds.front().scenario.mission.algorithm);
+    EXPECT_FALSE(plan.initial.empty()) << plan.name << " does not start from the algorithm's defaults";
+    plan.name.clear();
+    plan.bounds.clear();
+    plan.initial.clear();
+    for (auto& world : plan.worlds) {
+      world.scenario.mission.algorithm = "outwards";
+      world.scenario.mission.reading = "corrected";
+    }
+    shared.insert(study::tune_json(plan));
+  }
+  EXPECT_EQ(shared.size(), 1U);
+  for (const auto name : algorithms().names()) EXPECT_TRUE(tuned.contains(std::string(name))) << "studies/tune-arena-" << name << ".toml";
+}
+
+TEST(Arena, NoSeedOfATuningIsReportedOn) {
+  const auto tuning = study::load_tune((root / "studies/tune-arena-convoy.toml").string(), algorithms()).plan;
+  for (const char* name : {"arena.toml", "arena-full.toml"}) {
+    for (const auto& part : arena(name).parts) {
+      for (const auto seed : part.seeds) {
+        EXPECT_EQ(std::count(tuning.training.begin(), tuning.training.end(), seed), 0) << seed;
+        EXPECT_EQ(std::count(tuning.test.begin(), tuning.test.end(), seed), 0) << seed;
+      }
+    }
+  }
+  EXPECT_EQ(arena("arena-full.toml").parts.at(0).seeds.size(), 50U);
+}
+
+TEST(Arena, EveryContenderHasItsRowOnThePage) {
+  const std::string page = text_of(root / "docs/arena.md");
+  const auto study = arena();
+  for (const auto& axis : study.parts.at(0).axes) {
+    if (axis.name != "contender") continue;
+    for (const auto& value : axis.values) EXPECT_NE(page.find("\n| " + value.label + " |"), std::string::npos) << value.label;
+  }
+}
+
+}  // namespace
+}  // namespace banyan::cli
