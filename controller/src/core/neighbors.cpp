@@ -57,7 +57,7 @@ void Neighbors::begin(int elapsed_ticks, float way_m) noexcept {
   watched_ = static_cast<std::int16_t>(!filter_.is_on() ? 0 : filter_.has_seen_noise() ? neighbor_capacity : sentries);
   elapsed_ticks_ = static_cast<std::int16_t>(std::min(elapsed_ticks, INT16_MAX));
   next_rank_ = 0;
-  missed_ = 0;
+  missed_ = returned_ = 0;
   const auto passed = static_cast<std::uint16_t>(elapsed_ticks_);
   const auto oldest = static_cast<std::uint16_t>(UINT16_MAX - passed);
   std::uint16_t expected = 0;
@@ -98,12 +98,12 @@ int Neighbors::evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noex
 }
 
 // Only silent neighbours are dead-reckoned: one heard just now has a fresh position.
-int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) noexcept {
+int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps) noexcept {
   liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
   for (int k = from, size = size_; k < size; ++k) {
     if (ages_[k] == 0) continue;
     if (ages_[k] == elapsed_ticks_) ++missed_;  // it was heard in the tick before
-    if (ages_[k] > liveness_ticks_ && ids_[k] != keep[0] && ids_[k] != keep[1]) {
+    if (ages_[k] > liveness_ticks_ && !keeps(k)) {
       remove(k);
       return k;
     }

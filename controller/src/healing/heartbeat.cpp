@@ -29,6 +29,7 @@ void hear_heartbeat(HealingRobot& robot) noexcept {
     self.heart = self.root;
     self.heartbeat = m.heartbeat;
     self.root_size = m.root_size;
+    if (self.usual_silence > 0) self.usual_silence = static_cast<std::uint8_t>(std::clamp<int>(self.silence_ticks - robot.elapsed_ticks, self.usual_silence, longest_silence_ticks));
     self.silence_ticks = 0;
   }
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/tree/tie.hpp"
 
 namespace banyan {
 namespace {
@@ -9,6 +10,30 @@ namespace {
 constexpr float fading = 0.99F;           // per tick: about the last hundred ticks count
 constexpr float prior_packets = 2.0F;     // counted as heard before the first one
 constexpr float silent_by_chance = 1e-5F;
+
+// A packet of a robot that was heard a tick ago, is in range and not hidden has been lost.
+bool radio_loses(const HealingRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  const float range_m = longest_link * robot.params.communication_range_m;
+  for (int k = 0; table.missed() > 0 && k < table.size(); ++k)
+    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= range_m && is_in_the_clear(robot, k)) return true;
+  return false;
+}
+
+// Packets may be lost many in a row, or over some links more than over others. Then their share says little of how long
+// a robot that is there may be silent, but silences that have ended do.
+void note_silence(HealingRobot& robot) noexcept {
+  constexpr int first_silence_ticks = 32;  // assumed once the radio loses packets
+  constexpr int fading_turns = 16;         // to be a tick shorter
+  constexpr int silences = 2;              // so much patience
+  HealingState& self = robot.self;
+  const int ended_ticks = std::min(robot.table().returned() - robot.elapsed_ticks, longest_silence_ticks);
+  if (self.usual_silence == 0) self.usual_silence = static_cast<std::uint8_t>(radio_loses(robot) ? first_silence_ticks : 0);
+  else if (ended_ticks > self.usual_silence) self.usual_silence = static_cast<std::uint8_t>(ended_ticks);
+  else if (self.turn % fading_turns == 0) --self.usual_silence;
+  const bool growing = self.phase >= Phase::grow_tree;
+  robot.tie_ticks = self.usual_silence == 0 ? 0 : growing ? std::max(robot.liveness_ticks(), silences * self.usual_silence) : longest_silence_ticks;
+}
 
 }  // namespace
 
@@ -28,6 +53,7 @@ void estimate_loss(HealingRobot& robot) noexcept {
     ++self.loss_ticks;
   }
   robot.loss_ticks = self.loss_ticks;
+  note_silence(robot);
 }
 
 }  // namespace banyan

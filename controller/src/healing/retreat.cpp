@@ -12,7 +12,7 @@ constexpr float regroup_for_s = 40.0F;  // at most, then it waits again
 constexpr int lost_ticks = 22;  // an orphan that has found no hold for so long has none in reach
 
 bool is_cut_off(const HealingRobot& robot) noexcept {
-  return robot.self.silence_ticks > robot.params.ticks(robot.params.retreat_after_s) + 2 * robot.liveness_ticks();
+  return robot.self.silence_ticks > robot.params.ticks(robot.params.retreat_after_s) + 2 * std::max(robot.liveness_ticks(), robot.tie_ticks);
 }
 
 // A robot that hears no other keeps none connected and may search: a root left alone or hidden among bodies, or a

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/obstacles/sight.hpp"
 
-#include <algorithm>
-
-
 namespace banyan {
 namespace {
 
@@ -20,13 +17,6 @@ bool blocks(Vec2 p, Vec2 a, Vec2 d, float d2, float clearance_m) noexcept {
 }
 
 }  // namespace
-
-Vec2 nearest_on_segment(Vec2 a, Vec2 b) noexcept {
-  const Vec2 d = b - a;
-  const float d2 = squared_norm(d);
-  const float t = d2 > 0.0F ? std::clamp(-dot(a, d) / d2, 0.0F, 1.0F) : 0.0F;
-  return a + d * t;
-}
 
 bool is_clear(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, int i, int j, float clearance_m) noexcept {
   const TreeTable& table = robot.table();

@@ -5,6 +5,7 @@
 
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
+#include "banyan/controller/tree/tie.hpp"
 
 namespace banyan {
 namespace {
@@ -119,7 +120,7 @@ void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   if (!robot.reading.guards_edges) return;
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m - robot.table().spread_m(), robot.params.guard_rate_per_s);
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m - robot.table().spread_m() - strayed_m(robot, k), robot.params.guard_rate_per_s);
   });
 }
 
@@ -129,13 +130,19 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   const float longest_m = longest_link * p.communication_range_m;
   const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // below it full speed is allowed
   const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
-  for (int k = 0; k < table.size(); ++k) {
-    if (table.range(k) <= limited_m || !table.alive(k) || robot.is_tree_neighbor(k)) continue;
+  // In a grown tree only robots of its epoch wait for a hold: those of another are cut off, or of another fragment.
+  const bool waits_for_all = robot.self.phase < Phase::grow_tree;
+  const auto holds_me = [&](int k) {
+    if (!table.alive(k)) return !lets_go && is_tie(robot, k);
     const TreeStanding& m = table.message(k);
     const bool tied_to_me = k == robot.hold || hold_of(m) == robot.self.id;
-    // In a grown tree only robots of its epoch wait for a hold: those of another are cut off, or of another fragment.
-    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || robot.self.phase < Phase::grow_tree);
-    if (tied_to_me || (!lets_go && (untied || waits))) guard.add(table.position(k), longest_m - table.spread_m(), p.guard_rate_per_s);
+    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || waits_for_all);
+    return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
+  };
+  for (int k = 0; k < table.size(); ++k) {
+    const float strayed = strayed_m(robot, k);
+    if (table.range(k) + strayed <= limited_m || k == robot.parent || k == robot.old_parent || !holds_me(k)) continue;
+    guard.add(table.position(k), longest_m - table.spread_m() - strayed, p.guard_rate_per_s);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/tree/tie.hpp"
 
 namespace banyan {
 
@@ -73,9 +74,11 @@ void file_heard(TreeRobot& robot) noexcept {
 
 void forget_silent(TreeRobot& robot, FunctionRef<void(int, int)> close) noexcept {
   TreeTable& table = robot.self.neighbors;
-  const std::array<RobotId, 2> keep{robot.self.parent, robot.self.old_parent};
+  const auto keeps = [&](int k) {
+    return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || (table.age(k) <= robot.tie_ticks && may_depend(robot, k));
+  };
   const int liveness_ticks = robot.liveness_ticks();
-  for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keep)) >= 0;) {
+  for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keeps)) >= 0;) {
     close_gap(table.standings, k, table.size() + 1);
     close(k, table.size() + 1);
   }

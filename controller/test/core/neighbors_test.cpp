@@ -44,7 +44,8 @@ class Table : public Neighbors {
       if (k < 0) k = enter(p.id, p.position, must_stay(p.id, p.said), [&](int j) { return must_stay(id(j), said(j)); });
       if (k >= 0) said_[static_cast<std::size_t>(k)] = p.said;
     }
-    for (int k = 0; (k = remove_next(k, carry, liveness_ticks, keep)) >= 0;) close_gap(said_, k, size() + 1);
+    const auto keeps = [&](int k) { return id(k) == keep[0] || id(k) == keep[1]; };
+    for (int k = 0; (k = remove_next(k, carry, liveness_ticks, keeps)) >= 0;) close_gap(said_, k, size() + 1);
   }
   float way_m = 0.0F;  // 0: measurements are not filtered
   [[nodiscard]] const Said& said(int k) const { return said_[static_cast<std::size_t>(k)]; }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/tree/motion.hpp"
 #include "bench.hpp"
 
@@ -38,6 +39,7 @@ struct Follower {
   // Fastest motion that the links allow in a direction, m/s.
   float allowed(Vec2 direction, bool lets_go = false) {
     auto robot = bench.tick();
+    estimate_loss(robot);
     find_hold(robot);
     Guard guard;
     guard_links(robot, lets_go, guard);
@@ -161,6 +163,27 @@ TEST(Hold, IsNotLeftBehindAndDoesNotLeave) {
   auto& other = f.bench.put(5, {1.88F, 0.0F});
   other.grant = f.bench.state.id;
   EXPECT_NEAR(f.allowed({-1.0F, 0.0F}, true), 0.02F, 1e-4F) << "who has me as its hold is not left, even on a retreat";
+}
+
+// It may only not be heard, and have driven away since.
+TEST(Hold, WhoFallsSilentIsNotLeftAtOnceWherePacketsGetLost) {
+  const auto allowed_after = [](int ticks, std::uint8_t usual_silence) {
+    Follower f;
+    f.bench.put(5, {1.7F, 0.0F}).grant = f.bench.state.id;
+    f.bench.steps(3);
+    f.bench.silence(5);
+    for (int k = 0; k < ticks; ++k) {
+      f.bench.state.usual_silence = usual_silence;
+      f.bench.step();
+    }
+    f.bench.state.usual_silence = usual_silence;
+    return f.allowed({-1.0F, 0.0F});
+  };
+  EXPECT_NEAR(allowed_after(1, 32), 0.2F, 1e-4F) << "0.2 m are left: full speed";
+  EXPECT_NEAR(allowed_after(6, 32), 0.1F, 1e-4F) << "it may be 0.1 m farther";
+  EXPECT_LE(allowed_after(40, 32), 0.0F) << "0.6 m farther";
+  EXPECT_NEAR(allowed_after(70, 32), 0.2F, 1e-4F) << "after twice the usual silence it is gone";
+  EXPECT_NEAR(allowed_after(7, 0), 0.2F, 1e-4F) << "where nothing gets lost, after I";
 }
 
 // A worker that waits for the first tree is drawn back the more, the farther its hold is: a hand's breadth does not

@@ -38,8 +38,51 @@ TEST(Loss, NobodyWaitsLongerWhereNothingIsLost) {
   EXPECT_LE(watch.bench.state.loss_ticks, watch.bench.params.ticks(watch.bench.params.liveness_period_s));
 }
 
+// A neighbour falls silent: a robot can tell whether that has another reason than the radio.
+TEST(Loss, OnlyASilenceWithoutAnyOtherReasonIsTheRadios) {
+  const auto silence_after = [](Vec2 at, Vec2 other, bool line_of_sight, bool obstacle) {
+    ConvoyBench bench = grown<Convoy>();
+    bench.params.line_of_sight = line_of_sight;
+    bench.put(20, at);
+    bench.put(21, other);
+    bench.steps(5);
+    EXPECT_EQ(bench.state.usual_silence, 0);
+    bench.silence(20);
+    if (obstacle) bench.obstacles.push_back({0.25F, 0.0F});
+    bench.step();
+    return static_cast<int>(bench.state.usual_silence);
+  };
+  EXPECT_GT(silence_after({1.0F, 0.0F}, {0.0F, 1.0F}, true, false), 0);
+  EXPECT_EQ(silence_after({1.95F, 0.0F}, {0.0F, 1.0F}, true, false), 0) << "it may have gone out of range";
+  EXPECT_EQ(silence_after({1.0F, 0.0F}, {0.5F, 0.1F}, true, false), 0) << "a body hides it";
+  EXPECT_GT(silence_after({1.0F, 0.0F}, {0.5F, 0.1F}, false, false), 0) << "bodies hide nobody";
+  EXPECT_EQ(silence_after({1.0F, 0.0F}, {0.0F, 1.0F}, true, true), 0) << "an obstacle may hide it";
+}
+
+// Then silences that have ended say how long one may last. A child that comes back late makes patient.
+TEST(Loss, PatienceFollowsTheSilencesThatHaveEnded) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.put(20, {1.0F, 0.0F});
+  auto& child = bench.put(21, {0.0F, 1.0F});
+  child.role = Role::worker;
+  child.parent = bench.state.id;
+  bench.steps(5);
+  const auto said = child;
+  bench.silence(20);
+  bench.silence(21);
+  bench.steps(60);
+  EXPECT_LT(bench.state.usual_silence, 40) << "a silence that lasts may be a death";
+  bench.put(21, {0.0F, 1.0F}) = said;
+  bench.step();
+  EXPECT_EQ(bench.state.usual_silence, 60);
+  bench.steps(200);
+  EXPECT_LT(bench.state.usual_silence, 50);
+  bench.steps(1000);
+  EXPECT_EQ(bench.state.usual_silence, 0) << "nothing gets lost any more";
+}
+
 TEST(Loss, AConnectorWaitsForItsChildAsLongAsAPacketMayBeLost) {
-  const auto ticks_as_connector = [](std::uint16_t loss_ticks) {
+  const auto ticks_as_connector = [](std::uint8_t loss_ticks) {
     ConvoyBench bench = grown<Convoy>();
     bench.state.role = Role::connector;
     bench.state.loss_ticks = loss_ticks;

@@ -11,7 +11,7 @@ namespace banyan {
 namespace {
 
 TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
-  Watch watch({1.9F, 0.0F});
+  Watch watch({1.95F, 0.0F});
   watch.hear_root(200);
   watch.bench.state.root_at = {6.0F, 0.0F};
   watch.bench.silence(root_id);
@@ -21,14 +21,37 @@ TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
   EXPECT_TRUE(is_retreating(robot, false));
   EXPECT_GT(retreat_motion(robot, false, true).x, 0.9F);
   EXPECT_GT(watch.bench.step().velocity.forward_m_s, 0.15F);
-  watch.bench.put(root_id, {1.9F, 0.0F}).heartbeat = watch.count;
+  watch.bench.put(root_id, {1.95F, 0.0F}).heartbeat = watch.count;
   watch.bench.step();
   auto back = watch.bench.tick();
   EXPECT_FALSE(is_retreating(back, false));
 }
 
+// Where packets get lost, and before the first tree, silence says less.
+TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
+  const auto ticks_until = [](std::uint8_t usual_silence, Phase phase) {
+    Watch watch({1.95F, 0.0F});
+    watch.hear_root(50);
+    auto& state = watch.bench.state;
+    state.phase = watch.bench.say(root_id).phase = phase;
+    state.root_at = {6.0F, 0.0F};
+    watch.bench.silence(root_id);
+    int ticks = 0;
+    for (; ticks < 1000; ++ticks) {
+      state.usual_silence = usual_silence;
+      auto robot = watch.bench.tick();
+      follow_heartbeat(robot);
+      if (is_retreating(robot, false)) break;
+    }
+    return ticks;
+  };
+  const int ticks = ticks_until(0, Phase::grow_tree);
+  EXPECT_EQ(ticks_until(30, Phase::grow_tree), ticks + 4 * 30 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
+  EXPECT_EQ(ticks_until(0, Phase::start_tree), ticks + 100);
+}
+
 TEST(Retreat, TheSilentHoldNobodyBack) {
-  Watch watch({-1.9F, 0.0F});
+  Watch watch({-1.95F, 0.0F});
   watch.hear_root(3);
   auto& state = watch.bench.state;
   state.parent = root_id;

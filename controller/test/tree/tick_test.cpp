@@ -100,7 +100,7 @@ TEST(Table, NeitherItselfNorNobodyIsANeighbor) {
 
 TEST(Table, LongerStepsAgeItFaster) {
   Bench bench;
-  bench.put(2, {1.0F, 0});
+  bench.put(2, {1.95F, 0});
   bench.step();
   const auto silent_step = [&] { std::ignore = outwards_step(bench.params, bench.state, {}, {.elapsed_s = 0.5F}); };
   for (int k = 1; k <= 2; ++k) {

@@ -42,15 +42,16 @@ class Neighbors {
     const int k = next_rank_ < size_ && ids_[by_id_[next_rank_]] == id ? by_id_[next_rank_++] : find_next(id);
     if (k < 0) return k;
     if (ages_[k] == elapsed_ticks_) before = positions_[k];
+    returned_ = std::max(returned_, static_cast<std::int16_t>(ages_[k]));
     put(k, k < watched_ && ages_[k] > 0 ? filtered(k, carry.point(positions_[k]), position) : position);
     return k;
   }
   // The index of a new sender; -1 if there is no room for it. When more robots are heard than the table holds,
   // those that must not be lost stay (`must`: the sender; `ties(k)`: entry k), and of the others the nearest.
   int enter(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
-  // From entry `from` on: removes the first that is older than `liveness_ticks` and none of `keep`, neighbours
-  // whose silence matters; those behind it move up by one. Its index; -1 if there is none.
-  int remove_next(int from, const Carry& carry, int liveness_ticks, std::array<RobotId, 2> keep) noexcept;
+  // From entry `from` on: removes the first that is older than `liveness_ticks`, unless `keeps(k)`: its silence
+  // matters; those behind it move up by one. Its index; -1 if there is none.
+  int remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps) noexcept;
 
   // About `entries` entries are needed soon.
   void prefetch(std::size_t entries) const noexcept;
@@ -69,6 +70,8 @@ class Neighbors {
   // Of those heard in the tick before: how many they were, and how many were not heard in this one.
   [[nodiscard]] int expected() const noexcept { return expected_; }
   [[nodiscard]] int missed() const noexcept { return missed_; }
+  // For how many ticks the one among those heard in this step had been silent that had been so for longest.
+  [[nodiscard]] int returned() const noexcept { return returned_; }
   // Heard within the liveness period; only a kept, silent neighbour is not.
   [[nodiscard]] bool alive(int k) const noexcept { return ages_[k] <= liveness_ticks_; }
 
@@ -93,6 +96,7 @@ class Neighbors {
   std::int16_t expected_ = 0;
   std::int16_t missed_ = 0;
   std::int16_t elapsed_ticks_ = 1;
+  std::int16_t returned_ = 0;
   std::int16_t watched_ = 0;    // so many of the first entries are compared with where they were expected
   PositionFilter filter_;
   Array<RobotId> ids_{};

@@ -49,6 +49,15 @@ BasicVec2<T> clamped(BasicVec2<T> a, T limit) noexcept {
 // A quarter turn to the left.
 template <class T> constexpr BasicVec2<T> left_of(BasicVec2<T> v) noexcept { return {-v.y, v.x}; }
 
+// The point of segment a-b that is nearest to the origin.
+template <class T>
+constexpr BasicVec2<T> nearest_on_segment(BasicVec2<T> a, BasicVec2<T> b) noexcept {
+  const BasicVec2<T> d = b - a;
+  const T d2 = squared_norm(d);
+  const T t = d2 > T(0) ? -dot(a, d) / d2 : T(0);
+  return a + d * (t < T(0) ? T(0) : t > T(1) ? T(1) : t);
+}
+
 // A rotation is a unit vector (cos, sin): composing two is complex multiplication, no trigonometry.
 template <class T> constexpr BasicVec2<T> rotate(BasicVec2<T> rotation, BasicVec2<T> v) noexcept {
   return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};

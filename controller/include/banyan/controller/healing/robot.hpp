@@ -7,6 +7,7 @@
 #include "banyan/controller/healing/params.hpp"
 #include "banyan/controller/healing/state.hpp"
 #include "banyan/controller/tree/robot.hpp"
+#include "banyan/controller/tree/tie.hpp"
 
 namespace banyan {
 
@@ -27,6 +28,8 @@ struct HealingRobot : TreeRobot {
   HealingRobot(const HealingParams& params_, HealingState& self_, const Admitted& admitted) noexcept
       : TreeRobot(params_, corrected_reading, self_, admitted), params(params_), self(self_) {
     loss_ticks = self.loss_ticks;
+    held = self.hold;
+    tie_ticks = self.usual_silence == 0 ? 0 : longest_silence_ticks;
   }
 
   const HealingParams& params;   // the same objects as the tree's

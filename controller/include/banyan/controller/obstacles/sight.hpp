@@ -8,9 +8,6 @@
 
 namespace banyan {
 
-// The point of segment a-b that is nearest to the origin, i.e. to me.
-[[nodiscard]] Vec2 nearest_on_segment(Vec2 a, Vec2 b) noexcept;
-
 inline constexpr float narrow = 0.5F;  // of `clearance`: just past a body, better than nothing
 
 // No robot of the table but neighbours `i` and `j` (-1: none) is nearer than `clearance_m` to the inside

@@ -32,7 +32,7 @@ struct Table : Neighbors {
       if (k < 0) k = enter(m.id, h.position, ties(m.id), [&](int j) { return ties(id(j)); });
       if (k >= 0) messages[static_cast<std::size_t>(k)] = m;
     }
-    for (int k = 0; (k = remove_next(k, carry, liveness_ticks, {nobody, nobody})) >= 0;) close_gap(messages, k, size() + 1);
+    for (int k = 0; (k = remove_next(k, carry, liveness_ticks, [](int) { return false; })) >= 0;) close_gap(messages, k, size() + 1);
   }
 
   void add_to(Digest& digest) const noexcept {

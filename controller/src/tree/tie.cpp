@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/tree/tie.hpp"
+
+#include <algorithm>
+
+namespace banyan {
+
+bool is_in_the_clear(const TreeRobot& robot, int k) noexcept {
+  constexpr float bodies = 2.0F;  // of the distance between the wheels: a body that hides it may have moved since
+  const TreeParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  if (!robot.obstacles.empty()) return false;
+  const Vec2 there = table.position(k);
+  for (int j = 0; p.line_of_sight && j < table.size(); ++j)
+    if (j != k && norm(nearest_on_segment(-table.position(j), there - table.position(j))) < bodies * p.wheel_distance_m) return false;
+  return true;
+}
+
+bool may_depend(const TreeRobot& robot, int k) noexcept {
+  const TreeState& self = robot.self;
+  const TreeStanding& m = robot.table().message(k);
+  if (m.parent == self.id || m.old_parent == self.id) return m.role != Role::spare;
+  const bool untied = robot.held == nobody && self.parent == nobody && self.old_parent == nobody && !robot.is_root();
+  return untied || is_untied(m) || hold_of(m) == self.id || robot.table().id(k) == robot.held;
+}
+
+bool is_tie(const TreeRobot& robot, int k) noexcept {
+  return robot.table().age(k) <= robot.tie_ticks && may_depend(robot, k) && is_in_the_clear(robot, k);
+}
+
+float way_since_m(const TreeRobot& robot, int k) noexcept {
+  constexpr int at_most_ticks = 30;
+  if (!is_in_the_clear(robot, k)) return 0.0F;
+  const TreeParams& p = robot.params;
+  return p.speed_gain_m_s * p.tick_s * static_cast<float>(std::min(robot.table().age(k) - 2, at_most_ticks));
+}
+
+}  // namespace banyan
