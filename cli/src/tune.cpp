@@ -99,7 +99,7 @@ std::string summary_text(const TunePlan& plan, const study::TuneResult& result, 
   text += "\nResults in " + directory + "/\n";
   text += "  best.toml        the best parameters; lay them over a scenario: banyan run FILE --with best.toml\n";
   text += "  tune.json        everything above, with the whole configuration\n";
-  text += "  generations.csv  fitness over generations; fitness.svg, fitness.png: drawn\n";
+  text += "  generations.csv  fitness over generations; fitness.svg, fitness.pdf, fitness.png: drawn\n";
   if (plan.optimizer.search == study::Search::nsga2)
     text += "  front.csv        " + plural(result.front, "compromise") + " between the two goals\n";
   return text;

@@ -2,7 +2,9 @@
 // What a study file means, and that everything wrong with one is said with its line.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "banyan/study/plan.hpp"
 #include "banyan/study/study.hpp"
@@ -302,11 +304,9 @@ TEST_F(StudyFile, SaysWhatIsWrongElsewhere) {
 }
 
 TEST_F(StudyFile, SaysWhatIsWrongWithStatisticsAndFigures) {
-  const std::
-      string
-          axes =
-              "[[axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13, "
-              "14]\n";                                                                 // 3 to 6
+  const std::string axes =
+      "[[axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13, "
+      "14]\n";                                                                         // 3 to 6
   const auto with = [&](const std::string& text) { return bad(head + axes + text); };  // from line 7 on
   EXPECT_TRUE(says(with("[statistics]\nmetrics = [\"complet\"]\n"),
                    "s.toml:8: error: statistics.metrics: \"complet\" is no column of numbers in the table of runs; did "
@@ -364,6 +364,30 @@ columns = 2
   EXPECT_EQ(one.figures[0].metrics[1].scale, FigureScale::log) << "one for all";
   EXPECT_EQ(one.figures[0].metrics[1].title, "b");
   EXPECT_FALSE(one.figures[0].width_in || one.figures[0].columns);
+}
+
+// The table of docs/studies.md has the keys that the reader knows, no more and no less.
+TEST_F(StudyFile, TheKeysOfFiguresAreDocumented) {
+  const std::string message = all_problems(bad(head + "[[figures]]\nmetric = \"committed\"\nno_such_key = 1\n"));
+  const std::size_t begin = message.find("[figures[0]] has: ") + 18;
+  std::string known = message.substr(begin, message.find(')', begin) - begin) + ",";
+  std::set<std::string> keys;
+  for (std::size_t comma; (comma = known.find(',')) != std::string::npos; known.erase(0, comma + 1))
+    keys.insert(known.substr(known.find_first_not_of(' '), comma - known.find_first_not_of(' ')));
+  EXPECT_GT(keys.size(), 15U) << message;
+  const std::string page = contents(std::filesystem::path(BANYAN_SCENARIOS).parent_path() / "docs/studies.md");
+  const std::size_t section = page.find("## Figures");
+  std::set<std::string> documented;
+  for (std::size_t row = page.find("\n| `", section); row != std::string::npos && row < page.find("**Boxes.**");
+       row = page.find("\n| `", row + 1)) {
+    const std::string cell = page.substr(row + 2, page.find(" | ", row) - row - 2);
+    for (std::size_t quote = cell.find('`'); quote != std::string::npos;) {
+      const std::size_t end = cell.find('`', quote + 1);
+      documented.insert(cell.substr(quote + 1, end - quote - 1));
+      quote = cell.find('`', end + 1);
+    }
+  }
+  EXPECT_EQ(documented, keys);
 }
 
 TEST_F(StudyFile, SaysWhatIsWrongWithScalesAndWidths) {
