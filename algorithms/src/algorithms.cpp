@@ -2,6 +2,7 @@
 // The one list. An algorithm is a line here and a folder of its own.
 #include "banyan/algorithms/algorithms.hpp"
 
+#include "banyan/rivals/branches/branches.hpp"
 #include "banyan/rivals/chains/chains.hpp"
 #include "banyan/rivals/cohesion/cohesion.hpp"
 #include "banyan/rivals/fiedler/fiedler.hpp"
@@ -20,6 +21,7 @@ const AlgorithmList& algorithms() noexcept {
       &rivals::fiedler::algorithm(),
       &rivals::cohesion::algorithm(),
       &rivals::chains::algorithm(),
+      &rivals::branches::algorithm(),
   };
   return all;
 }

@@ -24,14 +24,6 @@ bool runs_until_all_are_held(World& world, double seconds) {
   return all_held(world);
 }
 
-std::vector<RobotId> links_of(const Report& r) {
-  std::vector<RobotId> links;
-  if (r.parent != nobody) links.push_back(r.parent);
-  for (const RobotId id : r.kept)
-    if (id != nobody) links.push_back(id);
-  return links;
-}
-
 std::size_t base_of(const World& world) {
   for (std::size_t i = 0; i < world.size(); ++i)
     if (world.alive()[i] && world.reports()[i].role == Role::root) return i;

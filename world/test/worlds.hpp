@@ -79,6 +79,15 @@ inline std::size_t parts_by_range(const World& world) {
   return parts;
 }
 
+// The links that a robot promises to keep.
+inline std::vector<RobotId> links_of(const Report& r) {
+  std::vector<RobotId> links;
+  if (r.parent != nobody) links.push_back(r.parent);
+  for (const RobotId id : r.kept)
+    if (id != nobody) links.push_back(id);
+  return links;
+}
+
 inline bool all_held(const World& world) {
   for (std::size_t k = 0; k < world.targets().size(); ++k)
     if (!world.holder(k)) return false;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/rivals/common/algorithm.hpp"
+#include "banyan/rivals/branches/branches.hpp"
+
+namespace banyan::rivals::branches {
+
+const Algorithm& algorithm() noexcept {
+  static constexpr AlgorithmOf<Robots> described({
+      .name = "branches",
+      .summary = "teams leave connectors behind them, and branches move to nearer connectors to shorten the network",
+      .bind = bind<Params, parameters>,
+      .fault = fault,
+      .follows_range = true,
+  });
+  return described;
+}
+
+}  // namespace banyan::rivals::branches

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What robots of branch repositioning say.
+#include "banyan/rivals/branches/branches.hpp"
+#include "said.hpp"
+
+namespace banyan::rivals::branches {
+namespace {
+
+struct Sample : Robots {
+  static constexpr const char* length_in_documents = "one of branches (\\d+)";
+  static void fill(Message& m) {
+    m.id = sender();
+    for (RobotId* id : {&m.parent, &m.leaves, &m.joins, &m.held_by, &m.calls, &m.team, &m.needy, &m.sends, &m.root})
+      *id = word();
+    for (std::uint8_t* n : {&m.joined_age, &m.stage, &m.team_age, &m.needed, &m.needy_age, &m.root_age}) *n = byte();
+    m.leader = *rc::gen::arbitrary<bool>();
+    m.connector = *rc::gen::arbitrary<bool>();
+    for (RobotId& id : m.links) id = word();
+  }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(Branches, Said, Sample);
+
+}  // namespace
+}  // namespace banyan::rivals::branches
