@@ -11,12 +11,14 @@ constexpr float fading = 0.99F;           // per tick: about the last hundred ti
 constexpr float prior_packets = 2.0F;     // counted as heard before the first one
 constexpr float silent_by_chance = 1e-5F;
 
-// A packet of a robot that was heard a tick ago, is in range and not hidden has been lost.
+// A packet of a robot that was heard a tick ago, is in range and not hidden has been lost. One such robot is looked at
+// in a step: if packets get lost, another will be soon.
 bool radio_loses(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const float range_m = longest_link * robot.params.communication_range_m;
-  for (int k = 0; table.missed() > 0 && k < table.size(); ++k)
-    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= range_m && is_in_the_clear(robot, k)) return true;
+  if (table.missed() == 0) return false;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= range_m) return is_in_the_clear(robot, k);
   return false;
 }
 
