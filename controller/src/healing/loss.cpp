@@ -11,9 +11,9 @@ constexpr float fading = 0.99F;           // per tick: about the last hundred ti
 constexpr float prior_packets = 2.0F;     // counted as heard before the first one
 constexpr float silent_by_chance = 1e-5F;
 
-// A packet of a robot that was heard a tick ago, is in range and not hidden has been lost. One such robot is looked at
-// in a step: if packets get lost, another will be soon.
-bool radio_loses(const HealingRobot& robot) noexcept {
+// A neighbour that was heard a tick ago, is in range and in the clear is silent. One such neighbour is looked at in a
+// step: where packets get lost, there will soon be another.
+bool is_missed(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const float range_m = longest_link * robot.params.communication_range_m;
   if (table.missed() == 0) return false;
@@ -23,18 +23,22 @@ bool radio_loses(const HealingRobot& robot) noexcept {
 }
 
 // Packets may be lost many in a row, or over some links more than over others. Then their share says little of how long
-// a robot that is there may be silent, but silences that have ended do.
+// a robot that is there may be silent, but silences that have ended do. One or two that begin may be deaths.
 void note_silence(HealingRobot& robot) noexcept {
+  constexpr int memory_turns = 512;
+  constexpr int deaths = 2;                // within this time, that are no sign of lost packets
   constexpr int first_silence_ticks = 32;  // assumed once the radio loses packets
   constexpr int fading_turns = 16;         // to be a tick shorter
-  constexpr int silences = 2;              // so much patience
   HealingState& self = robot.self;
+  if (self.turn % memory_turns == 0) self.missed_in_the_clear = 0;
+  if (self.usual_silence == 0) {
+    if (is_missed(robot)) ++self.missed_in_the_clear;
+    if (self.missed_in_the_clear > deaths) self.usual_silence = first_silence_ticks;
+    return;
+  }
   const int ended_ticks = std::min(robot.table().returned() - robot.elapsed_ticks, longest_silence_ticks);
-  if (self.usual_silence == 0) self.usual_silence = static_cast<std::uint8_t>(radio_loses(robot) ? first_silence_ticks : 0);
-  else if (ended_ticks > self.usual_silence) self.usual_silence = static_cast<std::uint8_t>(ended_ticks);
+  if (ended_ticks > self.usual_silence) self.usual_silence = static_cast<std::uint8_t>(ended_ticks);
   else if (self.turn % fading_turns == 0) --self.usual_silence;
-  const bool growing = self.phase >= Phase::grow_tree;
-  robot.tie_ticks = self.usual_silence == 0 ? 0 : growing ? std::max(robot.liveness_ticks(), silences * self.usual_silence) : longest_silence_ticks;
 }
 
 }  // namespace
@@ -56,6 +60,7 @@ void estimate_loss(HealingRobot& robot) noexcept {
   }
   robot.loss_ticks = self.loss_ticks;
   note_silence(robot);
+  robot.tie_ticks = robot.patience_with_ties();
 }
 
 }  // namespace banyan

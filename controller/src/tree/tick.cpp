@@ -75,7 +75,7 @@ void file_heard(TreeRobot& robot) noexcept {
 void forget_silent(TreeRobot& robot, FunctionRef<void(int, int)> close) noexcept {
   TreeTable& table = robot.self.neighbors;
   const auto keeps = [&](int k) {
-    return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || (table.age(k) <= robot.tie_ticks && may_depend(robot, k));
+    return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || (robot.tie_ticks > 0 && table.age(k) <= longest_silence_ticks && may_depend(robot, k));
   };
   const int liveness_ticks = robot.liveness_ticks();
   for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keeps)) >= 0;) {

@@ -167,9 +167,9 @@ TEST(Hold, IsNotLeftBehindAndDoesNotLeave) {
 
 // It may only not be heard, and have driven away since.
 TEST(Hold, WhoFallsSilentIsNotLeftAtOnceWherePacketsGetLost) {
-  const auto allowed_after = [](int ticks, std::uint8_t usual_silence) {
+  const auto allowed_after = [](int ticks, std::uint8_t usual_silence, Vec2 way = {0.0F, 1.0F}) {
     Follower f;
-    f.bench.put(5, {1.7F, 0.0F}).grant = f.bench.state.id;
+    f.bench.put(5, way * 1.7F).grant = f.bench.state.id;
     f.bench.steps(3);
     f.bench.silence(5);
     for (int k = 0; k < ticks; ++k) {
@@ -177,13 +177,14 @@ TEST(Hold, WhoFallsSilentIsNotLeftAtOnceWherePacketsGetLost) {
       f.bench.step();
     }
     f.bench.state.usual_silence = usual_silence;
-    return f.allowed({-1.0F, 0.0F});
+    return f.allowed(-way);
   };
   EXPECT_NEAR(allowed_after(1, 32), 0.2F, 1e-4F) << "0.2 m are left: full speed";
   EXPECT_NEAR(allowed_after(6, 32), 0.1F, 1e-4F) << "it may be 0.1 m farther";
   EXPECT_LE(allowed_after(40, 32), 0.0F) << "0.6 m farther";
   EXPECT_NEAR(allowed_after(70, 32), 0.2F, 1e-4F) << "after twice the usual silence it is gone";
   EXPECT_NEAR(allowed_after(7, 0), 0.2F, 1e-4F) << "where nothing gets lost, after I";
+  EXPECT_NEAR(allowed_after(40, 32, {1.0F, 0.0F}), 0.2F, 1e-4F) << "robots 2 and 3 may hide it";
 }
 
 // A worker that waits for the first tree is drawn back the more, the farther its hold is: a hand's breadth does not

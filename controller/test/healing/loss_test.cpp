@@ -39,24 +39,39 @@ TEST(Loss, NobodyWaitsLongerWhereNothingIsLost) {
 }
 
 // A neighbour falls silent: a robot can tell whether that has another reason than the radio.
-TEST(Loss, OnlyASilenceWithoutAnyOtherReasonIsTheRadios) {
-  const auto silence_after = [](Vec2 at, Vec2 other, bool line_of_sight, bool obstacle) {
+TEST(Loss, OnlySilencesWithoutAnyOtherReasonAreTheRadios) {
+  const auto after_losses = [](int losses, Vec2 at, Vec2 other, bool line_of_sight, bool obstacle) {
     ConvoyBench bench = grown<Convoy>();
     bench.params.line_of_sight = line_of_sight;
-    bench.put(20, at);
+    bench.state.turn = 0;
     bench.put(21, other);
-    bench.steps(5);
-    EXPECT_EQ(bench.state.usual_silence, 0);
-    bench.silence(20);
     if (obstacle) bench.obstacles.push_back({0.25F, 0.0F});
-    bench.step();
+    for (int k = 0; k < losses; ++k) {
+      bench.put(20, at);
+      bench.steps(2);
+      bench.silence(20);
+      bench.step();
+    }
     return static_cast<int>(bench.state.usual_silence);
   };
-  EXPECT_GT(silence_after({1.0F, 0.0F}, {0.0F, 1.0F}, true, false), 0);
-  EXPECT_EQ(silence_after({1.95F, 0.0F}, {0.0F, 1.0F}, true, false), 0) << "it may have gone out of range";
-  EXPECT_EQ(silence_after({1.0F, 0.0F}, {0.5F, 0.1F}, true, false), 0) << "a body hides it";
-  EXPECT_GT(silence_after({1.0F, 0.0F}, {0.5F, 0.1F}, false, false), 0) << "bodies hide nobody";
-  EXPECT_EQ(silence_after({1.0F, 0.0F}, {0.0F, 1.0F}, true, true), 0) << "an obstacle may hide it";
+  EXPECT_EQ(after_losses(2, {1.0F, 0.0F}, {0.0F, 1.0F}, true, false), 0) << "they may be deaths";
+  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.0F, 1.0F}, true, false), 32);
+  EXPECT_EQ(after_losses(3, {1.95F, 0.0F}, {0.0F, 1.0F}, true, false), 0) << "it may have gone out of range";
+  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.5F, 0.1F}, true, false), 0) << "a body hides it";
+  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.5F, 0.1F}, false, false), 32) << "bodies hide nobody";
+  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.0F, 1.0F}, true, true), 0) << "an obstacle may hide it";
+}
+
+// Deaths that are far apart do not add up to a bad radio.
+TEST(Loss, SilencesOfLongAgoAreForgotten) {
+  ConvoyBench bench = grown<Convoy>();
+  for (const RobotId dead : {RobotId{20}, RobotId{21}, RobotId{22}, RobotId{23}}) {
+    bench.put(dead, {1.0F, 0.0F});
+    bench.steps(2);
+    bench.silence(dead);
+    bench.steps(520);
+    EXPECT_EQ(bench.state.usual_silence, 0) << dead;
+  }
 }
 
 // Then silences that have ended say how long one may last. A child that comes back late makes patient.
@@ -68,10 +83,13 @@ TEST(Loss, PatienceFollowsTheSilencesThatHaveEnded) {
   child.parent = bench.state.id;
   bench.steps(5);
   const auto said = child;
+  bench.state.missed_in_the_clear = 2;
   bench.silence(20);
+  bench.step();
+  EXPECT_EQ(bench.state.usual_silence, 32);
   bench.silence(21);
   bench.steps(60);
-  EXPECT_LT(bench.state.usual_silence, 40) << "a silence that lasts may be a death";
+  EXPECT_LE(bench.state.usual_silence, 32) << "a silence that lasts may be a death";
   bench.put(21, {0.0F, 1.0F}) = said;
   bench.step();
   EXPECT_EQ(bench.state.usual_silence, 60);

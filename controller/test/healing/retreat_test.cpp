@@ -27,7 +27,7 @@ TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
   EXPECT_FALSE(is_retreating(back, false));
 }
 
-// Where packets get lost, and before the first tree, silence says less.
+// Where packets get lost silence says less, and least before the first tree.
 TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
   const auto ticks_until = [](std::uint8_t usual_silence, Phase phase) {
     Watch watch({1.95F, 0.0F});
@@ -47,7 +47,8 @@ TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
   };
   const int ticks = ticks_until(0, Phase::grow_tree);
   EXPECT_EQ(ticks_until(30, Phase::grow_tree), ticks + 4 * 30 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
-  EXPECT_EQ(ticks_until(0, Phase::start_tree), ticks + 100);
+  EXPECT_EQ(ticks_until(0, Phase::start_tree), ticks);
+  EXPECT_EQ(ticks_until(30, Phase::start_tree), ticks + 2 * 100 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
 }
 
 TEST(Retreat, TheSilentHoldNobodyBack) {

@@ -70,7 +70,7 @@ class Neighbors {
   // Of those heard in the tick before: how many they were, and how many were not heard in this one.
   [[nodiscard]] int expected() const noexcept { return expected_; }
   [[nodiscard]] int missed() const noexcept { return missed_; }
-  // For how many ticks the one among those heard in this step had been silent that had been so for longest.
+  // How many ticks before this step the one of those heard in it was heard last that had been silent for longest.
   [[nodiscard]] int returned() const noexcept { return returned_; }
   // Heard within the liveness period; only a kept, silent neighbour is not.
   [[nodiscard]] bool alive(int k) const noexcept { return ages_[k] <= liveness_ticks_; }

@@ -46,6 +46,7 @@ struct HealingState : TreeState {
   float missed_packets = 0.0F;           // and those of them that were not heard
   RobotId serves = nobody;               // worker: whose target this is, the id of the worker first sent there
   std::uint16_t loss_ticks = 0;          // what this loss requires in place of I; 0: I is long enough
+  std::uint8_t missed_in_the_clear = 0;  // silences of neighbours in range that nobody hid; from time to time 0 again
   std::uint8_t usual_silence = 0;        // ticks: the longest that has ended lately; 0: the radio loses no packets
   std::uint16_t root_size = 0;           // robots that this root counted last; 0: none yet
   std::uint16_t flood_counted = 0;       // the root, of its last START TREE: the most robots that the flood had found,
@@ -82,6 +83,7 @@ constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
   if (s.usual_silence != 0) visit(s.usual_silence);
+  if (s.missed_in_the_clear != 0) visit(s.missed_in_the_clear);
   if (s.detour.last_side != 0) visit(s.detour.last_side), visit(s.detour.again);
   for (int k = 0; k < s.neighbors.size(); ++k) visit(s.healing_standings[static_cast<std::size_t>(k)].serves);
 }
