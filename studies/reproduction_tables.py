@@ -28,6 +28,7 @@ class Statistics:
     """Rows of statistics.csv and comparisons.csv by part, metric and the labels of axes."""
 
     def __init__(self, folder):
+        self.folder = folder
         self.rows = self._read(f"{folder}/statistics.csv")
         self.comparisons = self._read(f"{folder}/comparisons.csv")
         with self._open(f"{folder}/statistics.csv") as file:
@@ -47,6 +48,11 @@ class Statistics:
             for row in csv.DictReader(file):
                 index.setdefault((row["part"], row["metric"]), []).append(row)
         return index
+
+    def runs(self, part):
+        """The rows of runs.csv of this part."""
+        with self._open(f"{self.folder}/runs.csv") as file:
+            return [row for row in csv.DictReader(file) if row["part"] == part]
 
     def _find(self, rows, labels):
         # Axes that are not named are pooled, or do not exist in this part.
@@ -260,6 +266,117 @@ def tuned(s):
                   "random targets, sight off/on"], rows)
 
 
+# The conditions of studies/claims.toml: words, part, labels of the axis that is its factor.
+CONDITIONS = ([("the paper's settings", "start", {"start": "compact"})]
+              + [(f"C = {C} m", "range", {"C": C}) for C in ("1.9", "1.92", "1.95", "1.97", "2.5", "3")]
+              + [(f"K = {K}", "gain", {"K": K}) for K in ("0.1", "0.4", "0.8")]
+              + [(f"v_max = {v} m/s", "speed", {"v": v}) for v in ("0.1", "0.4", "0.8")]
+              + [(f"τ = {tau} for both", "pull", {"tau": tau}) for tau in ("0.2539", "0.49", "1")]
+              + [("limit of 5 straight drives", "limit", {}),
+                 ("sight on, exact", "sight", {"sight": "exact"}), ("sight on, leaky", "sight", {"sight": "leaky"}),
+                 ("bodies of Box2D", "body", {"body": "box2d"}), ("random start", "start", {"start": "random"})])
+
+
+def duel(row):
+    """Shift where both complete and verdict, and who missed the limit how often: outwards / inwards."""
+    shift = f"{float(row['shift']):+.3f} " if row["ranked"] != "0" else ""
+    misses = f"; {row['first_missed']} / {row['second_missed']}, {row['misses']}" if missed(row) else ""
+    return f"{shift}{row['verdict'] or 'no pairs'}{misses}"
+
+
+def claims(s, reading):
+    """By radius, k = 2 and 4 together, for (a) and (b); misses by k, all radii together, for (c)."""
+    rows = []
+    for words, part, labels in CONDITIONS:
+        def of(labels=labels, part=part, **more):
+            return s.compare(part, "normalized_time", reading=reading, **labels, **more)
+
+        late = [of(k=k) for k in ("2", "4")]
+        rows.append([words] + [duel(of(r=r)) for r in RADII]
+                    + [f"{row['first_missed']} / {row['second_missed']}, {row['misses'] or 'undecided'}" for row in late])
+    header = [f"({claim}) r = {r} m" for claim, r in zip("abb", RADII)]
+    return table(["condition"] + header + [f"(c) missed, k = {k}, of {late[0]['pairs']}" for k in ("2", "4")], rows)
+
+
+def claims_literal(s):
+    return claims(s, "literal")
+
+
+def claims_corrected(s):
+    return claims(s, "corrected")
+
+
+def claims_redundancy(s):
+    """Larger and larger swarms, each radius by itself."""
+    rows = [[reading, k] + [duel(s.compare("redundancy", "normalized_time", reading=reading, r=r, k=k)) for r in RADII]
+            for reading in READINGS for k in ("2", "3", "4", "6", "8")]
+    return table(["reading", "k"] + [f"r = {r} m" for r in RADII], rows)
+
+
+def claims_large(s):
+    """The same factors as far as studies/paper.toml has them, with more runs: (a) and (b), and for (c) who missed at which k."""
+    levels = [("C", "m", "range", ("1.9", "2", "2.5", "3")), ("K", "", "gain", ("0.1", "0.4", "0.8")),
+              ("v", "m/s", "speed", ("0.1", "0.4", "0.8")), ("tau", "", "pull", ("0.2539", "0.49", "1"))]
+    words = {"v": "v_max", "tau": "τ"}
+    rows = []
+    for axis, unit, part, values in levels:
+        late = misses(s, part, ("reading", axis, "k"))
+        for reading in READINGS:
+            for value in values:
+                name = f"{words.get(axis, axis)} = {value} {unit}".strip() + (" for both" if axis == "tau" else "")
+                rows.append([reading, name]
+                            + [duel(s.compare(part, "normalized_time", reading=reading, r=r, **{axis: value})) for r in RADII]
+                            + [", ".join(" / ".join(str(n) for n in late[(reading, value, k)]) for k in ("2", "3", "4"))])
+    rows.sort(key=lambda row: READINGS.index(row[0]))
+    return table(["reading", "condition"] + [f"({claim}) r = {r} m" for claim, r in zip("abb", RADII)]
+                 + ["(c) missed at k = 2, 3, 4, of 90"], rows)
+
+
+def misses(s, part, axes):
+    """How many runs of outwards and of inwards are not complete, by labels of these axes."""
+    late = {}
+    for row in s.runs(part):
+        if row["algorithm"] in ALGORITHMS:
+            count = late.setdefault(tuple(row[axis] for axis in axes), [0, 0])
+            count[ALGORITHMS.index(row["algorithm"])] += row["complete"] != "true"
+    return late
+
+
+def claims_limit(s):
+    """Runs that are not complete by the limit, and by half of it: the same runs, cut."""
+    late = {}
+    for row in s.runs("redundancy"):
+        if row["algorithm"] not in ALGORITHMS:
+            continue
+        count = late.setdefault(tuple(row[axis] for axis in ("reading", "los", "k", "algorithm")), [0, 0, 0])
+        done = row["complete"] == "true"
+        for k, is_late in enumerate((True, not done, not done or float(row["normalized_time"]) > 0.5)):
+            count[k] += is_late
+    rows = []
+    for reading in READINGS:
+        for los in SIGHT:
+            for k in ("2", "4", "6", "8"):
+                both = [late[(reading, los, k, algorithm)] for algorithm in ALGORITHMS]
+                rows.append([reading, los, k, str(both[0][0])] + [" / ".join(str(one[limit]) for one in both) for limit in (1, 2)])
+    return table(["reading", "line of sight", "k", "runs each", "missed within 10 straight drives, outwards / inwards",
+                  "within 5"], rows)
+
+
+def silences(s):
+    """Share of time with a broken tree edge: at least one tick, and after a silence longer than I."""
+    rows = []
+    for reading in READINGS:
+        for sight in ("off", "exact", "leaky"):
+            for algorithm in ALGORITHMS:
+                cells = []
+                for r in RADII:
+                    labels = dict(reading=reading, algorithm=algorithm, r=r, sight=sight)
+                    cells.append(" / ".join(share(float(s.of("sight", metric, **labels)["mean"])) for metric in (
+                        "disconnected_time_ratio", "disconnected_time_ratio_after_silence")))
+                rows.append([reading, sight, algorithm] + cells)
+    return table(["reading", "line of sight", "algorithm"] + [f"r = {r} m" for r in RADII], rows)
+
+
 def convoy(s):
     """Convoy beside the paper's two in their corrected reading."""
     rows = []
@@ -295,9 +412,12 @@ def equal_pull(s):
 
 
 TABLES = {"convoy": convoy, "equal-pull": equal_pull, "time": time, "complete": complete, "broken": broken,
-          "broken-by-redundancy": broken_by_redundancy, "split": split, "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "pull": pull, "real": real}
+          "broken-by-redundancy": broken_by_redundancy, "split": split, "fiedler": fiedler, "redundancy": redundancy, "range": radio_range, "speed": speed, "gain": gain, "pull": pull, "real": real,
+          "claims-large": claims_large, "claims-limit": claims_limit}
 # Tables of another study, whose results lie beside those of the first.
-OTHERS = {"tuned": ("tuned", tuned)}
+OTHERS = {"tuned": ("tuned", tuned), "claims-literal": ("claims", claims_literal),
+          "claims-corrected": ("claims", claims_corrected), "claims-redundancy": ("claims", claims_redundancy),
+          "silences": ("claims", silences)}
 
 
 def main():
