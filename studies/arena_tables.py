@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The tables of docs/arena.md, from the results of studies/arena.toml.
+"""The tables of docs/arena.md, from the results of studies/arena.toml and of the tunings in results/tune.
 
    python3 studies/arena_tables.py results/arena docs/arena.md
 
@@ -8,11 +8,20 @@ Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; 
 prints all tables. Needs nothing but Python's standard library.
 """
 import csv
+import glob
 import gzip
+import json
 import os
 import re
 import statistics
 import sys
+
+
+NO_EDGES = ("fiedler", "cohesion")  # they promise to keep no link
+
+
+def has_edges(contender):
+    return contender.split()[0] not in NO_EDGES
 
 
 def rows_of(path):
@@ -68,7 +77,9 @@ def percent(share):
     return f"{100 * share:.1f} %" if share > 0 else "0"
 
 
-def broken(runs):
+def broken(runs, contender):
+    if not has_edges(contender):
+        return "no edges"
     return percent(statistics.mean(float(r["disconnected_time_ratio"]) for r in runs)) if runs else "–"
 
 
@@ -85,7 +96,7 @@ def results(arena, part, radios):
         row = [contender]
         for radio in radios:
             runs = arena.of(part, radio, contender)
-            row += [missed(runs), time(runs), robots(runs), broken(runs), split(runs)]
+            row += [missed(runs), time(runs), robots(runs), broken(runs, contender), split(runs)]
         rows.append(row)
     return table(header, rows)
 
@@ -99,23 +110,30 @@ def deaths(arena):
         row = [contender]
         for radio in ("clear", "sight"):
             runs = arena.of("deaths", radio, contender)
-            row += [missed(runs), time(runs), f"{sum(r['recovered'] == 'true' for r in runs)}/{len(runs)}", broken(runs),
-                    split(runs)]
+            row += [missed(runs), time(runs), f"{sum(r['recovered'] == 'true' for r in runs)}/{len(runs)}",
+                    broken(runs, contender), split(runs)]
         rows.append(row)
     return table(header, rows)
 
 
 def signed(text):
-    value = float(text)
-    return f"{value:+.2f}" if abs(value) < 100 else f"{value:+.0f}"
+    return f"{float(text):+.2f}".replace("-", "−").replace("+0.00", "0.00").replace("−0.00", "0.00")
+
+
+def misses(row):
+    return "" if row["misses"] in ("", "undecided") else f"; misses: {row['misses']}"
 
 
 def verdict(arena, part, radio, metric, contender):
     row = arena.comparisons.get((part, radio, metric, contender))
     if not row or not row["verdict"]:
         return "–"
+    if metric == "disconnected_time_ratio" and not has_edges(contender):
+        return "no edges"
+    if "inf" in row["holm_low"] + row["holm_high"]:
+        return f"{row['verdict']} {signed(row['shift'])}" + misses(row)
     words = f"{row['verdict']} {signed(row['shift'])} ({signed(row['holm_low'])} to {signed(row['holm_high'])})"
-    return words + (f"; misses: {row['misses']}" if metric == "time_ratio" and row["misses"] else "")
+    return words + misses(row)
 
 
 def verdicts(arena, part):
@@ -130,7 +148,42 @@ def verdicts(arena, part):
     return table(header, rows)
 
 
+def extent(arena):
+    """How much of the study there is."""
+    runs = [row for rows in arena.runs.values() for row in rows]
+    seeds = sorted({int(row["seed"]) for row in runs})
+    builds = ", ".join(sorted({row["git"] for row in runs}))
+    complete = all(len({(r["run"]) for r in runs if int(r["seed"]) == seed}) * len(seeds) == len(runs) for seed in seeds)
+    text = f"The tables are of {len(runs):,} of the runs of `studies/arena.toml`, with the seeds "
+    text += ", ".join(map(str, seeds)) + f", by commit {builds}."
+    return text + ("" if complete else " Not every cell has all of these seeds.") + "\n"
+
+
+def tunings(_):
+    """A row per tuning: the fitness of the defaults and of the best, and parameters that ended at a bound."""
+    rows = []
+    here = os.path.dirname(os.path.abspath(__file__))
+    for path in sorted(glob.glob(os.path.join(here, "../results/tune/arena-*/tune.json"))):
+        with open(path, encoding="utf-8") as file:
+            done = json.load(file)
+        best, untuned = ({c["name"]: c for c in done["candidates"]}[name] for name in ("best", "default"))
+        bounds = done["tuning"]["bounds"]
+        edge = []
+        for key, value in best["parameters"].items():
+            low, high = bounds[key]
+            if min(value - low, high - value) < 0.01 * (high - low):
+                edge.append(f"`{key}` {value:.4g}")
+        row = [path.split("/")[-2].removeprefix("arena-").replace("-literal", " printed"), str(len(bounds))]
+        for seeds in ("training", "test"):
+            row.append(f"{untuned[seeds]['fitness']:.3f} → {best[seeds]['fitness']:.3f}")
+        complete = [f"{100 * c['test']['complete_share']:.0f} %" for c in (untuned, best)]
+        rows.append(row + [" → ".join(complete), ", ".join(edge)])
+    return table(["algorithm", "parameters", "fitness, training seeds", "test seeds", "complete, test seeds", "at a bound"], rows)
+
+
 TABLES = {
+    "tunings": tunings,
+    "extent": extent,
     "rings": lambda a: results(a, "rings", ("clear", "sight")),
     "random": lambda a: results(a, "random", ("clear", "sight")),
     "rings-loss": lambda a: results(a, "rings", ("loss", "sight+loss")),
