@@ -143,8 +143,8 @@ def verdicts(arena, part):
         if contender == "convoy":
             continue
         rows.append([contender] + [verdict(arena, part, radio, metric, contender) for radio, metric in (
-            ("clear", "time_ratio"), ("clear", "committed_ratio"), ("sight", "time_ratio"), ("sight", "committed_ratio"),
-            ("sight", "disconnected_time_ratio"))])
+            ("clear", "time_ratio"), ("clear", "committed_ratio"),
+            ("sight", "time_ratio"), ("sight", "committed_ratio"), ("sight", "disconnected_time_ratio"))])
     return table(header, rows)
 
 
@@ -153,7 +153,7 @@ def extent(arena):
     runs = [row for rows in arena.runs.values() for row in rows]
     seeds = sorted({int(row["seed"]) for row in runs})
     builds = ", ".join(sorted({row["git"] for row in runs}))
-    complete = all(len({(r["run"]) for r in runs if int(r["seed"]) == seed}) * len(seeds) == len(runs) for seed in seeds)
+    complete = all(sum(int(row["seed"]) == seed for row in runs) * len(seeds) == len(runs) for seed in seeds)
     text = f"The tables are of {len(runs):,} of the runs of `studies/arena.toml`, with the seeds "
     text += ", ".join(map(str, seeds)) + f", by commit {builds}."
     return text + ("" if complete else " Not every cell has all of these seeds.") + "\n"
@@ -178,7 +178,8 @@ def tunings(_):
             row.append(f"{untuned[seeds]['fitness']:.3f} → {best[seeds]['fitness']:.3f}")
         complete = [f"{100 * c['test']['complete_share']:.0f} %" for c in (untuned, best)]
         rows.append(row + [" → ".join(complete), ", ".join(edge)])
-    return table(["algorithm", "parameters", "fitness, training seeds", "test seeds", "complete, test seeds", "at a bound"], rows)
+    header = ["algorithm", "parameters", "fitness, training seeds", "test seeds", "complete, test seeds", "at a bound"]
+    return table(header, rows)
 
 
 TABLES = {
@@ -208,7 +209,8 @@ def main():
         if name not in TABLES:
             sys.exit(f"{sys.argv[2]}: there is no table {name}")
         made = TABLES[name](arena)
-        page = re.sub(rf"(<!-- table: {name} -->\n).*?(<!-- end -->)", lambda m, t=made: m[1] + t + m[2], page, flags=re.S)
+        place = rf"(<!-- table: {name} -->\n).*?(<!-- end -->)"
+        page = re.sub(place, lambda m, t=made: m[1] + t + m[2], page, flags=re.S)
     with open(sys.argv[2], "w", encoding="utf-8") as file:
         file.write(page)
 

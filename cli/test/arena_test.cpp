@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The arena (docs/arena.md) has every algorithm on the list, as it is and tuned, each can be run there, and each has its
-// rows on the page.
+// The arena (docs/arena.md) has every algorithm on the list, as it is and tuned, each can be run there, and each has
+// its rows on the page.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,8 @@ TEST(Arena, EveryContenderRunsAndEveryAlgorithmIsOne) {
   std::set<std::string, std::less<>> untuned, tuned;
   for (const auto& run : plan.runs) {
     const auto configuration = study::configuration_of(plan, run);
-    const auto outcome = study::decode_outcome(study::simulate(study::encode(study::RunTask{config::config_json(configuration), ""}), algorithms()));
+    const auto outcome = study::decode_outcome(
+        study::simulate(study::encode(study::RunTask{config::config_json(configuration), ""}), algorithms()));
     ASSERT_EQ(outcome.error, "") << run.directory;
     EXPECT_TRUE(study::trial_of(outcome.row)) << run.directory;
     const auto& mission = configuration.scenario.mission;
@@ -83,7 +84,8 @@ TEST(Arena, EveryTuningHasTheSameWorldsSeedsFitnessAndEffort) {
     shared.insert(study::tune_json(plan));
   }
   EXPECT_EQ(shared.size(), 1U);
-  for (const auto name : algorithms().names()) EXPECT_TRUE(tuned.contains(std::string(name))) << "studies/tune-arena-" << name << ".toml";
+  for (const auto name : algorithms().names())
+    EXPECT_TRUE(tuned.contains(std::string(name))) << "studies/tune-arena-" << name << ".toml";
 }
 
 TEST(Arena, NoSeedOfATuningIsReportedOn) {
@@ -104,10 +106,12 @@ TEST(Arena, ThePagesSayWhatTheFilesSay) {
   for (const char* name : {"arena.toml", "arena-full.toml"})
     EXPECT_NE(page.find(" " + grouped(study::count_rows(arena(name))) + " runs"), std::string::npos) << name;
   const auto plan = study::load_tune((root / "studies/tune-arena-convoy.toml").string(), algorithms()).plan;
-  const std::string effort = std::to_string(plan.evaluations() * plan.optimizer.islands) + " evaluations of " + std::to_string(plan.runs()) + " runs";
+  const std::string effort = std::to_string(plan.evaluations() * plan.optimizer.islands) + " evaluations of " +
+                             std::to_string(plan.runs()) + " runs";
   EXPECT_NE(page.find(effort), std::string::npos) << effort;
   const study::Fitness::Weights ours, of_the_arena = plan.fitness.weights;
-  for (const auto& [name, weight] : {std::pair{"held", &study::Fitness::Weights::held}, {"time", &study::Fitness::Weights::time},
+  for (const auto& [name, weight] : {std::pair{"held", &study::Fitness::Weights::held},
+                                     {"time", &study::Fitness::Weights::time},
                                      {"disconnected", &study::Fitness::Weights::disconnected},
                                      {"committed", &study::Fitness::Weights::committed}}) {
     EXPECT_EQ(of_the_arena.*weight, ours.*weight) << name;
@@ -123,7 +127,8 @@ TEST(Arena, EveryContenderHasItsRowOnThePage) {
   const auto study = arena();
   for (const auto& axis : study.parts.at(0).axes) {
     if (axis.name != "contender") continue;
-    for (const auto& value : axis.values) EXPECT_NE(page.find("\n| " + value.label + " |"), std::string::npos) << value.label;
+    for (const auto& value : axis.values)
+      EXPECT_NE(page.find("\n| " + value.label + " |"), std::string::npos) << value.label;
   }
 }
 

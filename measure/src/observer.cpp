@@ -423,7 +423,9 @@ void Observer::Impl::add_up() {
   run.split_ticks_by_distance += tick.components_by_distance > 1 ? 1 : 0;
   low_ticks += tick.fiedler_low ? 1 : 0;
   low_ticks_by_distance += tick.fiedler_low_by_distance ? 1 : 0;
-  run.held_ratio = tick.active_targets > 0 ? static_cast<double>(tick.targets_reached) / static_cast<double>(tick.active_targets) : 1.0;
+  run.held_ratio = tick.active_targets > 0
+                       ? static_cast<double>(tick.targets_reached) / static_cast<double>(tick.active_targets)
+                       : 1.0;
   if (run.complete) {
     ++ticks_since_complete;
     held_sum += run.held_ratio;

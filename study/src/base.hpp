@@ -9,10 +9,11 @@
 
 namespace banyan::study {
 
-// Lays a file over the one that its key `base` names, relative to `path`: tables are joined key by key, anything else of
-// the file replaces what the base has. The base's name, and the key itself, are left out. What is wrong with the base
-// goes to `problems`; the rest of the file is then returned alone.
-[[nodiscard]] config::Node with_base(config::Node file, const std::string& path, std::vector<config::Problem>& problems);
+// Lays a file over the one that its key `base` names, relative to `path`: tables are joined key by key, anything else
+// of the file replaces what the base has. The base's name, and the key itself, are left out. What is wrong with the
+// base goes to `problems`; the rest of the file is then returned alone.
+[[nodiscard]] config::Node with_base(config::Node file, const std::string& path,
+                                     std::vector<config::Problem>& problems);
 
 // A file that another one names. It is beside the one in which the name is written, which may be the base of the file
 // `path`; "-" is standard input, whose names are relative to the current directory.

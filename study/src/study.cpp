@@ -76,7 +76,8 @@ class StudyReader {
     if (table.has("scenario")) part.scenario = beside(table.place("scenario"), path_, table.text("scenario"));
     if (auto seeds = table.seeds("seeds"); !seeds.empty()) part.seeds = std::move(seeds);
     for (const auto& file : table.texts("with")) {
-      if (auto change = read_overlay(beside(table.place("with"), path_, file), table.place("with"), table.path("with"), problems_))
+      if (auto change = read_overlay(beside(table.place("with"), path_, file), table.place("with"), table.path("with"),
+                                     problems_))
         part.changes.push_back(std::move(*change));
     }
     for (auto& change : read_set(table)) part.changes.push_back(std::move(change));
@@ -206,7 +207,8 @@ class StudyReader {
       if (key == "scenario")
         result.scenario = beside(value.place, path_, *value.string());
       else if (!value.string()->empty()) {
-        if (auto change = read_overlay(beside(value.place, path_, *value.string()), value.place, table.path("values"), problems_))
+        if (auto change =
+                read_overlay(beside(value.place, path_, *value.string()), value.place, table.path("values"), problems_))
           result.changes.push_back(std::move(*change));
       }
       return result;

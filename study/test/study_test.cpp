@@ -72,8 +72,9 @@ TEST_F(StudyFile, NeedsLittle) {
 
 TEST_F(StudyFile, IsLaidOverItsBase) {
   std::filesystem::create_directories(path("deep"));
-  write("deep/base.toml", "name = \"base\"\ndescription = \"d\"\nscenario = \"w.toml\"\nseeds = [1]\n"
-                          "[set]\nradio.loss = 0.5\n[[axes]]\nkey = \"scenario\"\nvalues = [\"x.toml\"]\n");
+  write("deep/base.toml",
+        "name = \"base\"\ndescription = \"d\"\nscenario = \"w.toml\"\nseeds = [1]\n"
+        "[set]\nradio.loss = 0.5\n[[axes]]\nkey = \"scenario\"\nvalues = [\"x.toml\"]\n");
   const auto study = good("base = \"deep/base.toml\"\nseeds = [7, 8]\n[set]\nradio.range_m = 3\n");
   EXPECT_EQ(study.name, "s") << "the file's, not the base's";
   EXPECT_EQ(study.description, "d");
@@ -89,10 +90,12 @@ TEST_F(StudyFile, IsLaidOverItsBase) {
 }
 
 TEST_F(StudyFile, ComparesAgainstValuesThatExist) {
-  const std::string axis = head + "[[axes]]\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"convoy\"]\n[statistics]\n";
+  const std::string axis =
+      head + "[[axes]]\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"convoy\"]\n[statistics]\n";
   EXPECT_EQ(good(axis + "against = \"convoy\"\n").statistics.against, (std::vector<std::string>{"convoy"}));
-  EXPECT_TRUE(says(parse(axis + "against = [\"convoi\"]\n"), "s.toml:7: error: statistics.against: \"convoi\" is no value of the "
-                                                           "axis \"algorithm\"; did you mean \"convoy\"?"));
+  EXPECT_TRUE(says(parse(axis + "against = [\"convoi\"]\n"),
+                   "s.toml:7: error: statistics.against: \"convoi\" is no value of the "
+                   "axis \"algorithm\"; did you mean \"convoy\"?"));
 }
 
 TEST_F(StudyFile, ReadsAxesOfEveryKind) {

@@ -154,8 +154,9 @@ class Reader {
     const auto& w = plan_.fitness.weights;
     if (plan_.optimizer.search != Search::nsga2 || plan_.fitness.judgement != Judgement::graded) return;
     if (w.time > 0.0 && w.held + w.disconnected + w.committed > 0.0) return;
-    table.report("algorithm", "is \"nsga2\", whose two goals are the time and the rest: [fitness] needs a weight of time "
-                              "and another one above 0");
+    table.report("algorithm",
+                 "is \"nsga2\", whose two goals are the time and the rest: [fitness] needs a weight of time "
+                 "and another one above 0");
   }
 
   // ---------------------------------------------------------------------------------- optimizer --
@@ -298,7 +299,8 @@ class Reader {
     for (const auto& [name, value] : *top_.table("bounds")->table()) {
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
       const std::string whose(algorithm.name());
-      problems_.push_back({value.place, "bounds." + name, "is no parameter of " + whose + " (`banyan algorithms " + whose + "` lists them)"});
+      problems_.push_back({value.place, "bounds." + name,
+                           "is no parameter of " + whose + " (`banyan algorithms " + whose + "` lists them)"});
     }
   }
   void read_initial(const Node& node) {

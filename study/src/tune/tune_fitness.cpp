@@ -98,7 +98,9 @@ std::optional<Trial> trial_of(std::string_view run_csv_row) {
   return trial;
 }
 
-std::string_view name_of(Judgement judgement) noexcept { return judgement == Judgement::graded ? "graded" : "two-step"; }
+std::string_view name_of(Judgement judgement) noexcept {
+  return judgement == Judgement::graded ? "graded" : "two-step";
+}
 
 double Fitness::of(const Merit& merit) const noexcept {
   return merit.infeasible > 0.0 ? -merit.infeasible : of_goals(goals(merit));

@@ -233,8 +233,7 @@ std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandS
     if (std::none_of(all.begin(), all.end(), beaten) && std::none_of(front.begin(), front.end(), same))
       front.push_back(p);
   }
-  std::stable_sort(front.begin(), front.end(),
-                   [](const auto& a, const auto& b) { return a.goals[0] < b.goals[0]; });
+  std::stable_sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.goals[0] < b.goals[0]; });
   return front;
 }
 

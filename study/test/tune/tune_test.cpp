@@ -104,7 +104,8 @@ TEST(TuneFitness, TheGradedFitnessByHand) {
   EXPECT_DOUBLE_EQ(merit.committed, 0.7);
   const Fitness tenths{Judgement::graded, {0.3, 0.4, 0.2, 0.1}};
   EXPECT_DOUBLE_EQ(tenths.of(merit), 0.3 * 0.625 + 0.4 * 0.4 + 0.2 * 0.7 + 0.1 * 0.3);  // 0.5175
-  EXPECT_DOUBLE_EQ((Fitness{Judgement::graded, {3.0, 4.0, 2.0, 1.0}}.of(merit)), tenths.of(merit)) << "shares of the sum";
+  EXPECT_DOUBLE_EQ((Fitness{Judgement::graded, {3.0, 4.0, 2.0, 1.0}}.of(merit)), tenths.of(merit))
+      << "shares of the sum";
   EXPECT_DOUBLE_EQ((Fitness{Judgement::graded, {0.0, 0.0, 5.0, 0.0}}.of(merit)), 0.7);
   EXPECT_DOUBLE_EQ((Fitness{Judgement::graded, {0.0, 1.0, 0.0, 0.0}}.of(merit)), 0.4);
   EXPECT_DOUBLE_EQ(tenths.of(Merit{0.4}), -0.4);
@@ -117,11 +118,14 @@ TEST(TuneFitness, TheGradedFitnessByHand) {
 TEST(TuneFitness, TheGradedFitnessHasNoGate) {
   const Trial quick{true, 0.01, 0.2, 20.0, 1.0, 0.5}, slow{true, 0.01, 0.6, 60.0, 1.0, 0.5},
       whole{true, 0.0, 0.6, 60.0, 1.0, 0.5};
-  const auto of = [](Judgement judgement, const Trial& trial) { return Fitness{judgement, {}}.of(merit_of({&trial, 1})); };
+  const auto of = [](Judgement judgement, const Trial& trial) {
+    return Fitness{judgement, {}}.of(merit_of({&trial, 1}));
+  };
   EXPECT_EQ(of(Judgement::two_step, quick), of(Judgement::two_step, slow));
   EXPECT_GT(of(Judgement::two_step, whole), of(Judgement::two_step, quick));
   EXPECT_GT(of(Judgement::graded, quick), of(Judgement::graded, slow));
-  EXPECT_GT(of(Judgement::graded, quick), of(Judgement::graded, whole)) << "one tick in a hundred, and three times as fast";
+  EXPECT_GT(of(Judgement::graded, quick), of(Judgement::graded, whole))
+      << "one tick in a hundred, and three times as fast";
 }
 
 TEST(TuneFitness, ScoresInNumbersForPeople) {
@@ -329,7 +333,8 @@ TEST_F(Tune, TellsAllFaultsAtOnceInTheOrderOfTheFile) {
 TEST_F(Tune, ReadsTheFitness) {
   const auto fitness = [&](const std::string& text) {
     return plan(file("", "target_gain = [0.1, 1.1]\n", "training = [1]\ntest = [2]\n",
-                     "[[worlds]]\nscenario = \"world.toml\"\n", text)).fitness;
+                     "[[worlds]]\nscenario = \"world.toml\"\n", text))
+        .fitness;
   };
   EXPECT_EQ(fitness("").judgement, Judgement::two_step);
   EXPECT_EQ(fitness("[fitness]\nkind = \"two-step\"\n").judgement, Judgement::two_step);
@@ -344,20 +349,23 @@ TEST_F(Tune, ReadsTheFitness) {
 
 TEST_F(Tune, EveryFaultOfTheFitnessHasItsLine) {
   const std::string graded = file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nkind = \"graded\"\n";  // lines 9, 10
-  expect_problem(file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nkind = \"grded\"\n", 10, "did you mean \"graded\"");
+  expect_problem(file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nkind = \"grded\"\n", 10,
+                 "did you mean \"graded\"");
   expect_problem(graded + "held = -1\n", 11, "allowed: 0 to");
   expect_problem(graded + "broken = 1\n", 11, "fitness.broken");
   expect_problem(graded + "held = 0\ntime = 0\ndisconnected = 0\ncommitted = 0\n", 9, "no weight above 0");
   expect_problem(file("", "target_gain = [0.1, 1.1]\n") + "[fitness]\nheld = 1\n", 10, "has no meaning");
-  expect_problem(file("algorithm = \"nsga2\"\n", "target_gain = [0.1, 1.1]\n") +
-                     "[fitness]\nkind = \"graded\"\ntime = 0\n", 7, "two goals");
+  expect_problem(
+      file("algorithm = \"nsga2\"\n", "target_gain = [0.1, 1.1]\n") + "[fitness]\nkind = \"graded\"\ntime = 0\n", 7,
+      "two goals");
 }
 
 TEST_F(Tune, OtherAlgorithmsParametersAreNotSearched) {
   const std::string bounds = "target_gain = [0.1, 1.1]\nlink_gain = [0.0, 1.0]\n";
   expect_problem(file("", bounds), 9, "is no parameter of outwards");
   EXPECT_TRUE(load(file("", bounds, "training = [1]\ntest = [2]\n", "[[worlds]]\nscenario = \"world.toml\"\n",
-                        "[set]\n\"mission.algorithm\" = \"link-consensus\"\n")).ok());
+                        "[set]\n\"mission.algorithm\" = \"link-consensus\"\n"))
+                  .ok());
 }
 
 // Whatever is on the list: half to one and a half times the default of every parameter of its own.
@@ -371,27 +379,32 @@ TEST_F(Tune, EveryAlgorithmCanBeTuned) {
       const double low = std::max(config::widened(rows[k]->minimum), 0.5 * config::widened(values[k])),
                    high = std::min(config::widened(rows[k]->maximum), 1.5 * config::widened(values[k]));
       if (!config::platform_key(rows[k]->key).empty() || !(low < high)) continue;
-      bounds += std::string(rows[k]->key) + " = [" + config::number_text(low) + ", " + config::number_text(high) + "]\n";
+      bounds +=
+          std::string(rows[k]->key) + " = [" + config::number_text(low) + ", " + config::number_text(high) + "]\n";
     }
-    const auto p = plan("name = \"" + name + "\"\n" +
-                        file("generations = 1\npopulation = 2\nislands = 1\n", bounds, "training = [1]\ntest = [2]\n",
-                             "[[worlds]]\nscenario = \"world.toml\"\n",
-                             "[set]\n\"mission.algorithm\" = \"" + name + "\"\n[fitness]\nkind = \"graded\"\n[initial]\n"));
+    const auto p =
+        plan("name = \"" + name + "\"\n" +
+             file("generations = 1\npopulation = 2\nislands = 1\n", bounds, "training = [1]\ntest = [2]\n",
+                  "[[worlds]]\nscenario = \"world.toml\"\n",
+                  "[set]\n\"mission.algorithm\" = \"" + name + "\"\n[fitness]\nkind = \"graded\"\n[initial]\n"));
     ASSERT_GT(p.bounds.size(), 5U) << name;
     const auto workers = thread_workers([](std::string_view task) { return simulate(task, algorithms()); }, 2);
     const auto result = tune(p, *workers, folder(name));
     const auto &best = result.candidates.at(0), &untuned = result.candidates.at(1);
-    EXPECT_GE(p.fitness.of(best.training.merit), p.fitness.of(untuned.training.merit)) << name << " starts from its defaults";
+    EXPECT_GE(p.fitness.of(best.training.merit), p.fitness.of(untuned.training.merit))
+        << name << " starts from its defaults";
     EXPECT_GT(p.fitness.of(untuned.training.merit), 0.0) << name;
   }
 }
 
 TEST_F(Tune, AFileIsLaidOverItsBase) {
   fs::create_directories(home_ / "below");
-  write("below/base.toml", "name = \"base\"\ndescription = \"d\"\n[[worlds]]\nscenario = \"../world.toml\"\n[seeds]\ntraining = "
-                           "[1, 2]\ntest = [3]\n[optimizer]\nseed = 5\ngenerations = 7\n");
-  const auto p = plan("base = \"below/base.toml\"\n[optimizer]\ngenerations = 9\n[seeds]\ntraining = [4]\n"
-                      "[bounds]\ntarget_gain = [0.1, 1.1]\n");
+  write("below/base.toml",
+        "name = \"base\"\ndescription = \"d\"\n[[worlds]]\nscenario = \"../world.toml\"\n[seeds]\ntraining = "
+        "[1, 2]\ntest = [3]\n[optimizer]\nseed = 5\ngenerations = 7\n");
+  const auto p = plan(
+      "base = \"below/base.toml\"\n[optimizer]\ngenerations = 9\n[seeds]\ntraining = [4]\n"
+      "[bounds]\ntarget_gain = [0.1, 1.1]\n");
   EXPECT_EQ(p.name, "tune") << "the file's, not the base's";
   EXPECT_EQ(p.description, "d");
   EXPECT_EQ(p.worlds.size(), 1U) << "found beside the base";
