@@ -154,7 +154,7 @@ def extent(arena):
     seeds = sorted({int(row["seed"]) for row in runs})
     builds = ", ".join(sorted({row["git"] for row in runs}))
     complete = all(sum(int(row["seed"]) == seed for row in runs) * len(seeds) == len(runs) for seed in seeds)
-    text = f"The tables are of {len(runs):,} of the runs of `studies/arena.toml`, with the seeds "
+    text = f"The tables are of {len(runs):,} of the runs of `studies/arena.toml`, with the seed{'s' if len(seeds) > 1 else ''} "
     text += ", ".join(map(str, seeds)) + f", by commit {builds}."
     return text + ("" if complete else " Not every cell has all of these seeds.") + "\n"
 
