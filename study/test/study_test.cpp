@@ -375,8 +375,11 @@ TEST_F(StudyFile, TheKeysOfFiguresAreDocumented) {
   const std::size_t begin = message.find("[figures[0]] has: ") + 18;
   std::string known = message.substr(begin, message.find(')', begin) - begin) + ",";
   std::set<std::string> keys;
-  for (std::size_t comma; (comma = known.find(',')) != std::string::npos; known.erase(0, comma + 1))
-    keys.insert(known.substr(known.find_first_not_of(' '), comma - known.find_first_not_of(' ')));
+  while (!known.empty()) {
+    const std::size_t comma = known.find(','), first = known.find_first_not_of(' ');
+    keys.insert(known.substr(first, comma - first));
+    known.erase(0, comma + 1);
+  }
   EXPECT_GT(keys.size(), 15U) << message;
   const std::string page = contents(std::filesystem::path(BANYAN_SCENARIOS).parent_path() / "docs/studies.md");
   const std::size_t section = page.find("## Figures");

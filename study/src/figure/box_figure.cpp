@@ -150,22 +150,27 @@ void draw_outer(Script& script, const BoxLayout& layout, const Area& area) {
   double y = area.bottom + layout.groups.height + line_pt / 2.0;
   for (const auto& spans : layout.outer) {
     for (const Span& span : spans) {
-      const double from = area.left + layout.pitch * static_cast<double>(span.first);
-      const double to = area.left + layout.pitch * static_cast<double>(span.last + 1);
-      script.label(span.text, {(from + to) / 2.0, y}, Align::center);
-      if (span.first > 0) script.stroke({from, area.top}, {from, y + line_pt / 2.0}, "back lw 0.4 lc rgb '#b0b0b0'");
+      const auto groups = static_cast<double>(span.first + span.last + 1);
+      script.label(span.text, {area.left + layout.pitch * groups / 2.0, y}, Align::center);
     }
     y += line_pt;
   }
 }
 
-// Without outer labels, what tells groups of several boxes apart.
-void separate_groups(Script& script, const BoxFigure& figure, const BoxLayout& layout, const Area& area) {
-  if (!layout.outer.empty() || !layout.spread) return;
-  for (std::size_t g = 1; g < figure.groups.size(); ++g) {
-    const double x = area.left + layout.pitch * static_cast<double>(g);
-    script.stroke({x, area.top}, {x, area.bottom}, "back lw 0.4 lc rgb '#d0d0d0'");
+// Lines between groups of one outer label, down to it where there are labels; without outer labels between all groups
+// of several boxes.
+void separate_groups(Script& script, const BoxFigure& figure, const BoxLayout& layout, const Area& area, bool labels) {
+  const auto separate = [&](std::size_t group, double bottom, const char* color) {
+    const double x = area.left + layout.pitch * static_cast<double>(group);
+    if (group > 0) script.stroke({x, area.top}, {x, bottom}, "back lw 0.4 lc rgb '" + std::string(color) + "'");
+  };
+  double bottom = area.bottom + (labels ? layout.groups.height : 0.0);
+  for (const auto& spans : layout.outer) {
+    if (labels) bottom += line_pt;
+    for (const Span& span : spans) separate(span.first, bottom, "#b0b0b0");
   }
+  if (!layout.outer.empty() || !layout.spread) return;
+  for (std::size_t g = 1; g < figure.groups.size(); ++g) separate(g, area.bottom, "#d0d0d0");
 }
 
 void draw_group_labels(Script& script, const BoxFigure& figure, const BoxLayout& layout, const Area& area) {
@@ -187,17 +192,9 @@ void draw_texts(Script& script, const BoxFigure& figure, const BoxLayout& layout
   if (figure.measures.size() > 1 && layout.labelled[panel])
     script.labels(layout.y_labels[m], {layout.label_lefts[column] + line_pt / 2.0, (area.top + area.bottom) / 2.0},
                   Align::center, 90);
-  separate_groups(script, figure, layout, area);
-  if (panel + layout.columns < figure.panels.size()) {  // there is a panel below
-    if (!layout.outer.empty()) {
-      for (const Span& span : layout.outer.back())
-        if (span.first > 0) {
-          const double x = area.left + layout.pitch * static_cast<double>(span.first);
-          script.stroke({x, area.top}, {x, area.bottom}, "back lw 0.4 lc rgb '#b0b0b0'");
-        }
-    }
-    return;
-  }
+  const bool labels = panel + layout.columns >= figure.panels.size();  // there is no panel below
+  separate_groups(script, figure, layout, area, labels);
+  if (!labels) return;
   draw_group_labels(script, figure, layout, area);
   draw_outer(script, layout, area);
 }
@@ -298,7 +295,11 @@ void draw_panel(Script& script, const BoxFigure& figure, const BoxLayout& layout
   const FigureAxis& axis = layout.axes[shown.measure];
   const Area area = layout.area(panel);
   script.area(area);
+  const bool empty = std::none_of(blocks.begin(), blocks.end(), [](const Blocks& b) { return b.boxes; });
+  script.frame(!empty);
   script.axis('y', axis.low, axis.high, axis.scale == Scale::log, axis.tick_list(layout.labelled[panel] != 0));
+  if (empty) script.line("unset ytics");  // in a grid, beside others
+  if (empty) script.label("no runs", {(area.left + area.right) / 2.0, (area.top + area.bottom) / 2.0}, Align::center);
   script.line("upper = " + number(axis.high) + "; lower = " + number(axis.low) +
               "; logarithmic = " + (axis.scale == Scale::log ? "1" : "0"));
   draw_texts(script, figure, layout, panel);

@@ -103,7 +103,7 @@ void Script::begin_drawing() {
   line("}");
   line("set output output.'.'.format");
   line("unset label; unset object; unset arrow; unset key");
-  line("set border 3 back lc rgb '#606060' lw 0.5");
+  frame(true);
   line("set tics nomirror out scale 0.35 textcolor rgb 'black'");
   line("set grid ytics noxtics back lt 1 lc rgb '#dedede' lw 0.4");
   line("set multiplot");
@@ -157,6 +157,8 @@ void Script::area(const Area& area) {
   line("set tmargin at screen " + fixed(1.0 - area.top / height_, 5) + "; set bmargin at screen " +
        fixed(1.0 - area.bottom / height_, 5));
 }
+
+void Script::frame(bool shown) { line(shown ? "set border 3 back lc rgb '#606060' lw 0.5" : "unset border"); }
 
 void Script::axis(char letter, double low, double high, bool logarithmic, const std::string& ticks) {
   const std::string name(1, letter);

@@ -59,6 +59,7 @@ class Script {
   void point(Place at, double size, const std::string& style);  // size: see point_size()
   void forget_labels();  // those so far are drawn; the next panel does not repeat them
   void area(const Area& area);
+  void frame(bool shown);  // the lines of the axes
   void axis(char letter, double low, double high, bool logarithmic, const std::string& ticks);
 
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
@@ -84,8 +85,9 @@ class Legend {
   // draw_sample(script, series, left end of its middle line) draws one.
   template <typename Sample> void draw(Script& script, double center_x, double top, Sample draw_sample) const {
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      const auto row = static_cast<double>(i / columns_);
-      const Place at{center_x - (lefts_.back() - gap_pt) / 2.0 + lefts_[i % columns_], top + (row + 0.5) * row_pt};
+      const std::size_t row = i / columns_;
+      const Place at{center_x - (lefts_.back() - gap_pt) / 2.0 + lefts_[i % columns_],
+                     top + (static_cast<double>(row) + 0.5) * row_pt};
       draw_sample(script, i, at);
       script.label(names_[i], {at.x + sample_ + space_pt, at.y}, Align::left);
     }

@@ -513,6 +513,19 @@ TEST_F(FigureDraw, GroupsHaveOuterLabels) {
   EXPECT_NE(contents(at("outer.gp")).find("below it, how many targets"), std::string::npos);
 }
 
+TEST_F(FigureDraw, AnEmptyPlaceInAGridHasNoAxes) {
+  BoxFigure figure = nested(true);
+  draw(figure, at("full"));
+  EXPECT_FALSE(shows(contents(at("full.svg")), "no runs"));
+  for (auto& group : figure.panels[3].boxes) std::fill(group.begin(), group.end(), Box{});
+  draw(figure, at("grid"));
+  EXPECT_TRUE(shows(contents(at("grid.svg")), "no runs"));
+  const std::string script = contents(at("grid.gp"));
+  EXPECT_LT(script.find("unset border"), script.find("\"no runs\""));
+  EXPECT_EQ(script.find("unset border"), script.rfind("unset border"));
+  expect_texts_apart(contents(at("grid.svg")));
+}
+
 // A group for each series needs no legend, and its box stands in the middle.
 TEST_F(FigureDraw, NamesBelowTheBoxesReplaceTheLegend) {
   BoxFigure figure = small_figure();
