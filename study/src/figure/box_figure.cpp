@@ -37,7 +37,8 @@ void check_panel(const BoxFigure& figure, const Panel& panel) {
 void check(const BoxFigure& figure) {
   require(!figure.series.empty() && figure.series.size() <= most_series, "needs one to twelve series");
   for (const Series& series : figure.series)
-    require(series.style.value_or(0) < most_series && series.variant < 4, "has twelve styles of four variants");
+    require(series.style.value_or(0) < most_series && series.variant < most_variants,
+            "has twelve styles of eight variants");
   require(!figure.groups.empty(), "needs a group");
   for (const OuterLabels& outer : figure.outer)
     require(outer.labels.size() == figure.groups.size(), "every group needs its outer labels");

@@ -17,29 +17,32 @@ constexpr double svg_pixels_in = 96.0;   // as CSS has it
 
 // Okabe and Ito's colours without their yellow, which is no line on white, and five more that are as far from these,
 // and from each other, as these are: a test measures it for the colour-blind too. Neighbours differ in the lightness of
-// their fill. The points are filled; one less is the type of their open counterpart.
+// their fill.
 constexpr std::array<Style, most_series> styles{{
-    {"#0072b2", 0.55, "solid", 7},
-    {"#d55e00", 0.15, "(12,5)", 9},
-    {"#009e73", 0.90, "(3,4)", 5},
-    {"#cc79a7", 0.30, "(12,4,3,4)", 13},
-    {"#e69f00", 0.70, "(20,6)", 11},
-    {"#56b4e9", 0.20, "(6,4)", 15},
-    {"#000000", 0.00, "(2,3)", 7},
-    {"#882255", 0.45, "(8,3)", 9},
-    {"#8cb85c", 0.70, "(16,4,2,4)", 5},
-    {"#332288", 0.25, "(4,2)", 13},
-    {"#664400", 0.60, "(10,8)", 11},
-    {"#9966ff", 0.10, "(12,4,3,4,3,4)", 15},
+    {"#0072b2", 0.55, "solid"},
+    {"#d55e00", 0.15, "(12,5)"},
+    {"#009e73", 0.90, "(3,4)"},
+    {"#cc79a7", 0.30, "(12,4,3,4)"},
+    {"#e69f00", 0.70, "(20,6)"},
+    {"#56b4e9", 0.20, "(6,4)"},
+    {"#000000", 0.00, "(2,3)"},
+    {"#882255", 0.45, "(8,3)"},
+    {"#8cb85c", 0.70, "(16,4,2,4)"},
+    {"#332288", 0.25, "(4,2)"},
+    {"#664400", 0.60, "(10,8)"},
+    {"#9966ff", 0.10, "(12,4,3,4,3,4)"},
 }};
-constexpr std::array<double, 4> fill_steps{0.0, 0.5, 0.25, 0.75};  // of variants: far from those before
+constexpr std::array<int, 6> filled_points{7, 9, 5, 13, 11, 15};
+// Of variants: each far from those before it (van der Corput's sequence).
+constexpr std::array<double, most_variants> fill_steps{0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
 
 }  // namespace
 
 Style style_of(std::size_t series, std::size_t variant) {
   Style style = styles.at(series);
   style.fill = std::fmod(style.fill + fill_steps.at(variant), 1.0);
-  if (variant > 0) style.point -= 1;
+  // The same shape, open; then the next shape, filled, and so on.
+  style.point = filled_points.at((series + variant / 2) % filled_points.size()) - static_cast<int>(variant % 2);
   return style;
 }
 

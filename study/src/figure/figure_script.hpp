@@ -24,9 +24,9 @@ struct Style {
   std::string_view color;  // "#0072b2"
   double fill;             // how much of the colour a box is filled with
   std::string_view dash;   // gnuplot's dash type of a line
-  int point;               // gnuplot's point type
+  int point = 0;           // gnuplot's point type
 };
-// `series` < most_series; `variant` 0 to 3: of the same colour, but with another fill and open points.
+// `series` < most_series; `variant` < most_variants: of the same colour, but with another fill and other points.
 [[nodiscard]] Style style_of(std::size_t series, std::size_t variant = 0);
 
 enum class Align { left, center, right };

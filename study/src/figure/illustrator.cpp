@@ -15,8 +15,6 @@ namespace {
 
 using Labels = std::vector<std::string>;
 
-constexpr std::size_t variants = 4;  // of one colour
-
 template <typename List, typename Item> std::size_t index_in(const List& list, const Item& item) {
   return static_cast<std::size_t>(std::find(list.begin(), list.end(), item) - list.begin());
 }
@@ -86,7 +84,7 @@ std::vector<Series> looks_of(const Study& study, const Results& results, std::si
   std::map<std::string, std::size_t> seen;
   for (std::size_t v = 0; v < looks.size(); ++v) {
     looks[v].style = index_in(results.plan().algorithms, algorithms[v]) % most_series;
-    looks[v].variant = seen[algorithms[v]]++ % variants;
+    looks[v].variant = seen[algorithms[v]]++ % most_variants;
   }
   return looks;
 }

@@ -726,7 +726,7 @@ TEST_F(FigureErrors, FiguresThatCannotBeDrawn) {
   rejects([](BoxFigure& f) { f.series.clear(); });
   rejects([](BoxFigure& f) { f.series.resize(13); });
   rejects([](BoxFigure& f) { f.series[0].style = 12; });
-  rejects([](BoxFigure& f) { f.series[0].variant = 4; });
+  rejects([](BoxFigure& f) { f.series[0].variant = 8; });
   rejects([](BoxFigure& f) { f.measures.clear(); });
   rejects([](BoxFigure& f) { f.panels[0].measure = 1; });
   rejects([](BoxFigure& f) { f.outer = {{"T", {"2"}}}; });

@@ -17,13 +17,14 @@ namespace banyan::study {
 
 inline constexpr double column_in = 3.5, page_in = 7.0;  // widths for print, inches
 inline constexpr std::size_t most_series = 12;           // that can be told apart
+inline constexpr std::size_t most_variants = 8;          // of one colour
 
 enum class Scale { linear, log };
 
 struct Series {  // one colour, named in the legend
   std::string name;
   std::optional<std::size_t> style;  // its colour, < most_series; its place in the list by default
-  std::size_t variant = 0;           // of others of that colour, 0 to 3: told apart by their fill
+  std::size_t variant = 0;           // of others of that colour, < most_variants: told apart by their fill
 };
 // The runs behind one box.
 struct Box {
