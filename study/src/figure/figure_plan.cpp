@@ -20,7 +20,7 @@ const std::vector<std::string_view> scale_names{"linear", "log", "ratio"};  // a
 class FigureReader {
  public:
   FigureReader(TableReader& table, const Study& study, std::vector<Problem>& problems)
-      : table_(table), problems_(problems), part_(nullptr) {
+      : table_(table), problems_(problems) {
     plan_.part = table.text("part", study.parts.front().name);
     const auto at =
         std::find_if(study.parts.begin(), study.parts.end(), [&](const Part& p) { return p.name == plan_.part; });
@@ -124,8 +124,7 @@ class FigureReader {
     for (const Axis& axis : part_->axes) {
       if (axis.name == plan_.series) check_label(table_, "ratio_to", plan_.ratio_to, axis);
     }
-    for (std::size_t i = 0; i < plan_.metrics.size(); ++i) {
-      FigureMetric& metric = plan_.metrics[i];
+    for (FigureMetric& metric : plan_.metrics) {
       if (metric.scale == FigureScale::ratio) metric.title += " (" + plan_.ratio_to + "\u00a0=\u00a01)";
     }
   }
@@ -187,7 +186,7 @@ class FigureReader {
 
   TableReader& table_;
   std::vector<Problem>& problems_;
-  const Part* part_;  // null if there is none of that name
+  const Part* part_ = nullptr;  // null if there is none of that name
   std::vector<std::string_view> known_;
   FigurePlan plan_;
 };

@@ -196,7 +196,8 @@ bool Legend::fits(double room) {
 }
 
 double Legend::height() const noexcept {
-  return row_pt * static_cast<double>((names_.size() + columns_ - 1) / columns_);
+  const std::size_t rows = (names_.size() + columns_ - 1) / columns_;
+  return row_pt * static_cast<double>(rows);
 }
 
 }  // namespace banyan::study

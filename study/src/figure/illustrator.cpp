@@ -77,6 +77,7 @@ std::vector<Series> looks_of(const Study& study, const Results& results, std::si
   if (axis == study.parts[part].axes.size()) return {Series{}};
   const auto& values = study.parts[part].axes[axis].values;
   std::vector<Series> looks;
+  looks.reserve(values.size());
   for (const auto& value : values) looks.push_back({value.label, looks.size() % most_series, 0});
   const Labels algorithms = algorithms_of(results, part, axis, values.size());
   const std::set<std::string> different(algorithms.begin(), algorithms.end());
@@ -257,7 +258,7 @@ class Illustrator {
   }
 
   // Series, groups and panels without a run. In a grid of panels, rows and columns of which all panels are empty.
-  void leave_out_empty(BoxFigure& figure) const {
+  static void leave_out_empty(BoxFigure& figure) {
     for (std::size_t s = figure.series.size(); s-- > 0;) {
       if (any_box(figure, [&](std::size_t, std::size_t, std::size_t at) { return at == s; })) continue;
       figure.series.erase(figure.series.begin() + static_cast<std::ptrdiff_t>(s));
