@@ -318,7 +318,7 @@ TEST_F(ReportTest, ComparedAgainstSomeItIsTheSecond) {
   check_comparisons();
   std::map<std::pair<std::string, std::string>, std::size_t> pairs;
   for (const auto& row : comparisons()) ++pairs[{row.at("first"), row.at("second")}];
-  const std::size_t each = (4U + 1U) * 2U;  // worlds of both parts, metrics
+  const std::size_t each = (4 + 1) * std::size_t{2};  // worlds of both parts, metrics
   EXPECT_EQ(pairs, (decltype(pairs){{{"outwards", "inwards"}, each}, {{"tuned", "inwards"}, each}}));
 }
 
