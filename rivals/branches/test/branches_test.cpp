@@ -229,7 +229,7 @@ struct Crowd {
     net.tick(ways);
   }
   // The root and all leaders.
-  bool is_joined(Reported& reported) {
+  static bool is_joined(Reported& reported) {
     for (std::size_t i = 1; i <= leaders; ++i)
       if (!reported.joins(0, i)) return false;
     return true;
@@ -386,7 +386,7 @@ TEST(Branches, AConnectorMovesByItsEquation) {
     const Velocity v = hub.settled().velocity;
     Pull links, team, push;
     double farthest = 0.0, leaders = 0.0, connectors = 0.0;
-    for (std::size_t i = 0; i < hub.others.size(); ++i) (hub.others[i].leader ? leaders : connectors) += 1.0;
+    for (const Message& m : hub.others) (m.leader ? leaders : connectors) += 1.0;
     for (std::size_t i = 0; i < hub.others.size(); ++i) {
       const double q = 0.5 * static_cast<double>(norm(hub.at[i]));
       links.add(hub.at[i], 0.5 / 0.1 * (q > 0.75 ? 0.25 / (1.0 - q) : 1.0) / static_cast<double>(count));
