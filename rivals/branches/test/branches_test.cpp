@@ -248,7 +248,7 @@ TEST(Branches, WhatIsReportedStaysInOnePieceWhileBranchesMove) {
     crowd.net.latency = 1 + seed / 3 % 3;
     if (crowd.net.latency == 3) crowd.net.params.change_timeout_s *= 2.0F;
     int t = 0;
-    for (Reported r(crowd.net); t < 200 && !crowd.is_joined(r); ++t) {
+    for (Reported r(crowd.net); t < 200 && !Crowd::is_joined(r); ++t) {
       crowd.tick(false);
       r = Reported(crowd.net);
     }
@@ -258,7 +258,7 @@ TEST(Branches, WhatIsReportedStaysInOnePieceWhileBranchesMove) {
     for (t = 0; t < 600; ++t) {
       crowd.tick(true);
       Reported r(crowd.net);
-      ASSERT_TRUE(crowd.is_joined(r)) << seed << ", tick " << t;
+      ASSERT_TRUE(Crowd::is_joined(r)) << seed << ", tick " << t;
       for (std::size_t i = 0; i < before.size(); ++i) {
         const Stage now = crowd.net.states[i].change.stage;
         changes += now == made && before[i] != made ? 1 : 0;
@@ -301,7 +301,7 @@ TEST(Branches, AChangeThatOneEndDoesNotHearIsUndone) {
     crowd.tick(true);
     if (t < 100) continue;
     Reported r(crowd.net);
-    ASSERT_TRUE(crowd.is_joined(r)) << t;
+    ASSERT_TRUE(Crowd::is_joined(r)) << t;
     for (const State& s : crowd.net.states) {
       EXPECT_LE(s.change.ticks, 8U + 4U + 20U) << s.id << ", tick " << t << ": stage " << int{s.change.stage};
       for (std::size_t i = 0; i < s.links.size(); ++i)
@@ -323,7 +323,7 @@ TEST(Branches, WhoeverDiesTheOthersAreJoinedAgain) {
     crowd.net.hidden = [dead](std::size_t i, std::size_t j) { return i == dead || j == dead; };
     for (int t = 0; t < 80; ++t) crowd.tick(false);
     Reported r(crowd.net);
-    EXPECT_TRUE(crowd.is_joined(r)) << seed;
+    EXPECT_TRUE(Crowd::is_joined(r)) << seed;
     for (std::size_t i = 0; i < crowd.net.states.size(); ++i)
       if (i != dead) { EXPECT_FALSE(crowd.net.states[i].links.has(static_cast<RobotId>(dead))) << seed << ' ' << i; }
   }
