@@ -2,7 +2,7 @@
 // From reset to main(): what a program on a Cortex-M needs before its first line.
 #include <cstdint>
 
-// Set by cortex-m4.ld.
+// Set by sections.ld.
 extern "C" {
 extern std::uint32_t data_load, data_begin, data_end, bss_begin, bss_end, stack_top;
 using Constructor = void (*)();

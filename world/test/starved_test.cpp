@@ -55,9 +55,7 @@ class Starved : public testing::TestWithParam<Mission> {};
 
 TEST_P(Starved, NobodyWaitsForASpareForLong) {
   World world(scenario_of(GetParam()));
-  // Five of them take at most 1.6 times the straight drive; the first took 1.26 times until silent neighbours counted as
-  // ties where packets get lost (protocol 12), and takes 2.13 times since.
-  const double limit_s = 2.2 * straight_drive_s(world);
+  const double limit_s = 1.6 * straight_drive_s(world);
   double longest_m = 0.0;
   while (!all_held(world) && world.time_s() < limit_s) {
     world.step();

@@ -49,7 +49,8 @@ int Neighbors::find_next(RobotId id) noexcept {
 // Takes entry k out of the order by id, so that it can be another robot's.
 void Neighbors::leave(int k) noexcept {
   const auto end = by_id_.begin() + size_;
-  std::move(std::find(by_id_.begin(), end, k) + 1, end, std::find(by_id_.begin(), end, k));
+  const auto at = std::find(by_id_.begin(), end, k);
+  std::move(at + 1, end, at);
 }
 
 void Neighbors::begin(int elapsed_ticks, float way_m) noexcept {
@@ -103,12 +104,13 @@ int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, Fun
   for (int k = from, size = size_; k < size; ++k) {
     if (ages_[k] == 0) continue;
     if (ages_[k] == elapsed_ticks_) ++missed_;  // it was heard in the tick before
-    if (ages_[k] > liveness_ticks_ && !keeps(k)) {
+    if (ages_[k] > liveness_ticks && !keeps(k)) {
       remove(k);
       return k;
     }
-    positions_[k] = carry.point(positions_[k]);
-    ranges_m_[k] = norm(positions_[k]) + filter_.spread_m();
+    const Vec2 position = carry.point(positions_[k]);
+    positions_[k] = position;
+    ranges_m_[k] = norm(position) + filter_.spread_m();
   }
   return -1;
 }

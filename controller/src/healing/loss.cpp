@@ -32,8 +32,7 @@ void note_silence(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (self.turn % memory_turns == 0) self.missed_in_the_clear = 0;
   if (self.usual_silence == 0) {
-    if (is_missed(robot)) ++self.missed_in_the_clear;
-    if (self.missed_in_the_clear > deaths) self.usual_silence = first_silence_ticks;
+    if (is_missed(robot) && ++self.missed_in_the_clear > deaths) self.usual_silence = first_silence_ticks;
     return;
   }
   const int ended_ticks = std::min(robot.table().returned() - robot.elapsed_ticks, longest_silence_ticks);
@@ -43,24 +42,27 @@ void note_silence(HealingRobot& robot) noexcept {
 
 }  // namespace
 
+// For so many ticks a silent neighbour may be there: twice what is usual, and longer while the first tree is built.
+void HealingRobot::take_patience() noexcept {
+  constexpr int silences = 2;
+  loss_ticks = self.loss_ticks;
+  if (self.usual_silence == 0) tie_ticks = 0;
+  else if (self.phase < Phase::grow_tree) tie_ticks = longest_silence_ticks;
+  else tie_ticks = std::max(liveness_ticks(), silences * self.usual_silence);
+}
+
 // A robot heard a tick ago is still there, so that its silence now is a lost packet. One silent for
 // longer may be dead or hidden and says nothing about the radio.
 void estimate_loss(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
-  self.loss_ticks = 0;
-  robot.loss_ticks = 0;
   if (!robot.params.heals()) return;
   self.expected_packets = self.expected_packets * fading + static_cast<float>(robot.table().expected());
   self.missed_packets = self.missed_packets * fading + static_cast<float>(robot.table().missed());
   const float loss = std::min(self.missed_packets / (self.expected_packets + prior_packets), robot.params.largest_loss);
-  float chance = 1.0F;
-  while (loss > 0.0F && chance > silent_by_chance) {
-    chance *= loss;
-    ++self.loss_ticks;
-  }
-  robot.loss_ticks = self.loss_ticks;
+  self.loss_ticks = 0;
+  for (float chance = 1.0F; loss > 0.0F && chance > silent_by_chance; chance *= loss) ++self.loss_ticks;
   note_silence(robot);
-  robot.tie_ticks = robot.patience_with_ties();
+  robot.take_patience();
 }
 
 }  // namespace banyan

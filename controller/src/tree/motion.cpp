@@ -116,11 +116,20 @@ Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& rea
   return u - away * std::max(0.0F, dot(u, away));
 }
 
+namespace {
+
+// No longer than that, less by how far neighbour k may be from where it was measured.
+void guard_link(const TreeRobot& robot, int k, float longest_m, Guard& guard) noexcept {
+  guard.add(robot.table().position(k), longest_m - robot.table().spread_m() - strayed_m(robot, k), robot.params.guard_rate_per_s);
+}
+
+}  // namespace
+
 void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   if (!robot.reading.guards_edges) return;
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard.add(robot.table().position(k), robot.params.ideal_distance_m - robot.table().spread_m() - strayed_m(robot, k), robot.params.guard_rate_per_s);
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard_link(robot, k, robot.params.ideal_distance_m, guard);
   });
 }
 
@@ -140,9 +149,8 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
     return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
   };
   for (int k = 0; k < table.size(); ++k) {
-    const float strayed = strayed_m(robot, k);
-    if (table.range(k) + strayed <= limited_m || k == robot.parent || k == robot.old_parent || !holds_me(k)) continue;
-    guard.add(table.position(k), longest_m - table.spread_m() - strayed, p.guard_rate_per_s);
+    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k)) continue;
+    guard_link(robot, k, longest_m, guard);
   }
 }
 

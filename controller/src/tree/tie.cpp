@@ -11,8 +11,11 @@ bool is_in_the_clear(const TreeRobot& robot, int k) noexcept {
   const TreeTable& table = robot.table();
   if (!robot.obstacles.empty()) return false;
   const Vec2 there = table.position(k);
-  for (int j = 0; p.line_of_sight && j < table.size(); ++j)
-    if (j != k && norm(nearest_on_segment(-table.position(j), there - table.position(j))) < bodies * p.wheel_distance_m) return false;
+  if (!p.line_of_sight) return true;
+  for (int j = 0; j < table.size(); ++j) {
+    const Vec2 here = -table.position(j);
+    if (j != k && norm(nearest_on_segment(here, there + here)) < bodies * p.wheel_distance_m) return false;
+  }
   return true;
 }
 
@@ -20,19 +23,20 @@ bool may_depend(const TreeRobot& robot, int k) noexcept {
   const TreeState& self = robot.self;
   const TreeStanding& m = robot.table().message(k);
   if (m.parent == self.id || m.old_parent == self.id) return m.role != Role::spare;
-  const bool untied = robot.held == nobody && self.parent == nobody && self.old_parent == nobody && !robot.is_root();
-  return untied || is_untied(m) || hold_of(m) == self.id || robot.table().id(k) == robot.held;
+  if (is_untied(m) || hold_of(m) == self.id || robot.table().id(k) == robot.held) return true;
+  return robot.held == nobody && self.parent == nobody && self.old_parent == nobody && !robot.is_root();
 }
 
 bool is_tie(const TreeRobot& robot, int k) noexcept {
   return robot.table().age(k) <= robot.tie_ticks && may_depend(robot, k) && is_in_the_clear(robot, k);
 }
 
-float way_since_m(const TreeRobot& robot, int k) noexcept {
+float strayed_m(const TreeRobot& robot, int k) noexcept {
+  constexpr int usual_ticks = 2;  // for so long a neighbour is silent now and then
   constexpr int at_most_ticks = 30;
-  if (!is_in_the_clear(robot, k)) return 0.0F;
+  if (robot.tie_ticks == 0 || robot.table().alive(k) || !is_in_the_clear(robot, k)) return 0.0F;
   const TreeParams& p = robot.params;
-  return p.speed_gain_m_s * p.tick_s * static_cast<float>(std::min(robot.table().age(k) - 2, at_most_ticks));
+  return p.speed_gain_m_s * p.tick_s * static_cast<float>(std::min(robot.table().age(k) - usual_ticks, at_most_ticks));
 }
 
 }  // namespace banyan

@@ -180,6 +180,7 @@ TEST(Hold, WhoFallsSilentIsNotLeftAtOnceWherePacketsGetLost) {
     return f.allowed(-way);
   };
   EXPECT_NEAR(allowed_after(1, 32), 0.2F, 1e-4F) << "0.2 m are left: full speed";
+  EXPECT_NEAR(allowed_after(4, 32), 0.2F, 1e-4F) << "I allows for that";
   EXPECT_NEAR(allowed_after(6, 32), 0.1F, 1e-4F) << "it may be 0.1 m farther";
   EXPECT_LE(allowed_after(40, 32), 0.0F) << "0.6 m farther";
   EXPECT_NEAR(allowed_after(70, 32), 0.2F, 1e-4F) << "after twice the usual silence it is gone";

@@ -42,7 +42,7 @@ class Neighbors {
     const int k = next_rank_ < size_ && ids_[by_id_[next_rank_]] == id ? by_id_[next_rank_++] : find_next(id);
     if (k < 0) return k;
     if (ages_[k] == elapsed_ticks_) before = positions_[k];
-    returned_ = std::max(returned_, static_cast<std::int16_t>(ages_[k]));
+    else returned_ = std::max(returned_, static_cast<std::int16_t>(ages_[k]));
     put(k, k < watched_ && ages_[k] > 0 ? filtered(k, carry.point(positions_[k]), position) : position);
     return k;
   }
@@ -70,7 +70,7 @@ class Neighbors {
   // Of those heard in the tick before: how many they were, and how many were not heard in this one.
   [[nodiscard]] int expected() const noexcept { return expected_; }
   [[nodiscard]] int missed() const noexcept { return missed_; }
-  // How many ticks before this step the one of those heard in it was heard last that had been silent for longest.
+  // The longest silence, in ticks, that ended in this step; 0 if all that were heard had been heard a tick ago.
   [[nodiscard]] int returned() const noexcept { return returned_; }
   // Heard within the liveness period; only a kept, silent neighbour is not.
   [[nodiscard]] bool alive(int k) const noexcept { return ages_[k] <= liveness_ticks_; }

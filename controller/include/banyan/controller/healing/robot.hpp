@@ -27,17 +27,11 @@ struct KnownOfHealing : KnownOfTree {
 struct HealingRobot : TreeRobot {
   HealingRobot(const HealingParams& params_, HealingState& self_, const Admitted& admitted) noexcept
       : TreeRobot(params_, corrected_reading, self_, admitted), params(params_), self(self_) {
-    loss_ticks = self.loss_ticks;
     held = self.hold;
-    tie_ticks = patience_with_ties();
+    take_patience();
   }
 
-  // For so many ticks a silent neighbour may be there: twice what is usual, and longer while the first tree is built.
-  [[nodiscard]] int patience_with_ties() const noexcept {
-    constexpr int silences = 2;
-    if (self.usual_silence == 0) return 0;
-    return self.phase < Phase::grow_tree ? longest_silence_ticks : std::max(liveness_ticks(), silences * self.usual_silence);
-  }
+  void take_patience() noexcept;  // what follows from the lost packets
 
   const HealingParams& params;   // the same objects as the tree's
   HealingState& self;

@@ -17,11 +17,8 @@ inline constexpr int longest_silence_ticks = 100;  // for so long they are remem
 // And it is silent because packets get lost: it may not have gone, nor be hidden.
 [[nodiscard]] bool is_tie(const TreeRobot& robot, int k) noexcept;
 
-// How far neighbour k may have driven since it was heard, if its packets get lost: it knows no better where I am.
-[[nodiscard]] float way_since_m(const TreeRobot& robot, int k) noexcept;
-[[nodiscard]] inline float strayed_m(const TreeRobot& robot, int k) noexcept {
-  constexpr int usual_ticks = 2;
-  return robot.tie_ticks == 0 || robot.table().age(k) <= usual_ticks ? 0.0F : way_since_m(robot, k);
-}
+// How much farther away than where it was heard neighbour k may be, if it has been silent for longer than I because its
+// packets get lost: it knows no better where I am, and may have driven.
+[[nodiscard]] float strayed_m(const TreeRobot& robot, int k) noexcept;
 
 }  // namespace banyan
