@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "banyan/measure/bottleneck.hpp"
+#include "banyan/measure/effort.hpp"
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
 #include "banyan/measure/relays.hpp"
@@ -201,6 +202,7 @@ struct Observer::Impl {
   std::vector<world::Vec2> first_others;       // where robots start that are not sent to a target
   double speed_m_s;
   bool oracle_asked = false;
+  Effort effort;
   Recovery recovery;
   Silence silence;
   bool pending_kills;
@@ -270,6 +272,7 @@ Observer::Impl::Impl(const world::World& world)
       first_targets(active_positions(world)),
       first_others(unsent_positions(world)),
       speed_m_s(world.scenario().robot.wheel_limit_m_s),
+      effort(world),
       recovery(world.scenario().tick_s, stop_when_complete ? settle_s : 0.0),
       silence(liveness_period_s(world), world.scenario().tick_s),
       pending_kills(world.pending_kills()) {
@@ -487,6 +490,7 @@ const Tick& Observer::observe(const world::World& world, bool exact_fiedler) {
   impl_->judge_graph(world, exact_fiedler);
   impl_->measure_targets(world);
   impl_->time_phases(world);
+  impl_->effort.observe(world);
   impl_->add_up();
   impl_->watch_recovery(world);
   return impl_->tick;
@@ -524,8 +528,11 @@ Run Observer::result(const world::World& world) const {
     run.elections += s.tally.elections;
     run.replacements += s.tally.replacements;
   }
+  run.messages = world.packets_sent();
   if (run.time_s > 0.0)
-    run.bytes_per_robot_s = static_cast<double>(world.packets_sent() * world.swarm().message_bytes()) / (static_cast<double>(world.size()) * run.time_s);
+    run.bytes_per_robot_s = static_cast<double>(run.messages * world.swarm().message_bytes()) / (static_cast<double>(world.size()) * run.time_s);
+  run.decisions = impl_->effort.decisions();
+  run.driven_m = impl_->effort.driven_m() / static_cast<double>(world.size());
   if (impl_->ticks_since_complete > 0) run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);

@@ -31,7 +31,8 @@ std::string hexadecimal(std::uint64_t value) {
 
 // 2: a worker for each target in robots_bound; the oracle's columns.
 // 3: sight_leak; edges broken after a silence; held_ratio.
-constexpr int format_version = 3;
+// 4: messages, decisions, driven_m.
+constexpr int format_version = 4;
 
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
@@ -135,6 +136,11 @@ constexpr Column<Row> result_table[] = {
     {"select_phase_ticks", "mean length of SELECT PARENT", 4,
      [](const Row& r) -> Cell { return r.run.select_phase_ticks; }},
     {"bytes_per_robot_s", "broadcast", 4, [](const Row& r) -> Cell { return r.run.bytes_per_robot_s; }},
+    {"messages", "broadcast by all robots", 0, [](const Row& r) { return natural(r.run.messages); }, 4},
+    {"decisions", "times a living robot has changed its role, parent or served target", 0,
+     [](const Row& r) { return natural(r.run.decisions); }, 4},
+    {"driven_m", "the way of a robot, mean over the robots at the start", 4,
+     [](const Row& r) -> Cell { return r.run.driven_m; }, 4},
     {"deaths", "robots that died", 0, [](const Row& r) { return natural(r.run.deaths); }},
     {"survivors", "robots alive at the end", 0, [](const Row& r) { return natural(r.run.survivors); }},
     {"last_death_s", "when the last of them died; empty if none did", 4,

@@ -130,19 +130,23 @@ TEST(Table, ARowOfTheFirstVersionIsReadWithEmptyFieldsForLaterColumns) {
   EXPECT_EQ(run_cells(current), csv_cells(current));
 }
 
-TEST(Table, ARowOfTheSecondVersionLacksWhatTheThirdHas) {
-  const std::set<std::string_view> later{"sight_leak", "liveness_period_s", "broken_ticks_after_silence",
-                                         "disconnected_time_ratio_after_silence", "held_ratio"};
-  std::string row;
-  for (const auto& column : run_columns())
-    if (!later.contains(column.name))
-      row += column.name == "format_version" ? "2" : "of " + std::string(column.name) + ",";
-  const auto cells = run_cells(row);
-  ASSERT_TRUE(cells.has_value());
-  const auto columns = run_columns();
-  for (std::size_t k = 0; k + 1 < columns.size(); ++k)
-    EXPECT_EQ((*cells)[k], later.contains(columns[k].name) ? "" : "of " + std::string(columns[k].name));
-  EXPECT_EQ(cells->back(), "2");
+TEST(Table, ARowOfAnEarlierVersionLacksWhatLaterOnesHave) {
+  const std::set<std::string_view> since_4{"messages", "decisions", "driven_m"};
+  std::set<std::string_view> since_3{"sight_leak", "liveness_period_s", "broken_ticks_after_silence",
+                                     "disconnected_time_ratio_after_silence", "held_ratio"};
+  since_3.insert(since_4.begin(), since_4.end());
+  for (const auto& [version, later] : {std::pair{"2", since_3}, std::pair{"3", since_4}}) {
+    std::string row;
+    for (const auto& column : run_columns())
+      if (!later.contains(column.name))
+        row += column.name == "format_version" ? version : "of " + std::string(column.name) + ",";
+    const auto cells = run_cells(row);
+    ASSERT_TRUE(cells.has_value()) << version;
+    const auto columns = run_columns();
+    for (std::size_t k = 0; k + 1 < columns.size(); ++k)
+      EXPECT_EQ((*cells)[k], later.contains(columns[k].name) ? "" : "of " + std::string(columns[k].name));
+    EXPECT_EQ(cells->back(), version);
+  }
 }
 
 TEST(Table, WhatIsNotThereIsEmptyOrNull) {

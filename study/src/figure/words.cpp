@@ -51,6 +51,7 @@ constexpr std::pair<std::string_view, std::string_view> metric_words[] = {
     {"start_phase_ticks", "phase START (ticks)"},
     {"select_phase_ticks", "phase SELECT PARENT (ticks)"},
     {"bytes_per_robot_s", "bytes per robot and second"},
+    {"driven_m", "metres driven per robot"},
     {"last_death_s", "last death (s)"},
     {"recovered", "recovered networks (share)"},
     {"recovery_time_s", "recovery time (s)"},

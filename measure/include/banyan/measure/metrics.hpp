@@ -84,6 +84,9 @@ struct Run {
   double start_phase_ticks = 0.0;          // mean length of a barrier phase at the root
   double select_phase_ticks = 0.0;
   double bytes_per_robot_s = 0.0;          // broadcast
+  std::uint64_t messages = 0;              // broadcast, by all robots
+  std::uint64_t decisions = 0;             // changes of role, parent or served target, of all robots (effort.hpp)
+  double driven_m = 0.0;                   // mean over the robots at the start (effort.hpp)
   std::uint32_t deaths = 0;
   std::uint32_t survivors = 0;             // alive at the end
   double last_death_s = -1.0;              // -1: none died
