@@ -60,7 +60,7 @@ def table(header, rows):
 
 
 def missed(runs):
-    return f"{sum(r['complete'] != 'true' for r in runs)}/{len(runs)}"
+    return f"{sum(r['complete'] != 'true' for r in runs)}/{len(runs)}" if runs else "–"
 
 
 def time(runs):
@@ -83,6 +83,13 @@ def broken(runs, contender):
     return percent(statistics.mean(float(r["disconnected_time_ratio"]) for r in runs)) if runs else "–"
 
 
+def silent(runs, contender):
+    if not has_edges(contender):
+        return "no edges"
+    ratios = [float(r["disconnected_time_ratio_after_silence"]) for r in runs]
+    return percent(statistics.mean(ratios)) if ratios else "–"
+
+
 def split(runs):
     return percent(statistics.mean(float(r["split_ticks"]) / float(r["ticks"]) for r in runs)) if runs else "–"
 
@@ -98,6 +105,17 @@ def results(arena, part, radios):
             runs = arena.of(part, radio, contender)
             row += [missed(runs), time(runs), robots(runs), broken(runs, contender), split(runs)]
         rows.append(row)
+    return table(header, rows)
+
+
+def leaky(arena, part):
+    """Sight that leaks, beside what is broken where it does not."""
+    header = ["contender", "sight: broken", "silent", "leaky: missed", "time", "robots", "broken", "silent"]
+    rows = []
+    for contender in arena.contenders:
+        exact, leaks = arena.of(part, "sight", contender), arena.of(part, "leaky", contender)
+        rows.append([contender, broken(exact, contender), silent(exact, contender),
+                     missed(leaks), time(leaks), robots(leaks), broken(leaks, contender), silent(leaks, contender)])
     return table(header, rows)
 
 
@@ -189,6 +207,8 @@ TABLES = {
     "random": lambda a: results(a, "random", ("clear", "sight")),
     "rings-loss": lambda a: results(a, "rings", ("loss", "sight+loss")),
     "random-loss": lambda a: results(a, "random", ("loss", "sight+loss")),
+    "rings-leaky": lambda a: leaky(a, "rings"),
+    "random-leaky": lambda a: leaky(a, "random"),
     "deaths": deaths,
     "rings-verdicts": lambda a: verdicts(a, "rings"),
     "random-verdicts": lambda a: verdicts(a, "random"),

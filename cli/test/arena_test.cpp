@@ -63,6 +63,37 @@ TEST(Arena, EveryContenderRunsAndEveryAlgorithmIsOne) {
   }
 }
 
+// The labels are what the tables of the page go by.
+TEST(Arena, EveryRadioIsWhatItsLabelSays) {
+  const study::Study study = arena();
+  for (const auto& part : study.parts) {
+    const auto radio = std::find_if(part.axes.begin(), part.axes.end(),
+                                    [](const auto& axis) { return axis.name == "radio"; });
+    ASSERT_NE(radio, part.axes.end()) << part.name;
+    std::set<std::string> labels;
+    for (const auto& value : radio->values) labels.insert(value.label);
+    EXPECT_EQ(labels, (std::set<std::string>{"clear", "sight", "loss", "sight+loss", "leaky"})) << part.name;
+  }
+  study::Study small = study;
+  for (auto& part : small.parts) {
+    part.seeds = {1001};
+    for (auto& axis : part.axes)
+      if (axis.name != "radio") axis.values.resize(1);
+  }
+  const study::Plan plan = study::make_plan(small, algorithms());
+  ASSERT_TRUE(plan.ok()) << config::to_string(plan.problems.front());
+  EXPECT_EQ(plan.runs.size(), 3U * 5U);
+  for (const auto& run : plan.runs) {
+    const auto configuration = study::configuration_of(plan, run);
+    const auto& radio = configuration.scenario.radio;
+    const bool leaky = run.directory.find("leaky") != std::string::npos;
+    const bool sight = leaky || run.directory.find("sight") != std::string::npos;
+    EXPECT_EQ(radio.line_of_sight, sight) << run.directory;
+    EXPECT_EQ(radio.loss, run.directory.find("loss") != std::string::npos ? 0.3 : 0.0) << run.directory;
+    EXPECT_EQ(radio.sight_leak, leaky ? 0.18 : 0.0) << run.directory;
+  }
+}
+
 TEST(Arena, EveryTuningHasTheSameWorldsSeedsFitnessAndEffort) {
   std::set<std::string> shared, tuned;
   for (const auto& entry : fs::directory_iterator(root / "studies")) {
