@@ -134,6 +134,38 @@ def deaths(arena):
     return table(header, rows)
 
 
+def numbers(runs, column):
+    """Its values, without the rows of earlier versions that lack it."""
+    return [float(r[column]) for r in runs if r.get(column)]
+
+
+def mean(runs, column, decimals):
+    values = numbers(runs, column)
+    return f"{statistics.mean(values):,.{decimals}f}" if values else "–"
+
+
+def messages_per_decision(runs, contender):
+    if not has_edges(contender):
+        return "no edges"
+    decisions = sum(numbers(runs, "decisions"))
+    return f"{sum(numbers(runs, 'messages')) / decisions:,.0f}" if decisions else "–"
+
+
+def costs(arena):
+    kinds = [(part, radio) for part in ("rings", "random") for radio in ("clear", "sight")]
+    header = ["contender", "bytes"]
+    for part, radio in kinds:
+        header += [f"{part}, {radio}: driven", "messages"]
+    rows = []
+    for contender in arena.contenders:
+        row = [contender, mean([run for kind in kinds for run in arena.of(*kind, contender)], "bytes_per_robot_s", 0)]
+        for part, radio in kinds:
+            runs = arena.of(part, radio, contender)
+            row += [mean(runs, "driven_m", 1), messages_per_decision(runs, contender)]
+        rows.append(row)
+    return table(header, rows)
+
+
 def signed(text):
     return f"{float(text):+.2f}".replace("-", "−").replace("+0.00", "0.00").replace("−0.00", "0.00")
 
@@ -210,6 +242,7 @@ TABLES = {
     "rings-leaky": lambda a: leaky(a, "rings"),
     "random-leaky": lambda a: leaky(a, "random"),
     "deaths": deaths,
+    "costs": costs,
     "rings-verdicts": lambda a: verdicts(a, "rings"),
     "random-verdicts": lambda a: verdicts(a, "random"),
 }
