@@ -7,30 +7,19 @@
 Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; without a page it
 prints all tables. Needs nothing but Python's standard library.
 """
-import csv
 import glob
-import gzip
 import json
 import os
-import re
 import statistics
 import sys
 
+from tables import rows_of, table, write_page
 
 NO_EDGES = ("fiedler", "cohesion")  # they promise to keep no link
 
 
 def has_edges(contender):
     return contender.split()[0] not in NO_EDGES
-
-
-def rows_of(path):
-    if os.path.exists(path):
-        file = open(path, newline="", encoding="utf-8")
-    else:
-        file = gzip.open(path + ".gz", "rt", newline="", encoding="utf-8")
-    with file:
-        return list(csv.DictReader(file))
 
 
 class Arena:
@@ -52,11 +41,6 @@ class Arena:
 
     def of(self, part, radio, contender):
         return self.runs.get((part, radio, contender), [])
-
-
-def table(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
 def missed(runs):
@@ -252,20 +236,12 @@ def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
     arena = Arena(sys.argv[1])
-    if len(sys.argv) == 2:
-        for name, make in TABLES.items():
-            print(f"{name}\n\n{make(arena)}")
+    made = {name: make(arena) for name, make in TABLES.items()}
+    if len(sys.argv) == 3:
+        write_page(sys.argv[2], made)
         return
-    with open(sys.argv[2], encoding="utf-8") as file:
-        page = file.read()
-    for name in re.findall(r"<!-- table: ([\w-]+) -->", page):
-        if name not in TABLES:
-            sys.exit(f"{sys.argv[2]}: there is no table {name}")
-        made = TABLES[name](arena)
-        place = rf"(<!-- table: {name} -->\n).*?(<!-- end -->)"
-        page = re.sub(place, lambda m, t=made: m[1] + t + m[2], page, flags=re.S)
-    with open(sys.argv[2], "w", encoding="utf-8") as file:
-        file.write(page)
+    for name, text in made.items():
+        print(f"{name}\n\n{text}")
 
 
 if __name__ == "__main__":

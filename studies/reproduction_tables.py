@@ -7,11 +7,10 @@
 Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; without a page it
 prints all tables. Needs nothing but Python's standard library.
 """
-import csv
-import gzip
 import os
-import re
 import sys
+
+from tables import rows_of, table, write_page
 
 READINGS = ["literal", "corrected"]
 SIGHT = ["off", "on"]
@@ -29,30 +28,22 @@ class Statistics:
 
     def __init__(self, folder):
         self.folder = folder
-        self.rows = self._read(f"{folder}/statistics.csv")
-        self.comparisons = self._read(f"{folder}/comparisons.csv")
-        with self._open(f"{folder}/statistics.csv") as file:
-            header = next(csv.reader(file))
-        self.axes = header[1:header.index("metric")]
+        statistics = rows_of(f"{folder}/statistics.csv")
+        self.rows = self._by_metric(statistics)
+        self.comparisons = self._by_metric(rows_of(f"{folder}/comparisons.csv"))
+        columns = list(statistics[0])
+        self.axes = columns[1:columns.index("metric")]
 
     @staticmethod
-    def _open(path):
-        if os.path.exists(path):
-            return open(path, newline="", encoding="utf-8")
-        return gzip.open(path + ".gz", "rt", newline="", encoding="utf-8")
-
-    @classmethod
-    def _read(cls, path):
+    def _by_metric(rows):
         index = {}
-        with cls._open(path) as file:
-            for row in csv.DictReader(file):
-                index.setdefault((row["part"], row["metric"]), []).append(row)
+        for row in rows:
+            index.setdefault((row["part"], row["metric"]), []).append(row)
         return index
 
     def runs(self, part):
         """The rows of runs.csv of this part."""
-        with self._open(f"{self.folder}/runs.csv") as file:
-            return [row for row in csv.DictReader(file) if row["part"] == part]
+        return [row for row in rows_of(f"{self.folder}/runs.csv") if row["part"] == part]
 
     def _find(self, rows, labels):
         # Axes that are not named are pooled, or do not exist in this part.
@@ -70,11 +61,6 @@ class Statistics:
         if of_pair and "shift" not in of_pair[0]:
             sys.exit("comparisons.csv is of an earlier version: make it anew with banyan collect (docs/studies.md)")
         return self._find(of_pair, labels)
-
-
-def table(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
 def percent(row, field="positive"):
@@ -430,17 +416,9 @@ def main():
             made[name] = make(Statistics(os.path.join(beside, other)))
     if len(sys.argv) < 3:
         for name, text in made.items():
-            print(f"## {name}\n\n{text}\n")
+            print(f"## {name}\n\n{text}")
         return
-    with open(sys.argv[2], encoding="utf-8") as file:
-        page = file.read()
-    for name in re.findall(r"<!-- table: ([\w-]+) -->", page):
-        if name not in made:
-            sys.exit(f"{sys.argv[2]}: there is no table {name}; there are {', '.join(made)}")
-        page = re.sub(rf"(<!-- table: {name} -->\n).*?(<!-- end -->)", lambda m, n=name: m[1] + made[n] + "\n" + m[2], page,
-                      flags=re.S)
-    with open(sys.argv[2], "w", encoding="utf-8") as file:
-        file.write(page)
+    write_page(sys.argv[2], made)
 
 
 if __name__ == "__main__":
