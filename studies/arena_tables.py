@@ -5,7 +5,8 @@
    python3 studies/arena_tables.py results/arena docs/arena.md
 
 Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; without a page it
-prints all tables. Needs nothing but Python's standard library.
+prints all tables. Those of studies/growth.toml are made of the folder growth beside that of the arena; without
+it the page keeps the ones it has. Needs nothing but Python's standard library.
 """
 import glob
 import json
@@ -150,6 +151,42 @@ def costs(arena):
     return table(header, rows)
 
 
+def by_size(rows, make):
+    """A value for each number of robots, the smallest first."""
+    sizes = sorted({int(row["N"]) for row in rows})
+    return " · ".join(make([row for row in rows if int(row["N"]) == size]) for size in sizes)
+
+
+def share_committed(runs):
+    shares = [float(r["committed"]) / float(r["robots"]) for r in runs if r["complete"] == "true"]
+    return f"{100 * statistics.mean(shares):.0f} %" if shares else "–"
+
+
+def share_bound(runs):
+    return f"{100 * statistics.mean(float(r['robots_bound']) / float(r['robots']) for r in runs):.0f} %"
+
+
+def median_time(runs):
+    ratios = numbers(runs, "time_ratio")
+    return f"{statistics.median(ratios):.2f}" if ratios else "–"
+
+
+def growth(runs, radio):
+    """A row per contender, whose cells have a value for each number of robots."""
+    runs = [row for row in runs if row["radio"] == radio and row["ticks"]]
+    header = ["contender", "missed", "time", "robots", "broken", "bytes", "messages", "driven (m)"]
+    rows = [["bound", "", "", by_size(runs, share_bound), "", "", "", ""]]
+    for contender in dict.fromkeys(row["contender"] for row in runs):
+        own = [row for row in runs if row["contender"] == contender]
+        edges = has_edges(contender)
+        rows.append([contender, by_size(own, missed), by_size(own, median_time), by_size(own, share_committed),
+                     by_size(own, lambda r, c=contender: broken(r, c)) if edges else "no edges",
+                     by_size(own, lambda r: mean(r, "bytes_per_robot_s", 0)),
+                     by_size(own, lambda r, c=contender: messages_per_decision(r, c)) if edges else "no edges",
+                     by_size(own, lambda r: mean(r, "driven_m", 1))])
+    return table(header, rows)
+
+
 def signed(text):
     return f"{float(text):+.2f}".replace("-", "−").replace("+0.00", "0.00").replace("−0.00", "0.00")
 
@@ -231,17 +268,28 @@ TABLES = {
     "random-verdicts": lambda a: verdicts(a, "random"),
 }
 
+# Tables of other studies, whose results lie beside those of the arena.
+BESIDE = {
+    "growth": ("growth", lambda runs: growth(runs, "clear")),
+    "growth-sight": ("growth", lambda runs: growth(runs, "sight")),
+}
+
 
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
     arena = Arena(sys.argv[1])
     made = {name: make(arena) for name, make in TABLES.items()}
+    beside = os.path.dirname(os.path.abspath(sys.argv[1]))
+    for name, (study, make) in BESIDE.items():
+        there = os.path.isdir(os.path.join(beside, study))
+        made[name] = make(rows_of(os.path.join(beside, study, "runs.csv"))) if there else None
     if len(sys.argv) == 3:
         write_page(sys.argv[2], made)
         return
     for name, text in made.items():
-        print(f"{name}\n\n{text}")
+        if text is not None:
+            print(f"{name}\n\n{text}")
 
 
 if __name__ == "__main__":

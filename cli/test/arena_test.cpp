@@ -63,6 +63,21 @@ TEST(Arena, EveryContenderRunsAndEveryAlgorithmIsOne) {
   }
 }
 
+// Convoy with its defaults, the others with the parameters of their tunings.
+TEST(Arena, GrowthHasEveryAlgorithmAndTheRobotsThatItsLabelsSay) {
+  const study::Plan plan = study::make_plan(arena("growth.toml"), algorithms());
+  ASSERT_TRUE(plan.ok()) << config::to_string(plan.problems.front());
+  std::set<std::string, std::less<>> there;
+  for (const auto& run : plan.runs) {
+    const auto scenario = study::configuration_of(plan, run).scenario;
+    there.insert(scenario.mission.algorithm);
+    EXPECT_EQ(scenario.mission.parameters.empty(), scenario.mission.algorithm == "convoy") << run.directory;
+    const std::string size = "N=" + std::to_string(robot_count(scenario)) + "/";
+    EXPECT_NE(run.directory.find(size), std::string::npos) << run.directory << " has " << size;
+  }
+  for (const auto name : algorithms().names()) EXPECT_TRUE(there.contains(name)) << name;
+}
+
 // The labels are what the tables of the page go by.
 TEST(Arena, EveryRadioIsWhatItsLabelSays) {
   const study::Study study = arena();
@@ -121,7 +136,7 @@ TEST(Arena, EveryTuningHasTheSameWorldsSeedsFitnessAndEffort) {
 
 TEST(Arena, NoSeedOfATuningIsReportedOn) {
   const auto tuning = study::load_tune((root / "studies/tune-arena-convoy.toml").string(), algorithms()).plan;
-  for (const char* name : {"arena.toml", "arena-full.toml"}) {
+  for (const char* name : {"arena.toml", "arena-full.toml", "growth.toml"}) {
     for (const auto& part : arena(name).parts) {
       for (const auto seed : part.seeds) {
         EXPECT_EQ(std::count(tuning.training.begin(), tuning.training.end(), seed), 0) << seed;
