@@ -27,7 +27,10 @@ def table(header, rows):
 
 
 def write_page(path, made):
-    """Rewrites what stands between <!-- table: NAME --> and <!-- end -->. Made is by name; None leaves the page's own."""
+    """Rewrites what stands between <!-- table: NAME --> and <!-- end -->.
+
+    Made has the tables by name; None leaves the one that the page has.
+    """
     with open(path, encoding="utf-8") as file:
         page = file.read()
     for name in re.findall(r"<!-- table: ([\w-]+) -->", page):
