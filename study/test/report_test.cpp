@@ -7,49 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <sstream>
 
-#include "banyan/algorithms/algorithms.hpp"
-#include "banyan/record/table.hpp"
 #include "banyan/study/paired.hpp"
 #include "banyan/study/statistics.hpp"
-#include "banyan/version.hpp"
-#include "temporary_folder.hpp"
+#include "planned_study.hpp"
 
 namespace banyan::study {
 namespace {
 
-using Row = std::map<std::string, std::string>;
-
-// No cell of these tables is quoted.
-std::vector<Row> read_table(const std::string& text) {
-  std::vector<Row> rows;
-  std::vector<std::string> names;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    std::vector<std::string> cells(1);
-    for (const char c : line) {
-      if (c == ',')
-        cells.emplace_back();
-      else
-        cells.back() += c;
-    }
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    EXPECT_EQ(cells.size(), names.size()) << line;
-    Row row;
-    for (std::size_t i = 0; i < std::min(names.size(), cells.size()); ++i) row[names[i]] = cells[i];
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 // Rows whose cells are as given.
-std::vector<Row> picked(const std::vector<Row>& rows, const Row& wanted) {
-  std::vector<Row> found;
+std::vector<TableRow> picked(const std::vector<TableRow>& rows, const TableRow& wanted) {
+  std::vector<TableRow> found;
   for (const auto& row : rows) {
     if (std::all_of(wanted.begin(), wanted.end(), [&](const auto& w) { return row.at(w.first) == w.second; }))
       found.push_back(row);
@@ -60,17 +28,15 @@ std::vector<Row> picked(const std::vector<Row>& rows, const Row& wanted) {
 double cell_value(const std::string& cell) { return cell.empty() ? std::nan("") : std::stod(cell); }
 
 // Two parts: algorithm x r x q, and algorithm alone. Metrics depend on everything, in no simple way.
-class ReportTest : public TemporaryFolder {
+class ReportTest : public PlannedStudy {
  protected:
   void SetUp() override {
-    TemporaryFolder::SetUp();
-    write("w.toml", "[swarm]\nrobots = 6\n[targets]\ncount = 2\nradius_m = 0.9\n");
+    PlannedStudy::SetUp();
     prepare("by = [[\"r\"], [\"way\", \"r\"], [\"way\"], []]\n");
   }
   void prepare(const std::string& by) {
-    auto loaded = parse_study(
-        path("s.toml"),
-        "scenario = \"w.toml\"\nseeds = \"1-7\"\nfigures = []\n"
+    ASSERT_NO_FATAL_FAILURE(plan(
+        "seeds = \"1-7\"\nfigures = []\n"
         "[[axes]]\nname = \"way\"\nkeys = [\"mission.algorithm\", \"radio.range_m\"]\n"
         "values = [[\"outwards\", 2], [\"inwards\", 2], [\"inwards\", 3]]\n"
         "labels = [\"outwards\", \"inwards\", \"tuned\"]\n"
@@ -79,19 +45,14 @@ class ReportTest : public TemporaryFolder {
         "[[parts.axes]]\nname = \"q\"\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n"
         "[[parts]]\nname = \"small\"\n"
         "[statistics]\ncompare = \"way\"\nresamples = 100\nmetrics = [\"normalized_time\", \"complete\"]\n" +
-            by);
-    ASSERT_TRUE(loaded.ok()) << config::to_string(loaded.problems.front());
-    study_ = std::move(loaded.study);
-    plan_ = make_plan(study_, algorithms());
-    ASSERT_TRUE(plan_.ok()) << config::to_string(plan_.problems.front());
-    outcomes_.clear();
-    for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
-      record::RunRow row{
-          record::identify(configuration_of(plan_, plan_.runs[i]).scenario, version, git_id()), {}, false};
-      row.run.normalized_time = time_of(i);
-      row.run.complete = complete(i);
-      outcomes_[plan_.runs[i].id] = {record::run_csv_row(row), "", 1.0};
-    }
+            by));
+    for (std::size_t i = 0; i < plan_.runs.size(); ++i) set(plan_.runs[i], time_of(i), complete(i));
+  }
+  void set(const PlannedRun& run, double time, bool done) {
+    finish(run, [&](auto& result) {
+      result.normalized_time = time;
+      result.complete = done;
+    });
   }
   // Of a run of the plan; with six decimals, as in the table.
   static double time_of(std::size_t run) { return static_cast<double>((run * 7919 + 13) % 1009) / 1000.0; }
@@ -111,7 +72,7 @@ class ReportTest : public TemporaryFolder {
     return at != outcomes_.end() && at->second.error.empty();
   }
   // Whether a run belongs to the group that a row of a table is about.
-  [[nodiscard]] bool in_group(const PlannedRow& run, const Row& row, bool but_algorithm) const {
+  [[nodiscard]] bool in_group(const PlannedRow& run, const TableRow& row, bool but_algorithm) const {
     if (study_.parts[run.part].name != row.at("part")) return false;
     constexpr std::array<std::string_view, 3> axes{"way", "r", "q"};
     return std::all_of(axes.begin(), axes.end(), [&](std::string_view name) {
@@ -119,12 +80,8 @@ class ReportTest : public TemporaryFolder {
       return (but_algorithm && axis == "way") || row.at(axis) == "*" || row.at(axis) == label(run, axis);
     });
   }
-  [[nodiscard]] std::vector<Row> statistics() const {
-    return read_table(statistics_csv(study_, Results(study_, plan_, outcomes_)));
-  }
-  [[nodiscard]] std::vector<Row> comparisons() const {
-    return read_table(comparisons_csv(study_, Results(study_, plan_, outcomes_)));
-  }
+  [[nodiscard]] std::vector<TableRow> statistics() const { return table_of(statistics_csv(study_, results())); }
+  [[nodiscard]] std::vector<TableRow> comparisons() const { return table_of(comparisons_csv(study_, results())); }
   void check_statistics() const {
     for (const auto& row : statistics()) {
       std::vector<double> values;
@@ -157,7 +114,7 @@ class ReportTest : public TemporaryFolder {
   struct Pair {
     std::size_t first = 0, second = 0, world = 0;  // indices of runs; a number per r and q
   };
-  [[nodiscard]] std::vector<Pair> pairs_of_row(const Row& row) const {
+  [[nodiscard]] std::vector<Pair> pairs_of_row(const TableRow& row) const {
     std::vector<Pair> pairs;
     std::map<std::string, std::size_t> worlds;
     for (const auto& a : plan_.rows) {
@@ -172,7 +129,7 @@ class ReportTest : public TemporaryFolder {
     }
     return pairs;
   }
-  static void expect_cells(const Row& row, const std::vector<std::pair<const char*, double>>& cells) {
+  static void expect_cells(const TableRow& row, const std::vector<std::pair<const char*, double>>& cells) {
     for (const auto& [name, value] : cells) {
       if (std::isnan(value))
         EXPECT_EQ(row.at(name), "") << name;
@@ -180,7 +137,7 @@ class ReportTest : public TemporaryFolder {
         EXPECT_NEAR(cell_value(row.at(name)), value, 1e-5 * (1.0 + std::abs(value))) << name;
     }
   }
-  static void expect_bounds(const Row& row, const char* low, const char* high, const Interval& interval) {
+  static void expect_bounds(const TableRow& row, const char* low, const char* high, const Interval& interval) {
     EXPECT_EQ(std::isnan(interval.low), row.at(low).empty());
     if (std::isnan(interval.low)) return;
     if (std::isinf(interval.low)) {
@@ -190,7 +147,7 @@ class ReportTest : public TemporaryFolder {
     }
     expect_cells(row, {{low, interval.low}, {high, interval.high}});
   }
-  static void check_shares(const Row& row, const std::vector<Pair>& pairs) {
+  static void check_shares(const TableRow& row, const std::vector<Pair>& pairs) {
     PairedShares test{pairs.size(), 0, 0};
     for (const auto& pair : pairs) {
       test.first_only += complete(pair.first) && !complete(pair.second) ? 1 : 0;
@@ -203,7 +160,7 @@ class ReportTest : public TemporaryFolder {
     if (pairs.empty()) return;
     expect_cells(row, {{"shift", test.difference()}, {"p", test.p()}, {"effect", test.effect()}, {"margin", 0.05}});
   }
-  static void check_ranks(const Row& row, const std::vector<Pair>& pairs) {
+  static void check_ranks(const TableRow& row, const std::vector<Pair>& pairs) {
     PairedValues ranked;
     PairedShares misses{pairs.size(), 0, 0};
     std::size_t both = 0;
@@ -256,15 +213,11 @@ class ReportTest : public TemporaryFolder {
       }
     }
   }
-
-  Study study_;
-  Plan plan_;
-  Outcomes outcomes_;
 };
 
 TEST_F(ReportTest, GroupsAreThoseAskedForOnce) {
   const auto rows = statistics();
-  const auto count = [&](const Row& wanted) { return picked(rows, wanted).size(); };
+  const auto count = [&](const TableRow& wanted) { return picked(rows, wanted).size(); };
   const std::string metric = "complete";
   EXPECT_EQ(count({{"part", "big"}, {"metric", metric}}), 3U * 2 * 2 + 2 + 3 * 2 + 3 + 1);
   EXPECT_EQ(count({{"part", "small"}, {"metric", metric}}), 3U + 1) << "by algorithm, and all";
@@ -324,8 +277,8 @@ TEST_F(ReportTest, ComparedAgainstSomeItIsTheSecond) {
 
 // A family is one metric and two values in one grouping of one part: which axes are pooled tells the grouping.
 TEST_F(ReportTest, HolmCorrectsTheTestsOfOneClaim) {
-  std::map<std::string, std::vector<Row>> families;
-  for (const Row& row : comparisons()) {
+  std::map<std::string, std::vector<TableRow>> families;
+  for (const TableRow& row : comparisons()) {
     const auto pooled = [&](const char* axis) { return row.at(axis) == "*" ? "*" : "."; };
     families[row.at("part") + row.at("metric") + row.at("first") + row.at("second") + pooled("r") + pooled("q")]
         .push_back(row);
@@ -333,7 +286,7 @@ TEST_F(ReportTest, HolmCorrectsTheTestsOfOneClaim) {
   EXPECT_EQ(families.size(), 2U * 3U * (3U + 1U)) << "big by r and q, by r, by nothing; small";
   for (auto& [name, rows] : families) {
     std::sort(rows.begin(), rows.end(),
-              [](const Row& x, const Row& y) { return cell_value(x.at("p")) < cell_value(y.at("p")); });
+              [](const TableRow& x, const TableRow& y) { return cell_value(x.at("p")) < cell_value(y.at("p")); });
     double least = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       least = std::max(least, std::min(1.0, static_cast<double>(rows.size() - i) * cell_value(rows[i].at("p"))));
@@ -353,17 +306,10 @@ class ClearReport : public ReportTest {
       if (way == "inwards") time += 0.002 * static_cast<double>(row.seed % 3 + 1);
       if (way == "tuned") time -= 0.2 + 0.01 * static_cast<double>(row.run % 7);
       const bool missed = way == "inwards" && label(row, "r") == "1.5" && row.seed != 7;
-      set(row, missed ? 1.0 : time, !missed);
+      set(plan_.runs[row.run], missed ? 1.0 : time, !missed);
     }
   }
-  void set(const PlannedRow& row, double time, bool done) {
-    const auto& run = plan_.runs[row.run];
-    record::RunRow out{record::identify(configuration_of(plan_, run).scenario, version, git_id()), {}, false};
-    out.run.normalized_time = time;
-    out.run.complete = done;
-    outcomes_[run.id] = {record::run_csv_row(out), "", 1.0};
-  }
-  [[nodiscard]] Row comparison(const std::string& first, const std::string& second, const std::string& r) const {
+  [[nodiscard]] TableRow comparison(const std::string& first, const std::string& second, const std::string& r) const {
     return picked(comparisons(), {{"part", "big"},
                                   {"metric", "normalized_time"},
                                   {"r", r},
@@ -381,7 +327,7 @@ TEST_F(ClearReport, VerdictsSayWhatTheIntervalsShow) {
   EXPECT_EQ(comparison("outwards", "inwards", "1").at("verdict"), "faster");
   EXPECT_EQ(comparison("outwards", "inwards", "1").at("misses"), "undecided") << "none in 14 pairs says little";
   // Of the pairs at 1.5 two are left, of seed 7: too few for any verdict.
-  const Row few = comparison("outwards", "inwards", "1.5");
+  const TableRow few = comparison("outwards", "inwards", "1.5");
   EXPECT_EQ(few.at("verdict"), "undecided");
   EXPECT_EQ(few.at("shift_low"), "-inf");
   EXPECT_EQ(few.at("ranked"), "2");
@@ -396,11 +342,11 @@ TEST_F(ClearReport, NoIntervalContradictsItsP) {
   std::size_t significant = 0, not_after_holm = 0;
   for (const std::size_t seeds : {0U, 1U, 2U, 3U}) {
     for (const auto& row : plan_.rows)  // from nothing to much noise
-      set(row,
+      set(plan_.runs[row.run],
           0.4 + (label(row, "way") == "tuned" ? 0.02 : 0.0) +
               0.08 * static_cast<double>(seeds) * (time_of(row.run) - 0.5),
           true);
-    for (const Row& row : comparisons()) {
+    for (const TableRow& row : comparisons()) {
       if (row.at("metric") == "complete" || row.at("p").empty()) continue;
       const auto excludes = [&](const char* low, const char* high) {
         return cell_value(row.at(low)) > 0.0 || cell_value(row.at(high)) < 0.0;
@@ -420,7 +366,7 @@ TEST_F(ReportTest, WithoutTheComparedAxisThereIsNothingToCompare) {
   for (const auto& row : comparisons()) EXPECT_EQ(row.at("part"), "big");
   study_.statistics.compare = "none";
   EXPECT_TRUE(comparisons().empty());
-  EXPECT_FALSE(comparisons_csv(study_, Results(study_, plan_, outcomes_)).empty()) << "a header all the same";
+  EXPECT_FALSE(comparisons_csv(study_, results()).empty()) << "a header all the same";
 }
 
 }  // namespace

@@ -8,24 +8,12 @@
 #include <cmath>
 #include <sstream>
 
-#include "banyan/algorithms/algorithms.hpp"
-#include "banyan/record/table.hpp"
 #include "banyan/study/folder.hpp"
 #include "banyan/study/journal.hpp"
-#include "banyan/version.hpp"
-#include "temporary_folder.hpp"
+#include "planned_study.hpp"
 
 namespace banyan::study {
 namespace {
-
-// A row as a run would leave it, with a few results set.
-std::string row_of(const Plan& plan, const PlannedRun& run, double time, bool complete) {
-  record::RunRow row{record::identify(configuration_of(plan, run).scenario, version, git_id()), {}, false};
-  row.run.normalized_time = time;
-  row.run.complete = complete;
-  if (complete) row.run.completion_time_s = 3.0;
-  return record::run_csv_row(row);
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -34,28 +22,25 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-class ResultsTest : public TemporaryFolder {
+class ResultsTest : public PlannedStudy {
  protected:
   void SetUp() override {
-    TemporaryFolder::SetUp();
-    write("w.toml", "name = \"a\"\n[swarm]\nrobots = 6\n[targets]\ncount = 2\nradius_m = 0.9\n");
-    study_ = parse_study(path("s.toml"),
-                         "scenario = \"w.toml\"\nseeds = [1, 2]\n"
-                         "[[axes]]\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"inwards\"]\n"
-                         "[[parts]]\nname = \"p\"\n[[parts.axes]]\nname = \"noise\"\nkey = \"radio.loss\"\n"
-                         "values = [0, 0.1]\nlabels = [\"none, at all\", \"some\"]\n"
-                         "[[parts]]\nname = \"q\"\n")
-                 .study;
-    plan_ = make_plan(study_, algorithms());
-    ASSERT_TRUE(plan_.ok());
+    PlannedStudy::SetUp();
+    ASSERT_NO_FATAL_FAILURE(plan("seeds = [1, 2]\n"
+                                 "[[axes]]\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"inwards\"]\n"
+                                 "[[parts]]\nname = \"p\"\n[[parts.axes]]\nname = \"noise\"\nkey = \"radio.loss\"\n"
+                                 "values = [0, 0.1]\nlabels = [\"none, at all\", \"some\"]\n"
+                                 "[[parts]]\nname = \"q\"\n"));
     ASSERT_EQ(plan_.rows.size(), 12U);
     ASSERT_EQ(plan_.runs.size(), 8U);  // those of q are the ones without noise of p
-    for (std::size_t i = 0; i < plan_.runs.size(); ++i)
-      outcomes_[plan_.runs[i].id] = {row_of(plan_, plan_.runs[i], 0.1 * static_cast<double>(i), i % 2 == 0), "", 1.0};
+    for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
+      finish(plan_.runs[i], [&](auto& run) {
+        run.normalized_time = 0.1 * static_cast<double>(i);
+        run.complete = i % 2 == 0;
+        if (run.complete) run.completion_time_s = 3.0;
+      });
+    }
   }
-  Study study_;
-  Plan plan_;
-  Outcomes outcomes_;
 };
 
 TEST_F(ResultsTest, HasARowPerPlannedRow) {
@@ -110,7 +95,7 @@ TEST_F(ResultsTest, WhatFailedIsARowWithoutResults) {
   EXPECT_TRUE(std::isnan(results.values("complete")[1]));
   EXPECT_EQ(results.values("seed")[1], 2.0) << "what was asked for is known";
   const auto line = lines_of(results.csv())[2];
-  EXPECT_TRUE(line.starts_with("s,p," + run.id + ",\"none, at all\",\"it \"\"failed\"\", badly\",a,outwards,")) << line;
+  EXPECT_TRUE(line.starts_with("s,p," + run.id + ",\"none, at all\",\"it \"\"failed\"\", badly\",w,outwards,")) << line;
 }
 
 TEST_F(ResultsTest, ARowOfAnotherVersionSaysSo) {

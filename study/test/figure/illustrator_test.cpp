@@ -6,76 +6,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <sstream>
 
-#include "../temporary_folder.hpp"
-#include "banyan/algorithms/algorithms.hpp"
-#include "banyan/record/table.hpp"
+#include "../planned_study.hpp"
 #include "banyan/study/report.hpp"
-#include "banyan/version.hpp"
 
 namespace banyan::study {
 namespace {
-
-using TableRow = std::map<std::string, std::string>;
-
-std::vector<TableRow> table_of(const std::string& csv) {
-  std::vector<TableRow> rows;
-  std::vector<std::string> names;
-  std::istringstream lines(csv);
-  for (std::string line; std::getline(lines, line);) {
-    const auto cells = record::csv_cells(line);
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    rows.emplace_back();
-    for (std::size_t i = 0; i < names.size(); ++i) rows.back()[names[i]] = cells.at(i);
-  }
-  return rows;
-}
 
 const std::string axes =
     "[[axes]]\nname = \"algorithm\"\nkey = \"mission.algorithm\"\nvalues = [\"convoy\", \"inwards\", \"outwards\"]\n"
     "[[axes]]\nname = \"los\"\ntitle = \"line of sight\"\nkey = \"radio.line_of_sight\"\nvalues = [false, true]\n"
     "[[axes]]\nname = \"r\"\ntitle = \"radius r (m)\"\nkey = \"targets.radius_m\"\nvalues = [1.5, 1.0]\n";
 
-class Illustrations : public TemporaryFolder {
+class Illustrations : public PlannedStudy {
  protected:
-  void SetUp() override {
-    TemporaryFolder::SetUp();
-    write("w.toml", "[swarm]\nrobots = 6\n[targets]\ncount = 2\nradius_m = 0.9\n");
-  }
   // Six seeds; one in three runs misses, times and shares differ for each.
   void prepare(const std::string& figures, const std::string& more_axes = axes) {
-    auto loaded = parse_study(path("s.toml"), "scenario = \"w.toml\"\nseeds = \"1-6\"\n" + more_axes + figures);
-    ASSERT_TRUE(loaded.ok()) << config::to_string(loaded.problems.front());
-    study_ = std::move(loaded.study);
-    plan_ = make_plan(study_, algorithms());
-    ASSERT_TRUE(plan_.ok()) << config::to_string(plan_.problems.front());
-    outcomes_.clear();
+    ASSERT_NO_FATAL_FAILURE(plan("seeds = \"1-6\"\n" + more_axes + figures));
     for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
-      record::RunRow row{
-          record::identify(configuration_of(plan_, plan_.runs[i]).scenario, version, git_id()), {}, false};
-      row.run.complete = (i * 31 + 7) % 3 > 0;
-      row.run.normalized_time = row.run.complete ? static_cast<double>((i * 7919 + 13) % 1009 + 1) / 1010.0 : 1.0;
-      row.run.disconnected_time_ratio = i % 4 == 0 ? 0.0 : static_cast<double>((i * 104729) % 997) / 1000.0;
-      row.run.committed = static_cast<std::uint32_t>(1 + (i * 13) % 6);
-      outcomes_[plan_.runs[i].id] = {record::run_csv_row(row), "", 1.0};
+      finish(plan_.runs[i], [&](auto& run) {
+        run.complete = (i * 31 + 7) % 3 > 0;
+        run.normalized_time = run.complete ? static_cast<double>((i * 7919 + 13) % 1009 + 1) / 1010.0 : 1.0;
+        run.disconnected_time_ratio = i % 4 == 0 ? 0.0 : static_cast<double>((i * 104729) % 997) / 1000.0;
+        run.committed = static_cast<std::uint32_t>(1 + (i * 13) % 6);
+      });
     }
   }
-  [[nodiscard]] Results results() const { return {study_, plan_, outcomes_}; }
   [[nodiscard]] BoxFigure figure(const std::vector<std::string>& each = {}) const {
     const Results all = results();
     return figure_of(study_, all, study_.figures.at(0), each);
   }
   [[nodiscard]] std::vector<TableRow> table() const { return table_of(results().csv()); }
-
-  Study study_;
-  Plan plan_;
-  Outcomes outcomes_;
 };
 
 std::vector<double> sorted(std::vector<double> values) {
