@@ -5,8 +5,9 @@
    python3 studies/arena_tables.py results/arena docs/arena.md
 
 Rewrites what stands between <!-- table: NAME --> and <!-- end --> in the page; without a page it
-prints all tables. Those of studies/growth.toml are made of the folder growth beside that of the arena; without
-it the page keeps the ones it has. Needs nothing but Python's standard library.
+prints all tables. Those of studies/growth.toml and studies/oracle.toml are made of the folders growth and
+oracle beside that of the arena; without these the page keeps the ones it has. Needs nothing but Python's
+standard library.
 """
 import glob
 import json
@@ -44,13 +45,21 @@ class Arena:
         return self.runs.get((part, radio, contender), [])
 
 
+def numbers(runs, column):
+    """Its values, without the rows of earlier versions that lack it."""
+    return [float(r[column]) for r in runs if r.get(column)]
+
+
+def median_and_worst(ratios):
+    return f"{statistics.median(ratios):.2f} ({max(ratios):.2f})" if ratios else "–"
+
+
 def missed(runs):
     return f"{sum(r['complete'] != 'true' for r in runs)}/{len(runs)}" if runs else "–"
 
 
 def time(runs):
-    ratios = [float(r["time_ratio"]) for r in runs if r["time_ratio"]]
-    return f"{statistics.median(ratios):.2f} ({max(ratios):.2f})" if ratios else "–"
+    return median_and_worst(numbers(runs, "time_ratio"))
 
 
 def robots(runs):
@@ -119,11 +128,6 @@ def deaths(arena):
     return table(header, rows)
 
 
-def numbers(runs, column):
-    """Its values, without the rows of earlier versions that lack it."""
-    return [float(r[column]) for r in runs if r.get(column)]
-
-
 def mean(runs, column, decimals):
     values = numbers(runs, column)
     return f"{statistics.mean(values):,.{decimals}f}" if values else "–"
@@ -173,7 +177,7 @@ def median_time(runs):
 
 def growth(runs, radio):
     """A row per contender, whose cells have a value for each number of robots."""
-    runs = [row for row in runs if row["radio"] == radio and row["ticks"]]
+    runs = [row for row in runs if row["radio"] == radio]
     header = ["contender", "missed", "time", "robots", "broken", "bytes", "messages", "driven (m)"]
     rows = [["bound", "", "", by_size(runs, share_bound), "", "", "", ""]]
     for contender in dict.fromkeys(row["contender"] for row in runs):
@@ -185,6 +189,38 @@ def growth(runs, radio):
                      by_size(own, lambda r, c=contender: messages_per_decision(r, c)) if edges else "no edges",
                      by_size(own, lambda r: mean(r, "driven_m", 1))])
     return table(header, rows)
+
+
+def oracle(runs):
+    """Against an oracle that knows all positions."""
+    groups = {}
+    for row in runs:
+        groups.setdefault((row["contender"], row["radio"], row["k"]), []).append(row)
+    kinds = list(dict.fromkeys((radio, k) for _, radio, k in groups))
+    header = ["contender"]
+    for radio, k in kinds:
+        header += [f"{radio}, k = {k}: missed", "time", "robots"]
+    rows = []
+    for contender in dict.fromkeys(contender for contender, _, _ in groups):
+        row = [contender]
+        for kind in kinds:
+            group = groups.get((contender, *kind), [])
+            done = [run for run in group if run["complete"] == "true"]
+            times = [float(r["completion_time_s"]) / float(r["oracle_time_s"]) for r in done if r["oracle_time_s"]]
+            row += [missed(group), median_and_worst(times), median_and_worst(numbers(done, "oracle_ratio"))]
+        rows.append(row)
+    return table(header, rows)
+
+
+def oracle_extent(runs):
+    """Targets are drawn by seed and number, whatever k and radio."""
+    drawn = {(row["T"], row["seed"]): row for row in runs}.values()
+    exact = sum(row["oracle_exact"] == "true" for row in drawn)
+    later = sum(float(row["oracle_time_s"]) > float(row["time_bound_s"]) for row in runs if row["oracle_time_s"])
+    builds = ", ".join(sorted({row["git"] for row in runs}))
+    return (f"{len(runs):,} runs by commit {builds}. The oracle's number of robots is known to be the least for "
+            f"{exact} of the {len(drawn)} sets of targets. Its time is longer than the lower bound in "
+            f"{later or 'none'} of the runs.\n")
 
 
 def signed(text):
@@ -272,6 +308,8 @@ TABLES = {
 BESIDE = {
     "growth": ("growth", lambda runs: growth(runs, "clear")),
     "growth-sight": ("growth", lambda runs: growth(runs, "sight")),
+    "oracle-extent": ("oracle", oracle_extent),
+    "oracle": ("oracle", oracle),
 }
 
 
@@ -282,8 +320,10 @@ def main():
     made = {name: make(arena) for name, make in TABLES.items()}
     beside = os.path.dirname(os.path.abspath(sys.argv[1]))
     for name, (study, make) in BESIDE.items():
-        there = os.path.isdir(os.path.join(beside, study))
-        made[name] = make(rows_of(os.path.join(beside, study, "runs.csv"))) if there else None
+        folder = os.path.join(beside, study)
+        made[name] = None
+        if os.path.isdir(folder):
+            made[name] = make([row for row in rows_of(os.path.join(folder, "runs.csv")) if row["ticks"]])
     if len(sys.argv) == 3:
         write_page(sys.argv[2], made)
         return

@@ -136,7 +136,7 @@ TEST(Arena, EveryTuningHasTheSameWorldsSeedsFitnessAndEffort) {
 
 TEST(Arena, NoSeedOfATuningIsReportedOn) {
   const auto tuning = study::load_tune((root / "studies/tune-arena-convoy.toml").string(), algorithms()).plan;
-  for (const char* name : {"arena.toml", "arena-full.toml", "growth.toml"}) {
+  for (const char* name : {"arena.toml", "arena-full.toml", "growth.toml", "oracle.toml"}) {
     for (const auto& part : arena(name).parts) {
       for (const auto seed : part.seeds) {
         EXPECT_EQ(std::count(tuning.training.begin(), tuning.training.end(), seed), 0) << seed;
