@@ -28,9 +28,9 @@ void lay_over(Node& below, Node above) {
   }
 }
 
-}  // namespace
-
-Node with_base(Node file, const std::string& path, std::vector<config::Problem>& problems) {
+// `upon`: how many files it lies below, one upon another.
+Node with_bases(Node file, const std::string& path, std::vector<config::Problem>& problems, int upon) {
+  constexpr int most = 8;
   const Node* base = file.find("base");
   if (!base) return file;
   const auto refuse = [&](const std::string& text) { problems.push_back({base->place, "base", text}); };
@@ -42,13 +42,14 @@ Node with_base(Node file, const std::string& path, std::vector<config::Problem>&
     refuse("must be the name of a file, not " + base->describe());
     return without_base(std::move(file));
   }
+  if (upon == most) {
+    refuse("is one too many: at most " + std::to_string(most) + ", one upon another. Is a file its own base?");
+    return without_base(std::move(file));
+  }
   const std::string where = beside(base->place, path, *base->string());
   try {
     Node below = config::parse_document(where, config::read_text_file(where));
-    if (below.find("base")) {
-      refuse(where + " has a base itself; one is enough");
-      return without_base(std::move(file));
-    }
+    below = with_bases(std::move(below), where, problems, upon + 1);
     drop(below, "name");
     lay_over(below, std::move(file));
     return without_base(std::move(below));
@@ -56,6 +57,12 @@ Node with_base(Node file, const std::string& path, std::vector<config::Problem>&
     refuse(e.problem.place.text() + ": " + e.problem.text);
     return without_base(std::move(file));
   }
+}
+
+}  // namespace
+
+Node with_base(Node file, const std::string& path, std::vector<config::Problem>& problems) {
+  return with_bases(std::move(file), path, problems, 0);
 }
 
 std::string beside(const config::Place& written, const std::string& path, const std::string& reference) {

@@ -10,8 +10,8 @@
 namespace banyan::study {
 
 // Lays a file over the one that its key `base` names, relative to `path`: tables are joined key by key, anything else
-// of the file replaces what the base has. The base's name, and the key itself, are left out. What is wrong with the
-// base goes to `problems`; the rest of the file is then returned alone.
+// of the file replaces what the base has. The base's name, and the key itself, are left out. The base may have a base.
+// What is wrong with it goes to `problems`; the rest of the file is then returned alone.
 [[nodiscard]] config::Node with_base(config::Node file, const std::string& path,
                                      std::vector<config::Problem>& problems);
 

@@ -82,8 +82,13 @@ TEST_F(StudyFile, IsLaidOverItsBase) {
   EXPECT_EQ(study.parts[0].axes.at(0).values.at(0).scenario, path("deep/x.toml"));
   EXPECT_EQ(study.parts[0].seeds, (std::vector<std::uint64_t>{7, 8}));
   EXPECT_EQ(study.parts[0].changes.size(), 1U) << "[set] of both, as one tree of radio";
-  write("deep/second.toml", "base = \"base.toml\"\n");
-  EXPECT_TRUE(says(parse("base = \"deep/second.toml\"\n"), "s.toml:1: error: base: "));
+  write("deep/second.toml", "name = \"second\"\nbase = \"base.toml\"\nseeds = [9]\n");
+  const auto third = good("base = \"deep/second.toml\"\n");
+  EXPECT_EQ(third.name, "s");
+  EXPECT_EQ(third.parts.at(0).scenario, path("deep/w.toml")) << "beside the base of the base";
+  EXPECT_EQ(third.parts[0].seeds, (std::vector<std::uint64_t>{9}));
+  write("deep/circle.toml", "base = \"circle.toml\"\n");
+  EXPECT_TRUE(says(parse("base = \"deep/circle.toml\"\n"), "deep/circle.toml:1: error: base: is one too many"));
   EXPECT_TRUE(says(parse("base = \"none.toml\"\n"), "none.toml"));
   write("deep/wrong.toml", head + "seedz = 3\n");
   EXPECT_TRUE(says(parse("base = \"deep/wrong.toml\"\n"), "deep/wrong.toml:3: error: seedz"));

@@ -55,6 +55,13 @@ class Reader {
   }
 
  private:
+  // Not its base: what that says for another optimizer or fitness does no harm.
+  [[nodiscard]] bool says_itself(const TableReader& table, std::string_view name) const {
+    if (!table.has(name)) return false;
+    const Place place = table.place(name);
+    return !place.origin || *place.origin == path_;
+  }
+
   // -------------------------------------------------------------------------------------- seeds --
 
   void read_seeds() {
@@ -141,7 +148,7 @@ class Reader {
     double sum = 0.0;
     for (auto [name, weight] : {std::pair{"held", &w.held}, std::pair{"time", &w.time},
                                 std::pair{"disconnected", &w.disconnected}, std::pair{"committed", &w.committed}}) {
-      if (fitness.judgement == two_step && table.has(name))
+      if (fitness.judgement == two_step && says_itself(table, name))
         table.report(name, "has no meaning with kind = " + in_quotes(name_of(two_step)));
       *weight = table.number(name, *weight, {0.0, 1e6});
       sum += *weight;
@@ -191,7 +198,7 @@ class Reader {
       table.report("population", is + "nsga2 takes multiples of 4, at least 8");
     if (cmaes && o.population < 5) table.report("population", is + "cmaes needs at least 5");
     const auto meaningless = [&](std::string_view name) {
-      if (table.has(name)) table.report(name, "has no meaning with algorithm = " + in_quotes(name_of(o.search)));
+      if (says_itself(table, name)) table.report(name, "has no meaning with algorithm = " + in_quotes(name_of(o.search)));
     };
     if (cmaes) {
       meaningless("crossover_probability");

@@ -420,8 +420,23 @@ TEST_F(Tune, FaultsOfABaseSayWhereTheyAre) {
   expect_problem("base = \"none.toml\"\n" + file("", "target_gain = [0.1, 1.1]\n"), 1, "none.toml");
   write("base.toml", file("generatons = 3\n", "avoidance_gain = [0.1, 1.1]\n"));
   expect_problem("base = \"base.toml\"\n" + bounds, 7, "base.toml:7: error: optimizer.generatons");
-  write("second.toml", "base = \"base.toml\"\n");
-  expect_problem("base = \"second.toml\"\n" + file("", "target_gain = [0.1, 1.1]\n"), 1, "has a base itself");
+  write("circle.toml", "base = \"circle.toml\"\n");
+  expect_problem("base = \"circle.toml\"\n" + file("", "target_gain = [0.1, 1.1]\n"), 1,
+                 "circle.toml:1: error: base: is one too many");
+}
+
+TEST_F(Tune, ABaseMayHaveABaseAndSayWhatIsForAnotherOptimizer) {
+  write("worlds.toml", file("algorithm = \"cmaes\"\nstep = 0.5\npopulation = 8\n") + "[fitness]\nkind = \"graded\"\n");
+  write("bounds.toml", "base = \"worlds.toml\"\n[bounds]\navoidance_gain = [0.1, 1.1]\n");
+  const auto p = plan("base = \"bounds.toml\"\n[optimizer]\nalgorithm = \"nsga2\"\n");
+  EXPECT_EQ(p.optimizer.search, Search::nsga2);
+  EXPECT_EQ(p.optimizer.population, 8U);
+  EXPECT_EQ(p.fitness.judgement, Judgement::graded);
+  ASSERT_FALSE(p.bounds.empty());
+  EXPECT_TRUE(std::any_of(p.bounds.begin(), p.bounds.end(), [](const TuneBound& b) {
+    return b.parameter == "avoidance_gain" && b.low == 0.1 && b.high == 1.1;
+  }));
+  expect_problem("base = \"bounds.toml\"\n[optimizer]\nalgorithm = \"nsga2\"\nstep = 0.5\n", 4, "has no meaning");
 }
 
 TEST_F(Tune, AMissingFileIsAProblem) {
