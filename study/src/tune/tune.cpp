@@ -163,10 +163,23 @@ class Course {
     for (auto row = last; row != history_.end(); ++row)
       result.candidates.push_back({"island " + std::to_string(row->island), row->best_point, {}, {}});
     runs_before_comparison_ = evaluator_.runs();
-    attend({[&] { compare(result.candidates); }});
+    std::vector<FrontPoint> front;
+    attend({[&] {
+      compare(result.candidates);
+      front = judged_front();
+    }});
     result.evaluations = plan_.evaluations() * plan_.optimizer.islands;
-    const auto front = plan_.optimizer.search == Search::nsga2 ? front_of(plan_, states()) : std::vector<FrontPoint>{};
     write_results(directory_, plan_, history_, front, result);
+  }
+  // With what its goals are made of: known from the search, but for what was evaluated before it was resumed.
+  [[nodiscard]] std::vector<FrontPoint> judged_front() {
+    if (plan_.optimizer.search != Search::nsga2) return {};
+    auto front = front_of(plan_, states());
+    std::vector<std::vector<double>> points;
+    for (const auto& p : front) points.push_back(p.point);
+    const auto merits = evaluator_.merits(points);
+    for (std::size_t i = 0; i < front.size(); ++i) front[i].merit = merits[i];
+    return front;
   }
   void compare(std::vector<TuneCandidate>& candidates) {
     std::vector<std::optional<std::vector<double>>> points;

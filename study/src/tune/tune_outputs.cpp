@@ -81,10 +81,14 @@ std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
 
 std::string front_csv(const TunePlan& plan, const std::vector<FrontPoint>& front) {
   const auto names = plan.fitness.goal_names();
-  std::string text = "island," + std::string(names[0]) + "," + std::string(names[1]) + parameter_names(plan) + "\n";
-  for (const auto& p : front)
-    text += std::to_string(p.island) + "," + number_text(p.goals[0]) + "," + number_text(p.goals[1]) +
-            parameter_values(p.point) + "\n";
+  std::string text = "island," + std::string(names[0]) + "," + std::string(names[1]) + ",held,disconnected,committed" +
+                     parameter_names(plan) + "\n";
+  for (const auto& p : front) {
+    text += std::to_string(p.island);
+    for (const double value : {p.goals[0], p.goals[1], p.merit.held, p.merit.disconnected, p.merit.committed})
+      text += "," + number_text(value);
+    text += parameter_values(p.point) + "\n";
+  }
   return text;
 }
 
@@ -223,7 +227,7 @@ std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandS
     for (std::size_t k = 0; k < islands[i].points.size(); ++k) {
       const auto& goals = islands[i].objectives[k];
       if (goals.size() == 2 && goals[0] <= 1.0)  // above: cannot be run
-        all.push_back({i, {goals[0], goals[1]}, from_unit(plan.bounds, islands[i].points[k])});
+        all.push_back({i, {goals[0], goals[1]}, from_unit(plan.bounds, islands[i].points[k]), {}});
     }
   }
   std::vector<FrontPoint> front;

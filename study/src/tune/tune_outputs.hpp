@@ -19,6 +19,7 @@ struct FrontPoint {
   std::uint32_t island = 0;
   Fitness::Goals goals{};
   std::vector<double> point;  // in the order of the bounds
+  Merit merit;                // on the training seeds; front_of() does not know it
 };
 // Of all islands' last populations, ascending in the first goal, each pair of goals once.
 [[nodiscard]] std::vector<FrontPoint> front_of(const TunePlan& plan, const std::vector<IslandState>& islands);

@@ -703,13 +703,15 @@ TEST_F(Tune, NsgaTwoLeavesAFrontInWhichNobodyBeatsAnother) {
   std::istringstream table(contents(directory + "/front.csv"));
   std::string line;
   std::getline(table, line);
-  EXPECT_EQ(line, "island,disconnected_time_ratio,normalized_time,target_gain,avoidance_gain");
+  EXPECT_EQ(line, "island,disconnected_time_ratio,normalized_time,held,disconnected,committed,target_gain,avoidance_gain");
   double last_apart = -1.0, last_time = 2.0;
   std::size_t rows = 0;
   for (char comma = 0; std::getline(table, line); ++rows) {
     std::istringstream cells(line);
-    double island = 0.0, apart = 0.0, time = 0.0, gain = 0.0;
-    cells >> island >> comma >> apart >> comma >> time >> comma >> gain;
+    double island = 0.0, apart = 0.0, time = 0.0, held = 0.0, disconnected = 0.0, committed = 0.0, gain = 0.0;
+    cells >> island >> comma >> apart >> comma >> time >> comma >> held >> comma >> disconnected >> comma >>
+        committed >> comma >> gain;
+    EXPECT_EQ(disconnected, apart);
     EXPECT_GT(apart, last_apart);  // ascending, so the time must fall
     EXPECT_LT(time, last_time);
     EXPECT_NEAR(time, 1.0 - 0.5 * gain, 1e-6);
@@ -727,13 +729,18 @@ TEST_F(Tune, TheGradedFrontIsOfTimeAndAllTheRest) {
   std::istringstream table(contents(directory + "/front.csv"));
   std::string line;
   std::getline(table, line);
-  EXPECT_EQ(line, "island,cost,normalized_time,target_gain,avoidance_gain");
+  EXPECT_EQ(line, "island,cost,normalized_time,held,disconnected,committed,target_gain,avoidance_gain");
   double best = 0.0;
   std::size_t rows = 0;
   for (char comma = 0; std::getline(table, line); ++rows) {
     std::istringstream cells(line);
-    double island = 0.0, cost = 0.0, time = 0.0, gain = 0.0;
-    cells >> island >> comma >> cost >> comma >> time >> comma >> gain;
+    double island = 0.0, cost = 0.0, time = 0.0, held = 0.0, disconnected = 0.0, committed = 0.0, gain = 0.0;
+    cells >> island >> comma >> cost >> comma >> time >> comma >> held >> comma >> disconnected >> comma >>
+        committed >> comma >> gain;
+    EXPECT_NEAR(cost, (0.3 * (1.0 - held) + 0.2 * disconnected + 0.1 * committed) / 0.6, 1e-9);
+    EXPECT_EQ(held, 1.0);
+    EXPECT_NEAR(disconnected, 0.4 * gain, 1e-4);
+    EXPECT_NEAR(committed, 0.35, 1e-9);
     // All targets held, a share of 0.4 gain disconnected, 7 of 20 robots committed; weights 0.3, 0.2, 0.1.
     EXPECT_NEAR(cost, (0.2 * 0.4 * gain + 0.1 * 0.35) / 0.6, 1e-4);
     EXPECT_NEAR(time, 1.0 - 0.5 * gain, 1e-6);
