@@ -266,21 +266,27 @@ def extent(arena):
     return text + ("" if complete else " Not every cell has all of these seeds.") + "\n"
 
 
+def kept_tunings(pattern):
+    """By folder: what a tuning has left in its tune.json, and its candidates by name."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    for path in sorted(glob.glob(os.path.join(here, "../results/tune", pattern, "tune.json"))):
+        with open(path, encoding="utf-8") as file:
+            done = json.load(file)
+        yield os.path.dirname(path), done, {c["name"]: c for c in done["candidates"]}
+
+
 def tunings(_):
     """A row per tuning: the fitness of the defaults and of the best, and parameters that ended at a bound."""
     rows = []
-    here = os.path.dirname(os.path.abspath(__file__))
-    for path in sorted(glob.glob(os.path.join(here, "../results/tune/arena-*/tune.json"))):
-        with open(path, encoding="utf-8") as file:
-            done = json.load(file)
-        best, untuned = ({c["name"]: c for c in done["candidates"]}[name] for name in ("best", "default"))
+    for folder, done, candidates in kept_tunings("arena-*"):
+        best, untuned = candidates["best"], candidates["default"]
         bounds = done["tuning"]["bounds"]
         edge = []
         for key, value in best["parameters"].items():
             low, high = bounds[key]
             if min(value - low, high - value) < 0.01 * (high - low):
                 edge.append(f"`{key}` {value:.4g}")
-        row = [path.split("/")[-2].removeprefix("arena-").replace("-literal", " printed"), str(len(bounds))]
+        row = [os.path.basename(folder).removeprefix("arena-").replace("-literal", " printed"), str(len(bounds))]
         for seeds in ("training", "test"):
             row.append(f"{untuned[seeds]['fitness']:.3f} → {best[seeds]['fitness']:.3f}")
         complete = [f"{100 * c['test']['complete_share']:.0f} %" for c in (untuned, best)]
@@ -289,8 +295,28 @@ def tunings(_):
     return table(header, rows)
 
 
+def fronts(_):
+    """A row per front: its two ends, and its fittest point beside that of the tuning for fitness alone."""
+    rows = []
+    for folder, _, candidates in kept_tunings("front-arena-*"):
+        points = rows_of(os.path.join(folder, "front.csv"))
+        name = os.path.basename(folder).removeprefix("front-arena-")
+        row = [name, str(len(points))]
+        for goal in ("normalized_time", "cost"):
+            end = min(points, key=lambda point, goal=goal: float(point[goal]))
+            row += [f"{float(end['normalized_time']):.3f}", f"{100 * float(end['committed']):.0f} %",
+                    percent(float(end["disconnected"]))]
+        row.append(f"{candidates['best']['test']['fitness']:.3f}")
+        row += [f"{tuned['best']['test']['fitness']:.3f}" for _, _, tuned in kept_tunings(f"arena-{name}")]
+        rows.append(row)
+    header = ["algorithm", "points", "fastest: time", "robots", "disconnected", "cheapest: time", "robots",
+              "disconnected", "fitness, test seeds: NSGA-II", "CMA-ES"]
+    return table(header, rows) if rows else None
+
+
 TABLES = {
     "tunings": tunings,
+    "fronts": fronts,
     "extent": extent,
     "rings": lambda a: results(a, "rings", ("clear", "sight")),
     "random": lambda a: results(a, "random", ("clear", "sight")),

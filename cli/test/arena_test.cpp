@@ -134,6 +134,24 @@ TEST(Arena, EveryTuningHasTheSameWorldsSeedsFitnessAndEffort) {
     EXPECT_TRUE(tuned.contains(std::string(name))) << "studies/tune-arena-" << name << ".toml";
 }
 
+TEST(Arena, EveryFrontIsOfItsTuningButForTheSearch) {
+  int fronts = 0;
+  for (const auto& entry : fs::directory_iterator(root / "studies")) {
+    const std::string file = entry.path().filename().string();
+    if (!file.starts_with("front-arena-")) continue;
+    ++fronts;
+    auto front = study::load_tune(entry.path().string(), algorithms());
+    ASSERT_TRUE(front.ok()) << config::to_string(front.problems.front());
+    const std::string name = "tune" + file.substr(std::string("front").size());
+    const auto tuning = study::load_tune((root / "studies" / name).string(), algorithms()).plan;
+    EXPECT_EQ(front.plan.optimizer.search, study::Search::nsga2) << file;
+    front.plan.optimizer.search = tuning.optimizer.search;
+    front.plan.name = tuning.name;
+    EXPECT_EQ(study::tune_json(front.plan), study::tune_json(tuning)) << file;
+  }
+  EXPECT_GT(fronts, 0);
+}
+
 TEST(Arena, NoSeedOfATuningIsReportedOn) {
   const auto tuning = study::load_tune((root / "studies/tune-arena-convoy.toml").string(), algorithms()).plan;
   for (const char* name : {"arena.toml", "arena-full.toml", "growth.toml", "oracle.toml"}) {
