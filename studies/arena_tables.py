@@ -175,9 +175,8 @@ def median_time(runs):
     return f"{statistics.median(ratios):.2f}" if ratios else "–"
 
 
-def growth(runs, radio):
+def growth(runs):
     """A row per contender, whose cells have a value for each number of robots."""
-    runs = [row for row in runs if row["radio"] == radio]
     header = ["contender", "missed", "time", "robots", "broken", "bytes", "messages", "driven (m)"]
     rows = [["bound", "", "", by_size(runs, share_bound), "", "", "", ""]]
     for contender in dict.fromkeys(row["contender"] for row in runs):
@@ -332,8 +331,7 @@ TABLES = {
 
 # Tables of other studies, whose results lie beside those of the arena.
 BESIDE = {
-    "growth": ("growth", lambda runs: growth(runs, "clear")),
-    "growth-sight": ("growth", lambda runs: growth(runs, "sight")),
+    "growth": ("growth", growth),
     "oracle-extent": ("oracle", oracle_extent),
     "oracle": ("oracle", oracle),
 }
