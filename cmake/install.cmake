@@ -59,7 +59,7 @@ configure_file(${PROJECT_SOURCE_DIR}/cmake/banyan.pc.in ${generated}/banyan.pc @
 install(FILES ${generated}/banyan.pc DESTINATION ${pc_dir} COMPONENT development)
 
 if(TARGET banyan_cli)
-  install(TARGETS banyan_cli RUNTIME COMPONENT program)
+  install(TARGETS banyan_cli banyan_robot RUNTIME COMPONENT program)
   # Some studies name parameters that tuning found.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/studies ${PROJECT_SOURCE_DIR}/parameters ${PROJECT_SOURCE_DIR}/results
           DESTINATION ${CMAKE_INSTALL_DATADIR}/banyan COMPONENT program

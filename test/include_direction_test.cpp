@@ -2,7 +2,8 @@
 // The arrows of the house: cli -> study -> config -> record -> measure -> world -> controller,
 // and viewer -> config: a browser has no processes to start. Only algorithms -> controller, rivals knows the
 // algorithms; the others see them through controller/core, and who composes a program hands the list down. So does
-// rivals -> controller/core. Reads the include lines of every source file and names each that points up.
+// rivals -> controller/core. A host is a program of its own beside the world: hosts -> controller/core; what starts one
+// is above it, cli -> hosts. Reads the include lines of every source file and names each that points up.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -33,7 +34,8 @@ const std::map<std::string, Names, std::less<>> may_include = {
     {"record", {"controller", "world", "measure"}},
     {"config", {"controller", "world", "measure", "record"}},
     {"study", {"controller", "world", "measure", "record", "config"}},
-    {"cli", {"controller", "algorithms", "world", "measure", "record", "config", "study"}},
+    {"hosts", {"controller", "algorithms"}},
+    {"cli", {"controller", "algorithms", "world", "measure", "record", "config", "study", "hosts"}},
     {"viewer", {"controller", "algorithms", "world", "measure", "record", "config"}},
 };
 
@@ -51,6 +53,7 @@ const std::map<std::string, Names, std::less<>> homes = {
     {"pagmo/", {"study"}},
     {"boost/", {"study"}},
     {"mpi.h", {"study"}},
+    {"sodium", {"hosts"}},
     {"emscripten", {"viewer"}},
 };
 
@@ -68,9 +71,10 @@ bool is_for_hosts(const fs::path& file) {
   return file.stem() == "algorithm" && std::find(file.begin(), file.end(), "rivals") != file.end();
 }
 
-// What has include/, src/ and test/: a room, and in rivals/ each of its folders.
+// What has include/, src/ and test/: a room, and in rivals/ and hosts/ each of its folders.
 fs::path part_of(const fs::path& room_folder, const fs::path& file) {
-  return room_folder.filename() == "rivals" ? room_folder / *file.lexically_relative(room_folder).begin() : room_folder;
+  const bool has_parts = room_folder.filename() == "rivals" || room_folder.filename() == "hosts";
+  return has_parts ? room_folder / *file.lexically_relative(room_folder).begin() : room_folder;
 }
 // Whether a file is no test, nor anything else besides the libraries.
 bool is_product(const fs::path& room_folder, const fs::path& file) {
@@ -248,6 +252,14 @@ TEST_F(WrongHouse, RivalsStandOnTheCoreAlone) {
   EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""), "");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""),
             "world/src/x.cpp: banyan/rivals/common/motion.hpp points up\n");
+}
+TEST_F(WrongHouse, AHostKnowsNoWorld) {
+  EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include <vector>\n#include \"banyan/controller/core/swarm.hpp\""), "");
+  EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""), "hosts/toy/src/x.cpp: banyan/world/world.hpp points up\n");
+  EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include \"banyan/controller/convoy/convoy.hpp\""),
+            "hosts/toy/src/x.cpp: banyan/controller/convoy/convoy.hpp names an algorithm\n");
+  EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/hosts/toy/x.hpp\""), "");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include <sodium.h>"), "world/src/x.cpp: sodium.h belongs into another room\n");
 }
 TEST_F(WrongHouse, WorldIncludesMeasure) {
   EXPECT_NE(faults_of("world/include/banyan/world/x.hpp", "#include \"banyan/measure/metrics.hpp\""), "");

@@ -19,6 +19,9 @@ int view_command(const ViewOptions& /*options*/) { absent("view"); }
 int tune_command(const TuneOptions& /*options*/) { absent("tune"); }
 int study_command(const StudyOptions& /*options*/) { absent("study"); }
 int soak_command(const SoakOptions& /*options*/) { absent("soak"); }
+int hub_command(const HubOptions& /*options*/) { absent("hub"); }
+int robot_command(const std::vector<std::string>& /*arguments*/) { absent("robot"); }
+int fleet_command(const FleetOptions& /*options*/) { absent("fleet"); }
 int collect_command(const CollectOptions& /*options*/) { absent("collect"); }
 
 }  // namespace banyan::cli

@@ -25,6 +25,40 @@ struct RunOptions {
 };
 int run_command(const RunOptions& options);
 
+// Of a scenario whose robots are processes (docs/robots.md).
+struct HubOptions {
+  RunOptions run;
+  std::string listen = "0.0.0.0:4600";
+  std::string key_file;
+  std::string tape;           // file; "": none
+  bool resume = false;        // go on where the tape ends
+  double wait_s = 10.0;       // for robots, before the mission begins
+  double dead_after_s = 5.0;  // a robot that is silent for so long counts as dead
+  double speed = 1.0;
+  std::size_t bundle = 1;     // packets heard per datagram
+  bool print_robots = false;  // their command lines, instead
+  std::string new_key;        // make this file, instead
+};
+int hub_command(const HubOptions& options);
+
+// Becomes banyan-robot.
+int robot_command(const std::vector<std::string>& arguments);
+
+struct FleetOptions {
+  RunOptions run;
+  bool loopback = false;      // no network namespaces
+  bool restart = true;        // robots that end unasked
+  double speed = 1.0;
+  std::size_t bundle = 1;
+  double loss = 0.0;          // from here on: of the way from robot to robot
+  double delay_ms = 0.0;
+  double jitter_ms = 0.0;
+  double duplicate = 0.0;
+  double reorder = 0.0;
+  double rate_kbit_s = 0.0;   // of each robot, either way; 0: no limit
+};
+int fleet_command(const FleetOptions& options);
+
 struct ExportOptions {
   std::string recording;
   std::string output = "-";  // "-": standard output

@@ -85,6 +85,22 @@ constexpr const char* view_footer =
     "  banyan view scenarios/three-targets.toml --set radio.loss=0.3\n"
     "  banyan view";
 
+constexpr const char* hub_footer =
+    "Hands each robot what it could hear: packets of robots in range and in sight, with range and bearing.\n"
+    "Bodies move in a simulated world as the robots command. Results as of `banyan run`; docs/robots.md has the rest.\n\n"
+    "Examples:\n"
+    "  banyan hub --new-key fleet.key\n"
+    "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600 --print-robots\n"
+    "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600";
+
+constexpr const char* fleet_footer =
+    "A hub and a process per robot on this machine, over real UDP; each robot in a network namespace of its own where\n"
+    "the machine allows it. Robots that end unasked are started again, and so is the hub. Results as of `banyan run`.\n\n"
+    "Examples:\n"
+    "  banyan fleet scenarios/khepera-three-targets.toml\n"
+    "  banyan fleet scenarios/khepera-two-targets.toml --loss 0.1 --delay-ms 20 --jitter-ms 10\n"
+    "  banyan fleet scenarios/khepera-three-targets.toml --set mission.algorithm=convoy --speed 5";
+
 constexpr const char* algorithms_footer = "Examples:\n  banyan algorithms\n  banyan algorithms inwards --json";
 
 constexpr const char* keys_footer =
@@ -507,6 +523,77 @@ void add_bench(CLI::App& app, std::function<int()>& action) {
   command->callback([options, &action] { action = [options] { return bench_command(*options); }; });
 }
 
+// What `run`, `hub` and `fleet` have in common.
+void add_results(CLI::App& command, RunOptions& options) {
+  add_overrides(command, options.overrides);
+  add_seed(command, options.overrides);
+  command.add_option("-o,--out", options.out, "directory for the results, default out/<name>-<algorithm>-<seed>")
+      ->type_name("DIR");
+  command.add_flag("-f,--force", options.force, "replace results that are already there");
+  command.add_flag("--json", options.json, "print the result as JSON on standard output, and nothing else there");
+  command.add_flag("-q,--quiet", options.quiet, "no progress and no summary; warnings and errors only");
+  add_outputs(command, options.overrides);
+}
+
+template <class Options> void add_pace(CLI::App& command, Options& options) {
+  command.add_option("--speed", options.speed, "of all clocks, default 1; for tests")
+      ->type_name("X")
+      ->check(number_within(0.01, 100.0));
+  command
+      .add_option("--bundle", options.bundle, "packets in a datagram to a robot, at most; default 1, as on a radio")
+      ->type_name("N")
+      ->check(CLI::Range(1, 64).description(""));
+}
+
+void add_hub(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<HubOptions>();
+  auto* command =
+      app.add_subcommand("hub", "be the ears of robots that are processes")->group(command_group);
+  command->footer(hub_footer);
+  command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->type_name("FILE");
+  command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->type_name("FILE");
+  command->add_option("--new-key", options->new_key, "make a key file and exit")->type_name("FILE");
+  command->add_option("--listen", options->listen, "where robots find it, default 0.0.0.0:4600")->type_name("ADDRESS:PORT");
+  command->add_flag("--print-robots", options->print_robots, "print the command line of each robot and exit");
+  command->add_option("--wait", options->wait_s, "for robots before it begins, s; default 10")->type_name("S")->check(moment);
+  command->add_option("--dead-after", options->dead_after_s, "a robot that is silent for so long counts as dead, s; default 5")
+      ->type_name("S")
+      ->check(number_within(0.5, 1e6));
+  command->add_option("--tape", options->tape, "note there what robots say, to resume from")->type_name("FILE");
+  command->add_flag("--resume", options->resume, "go on where the tape ends");
+  add_results(*command, options->run);
+  add_pace(*command, *options);
+  command->callback([options, &action] { action = [options] { return hub_command(*options); }; });
+}
+
+void add_robot(CLI::App& app, std::function<int()>& action) {
+  auto* command = app.add_subcommand("robot", "be one robot; see banyan robot --help")->group(command_group);
+  command->prefix_command();
+  command->set_help_flag();
+  command->callback([command, &action] { action = [command] { return robot_command(command->remaining()); }; });
+}
+
+void add_fleet(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<FleetOptions>();
+  auto* command = app.add_subcommand("fleet", "run a scenario as processes, over real UDP")->group(command_group);
+  command->footer(fleet_footer);
+  command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
+  add_results(*command, options->run);
+  add_pace(*command, *options);
+  const auto way = [&](const char* name, double& value, double most, const char* meaning) {
+    command->add_option(name, value, meaning)->type_name("X")->check(number_within(0.0, most));
+  };
+  way("--loss", options->loss, 0.99, "share of the packets lost from robot to robot");
+  way("--delay-ms", options->delay_ms, 10000.0, "of a packet from robot to robot");
+  way("--jitter-ms", options->jitter_ms, 10000.0, "of that delay, uniform, either way");
+  way("--duplicate", options->duplicate, 0.99, "share of the packets that come twice");
+  way("--reorder", options->reorder, 1.0, "share of the packets that are not delayed and so overtake");
+  way("--rate-kbit", options->rate_kbit_s, 1e9, "kbit/s of each robot, either way; default 0: no limit");
+  command->add_flag("--loopback", options->loopback, "no network namespaces: all share the loopback device");
+  command->add_flag("!--no-restart", options->restart, "do not start robots again that have ended");
+  command->callback([options, &action] { action = [options] { return fleet_command(*options); }; });
+}
+
 // "did you mean" for a mistyped command or option.
 std::string suggestion(const CLI::App& app, const std::vector<std::string>& arguments) {
   const CLI::App* command = &app;
@@ -566,6 +653,9 @@ int run_program(int argc, char** argv) {
   add_soak(app, action);
   add_collect(app, action);
   add_bench(app, action);
+  add_hub(app, action);
+  add_robot(app, action);
+  add_fleet(app, action);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
     app.parse(argc, argv);

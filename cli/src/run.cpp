@@ -13,6 +13,7 @@
 #include "banyan/record/table.hpp"
 #include "banyan/version.hpp"
 #include "commands.hpp"
+#include "keep_run.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
@@ -88,23 +89,25 @@ Loaded load_or_leave(const RunOptions& options) {
 
 // Steps until the mission ends or a signal comes. An exception here ends the run; an output that fails does not.
 record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, Complaints& complaints,
-                        Progress& progress) {
+                        Progress& progress, const Play& play) {
   world::Executor executor(threads);
   const auto go_on = [&](const record::Simulation& simulation) {
     complaints.tell();
     if (progress.due()) show(progress, simulation);
     return stop_signal() == 0;
   };
-  const record::RunEnd end = record::run_scenario(std::move(world), sinks, executor, go_on);
+  const record::RunEnd end = play(std::move(world), sinks, executor, go_on);
   progress.clear();
   complaints.tell();
   return end;
 }
 
-int run_and_keep(const Configuration& configuration, const RunOutputs& outputs, const RunOptions& options) {
+}  // namespace
+
+int keep_run(const Configuration& configuration, const RunOutputs& outputs, const RunOptions& options, world::World world,
+             const Play& play, const std::function<std::string()>& remarks) {
   catch_stop_signals();
   Progress progress(!options.quiet);
-  world::World world(configuration.scenario);
   const record::SinkOptions wanted{
       {config_json(configuration), std::string(version), std::string(git_id()), configuration.scenario.seed},
       configuration.output,
@@ -114,12 +117,13 @@ int run_and_keep(const Configuration& configuration, const RunOutputs& outputs, 
   const int threads = thread_count(options.threads, world.size());
   record::RunEnd end;
   try {
-    end = play_out(std::move(world), sinks, threads, complaints, progress);
+    end = play_out(std::move(world), sinks, threads, complaints, progress, play);
   } catch (...) {
     for (const auto& rest : sinks.rests()) tell_of_rest(rest, "the run is lost; ");
     throw;
   }
-  SummaryExtras extras{progress.elapsed_s(), threads, end.last.active_targets, end.last.targets_reached, end.last.tree_parts, {}};
+  SummaryExtras extras{progress.elapsed_s(), threads, end.last.active_targets, end.last.targets_reached, end.last.tree_parts, {},
+                       remarks ? remarks() : ""};
   if (options.force) outputs.remove_leftovers(configuration.output);
   for (const auto& format : record::output_formats) {
     if (wanted.output.wants(format) && !complaints.about(outputs.path(format))) extras.written.push_back(&format);
@@ -137,8 +141,6 @@ int run_and_keep(const Configuration& configuration, const RunOutputs& outputs, 
   return exit_signal + stop_signal();
 }
 
-}  // namespace
-
 int run_command(const RunOptions& options) {
   const auto loaded = load_or_leave(options);
   if (!loaded.ok()) return exit_usage;
@@ -147,7 +149,7 @@ int run_command(const RunOptions& options) {
 
   const RunOutputs outputs(configuration, options.out, options.force);
   try {
-    return run_and_keep(configuration, outputs, options);
+    return keep_run(configuration, outputs, options, world::World(configuration.scenario), record::run_scenario);
   } catch (...) {
     outputs.abandon();
     throw;

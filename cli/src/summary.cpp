@@ -75,6 +75,13 @@ std::string work_text(const measure::Run& run) {
   return text;
 }
 
+std::string computing_text(const measure::Run& run, const SummaryExtras& extras) {
+  const double steps = static_cast<double>(run.ticks) * run.robots / std::max(extras.wall_s, 1e-9);
+  std::string text = summary_line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s,
+                               grouped(steps).c_str(), extras.threads, extras.threads == 1 ? "thread" : "threads"));
+  return text + summary_line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)", run.hash));
+}
+
 }  // namespace
 
 std::string summary_text(const record::RunRow& row, const Configuration& configuration, const RunOutputs& outputs,
@@ -91,10 +98,7 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   if (run.deaths > 0) text += summary_line("deaths", deaths_text(run));
   text += summary_line("work", work_text(run));
   text += summary_line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
-  const double steps = static_cast<double>(run.ticks) * run.robots / std::max(extras.wall_s, 1e-9);
-  text += summary_line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s,
-                               grouped(steps).c_str(), extras.threads, extras.threads == 1 ? "thread" : "threads"));
-  text += summary_line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)", run.hash));
+  text += extras.remarks.empty() ? computing_text(run, extras) : extras.remarks;
   text += "\nResults in " + outputs.directory() + "/\n";
   for (const record::OutputFormat* kept : extras.written) {
     const bool recording = kept->key == "record";

@@ -17,6 +17,7 @@ struct SummaryExtras {
   std::size_t targets_reached = 0;
   std::size_t tree_parts = 1;
   std::vector<const record::OutputFormat*> written;
+  std::string remarks;  // of a run that was not computed: whole lines, instead of speed and hash
 };
 
 [[nodiscard]] std::string summary_text(const record::RunRow& row, const config::Configuration& configuration,

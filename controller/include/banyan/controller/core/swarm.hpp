@@ -63,8 +63,8 @@ class Swarm {
   [[nodiscard]] virtual Report report(std::size_t i) const noexcept = 0;
   // Every bit of robot i that can influence a later step, messages under way included.
   virtual void add_to(Digest& digest, std::size_t i) const noexcept = 0;
-  // The numbers of a message, and those of what robot i broadcast last, in the same order. Nobody and
-  // unknown are -1.
+  // The numbers of a message, and those of what robot i broadcast last, or of the message that receive() has given
+  // the place i, in the same order. Nobody and unknown are -1.
   [[nodiscard]] virtual std::span<const FieldInfo> message_fields() const noexcept = 0;
   virtual void message_numbers(std::size_t i, std::span<double> numbers) const noexcept = 0;
 

@@ -153,7 +153,7 @@ class SwarmOf final : public Swarm {
   }
   void message_numbers(std::size_t i, std::span<double> numbers) const noexcept override {
     swarm_detail::Numbers visit{numbers.data()};
-    visit_fields(visit, slots_[slot_of(1)][i]);
+    visit_fields(visit, i < states_.size() ? slots_[slot_of(1)][i] : foreign_[i - states_.size()]);
   }
 
   void set_line_of_sight(bool on) noexcept override { params_.line_of_sight = on; }

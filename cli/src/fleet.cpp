@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// `banyan fleet`: a scenario as processes on this machine, a hub and robots, over real UDP.
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "banyan/hosts/udp/fleet.hpp"
+#include "banyan/hosts/udp/key.hpp"
+#include "commands.hpp"
+#include "fleet_members.hpp"
+#include "outputs.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+// The key of a fleet that lasts as long as this process: a file without a name, which its children inherit.
+class MemoryKey {
+ public:
+  MemoryKey() : file_(::memfd_create("banyan-key", 0)) {
+    if (file_ < 0 || ::fchmod(file_, S_IRUSR | S_IWUSR) != 0) throw CommandError(exit_lost, std::string("memfd_create: ") + std::strerror(errno));
+    const std::string text = udp::new_key_text();
+    if (::write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      throw CommandError(exit_lost, std::string("the fleet's key: ") + std::strerror(errno));
+  }
+  ~MemoryKey() { ::close(file_); }
+  MemoryKey(const MemoryKey&) = delete;
+  MemoryKey& operator=(const MemoryKey&) = delete;
+  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
+
+ private:
+  int file_;
+};
+
+udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key, const std::string& out, const std::string& tape) {
+  udp::Arguments arguments{own_program(), "hub", options.run.scenario, "--key", key, "--out", out, "--force", "--tape", tape,
+                           "--speed", number_text(options.speed), "--bundle", std::to_string(options.bundle)};
+  for (const auto& override : options.run.overrides) {
+    if (override.file.empty()) arguments.insert(arguments.end(), {"--set", override.assignment});
+    else arguments.insert(arguments.end(), {"--with", override.file});
+  }
+  if (options.run.quiet) arguments.emplace_back("--quiet");
+  if (options.run.json) arguments.emplace_back("--json");
+  return arguments;
+}
+
+udp::Arguments robot_arguments(const FleetOptions& options, const world::Scenario& scenario, std::size_t i, const std::string& key) {
+  udp::RobotOptions robot = robot_options(scenario, i);
+  robot.key_file = key;
+  robot.speed = options.speed;
+  udp::Arguments arguments = udp::to_arguments(robot);
+  arguments.insert(arguments.begin(), robot_program());
+  return arguments;
+}
+
+int run_fleet(udp::Fleet::Plan plan) {
+  udp::Fleet fleet(std::move(plan));
+  bool interrupted = false;
+  for (;;) {
+    if (const auto code = fleet.turn()) return *code;
+    if (stop_signal() == 0 || interrupted) continue;
+    interrupted = true;
+    fleet.interrupt(stop_signal());
+  }
+}
+
+int start_fleet(const FleetOptions& options) {
+  if (options.run.scenario == "-") throw CommandError(exit_usage, "the scenario of a fleet must be a file: its hub reads it, too");
+  const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
+  const bool namespaces = !options.loopback && udp::enter_network();
+  if (!namespaces && !options.loopback && !options.run.quiet)
+    complain("this machine does not allow network namespaces; all robots share its loopback device");
+  const RunOutputs outputs(configuration, options.run.out, options.run.force);
+  const std::string tape = outputs.directory() + "/fleet.tape";
+  const MemoryKey key;
+  udp::Fleet::Plan plan;
+  plan.hub = hub_arguments(options, key.path(), outputs.directory(), tape);
+  for (std::size_t i = 0; i < world::robot_count(configuration.scenario); ++i)
+    plan.robots.push_back(robot_arguments(options, configuration.scenario, i, key.path()));
+  plan.namespaces = namespaces;
+  plan.restart = options.restart;
+  plan.way = {options.loss, options.delay_ms / 1e3, options.jitter_ms / 1e3, options.duplicate, options.reorder, options.rate_kbit_s * 125.0};
+  plan.speed = options.speed;
+  plan.seed = configuration.scenario.seed;
+  const int code = run_fleet(std::move(plan));
+  std::error_code ignored;
+  std::filesystem::remove(tape, ignored);
+  outputs.abandon();  // if the hub has written nothing
+  return code;
+}
+
+}  // namespace
+
+int fleet_command(const FleetOptions& options) {
+  ::signal(SIGPIPE, SIG_IGN);
+  catch_stop_signals();
+  return with_fleet_errors([&] { return start_fleet(options); });
+}
+
+}  // namespace banyan::cli

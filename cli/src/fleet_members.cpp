@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "fleet_members.hpp"
+
+#include <filesystem>
+
+#include "banyan/algorithms/algorithms.hpp"
+#include "banyan/hosts/udp/fleet.hpp"
+#include "banyan/hosts/udp/key.hpp"
+#include "banyan/hosts/udp/socket.hpp"
+#include "banyan/hosts/udp/tape.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+
+config::Configuration load_fleet(const std::string& scenario, const std::vector<config::Override>& overrides) {
+  auto loaded = config::load_configuration(scenario, algorithms(), overrides);
+  print_problems(loaded.problems);
+  if (!loaded.ok()) throw CommandError(exit_usage, "nothing was started");
+  if (loaded.configuration.scenario.clocks.asynchronous) complain("clocks.asynchronous is left out: these robots have clocks of their own");
+  loaded.configuration.scenario.clocks = {};
+  return loaded.configuration;
+}
+
+udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i) {
+  udp::RobotOptions options;
+  options.id = static_cast<RobotId>(i);
+  options.algorithm = scenario.mission.algorithm;
+  options.setup = world::setup_of(scenario);
+  options.setup.history = 1;  // of packets that the robot itself delays
+  return options;
+}
+
+std::string own_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
+
+std::string robot_program() {
+  const auto program = std::filesystem::path(own_program()).parent_path() / "banyan-robot";
+  if (!std::filesystem::exists(program))
+    throw CommandError(exit_lost, program.string() + " is not there; build the target banyan_robot, or call ./banyan");
+  return program.string();
+}
+
+int with_fleet_errors(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const udp::KeyError& error) {
+    throw CommandError(exit_usage, error.what());
+  } catch (const udp::SocketError& error) {
+    throw CommandError(exit_lost, error.what());
+  } catch (const udp::TapeError& error) {
+    throw CommandError(exit_lost, error.what());
+  } catch (const udp::FleetError& error) {
+    throw CommandError(exit_lost, error.what());
+  }
+}
+
+}  // namespace banyan::cli

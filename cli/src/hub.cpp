@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// `banyan hub`: a scenario whose robots are processes. And `banyan robot`, which starts one.
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <random>
+
+#include "banyan/hosts/udp/hub.hpp"
+#include "banyan/hosts/udp/remote_swarm.hpp"
+#include "banyan/hosts/udp/tape.hpp"
+#include "commands.hpp"
+#include "fleet_members.hpp"
+#include "keep_run.hpp"
+#include "terminal.hpp"
+
+namespace banyan::cli {
+namespace {
+
+constexpr double still_after_s = 0.5;  // a robot that is not heard for so long stands in the world, too
+
+std::uint64_t digest_of(const std::string& text) {
+  Digest digest;
+  for (const char c : text) digest.add(c);
+  return digest.value();
+}
+
+std::unique_ptr<udp::Tape> open_tape(const HubOptions& options, const config::Configuration& configuration) {
+  if (options.tape.empty()) return nullptr;
+  const std::uint64_t digest = digest_of(config::config_json(configuration));
+  if (options.resume) return std::make_unique<udp::Tape>(options.tape, digest);
+  return std::make_unique<udp::Tape>(options.tape, digest, std::random_device{}());
+}
+
+std::string list_of(const std::vector<std::size_t>& robots) {
+  std::string text;
+  for (const std::size_t robot : robots) text += (text.empty() ? "" : ", ") + std::to_string(robot);
+  return text;
+}
+
+// What takes the place of World::step's own robots: waits for the moment of each tick.
+class Conductor {
+ public:
+  Conductor(udp::Hub& hub, const HubOptions& options) : hub_(hub), options_(options) {}
+
+  record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor, const record::GoOn& go_on) {
+    record::Simulation simulation(std::move(world), sink);
+    const auto stopped = [&] { return !go_on(simulation); };
+    simulation.stop_when(stopped);
+    if (!options_.resume) gather(stopped);
+    while (!simulation.finished()) {
+      const auto dead = hub_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
+      if (stopped()) return end(simulation, true);
+      for (const std::size_t robot : dead) bury(simulation, robot);
+      simulation.step(executor);
+    }
+    return end(simulation, false);
+  }
+
+ private:
+  void gather(const udp::Hub::Stopped& stopped) {
+    const auto missing = hub_.gather(options_.wait_s, stopped);
+    if (missing.empty() || stopped()) return;
+    hub_.stop_all();
+    throw CommandError(exit_lost, format("within %g s nothing was heard of robot ", options_.wait_s) + list_of(missing));
+  }
+
+  static void bury(record::Simulation& simulation, std::size_t robot) {
+    if (simulation.world().alive()[robot] == 0) return;
+    complain(format("%.1f s: robot %zu has fallen silent and counts as dead", simulation.world().time_s(), robot));
+    world::Event event;
+    event.action = world::Die{robot};
+    simulation.intervene(event);
+  }
+
+  record::RunEnd end(record::Simulation& simulation, bool interrupted) {
+    if (const std::size_t silent = hub_.stop_all(); silent > 0)
+      complain(plural(silent, "robot") + " did not confirm the stop; without the hub they stand still by themselves");
+    return simulation.finish(interrupted);
+  }
+
+  udp::Hub& hub_;
+  const HubOptions& options_;
+};
+
+double quantile_ms(std::vector<std::uint32_t> periods_us, double share) {
+  if (periods_us.empty()) return 0.0;
+  const auto at = periods_us.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(periods_us.size() - 1));
+  std::nth_element(periods_us.begin(), at, periods_us.end());
+  return *at / 1000.0;
+}
+
+std::string remarks_on(const udp::HubCounts& counts) {
+  std::string text = summary_line(
+      "processes", format("control period %.1f ms (median), %.1f ms (99th percentile), %.1f ms (longest); %s late",
+                          quantile_ms(counts.periods_us, 0.5), quantile_ms(counts.periods_us, 0.99),
+                          quantile_ms(counts.periods_us, 1.0), plural(counts.late_ticks, "tick").c_str()));
+  text += summary_line("datagrams", format("%s to robots, %s from them", grouped(static_cast<double>(counts.sent)).c_str(),
+                                           grouped(static_cast<double>(counts.received)).c_str()));
+  std::string dropped;
+  for (std::size_t k = 0; k < udp::drop_kinds; ++k) {
+    if (counts.dropped[k] == 0) continue;
+    dropped += (dropped.empty() ? "" : ", ") + grouped(static_cast<double>(counts.dropped[k])) + " " + udp::name_of(static_cast<udp::Drop>(k));
+  }
+  return text + summary_line("dropped", (dropped.empty() ? "none by the hub" : dropped + " by the hub") + ", " +
+                                            grouped(static_cast<double>(counts.dropped_by_robots)) + " by robots");
+}
+
+int play_scenario(const HubOptions& options) {
+  const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
+  const world::Scenario& scenario = configuration.scenario;
+  if (options.key_file.empty()) throw CommandError(exit_usage, "--key is missing; make one with banyan hub --new-key FILE");
+  const udp::KeyRing keys = udp::read_keys(options.key_file);
+  const auto tape = open_tape(options, configuration);
+  const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
+  try {
+    const udp::HubOptions hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s, options.bundle};
+    udp::Hub hub(hub_options, world::robot_count(scenario), keys, tape.get());
+    const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
+    const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);
+    RunOptions run = options.run;
+    run.threads = 1;
+    return keep_run(configuration, outputs, run, world::World(scenario, remote), Conductor(hub, options),
+                    [&hub] { return remarks_on(hub.counts()); });
+  } catch (...) {
+    outputs.abandon();
+    throw;
+  }
+}
+
+int print_robots(const HubOptions& options) {
+  const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
+  const std::size_t robots = world::robot_count(configuration.scenario);
+  std::string text;
+  for (std::size_t i = 0; i < robots; ++i) {
+    udp::RobotOptions robot = robot_options(configuration.scenario, i);
+    robot.key_file = options.key_file.empty() ? "KEY" : options.key_file;
+    robot.hub = options.listen;
+    robot.speed = options.speed;
+    text += "banyan-robot";
+    for (const std::string& argument : udp::to_arguments(robot)) text += " " + argument;
+    text += "\n";
+  }
+  print(text);
+  return exit_done;
+}
+
+}  // namespace
+
+int hub_command(const HubOptions& options) {
+  return with_fleet_errors([&] {
+    if (!options.new_key.empty()) {
+      udp::write_new_key(options.new_key);
+      return static_cast<int>(exit_done);
+    }
+    if (options.run.scenario.empty()) throw CommandError(exit_usage, "a scenario is missing; see banyan hub --help");
+    if (options.resume && options.tape.empty()) throw CommandError(exit_usage, "--resume needs --tape");
+    if (options.print_robots) return print_robots(options);
+    ::signal(SIGPIPE, SIG_IGN);  // as in `banyan run`
+    return play_scenario(options);
+  });
+}
+
+int robot_command(const std::vector<std::string>& arguments) {
+  std::string program = robot_program();
+  std::vector<char*> words{program.data()};
+  std::vector<std::string> copies = arguments;
+  for (std::string& argument : copies) words.push_back(argument.data());
+  words.push_back(nullptr);
+  ::execv(program.c_str(), words.data());
+  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
+}
+
+}  // namespace banyan::cli

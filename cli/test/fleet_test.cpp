@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+// Fleets of processes, as a user starts them, and what may happen to them: processes that are killed, bad radio, Ctrl-C.
+// Their clocks are five times as fast as the wall's, so that a mission of ten seconds takes two.
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "banyan/algorithms/algorithms.hpp"
+#include "banyan/config/config.hpp"
+#include "banyan/hosts/udp/remote_swarm.hpp"
+#include "banyan/hosts/udp/robot.hpp"
+#include "banyan/record/simulation.hpp"
+#include "started_program.hpp"
+
+namespace banyan::cli {
+namespace {
+
+const std::string three_targets = std::string(BANYAN_SCENARIOS) + "/khepera-three-targets.toml";
+
+// ---- Robots in this process: the swarm that is elsewhere, without clocks and sockets ----
+
+// Robots that step once a tick, right after the hub's word.
+class NearbyRobots final : public udp::Link {
+ public:
+  NearbyRobots(const world::Scenario& scenario, std::size_t robots) : answers_(robots) {
+    Setup setup = world::setup_of(scenario);
+    setup.history = 1;
+    for (std::size_t i = 0; i < robots; ++i)
+      robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5);
+  }
+  [[nodiscard]] std::optional<udp::Status> take(std::size_t i) override { return std::exchange(answers_[i], std::nullopt); }
+  void deliver(std::size_t i, udp::Frame frame, std::span<const udp::Hearing> heard) override {
+    const double now_s = 1.0 + 0.1 * frame.tick;
+    frame.mission = 1;
+    const auto travelled = udp::decode_frame(udp::encode(frame));
+    ASSERT_TRUE(travelled);
+    robots_[i].take(*travelled, now_s);
+    robots_[i].take(udp::Heard{frame.tick, frame.odometry, {heard.begin(), heard.end()}});
+    answers_[i] = udp::decode_status(udp::encode(robots_[i].step(now_s)));
+  }
+  void dismiss(std::size_t i) override { dismissed.insert(i); }
+  std::set<std::size_t> dismissed;
+
+ private:
+  std::vector<udp::Robot> robots_;
+  std::vector<std::optional<udp::Status>> answers_;
+};
+
+record::RunEnd played(const world::Scenario& scenario, NearbyRobots& robots) {
+  const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), robots, 5);
+  record::Sinks nobody_listens;
+  world::Executor alone(1);
+  return record::run_scenario(world::World(scenario, remote), nobody_listens, alone);
+}
+
+config::Configuration configuration(const std::vector<std::string>& assignments = {}) {
+  std::vector<config::Override> overrides;
+  for (const auto& assignment : assignments) overrides.push_back({assignment, "test"});
+  auto loaded = config::load_configuration(three_targets, algorithms(), overrides);
+  EXPECT_TRUE(loaded.ok());
+  return loaded.configuration;
+}
+
+TEST(RemoteSwarm, DoesWhatTheWorldsOwnDoes) {
+  for (const char* algorithm : {"outwards", "inwards", "convoy"}) {
+    const world::Scenario scenario = configuration({std::string("mission.algorithm=") + algorithm}).scenario;
+    NearbyRobots robots(scenario, world::robot_count(scenario));
+    const auto remote = played(scenario, robots);
+    record::Sinks nobody_listens;
+    world::Executor alone(1);
+    const auto own = record::run_scenario(world::World(scenario), nobody_listens, alone);
+    ASSERT_TRUE(remote.run.complete) << algorithm;
+    EXPECT_EQ(remote.run.split_ticks, 0U);
+    EXPECT_EQ(remote.run.broken_ticks, 0U);
+    // Nearly: they learn of their first frame a tick later, and their odometry is rounded differently.
+    EXPECT_NEAR(remote.run.completion_time_s, own.run.completion_time_s, 0.1 * own.run.completion_time_s) << algorithm;
+  }
+}
+
+TEST(RemoteSwarm, IsAFunctionOfWhatRobotsSay) {
+  const world::Scenario scenario = configuration({"radio.loss=0.2", "radio.latency_ticks=2"}).scenario;
+  NearbyRobots first(scenario, world::robot_count(scenario)), second(scenario, world::robot_count(scenario));
+  EXPECT_EQ(played(scenario, first).run.hash, played(scenario, second).run.hash);
+}
+
+TEST(RemoteSwarm, TargetsThatAreGivenUpAndDeathsReachTheRobots) {
+  world::Scenario scenario = configuration({"mission.algorithm=convoy", "mission.stop_when_complete=false", "mission.time_limit_s=12"}).scenario;
+  world::Event give_up, die;
+  give_up.time_s = 3.0;
+  give_up.action = world::RemoveTarget{1};
+  die.time_s = 4.0;
+  die.action = world::Die{8};
+  scenario.events = {give_up, die};
+  NearbyRobots robots(scenario, world::robot_count(scenario));
+  const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), robots, 5);
+  world::World world(scenario, remote);
+  while (world.time_s() < 12.0) world.step();
+  EXPECT_EQ(robots.dismissed, (std::set<std::size_t>{8}));
+  const auto given_up = static_cast<RobotId>(world.targets()[1].worker);
+  for (const Report& report : world.reports()) EXPECT_NE(report.serves, given_up);
+  EXPECT_TRUE(world.holder(0) && world.holder(2));
+}
+
+TEST(RemoteSwarm, ACopyOfItsWorldIsOfTheSameHashAndTalksToNobody) {
+  const world::Scenario scenario = configuration().scenario;
+  NearbyRobots robots(scenario, world::robot_count(scenario));
+  const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), robots, 5);
+  world::World world(scenario, remote);
+  for (int k = 0; k < 20; ++k) world.step();
+  world::World copy = world;
+  EXPECT_EQ(copy.hash(), world.hash());
+  copy.step();
+  copy.step();
+  world.step();  // its robots still answer
+  EXPECT_NE(copy.hash(), world.hash());
+}
+
+// ---- Processes ----
+
+class FleetProgram : public StartedProgram {
+ protected:
+  using Clock = std::chrono::steady_clock;
+
+  // Polls until it is so, at most 20 s.
+  static bool becomes(const std::function<bool()>& so) {
+    const auto end = Clock::now() + std::chrono::seconds(20);
+    while (!so()) {
+      if (Clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return true;
+  }
+  static std::vector<pid_t> children_of(pid_t parent) {
+    std::istringstream list(contents("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children"));
+    std::vector<pid_t> children;
+    for (pid_t child = 0; list >> child;) children.push_back(child);
+    return children;
+  }
+  static std::string command_line(pid_t pid) {
+    std::string line = contents("/proc/" + std::to_string(pid) + "/cmdline");
+    std::replace(line.begin(), line.end(), '\0', ' ');
+    return line;
+  }
+  static bool runs(pid_t pid) {
+    const std::string status = contents("/proc/" + std::to_string(pid) + "/status");
+    return !status.empty() && !has(status, "State:\tZ");
+  }
+  // The child of the fleet whose command line has these words; 0: there is none.
+  static pid_t child_with(pid_t fleet, const std::string& words) {
+    for (const pid_t child : children_of(fleet))
+      if (runs(child) && has(command_line(child), words)) return child;
+    return 0;
+  }
+  static pid_t robot(pid_t fleet, int id) { return child_with(fleet, "banyan-robot --id " + std::to_string(id) + " "); }
+  static pid_t hub(pid_t fleet) { return child_with(fleet, " hub "); }
+
+  // Started, and under way: its hub has a tape of some ticks.
+  pid_t start_fleet(Arguments more, std::size_t ticks = 10) {
+    more.insert(more.begin(), {"fleet", three_targets, "--speed", "5", "--out", "result", "--quiet"});
+    const pid_t fleet = start(more);
+    const auto tape = home_ / "result/fleet.tape";
+    EXPECT_TRUE(becomes([&] { return std::filesystem::exists(tape) && std::filesystem::file_size(tape) > 20 + ticks * 6 * 9; })) << read("stderr.txt");
+    return fleet;
+  }
+  // Kills a child of it and waits until another one is there in its place.
+  static void kill_and_wait(pid_t child, const std::function<pid_t()>& again) {
+    ASSERT_GT(child, 0);
+    ASSERT_EQ(::kill(child, SIGKILL), 0);
+    EXPECT_TRUE(becomes([&] { const pid_t now = again(); return now > 0 && now != child; }));
+  }
+  // Ended well, with the results of a mission that completed in a network that was never split.
+  nlohmann::json expect_complete(pid_t fleet) {
+    const auto children = children_of(fleet);
+    const Outcome outcome = finish(fleet);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    for (const pid_t child : children) EXPECT_FALSE(runs(child)) << child;
+    EXPECT_FALSE(exists("result/fleet.tape"));
+    EXPECT_TRUE(exists("result/run.mcap") && exists("result/run.csv"));
+    const auto whole = nlohmann::json::parse(read("result/run.json"), nullptr, false);
+    const auto result = whole.value("result", nlohmann::json::object());
+    EXPECT_TRUE(result.contains("complete") && result["complete"] == true) << result.dump(1).substr(0, 2000) << outcome.err;
+    return result;
+  }
+};
+
+TEST_F(FleetProgram, CompletesAndSaysWhatARunSays) {
+  const Outcome outcome = run({"fleet", three_targets, "--speed", "5", "--out", "result"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* words : {"COMPLETE after", "network    in one piece at every tick", "control period", "the recording", "0 by robots"})
+    EXPECT_TRUE(has(outcome.out, words)) << words << "\n" << outcome.out;
+  EXPECT_FALSE(has(outcome.out, "hash"));  // nothing that can be repeated to the bit
+  EXPECT_TRUE(exists("result/run.mcap"));
+}
+
+TEST_F(FleetProgram, GoesOnWhenARobotAndTheHubAreKilled) {
+  const pid_t fleet = start_fleet({"--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40", "--set", "mission.algorithm=convoy"});
+  kill_and_wait(robot(fleet, 4), [&] { return robot(fleet, 4); });
+  kill_and_wait(hub(fleet), [&] { return hub(fleet); });
+  kill_and_wait(robot(fleet, 2), [&] { return robot(fleet, 2); });
+  const auto result = expect_complete(fleet);
+  EXPECT_EQ(result["ticks"], 400);  // of the whole mission, not of the second hub's
+  EXPECT_EQ(result["split_ticks"], 0);
+}
+
+TEST_F(FleetProgram, ARobotThatStaysAwayCountsAsDead) {
+  const pid_t fleet = start_fleet({"--no-restart", "--set", "mission.algorithm=convoy", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40"});
+  ASSERT_EQ(::kill(robot(fleet, 6), SIGKILL), 0);
+  const auto result = expect_complete(fleet);
+  EXPECT_EQ(result["deaths"], 1);
+}
+
+TEST_F(FleetProgram, StandsLossDelayDuplicatesAndReordering) {
+  for (const char* algorithm : {"outwards", "inwards", "convoy"}) {
+    const pid_t fleet = start_fleet({"--force", "--loss", "0.3", "--delay-ms", "20", "--jitter-ms", "10", "--duplicate", "0.1", "--reorder", "0.1",
+                                     "--set", std::string("mission.algorithm=") + algorithm});
+    const auto result = expect_complete(fleet);
+    EXPECT_EQ(result["split_ticks"], 0) << algorithm;
+    std::filesystem::remove_all(home_ / "result");
+  }
+}
+
+TEST_F(FleetProgram, CtrlCStopsAllAndLeavesValidFiles) {
+  const pid_t fleet = start_fleet({"--set", "mission.stop_when_complete=false"});
+  const auto children = children_of(fleet);
+  EXPECT_EQ(children.size(), 10U);
+  ::kill(fleet, SIGINT);
+  const Outcome outcome = finish(fleet);
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "stopped by Ctrl-C"));
+  EXPECT_FALSE(has(outcome.err, "did not confirm"));
+  for (const pid_t child : children) EXPECT_FALSE(runs(child));
+  EXPECT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
+}
+
+TEST_F(FleetProgram, AllEndWithAFleetThatIsKilled) {
+  const pid_t fleet = start_fleet({"--set", "mission.stop_when_complete=false"});
+  const auto children = children_of(fleet);
+  EXPECT_EQ(children.size(), 10U);
+  ::kill(fleet, SIGKILL);
+  EXPECT_EQ(finish(fleet).code, 1000 + SIGKILL);
+  for (const pid_t child : children) EXPECT_TRUE(becomes([&] { return !runs(child); })) << child;
+}
+
+TEST_F(FleetProgram, ARobotIsSmallAndStandsStillWithoutItsHub) {
+  const pid_t fleet = start_fleet({"--loopback", "--set", "mission.stop_when_complete=false"});
+  std::istringstream status(contents("/proc/" + std::to_string(robot(fleet, 0)) + "/status"));
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("VmHWM:")) continue;
+    EXPECT_LE(std::stoul(line.substr(6)), BANYAN_ROBOT_LIMIT_KB) << line;
+  }
+  ::kill(fleet, SIGTERM);
+  EXPECT_EQ(finish(fleet).code, 143);
+}
+
+TEST_F(FleetProgram, RefusesWhatCannotBe) {
+  expect_refused({"fleet", three_targets, "--loss", "1"}, "from 0 to 0.99");
+  expect_refused({"fleet", "-"}, "must be a file");
+  expect_refused({"fleet", three_targets, "--set", "radio.rnage_m=1"}, "rnage_m");
+  expect_refused({"hub", three_targets}, "--key is missing");
+  expect_refused({"hub", three_targets, "--key", "k", "--resume"}, "--resume needs --tape");
+  write("loose.key", "1 " + std::string(64, 'a') + "\n");
+  std::filesystem::permissions(home_ / "loose.key", std::filesystem::perms{0644});
+  expect_refused({"hub", three_targets, "--key", "loose.key"}, "chmod 600");
+  EXPECT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
+  EXPECT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 2);
+  const auto alone = run({"hub", three_targets, "--key", "fleet.key", "--listen", "127.0.0.1:0", "--wait", "0.1"});
+  EXPECT_EQ(alone.code, 1);
+  EXPECT_TRUE(has(alone.err, "nothing was heard of robot 0, 1, 2, 3, 4, 5, 6, 7, 8")) << alone.err;
+  const auto robot = run({"robot", "--id", "3", "--hub", "127.0.0.1:9", "--key", "fleet.key", "--set", "no_such_m=1"});
+  EXPECT_EQ(robot.code, 2);
+  EXPECT_TRUE(has(robot.err, "no_such_m is unknown")) << robot.err;
+}
+
+TEST_F(FleetProgram, TheHubPrintsTheCommandOfEachRobot) {
+  const auto outcome = run({"hub", three_targets, "--key", "fleet.key", "--listen", "10.1.2.3:4600", "--print-robots", "--set", "radio.range_m=2.5"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 9);
+  EXPECT_TRUE(outcome.out.starts_with("banyan-robot --id 0 --hub 10.1.2.3:4600 --key fleet.key --algorithm outwards --range 2.5")) << outcome.out;
+}
+
+}  // namespace
+}  // namespace banyan::cli

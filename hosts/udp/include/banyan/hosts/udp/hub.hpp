@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The hub: emulates situated communication for robots that are processes. It is the link of a RemoteSwarm, the clock of
+// its world, and the only one who knows addresses and keys.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "banyan/hosts/udp/envelope.hpp"
+#include "banyan/hosts/udp/remote_swarm.hpp"
+#include "banyan/hosts/udp/socket.hpp"
+#include "banyan/hosts/udp/tape.hpp"
+
+namespace banyan::udp {
+
+struct HubOptions {
+  Address listen{};
+  double tick_s = 0.1;
+  double speed = 1.0;               // of its clock
+  double dead_after_s = 5.0;        // a robot that is silent for so long counts as dead
+  std::size_t bundle = 1;           // packets heard in one datagram, at most
+};
+
+// Of the account of a run.
+struct HubCounts {
+  std::uint64_t received = 0;       // datagrams, accepted
+  std::uint64_t sent = 0;
+  DropCounts dropped{};
+  std::uint64_t dropped_by_robots = 0;
+  std::uint64_t late_ticks = 0;     // that began more than a tick too late
+  std::vector<std::uint32_t> periods_us;  // of the robots' steps
+};
+
+class Hub final : public Link {
+ public:
+  // `tape`: none, or one to write and, if it has recorded ticks, to play first; it must outlive the hub.
+  Hub(const HubOptions& options, std::size_t robots, KeyRing keys, Tape* tape);
+
+  using Stopped = std::function<bool()>;
+  // Waits until every robot has said something, at most so long. Those that have not.
+  [[nodiscard]] std::vector<std::size_t> gather(double seconds, const Stopped& stopped);
+  // Waits for the moment of that tick and takes what has come by then. The robots that count as dead from now on.
+  // Ends early if it is stopped.
+  [[nodiscard]] std::vector<std::size_t> wait_for(std::uint32_t tick, const Stopped& stopped);
+  // Tells all robots to stand still and end, again and again, until all have answered or a second has passed. How many
+  // have not answered.
+  std::size_t stop_all();
+
+  [[nodiscard]] const HubCounts& counts() const noexcept { return counts_; }
+  [[nodiscard]] bool is_replaying(std::uint32_t tick) const noexcept { return tape_ != nullptr && tick < tape_->recorded().size(); }
+  [[nodiscard]] Address local() const noexcept { return socket_.local(); }
+
+  [[nodiscard]] std::optional<Status> take(std::size_t i) override;
+  void deliver(std::size_t i, Frame frame, std::span<const Hearing> heard) override;
+  void dismiss(std::size_t i) override;
+
+ private:
+  struct Robot {
+    explicit Robot(const Channel& to) noexcept : channel(to) {}
+    Channel channel;
+    std::optional<Address> address;   // where it was heard from last
+    std::uint64_t boot = 0;           // of the newest status
+    std::uint32_t counter = 0;        // likewise
+    Bytes arrived;                    // that status; empty: taken
+    bool begun = false;               // it has taken part
+    bool dead = false;
+    bool answered_stop = false;
+    std::uint32_t heard_tick = 0;     // when it was last heard
+    std::uint32_t dropped = 0;        // by itself, as it says
+  };
+
+  void listen();
+  void take(const Envelope& envelope, const Address& from);
+  void send(Robot& robot, Kind kind, const Bytes& payload);
+  void send_heard(Robot& robot, const Frame& frame, std::span<const Hearing> heard);
+  void keep_time(std::uint32_t tick, const Stopped& stopped);
+  [[nodiscard]] TapeTick arrivals(std::uint32_t tick);
+  void play(std::uint32_t tick);
+
+  HubOptions options_;
+  KeyRing keys_;
+  Tape* tape_;
+  Socket socket_;
+  Clock clock_;
+  std::uint32_t mission_;
+  std::vector<Robot> robots_;
+  std::optional<double> begin_s_;     // when tick 0 began, or would have; none: not yet
+  std::uint32_t tick_ = 0;
+  bool muted_ = false;                // a tape is played
+  HubCounts counts_;
+};
+
+}  // namespace banyan::udp

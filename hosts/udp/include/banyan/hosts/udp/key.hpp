@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The keys of a fleet, from a file that only its owner can read. A line of it is a number from 0 to 255 and 64
+// hexadecimal digits; '#' begins a comment. The first key signs, all of them are accepted. So a fleet changes its key
+// without a pause: append the new key everywhere, then put it first everywhere, then remove the old one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace banyan::udp {
+
+struct Key {
+  std::uint8_t number = 0;
+  std::array<std::uint8_t, 32> secret{};
+};
+
+// What is wrong with a key file, in words that begin with its path.
+class KeyError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class KeyRing {
+ public:
+  // Never empty, no number twice.
+  explicit KeyRing(std::vector<Key> keys) : keys_(std::move(keys)) {}
+  [[nodiscard]] const Key& signing() const noexcept { return keys_.front(); }
+  [[nodiscard]] const Key* find(std::uint8_t number) const noexcept;  // null: there is none
+
+ private:
+  std::vector<Key> keys_;
+};
+
+// Throws KeyError, also if others than the owner may read or write the file.
+[[nodiscard]] KeyRing read_keys(const std::string& path);
+// A key file with one random key, as text. Throws KeyError.
+[[nodiscard]] std::string new_key_text();
+// A new file with one random key, mode 0600. Throws KeyError, also if the file exists.
+void write_new_key(const std::string& path);
+
+}  // namespace banyan::udp

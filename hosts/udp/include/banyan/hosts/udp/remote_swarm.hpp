@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Robots that are elsewhere, as a Swarm: the world keeps bodies, radio, obstacles and events, and everybody who observes
+// it stays as they are, while the controllers run in processes of their own. In a step each robot is sent what it
+// senses and hears, and what has arrived from it by then counts as what it does.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/hosts/udp/messages.hpp"
+
+namespace banyan::udp {
+
+// The way to the robots.
+class Link {
+ public:
+  virtual ~Link() = default;
+  // The newest status of robot i that has come since the last call; nothing if none has.
+  [[nodiscard]] virtual std::optional<Status> take(std::size_t i) = 0;
+  // `frame.mission` and `frame.begun` are the link's to fill in. Positions in `heard` are as of the frame.
+  virtual void deliver(std::size_t i, Frame frame, std::span<const Hearing> heard) = 0;
+  // Robot i is dead in the world: its process is to end.
+  virtual void dismiss(std::size_t i) = 0;
+
+ protected:
+  Link() = default;
+};
+
+// Steps on one thread only.
+class RemoteSwarm final : public Swarm {
+ public:
+  // `local`: a swarm of the algorithm, which knows its messages. A robot that is silent for more than `silence` ticks
+  // stands still. `link` must outlive it; a clone has none.
+  RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, Link& link, std::uint32_t silence);
+
+  [[nodiscard]] std::unique_ptr<Swarm> clone() const override;
+  [[nodiscard]] std::size_t size() const noexcept override { return robots_.size(); }
+  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) override;
+  void advance() noexcept override;
+  std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override;
+  [[nodiscard]] std::size_t message_bytes() const noexcept override { return local_->message_bytes(); }
+  // Nobody hears other swarms through a hub.
+  std::optional<std::uint32_t> receive(std::span<const std::uint8_t> /*bytes*/) override { return std::nullopt; }
+  [[nodiscard]] Report report(std::size_t i) const noexcept override { return robots_[i].report; }
+  void add_to(Digest& digest, std::size_t i) const noexcept override;
+  [[nodiscard]] std::span<const FieldInfo> message_fields() const noexcept override { return local_->message_fields(); }
+  void message_numbers(std::size_t i, std::span<double> numbers) const noexcept override;
+  void set_line_of_sight(bool on) noexcept override { line_of_sight_ = on; }
+  [[nodiscard]] std::size_t memory_bytes() const noexcept override;
+
+ private:
+  struct Robot {
+    Member member;
+    OdometricPose odometry;
+    Velocity velocity;
+    Report report;
+    Bytes message;                    // the last
+    std::vector<double> numbers;      // of that
+    std::vector<Bytes> recent;        // a ring, by tick: what arrived in it; empty: nothing
+    std::uint32_t silent_ticks = 0;
+    std::deque<RobotId> given_up;     // still to be announced; the first is being announced
+    std::uint8_t given_up_serial = 0; // of the last that it has confirmed
+  };
+
+  RemoteSwarm(const RemoteSwarm& other);
+  void collect();
+  void take(Robot& robot, const Status& status);
+  [[nodiscard]] Frame frame_of(Robot& robot, const Senses& senses) const;
+  [[nodiscard]] std::size_t slot(std::uint32_t age) const noexcept { return (tick_ + history_ - age) % history_; }
+
+  std::unique_ptr<Swarm> local_;
+  std::vector<Robot> robots_;
+  std::size_t history_;
+  std::uint32_t silence_;
+  Link* link_;                        // null: a clone
+  bool line_of_sight_;
+  bool collected_ = false;            // in this tick
+  std::uint32_t tick_ = 0;
+  std::vector<Hearing> heard_;
+};
+
+// An algorithm whose robots are elsewhere.
+class RemoteAlgorithm final : public Algorithm {
+ public:
+  RemoteAlgorithm(const Algorithm& real, Link& link, std::uint32_t silence) noexcept : real_(real), link_(link), silence_(silence) {}
+  [[nodiscard]] std::string_view name() const noexcept override { return real_.name(); }
+  [[nodiscard]] std::string_view summary() const noexcept override { return real_.summary(); }
+  [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override { return real_.parameters(); }
+  [[nodiscard]] std::vector<float> values(const Setup& setup) const override { return real_.values(setup); }
+  [[nodiscard]] std::string fault(const Setup& setup) const override { return real_.fault(setup); }
+  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override;
+
+ private:
+  const Algorithm& real_;
+  Link& link_;
+  std::uint32_t silence_;
+};
+
+}  // namespace banyan::udp

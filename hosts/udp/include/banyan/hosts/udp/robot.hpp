@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// One robot: the controller at its own clock, between what the hub says and what its base does. Knows neither sockets
+// nor wall time.
+//
+// Positions arrive as they were when they were measured. They are kept in the frame of the robot's own odometry and
+// turned into the body frame of the moment in which the controller steps.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "banyan/controller/core/algorithm.hpp"
+#include "banyan/hosts/udp/messages.hpp"
+
+namespace banyan::udp {
+
+class Robot {
+ public:
+  // Stands still while its newest frame is older than `stop_after_s`. `algorithm` must outlive it.
+  Robot(const Algorithm& algorithm, const Setup& setup, RobotId id, double stop_after_s);
+
+  // What the hub has said. `at`: where the own odometry was when it was measured; nothing: the hub knows that itself.
+  void take(const Frame& frame, double now_s, const std::optional<OdometricPose>& at = {});
+  void take(const Heard& heard, const std::optional<OdometricPose>& at = {});
+
+  // Whether a step makes sense: it has been told how to begin, and lately.
+  [[nodiscard]] bool is_guided(double now_s) const noexcept;
+  // One step of the controller. Call it only if is_guided(). `pose` and `seen`: of a base that measures them itself.
+  [[nodiscard]] Status step(double now_s, const std::optional<OdometricPose>& pose = {}, std::span<const Vec2> seen = {});
+
+ private:
+  struct Known {  // a packet that waits for the next step
+    std::uint32_t tick = 0;
+    Vec2 position;  // in the frame of the odometry
+    Bytes message;  // empty: it has been given to the controller
+  };
+
+  void begin(const Frame& frame);
+  [[nodiscard]] float elapsed_s(double now_s) const noexcept;
+  [[nodiscard]] Senses sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s);
+  void collect(const OdometricPose& pose);
+
+  const Algorithm& algorithm_;
+  Setup setup_;
+  RobotId id_;
+  double stop_after_s_;
+  std::unique_ptr<Swarm> swarm_;  // of this robot alone; none before the first frame
+
+  Frame frame_;                   // the newest
+  double frame_s_ = 0.0;          // when it came
+  Vec2 target_;                   // in the frame of the odometry
+  std::map<RobotId, Known> known_;
+
+  OdometricPose pose_;            // at the last step
+  double step_s_ = 0.0;           // when that was
+  std::uint32_t step_tick_ = 0;   // and the newest tick that it knew
+  bool interrupted_ = false;      // it has been without guidance since
+  std::uint8_t given_up_serial_ = 0;
+  std::vector<Packet> packets_;
+  std::vector<Vec2> obstacles_;
+};
+
+}  // namespace banyan::udp

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The command line of banyan-robot, read and written: the hub prints it, the fleet starts robots with it.
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "banyan/controller/core/algorithm.hpp"
+
+namespace banyan::udp {
+
+struct RobotOptions {
+  RobotId id = nobody;
+  std::string hub;               // ADDRESS:PORT
+  std::string key_file;
+  std::string algorithm = "convoy";
+  Setup setup;
+  std::string base;              // "": simulated wheels; tcp:ADDRESS:PORT or a serial device
+  double stop_after_s = 0.5;     // without a frame from the hub
+  double delay_s = 0.0;          // from a measurement of the tracker to its arrival here; with a base only
+  double speed = 1.0;            // of its clock
+};
+
+class OptionError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+[[nodiscard]] std::string robot_usage();
+// Throws OptionError, also for values that are out of range or missing.
+[[nodiscard]] RobotOptions parse_robot_options(std::span<const std::string> arguments);
+// The arguments that stand for these options; what is as by default is left out.
+[[nodiscard]] std::vector<std::string> to_arguments(const RobotOptions& options);
+
+}  // namespace banyan::udp

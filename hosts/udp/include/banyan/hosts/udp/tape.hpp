@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// What a hub has taken from its robots, tick by tick, in a file. The world is a function of that, so a hub that was
+// killed plays the tape and goes on where it was: with the same poses, assignment, recording and account.
+//
+//   8 bytes "banyan1\n"; 8 bytes digest of the configuration; 4 bytes number of the mission; then of each tick
+//   4 bytes tick, 2 bytes count, and as often: 2 bytes robot, 2 bytes length, a status (messages.hpp); of length 0:
+//   the robot counts as dead from then on
+//
+// A tick that was cut off by the end of the hub is not there.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "banyan/hosts/udp/bytes.hpp"
+
+namespace banyan::udp {
+
+class TapeError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct TapeEntry {
+  std::uint16_t robot = 0;
+  Bytes status;  // empty: dead
+  friend bool operator==(const TapeEntry&, const TapeEntry&) = default;
+};
+using TapeTick = std::vector<TapeEntry>;
+
+class Tape {
+ public:
+  // A new one; replaces what is there. Throws TapeError.
+  Tape(const std::string& path, std::uint64_t configuration, std::uint32_t mission);
+  // Goes on with the one that is there. Throws TapeError if there is none, or it is of another configuration.
+  Tape(const std::string& path, std::uint64_t configuration);
+  ~Tape();
+  Tape(const Tape&) = delete;
+  Tape& operator=(const Tape&) = delete;
+
+  [[nodiscard]] std::uint32_t mission() const noexcept { return mission_; }
+  [[nodiscard]] const std::vector<TapeTick>& recorded() const noexcept { return recorded_; }  // when it was opened
+  void append(std::uint32_t tick, const TapeTick& entries);  // throws TapeError
+
+ private:
+  std::size_t read(const std::string& path, std::uint64_t configuration);
+  void write(const Bytes& bytes);
+
+  std::string path_;
+  int file_ = -1;
+  std::uint32_t mission_ = 0;
+  std::vector<TapeTick> recorded_;
+};
+
+}  // namespace banyan::udp

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/hub.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace banyan::udp {
+namespace {
+
+constexpr double long_pause_s = 1.0;  // the hub itself was held up: nobody counts as silent for that
+constexpr double repeat_stop_s = 0.02;
+constexpr double insist_s = 1.0;
+
+}  // namespace
+
+Hub::Hub(const HubOptions& options, std::size_t robots, KeyRing keys, Tape* tape)
+    : options_(options),
+      keys_(std::move(keys)),
+      tape_(tape),
+      socket_(options.listen),
+      clock_(options.speed),
+      mission_(tape != nullptr ? tape->mission() : static_cast<std::uint32_t>(new_boot())) {
+  const std::uint64_t boot = new_boot();
+  for (std::size_t i = 0; i < robots; ++i) robots_.emplace_back(Channel(hub_node, static_cast<Node>(i), boot));
+}
+
+// ---- What arrives ----
+
+void Hub::listen() {
+  std::array<std::uint8_t, largest_datagram + 1> room;
+  Address from;
+  while (const auto datagram = socket_.receive(room, from)) {
+    Drop reason{};
+    if (const auto envelope = authenticate(*datagram, keys_, reason)) take(*envelope, from);
+    else ++counts_.dropped[static_cast<std::size_t>(reason)];
+  }
+}
+
+void Hub::take(const Envelope& envelope, const Address& from) {
+  const auto refuse = [&](Drop reason) { ++counts_.dropped[static_cast<std::size_t>(reason)]; };
+  if (envelope.sender >= robots_.size()) return refuse(Drop::misaddressed);
+  Robot& robot = robots_[envelope.sender];
+  if (const auto reason = robot.channel.admit(envelope)) return refuse(*reason);
+  robot.address = from;
+  robot.heard_tick = tick_;
+  ++counts_.received;
+  if (envelope.kind == Kind::stopped) robot.answered_stop = true;
+  if (envelope.kind != Kind::status) return;
+  const auto status = decode_status(envelope.payload);
+  if (!status) return refuse(Drop::malformed);
+  const bool is_later = envelope.boot != robot.boot || envelope.counter > robot.counter;
+  if (!is_later) return;  // overtaken
+  robot.boot = envelope.boot;
+  robot.counter = envelope.counter;
+  robot.arrived.assign(envelope.payload.begin(), envelope.payload.end());
+  robot.dropped = status->dropped;
+  if (status->period_us > 0) counts_.periods_us.push_back(status->period_us);
+}
+
+std::optional<Status> Hub::take(std::size_t i) {
+  Robot& robot = robots_[i];
+  if (robot.arrived.empty()) return std::nullopt;
+  robot.begun = true;
+  auto status = decode_status(robot.arrived);
+  robot.arrived.clear();
+  return status;
+}
+
+// ---- What is sent ----
+
+void Hub::send(Robot& robot, Kind kind, const Bytes& payload) {
+  if (!robot.address) return;
+  socket_.send(robot.channel.seal(kind, payload, keys_), *robot.address);
+  ++counts_.sent;
+}
+
+void Hub::deliver(std::size_t i, Frame frame, std::span<const Hearing> heard) {
+  Robot& robot = robots_[i];
+  if (muted_) return;
+  frame.mission = mission_;
+  frame.begun = robot.begun;
+  send(robot, Kind::frame, encode(frame));
+  send_heard(robot, frame, heard);
+}
+
+void Hub::send_heard(Robot& robot, const Frame& frame, std::span<const Hearing> heard) {
+  constexpr std::size_t room = largest_datagram - header_bytes - mac_bytes;
+  constexpr std::size_t fixed = 17, per_packet = 11;
+  Heard bundle{frame.tick, frame.odometry, {}};
+  std::size_t size = fixed;
+  const auto flush = [&] {
+    if (!bundle.packets.empty()) send(robot, Kind::heard, encode(bundle));
+    bundle.packets.clear();
+    size = fixed;
+  };
+  for (const Hearing& packet : heard) {
+    const std::size_t more = per_packet + packet.message.size();
+    if (bundle.packets.size() >= options_.bundle || size + more > room) flush();
+    bundle.packets.push_back(packet);
+    size += more;
+  }
+  flush();
+}
+
+void Hub::dismiss(std::size_t i) {
+  Robot& robot = robots_[i];
+  robot.dead = true;
+  if (!muted_ && !robot.answered_stop) send(robot, Kind::stop, {});
+}
+
+std::size_t Hub::stop_all() {
+  const double end_s = clock_.now_s() + insist_s * options_.speed;
+  const std::array<int, 1> descriptor{socket_.descriptor()};
+  const auto waits = [](const Robot& robot) { return robot.address && !robot.answered_stop && !robot.dead; };
+  while (std::any_of(robots_.begin(), robots_.end(), waits) && clock_.now_s() < end_s) {
+    for (Robot& robot : robots_)
+      if (waits(robot)) send(robot, Kind::stop, {});
+    const double again_s = clock_.now_s() + repeat_stop_s * options_.speed;
+    while (clock_.wait(descriptor, again_s)) listen();
+  }
+  counts_.dropped_by_robots = 0;
+  for (const Robot& robot : robots_) counts_.dropped_by_robots += robot.dropped;
+  return static_cast<std::size_t>(std::count_if(robots_.begin(), robots_.end(), waits));
+}
+
+// ---- Time ----
+
+std::vector<std::size_t> Hub::gather(double seconds, const Stopped& stopped) {
+  const double end_s = clock_.now_s() + seconds * options_.speed;
+  const std::array<int, 1> descriptor{socket_.descriptor()};
+  std::vector<std::size_t> missing;
+  do {
+    listen();
+    missing.clear();
+    for (std::size_t i = 0; i < robots_.size(); ++i)
+      if (!robots_[i].address && !robots_[i].dead) missing.push_back(i);
+    if (!missing.empty()) clock_.wait(descriptor, std::min(end_s, clock_.now_s() + 0.1 * options_.speed));
+  } while (!missing.empty() && !stopped() && clock_.now_s() < end_s);
+  return missing;
+}
+
+void Hub::keep_time(std::uint32_t tick, const Stopped& stopped) {
+  const std::array<int, 1> descriptor{socket_.descriptor()};
+  if (!begin_s_) {
+    begin_s_ = clock_.now_s() - tick * options_.tick_s;
+    for (Robot& robot : robots_) robot.heard_tick = tick;
+  }
+  const double due_s = *begin_s_ + tick * options_.tick_s;
+  do {
+    clock_.wait(descriptor, due_s);
+    listen();
+  } while (!stopped() && clock_.now_s() < due_s);
+  const double late_s = clock_.now_s() - due_s;
+  if (late_s < options_.tick_s) return;
+  ++counts_.late_ticks;
+  *begin_s_ += late_s;
+  if (late_s < long_pause_s) return;
+  for (Robot& robot : robots_) robot.heard_tick = tick;
+}
+
+TapeTick Hub::arrivals(std::uint32_t tick) {
+  const auto patience = static_cast<std::uint32_t>(std::lround(options_.dead_after_s / options_.tick_s));
+  TapeTick entries;
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const Robot& robot = robots_[i];
+    if (!robot.arrived.empty()) entries.push_back({static_cast<std::uint16_t>(i), robot.arrived});
+    if (!robot.dead && tick - robot.heard_tick > patience) entries.push_back({static_cast<std::uint16_t>(i), {}});
+  }
+  return entries;
+}
+
+void Hub::play(std::uint32_t tick) {
+  for (const TapeEntry& entry : tape_->recorded()[tick])
+    if (entry.robot < robots_.size() && !entry.status.empty()) robots_[entry.robot].arrived = entry.status;
+}
+
+std::vector<std::size_t> Hub::wait_for(std::uint32_t tick, const Stopped& stopped) {
+  tick_ = tick;
+  muted_ = is_replaying(tick);
+  TapeTick entries;
+  if (muted_) {
+    entries = tape_->recorded()[tick];
+    play(tick);
+  } else {
+    keep_time(tick, stopped);
+    entries = arrivals(tick);
+    if (tape_ != nullptr) tape_->append(tick, entries);
+  }
+  std::vector<std::size_t> dead;
+  for (const TapeEntry& entry : entries) {
+    if (!entry.status.empty() || entry.robot >= robots_.size()) continue;
+    robots_[entry.robot].dead = true;
+    dead.push_back(entry.robot);
+  }
+  return dead;
+}
+
+}  // namespace banyan::udp

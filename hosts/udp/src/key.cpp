@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/key.hpp"
+
+#include <fcntl.h>
+#include <sodium.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+namespace banyan::udp {
+namespace {
+
+std::optional<Key> parse_key(const std::string& line) {
+  std::istringstream words(line);
+  std::string number, digits, more;
+  if (!(words >> number >> digits) || words >> more) return std::nullopt;
+  Key key;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), key.number);
+  if (error != std::errc{} || end != number.data() + number.size()) return std::nullopt;
+  std::size_t length = 0;
+  const char* rest = nullptr;
+  const int status = ::sodium_hex2bin(key.secret.data(), key.secret.size(), digits.data(), digits.size(), nullptr, &length, &rest);
+  if (status != 0 || length != key.secret.size() || rest != digits.data() + digits.size()) return std::nullopt;
+  return key;
+}
+
+void check_permissions(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) throw KeyError(path + ": " + std::strerror(errno));
+  if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    throw KeyError(path + ": others than its owner have access to this key file; chmod 600 it");
+}
+
+void start_library() {
+  if (::sodium_init() < 0) throw KeyError("libsodium cannot be started");
+}
+
+}  // namespace
+
+const Key* KeyRing::find(std::uint8_t number) const noexcept {
+  const auto at = std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.number == number; });
+  return at == keys_.end() ? nullptr : &*at;
+}
+
+KeyRing read_keys(const std::string& path) {
+  start_library();
+  check_permissions(path);
+  std::ifstream file(path);
+  if (!file) throw KeyError(path + ": cannot be read");
+  std::vector<Key> keys;
+  std::size_t number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    line.erase(std::min(line.find('#'), line.size()));
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const auto key = parse_key(line);
+    const std::string where = path + ":" + std::to_string(number);
+    if (!key) throw KeyError(where + ": must be a number from 0 to 255 and 64 hexadecimal digits");
+    if (std::any_of(keys.begin(), keys.end(), [&](const Key& other) { return other.number == key->number; }))
+      throw KeyError(where + ": there is another key of this number");
+    keys.push_back(*key);
+  }
+  if (keys.empty()) throw KeyError(path + ": has no key");
+  return KeyRing(std::move(keys));
+}
+
+std::string new_key_text() {
+  start_library();
+  Key key;
+  ::randombytes_buf(key.secret.data(), key.secret.size());
+  std::array<char, 2 * sizeof(key.secret) + 1> digits{};
+  ::sodium_bin2hex(digits.data(), digits.size(), key.secret.data(), key.secret.size());
+  return "1 " + std::string(digits.data()) + "\n";
+}
+
+void write_new_key(const std::string& path) {
+  const std::string text = new_key_text();
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (file < 0) throw KeyError(path + ": " + std::strerror(errno));
+  const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  if (::close(file) != 0 || !written) throw KeyError(path + ": cannot be written");
+}
+
+}  // namespace banyan::udp

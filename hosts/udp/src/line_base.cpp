@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/line_base.hpp"
+
+#include <fcntl.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+#include "banyan/hosts/udp/socket.hpp"
+
+namespace banyan::udp {
+namespace {
+
+constexpr std::size_t longest_line = 4096;
+constexpr double remembered_s = 1.0;
+
+std::string_view take_word(std::string_view& line) noexcept {
+  const std::size_t end = std::min(line.find(' '), line.size());
+  const std::string_view word = line.substr(0, end);
+  line.remove_prefix(std::min(end + 1, line.size()));
+  return word;
+}
+
+// Finite numbers until the end of the line; nothing if a word is none.
+std::optional<std::vector<float>> numbers(std::string_view line) {
+  std::vector<float> found;
+  while (!line.empty()) {
+    const std::string_view word = take_word(line);
+    float value = 0.0F;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+    found.push_back(value);
+  }
+  return found;
+}
+
+std::string in_decimals(float value) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 4).ptr;
+  return {text.data(), end};
+}
+
+int connect_to(const std::string& name) {
+  const Address address = parse_address(name);
+  const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0 || ::connect(descriptor, reinterpret_cast<const sockaddr*>(&address.raw), sizeof address.raw) != 0) {
+    const int error = errno;
+    if (descriptor >= 0) ::close(descriptor);
+    throw BaseError("tcp:" + name + ": " + std::strerror(error));
+  }
+  const int on = 1;
+  static_cast<void>(::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on));
+  static_cast<void>(::fcntl(descriptor, F_SETFL, O_NONBLOCK));
+  return descriptor;
+}
+
+int open_serial(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) throw BaseError(path + ": " + std::strerror(errno));
+  termios settings{};
+  if (::tcgetattr(descriptor, &settings) == 0) {
+    ::cfmakeraw(&settings);
+    ::cfsetspeed(&settings, B115200);
+    settings.c_cflag |= CLOCAL | CREAD;
+    if (::tcsetattr(descriptor, TCSANOW, &settings) == 0) return descriptor;
+  }
+  const int error = errno;
+  ::close(descriptor);
+  throw BaseError(path + ": is no serial device: " + std::strerror(error));
+}
+
+}  // namespace
+
+std::optional<std::variant<OdometricPose, Seen>> parse_base_line(std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  const std::string_view word = take_word(line);
+  const auto values = numbers(line);
+  if (!values) return std::nullopt;
+  if (word == "pose" && values->size() == 3) {
+    constexpr float largest = 1e4F;  // beyond, a turn would not be exact (trig.hpp)
+    if (std::fabs((*values)[2]) > largest) return std::nullopt;
+    return OdometricPose{{(*values)[0], (*values)[1]}, angle_of(unit_vector((*values)[2]))};
+  }
+  if (word != "seen" || values->size() % 2 != 0 || values->size() > 2 * most_seen) return std::nullopt;
+  Seen seen;
+  for (std::size_t k = 0; k < values->size(); k += 2) seen.points.push_back({(*values)[k], (*values)[k + 1]});
+  return seen;
+}
+
+std::string drive_line(const Velocity& velocity) {
+  return "drive " + in_decimals(velocity.forward_m_s) + " " + in_decimals(velocity.sideways_m_s) + " " +
+         in_decimals(velocity.turn_rad_s) + "\n";
+}
+
+LineBase::~LineBase() { ::close(descriptor_); }
+
+void LineBase::take(std::string_view line, double now_s) {
+  const auto said = parse_base_line(line);
+  if (!said) return;
+  if (const auto* seen = std::get_if<Seen>(&*said)) {
+    seen_ = *seen;
+    return;
+  }
+  poses_.push_back({now_s, std::get<OdometricPose>(*said)});
+  while (poses_.size() > 1 && poses_.front().s < now_s - remembered_s) poses_.pop_front();
+}
+
+void LineBase::listen(double now_s) {
+  std::array<char, 1024> room{};
+  for (;;) {
+    const ssize_t size = ::read(descriptor_, room.data(), room.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size == 0 || (size < 0 && errno != EAGAIN)) lost_ = true;
+    if (size <= 0) return;
+    begun_.append(room.data(), static_cast<std::size_t>(size));
+    for (std::size_t end = begun_.find('\n'); end != std::string::npos; end = begun_.find('\n')) {
+      take(std::string_view(begun_).substr(0, end), now_s);
+      begun_.erase(0, end + 1);
+    }
+    if (begun_.size() > longest_line) begun_.clear();
+  }
+}
+
+void LineBase::drive(const Velocity& velocity) {
+  const std::string line = drive_line(velocity);
+  // A base that does not read stops by itself.
+  static_cast<void>(::write(descriptor_, line.data(), line.size()));
+}
+
+std::optional<OdometricPose> LineBase::pose_at(double moment_s) const {
+  OdometricPose pose = poses_.empty() ? OdometricPose{} : poses_.front().pose;
+  for (const Moment& moment : poses_)
+    if (moment.s <= moment_s) pose = moment.pose;
+  return pose;
+}
+
+std::unique_ptr<Driver> open_line_base(const std::string& name) {
+  try {
+    return std::make_unique<LineBase>(name.starts_with("tcp:") ? connect_to(name.substr(4)) : open_serial(name));
+  } catch (const SocketError& error) {
+    throw BaseError(error.what());
+  }
+}
+
+}  // namespace banyan::udp

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/remote_swarm.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace banyan::udp {
+
+RemoteSwarm::RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, Link& link, std::uint32_t silence)
+    : local_(std::move(local)),
+      history_(std::max<std::size_t>(1, setup.history)),
+      silence_(silence),
+      link_(&link),
+      line_of_sight_(setup.platform.line_of_sight) {
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    Robot robot;
+    robot.member = members[i];
+    robot.report = local_->report(i);
+    robot.message.resize(local_->message_bytes());
+    robot.message.resize(local_->send(i, robot.message));
+    robot.numbers.resize(local_->message_fields().size());
+    local_->message_numbers(i, robot.numbers);
+    robot.recent.resize(history_);
+    robots_.push_back(std::move(robot));
+  }
+}
+
+RemoteSwarm::RemoteSwarm(const RemoteSwarm& other)
+    : local_(other.local_->clone()),
+      robots_(other.robots_),
+      history_(other.history_),
+      silence_(other.silence_),
+      link_(nullptr),
+      line_of_sight_(other.line_of_sight_),
+      collected_(other.collected_),
+      tick_(other.tick_) {}
+
+std::unique_ptr<Swarm> RemoteSwarm::clone() const { return std::unique_ptr<Swarm>(new RemoteSwarm(*this)); }
+
+// A message that the algorithm does not know makes the whole status worthless.
+void RemoteSwarm::take(Robot& robot, const Status& status) {
+  const auto place = local_->receive(status.message);
+  if (!place) return;
+  local_->message_numbers(*place, robot.numbers);
+  robot.silent_ticks = 0;
+  robot.velocity = status.velocity;
+  robot.report = status.report;
+  robot.message = status.message;
+  robot.recent[slot(0)] = status.message;
+  if (!robot.given_up.empty() && status.given_up_serial == static_cast<std::uint8_t>(robot.given_up_serial + 1)) {
+    ++robot.given_up_serial;
+    robot.given_up.pop_front();
+  }
+}
+
+// What others hear in this tick must be known before the first robot is told.
+void RemoteSwarm::collect() {
+  if (collected_) return;
+  collected_ = true;
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    Robot& robot = robots_[i];
+    robot.recent[slot(0)].clear();
+    ++robot.silent_ticks;
+    const auto status = link_ != nullptr ? link_->take(i) : std::nullopt;
+    if (status) take(robot, *status);
+  }
+  local_->advance();  // forgets the messages that take() has looked into
+}
+
+Frame RemoteSwarm::frame_of(Robot& robot, const Senses& senses) const {
+  Frame frame;
+  frame.tick = tick_;
+  frame.root = robot.member.root;
+  frame.worker = robot.member.worker;
+  frame.sent = senses.orders.sent;
+  frame.has_target = senses.orders.target.has_value();
+  frame.line_of_sight = line_of_sight_;
+  frame.target = senses.orders.target.value_or(Vec2{});
+  frame.odometry = robot.odometry;
+  frame.given_up = robot.given_up.empty() ? nobody : robot.given_up.front();
+  frame.given_up_serial = static_cast<std::uint8_t>(robot.given_up_serial + (robot.given_up.empty() ? 0 : 1));
+  const std::size_t seen = std::min(senses.obstacles.size(), most_seen);
+  frame.obstacles.assign(senses.obstacles.begin(), senses.obstacles.begin() + static_cast<std::ptrdiff_t>(seen));
+  return frame;
+}
+
+void RemoteSwarm::step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) {
+  collect();
+  for (std::size_t k = 0; k < sensed.size(); ++k) {
+    Robot& robot = robots_[first + k];
+    if (!sensed[k].steps) {
+      if (link_ != nullptr) link_->dismiss(first + k);
+      continue;
+    }
+    const Senses& senses = sensed[k].senses;
+    robot.odometry = moved(robot.odometry, senses.odometry);
+    if (senses.orders.given_up != nobody) robot.given_up.push_back(senses.orders.given_up);
+    heard_.clear();
+    for (const Packet& packet : sensed[k].packets) {
+      // One tick old is what arrived in this one.
+      const Bytes& message = robots_[packet.sender].recent[slot(packet.age_ticks - 1)];
+      if (!message.empty()) heard_.push_back({robots_[packet.sender].member.id, packet.position, message});
+    }
+    if (link_ != nullptr) link_->deliver(first + k, frame_of(robot, senses), heard_);
+    commands[k] = robot.silent_ticks > silence_ ? Velocity{} : robot.velocity;
+    reports[k] = robot.report;
+  }
+}
+
+void RemoteSwarm::advance() noexcept {
+  ++tick_;
+  collected_ = false;
+}
+
+std::size_t RemoteSwarm::send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept {
+  const Bytes& message = robots_[i].message;
+  std::copy(message.begin(), message.end(), bytes.begin());
+  return message.size();
+}
+
+void RemoteSwarm::add_to(Digest& digest, std::size_t i) const noexcept {
+  const Robot& robot = robots_[i];
+  digest.add(robot.silent_ticks);
+  digest.add(robot.odometry.position);
+  digest.add(robot.odometry.turn_rad);
+  for (const std::uint8_t byte : robot.message) digest.add(byte);
+}
+
+void RemoteSwarm::message_numbers(std::size_t i, std::span<double> numbers) const noexcept {
+  std::copy(robots_[i].numbers.begin(), robots_[i].numbers.end(), numbers.begin());
+}
+
+std::size_t RemoteSwarm::memory_bytes() const noexcept {
+  return sizeof(*this) + local_->memory_bytes() + robots_.size() * (sizeof(Robot) + history_ * local_->message_bytes());
+}
+
+std::unique_ptr<Swarm> RemoteAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
+  return std::make_unique<RemoteSwarm>(real_.make(setup, members), members, setup, link_, silence_);
+}
+
+}  // namespace banyan::udp

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/robot.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "banyan/controller/core/wire.hpp"
+
+namespace banyan::udp {
+
+Robot::Robot(const Algorithm& algorithm, const Setup& setup, RobotId id, double stop_after_s)
+    : algorithm_(algorithm), setup_(setup), id_(id), stop_after_s_(stop_after_s) {}
+
+// A robot that has started again in the middle of a mission is not its first root.
+void Robot::begin(const Frame& frame) {
+  const std::array<Member, 1> self{Member{id_, frame.worker, frame.root && !frame.begun}};
+  swarm_ = algorithm_.make(setup_, self);
+  known_.clear();
+  given_up_serial_ = frame.begun ? frame.given_up_serial : 0;
+  step_tick_ = frame.tick;
+  interrupted_ = true;
+}
+
+void Robot::take(const Frame& frame, double now_s, const std::optional<OdometricPose>& at) {
+  const bool another_mission = swarm_ && frame.mission != frame_.mission;
+  if (swarm_ && frame.tick <= frame_.tick && !another_mission) return;  // overtaken by a later one
+  if (!is_guided(now_s)) interrupted_ = true;
+  if (!swarm_ || another_mission) begin(frame);
+  frame_ = frame;
+  frame_s_ = now_s;
+  if (frame.has_target) target_ = at.value_or(frame.odometry).outside(frame.target);
+  swarm_->set_line_of_sight(frame.line_of_sight);
+}
+
+void Robot::take(const Heard& heard, const std::optional<OdometricPose>& at) {
+  if (!swarm_) return;
+  const OdometricPose& pose = at ? *at : heard.odometry;
+  for (const Hearing& packet : heard.packets) {
+    const auto [place, is_new] = known_.try_emplace(packet.sender);
+    if (!is_new && heard.tick <= place->second.tick) continue;
+    place->second = {heard.tick, pose.outside(packet.position), packet.message};
+  }
+}
+
+bool Robot::is_guided(double now_s) const noexcept { return swarm_ && now_s - frame_s_ <= stop_after_s_; }
+
+// After an interruption the hub's ticks say how much of the mission has passed: nothing, if the hub was away.
+float Robot::elapsed_s(double now_s) const noexcept {
+  if (!interrupted_) return static_cast<float>(now_s - step_s_);
+  const std::uint32_t ticks = std::max<std::uint32_t>(1, frame_.tick - std::min(step_tick_, frame_.tick));
+  return static_cast<float>(ticks) * setup_.platform.tick_s;
+}
+
+void Robot::collect(const OdometricPose& pose) {
+  packets_.clear();
+  for (auto& [sender, known] : known_) {
+    if (known.message.empty()) continue;
+    if (const auto place = swarm_->receive(known.message))
+      packets_.push_back({.sender = *place, .age_ticks = 1, .position = pose.inside(known.position), .age_s = 0.0F});
+    known.message.clear();
+  }
+}
+
+Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
+  Senses senses;
+  senses.odometry = motion_between(pose_, pose);
+  senses.orders.sent = frame_.sent;
+  if (frame_.sent && frame_.has_target) senses.orders.target = pose.inside(target_);
+  if (frame_.given_up_serial != given_up_serial_) senses.orders.given_up = frame_.given_up;
+  obstacles_.assign(frame_.obstacles.begin(), frame_.obstacles.end());
+  obstacles_.insert(obstacles_.end(), seen.begin(), seen.end());
+  senses.obstacles = obstacles_;
+  senses.elapsed_s = elapsed_s(now_s);
+  return senses;
+}
+
+Status Robot::step(double now_s, const std::optional<OdometricPose>& own, std::span<const Vec2> seen) {
+  const OdometricPose pose = own ? *own : frame_.odometry;
+  if (step_s_ <= 0.0) pose_ = pose;  // the first one: there is no motion before
+  collect(pose);
+  std::array<Sensed, 1> sensed;
+  sensed[0].packets = packets_;
+  sensed[0].senses = sense(pose, seen, now_s);
+  std::array<Velocity, 1> command{};
+  std::array<Report, 1> report{};
+  swarm_->step(0, sensed, command, report);
+  swarm_->advance();
+
+  Status status;
+  status.frame_tick = frame_.tick;
+  status.period_us = interrupted_ ? 0 : static_cast<std::uint32_t>(std::min((now_s - step_s_) * 1e6, 4e9));
+  given_up_serial_ = status.given_up_serial = frame_.given_up_serial;
+  status.velocity = command[0];
+  status.report = report[0];
+  status.message.resize(largest_wire);
+  status.message.resize(swarm_->send(0, status.message));
+
+  pose_ = pose;
+  step_s_ = now_s;
+  step_tick_ = frame_.tick;
+  interrupted_ = false;
+  return status;
+}
+
+}  // namespace banyan::udp

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/tape.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace banyan::udp {
+namespace {
+
+constexpr std::array<std::uint8_t, 8> mark = {'b', 'a', 'n', 'y', 'a', 'n', '1', '\n'};
+constexpr std::size_t header = 20;
+
+Bytes bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw TapeError(path + ": cannot be read");
+  return Bytes(std::istreambuf_iterator<char>(file), {});
+}
+
+}  // namespace
+
+Tape::Tape(const std::string& path, std::uint64_t configuration, std::uint32_t mission)
+    : path_(path), file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)), mission_(mission) {
+  if (file_ < 0) throw TapeError(path + ": " + std::strerror(errno));
+  Bytes begin(mark.begin(), mark.end());
+  ByteWriter out(begin);
+  out.put(configuration);
+  out.put(mission);
+  write(begin);
+}
+
+Tape::Tape(const std::string& path, std::uint64_t configuration) : path_(path) {
+  const std::size_t sound = read(path, configuration);
+  file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file_ < 0 || ::ftruncate(file_, static_cast<off_t>(sound)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) {
+    const int error = errno;
+    if (file_ >= 0) ::close(file_);
+    throw TapeError(path + ": " + std::strerror(error));
+  }
+}
+
+Tape::~Tape() {
+  if (file_ >= 0) ::close(file_);
+}
+
+// Returns how many bytes of it make sense.
+std::size_t Tape::read(const std::string& path, std::uint64_t configuration) {
+  const Bytes all = bytes_of(path);
+  ByteReader in(all);
+  const ByteView begin = in.take(mark.size());
+  if (!std::equal(begin.begin(), begin.end(), mark.begin(), mark.end())) throw TapeError(path + ": is no tape of a hub");
+  if (in.take<std::uint64_t>() != configuration) throw TapeError(path + ": is the tape of another configuration");
+  mission_ = in.take<std::uint32_t>();
+  if (!in.ok()) throw TapeError(path + ": is no tape of a hub");
+  std::size_t sound = header, end = header;
+  while (in.ok()) {
+    const auto tick = in.take<std::uint32_t>();
+    const auto count = in.take<std::uint16_t>();
+    end += 6;
+    TapeTick entries;
+    for (int k = 0; k < count && in.ok(); ++k) {
+      TapeEntry entry;
+      entry.robot = in.take<std::uint16_t>();
+      const ByteView status = in.take(in.take<std::uint16_t>());
+      entry.status.assign(status.begin(), status.end());
+      end += 4 + entry.status.size();
+      entries.push_back(std::move(entry));
+    }
+    if (!in.ok() || tick != recorded_.size()) break;
+    recorded_.push_back(std::move(entries));
+    sound = end;
+  }
+  return sound;
+}
+
+void Tape::append(std::uint32_t tick, const TapeTick& entries) {
+  Bytes bytes;
+  ByteWriter out(bytes);
+  out.put(tick);
+  out.put(static_cast<std::uint16_t>(entries.size()));
+  for (const TapeEntry& entry : entries) {
+    out.put(entry.robot);
+    out.put(static_cast<std::uint16_t>(entry.status.size()));
+    out.put(ByteView(entry.status));
+  }
+  write(bytes);
+}
+
+void Tape::write(const Bytes& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t written = ::write(file_, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) throw TapeError(path_ + ": " + std::strerror(errno));
+    done += static_cast<std::size_t>(written);
+  }
+}
+
+}  // namespace banyan::udp

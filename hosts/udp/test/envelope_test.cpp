@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Who is let in: an attacker who can record, change, cut and send again, but does not have the key.
+#include "banyan/hosts/udp/envelope.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+namespace banyan::udp {
+namespace {
+
+KeyRing ring(std::initializer_list<std::uint8_t> numbers) {
+  std::vector<Key> keys;
+  for (const std::uint8_t number : numbers) {
+    Key key{number, {}};
+    key.secret.fill(number);
+    keys.push_back(key);
+  }
+  return KeyRing(keys);
+}
+
+const Bytes payload = {1, 2, 3};
+
+std::optional<Drop> dropped(Channel& channel, const Bytes& datagram, const KeyRing& keys) {
+  Drop reason{};
+  const auto envelope = authenticate(datagram, keys, reason);
+  return envelope ? channel.admit(*envelope) : reason;
+}
+
+// Two that have greeted each other.
+struct Pair {
+  KeyRing keys = ring({1});
+  Channel robot{3, hub_node, 100};
+  Channel hub{hub_node, 3, 200};
+  Pair() {
+    EXPECT_EQ(dropped(hub, robot.seal(Kind::hello, {}, keys), keys), std::nullopt);
+    EXPECT_EQ(dropped(robot, hub.seal(Kind::frame, payload, keys), keys), std::nullopt);
+  }
+};
+
+TEST(Envelope, CarriesEverything) {
+  const KeyRing keys = ring({9});
+  const Bytes datagram = seal({Kind::heard, 0x1234, 0x5678, 0x1122334455667788, 0x99AABBCCDDEEFF00, 0xCAFEBABE, payload}, keys.signing());
+  EXPECT_EQ(datagram.size(), header_bytes + payload.size() + mac_bytes);
+  // As the header's table says, so that others can write it, too.
+  const Bytes begin(datagram.begin(), datagram.begin() + 12);
+  EXPECT_EQ(begin, (Bytes{0xBA, 1, 3, 9, 0x34, 0x12, 0x78, 0x56, 0x88, 0x77, 0x66, 0x55}));
+  Drop reason{};
+  const auto envelope = authenticate(datagram, keys, reason);
+  ASSERT_TRUE(envelope);
+  EXPECT_EQ(envelope->kind, Kind::heard);
+  EXPECT_EQ(envelope->sender, 0x1234);
+  EXPECT_EQ(envelope->receiver, 0x5678);
+  EXPECT_EQ(envelope->boot, 0x1122334455667788U);
+  EXPECT_EQ(envelope->echo, 0x99AABBCCDDEEFF00U);
+  EXPECT_EQ(envelope->counter, 0xCAFEBABE);
+  EXPECT_TRUE(std::ranges::equal(envelope->payload, payload));
+}
+
+TEST(Envelope, EveryChangedBitAndEveryCutIsNoticed) {
+  Pair pair;
+  const Bytes datagram = pair.robot.seal(Kind::status, payload, pair.keys);
+  for (std::size_t bit = 0; bit < 8 * datagram.size(); ++bit) {
+    Bytes changed = datagram;
+    changed[bit / 8] = static_cast<std::uint8_t>(changed[bit / 8] ^ 1U << bit % 8);
+    const auto reason = dropped(pair.hub, changed, pair.keys);
+    EXPECT_TRUE(reason == Drop::forged || (reason == Drop::foreign && bit < 32)) << bit;
+  }
+  for (std::size_t size = 0; size < datagram.size(); ++size)
+    EXPECT_TRUE(dropped(pair.hub, Bytes(datagram.begin(), datagram.begin() + static_cast<std::ptrdiff_t>(size)), pair.keys)) << size;
+  Bytes longer = datagram;
+  longer.push_back(0);
+  EXPECT_EQ(dropped(pair.hub, longer, pair.keys), Drop::forged);
+  EXPECT_EQ(dropped(pair.hub, datagram, pair.keys), std::nullopt);  // and it was good
+}
+
+TEST(Envelope, AnotherFleetIsForeign) {
+  Pair pair;
+  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, ring({2})), pair.keys), Drop::foreign);
+  KeyRing same_number({Key{1, {}}});
+  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, same_number), pair.keys), Drop::forged);
+}
+
+TEST(Envelope, KeysChangeWithoutAPause) {
+  Pair pair;
+  const KeyRing begun = ring({1, 2}), changed = ring({2, 1}), done = ring({2});
+  for (const auto& [robot, hub] : {std::pair{begun, ring({1})}, {begun, begun}, {changed, begun}, {changed, changed}, {done, changed}, {done, done}}) {
+    EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, robot), hub), std::nullopt);
+    EXPECT_EQ(dropped(pair.robot, pair.hub.seal(Kind::frame, payload, hub), robot), std::nullopt);
+  }
+  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, ring({1})), done), Drop::foreign);
+}
+
+TEST(Envelope, APacketCountsOnceAndForItsReceiverOnly) {
+  Pair pair;
+  const Bytes status = pair.robot.seal(Kind::status, payload, pair.keys);
+  EXPECT_EQ(dropped(pair.hub, status, pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(pair.hub, status, pair.keys), Drop::replayed);
+  EXPECT_EQ(dropped(pair.robot, status, pair.keys), Drop::misaddressed);  // reflected
+  Channel another(4, hub_node, 100);
+  EXPECT_EQ(dropped(another, pair.hub.seal(Kind::frame, payload, pair.keys), pair.keys), Drop::misaddressed);
+}
+
+TEST(Envelope, ARobotThatHasStartedAgainIsAcceptedAndItsOldPacketsAreNot) {
+  Pair pair;
+  const Bytes held_back = pair.robot.seal(Kind::status, payload, pair.keys);
+  const Bytes old_hello = pair.robot.seal(Kind::hello, {}, pair.keys);
+  Channel again(3, hub_node, 101);
+  EXPECT_EQ(dropped(pair.hub, again.seal(Kind::hello, {}, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(again, pair.hub.seal(Kind::frame, payload, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(pair.hub, again.seal(Kind::status, payload, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(pair.hub, held_back, pair.keys), Drop::stale);
+  EXPECT_EQ(dropped(pair.hub, old_hello, pair.keys), Drop::stale);
+}
+
+TEST(Envelope, AHubThatHasStartedAgainTakesNothingFromBefore) {
+  Pair pair;
+  const Bytes recorded = pair.robot.seal(Kind::status, payload, pair.keys);
+  const Bytes frame = pair.hub.seal(Kind::frame, payload, pair.keys);
+  Channel hub(hub_node, 3, 201);
+  EXPECT_EQ(dropped(hub, recorded, pair.keys), Drop::stale);
+  EXPECT_EQ(dropped(hub, pair.robot.seal(Kind::hello, {}, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(pair.robot, hub.seal(Kind::frame, payload, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(pair.robot, frame, pair.keys), Drop::stale);
+  EXPECT_EQ(dropped(hub, pair.robot.seal(Kind::status, payload, pair.keys), pair.keys), std::nullopt);
+}
+
+// Against a set of everything that was ever accepted.
+TEST(ReplayWindow, AcceptsEachOnceWhateverTheOrder) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 200; ++round) {
+    ReplayWindow window;
+    std::set<std::uint32_t> accepted;
+    std::uint32_t highest = 0;
+    for (int k = 0; k < 500; ++k) {
+      const auto counter = static_cast<std::uint32_t>(1 + random() % (round % 2 == 0 ? 300U : 5000U));
+      const bool too_old = counter + ReplayWindow::reach <= highest;
+      const bool is_new = !too_old && accepted.insert(counter).second;
+      EXPECT_EQ(!window.admit(1, counter), is_new) << round << " " << counter << " " << highest;
+      highest = std::max(highest, counter);
+    }
+  }
+}
+
+TEST(ReplayWindow, NothingHasCounterOrBootZero) {
+  ReplayWindow window;
+  EXPECT_EQ(window.admit(0, 1), Drop::stale);
+  EXPECT_EQ(window.admit(5, 0), Drop::malformed);
+  EXPECT_EQ(window.boot(), 0U);
+  EXPECT_EQ(window.admit(5, 0xFFFFFFFF), std::nullopt);
+  EXPECT_EQ(window.admit(5, 1), Drop::replayed);
+}
+
+}  // namespace
+}  // namespace banyan::udp

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// The hub over real sockets, with robots that say what a test wants them to.
+#include "banyan/hosts/udp/hub.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace banyan::udp {
+namespace {
+
+KeyRing fleet_keys(std::uint8_t secret = 1) {
+  Key key{1, {}};
+  key.secret.fill(secret);
+  return KeyRing({key});
+}
+
+const Address anywhere = parse_address("127.0.0.1:0");
+const auto never = [] { return false; };
+
+struct FakeRobot {
+  FakeRobot(Node id, const Hub& hub, std::uint64_t boot = 1000) : channel(id, hub_node, boot), to(hub.local()) {}
+  Bytes say(Kind kind, const Bytes& payload = {}) {
+    Bytes datagram = channel.seal(kind, payload, keys);
+    socket.send(datagram, to);
+    return datagram;
+  }
+  Bytes tell(float forward_m_s) {
+    Status status;
+    status.velocity.forward_m_s = forward_m_s;
+    status.period_us = 100000;
+    status.message = {1};
+    return say(Kind::status, encode(status));
+  }
+  // Everything that has come, authenticated.
+  std::vector<std::pair<Kind, Bytes>> hear() {
+    std::vector<std::pair<Kind, Bytes>> heard;
+    std::array<std::uint8_t, 2000> room;
+    Address from;
+    while (const auto datagram = socket.receive(room, from)) {
+      EXPECT_LE(datagram->size(), largest_datagram);
+      Drop reason{};
+      const auto envelope = authenticate(*datagram, keys, reason);
+      if (envelope && !channel.admit(*envelope)) heard.emplace_back(envelope->kind, Bytes(envelope->payload.begin(), envelope->payload.end()));
+    }
+    return heard;
+  }
+  KeyRing keys = fleet_keys();
+  Socket socket{anywhere};
+  Channel channel;
+  Address to;
+};
+
+class HubAndRobots : public ::testing::Test {
+ protected:
+  static HubOptions options() { return {.listen = anywhere, .tick_s = 0.1, .speed = 20.0, .dead_after_s = 1.0, .bundle = 1}; }
+  [[nodiscard]] std::uint64_t dropped(Drop reason) const { return hub_.counts().dropped[static_cast<std::size_t>(reason)]; }
+  // Both have been greeted and have answered; the next tick is 1.
+  void greet() {
+    a_.say(Kind::hello);
+    b_.say(Kind::hello);
+    ASSERT_TRUE(hub_.gather(5.0, never).empty());
+    ASSERT_TRUE(hub_.wait_for(0, never).empty());
+    hub_.deliver(0, {}, {});
+    hub_.deliver(1, {}, {});
+    ASSERT_EQ(a_.hear().size(), 1U);
+    ASSERT_EQ(b_.hear().size(), 1U);
+  }
+  [[nodiscard]] std::optional<float> velocity(std::size_t i) {
+    const auto status = hub_.take(i);
+    return status ? std::optional(status->velocity.forward_m_s) : std::nullopt;
+  }
+  Hub hub_{options(), 2, fleet_keys(), nullptr};
+  FakeRobot a_{0, hub_}, b_{1, hub_};
+};
+
+TEST_F(HubAndRobots, WaitsForAllAndNamesThoseThatAreMissing) {
+  a_.say(Kind::hello);
+  EXPECT_EQ(hub_.gather(0.2, never), (std::vector<std::size_t>{1}));
+  b_.say(Kind::hello);
+  EXPECT_TRUE(hub_.gather(5.0, never).empty());
+}
+
+TEST_F(HubAndRobots, TakesTheNewestStatusOnce) {
+  greet();
+  const Bytes older = a_.tell(0.1F);
+  a_.tell(0.2F);
+  ASSERT_TRUE(hub_.wait_for(1, never).empty());
+  EXPECT_EQ(velocity(0), 0.2F);
+  EXPECT_EQ(velocity(0), std::nullopt);
+  EXPECT_EQ(velocity(1), std::nullopt);
+  EXPECT_EQ(hub_.counts().periods_us.size(), 2U);
+}
+
+TEST_F(HubAndRobots, ForgedReplayedTruncatedAndForeignPacketsAreDroppedAndCounted) {
+  greet();
+  const Bytes good = a_.tell(0.1F);
+  static_cast<void>(hub_.wait_for(1, never));
+  EXPECT_EQ(velocity(0), 0.1F);
+  const Socket attacker(anywhere);
+  attacker.send(good, hub_.local());                                                      // replayed, from elsewhere
+  Bytes changed = good;
+  changed[40] = static_cast<std::uint8_t>(changed[40] ^ 1U);
+  attacker.send(changed, hub_.local());                                                   // forged
+  attacker.send(ByteView(good).first(good.size() - 5), hub_.local());                     // truncated: forged, too
+  attacker.send(ByteView(good).first(20), hub_.local());                                  // truncated: foreign
+  attacker.send(Bytes(100, 0x55), hub_.local());                                          // foreign
+  attacker.send(Bytes(5000, 0x55), hub_.local());                                         // longer than any
+  Channel unknown(7, hub_node, 5000);
+  attacker.send(unknown.seal(Kind::hello, {}, fleet_keys()), hub_.local());               // no robot of this mission
+  attacker.send(Channel(0, hub_node, 999).seal(Kind::hello, {}, fleet_keys()), hub_.local());  // from before its start
+  a_.say(Kind::status, {1, 2, 3});                                                        // authentic nonsense
+  static_cast<void>(hub_.wait_for(2, never));
+  EXPECT_EQ(velocity(0), std::nullopt);
+  EXPECT_EQ(dropped(Drop::replayed), 1U);
+  EXPECT_EQ(dropped(Drop::forged), 2U);
+  EXPECT_EQ(dropped(Drop::foreign), 3U);
+  EXPECT_EQ(dropped(Drop::misaddressed), 1U);
+  EXPECT_EQ(dropped(Drop::stale), 1U);
+  EXPECT_EQ(dropped(Drop::malformed), 1U);
+  // Nor has the hub been misled about where the robot is.
+  hub_.deliver(0, {}, {});
+  EXPECT_EQ(a_.hear().size(), 1U);
+}
+
+TEST_F(HubAndRobots, ARobotThatStartsAgainHasTakenPart) {
+  greet();
+  a_.tell(0.1F);
+  static_cast<void>(hub_.wait_for(1, never));
+  ASSERT_TRUE(hub_.take(0));
+  const Bytes held_back = a_.channel.seal(Kind::status, encode(Status{}), a_.keys);
+  FakeRobot again(0, hub_, 2000);
+  again.say(Kind::hello);
+  static_cast<void>(hub_.wait_for(2, never));
+  hub_.deliver(0, {}, {});
+  const auto heard = again.hear();
+  ASSERT_EQ(heard.size(), 1U);
+  const auto frame = decode_frame(heard[0].second);
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(frame->begun);
+  again.tell(0.3F);
+  again.socket.send(held_back, hub_.local());
+  static_cast<void>(hub_.wait_for(3, never));
+  EXPECT_EQ(velocity(0), 0.3F);
+  EXPECT_EQ(dropped(Drop::stale), 1U);
+}
+
+TEST_F(HubAndRobots, WhatIsHeardTravelsInAsManyDatagramsAsWanted) {
+  greet();
+  const std::vector<Hearing> heard(20, Hearing{1, {1.0F, 0.0F}, Bytes(96, 1)});
+  hub_.deliver(0, {}, heard);
+  EXPECT_EQ(a_.hear().size(), 21U);
+  HubOptions bundled = options();
+  bundled.bundle = 64;
+  Hub hub(bundled, 1, fleet_keys(), nullptr);
+  FakeRobot robot(0, hub);
+  robot.say(Kind::hello);
+  ASSERT_TRUE(hub.gather(5.0, never).empty());
+  hub.deliver(0, {}, heard);
+  std::size_t packets = 0;
+  const auto datagrams = robot.hear();
+  for (const auto& [kind, payload] : datagrams)
+    if (kind == Kind::heard) packets += decode_heard(payload)->packets.size();
+  EXPECT_EQ(packets, 20U);
+  EXPECT_EQ(datagrams.size(), 3U);  // as many as fit into an Ethernet frame: 13
+}
+
+TEST_F(HubAndRobots, ARobotThatIsSilentCountsAsDeadOnce) {
+  greet();
+  std::vector<std::size_t> dead;
+  for (std::uint32_t tick = 1; tick < 30; ++tick) {
+    a_.tell(0.1F);
+    for (const std::size_t robot : hub_.wait_for(tick, never)) {
+      dead.push_back(robot);
+      EXPECT_EQ(tick, 11U);  // dead_after_s
+    }
+  }
+  EXPECT_EQ(dead, (std::vector<std::size_t>{1}));
+}
+
+TEST_F(HubAndRobots, AStopIsRepeatedUntilItIsAnswered) {
+  greet();
+  EXPECT_EQ(hub_.stop_all(), 2U);
+  std::size_t stops = 0;
+  for (const auto& [kind, payload] : a_.hear()) stops += kind == Kind::stop ? 1 : 0;
+  EXPECT_GT(stops, 10U);
+  a_.say(Kind::stopped);
+  b_.say(Kind::stopped);
+  EXPECT_EQ(hub_.stop_all(), 0U);
+}
+
+TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
+  const std::string path = ::testing::TempDir() + "banyan-hub-tape-" + std::to_string(::getpid());
+  {
+    Tape tape(path, 1, 2);
+    Hub hub(options(), 1, fleet_keys(), &tape);
+    FakeRobot robot(0, hub);
+    robot.say(Kind::hello);
+    ASSERT_TRUE(hub.gather(5.0, never).empty());
+    for (std::uint32_t tick = 0; tick < 5; ++tick) {
+      static_cast<void>(hub.wait_for(tick, never));
+      hub.deliver(0, {}, {});
+      static_cast<void>(robot.hear());
+      robot.tell(static_cast<float>(tick));
+    }
+  }
+  Tape tape(path, 1);
+  Hub hub(options(), 1, fleet_keys(), &tape);
+  FakeRobot robot(0, hub);
+  for (std::uint32_t tick = 0; tick < 5; ++tick) {
+    EXPECT_TRUE(hub.is_replaying(tick));
+    static_cast<void>(hub.wait_for(tick, never));
+    const auto status = hub.take(0);
+    if (tick > 0) { ASSERT_TRUE(status); EXPECT_EQ(status->velocity.forward_m_s, static_cast<float>(tick - 1)); }
+    hub.deliver(0, {}, {});
+  }
+  EXPECT_EQ(hub.counts().sent, 0U);
+  robot.say(Kind::hello);
+  static_cast<void>(hub.wait_for(5, never));
+  hub.deliver(0, {}, {});
+  const auto heard = robot.hear();
+  ASSERT_EQ(heard.size(), 1U);
+  EXPECT_TRUE(decode_frame(heard[0].second)->begun);
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace banyan::udp

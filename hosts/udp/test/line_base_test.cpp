@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/line_base.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <string>
+
+namespace banyan::udp {
+namespace {
+
+TEST(BaseLine, PoseAndPoints) {
+  const auto pose = parse_base_line("pose 1.5 -0.25 0.5");
+  ASSERT_TRUE(pose && std::holds_alternative<OdometricPose>(*pose));
+  EXPECT_EQ(std::get<OdometricPose>(*pose).position, (Vec2{1.5F, -0.25F}));
+  EXPECT_NEAR(std::get<OdometricPose>(*pose).turn_rad, 0.5F, 1e-6F);
+  const auto turned = parse_base_line("pose 0 0 12.566371\r");  // two whole turns
+  ASSERT_TRUE(turned);
+  EXPECT_NEAR(std::get<OdometricPose>(*turned).turn_rad, 0.0F, 1e-4F);
+  const auto seen = parse_base_line("seen 0.1 0.2 -0.3 1e-1");
+  ASSERT_TRUE(seen && std::holds_alternative<Seen>(*seen));
+  EXPECT_EQ(std::get<Seen>(*seen).points, (std::vector<Vec2>{{0.1F, 0.2F}, {-0.3F, 0.1F}}));
+  EXPECT_TRUE(parse_base_line("seen"));
+}
+
+TEST(BaseLine, WhatIsNoneIsRefused) {
+  for (const char* line : {"", "pose", "pose 1 2", "pose 1 2 3 4", "pose 1 2 x", "pose 1 2 nan", "pose 1 2 inf", "pose 1 2 1e9",
+                           "pose  1 2 3", "seen 1", "seen 1 2 3", "drive 0 0 0", "Pose 1 2 3", "pose 1 2 3f", "seen 1,2"})
+    EXPECT_FALSE(parse_base_line(line)) << line;
+  std::string many = "seen";
+  for (std::size_t k = 0; k < most_seen; ++k) many += " 1 2";
+  EXPECT_TRUE(parse_base_line(many));
+  EXPECT_FALSE(parse_base_line(many + " 1 2"));
+}
+
+TEST(BaseLine, Drive) { EXPECT_EQ(drive_line({0.2F, 0.0F, -1.25F}), "drive 0.2000 0.0000 -1.2500\n"); }
+
+class WiredBase : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0);
+    base_ = std::make_unique<LineBase>(ends[0]);
+    wire_ = ends[1];
+  }
+  void TearDown() override {
+    if (wire_ >= 0) ::close(wire_);
+  }
+  void say(const std::string& text) const { ASSERT_EQ(::write(wire_, text.data(), text.size()), static_cast<ssize_t>(text.size())); }
+  std::unique_ptr<LineBase> base_;
+  int wire_ = -1;
+};
+
+TEST_F(WiredBase, LinesComeInPieces) {
+  say("pose 1 0 0\npo");
+  base_->listen(1.0);
+  EXPECT_EQ(base_->pose_at(1.0)->position.x, 1.0F);
+  say("se 2 0 0\nnonsense\nseen 0.5 0\n");
+  base_->listen(2.0);
+  EXPECT_EQ(base_->pose_at(2.0)->position.x, 2.0F);
+  EXPECT_EQ(base_->pose_at(1.5)->position.x, 1.0F);  // as it was then
+  EXPECT_EQ(base_->obstacles().size(), 1U);
+  say(std::string(10000, 'x'));
+  base_->listen(2.1);
+  say("\npose 3 0 0\n");
+  base_->listen(2.2);
+  EXPECT_EQ(base_->pose_at(2.2)->position.x, 3.0F);
+}
+
+TEST_F(WiredBase, DrivesAndIsLost) {
+  base_->drive({0.1F, 0.0F, 0.0F});
+  std::array<char, 64> room{};
+  const ssize_t size = ::read(wire_, room.data(), room.size());
+  ASSERT_GT(size, 0);
+  EXPECT_EQ(std::string(room.data(), static_cast<std::size_t>(size)), "drive 0.1000 0.0000 0.0000\n");
+  base_->listen(0.0);
+  EXPECT_FALSE(base_->lost());
+  ::close(std::exchange(wire_, -1));
+  base_->listen(0.1);
+  EXPECT_TRUE(base_->lost());
+}
+
+TEST(OpenLineBase, SaysWhatIsWrong) {
+  EXPECT_THROW(static_cast<void>(open_line_base("/no/such/device")), BaseError);
+  EXPECT_THROW(static_cast<void>(open_line_base("/dev/null")), BaseError);
+  EXPECT_THROW(static_cast<void>(open_line_base("tcp:nowhere")), BaseError);
+  EXPECT_THROW(static_cast<void>(open_line_base("tcp:127.0.0.1:1")), BaseError);
+}
+
+}  // namespace
+}  // namespace banyan::udp

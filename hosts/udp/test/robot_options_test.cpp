@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/robot_options.hpp"
+
+#include <gtest/gtest.h>
+
+namespace banyan::udp {
+namespace {
+
+const std::vector<std::string> least = {"--id", "3", "--hub", "10.0.0.1:4600", "--key", "k"};
+
+std::vector<std::string> with(std::vector<std::string> more) {
+  more.insert(more.begin(), least.begin(), least.end());
+  return more;
+}
+std::string fault(const std::vector<std::string>& arguments) {
+  try {
+    static_cast<void>(parse_robot_options(arguments));
+  } catch (const OptionError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
+  const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--reading", "literal", "--scale", "0.7", "--range", "1.7",
+                               "--tick", "0.05", "--wheel-limit", "0.13", "--wheel-distance", "0.3", "--arrival", "0.1", "--holonomic",
+                               "--no-line-of-sight", "--set", "safe_range_m=1.4", "--set", "x=0.1", "--stop-after", "0.7", "--delay", "0.02",
+                               "--speed", "5"});
+  const RobotOptions options = parse_robot_options(arguments);
+  EXPECT_EQ(to_arguments(options), arguments);
+  EXPECT_EQ(options.id, 3);
+  EXPECT_EQ(options.setup.platform.communication_range_m, 1.7F);
+  EXPECT_EQ(options.setup.platform.drive, Drive::holonomic);
+  EXPECT_FALSE(options.setup.platform.line_of_sight);
+  EXPECT_EQ(options.setup.parameters.at(1).second, 0.1);
+  EXPECT_EQ(to_arguments(parse_robot_options(least)), least);  // defaults are left out
+}
+
+TEST(RobotOptions, WhatIsWrongIsSaid) {
+  EXPECT_EQ(fault({}), "--id is missing");
+  EXPECT_EQ(fault({"--id", "3"}), "--hub is missing");
+  EXPECT_EQ(fault(with({"--rnage", "2"})), "\"--rnage\" is unknown; see --help");
+  EXPECT_EQ(fault(with({"--range"})), "--range needs a value");
+  EXPECT_EQ(fault(with({"--range", "nan"})), "--range must be a number from 0.001 to 10000, not \"nan\"");
+  EXPECT_EQ(fault(with({"--id", "1.5"})), "--id must be a whole number, not \"1.5\"");
+  EXPECT_EQ(fault(with({"--id", "65534"})), "--id must be a number from 0 to 65533, not \"65534\"");
+  EXPECT_EQ(fault(with({"--set", "x"})), "--set must be KEY=VALUE, not \"x\"");
+  EXPECT_NE(robot_usage().find("--stop-after"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace banyan::udp
