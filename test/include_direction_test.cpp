@@ -258,6 +258,7 @@ TEST_F(WrongHouse, AHostKnowsNoWorld) {
   EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""), "hosts/toy/src/x.cpp: banyan/world/world.hpp points up\n");
   EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include \"banyan/controller/convoy/convoy.hpp\""),
             "hosts/toy/src/x.cpp: banyan/controller/convoy/convoy.hpp names an algorithm\n");
+  std::filesystem::remove(house_ / "hosts/toy/src/x.cpp");
   EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/hosts/toy/x.hpp\""), "");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include <sodium.h>"), "world/src/x.cpp: sodium.h belongs into another room\n");
 }

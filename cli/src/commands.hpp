@@ -30,6 +30,7 @@ struct HubOptions {
   RunOptions run;
   std::string listen = "0.0.0.0:4600";
   std::string key_file;
+  std::string poses;          // ADDRESS:PORT at which a tracker's poses arrive; "": bodies are simulated
   std::string tape;           // file; "": none
   bool resume = false;        // go on where the tape ends
   double wait_s = 10.0;       // for robots, before the mission begins

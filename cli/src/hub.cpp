@@ -8,18 +8,22 @@
 #include <cstring>
 #include <memory>
 #include <random>
+#include <thread>
 
 #include "banyan/hosts/udp/hub.hpp"
+#include "banyan/hosts/udp/pose_stream.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/tape.hpp"
 #include "commands.hpp"
 #include "fleet_members.hpp"
 #include "keep_run.hpp"
 #include "terminal.hpp"
+#include "tracked_bodies.hpp"
 
 namespace banyan::cli {
 namespace {
 
+constexpr double blind_after_s = 0.3;  // without poses
 constexpr double still_after_s = 0.5;  // a robot that is not heard for so long stands in the world, too
 
 std::uint64_t digest_of(const std::string& text) {
@@ -44,7 +48,8 @@ std::string list_of(const std::vector<std::size_t>& robots) {
 // What takes the place of World::step's own robots: waits for the moment of each tick.
 class Conductor {
  public:
-  Conductor(udp::Hub& hub, const HubOptions& options) : hub_(hub), options_(options) {}
+  // `tracker`: null if bodies are simulated.
+  Conductor(udp::Hub& hub, udp::PoseStream* tracker, const HubOptions& options) : hub_(hub), tracker_(tracker), options_(options) {}
 
   record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor, const record::GoOn& go_on) {
     record::Simulation simulation(std::move(world), sink);
@@ -53,7 +58,7 @@ class Conductor {
     if (!options_.resume) gather(stopped);
     while (!simulation.finished()) {
       const auto dead = hub_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
-      if (stopped()) return end(simulation, true);
+      if (!see(stopped) || stopped()) return end(simulation, true);
       for (const std::size_t robot : dead) bury(simulation, robot);
       simulation.step(executor);
     }
@@ -66,6 +71,18 @@ class Conductor {
     if (missing.empty() || stopped()) return;
     hub_.stop_all();
     throw CommandError(exit_lost, format("within %g s nothing was heard of robot ", options_.wait_s) + list_of(missing));
+  }
+
+  // Without poses nothing goes on: the hub is silent, so the robots stand still, until the tracker is back.
+  [[nodiscard]] bool see(const udp::Hub::Stopped& stopped) const {
+    if (tracker_ == nullptr) return true;
+    tracker_->listen();
+    if (tracker_->silence_s() > blind_after_s) complain("the tracker is silent; the mission waits");
+    while (tracker_->silence_s() > blind_after_s && !stopped()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      tracker_->listen();
+    }
+    return !stopped();
   }
 
   static void bury(record::Simulation& simulation, std::size_t robot) {
@@ -83,6 +100,7 @@ class Conductor {
   }
 
   udp::Hub& hub_;
+  udp::PoseStream* tracker_;
   const HubOptions& options_;
 };
 
@@ -109,21 +127,44 @@ std::string remarks_on(const udp::HubCounts& counts) {
                                             grouped(static_cast<double>(counts.dropped_by_robots)) + " by robots");
 }
 
+// Until each robot has been seen.
+std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, std::size_t robots) {
+  if (options.poses.empty()) return nullptr;
+  if (!options.tape.empty()) throw CommandError(exit_usage, "--tape is for simulated bodies; it does not have a tracker's poses");
+  auto tracker = std::make_unique<udp::PoseStream>(udp::parse_address(options.poses), robots);
+  const udp::Clock clock;
+  while (!tracker->missing().empty() && clock.now_s() < options.wait_s) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    tracker->listen();
+  }
+  if (!tracker->missing().empty())
+    throw CommandError(exit_lost, format("within %g s the tracker did not see robot ", options.wait_s) + list_of(tracker->missing()));
+  return tracker;
+}
+
+world::World make_world(const world::Scenario& scenario, const Algorithm& remote, const udp::PoseStream* tracker) {
+  if (tracker == nullptr) return world::World(scenario, remote);
+  return world::World(scenario, remote, tracked_bodies(*tracker));
+}
+
 int play_scenario(const HubOptions& options) {
-  const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
-  const world::Scenario& scenario = configuration.scenario;
+  config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
+  world::Scenario& scenario = configuration.scenario;
   if (options.key_file.empty()) throw CommandError(exit_usage, "--key is missing; make one with banyan hub --new-key FILE");
   const udp::KeyRing keys = udp::read_keys(options.key_file);
+  const std::size_t robots = world::robot_count(scenario);
+  const auto tracker = open_tracker(options, robots);
+  if (tracker) scenario = started_where_seen(scenario, *tracker);
   const auto tape = open_tape(options, configuration);
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
   try {
     const udp::HubOptions hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s, options.bundle};
-    udp::Hub hub(hub_options, world::robot_count(scenario), keys, tape.get());
+    udp::Hub hub(hub_options, robots, keys, tape.get());
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
     const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
     run.threads = 1;
-    return keep_run(configuration, outputs, run, world::World(scenario, remote), Conductor(hub, options),
+    return keep_run(configuration, outputs, run, make_world(scenario, remote, tracker.get()), Conductor(hub, tracker.get(), options),
                     [&hub] { return remarks_on(hub.counts()); });
   } catch (...) {
     outputs.abandon();

@@ -559,6 +559,7 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
   command->add_option("--dead-after", options->dead_after_s, "a robot that is silent for so long counts as dead, s; default 5")
       ->type_name("S")
       ->check(number_within(0.5, 1e6));
+  command->add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")->type_name("ADDRESS:PORT");
   command->add_option("--tape", options->tape, "note there what robots say, to resume from")->type_name("FILE");
   command->add_flag("--resume", options->resume, "go on where the tape ends");
   add_results(*command, options->run);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Fleets of processes, as a user starts them, and what may happen to them: processes that are killed, bad radio, Ctrl-C.
 // Their clocks are five times as fast as the wall's, so that a mission of ten seconds takes two.
+#include <netinet/in.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -259,6 +261,54 @@ TEST_F(FleetProgram, ARobotIsSmallAndStandsStillWithoutItsHub) {
   }
   ::kill(fleet, SIGTERM);
   EXPECT_EQ(finish(fleet).code, 143);
+}
+
+// A port that nobody has; and so, most likely, are the next ones.
+int free_port() {
+  const int s = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  ::bind(s, reinterpret_cast<sockaddr*>(&address), sizeof address);
+  socklen_t length = sizeof address;
+  ::getsockname(s, reinterpret_cast<sockaddr*>(&address), &length);
+  ::close(s);
+  return ntohs(address.sin_port) % 20000 + 10000;  // below those that the system hands out
+}
+
+bool answers(int port) {
+  const int s = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const bool connected = ::connect(s, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  ::close(s);
+  return connected;
+}
+
+// The laboratory of docs/robots.md: bases behind TCP, a tracker, a hub that simulates nothing.
+TEST_F(FleetProgram, RobotsWithBasesAndATrackerComplete) {
+  const int port = free_port();
+  const std::string hub_address = "127.0.0.1:" + std::to_string(port), poses = "127.0.0.1:" + std::to_string(port + 1);
+  ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
+  const std::string examples = BANYAN_EXAMPLES;
+  const pid_t laboratory = start({"-c", "exec python3 " + examples + "/base.py 9 " + std::to_string(port + 2) + " 5 | exec python3 " + examples +
+                                            "/tracker.py " + poses},
+                                 {.program = "sh"});
+  EXPECT_TRUE(becomes([&] { return answers(port + 2 + 8); }));
+  std::vector<pid_t> robots;
+  for (int i = 0; i < 9; ++i) {
+    const Arguments robot{"robot", "--id", std::to_string(i), "--hub", hub_address, "--key", "fleet.key", "--algorithm", "outwards",
+                          "--speed", "5", "--base", "tcp:127.0.0.1:" + std::to_string(port + 2 + i)};
+    robots.push_back(start(robot));
+  }
+  const Outcome hub = run({"hub", three_targets, "--key", "fleet.key", "--listen", hub_address, "--poses", poses, "--speed", "5", "--out", "result"});
+  EXPECT_EQ(hub.code, 0) << hub.err;
+  EXPECT_TRUE(has(hub.out, "COMPLETE after")) << hub.out;
+  EXPECT_TRUE(has(hub.out, "in one piece at every tick")) << hub.out;
+  for (const pid_t robot : robots) EXPECT_EQ(finish(robot).code, 0);  // the hub has stopped it
+  for (const pid_t child : children_of(laboratory)) ::kill(child, SIGTERM);
+  finish(laboratory);
 }
 
 TEST_F(FleetProgram, RefusesWhatCannotBe) {

@@ -290,6 +290,9 @@ World::World(const Scenario& scenario) {
   impl_ = std::make_unique<Impl>(sound, algorithm_of(sound));
 }
 World::World(const Scenario& scenario, const Algorithm& algorithm) : impl_(std::make_unique<Impl>(checked(scenario, algorithm), algorithm)) {}
+World::World(const Scenario& scenario, const Algorithm& algorithm, std::unique_ptr<Bodies> bodies) : World(scenario, algorithm) {
+  impl_->bodies = std::move(bodies);
+}
 World::World(const World& o) : impl_(std::make_unique<Impl>(*o.impl_)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(const World& o) {

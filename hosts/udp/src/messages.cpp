@@ -82,11 +82,11 @@ std::optional<Report> take_report(ByteReader& in) noexcept {
   return r;
 }
 
-constexpr std::uint8_t all_flags = 0x7F;
+constexpr std::uint8_t all_flags = 0x3F;
 
 std::uint8_t flags_of(const Frame& frame) noexcept {
   unsigned flags = 0, bit = 1;
-  for (const bool flag : {frame.root, frame.worker, frame.begun, frame.sent, frame.has_target, frame.line_of_sight, frame.has_odometry}) {
+  for (const bool flag : {frame.root, frame.worker, frame.begun, frame.sent, frame.has_target, frame.line_of_sight}) {
     flags |= flag ? bit : 0U;
     bit <<= 1U;
   }
@@ -126,7 +126,7 @@ std::optional<Frame> decode_frame(ByteView bytes) {
   frame.tick = in.take<std::uint32_t>();
   unsigned flags = in.take<std::uint8_t>();
   if (flags > all_flags) return std::nullopt;
-  for (bool* flag : {&frame.root, &frame.worker, &frame.begun, &frame.sent, &frame.has_target, &frame.line_of_sight, &frame.has_odometry}) {
+  for (bool* flag : {&frame.root, &frame.worker, &frame.begun, &frame.sent, &frame.has_target, &frame.line_of_sight}) {
     *flag = (flags & 1U) != 0;
     flags >>= 1U;
   }

@@ -17,6 +17,7 @@
 
 namespace banyan::world {
 
+class Bodies;    // bodies.hpp
 class Executor;  // threads.hpp
 
 struct Target {
@@ -32,6 +33,8 @@ class World {
   // The same with an algorithm of your own instead of the one that the scenario names;
   // scenario().mission.algorithm is then its name. `algorithm` must outlive this world and its copies.
   World(const Scenario& scenario, const Algorithm& algorithm);
+  // The same with bodies that somebody else moves: a tracker says where they are. The first poses are the scenario's.
+  World(const Scenario& scenario, const Algorithm& algorithm, std::unique_ptr<Bodies> bodies);
   World(const World&);
   World(World&&) noexcept;
   World& operator=(const World&);

@@ -38,8 +38,7 @@ struct Frame {
   bool sent = false;           // Orders
   bool has_target = false;
   bool line_of_sight = true;
-  bool has_odometry = true;    // simulated wheels; a robot with a base of its own measures that itself
-  OdometricPose odometry;
+  OdometricPose odometry;      // a robot with a base of its own measures that itself
   Vec2 target;
   RobotId given_up = nobody;   // repeated until the robot's status has its serial
   std::uint8_t given_up_serial = 0;

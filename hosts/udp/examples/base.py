@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Bases that speak banyan-robot's line protocol over TCP, here with pretended wheels.
+
+    base.py COUNT FIRST_PORT [SPEED]
+
+Base i listens on port FIRST_PORT + i and stands at the i-th point of a square grid. Replace move() by your motors and
+encoders, and you have a driver for your robot. On standard output, for tracker.py, is what a camera would see.
+"""
+import math
+import selectors
+import socket
+import sys
+import time
+
+count, first_port = int(sys.argv[1]), int(sys.argv[2])
+speed = float(sys.argv[3]) if len(sys.argv) > 3 else 1.0
+PERIOD_S, DEADMAN_S = 0.02, 0.5
+
+
+class Base:
+    def __init__(self, number):
+        side = math.ceil(math.sqrt(count))
+        self.number, self.buffer, self.wire = number, b"", None
+        self.x, self.y, self.turn = 0.32 * (number % side - side // 2), 0.32 * (number // side - side // 2), 0.7 * number
+        self.start = (self.x, self.y, self.turn)
+        self.command, self.heard = (0.0, 0.0, 0.0), 0.0
+
+    def listen(self):
+        data = self.wire.recv(4096)
+        *lines, self.buffer = (self.buffer + data).split(b"\n")
+        for words in (line.split() for line in lines):
+            if words[:1] == [b"drive"] and len(words) == 4:
+                self.command, self.heard = tuple(map(float, words[1:])), time.monotonic()
+        return bool(data)
+
+    def move(self, seconds):
+        if time.monotonic() - self.heard > DEADMAN_S:
+            self.command = (0.0, 0.0, 0.0)  # the wire may be broken
+        forward, sideways, turn = (value * seconds for value in self.command)
+        c, s = math.cos(self.turn), math.sin(self.turn)
+        self.x, self.y, self.turn = self.x + c * forward - s * sideways, self.y + s * forward + c * sideways, self.turn + turn
+
+    def odometry(self):
+        """Since the start, in the frame of the start: what encoders know."""
+        x, y, turn = self.start
+        dx, dy, c, s = self.x - x, self.y - y, math.cos(turn), math.sin(turn)
+        return b"pose %.5f %.5f %.5f\n" % (c * dx + s * dy, c * dy - s * dx, self.turn - turn)
+
+
+bases, ready = [Base(number) for number in range(count)], selectors.DefaultSelector()
+for base in bases:
+    ready.register(socket.create_server(("127.0.0.1", first_port + base.number)), selectors.EVENT_READ, base)
+then = time.monotonic()
+while True:
+    for key, _ in ready.select(max(0.0, then + PERIOD_S - time.monotonic())):
+        if key.fileobj is not key.data.wire:
+            key.data.wire, _ = key.fileobj.accept()
+            ready.register(key.data.wire, selectors.EVENT_READ, key.data)
+        elif not key.data.listen():
+            ready.unregister(key.data.wire)
+            key.data.wire = None
+    now = time.monotonic()
+    if now - then < PERIOD_S:
+        continue
+    for base in bases:
+        base.move(speed * (now - then))
+        if base.wire:
+            base.wire.sendall(base.odometry())
+        print(base.number, base.x, base.y, base.turn, sep=",")
+    sys.stdout.flush()
+    then = now

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Poses from a tracker (Vicon, OptiTrack, AprilTags, ...), as text in UDP datagrams, so that an adapter is thirty lines
+// (hosts/udp/examples/tracker.py). A datagram has one or more lines, each ended by a newline:
+//
+//   ROBOT X Y HEADING    id, position in m, heading in rad counter-clockwise from the x axis, separated by single spaces
+//
+// Numbers are decimal. The frame is the laboratory's, the one in which the scenario has its targets. A line that is
+// wrong makes its datagram worthless. Nothing is authenticated: take poses from this computer, or from a network of
+// their own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "banyan/controller/core/vec2.hpp"
+#include "banyan/hosts/udp/socket.hpp"
+
+namespace banyan::udp {
+
+struct TrackedPose {
+  BasicVec2<double> position;
+  double heading_rad = 0.0;
+  friend bool operator==(const TrackedPose&, const TrackedPose&) = default;
+};
+struct PoseLine {
+  std::size_t robot = 0;
+  TrackedPose pose;
+};
+// Nothing if any of its lines is none.
+[[nodiscard]] std::optional<std::vector<PoseLine>> parse_poses(std::string_view datagram);
+
+class PoseStream {
+ public:
+  PoseStream(const Address& listen, std::size_t robots) : socket_(listen), poses_(robots) {}
+  // Takes in what has come.
+  void listen();
+  // Where each robot was seen last; nothing for one that never was.
+  [[nodiscard]] std::span<const std::optional<TrackedPose>> poses() const noexcept { return poses_; }
+  [[nodiscard]] std::vector<std::size_t> missing() const;
+  // Seconds of the wall since a sound datagram came; very many if none has.
+  [[nodiscard]] double silence_s() const noexcept;
+  [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
+  [[nodiscard]] Address local() const noexcept { return socket_.local(); }
+
+ private:
+  Socket socket_;
+  std::vector<std::optional<TrackedPose>> poses_;
+  Clock clock_;
+  double heard_s_ = -1e9;
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace banyan::udp

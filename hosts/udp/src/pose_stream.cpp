@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/pose_stream.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace banyan::udp {
+namespace {
+
+constexpr double farthest_m = 1e5;
+constexpr double largest_turn_rad = 1e4;  // beyond, a turn would not be exact (trig.hpp)
+
+template <class T> bool take_number(std::string_view& line, T& value, char end) noexcept {
+  const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+  const auto used = static_cast<std::size_t>(rest - line.data());
+  if (error != std::errc{} || used >= line.size() || *rest != end) return false;
+  line.remove_prefix(used + 1);
+  return true;
+}
+
+bool is_sound(const TrackedPose& pose) noexcept {  // false for NaN, too
+  return std::fabs(pose.position.x) <= farthest_m && std::fabs(pose.position.y) <= farthest_m &&
+         std::fabs(pose.heading_rad) <= largest_turn_rad;
+}
+
+}  // namespace
+
+std::optional<std::vector<PoseLine>> parse_poses(std::string_view datagram) {
+  std::vector<PoseLine> lines;
+  while (!datagram.empty()) {
+    PoseLine line;
+    const bool read = take_number(datagram, line.robot, ' ') && take_number(datagram, line.pose.position.x, ' ') &&
+                      take_number(datagram, line.pose.position.y, ' ') && take_number(datagram, line.pose.heading_rad, '\n');
+    if (!read || !is_sound(line.pose)) return std::nullopt;
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+void PoseStream::listen() {
+  std::array<std::uint8_t, 65536> room;
+  Address from;
+  while (const auto datagram = socket_.receive(room, from)) {
+    const auto lines = parse_poses({reinterpret_cast<const char*>(datagram->data()), datagram->size()});
+    if (!lines || lines->empty()) {
+      ++refused_;
+      continue;
+    }
+    heard_s_ = clock_.now_s();
+    for (const PoseLine& line : *lines)
+      if (line.robot < poses_.size()) poses_[line.robot] = line.pose;  // others may be tracked, too
+  }
+}
+
+std::vector<std::size_t> PoseStream::missing() const {
+  std::vector<std::size_t> robots;
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    if (!poses_[i]) robots.push_back(i);
+  return robots;
+}
+
+double PoseStream::silence_s() const noexcept { return clock_.now_s() - heard_s_; }
+
+}  // namespace banyan::udp
