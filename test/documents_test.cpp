@@ -147,7 +147,7 @@ TEST(Documents, CommandsRun) {
 TEST(Documents, LinksAndPathsLeadSomewhere) {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   const std::regex path(
-      R"(`((?:algorithms|bench|cli|cmake|config|controller|docs|examples|measure|record|rivals|scenarios|studies|study|test|viewer|world)/[\w./-]+\.\w+)`)");
+      R"(`((?:algorithms|bench|cli|cmake|config|controller|docs|examples|hosts|measure|record|rivals|scenarios|studies|study|test|viewer|world)/[\w./-]+\.\w+)`)");
   std::size_t found = 0;
   for (const Line& line : lines_of_documents()) {
     if (!line.block.empty()) continue;

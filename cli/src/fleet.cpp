@@ -39,7 +39,7 @@ class MemoryKey {
 
 udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key, const std::string& out, const std::string& tape) {
   udp::Arguments arguments{own_program(), "hub", options.run.scenario, "--key", key, "--out", out, "--force", "--tape", tape,
-                           "--speed", number_text(options.speed), "--bundle", std::to_string(options.bundle)};
+                           "--speed", format("%g", options.speed), "--bundle", std::to_string(options.bundle)};
   for (const auto& override : options.run.overrides) {
     if (override.file.empty()) arguments.insert(arguments.end(), {"--set", override.assignment});
     else arguments.insert(arguments.end(), {"--with", override.file});

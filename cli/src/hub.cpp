@@ -143,8 +143,8 @@ std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, std::si
 }
 
 world::World make_world(const world::Scenario& scenario, const Algorithm& remote, const udp::PoseStream* tracker) {
-  if (tracker == nullptr) return world::World(scenario, remote);
-  return world::World(scenario, remote, tracked_bodies(*tracker));
+  if (tracker == nullptr) return {scenario, remote};
+  return {scenario, remote, tracked_bodies(*tracker)};
 }
 
 int play_scenario(const HubOptions& options) {

@@ -30,7 +30,6 @@ RemoteSwarm::RemoteSwarm(const RemoteSwarm& other)
       robots_(other.robots_),
       history_(other.history_),
       silence_(other.silence_),
-      link_(nullptr),
       line_of_sight_(other.line_of_sight_),
       collected_(other.collected_),
       tick_(other.tick_) {}

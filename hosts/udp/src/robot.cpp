@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "banyan/controller/core/wire.hpp"
 
 namespace banyan::udp {
 
-Robot::Robot(const Algorithm& algorithm, const Setup& setup, RobotId id, double stop_after_s)
-    : algorithm_(algorithm), setup_(setup), id_(id), stop_after_s_(stop_after_s) {}
+Robot::Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s)
+    : algorithm_(algorithm), setup_(std::move(setup)), id_(id), stop_after_s_(stop_after_s) {}
 
 // A robot that has started again in the middle of a mission is not its first root.
 void Robot::begin(const Frame& frame) {
@@ -74,13 +75,13 @@ Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, doubl
   return senses;
 }
 
-Status Robot::step(double now_s, const std::optional<OdometricPose>& own, std::span<const Vec2> seen) {
-  const OdometricPose pose = own ? *own : frame_.odometry;
-  if (step_s_ <= 0.0) pose_ = pose;  // the first one: there is no motion before
-  collect(pose);
+Status Robot::step(double now_s, const std::optional<OdometricPose>& pose, std::span<const Vec2> seen) {
+  const OdometricPose here = pose ? *pose : frame_.odometry;
+  if (step_s_ <= 0.0) pose_ = here;  // the first one: there is no motion before
+  collect(here);
   std::array<Sensed, 1> sensed;
   sensed[0].packets = packets_;
-  sensed[0].senses = sense(pose, seen, now_s);
+  sensed[0].senses = sense(here, seen, now_s);
   std::array<Velocity, 1> command{};
   std::array<Report, 1> report{};
   swarm_->step(0, sensed, command, report);
@@ -95,7 +96,7 @@ Status Robot::step(double now_s, const std::optional<OdometricPose>& own, std::s
   status.message.resize(largest_wire);
   status.message.resize(swarm_->send(0, status.message));
 
-  pose_ = pose;
+  pose_ = here;
   step_s_ = now_s;
   step_tick_ = frame_.tick;
   interrupted_ = false;

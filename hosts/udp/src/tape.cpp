@@ -19,7 +19,7 @@ constexpr std::size_t header = 20;
 Bytes bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw TapeError(path + ": cannot be read");
-  return Bytes(std::istreambuf_iterator<char>(file), {});
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace

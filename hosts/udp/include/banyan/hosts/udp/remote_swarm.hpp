@@ -76,7 +76,7 @@ class RemoteSwarm final : public Swarm {
   std::vector<Robot> robots_;
   std::size_t history_;
   std::uint32_t silence_;
-  Link* link_;                        // null: a clone
+  Link* link_ = nullptr;              // null: a clone
   bool line_of_sight_;
   bool collected_ = false;            // in this tick
   std::uint32_t tick_ = 0;

@@ -20,7 +20,7 @@ namespace banyan::udp {
 class Robot {
  public:
   // Stands still while its newest frame is older than `stop_after_s`. `algorithm` must outlive it.
-  Robot(const Algorithm& algorithm, const Setup& setup, RobotId id, double stop_after_s);
+  Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s);
 
   // What the hub has said. `at`: where the own odometry was when it was measured; nothing: the hub knows that itself.
   void take(const Frame& frame, double now_s, const std::optional<OdometricPose>& at = {});

@@ -32,6 +32,6 @@ class OptionError : public std::runtime_error {
 // Throws OptionError, also for values that are out of range or missing.
 [[nodiscard]] RobotOptions parse_robot_options(std::span<const std::string> arguments);
 // The arguments that stand for these options; what is as by default is left out.
-[[nodiscard]] std::vector<std::string> to_arguments(const RobotOptions& options);
+[[nodiscard]] std::vector<std::string> to_arguments(const RobotOptions& wanted);
 
 }  // namespace banyan::udp
