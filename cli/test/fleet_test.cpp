@@ -67,6 +67,7 @@ record::RunEnd played(const world::Scenario& scenario, NearbyRobots& robots) {
 
 config::Configuration configuration(const std::vector<std::string>& assignments = {}) {
   std::vector<config::Override> overrides;
+  overrides.reserve(assignments.size());
   for (const auto& assignment : assignments) overrides.push_back({assignment, "test"});
   auto loaded = config::load_configuration(three_targets, algorithms(), overrides);
   EXPECT_TRUE(loaded.ok());
@@ -188,7 +189,7 @@ class FleetProgram : public StartedProgram {
     EXPECT_FALSE(exists("result/fleet.tape"));
     EXPECT_TRUE(exists("result/run.mcap") && exists("result/run.csv"));
     const auto whole = nlohmann::json::parse(read("result/run.json"), nullptr, false);
-    const auto result = whole.value("result", nlohmann::json::object());
+    auto result = whole.value("result", nlohmann::json::object());
     EXPECT_TRUE(result.contains("complete") && result["complete"] == true) << result.dump(1).substr(0, 2000) << outcome.err;
     return result;
   }
@@ -269,7 +270,7 @@ int free_port() {
   const int s = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
-  ::bind(s, reinterpret_cast<sockaddr*>(&address), sizeof address);
+  EXPECT_EQ(::bind(s, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
   socklen_t length = sizeof address;
   ::getsockname(s, reinterpret_cast<sockaddr*>(&address), &length);
   ::close(s);
