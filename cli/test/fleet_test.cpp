@@ -288,29 +288,68 @@ bool answers(int port) {
   return connected;
 }
 
-// The laboratory of docs/robots.md: bases behind TCP, a tracker, a hub that simulates nothing.
-TEST_F(FleetProgram, RobotsWithBasesAndATrackerComplete) {
-  const int port = free_port();
-  const std::string hub_address = "127.0.0.1:" + std::to_string(port), poses = "127.0.0.1:" + std::to_string(port + 1);
-  ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
-  const std::string examples = BANYAN_EXAMPLES;
-  const pid_t laboratory = start({"-c", "exec python3 " + examples + "/base.py 9 " + std::to_string(port + 2) + " 5 | exec python3 " + examples +
-                                            "/tracker.py " + poses},
-                                 {.program = "sh"});
-  EXPECT_TRUE(becomes([&] { return answers(port + 2 + 8); }));
-  std::vector<pid_t> robots;
-  for (int i = 0; i < 9; ++i) {
-    const Arguments robot{"robot", "--id", std::to_string(i), "--hub", hub_address, "--key", "fleet.key", "--algorithm", "outwards",
-                          "--speed", "5", "--base", "tcp:127.0.0.1:" + std::to_string(port + 2 + i)};
-    robots.push_back(start(robot));
+// The laboratory of docs/robots.md: nine bases behind TCP, a tracker, nine robots, and a hub that simulates nothing.
+class Laboratory : public FleetProgram {
+ protected:
+  void SetUp() override {
+    FleetProgram::SetUp();
+    const int port = free_port();
+    hub_address_ = "127.0.0.1:" + std::to_string(port);
+    poses_ = "127.0.0.1:" + std::to_string(port + 1);
+    ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
+    const std::string examples = BANYAN_EXAMPLES;
+    bases_ = start({"-c", "exec python3 " + examples + "/base.py 9 " + std::to_string(port + 2) + " 5 | tee seen.csv | exec python3 " + examples +
+                              "/tracker.py " + poses_},
+                   {.program = "sh"});
+    ASSERT_TRUE(becomes([&] { return answers(port + 2 + 8); }));
+    for (int i = 0; i < 9; ++i)
+      robots_.push_back(start({"robot", "--id", std::to_string(i), "--hub", hub_address_, "--key", "fleet.key", "--algorithm", "outwards", "--speed", "5",
+                               "--base", "tcp:127.0.0.1:" + std::to_string(port + 2 + i)}));
   }
-  const Outcome hub = run({"hub", three_targets, "--key", "fleet.key", "--listen", hub_address, "--poses", poses, "--speed", "5", "--out", "result"});
-  EXPECT_EQ(hub.code, 0) << hub.err;
-  EXPECT_TRUE(has(hub.out, "COMPLETE after")) << hub.out;
-  EXPECT_TRUE(has(hub.out, "in one piece at every tick")) << hub.out;
-  for (const pid_t robot : robots) EXPECT_EQ(finish(robot).code, 0);  // the hub has stopped it
-  for (const pid_t child : children_of(laboratory)) ::kill(child, SIGTERM);
-  finish(laboratory);
+  void TearDown() override {
+    for (const pid_t robot : robots_)
+      if (::kill(robot, SIGTERM) == 0) finish(robot);
+    for (const pid_t child : children_of(bases_)) ::kill(child, SIGTERM);
+    finish(bases_);
+    FleetProgram::TearDown();
+  }
+  [[nodiscard]] Arguments hub() const {
+    return {"hub", three_targets, "--key", "fleet.key", "--listen", hub_address_, "--poses", poses_, "--speed", "5", "--out", "result", "--force"};
+  }
+  // The latest poses that the camera has seen, one line of each robot.
+  [[nodiscard]] std::map<std::string, std::string> seen() const {
+    std::map<std::string, std::string> latest;
+    std::istringstream lines(read("seen.csv"));
+    for (std::string line; std::getline(lines, line) && !lines.eof();) latest[line.substr(0, line.find(','))] = line;
+    return latest;
+  }
+  void expect_complete(const Outcome& hub) {
+    EXPECT_EQ(hub.code, 0) << hub.err;
+    EXPECT_TRUE(has(hub.out, "COMPLETE after")) << hub.out;
+    EXPECT_TRUE(has(hub.out, "in one piece at every tick")) << hub.out;
+    for (const pid_t robot : robots_) EXPECT_EQ(finish(robot).code, 0);  // the hub has stopped it
+    robots_.clear();
+  }
+  std::string hub_address_, poses_;
+  pid_t bases_ = 0;
+  std::vector<pid_t> robots_;
+};
+
+TEST_F(Laboratory, Completes) { expect_complete(run(hub())); }
+
+TEST_F(Laboratory, RobotsStandStillWithoutTheHubAndGoOnWithAnother) {
+  using namespace std::chrono_literals;
+  const auto begin = seen();
+  const pid_t first = start(hub());
+  EXPECT_TRUE(becomes([&] { return seen().size() == 9U && seen() != begin; }));
+  std::this_thread::sleep_for(300ms);
+  ::kill(first, SIGKILL);
+  finish(first);
+  std::this_thread::sleep_for(500ms);  // 0.1 s of the wall for robots to notice; the rest for a machine that is busy
+  const auto stopped = seen();
+  std::this_thread::sleep_for(300ms);
+  EXPECT_EQ(seen(), stopped);
+  expect_complete(run(hub()));
 }
 
 TEST_F(FleetProgram, RefusesWhatCannotBe) {
