@@ -14,6 +14,7 @@
 #include "banyan/hosts/udp/pose_stream.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/tape.hpp"
+#include "banyan/world/faults.hpp"
 #include "commands.hpp"
 #include "fleet_members.hpp"
 #include "keep_run.hpp"
@@ -142,6 +143,16 @@ std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, std::si
   return tracker;
 }
 
+// The scenario with the robots where they are; refused if no mission can begin there.
+world::Scenario seen_by(const udp::PoseStream& tracker, const world::Scenario& scenario) {
+  world::Scenario seen = started_where_seen(scenario, tracker);
+  std::string text;
+  for (const world::Fault& fault : world::faults(seen))
+    if (!fault.warning) text += "\n  " + fault.key + ": " + fault.text;
+  if (!text.empty()) throw CommandError(exit_usage, "no mission can begin where the tracker sees the robots:" + text);
+  return seen;
+}
+
 world::World make_world(const world::Scenario& scenario, const Algorithm& remote, const udp::PoseStream* tracker) {
   if (tracker == nullptr) return {scenario, remote};
   return {scenario, remote, tracked_bodies(*tracker)};
@@ -154,7 +165,7 @@ int play_scenario(const HubOptions& options) {
   const udp::KeyRing keys = udp::read_keys(options.key_file);
   const std::size_t robots = world::robot_count(scenario);
   const auto tracker = open_tracker(options, robots);
-  if (tracker) scenario = started_where_seen(scenario, *tracker);
+  if (tracker) scenario = seen_by(*tracker, scenario);
   const auto tape = open_tape(options, configuration);
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
   try {

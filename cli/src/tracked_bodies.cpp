@@ -42,7 +42,7 @@ world::Scenario started_where_seen(world::Scenario scenario, const udp::PoseStre
   start.jitter_m = 0.0;
   for (const auto& pose : stream.poses()) {
     start.positions.push_back(pose->position);
-    start.headings_rad.push_back(pose->heading_rad);
+    start.headings_rad.push_back(angle_of(unit_vector(pose->heading_rad)));  // trackers may count whole turns
   }
   return scenario;
 }

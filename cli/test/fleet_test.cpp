@@ -327,6 +327,7 @@ class Laboratory : public FleetProgram {
     EXPECT_EQ(hub.code, 0) << hub.err;
     EXPECT_TRUE(has(hub.out, "COMPLETE after")) << hub.out;
     EXPECT_TRUE(has(hub.out, "in one piece at every tick")) << hub.out;
+    if (HasFailure()) return;  // the robots still wait for a hub
     for (const pid_t robot : robots_) EXPECT_EQ(finish(robot).code, 0);  // the hub has stopped it
     robots_.clear();
   }
@@ -334,6 +335,28 @@ class Laboratory : public FleetProgram {
   pid_t bases_ = 0;
   std::vector<pid_t> robots_;
 };
+
+void say_to(int port, const std::string& text) {
+  const int s = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ::sendto(s, text.data(), text.size(), 0, reinterpret_cast<sockaddr*>(&address), sizeof address);
+  ::close(s);
+}
+
+TEST_F(FleetProgram, ATrackerMaySeeWhereNoMissionCanBegin) {
+  ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
+  const int port = free_port();
+  const pid_t hub = start({"hub", three_targets, "--key", "fleet.key", "--listen", "127.0.0.1:0", "--poses", "127.0.0.1:" + std::to_string(port)});
+  std::string poses;
+  for (int i = 0; i < 9; ++i) poses += std::to_string(i) + " " + std::to_string(i == 8 ? 9.0 : 0.3 * i) + " 0 0\n";
+  EXPECT_TRUE(becomes([&] { return say_to(port, poses), !runs(hub); }));
+  const Outcome outcome = finish(hub);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(has(outcome.err, "where the tracker sees the robots:\n  swarm.start.positions_m: the start is not connected: 2 groups")) << outcome.err;
+}
 
 TEST_F(Laboratory, Completes) { expect_complete(run(hub())); }
 

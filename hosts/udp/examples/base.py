@@ -22,7 +22,7 @@ class Base:
     def __init__(self, number):
         side = math.ceil(math.sqrt(count))
         self.number, self.buffer, self.wire = number, b"", None
-        self.x, self.y, self.turn = 0.32 * (number % side - side // 2), 0.32 * (number // side - side // 2), 0.7 * number
+        self.x, self.y, self.turn = 0.32 * (number % side - side // 2), 0.32 * (number // side - side // 2), 7.0 * number
         self.start = (self.x, self.y, self.turn)
         self.command, self.heard = (0.0, 0.0, 0.0), 0.0
 
