@@ -175,8 +175,8 @@ class Course {
   [[nodiscard]] std::vector<FrontPoint> judged_front() {
     if (plan_.optimizer.search != Search::nsga2) return {};
     auto front = front_of(plan_, states());
-    std::vector<std::vector<double>> points;
-    for (const auto& p : front) points.push_back(p.point);
+    std::vector<std::vector<double>> points(front.size());
+    for (std::size_t i = 0; i < front.size(); ++i) points[i] = front[i].point;
     const auto merits = evaluator_.merits(points);
     for (std::size_t i = 0; i < front.size(); ++i) front[i].merit = merits[i];
     return front;
