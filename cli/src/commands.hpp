@@ -39,6 +39,7 @@ struct HubOptions {
   std::size_t bundle = 1;     // packets heard per datagram
   bool print_robots = false;  // their command lines, instead
   std::string new_key;        // make this file, instead
+  std::string stop;           // ADDRESS:PORT[,...] of robots without a hub: stop them, instead
 };
 int hub_command(const HubOptions& options);
 

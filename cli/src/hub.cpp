@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -11,6 +12,8 @@
 #include <thread>
 
 #include "banyan/hosts/udp/hub.hpp"
+#include "banyan/hosts/udp/contact.hpp"
+#include "banyan/hosts/udp/peers.hpp"
 #include "banyan/hosts/udp/pose_stream.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/tape.hpp"
@@ -158,11 +161,15 @@ world::World make_world(const world::Scenario& scenario, const Algorithm& remote
   return {scenario, remote, tracked_bodies(*tracker)};
 }
 
+udp::KeyRing keys_of(const HubOptions& options) {
+  if (options.key_file.empty()) throw CommandError(exit_usage, "--key is missing; make one with banyan hub --new-key FILE");
+  return udp::read_keys(options.key_file);
+}
+
 int play_scenario(const HubOptions& options) {
   config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
   world::Scenario& scenario = configuration.scenario;
-  if (options.key_file.empty()) throw CommandError(exit_usage, "--key is missing; make one with banyan hub --new-key FILE");
-  const udp::KeyRing keys = udp::read_keys(options.key_file);
+  const udp::KeyRing keys = keys_of(options);
   const std::size_t robots = world::robot_count(scenario);
   const auto tracker = open_tracker(options, robots);
   if (tracker) scenario = seen_by(*tracker, scenario);
@@ -181,6 +188,34 @@ int play_scenario(const HubOptions& options) {
     outputs.abandon();
     throw;
   }
+}
+
+// Nobody knows how many there are, so whoever is there has this long to answer.
+int stop_peers(const HubOptions& options) {
+  constexpr double insist_s = 2.0, call_every_s = 0.05;
+  const udp::KeyRing keys = keys_of(options);
+  const std::vector<udp::Address> addresses = udp::parse_addresses(options.stop);
+  const udp::Socket socket(udp::Address{});
+  const std::array<int, 1> descriptor{socket.descriptor()};
+  const udp::Clock clock;
+  udp::Stopper stopper(udp::new_boot());
+  for (double call_s = 0.0; clock.now_s() < insist_s && stop_signal() == 0; call_s += call_every_s) {
+    for (const udp::Address& address : addresses) socket.send(stopper.call(keys), address);
+    while (clock.wait(descriptor, call_s + call_every_s)) {
+      std::array<std::uint8_t, udp::largest_datagram + 1> room{};
+      udp::Address from;
+      udp::Drop reason{};
+      while (const auto datagram = socket.receive(room, from))
+        if (const auto envelope = udp::authenticate(*datagram, keys, reason))
+          if (const udp::Bytes stop = stopper.take(*envelope, keys); !stop.empty()) socket.send(stop, from);
+    }
+  }
+  std::vector<std::size_t> stopped, silent;
+  for (const auto& [robot, has_stopped] : stopper.robots()) (has_stopped ? stopped : silent).push_back(robot);
+  if (!silent.empty()) throw CommandError(exit_lost, "did not confirm the stop: robot " + list_of(silent));
+  if (stopped.empty()) throw CommandError(exit_lost, "no robot has answered at " + options.stop);
+  print("stopped: robot " + list_of(stopped) + "\n");
+  return exit_done;
 }
 
 int print_robots(const HubOptions& options) {
@@ -208,6 +243,7 @@ int hub_command(const HubOptions& options) {
       udp::write_new_key(options.new_key);
       return static_cast<int>(exit_done);
     }
+    if (!options.stop.empty()) return stop_peers(options);
     if (options.run.scenario.empty()) throw CommandError(exit_usage, "a scenario is missing; see banyan hub --help");
     if (options.resume && options.tape.empty()) throw CommandError(exit_usage, "--resume needs --tape");
     if (options.print_robots) return print_robots(options);

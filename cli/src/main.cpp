@@ -553,6 +553,8 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
   command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->type_name("FILE");
   command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->type_name("FILE");
   command->add_option("--new-key", options->new_key, "make a key file and exit")->type_name("FILE");
+  command->add_option("--stop", options->stop, "stop robots that have no hub, at these addresses or at a broadcast, and exit")
+      ->type_name("ADDRESSES");
   command->add_option("--listen", options->listen, "where robots find it, default 0.0.0.0:4600")->type_name("ADDRESS:PORT");
   command->add_flag("--print-robots", options->print_robots, "print the command line of each robot and exit");
   command->add_option("--wait", options->wait_s, "for robots before it begins, s; default 10")->type_name("S")->check(moment);

@@ -375,6 +375,101 @@ TEST_F(Laboratory, RobotsStandStillWithoutTheHubAndGoOnWithAnother) {
   expect_complete(run(hub()));
 }
 
+// Nine robots that talk to each other, each with a base that measures the others; nobody else takes part.
+class WithoutAHub : public FleetProgram {
+ protected:
+  static constexpr int count = 9;
+  static constexpr double reach_m = 2.0;
+  static constexpr std::array<std::array<double, 2>, 3> targets{{{0.0, 1.6}, {-1.386, -0.8}, {1.386, -0.8}}};
+
+  void SetUp() override {
+    FleetProgram::SetUp();
+    port_ = free_port();
+    ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
+    std::string command = std::string("exec python3 ") + BANYAN_EXAMPLES + "/base.py 9 " + std::to_string(port_ + count) + " 5 2";
+    for (const auto& [x, y] : targets) command += " " + std::to_string(x) + "," + std::to_string(y);
+    bases_ = start({"-c", command + " > seen.csv"}, {.program = "sh"});
+    ASSERT_TRUE(becomes([&] { return answers(port_ + 2 * count - 1); }));
+    robots_.resize(count);
+    for (int i = count - 1; i >= 0; --i) start_robot(i, i == 0);
+  }
+  void TearDown() override {
+    for (const pid_t robot : robots_)
+      if (robot > 0 && ::kill(robot, SIGKILL) == 0) finish(robot);
+    ::kill(bases_, SIGTERM);
+    finish(bases_);
+    FleetProgram::TearDown();
+  }
+  void start_robot(int i, bool root) {
+    Arguments arguments{"robot", "--id", std::to_string(i), "--listen", address(i), "--peers", others_than(i), "--key", "fleet.key", "--speed", "5",
+                        "--base", "tcp:127.0.0.1:" + std::to_string(port_ + count + i)};
+    if (root) arguments.emplace_back("--root");
+    if (i >= 1 && i <= 3) arguments.emplace_back("--worker");
+    robots_[static_cast<std::size_t>(i)] = start(arguments);
+  }
+  [[nodiscard]] std::string address(int i) const { return "127.0.0.1:" + std::to_string(port_ + i); }
+  [[nodiscard]] std::string others_than(int self) const {
+    std::string list;
+    for (int i = 0; i < count; ++i)
+      if (i != self) list += (list.empty() ? "" : ",") + address(i);
+    return list;
+  }
+  using Places = std::array<std::array<double, 2>, count>;
+  // Where all of them were at each moment that has been written.
+  [[nodiscard]] std::vector<Places> seen() const {
+    std::vector<Places> moments;
+    Places now{};
+    std::istringstream lines(read("seen.csv"));
+    for (std::string line; std::getline(lines, line) && !lines.eof();) {
+      int i = 0;
+      double x = 0.0, y = 0.0;
+      if (std::sscanf(line.c_str(), "%d,%lf,%lf", &i, &x, &y) != 3) continue;
+      now.at(static_cast<std::size_t>(i)) = {x, y};
+      if (i == count - 1) moments.push_back(now);
+    }
+    return moments;
+  }
+  static double distance(const std::array<double, 2>& a, const std::array<double, 2>& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+  [[nodiscard]] bool is_complete() const {
+    const auto moments = seen();
+    for (std::size_t k = 0; k < targets.size(); ++k)
+      if (moments.empty() || distance(moments.back()[k + 1], targets[k]) > 0.2) return false;
+    return true;
+  }
+  static bool is_in_one_piece(const Places& places) {
+    std::vector<std::size_t> reached{0};
+    std::array<bool, count> is_reached{true};
+    for (std::size_t next = 0; next < reached.size(); ++next)
+      for (std::size_t j = 0; j < places.size(); ++j)
+        if (!is_reached.at(j) && distance(places.at(reached[next]), places.at(j)) <= reach_m) {
+          is_reached.at(j) = true;
+          reached.push_back(j);
+        }
+    return reached.size() == places.size();
+  }
+  int port_ = 0;
+  pid_t bases_ = 0;
+  std::vector<pid_t> robots_;
+};
+
+TEST_F(WithoutAHub, TheyCompleteInOnePieceAndStopAtAWord) {
+  EXPECT_TRUE(becomes([&] { return seen().size() > 1 && seen().back() != seen().front(); }));  // under way
+  ::kill(robots_[8], SIGKILL);
+  finish(robots_[8]);
+  start_robot(8, false);
+  EXPECT_TRUE(becomes([&] { return is_complete(); }));
+  for (const Places& places : seen()) ASSERT_TRUE(is_in_one_piece(places));
+  std::string all = others_than(-1);
+  const Outcome outcome = run({"hub", "--stop", all, "--key", "fleet.key"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "stopped: robot 0, 1, 2, 3, 4, 5, 6, 7, 8\n");
+  for (pid_t& robot : robots_) {
+    EXPECT_EQ(finish(robot).code, 0);
+    robot = 0;
+  }
+  EXPECT_EQ(run({"hub", "--stop", all, "--key", "fleet.key"}).code, 1);  // nobody is there any more
+}
+
 TEST_F(FleetProgram, RefusesWhatCannotBe) {
   expect_refused({"fleet", three_targets, "--loss", "1"}, "from 0 to 0.99");
   expect_refused({"fleet", "-"}, "must be a file");

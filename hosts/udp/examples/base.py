@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Bases that speak banyan-robot's line protocol over TCP, here with pretended wheels.
 
-    base.py COUNT FIRST_PORT [SPEED]
+    base.py COUNT FIRST_PORT [SPEED [RANGE [X,Y ...]]]
 
+With a RANGE they measure each other up to there, in m, for robots without a hub, and base 1 + k has the k-th target X,Y.
 Base i listens on port FIRST_PORT + i and stands at the i-th point of a square grid. Replace move() by your motors and
 encoders, and you have a driver for your robot. On standard output, for tracker.py, is what a camera would see.
 """
@@ -15,6 +16,8 @@ import time
 
 count, first_port = int(sys.argv[1]), int(sys.argv[2])
 speed = float(sys.argv[3]) if len(sys.argv) > 3 else 1.0
+reach = float(sys.argv[4]) if len(sys.argv) > 4 else 0.0
+targets = {1 + k: tuple(map(float, text.split(","))) for k, text in enumerate(sys.argv[5:])}
 PERIOD_S, DEADMAN_S = 0.02, 0.5
 
 
@@ -47,6 +50,21 @@ class Base:
         dx, dy, c, s = self.x - x, self.y - y, math.cos(turn), math.sin(turn)
         return b"pose %.5f %.5f %.5f\n" % (c * dx + s * dy, c * dy - s * dx, self.turn - turn)
 
+    def seen_from_here(self, x, y):
+        dx, dy, c, s = x - self.x, y - self.y, math.cos(self.turn), math.sin(self.turn)
+        return c * dx + s * dy, c * dy - s * dx
+
+    def measurements(self):
+        """What sensors of range and bearing, and of the target, say."""
+        lines = b""
+        for other in bases:
+            x, y = self.seen_from_here(other.x, other.y)
+            if other is not self and math.hypot(x, y) <= reach:
+                lines += b"near %d %.4f %.4f\n" % (other.number, math.hypot(x, y), math.atan2(y, x))
+        if self.number in targets:
+            lines += b"target %.4f %.4f\n" % self.seen_from_here(*targets[self.number])
+        return lines
+
 
 bases, ready = [Base(number) for number in range(count)], selectors.DefaultSelector()
 for base in bases:
@@ -66,7 +84,7 @@ while True:
     for base in bases:
         base.move(speed * (now - then))
         if base.wire:
-            base.wire.sendall(base.odometry())
+            base.wire.sendall(base.odometry() + base.measurements())
         print(base.number, base.x, base.y, base.turn, sep=",")
     sys.stdout.flush()
     then = now

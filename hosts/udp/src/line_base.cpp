@@ -40,6 +40,38 @@ std::optional<std::vector<float>> numbers(std::string_view line) {
   return found;
 }
 
+constexpr float largest_angle = 1e4F;  // beyond, a turn would not be exact (trig.hpp)
+
+std::optional<BaseLine> pose_of(const std::vector<float>& values) {
+  if (values.size() != 3 || std::fabs(values[2]) > largest_angle) return std::nullopt;
+  return OdometricPose{{values[0], values[1]}, angle_of(unit_vector(values[2]))};
+}
+
+std::optional<BaseLine> seen_of(const std::vector<float>& values) {
+  if (values.size() % 2 != 0 || values.size() > 2 * most_seen) return std::nullopt;
+  Seen seen;
+  for (std::size_t k = 0; k < values.size(); k += 2) seen.points.push_back({values[k], values[k + 1]});
+  return seen;
+}
+
+std::optional<BaseLine> near_of(const std::vector<float>& values) {
+  if (values.empty() || values.size() % 3 != 0 || values.size() > 3 * most_seen) return std::nullopt;
+  Near near;
+  for (std::size_t k = 0; k < values.size(); k += 3) {
+    const float id = values[k], range_m = values[k + 1], bearing = values[k + 2];
+    if (!(id >= 0.0F && id < static_cast<float>(nobody - 1)) || id != std::floor(id)) return std::nullopt;
+    if (range_m < 0.0F || std::fabs(bearing) > largest_angle) return std::nullopt;
+    near.robots.push_back({static_cast<RobotId>(id), range_m * unit_vector(bearing)});
+  }
+  return near;
+}
+
+std::optional<BaseLine> sought_of(const std::vector<float>& values) {
+  if (values.empty()) return Sought{};
+  if (values.size() != 2) return std::nullopt;
+  return Sought{Vec2{values[0], values[1]}};
+}
+
 std::string in_decimals(float value) {
   std::array<char, 64> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 4).ptr;
@@ -77,20 +109,16 @@ int open_serial(const std::string& path) {
 
 }  // namespace
 
-std::optional<std::variant<OdometricPose, Seen>> parse_base_line(std::string_view line) {
+std::optional<BaseLine> parse_base_line(std::string_view line) {
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   const std::string_view word = take_word(line);
   const auto values = numbers(line);
   if (!values) return std::nullopt;
-  if (word == "pose" && values->size() == 3) {
-    constexpr float largest = 1e4F;  // beyond, a turn would not be exact (trig.hpp)
-    if (std::fabs((*values)[2]) > largest) return std::nullopt;
-    return OdometricPose{{(*values)[0], (*values)[1]}, angle_of(unit_vector((*values)[2]))};
-  }
-  if (word != "seen" || values->size() % 2 != 0 || values->size() > 2 * most_seen) return std::nullopt;
-  Seen seen;
-  for (std::size_t k = 0; k < values->size(); k += 2) seen.points.push_back({(*values)[k], (*values)[k + 1]});
-  return seen;
+  if (word == "pose") return pose_of(*values);
+  if (word == "seen") return seen_of(*values);
+  if (word == "near") return near_of(*values);
+  if (word == "target") return sought_of(*values);
+  return std::nullopt;
 }
 
 std::string drive_line(const Velocity& velocity) {
@@ -100,15 +128,22 @@ std::string drive_line(const Velocity& velocity) {
 
 LineBase::~LineBase() { ::close(descriptor_); }
 
+void LineBase::take(const OdometricPose& pose, double now_s) {
+  poses_.push_back({now_s, pose});
+  while (poses_.size() > 1 && poses_.front().s < now_s - remembered_s) poses_.pop_front();
+}
+
 void LineBase::take(std::string_view line, double now_s) {
   const auto said = parse_base_line(line);
   if (!said) return;
-  if (const auto* seen = std::get_if<Seen>(&*said)) {
-    seen_ = *seen;
-    return;
+  if (const auto* pose = std::get_if<OdometricPose>(&*said)) take(*pose, now_s);
+  if (const auto* seen = std::get_if<Seen>(&*said)) seen_ = *seen;
+  if (const auto* near = std::get_if<Near>(&*said))
+    for (const Near::Robot& robot : near->robots) near_[robot.id] = {robot.position, now_s};
+  if (const auto* sought = std::get_if<Sought>(&*said)) {
+    target_.reset();
+    if (sought->target) target_ = Measured{*sought->target, now_s};
   }
-  poses_.push_back({now_s, std::get<OdometricPose>(*said)});
-  while (poses_.size() > 1 && poses_.front().s < now_s - remembered_s) poses_.pop_front();
 }
 
 void LineBase::listen(double now_s) {
@@ -138,6 +173,17 @@ std::optional<OdometricPose> LineBase::pose_at(double moment_s) const {
   for (const Moment& moment : poses_)
     if (moment.s <= moment_s) pose = moment.pose;
   return pose;
+}
+
+std::optional<Measured> LineBase::neighbour(RobotId robot) const {
+  const auto found = near_.find(robot);
+  if (found == near_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<double> LineBase::last_pose_s() const {
+  if (poses_.empty()) return std::nullopt;
+  return poses_.back().s;
 }
 
 std::unique_ptr<Driver> open_line_base(const std::string& name) {

@@ -88,7 +88,14 @@ const std::vector<Option>& options() {
          o.id = static_cast<RobotId>(id);
        },
        [](const RobotOptions& o) { return std::vector{std::to_string(o.id)}; }},
-      text("--hub", "ADDRESS:PORT", "where the hub is; required", [](RobotOptions& o) -> std::string& { return o.hub; }),
+      text("--hub", "ADDRESS:PORT", "where the hub is; this or --peers is required", [](RobotOptions& o) -> std::string& { return o.hub; }),
+      text("--peers", "ADDRESSES", "without a hub: ADDRESS:PORT of each other robot with commas between, or of a broadcast; needs --base",
+           [](RobotOptions& o) -> std::string& { return o.peers; }),
+      text("--listen", "ADDRESS:PORT", "where its peers find it; required with --peers", [](RobotOptions& o) -> std::string& { return o.listen; }),
+      flag("--root", "with --peers: it is the first root; exactly one is", [](const RobotOptions& o) { return o.root; },
+           [](RobotOptions& o) { o.root = true; }),
+      flag("--worker", "with --peers: it will be sent to a target", [](const RobotOptions& o) { return o.worker; },
+           [](RobotOptions& o) { o.worker = true; }),
       text("--key", "FILE", "the fleet's keys; required", [](RobotOptions& o) -> std::string& { return o.key_file; }),
       text("--base", "BASE", "what it drives on: tcp:ADDRESS:PORT or a serial device; default the hub's simulated wheels",
            [](RobotOptions& o) -> std::string& { return o.base; }),
@@ -108,7 +115,7 @@ const std::vector<Option>& options() {
       flag("--no-line-of-sight", "the radio goes through bodies", [](const RobotOptions& o) { return !o.setup.platform.line_of_sight; },
            [](RobotOptions& o) { o.setup.platform.line_of_sight = false; }),
       {"--set", "KEY=VALUE", "a parameter of the algorithm, such as safe_range_m=1.7; may be repeated", set_parameter, parameters_of},
-      real("--stop-after", "it stands still without a word from the hub for so long, s; default 0.5", 0.05, 3600.0,
+      real("--stop-after", "it stands still without a word from the hub, or with --peers from its base, for so long, s; default 0.5", 0.05, 3600.0,
            [](RobotOptions& o) -> double& { return o.stop_after_s; }),
       real("--delay", "from a measurement of the tracker to its arrival, s; matters with --base; default 0", 0.0, 1.0,
            [](RobotOptions& o) -> double& { return o.delay_s; }),
@@ -129,6 +136,21 @@ std::string robot_usage() {
   return usage;
 }
 
+namespace {
+
+void check_who_guides(const RobotOptions& options) {
+  if (options.hub.empty() && options.peers.empty()) throw OptionError("--hub or --peers is missing");
+  if (!options.hub.empty() && !options.peers.empty()) throw OptionError("--hub and --peers exclude each other");
+  if (options.peers.empty()) {
+    if (!options.listen.empty() || options.root || options.worker) throw OptionError("--listen, --root and --worker need --peers: the hub says how robots begin");
+    return;
+  }
+  if (options.base.empty()) throw OptionError("--peers needs --base, which measures where other robots are");
+  if (options.listen.empty()) throw OptionError("--peers needs --listen");
+}
+
+}  // namespace
+
 RobotOptions parse_robot_options(std::span<const std::string> arguments) {
   RobotOptions parsed;
   for (std::size_t k = 0; k < arguments.size(); ++k) {
@@ -145,7 +167,7 @@ RobotOptions parse_robot_options(std::span<const std::string> arguments) {
     }
   }
   if (parsed.id == nobody) throw OptionError("--id is missing");
-  if (parsed.hub.empty()) throw OptionError("--hub is missing");
+  check_who_guides(parsed);
   if (parsed.key_file.empty()) throw OptionError("--key is missing");
   return parsed;
 }

@@ -6,11 +6,8 @@
 #include <array>
 #include <atomic>
 
-#include "banyan/hosts/udp/driver.hpp"
-#include "banyan/hosts/udp/envelope.hpp"
 #include "banyan/hosts/udp/line_base.hpp"
-#include "banyan/hosts/udp/robot.hpp"
-#include "banyan/hosts/udp/socket.hpp"
+#include "banyan/hosts/udp/contact.hpp"
 
 namespace banyan::udp {
 namespace {
@@ -29,7 +26,6 @@ void catch_signals() {
   ::signal(SIGPIPE, SIG_IGN);  // a base that goes away is noticed when it is read
 }
 
-constexpr double hello_every_s = 0.2;
 constexpr double linger_s = 0.5;  // after a stop: to answer it if it is repeated because the answer was lost
 
 const Algorithm& known_algorithm(const RobotOptions& options, const AlgorithmList& algorithms) {
@@ -49,11 +45,10 @@ class Process {
   Process(const RobotOptions& options, const Algorithm& algorithm)
       : options_(options),
         keys_(read_keys(options.key_file)),
-        hub_(parse_address(options.hub)),
-        socket_(Address{}),
+        socket_(options.listen.empty() ? Address{} : parse_address(options.listen)),
         driver_(options.base.empty() ? std::unique_ptr<Driver>(std::make_unique<SimulatedWheels>()) : open_line_base(options.base)),
-        channel_(options.id, hub_node, new_boot()),
         robot_(algorithm, options.setup, options.id, options.stop_after_s),
+        contact_(make_contact({options_, socket_, *driver_, robot_, keys_})),
         clock_(options.speed),
         next_step_s_(clock_.now_s()) {}
   ~Process() { driver_->drive({}); }
@@ -73,6 +68,8 @@ class Process {
   }
 
  private:
+  static std::unique_ptr<Contact> make_contact(const ContactEnds& ends) { return ends.options.peers.empty() ? contact_with_hub(ends) : contact_with_peers(ends); }
+
   // A file that is wrong changes nothing: a robot on its way keeps the keys that it has.
   void reread_keys() {
     try {
@@ -86,63 +83,40 @@ class Process {
     std::array<std::uint8_t, largest_datagram + 1> room;
     Address from;
     while (const auto datagram = socket_.receive(room, from)) {
+      const double now_s = clock_.now_s();
       Drop reason{};
       const auto envelope = authenticate(*datagram, keys_, reason);
-      if (!envelope || channel_.admit(*envelope) || !take(*envelope)) ++dropped_;
-    }
-  }
-
-  bool take(const Envelope& envelope) {
-    const double now_s = clock_.now_s();
-    const auto at = driver_->pose_at(now_s - options_.delay_s);
-    switch (envelope.kind) {
-      case Kind::frame:
-        if (const auto frame = decode_frame(envelope.payload)) return robot_.take(*frame, now_s, at), true;
-        return false;
-      case Kind::heard:
-        if (const auto heard = decode_heard(envelope.payload)) return robot_.take(*heard, at), true;
-        return false;
-      case Kind::stop:
-        driver_->drive({});
-        if (stopped_s_ < 0.0) stopped_s_ = now_s;
-        say(Kind::stopped, {});
-        return true;
-      default: return false;
+      if (!envelope || !contact_->take(*envelope, from, now_s)) ++dropped_;
+      if (!contact_->is_stopped() || stopped_s_ >= 0.0) continue;
+      driver_->drive({});
+      stopped_s_ = now_s;
     }
   }
 
   void act(double now_s) {
-    next_step_s_ += static_cast<double>(options_.setup.platform.tick_s);
-    if (next_step_s_ < now_s) next_step_s_ = now_s + static_cast<double>(options_.setup.platform.tick_s);  // it was held up
-    if (stopped_s_ >= 0.0 || !robot_.is_guided(now_s)) {
+    const double tick_s = static_cast<double>(options_.setup.platform.tick_s);
+    next_step_s_ += tick_s;
+    if (next_step_s_ < now_s) next_step_s_ = now_s + tick_s;  // it was held up
+    if (stopped_s_ >= 0.0) return driver_->drive({});
+    contact_->guide(now_s);
+    if (!robot_.is_guided(now_s)) {
       driver_->drive({});
-      if (stopped_s_ < 0.0) greet(now_s);
-      return;
+      return contact_->greet(now_s);
     }
     Status status = robot_.step(now_s, driver_->pose_at(now_s), driver_->obstacles());
     status.dropped = dropped_;
     driver_->drive(status.velocity);
-    say(Kind::status, encode(status));
+    contact_->tell(status);
   }
-
-  void greet(double now_s) {
-    if (now_s < next_hello_s_) return;
-    next_hello_s_ = now_s + hello_every_s;
-    say(Kind::hello, {});
-  }
-
-  void say(Kind kind, const Bytes& payload) { socket_.send(channel_.seal(kind, payload, keys_), hub_); }
 
   RobotOptions options_;
   KeyRing keys_;
-  Address hub_;
   Socket socket_;
   std::unique_ptr<Driver> driver_;
-  Channel channel_;
   Robot robot_;
+  std::unique_ptr<Contact> contact_;
   Clock clock_;
   double next_step_s_;
-  double next_hello_s_ = 0.0;
   double stopped_s_ = -1.0;
   std::uint32_t dropped_ = 0;
 };

@@ -55,6 +55,8 @@ Socket::Socket(const Address& local) : descriptor_(::socket(AF_INET, SOCK_DGRAM 
   // Smaller buffers would do, only less well.
   static_cast<void>(::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes, sizeof buffer_bytes));
   static_cast<void>(::setsockopt(descriptor_, SOL_SOCKET, SO_SNDBUF, &buffer_bytes, sizeof buffer_bytes));
+  const int on = 1;
+  static_cast<void>(::setsockopt(descriptor_, SOL_SOCKET, SO_BROADCAST, &on, sizeof on));
   if (::bind(descriptor_, reinterpret_cast<const sockaddr*>(&local.raw), sizeof local.raw) == 0) return;
   const int error = errno;
   ::close(descriptor_);

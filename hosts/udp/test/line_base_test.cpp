@@ -26,9 +26,25 @@ TEST(BaseLine, PoseAndPoints) {
   EXPECT_TRUE(parse_base_line("seen"));
 }
 
+TEST(BaseLine, NeighboursAndTarget) {
+  const auto near = parse_base_line("near 3 1.5 0 12 0.5 1.5707963");
+  ASSERT_TRUE(near && std::holds_alternative<Near>(*near));
+  const auto& robots = std::get<Near>(*near).robots;
+  ASSERT_EQ(robots.size(), 2U);
+  EXPECT_EQ(robots[0].id, 3);
+  EXPECT_EQ(robots[0].position, (Vec2{1.5F, 0.0F}));
+  EXPECT_EQ(robots[1].id, 12);
+  EXPECT_NEAR(robots[1].position.x, 0.0F, 1e-6F);
+  EXPECT_NEAR(robots[1].position.y, 0.5F, 1e-6F);
+  EXPECT_EQ(*std::get<Sought>(*parse_base_line("target 2 -1")).target, (Vec2{2.0F, -1.0F}));
+  EXPECT_FALSE(std::get<Sought>(*parse_base_line("target")).target);
+}
+
 TEST(BaseLine, WhatIsNoneIsRefused) {
   for (const char* line : {"", "pose", "pose 1 2", "pose 1 2 3 4", "pose 1 2 x", "pose 1 2 nan", "pose 1 2 inf", "pose 1 2 1e9",
-                           "pose  1 2 3", "seen 1", "seen 1 2 3", "drive 0 0 0", "Pose 1 2 3", "pose 1 2 3f", "seen 1,2"})
+                           "pose  1 2 3", "seen 1", "seen 1 2 3", "drive 0 0 0", "Pose 1 2 3", "pose 1 2 3f", "seen 1,2", "near",
+                           "near 1 2", "near 0.5 1 0", "near -1 1 0", "near 65535 1 0", "near 1 -1 0", "near 1 1 1e9", "target 1",
+                           "target 1 2 3", "target nan 0"})
     EXPECT_FALSE(parse_base_line(line)) << line;
   std::string many = "seen";
   for (std::size_t k = 0; k < most_seen; ++k) many += " 1 2";
@@ -68,6 +84,23 @@ TEST_F(WiredBase, LinesComeInPieces) {
   say("\npose 3 0 0\n");
   base_->listen(2.2);
   EXPECT_EQ(base_->pose_at(2.2)->position.x, 3.0F);
+}
+
+TEST_F(WiredBase, KnowsWhenItMeasured) {
+  EXPECT_FALSE(base_->last_pose_s());
+  say("near 1 2 0 2 1 0\ntarget 5 0\npose 0 0 0\n");
+  base_->listen(1.0);
+  say("near 2 0.5 0\n");
+  base_->listen(2.0);
+  EXPECT_EQ(base_->neighbour(1)->s, 1.0);
+  EXPECT_EQ(base_->neighbour(2)->s, 2.0);
+  EXPECT_EQ(base_->neighbour(2)->position.x, 0.5F);
+  EXPECT_FALSE(base_->neighbour(3));
+  EXPECT_EQ(base_->last_pose_s(), 1.0);
+  EXPECT_EQ(base_->target()->position.x, 5.0F);
+  say("target\n");
+  base_->listen(3.0);
+  EXPECT_FALSE(base_->target());
 }
 
 TEST_F(WiredBase, DrivesAndIsLost) {

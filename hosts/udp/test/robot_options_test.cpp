@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace banyan::udp {
 namespace {
 
@@ -36,9 +38,27 @@ TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
   EXPECT_EQ(to_arguments(parse_robot_options(least)), least);  // defaults are left out
 }
 
+TEST(RobotOptions, WithoutAHub) {
+  const std::vector<std::string> peers = {"--id", "3", "--peers", "10.0.0.255:4600", "--listen", "0.0.0.0:4600", "--root", "--worker", "--key", "k",
+                                          "--base", "tcp:1.2.3.4:5"};
+  const RobotOptions options = parse_robot_options(peers);
+  EXPECT_EQ(to_arguments(options), peers);
+  EXPECT_TRUE(options.root && options.worker && options.hub.empty());
+  const auto without = [&](const std::string& name) {
+    std::vector<std::string> rest = peers;
+    const auto at = std::find(rest.begin(), rest.end(), name);
+    rest.erase(at, at + 2);
+    return fault(rest);
+  };
+  EXPECT_EQ(without("--base"), "--peers needs --base, which measures where other robots are");
+  EXPECT_EQ(without("--listen"), "--peers needs --listen");
+  EXPECT_EQ(fault(with({"--peers", "10.0.0.255:4600"})), "--hub and --peers exclude each other");
+  EXPECT_EQ(fault(with({"--root"})), "--listen, --root and --worker need --peers: the hub says how robots begin");
+}
+
 TEST(RobotOptions, WhatIsWrongIsSaid) {
   EXPECT_EQ(fault({}), "--id is missing");
-  EXPECT_EQ(fault({"--id", "3"}), "--hub is missing");
+  EXPECT_EQ(fault({"--id", "3"}), "--hub or --peers is missing");
   EXPECT_EQ(fault(with({"--rnage", "2"})), "\"--rnage\" is unknown; see --help");
   EXPECT_EQ(fault(with({"--range"})), "--range needs a value");
   EXPECT_EQ(fault(with({"--range", "nan"})), "--range must be a number from 0.001 to 10000, not \"nan\"");

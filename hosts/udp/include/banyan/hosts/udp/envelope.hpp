@@ -7,16 +7,17 @@
 //   2       1      kind (messages.hpp)
 //   3       1      number of the key
 //   4       2      sender: a robot's id, 0xFFFE the hub
-//   6       2      receiver, likewise
+//   6       2      receiver, likewise; 0xFFFF everybody
 //   8       8      boot of the sender: grows whenever its program starts again
-//   16      8      boot of the receiver as the sender knows it; 0 in a hello, from a sender that does not
+//   16      8      boot of the receiver as the sender knows it; 0 in a hello, from a sender that does not, and to everybody
 //   24      4      counter: 1, 2, 3, ... to this receiver since the sender's boot
 //   28      n      payload
 //   28 + n  16     MAC: BLAKE2b with the fleet's key, over everything before
 //
 // A packet is accepted once. It must carry the receiver's present boot, so what was recorded before the receiver
 // started is worthless; and the newest boot of its sender, so a robot that has started again is accepted and its old
-// packets are not. A hello proves nothing of this: it only says that somebody is there.
+// packets are not. A hello proves nothing of this: it only says that somebody is there. What is said to everybody has no
+// receiver whose boot it could carry; peers.hpp says when it is accepted.
 #pragma once
 
 #include <array>
@@ -31,9 +32,10 @@ namespace banyan::udp {
 
 using Node = std::uint16_t;  // who sends and receives
 inline constexpr Node hub_node = 0xFFFE;
+inline constexpr Node everybody = 0xFFFF;
 
-enum class Kind : std::uint8_t { hello, status, frame, heard, stop, stopped };
-inline constexpr Kind last_kind = Kind::stopped;
+enum class Kind : std::uint8_t { hello, status, frame, heard, stop, stopped, answer, spoken };
+inline constexpr Kind last_kind = Kind::spoken;
 
 inline constexpr std::size_t header_bytes = 28;
 inline constexpr std::size_t mac_bytes = 16;

@@ -5,11 +5,16 @@
 //   robot to base   drive FORWARD SIDEWAYS TURN    velocities, m/s and rad/s, once a step; until the next such line
 //   base to robot   pose X Y TURN                  odometry since the base was switched on; at least ten times a second
 //                   seen X Y [X Y ...]             obstacle points, x forward, y to the left; replaces the last; "seen": none
+//                   near ID RANGE BEARING [...]    other robots that it measures, bearing counter-clockwise from forward, in
+//                                                  any number of lines; only without a hub
+//                   target X Y                     where its target is, in the body frame of now; "target": it has none, as in
+//                                                  the beginning; only without a hub
 //
 // A base that hears nothing for half a second must stop by itself: the wire may break.
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -29,8 +34,19 @@ class BaseError : public std::runtime_error {
 struct Seen {
   std::vector<Vec2> points;  // at most most_seen
 };
+struct Near {
+  struct Robot {
+    RobotId id = nobody;
+    Vec2 position;  // in the body frame
+  };
+  std::vector<Robot> robots;  // at most most_seen
+};
+struct Sought {
+  std::optional<Vec2> target;  // in the body frame
+};
+using BaseLine = std::variant<OdometricPose, Seen, Near, Sought>;
 // One line without its end; nothing if it is none of a base.
-[[nodiscard]] std::optional<std::variant<OdometricPose, Seen>> parse_base_line(std::string_view line);
+[[nodiscard]] std::optional<BaseLine> parse_base_line(std::string_view line);
 [[nodiscard]] std::string drive_line(const Velocity& velocity);
 
 class LineBase final : public Driver {
@@ -45,11 +61,15 @@ class LineBase final : public Driver {
   void drive(const Velocity& velocity) override;
   [[nodiscard]] std::optional<OdometricPose> pose_at(double moment_s) const override;  // the origin before the first
   [[nodiscard]] std::span<const Vec2> obstacles() const override { return seen_.points; }
+  [[nodiscard]] std::optional<Measured> neighbour(RobotId robot) const override;
+  [[nodiscard]] std::optional<Measured> target() const override { return target_; }
+  [[nodiscard]] std::optional<double> last_pose_s() const override;
   [[nodiscard]] int descriptor() const noexcept override { return descriptor_; }
   [[nodiscard]] bool lost() const noexcept override { return lost_; }
 
  private:
   void take(std::string_view line, double now_s);
+  void take(const OdometricPose& pose, double now_s);
 
   struct Moment {
     double s = 0.0;
@@ -60,6 +80,8 @@ class LineBase final : public Driver {
   std::string begun_;            // a line whose end has not come
   std::deque<Moment> poses_;     // of the last second
   Seen seen_;
+  std::map<RobotId, Measured> near_;
+  std::optional<Measured> target_;
 };
 
 // "tcp:ADDRESS:PORT", or the path of a serial device, which is set to 115200 baud, 8N1. Throws BaseError.

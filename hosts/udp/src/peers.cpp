@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/udp/peers.hpp"
+
+namespace banyan::udp {
+namespace {
+
+constexpr double ask_every_s = 0.2;
+
+}  // namespace
+
+Peers::Peer& Peers::peer(Node node) {
+  return peers_.try_emplace(node, Peer{Channel(self_, node, boot_), {}, 0, 0.0}).first->second;
+}
+
+Bytes Peers::speak(ByteView message, const KeyRing& keys) {
+  return seal({Kind::spoken, self_, everybody, boot_, 0, ++spoken_, message}, keys.signing());
+}
+
+Peers::Taken Peers::take_spoken(Peer& from, const Envelope& envelope, double now_s, const KeyRing& keys) {
+  Taken taken;
+  if (envelope.boot == from.running) {
+    taken.drop = from.spoken.admit(envelope.boot, envelope.counter);
+    if (!taken.drop) taken.what = Taken::What::message;
+  } else if (envelope.boot < from.running) {
+    taken.drop = Drop::stale;
+  } else if (now_s >= from.ask_again_s) {
+    from.ask_again_s = now_s + ask_every_s;
+    taken.reply = from.channel.seal(Kind::hello, {}, keys);
+  }
+  return taken;
+}
+
+Peers::Taken Peers::take(const Envelope& envelope, double now_s, const KeyRing& keys) {
+  if (envelope.sender == self_) return {};  // a broadcast comes back
+  Peer& from = peer(envelope.sender);
+  if (envelope.kind == Kind::spoken) {
+    if (envelope.receiver != everybody || envelope.sender == hub_node) return {.drop = Drop::misaddressed};
+    return take_spoken(from, envelope, now_s, keys);
+  }
+  Envelope direct = envelope;
+  const bool calls_all = envelope.kind == Kind::hello && envelope.sender == hub_node && envelope.receiver == everybody;
+  if (calls_all) direct.receiver = self_;
+  Taken taken;
+  taken.drop = from.channel.admit(direct);
+  if (taken.drop) return taken;
+  if (envelope.kind == Kind::hello) {
+    taken.reply = from.channel.seal(Kind::answer, {}, keys);
+  } else if (envelope.kind == Kind::answer) {
+    from.running = envelope.boot;
+  } else if (envelope.kind == Kind::stop && envelope.sender == hub_node) {
+    taken.what = Taken::What::stop;
+    taken.reply = from.channel.seal(Kind::stopped, {}, keys);
+  } else {
+    taken.drop = Drop::malformed;
+  }
+  return taken;
+}
+
+Bytes Stopper::call(const KeyRing& keys) { return seal({Kind::hello, hub_node, everybody, boot_, 0, ++counter_, {}}, keys.signing()); }
+
+Bytes Stopper::take(const Envelope& envelope, const KeyRing& keys) {
+  if (envelope.receiver != hub_node || envelope.echo != boot_) return {};
+  if (envelope.kind == Kind::stopped) robots_[envelope.sender] = true;
+  if (envelope.kind != Kind::answer) return {};
+  robots_.try_emplace(envelope.sender, false);
+  return seal({Kind::stop, hub_node, envelope.sender, boot_, envelope.boot, ++counter_, {}}, keys.signing());
+}
+
+}  // namespace banyan::udp

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// What two robots without a hub accept of each other, and of what somebody has recorded.
+#include "banyan/hosts/udp/peers.hpp"
+
+#include <gtest/gtest.h>
+
+namespace banyan::udp {
+namespace {
+
+using What = Peers::Taken::What;
+
+class PeersTest : public testing::Test {
+ protected:
+  Peers::Taken give(Peers& to, const Bytes& datagram, double now_s = 0.0) const {
+    Drop reason{};
+    const auto envelope = authenticate(datagram, keys_, reason);
+    EXPECT_TRUE(envelope);
+    return envelope ? to.take(*envelope, now_s, keys_) : Peers::Taken{};
+  }
+  // What `from` says, until `to` knows that it is running.
+  void introduce(Peers& from, Peers& to, double now_s = 0.0) {
+    const auto asked = give(to, from.speak(word_, keys_), now_s);
+    ASSERT_FALSE(asked.reply.empty());
+    const auto answered = give(from, asked.reply);
+    ASSERT_FALSE(answered.reply.empty());
+    EXPECT_FALSE(give(to, answered.reply).drop);
+  }
+  KeyRing keys_{{Key{1, {7}}}};
+  Bytes word_{1, 2, 3};
+  Peers a_{1, 1000};
+  Peers b_{2, 2000};
+};
+
+TEST_F(PeersTest, WhoHasAnsweredIsHeardOnce) {
+  introduce(a_, b_);
+  const Bytes said = a_.speak(word_, keys_);
+  EXPECT_EQ(give(b_, said).what, What::message);
+  EXPECT_EQ(give(b_, said).drop, Drop::replayed);
+  EXPECT_EQ(give(b_, a_.speak(word_, keys_)).what, What::message);
+}
+
+TEST_F(PeersTest, WhatWasRecordedCountsForNothing) {
+  introduce(a_, b_);
+  const Bytes said = a_.speak(word_, keys_);
+  Peers later(2, 3000);  // b has started again, and a is off
+  const auto again = give(later, said);
+  EXPECT_EQ(again.what, What::nothing);
+  EXPECT_FALSE(again.reply.empty());
+  // A recorded hello of a is answered, and proves nothing.
+  Peers first_b(2, 2500);
+  const Bytes hello = give(a_, first_b.speak(word_, keys_)).reply;
+  const Bytes answer = give(first_b, hello).reply;
+  static_cast<void>(give(later, hello));
+  EXPECT_EQ(give(later, said, 0.05).what, What::nothing);
+  EXPECT_EQ(give(a_, answer).drop, std::nullopt);
+  EXPECT_EQ(give(a_, answer).drop, Drop::replayed);
+}
+
+TEST_F(PeersTest, WhoStartsAgainIsAskedAgainAndItsOldPacketsAreStale) {
+  introduce(a_, b_);
+  const Bytes old = a_.speak(word_, keys_);
+  Peers restarted(1, 5000);
+  introduce(restarted, b_, 1.0);
+  EXPECT_EQ(give(b_, restarted.speak(word_, keys_)).what, What::message);
+  EXPECT_EQ(give(b_, old).drop, Drop::stale);
+}
+
+TEST_F(PeersTest, AsksFiveTimesASecond) {
+  int asked = 0;
+  for (int k = 0; k < 100; ++k) asked += give(b_, a_.speak(word_, keys_), 0.01 * k).reply.empty() ? 0 : 1;
+  EXPECT_EQ(asked, 5);
+}
+
+TEST_F(PeersTest, ItsOwnBroadcastIsNothing) {
+  const auto taken = give(a_, a_.speak(word_, keys_));
+  EXPECT_EQ(taken.what, What::nothing);
+  EXPECT_FALSE(taken.drop);
+  EXPECT_TRUE(taken.reply.empty());
+}
+
+TEST_F(PeersTest, StopsForAStopperThatIsThereNow) {
+  Stopper stopper(4000);
+  const auto open = [&](const Bytes& datagram) {
+    Drop reason{};
+    return stopper.take(*authenticate(datagram, keys_, reason), keys_);
+  };
+  const Bytes stop = open(give(a_, stopper.call(keys_)).reply);
+  ASSERT_FALSE(stop.empty());
+  EXPECT_FALSE(stopper.robots().at(1));
+  const auto taken = give(a_, stop);
+  EXPECT_EQ(taken.what, What::stop);
+  static_cast<void>(open(taken.reply));
+  EXPECT_TRUE(stopper.robots().at(1));
+  EXPECT_EQ(give(a_, stop).drop, Drop::replayed);
+  Peers restarted(1, 6000);
+  EXPECT_EQ(give(restarted, stop).what, What::nothing);
+  // No robot can stop another one.
+  EXPECT_EQ(give(b_, seal({Kind::stop, 1, 2, 1000, 2000, 1, {}}, keys_.signing())).what, What::nothing);
+}
+
+TEST_F(PeersTest, WhatIsForOthersIsMisaddressed) {
+  EXPECT_EQ(give(b_, seal({Kind::spoken, 1, 2, 1000, 0, 1, word_}, keys_.signing())).drop, Drop::misaddressed);
+  EXPECT_EQ(give(b_, seal({Kind::spoken, hub_node, everybody, 1000, 0, 1, word_}, keys_.signing())).drop, Drop::misaddressed);
+  EXPECT_EQ(give(b_, seal({Kind::hello, 1, everybody, 1000, 0, 1, {}}, keys_.signing())).drop, Drop::misaddressed);
+}
+
+}  // namespace
+}  // namespace banyan::udp
