@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <random>
 #include <thread>
@@ -49,11 +50,37 @@ std::string list_of(const std::vector<std::size_t>& robots) {
   return text;
 }
 
+// The fleet's keys may change while a mission goes on.
+class KeyFile {
+ public:
+  explicit KeyFile(std::string path) : path_(std::move(path)), written_(written()) {}
+  // The keys, if the file has been written since. One that is wrong is named and changes nothing.
+  [[nodiscard]] std::optional<udp::KeyRing> changed() {
+    const auto now = written();
+    if (now == written_) return std::nullopt;
+    written_ = now;
+    try {
+      return udp::read_keys(path_);
+    } catch (const udp::KeyError& error) {
+      complain(std::string(error.what()) + "; the keys stay as they were");
+      return std::nullopt;
+    }
+  }
+
+ private:
+  [[nodiscard]] std::filesystem::file_time_type written() const {
+    std::error_code none;
+    return std::filesystem::last_write_time(path_, none);
+  }
+  std::string path_;
+  std::filesystem::file_time_type written_;
+};
+
 // What takes the place of World::step's own robots: waits for the moment of each tick.
 class Conductor {
  public:
   // `tracker`: null if bodies are simulated.
-  Conductor(udp::Hub& hub, udp::PoseStream* tracker, const HubOptions& options) : hub_(hub), tracker_(tracker), options_(options) {}
+  Conductor(udp::Hub& hub, udp::PoseStream* tracker, const HubOptions& options) : hub_(hub), tracker_(tracker), options_(options), key_file_(options.key_file) {}
 
   record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor, const record::GoOn& go_on) {
     record::Simulation simulation(std::move(world), sink);
@@ -63,6 +90,7 @@ class Conductor {
     while (!simulation.finished()) {
       const auto dead = hub_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
       if (!see(stopped) || stopped()) return end(simulation, true);
+      if (auto keys = key_file_.changed()) hub_.use(std::move(*keys));
       for (const std::size_t robot : dead) bury(simulation, robot);
       simulation.step(executor);
     }
@@ -106,6 +134,7 @@ class Conductor {
   udp::Hub& hub_;
   udp::PoseStream* tracker_;
   const HubOptions& options_;
+  KeyFile key_file_;
 };
 
 double quantile_ms(std::vector<std::uint32_t> periods_us, double share) {

@@ -6,7 +6,10 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -359,6 +362,24 @@ TEST_F(FleetProgram, ATrackerMaySeeWhereNoMissionCanBegin) {
 }
 
 TEST_F(Laboratory, Completes) { expect_complete(run(hub())); }
+
+// Steps of docs/robots.md, each of which leaves the mission going on.
+TEST_F(Laboratory, KeysChangeDuringAMission) {
+  using namespace std::chrono_literals;
+  const std::string first = read("fleet.key");
+  const std::string second = "2 " + std::string(64, 'b') + "\n";
+  const auto begin = seen();
+  const pid_t mission = start(hub());
+  EXPECT_TRUE(becomes([&] { return seen().size() == 9U && seen() != begin; }));
+  for (const std::string& keys : {first + second, std::string("nonsense\n"), second + first, second}) {
+    write("fleet.key", keys);
+    for (const pid_t robot : robots_) ::kill(robot, SIGHUP);
+    std::this_thread::sleep_for(200ms);
+  }
+  const Outcome outcome = finish(mission);
+  EXPECT_TRUE(has(outcome.err, "fleet.key")) << outcome.err;  // the nonsense
+  expect_complete(outcome);
+}
 
 TEST_F(Laboratory, RobotsStandStillWithoutTheHubAndGoOnWithAnother) {
   using namespace std::chrono_literals;

@@ -50,6 +50,9 @@ class Hub final : public Link {
   // have not answered.
   std::size_t stop_all();
 
+  // From now on.
+  void use(KeyRing keys) { keys_ = std::move(keys); }
+
   [[nodiscard]] const HubCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] bool is_replaying(std::uint32_t tick) const noexcept { return tape_ != nullptr && tick < tape_->recorded().size(); }
   [[nodiscard]] Address local() const noexcept { return socket_.local(); }

@@ -36,7 +36,7 @@ class Peers {
     double ask_again_s = 0.0;   // when it may be sent the next hello
   };
   Peer& peer(Node node);
-  [[nodiscard]] Taken take_spoken(Peer& from, const Envelope& envelope, double now_s, const KeyRing& keys);
+  [[nodiscard]] static Taken take_spoken(Peer& from, const Envelope& envelope, double now_s, const KeyRing& keys);
 
   RobotId self_;
   std::uint64_t boot_;
