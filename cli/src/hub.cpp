@@ -137,18 +137,11 @@ class Conductor {
   KeyFile key_file_;
 };
 
-double quantile_ms(std::vector<std::uint32_t> periods_us, double share) {
-  if (periods_us.empty()) return 0.0;
-  const auto at = periods_us.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(periods_us.size() - 1));
-  std::nth_element(periods_us.begin(), at, periods_us.end());
-  return *at / 1000.0;
-}
-
 std::string remarks_on(const udp::HubCounts& counts) {
   std::string text = summary_line(
       "processes", format("control period %.1f ms (median), %.1f ms (99th percentile), %.1f ms (longest); %s late",
-                          quantile_ms(counts.periods_us, 0.5), quantile_ms(counts.periods_us, 0.99),
-                          quantile_ms(counts.periods_us, 1.0), plural(counts.late_ticks, "tick").c_str()));
+                          counts.periods.quantile_ms(0.5), counts.periods.quantile_ms(0.99),
+                          counts.periods.longest_ms(), plural(counts.late_ticks, "tick").c_str()));
   text += summary_line("datagrams", format("%s to robots, %s from them", grouped(static_cast<double>(counts.sent)).c_str(),
                                            grouped(static_cast<double>(counts.received)).c_str()));
   std::string dropped;

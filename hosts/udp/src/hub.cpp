@@ -54,7 +54,7 @@ void Hub::take(const Envelope& envelope, const Address& from) {
   robot.counter = envelope.counter;
   robot.arrived.assign(envelope.payload.begin(), envelope.payload.end());
   robot.dropped = status->dropped;
-  if (status->period_us > 0) counts_.periods_us.push_back(status->period_us);
+  if (status->period_us > 0) counts_.periods.add(status->period_us);
 }
 
 std::optional<Status> Hub::take(std::size_t i) {

@@ -90,7 +90,7 @@ TEST_F(HubAndRobots, TakesTheNewestStatusOnce) {
   EXPECT_EQ(velocity(0), 0.2F);
   EXPECT_EQ(velocity(0), std::nullopt);
   EXPECT_EQ(velocity(1), std::nullopt);
-  EXPECT_EQ(hub_.counts().periods_us.size(), 2U);
+  EXPECT_EQ(hub_.counts().periods.count(), 2U);
 }
 
 TEST_F(HubAndRobots, ForgedReplayedTruncatedAndForeignPacketsAreDroppedAndCounted) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "banyan/hosts/udp/envelope.hpp"
+#include "banyan/hosts/udp/periods.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 #include "banyan/hosts/udp/tape.hpp"
@@ -32,7 +33,7 @@ struct HubCounts {
   DropCounts dropped{};
   std::uint64_t dropped_by_robots = 0;
   std::uint64_t late_ticks = 0;     // that began more than a tick too late
-  std::vector<std::uint32_t> periods_us;  // of the robots' steps
+  Periods periods;                  // of the robots' steps
 };
 
 class Hub final : public Link {
