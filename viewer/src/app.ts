@@ -97,8 +97,15 @@ export class App {
     return this.stages[stage]?.placeOf({ kind, index }) ?? null;
   }
 
-  /** Opens what `banyan view` was given; otherwise runs a scenario, so that a visitor sees motion at once. */
+  /** Opens what `banyan view` was given; otherwise runs a scenario, so that a visitor sees motion at once; unless
+   *  that visitor wants as little as possible of it. */
   async begin(): Promise<void> {
+    await this.openFirst();
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) this.player.pause();
+    addEventListener('hashchange', () => void this.openOther());
+  }
+
+  private async openFirst(): Promise<void> {
     const [start, scenarios] = await Promise.all([askServer(), askScenarios()]);
     if (scenarios && scenarios.length > 0) this.live.setScenarios(scenarios);
     if (start.recording) return void await this.open([openUrl(start.recording.url, start.recording.name, start.recording.size)], false);
@@ -110,6 +117,14 @@ export class App {
     const found = name === '' || this.live.pick(name);
     const shown = await this.startLive(this.live.choice());
     if (shown && !found) this.notice.bad(`There is no scenario “${name}”; this is another one.`);
+  }
+
+  /** The address names another scenario now. */
+  private async openOther(): Promise<void> {
+    const name = nameIn(location.hash);
+    if (name === '') return;
+    if (this.live.pick(name)) await this.startLive(this.live.choice());
+    else this.notice.bad(`There is no scenario “${name}”.`);
   }
 
   // ---- What is open ----
@@ -293,7 +308,11 @@ export class App {
     this.draw();
   }
   private setSpeed(speed: number): void { this.player.setSpeed(speed); this.draw(); }
-  private fit(): void { for (const stage of this.stages) stage.fit(); }
+  /** Everything is in the picture then, and stays: nobody is followed. */
+  private fit(): void {
+    this.follow(null);
+    for (const stage of this.stages) stage.fit();
+  }
 
   private changeSpeed(direction: 1 | -1): void {
     if (direction > 0) this.player.faster();

@@ -8,7 +8,7 @@ import { boundsOf } from './scene/bounds';
 import { fitted, following, followShare, panned, resized, toPx, toWorld, zoomedAt, type Bounds, type Camera, type Spot } from './scene/camera';
 import type { Facts } from './scene/facts';
 import { Input, type Mode } from './scene/input';
-import { itemAt, pointerReachPx, robotsIn, touchReachPx } from './scene/picking';
+import { gripAt, itemAt, pointerReachPx, robotsIn, touchReachPx } from './scene/picking';
 import { Scene } from './scene/picture';
 import type { Theme } from './scene/themes';
 import { sameItem, type Item, type SceneView, type Switches } from './scene/view';
@@ -213,7 +213,9 @@ export class Stage {
       itemAt: (atPx, touch) =>
         this.frame && this.setting && this.camera
           ? itemAt(this.frame, this.setting, this.camera, atPx, touch ? touchReachPx : pointerReachPx) : null,
-      draggable: (item) => this.live && item.kind !== 'robot',
+      gripAt: (atPx, touch) =>
+        this.live && this.frame && this.setting && this.camera
+          ? gripAt(this.frame, this.setting, this.camera, atPx, touch ? touchReachPx : pointerReachPx) : null,
       pan: (dx, dy) => {
         if (this.camera) this.look(panned(this.camera, dx, dy));
         actions.moved();

@@ -6,6 +6,7 @@ import { lastAt } from '../src/panels/events_list';
 import { algorithms } from '../src/algorithms';
 import { facts, messageFacts } from '../src/panels/inspector';
 import { shortened } from '../src/panels/notice';
+import { readOff } from '../src/panels/plots';
 import { frameOf } from './scene_frames';
 
 describe('the panel of a live run', () => {
@@ -48,6 +49,15 @@ describe('the inspector', () => {
   });
   it('has a message in words', () => {
     expect(messageFacts({ tick: 3, fields: { role: 3, phase: 'init', id: 7 }, problem: '' }, false).map(({ value }) => value)).toEqual(['root', 'init', '7']);
+  });
+});
+
+describe('a value of a plot', () => {
+  it('is not 0 unless it is', () => {
+    const shown = [0, 0.5, 0.00123, 0.00012, 3.4e-7, 1.2e-11, null].map((v) => readOff({ digits: 4, tiny: true }, v));
+    expect(shown).toEqual(['0.0000', '0.5000', '0.0012', '0.00012', '3.4·10⁻⁷', '1.2·10⁻¹¹', '–']);
+    expect(readOff({ digits: 0 }, 3)).toBe('3');
+    expect(readOff({ digits: 2 }, 0.001)).toBe('0.00'); // of metres that is near enough
   });
 });
 

@@ -34,7 +34,8 @@ beforeEach(() => {
   const at = (p: { x: number; y: number }) => `${Math.round(p.x)},${Math.round(p.y)}`;
   const say: Intentions = {
     itemAt: ({ x }) => (x < 100 ? robot : x < 200 ? target : null),
-    draggable: (item) => item.kind === 'target',
+    // A target lies under the robots' right edge, too.
+    gripAt: ({ x }) => (x >= 90 && x < 200 ? target : null),
     pan: (dx, dy) => said.push(`pan ${dx},${dy}`),
     zoom: (factor, p) => said.push(`zoom ${factor.toFixed(3)} ${at(p)}`),
     hover: (item, p) => said.push(`hover ${name(item)} ${p ? at(p) : 'away'}`),
@@ -63,6 +64,11 @@ describe('input', () => {
     down(300, 50); move(310, 50); move(311, 52); up(311, 52);
     down(50, 50); move(50, 60); up(50, 60);
     expect(said).toEqual(['pan 10,0', 'pan 1,2', 'pan 0,10']);
+  });
+  it('drags a target that lies under a robot, which a click picks', () => {
+    down(95, 50); up(95, 50);
+    down(95, 50); move(120, 50); up(130, 50);
+    expect(said).toEqual(['pick robot', 'start target 95,50', 'move 120,50', 'drop 130,50']);
   });
   it('drags a target, and calls it off', () => {
     down(150, 50); move(160, 50); move(300, 50); up(300, 51);

@@ -3,7 +3,7 @@
 import { describe, expect, it } from 'vitest';
 import { boundsOf } from '../src/scene/bounds';
 import { toPx, type Camera } from '../src/scene/camera';
-import { clearance, itemAt, robotsIn, touchReachPx } from '../src/scene/picking';
+import { clearance, gripAt, itemAt, robotsIn, touchReachPx } from '../src/scene/picking';
 import { contrast, dark, light } from '../src/scene/themes';
 import { frameOf, settingOf } from './scene_frames';
 
@@ -29,6 +29,12 @@ describe('picking', () => {
   it('prefers a robot, dead ones too, to the target it stands on', () => {
     expect(at(2, 1.03)).toEqual({ kind: 'robot', index: 2 });
     expect(at(2, 1.25)).toEqual({ kind: 'target', index: 1 });
+  });
+  it('grips a target under the robot that stands on it, and no robot', () => {
+    const grip = (x: number, y: number) => gripAt(frame, setting, camera, toPx(camera, { x, y }));
+    expect(grip(2, 1.03)).toEqual({ kind: 'target', index: 1 });
+    expect(grip(0.05, 0.02)).toBeNull();
+    expect(grip(-1.3, 0.2)).toEqual({ kind: 'obstacle', index: 0 });
   });
   it('finds obstacles, and walls beside their line', () => {
     expect(at(-1.3, 0.2)).toEqual({ kind: 'obstacle', index: 0 });

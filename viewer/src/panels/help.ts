@@ -11,14 +11,14 @@ const keys: [string, string][] = [
   ['Home End', 'to the beginning, to the end'],
   ['[ ]', 'to the last, the next event: insertion, hand-over, broken edge, death …'],
   ['− +', 'slower, faster'],
-  ['digits, Enter', 'select a robot by its number'],
+  ['0–9 Enter', 'select a robot by its number'],
   ['N P', 'select the next, the previous robot'],
   ['F', 'follow the selected robot'],
   ['0', 'fit everything into the picture'],
   ['PgUp PgDn', 'zoom in, out; Alt with arrows moves the picture'],
   ['L B O R I', 'radio links, blocked links, old tree, trails, numbers'],
   ['T K', 'live: add a target, kill an area'],
-  ['Delete', 'live: kill the selected robot'],
+  ['Delete', 'live: kill the selected robot, remove the selected target'],
   ['M', 'light, dark'],
   ['Escape', 'let go'],
   ['?', 'this help'],
@@ -43,7 +43,7 @@ export class Help {
           h('h2', {}, 'Pointer'),
           h('p', { class: 'hint' },
             'Drag to move the picture, turn the wheel or pinch to zoom, click a robot to look into it. In a live run drag targets and obstacles; ' +
-            'double click adds a target.'))),
+            'double click adds a target; a drag with Shift kills the robots in an area.'))),
       button('Close', 'Close', () => this.element.close(), { class: 'primary' }),
     );
     this.element.addEventListener('click', (event) => { if (event.target === this.element) this.element.close(); });

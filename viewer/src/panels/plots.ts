@@ -13,6 +13,8 @@ interface Curve {
   /** From the columns of the series table; NaN where there is no value. */
   value(series: Series, tick: number): number;
   digits: number;
+  /** Tells a small value from 0. */
+  tiny?: boolean;
   whole: boolean;
 }
 
@@ -23,7 +25,7 @@ export const curves: Curve[] = [
     value: (s, k) => s.broken_by_distance[k] + s.broken_by_occlusion[k],
   },
   {
-    title: 'λ₂ of the radio network', unit: '', digits: 4, whole: false,
+    title: 'λ₂ of the radio network', unit: '', digits: 4, tiny: true, whole: false,
     help: 'Algebraic connectivity: 0 when the network is in several parts',
     value: (s, k) => (s.components[k] > 1 ? 0 : s.fiedler[k]),
   },
@@ -55,6 +57,14 @@ export function tabulate(curve: Curve, runs: Series[]): Table {
   );
   return joined as unknown as Table;
 }
+
+/** A value as it is read off. What is small is not shown as nothing: λ₂ of a large network in one piece is. */
+export function readOff({ digits, tiny = false }: Pick<Curve, 'digits' | 'tiny'>, value: number | null): string {
+  if (value === null) return '–';
+  const isSmall = value !== 0 && Math.abs(value) < 10 ** (1 - digits);
+  return tiny && isSmall ? value.toPrecision(2).replace('e-', '·10⁻').replace(/(?<=⁻)\d+/, superscript) : value.toFixed(digits);
+}
+const superscript = (digits: string) => [...digits].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)]).join('');
 
 const known = (v: number) => (Number.isFinite(v) ? v : null);
 
@@ -114,7 +124,7 @@ class Plot {
 
   setTime(timeS: number): void {
     const values = this.runs.map((s) => valueAt(this.curve, s, timeS));
-    const text = values.map((v) => (v === null ? '–' : v.toFixed(this.curve.digits))).join(' | ');
+    const text = values.map((v) => readOff(this.curve, v)).join(' | ');
     setText(this.readout, this.curve.unit && text !== '' && text !== '–' ? `${text} ${this.curve.unit}` : text);
     if (this.chart === null) return;
     const left = this.chart.valToPos(timeS, 'x');

@@ -7,8 +7,8 @@ import type { Item } from './view';
 export interface Intentions {
   /** What is at this place? `touch`: a finger, which is broad. */
   itemAt(atPx: Spot, touch: boolean): Item | null;
-  /** May it be dragged? What may not is ground to a drag. */
-  draggable(item: Item): boolean;
+  /** What does a drag from this place take along? Not always what a click picks: a target lies under its worker. */
+  gripAt(atPx: Spot, touch: boolean): Item | null;
 
   pan(dxPx: number, dyPx: number): void;
   /** `factor` > 1: nearer. */
@@ -134,10 +134,13 @@ export class Input {
     if (press.area) {
       this.gesture = { kind: 'area', fromPx: press.fromPx };
       this.to.areaMove(press.fromPx, atPx);
-    } else if (press.item && this.to.draggable(press.item)) {
-      this.gesture = { kind: 'drag', item: press.item };
-      this.to.dragStart(press.item, press.fromPx);
-      this.to.dragMove(press.item, atPx);
+      return;
+    }
+    const item = this.to.gripAt(press.fromPx, press.touch);
+    if (item) {
+      this.gesture = { kind: 'drag', item };
+      this.to.dragStart(item, press.fromPx);
+      this.to.dragMove(item, atPx);
     } else {
       const gesture = { kind: 'pan' as const, lastPx: press.fromPx };
       this.gesture = gesture;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is under the pointer. Robots go before targets, these before obstacles: a visitor aims at the smaller
-// thing.
+// What is under the pointer. For a click, robots go before targets, these before obstacles: a visitor aims at the smaller
+// thing. A drag takes targets and obstacles only, so there a robot is in nobody's way.
 import { column, type Frame, type Obstacle, type Setting } from '../frame';
 import { toPxX, toPxY, toWorld, type Bounds, type Camera, type Spot } from './camera';
 import type { Item } from './view';
@@ -17,7 +17,13 @@ export function itemAt(
 ): Item | null {
   const robotPx = Math.max(setting.radius_m * camera.scale, smallestRobotPx) + reachPx;
   const robot = nearest(column(frame, 'x_m'), column(frame, 'y_m'), camera, atPx, robotPx);
-  if (robot >= 0) return { kind: 'robot', index: robot };
+  return robot >= 0 ? { kind: 'robot', index: robot } : gripAt(frame, setting, camera, atPx, reachPx);
+}
+
+/** What a drag from `atPx` takes along; null: nothing. */
+export function gripAt(
+  frame: Frame, setting: Setting, camera: Camera, atPx: Spot, reachPx = pointerReachPx,
+): Item | null {
   const targetPx = Math.max(setting.target_tolerance_m * camera.scale, smallestTargetPx) + reachPx / 2;
   const target = nearest(frame.targets.x, frame.targets.y, camera, atPx, targetPx);
   if (target >= 0) return { kind: 'target', index: target };

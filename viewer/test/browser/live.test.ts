@@ -89,6 +89,21 @@ describe('a live run', () => {
     expect(after).toBeGreaterThan(1);
   });
 
+  it('a target is dragged by its centre, where its worker stands', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 25);
+    const home = await placeOf(tab, 'target', 0);
+    const robot = await tab.evaluate(() => {
+      const page = (window as unknown as { banyan: { stages: { shown: { targets: { worker: Int32Array } } }[] } }).banyan;
+      return page.stages[0].shown.targets.worker[0];
+    });
+    const worker = await placeOf(tab, 'robot', robot);
+    expect(Math.hypot(worker.x - home.x, worker.y - home.y)).toBeLessThan(15); // it has arrived
+    await dragTo(tab, home, { x: home.x - 40, y: home.y + 60 });
+    const moved = await placeOf(tab, 'target', 0);
+    expect(Math.hypot(moved.x - home.x + 40, moved.y - home.y - 60)).toBeLessThan(12);
+  });
+
   it('robots die one by one or in an area, and what was done is in the saved scenario', async () => {
     const { tab, errors } = await visit();
     await playTo(tab, 5);

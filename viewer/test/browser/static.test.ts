@@ -51,6 +51,38 @@ describe('the page without banyan view', () => {
     expect(await tab.title()).toContain('rooms');
   });
 
+  it('follows its address while it is open', async () => {
+    const { tab, errors } = await open(browser, address);
+    await waitForRun(tab);
+    await tab.evaluate(() => { location.hash = '#rooms'; });
+    await tab.waitForFunction(() => document.title.includes('rooms'));
+    await tab.evaluate(() => { location.hash = '#no-such-place'; });
+    await expect.poll(() => tab.textContent('body')).toContain('There is no scenario “no-such-place”');
+    expect(errors).toEqual([]);
+  });
+
+  it('stands still for a visitor who wants no motion', async () => {
+    const context = await browser.newContext({ reducedMotion: 'reduce' });
+    const tab = await context.newPage();
+    await tab.goto(address);
+    await waitForRun(tab);
+    expect(await tab.$('button.play[aria-label^="Play"]')).not.toBeNull();
+    const then = await timeShown(tab);
+    await tab.waitForTimeout(300);
+    expect(await timeShown(tab)).toBe(then);
+    await context.close();
+  });
+
+  it('loads nothing from elsewhere', async () => {
+    const { tab } = await open(browser, address);
+    await waitForRun(tab);
+    const refused = await tab.evaluate(() => new Promise<string>((said) => {
+      document.addEventListener('securitypolicyviolation', (event) => said(event.effectiveDirective));
+      void fetch('https://example.org/').catch(() => {});
+    }));
+    expect(refused).toBe('connect-src');
+  });
+
   it('opens a recording and a scenario that are dropped on it', async () => {
     const { tab, errors } = await open(browser, address);
     await waitForRun(tab);
