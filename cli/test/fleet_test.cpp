@@ -9,7 +9,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -442,10 +441,11 @@ class WithoutAHub : public FleetProgram {
     Places now{};
     std::istringstream lines(read("seen.csv"));
     for (std::string line; std::getline(lines, line) && !lines.eof();) {
-      int i = 0;
+      std::size_t i = 0;
       double x = 0.0, y = 0.0;
-      if (std::sscanf(line.c_str(), "%d,%lf,%lf", &i, &x, &y) != 3) continue;
-      now.at(static_cast<std::size_t>(i)) = {x, y};
+      char comma = 0;
+      if (!(std::istringstream(line) >> i >> comma >> x >> comma >> y)) continue;
+      now.at(i) = {x, y};
       if (i == count - 1) moments.push_back(now);
     }
     return moments;
