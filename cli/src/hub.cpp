@@ -13,10 +13,10 @@
 #include <thread>
 
 #include "banyan/hosts/udp/hub.hpp"
-#include "banyan/hosts/udp/contact.hpp"
 #include "banyan/hosts/udp/peers.hpp"
 #include "banyan/hosts/udp/pose_stream.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
+#include "banyan/hosts/udp/socket.hpp"
 #include "banyan/hosts/udp/tape.hpp"
 #include "banyan/world/faults.hpp"
 #include "commands.hpp"

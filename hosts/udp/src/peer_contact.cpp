@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Situated communication without anybody's help: the radio brings a message, the base's sensor says where its sender is.
 // A message counts only with a measurement that is young enough, and within C, as in the world.
-#include <algorithm>
 #include <cmath>
 
 #include "banyan/controller/core/wire.hpp"
@@ -70,15 +69,5 @@ class PeerContact final : public Contact {
 }  // namespace
 
 std::unique_ptr<Contact> contact_with_peers(const ContactEnds& ends) { return std::make_unique<PeerContact>(ends); }
-
-std::vector<Address> parse_addresses(const std::string& text) {
-  std::vector<Address> list;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    list.push_back(parse_address(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return list;
-}
 
 }  // namespace banyan::udp

@@ -44,6 +44,16 @@ Address parse_address(const std::string& text) {
   return address;
 }
 
+std::vector<Address> parse_addresses(const std::string& text) {
+  std::vector<Address> list;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    list.push_back(parse_address(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return list;
+}
+
 std::string to_string(const Address& address) {
   std::array<char, INET_ADDRSTRLEN> text{};
   ::inet_ntop(AF_INET, &address.raw.sin_addr, text.data(), text.size());

@@ -42,7 +42,4 @@ struct ContactEnds {
 [[nodiscard]] std::unique_ptr<Contact> contact_with_hub(const ContactEnds& ends);    // throws SocketError
 [[nodiscard]] std::unique_ptr<Contact> contact_with_peers(const ContactEnds& ends);  // throws SocketError
 
-// "ADDRESS:PORT[,ADDRESS:PORT...]". Throws SocketError.
-[[nodiscard]] std::vector<Address> parse_addresses(const std::string& text);
-
 }  // namespace banyan::udp

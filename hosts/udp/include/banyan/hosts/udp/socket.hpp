@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "banyan/hosts/udp/bytes.hpp"
 
@@ -31,6 +32,8 @@ struct Address {
 };
 // "127.0.0.1:4000"; no names, which a static program cannot look up. Throws SocketError.
 [[nodiscard]] Address parse_address(const std::string& text);
+// Several, with commas between. Throws SocketError.
+[[nodiscard]] std::vector<Address> parse_addresses(const std::string& text);
 [[nodiscard]] std::string to_string(const Address& address);
 
 class Socket {
