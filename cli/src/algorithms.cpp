@@ -33,6 +33,24 @@ std::vector<const Algorithm*> chosen(const std::string& name) {
   throw CommandError(exit_usage, text);
 }
 
+// What a default grows with, in words; "" if with nothing. Whether lengths follow the radio is the algorithm's own
+// choice, so it is asked for the defaults of two radios.
+std::string_view scaling_text(const Algorithm& algorithm, std::size_t row) {
+  Setup wide;
+  wide.platform.communication_range_m = 2.0F * nominal_range_m;
+  switch (algorithm.parameters()[row]->scaling) {
+    case Scaling::none: return "";
+    case Scaling::mission:
+      return algorithm.values(wide)[row] == algorithm.values(Setup{})[row] ? "grows with mission.scale"
+                                                                           : "grows with C and mission.scale";
+    case Scaling::range: return "in units of C";
+    case Scaling::body: return "in units of C, in metres never less than for C = 2 m";
+  }
+  return "";
+}
+
+std::string range_text(const ParameterInfo& info) { return value_text(info.minimum) + " to " + value_text(info.maximum); }
+
 nlohmann::ordered_json json_of(const Algorithm& algorithm) {
   nlohmann::ordered_json entry = {{"name", algorithm.name()}, {"summary", algorithm.summary()}};
   auto& list = entry["parameters"] = nlohmann::ordered_json::array();
@@ -47,7 +65,8 @@ nlohmann::ordered_json json_of(const Algorithm& algorithm) {
                                   {"advice", info.advice},
                                   {"source", info.source},
                                   {"minimum", as_written(info.minimum)},
-                                  {"maximum", as_written(info.maximum)}};
+                                  {"maximum", as_written(info.maximum)},
+                                  {"scaling", scaling_text(algorithm, k)}};
     for (const auto reading : readings) row["default"][std::string(reading)] = as_written(defaults[k]);  // the same in both
     const auto owner = platform_key(info.key);
     row["set_by"] = owner.empty() ? "mission.parameters." + std::string(info.key) : std::string(owner);
@@ -70,19 +89,40 @@ int column_width(const Algorithm& algorithm) { return std::max(9, static_cast<in
 struct Said {
   const ParameterInfo* info;
   std::string names;
+  std::vector<std::pair<std::string_view, std::string>> scaling;  // and for which of them
 };
-bool is_same(const ParameterInfo& a, const ParameterInfo& b) { return a.meaning == b.meaning && a.advice == b.advice && a.source == b.source; }
+bool is_same(const ParameterInfo& a, const ParameterInfo& b) {
+  return a.meaning == b.meaning && a.advice == b.advice && a.source == b.source && range_text(a) == range_text(b);
+}
+
+void append_name(std::string& names, std::string_view name) { names += (names.empty() ? "" : ", ") + std::string(name); }
 
 std::vector<Said> said_of(std::string_view key, const std::vector<const Algorithm*>& list) {
   std::vector<Said> said;
-  for (const Algorithm* algorithm : list)
-    for (const ParameterInfo* info : algorithm->parameters()) {
-      if (info->key != key) continue;
-      const auto same = std::find_if(said.begin(), said.end(), [&](const Said& s) { return is_same(*s.info, *info); });
-      if (same == said.end()) said.push_back({info, std::string(algorithm->name())});
-      else same->names += ", " + std::string(algorithm->name());
-    }
+  for (const Algorithm* algorithm : list) {
+    const auto rows = algorithm->parameters();
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const ParameterInfo* info) { return info->key == key; });
+    if (row == rows.end()) continue;
+    auto group = std::find_if(said.begin(), said.end(), [&](const Said& s) { return is_same(*s.info, **row); });
+    if (group == said.end()) group = said.insert(said.end(), {*row, "", {}});
+    append_name(group->names, algorithm->name());
+    const std::string_view scaling = scaling_text(*algorithm, static_cast<std::size_t>(row - rows.begin()));
+    auto& list_of = group->scaling;
+    auto same = std::find_if(list_of.begin(), list_of.end(), [&](const auto& entry) { return entry.first == scaling; });
+    if (same == list_of.end()) same = list_of.insert(list_of.end(), {scaling, ""});
+    append_name(same->second, algorithm->name());
+  }
   return said;
+}
+
+// "0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)"
+std::string range_and_scaling(const Said& said) {
+  std::string text = range_text(*said.info);
+  for (const auto& [scaling, names] : said.scaling) {
+    if (scaling.empty()) continue;
+    text += ", " + std::string(scaling) + (said.scaling.size() > 1 ? " (" + names + ")" : "");
+  }
+  return text;
 }
 
 // A row for each key that one of them has. Where its meaning differs, each meaning is printed.
@@ -96,9 +136,11 @@ std::string table_text(const std::vector<const Algorithm*>& list) {
     text += format("%-26s %-8s %-4s", std::string(row.key).c_str(), std::string(said[0].info->symbol).c_str(), std::string(said[0].info->unit).c_str());
     for (const Algorithm* algorithm : list) text += format("  %-*s", column_width(*algorithm), default_text(*algorithm, row.key).c_str());
     text += "  " + std::string(said[0].info->source) + "\n";
-    for (const auto& [info, names] : said) {
-      text += "    " + (said.size() > 1 ? names + ": " : "") + std::string(info->meaning);
+    for (const Said& group : said) {
+      const ParameterInfo* info = group.info;
+      text += "    " + (said.size() > 1 ? group.names + ": " : "") + std::string(info->meaning);
       if (const auto owner = platform_key(row.key); !owner.empty()) text += " (set by " + std::string(owner) + ")";
+      text += "; " + range_and_scaling(group);
       text += "\n    " + std::string(info->advice) + (said.size() > 1 && info != said[0].info ? " (" + std::string(info->source) + ")" : "") + "\n";
     }
   }

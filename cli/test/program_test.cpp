@@ -502,6 +502,23 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
   EXPECT_TRUE(tau.empty());
 }
 
+// Which lengths follow the radio is each algorithm's own choice: Table I's do not, convoy's and the rivals' do.
+TEST_F(Program, AlgorithmsSayWhatAParameterMayBeAndWhatItGrowsWith) {
+  const auto text = run({"algorithms"}).out;
+  EXPECT_TRUE(has(text, "; 0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)\n")) << text;
+  EXPECT_TRUE(has(run({"algorithms", "convoy"}).out, "; 0.05 to 100, grows with C and mission.scale\n"));
+
+  std::map<std::string, std::string> scaling{{"safe_range_m", "grows with C and mission.scale"}, {"clearance", "in units of C, in metres never less than for C = 2 m"},
+                                             {"target_gain", ""}};
+  const auto list = json::parse(run({"algorithms", "convoy", "--json"}).out);
+  for (const auto& row : list[0]["parameters"])
+    if (const auto own = scaling.find(row["key"]); own != scaling.end()) {
+      EXPECT_EQ(row["scaling"], own->second) << row["key"];
+      scaling.erase(own);
+    }
+  EXPECT_TRUE(scaling.empty());
+}
+
 // Two algorithms may mean different things by one key.
 TEST_F(Program, EachAlgorithmSaysWhatItsOwnParametersMean) {
   for (const Algorithm* algorithm : algorithms()) {
