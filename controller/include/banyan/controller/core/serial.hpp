@@ -3,7 +3,8 @@
 // compared as in RFC 1982. Of two numbers the one is newer that is ahead by less than half the range.
 //
 // The one rule for silence: a robot that has heard nothing of a counter for half its range of ticks cannot
-// tell old from new any more, and takes anything it hears as newer (`is_news`).
+// tell old from new any more, and takes anything it hears as newer (`is_news`). Epochs and root tokens need no such
+// rule: they advance at most once in R, so half their range lasts for hours (9 with R = 1 s); is_newer() does for them.
 #pragma once
 
 #include <cstdint>
