@@ -95,6 +95,7 @@ TEST(Gate, OfMoreObstaclesThanItHoldsTheFirstCount) {
 struct Measured {
   int name;
   Vec2 position;
+  float age_s = 0.0F;
 };
 
 TEST(Gate, DropsPacketsWhoseSenderCannotBeThere) {
@@ -107,11 +108,21 @@ TEST(Gate, DropsPacketsWhoseSenderCannotBeThere) {
   EXPECT_EQ(gate.rejected(), 3U);
 }
 
+TEST(Gate, DropsPacketsOfAnImpossibleAge) {
+  std::vector<Measured> heard{{0, {1, 0}, 0.05F}, {1, {1, 0}, nan_m}, {2, {1, 0}, -0.01F}, {3, {1, 0}, infinite_m}, {4, {1, 0}, 3600.0F}};
+  Gate gate({}, platform);
+  const std::span<Measured> passed = gate.packets(std::span<Measured>(heard), platform);
+  ASSERT_EQ(passed.size(), 2U);
+  EXPECT_EQ(passed[0].name, 0);
+  EXPECT_EQ(passed[1].name, 4);
+  EXPECT_EQ(gate.rejected(), 3U);
+}
+
 RC_GTEST_PROP(Gate, NothingBeyondItsLimitsPassesWhateverTheSensorsSay, ()) {
   std::vector<Vec2> obstacles(*rc::gen::inRange<std::size_t>(0, 100));
   for (Vec2& o : obstacles) o = {garbage(), garbage()};
   std::vector<Measured> heard(*rc::gen::inRange<std::size_t>(0, 20));
-  for (Measured& m : heard) m.position = {garbage(), garbage()};
+  for (Measured& m : heard) m = {0, {garbage(), garbage()}, garbage()};
   const Vec2 target{garbage(), garbage()};
   const Odometry odometry{garbage(), garbage(), garbage()};
   Gate gate({.odometry = odometry, .orders = {true, target}, .obstacles = obstacles, .elapsed_s = garbage()}, platform);
@@ -124,7 +135,7 @@ RC_GTEST_PROP(Gate, NothingBeyondItsLimitsPassesWhateverTheSensorsSay, ()) {
   RC_ASSERT(gate.elapsed_ticks() >= 1 && gate.elapsed_ticks() <= 36000);
   for (const Vec2 o : passed.obstacles) RC_ASSERT(within(o, limit_m));
   RC_ASSERT(passed.obstacles.size() <= most_obstacles);
-  const auto good = std::count_if(heard.begin(), heard.end(), [&](const Measured& m) { return within(m.position, limit_m); });
+  const auto good = std::count_if(heard.begin(), heard.end(), [&](const Measured& m) { return within(m.position, limit_m) && m.age_s >= 0.0F && m.age_s <= 3600.0F; });
   RC_ASSERT(static_cast<long>(gate.packets(std::span<Measured>(heard), platform).size()) == good);
 }
 

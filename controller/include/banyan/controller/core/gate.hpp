@@ -29,16 +29,17 @@ class Gate {
   Gate(const Gate&) = delete;
   Gate& operator=(const Gate&) = delete;
 
-  // Drops packets whose sender cannot be where it was measured to be, in place; the order stays.
+  // Drops packets whose sender cannot be where, or when, it was measured to be, in place; the order stays.
   template <class Heard>
   std::span<Heard> packets(std::span<Heard> heard, const Platform& platform) noexcept {
     const float limit_m = farthest_ranges * platform.communication_range_m;
+    const auto is_possible = [limit_m](const Heard& h) { return is_within(h.position, limit_m) && h.age_s >= 0.0F && h.age_s <= longest_step_s; };
     bool all = true;
-    for (const Heard& h : heard) all &= is_within(h.position, limit_m);
+    for (const Heard& h : heard) all &= is_possible(h);
     if (all) return heard;
     std::size_t kept = 0;
     for (const Heard& h : heard) {
-      if (is_within(h.position, limit_m)) heard[kept++] = h;
+      if (is_possible(h)) heard[kept++] = h;
       else ++rejected_;
     }
     return heard.first(kept);
