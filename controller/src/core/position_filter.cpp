@@ -11,6 +11,7 @@ constexpr float wander = 4.0F;           // the random walk, in longest ways of 
 constexpr float explained = 1.25F;       // of that way: what motion explains of an innovation, and odometry's own error
 constexpr float newest = 1.0F / 256.0F;  // weight of an innovation: what counts are the last few hundred
 constexpr float noticed = 1.0F / 32.0F;  // of the walk: a shove in a crowd that odometry does not see is forgotten at once
+constexpr float surely = 0.99F;          // and what it explains whatever the roundings
 constexpr float shortest_lever_m = 0.5F;  // nearer, a neighbour's own motion turns its bearing by much
 
 float squared_excess(float innovation, float explained_by_motion) noexcept {
@@ -40,6 +41,7 @@ void PositionFilter::begin(float way_m) noexcept {
 }
 
 Vec2 PositionFilter::fuse(Vec2 predicted, Vec2 measured, int ticks, int measurements) const noexcept {
+  if (!has_seen_noise()) return measured;
   const float expected_m = norm(predicted);
   const float range_gain = gain(wander * way_m_, range_rms_m_, ticks, measurements);
   const float bearing_gain = gain(wander * way_m_, bearing_rms_ * expected_m, ticks, measurements);
@@ -50,10 +52,12 @@ Vec2 PositionFilter::fuse(Vec2 predicted, Vec2 measured, int ticks, int measurem
 }
 
 void PositionFilter::learn(Vec2 predicted, Vec2 measured, int ticks) noexcept {
+  const float by_motion_m = explained * way_m_ * static_cast<float>(ticks);
+  const float least_m = surely * by_motion_m;
+  if (!has_seen_noise() && squared_norm(measured - predicted) <= least_m * least_m) return;  // neither excess is above 0
   const float expected_m = norm(predicted);
   const float range_m = norm(measured);
   if (!(expected_m > 0.0F) || !(range_m > 0.0F)) return;
-  const float by_motion_m = explained * way_m_ * static_cast<float>(ticks);
   range_ms_ += (squared_excess(range_m - expected_m, by_motion_m) - range_ms_) * newest;
   const float lever_m = std::max(expected_m, shortest_lever_m);
   const float across_m = cross(predicted, measured) / range_m;  // at the distance where it was expected

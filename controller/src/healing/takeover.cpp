@@ -158,7 +158,7 @@ void hear_of_tasks(HealingRobot& robot) noexcept {
   const RobotId me = self.id;
   for (const Heard& h : robot.heard) {
     const HealingMessage& m = said(h);
-    self.forgets = self.forgets || m.forgets;
+    if (m.forgets) self.forgets = true;
     if (m.task_serves == nobody) continue;
     // Most news is old: a count no newer than mine, no doubt, a target that others serve, a place told to another
     // robot, and nothing new about where in the tree its holder is.
