@@ -13,13 +13,18 @@ import numpy as np
 
 from . import _core
 from .places import program
-from .tables import Table
+from .tables import Table, column
+
+
+_look = ("fps", "speed", "from_s", "to_s", "width", "height", "trail_s", "links", "blocked", "ids", "legend", "dark")
 
 
 def film(recording: str, path: str | os.PathLike[str], *, replace: bool = False, **look: Any) -> str:
     """Has the program `banyan film` make it. Options are those of the command: speed=4, fps=30, dark=True, width=640, from_s=10."""
     command = [program(), "film", recording, "-o", os.fspath(path), "--quiet", *(["--force"] if replace else [])]
     for name, value in look.items():
+        if name not in _look:
+            raise TypeError(f"a film has no option {name!r}; it has {', '.join(_look)}")
         name = name.removesuffix("_s").replace("_", "-")  # from_s: `from` is a word of Python
         if isinstance(value, bool):
             command += [f"--{name}"] if value else [f"--no-{name}"] if name in ("links", "legend") else []
@@ -69,9 +74,7 @@ class Recording(_core.Recording):
     @property
     def result(self) -> dict[str, Any]:
         """The row of the run; empty if the recording was cut short."""
-        table = Table({name: [value] for name, value in self.result_text.items()})
-        lines = [",".join(table.columns), ",".join(json.dumps(str(v[0])) if "," in str(v[0]) else str(v[0]) for v in table.values())]
-        return next(Table.from_csv("\n".join(lines)).rows(), {}) if table.columns else {}
+        return {name: column(name, [text]).tolist()[0] for name, text in self.result_text.items()}
 
     @property
     def config(self) -> dict[str, Any]:

@@ -29,7 +29,7 @@ class Table(Mapping[str, np.ndarray]):
         lines = list(csv.reader(io.StringIO(text)))
         if not lines:
             return Table({})
-        return Table({name: _column([line[k] for line in lines[1:]]) for k, name in enumerate(lines[0])})
+        return Table({name: column(name, [line[k] for line in lines[1:]]) for k, name in enumerate(lines[0])})
 
     @property
     def columns(self) -> list[str]:
@@ -37,7 +37,7 @@ class Table(Mapping[str, np.ndarray]):
 
     def rows(self) -> Iterator[dict[str, Any]]:
         for k in range(len(self)):
-            yield {name: values[k].item() for name, values in self._columns.items()}
+            yield {name: values[k : k + 1].tolist()[0] for name, values in self._columns.items()}
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame."""
@@ -69,7 +69,13 @@ class Table(Mapping[str, np.ndarray]):
             return f"<pre>{repr(self)}</pre>"
 
 
-def _column(cells: list[str]) -> np.ndarray:
+_texts = ("hash", "git", "version", "run", "name", "study", "part", "error")  # whatever they look like
+
+
+def column(name: str, cells: list[str]) -> np.ndarray:
+    """What texts of a table stand for: booleans, whole numbers, numbers, or themselves."""
+    if name in _texts:
+        return np.array(cells, dtype=object)
     given = {cell for cell in cells if cell}
     if given and given <= {"true", "false"} and "" not in cells:
         return np.array([cell == "true" for cell in cells])

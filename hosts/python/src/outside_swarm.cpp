@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int32_t nobody_here = -1;
 constexpr std::int32_t own_target = -2;
+constexpr float rounding = 1.00001F;  // a speed beyond the limit by less than this is at the limit
 
 std::int32_t number_of(RobotId id) noexcept { return id == nobody ? nobody_here : std::int32_t{id}; }
 
@@ -174,12 +175,12 @@ Velocity OutsideSwarm::velocity_of(std::size_t i) const noexcept {
   if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2])) return {};
   if (platform_.drive == Drive::holonomic) {
     const float speed = norm(Vec2{v[0], v[1]});
-    const float share = speed > platform_.wheel_limit_m_s ? platform_.wheel_limit_m_s / speed : 1.0F;
+    const float share = speed > rounding * platform_.wheel_limit_m_s ? platform_.wheel_limit_m_s / speed : 1.0F;
     return {v[0] * share, v[1] * share, v[2]};
   }
   const WheelSpeeds wheels = wheel_speeds({v[0], 0.0F, v[2]}, platform_.wheel_distance_m);
   const float fastest = std::max(std::fabs(wheels.left_m_s), std::fabs(wheels.right_m_s));
-  const float share = fastest > platform_.wheel_limit_m_s ? platform_.wheel_limit_m_s / fastest : 1.0F;
+  const float share = fastest > rounding * platform_.wheel_limit_m_s ? platform_.wheel_limit_m_s / fastest : 1.0F;
   return {v[0] * share, 0.0F, v[2] * share};
 }
 

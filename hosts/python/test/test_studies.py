@@ -88,15 +88,15 @@ def test_a_controller_beside_the_others(tmp_path):
 
 
 def test_ctrl_c_stops_and_the_same_call_resumes(tmp_path):
-    study = {**STUDY, "scenario": "scenarios/paper-medium.toml", "seeds": "1-12"}
-    timer = threading.Timer(0.4, signal.raise_signal, [signal.SIGINT])
+    study = {**STUDY, "scenario": "scenarios/paper-medium.toml", "seeds": "1-5"}
+    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
     timer.start()
     with pytest.raises(KeyboardInterrupt):
         banyan.study(study, out=tmp_path / "s", progress=False)
     timer.join()
     told = []
     table = banyan.study(study, out=tmp_path / "s", progress=lambda *now: told.append(now), pandas=False)
-    assert len(table) == 24 and told[-1][1] < 24  # some were done already
+    assert len(table) == 10 and told[-1][1] < 10  # some were done already
 
 
 def test_what_is_wrong_is_said(tmp_path):
@@ -151,5 +151,5 @@ def test_films(tmp_path):
     assert open(result.film(tmp_path / "run.gif", width=240, height=160, fps=5, links=False), "rb").read(4) == b"GIF8"
     with pytest.raises(RuntimeError, match="exists"):
         result.film(tmp_path / "run.gif")
-    with pytest.raises(RuntimeError, match="fpz"):
+    with pytest.raises(TypeError, match="no option 'fpz'"):
         result.film(tmp_path / "other.gif", fpz=5)
