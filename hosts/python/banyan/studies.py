@@ -41,6 +41,7 @@ class _Progress:
 def study(
     source: str | os.PathLike[str] | Mapping[str, Any],
     *,
+    relative_to: str | os.PathLike[str] = ".",
     out: str | os.PathLike[str] | None = None,
     set: Mapping[str, Any] | None = None,
     with_files: Any = (),
@@ -55,7 +56,7 @@ def study(
 ) -> Any:
     """A study (docs/studies.md), in the same folder and with the same files as by `banyan study`.
 
-    source       a TOML file, or a dict of its keys; paths in a dict are relative to the working directory
+    source       a TOML file, or a dict of its keys, whose paths are relative to the folder `relative_to`
     out          its folder, out/NAME if not given. What is there already is not done again, so a study that was
                  stopped, by Ctrl-C too, resumes with the same call
     set          keys of all its scenarios, {"radio.loss": 0.3}; with_files: files laid over
@@ -69,7 +70,7 @@ def study(
     always), else a banyan.Table. Runs that failed have a text in the column `error`.
     """
     if isinstance(source, Mapping):
-        path, text = "study.json", json.dumps(source, default=lambda value: value.tolist())
+        path, text = str(Path(relative_to) / "study.json"), json.dumps(source, default=lambda value: value.tolist())
     else:
         path, text = find(source), None
     number, count = shard
