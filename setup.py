@@ -20,16 +20,44 @@ class Build(build_ext):
         if not build:
             build = str(here / "build" / "pip")
             generator = ["-G", "Ninja"] if self.has_ninja() else []
-            subprocess.run(["cmake", "-S", here, "-B", build, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DBANYAN_BUILD_TESTS=OFF",
-                            "-DBANYAN_BUILD_EXAMPLES=OFF", "-DBANYAN_JOIN=ON", "-DBANYAN_BUILD_PYTHON=ON",
-                            f"-DPython_EXECUTABLE={sys.executable}"], check=True)
-            subprocess.run(["cmake", "--build", build, "--parallel", str(os.cpu_count() or 1), "--target", "banyan_python", "banyan_cli"], check=True)
+            subprocess.run(
+                [
+                    "cmake",
+                    "-S",
+                    here,
+                    "-B",
+                    build,
+                    *generator,
+                    "-DCMAKE_BUILD_TYPE=Release",
+                    "-DBANYAN_BUILD_TESTS=OFF",
+                    "-DBANYAN_BUILD_EXAMPLES=OFF",
+                    "-DBANYAN_JOIN=ON",
+                    "-DBANYAN_BUILD_PYTHON=ON",
+                    f"-DPython_EXECUTABLE={sys.executable}",
+                ],
+                check=True,
+            )
+            subprocess.run(
+                [
+                    "cmake",
+                    "--build",
+                    build,
+                    "--parallel",
+                    str(os.cpu_count() or 1),
+                    "--target",
+                    "banyan_python",
+                    "banyan_cli",
+                ],
+                check=True,
+            )
         target = Path(self.build_lib).resolve() if not self.inplace else here / "hosts" / "python"
         subprocess.run(["cmake", "--install", build, "--component", "wheel", "--prefix", target, "--strip"], check=True)
 
     @staticmethod
     def has_ninja():
-        return any(os.access(Path(folder) / "ninja", os.X_OK) for folder in os.environ.get("PATH", "").split(os.pathsep))
+        return any(
+            os.access(Path(folder) / "ninja", os.X_OK) for folder in os.environ.get("PATH", "").split(os.pathsep)
+        )
 
 
 setup(version=version, ext_modules=[Extension("banyan._core", [])], cmdclass={"build_ext": Build})

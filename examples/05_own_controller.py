@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# A controller of your own, in Python: it deploys 32 robots to four targets 3 m away and keeps their network in one piece.
+# A controller of your own, in Python: it deploys 32 robots to four targets 3 m away, and their network stays whole.
 import numpy as np
 
 import banyan

@@ -14,7 +14,7 @@ low, high = (np.array([rows[key][bound] for key in KEYS]) for bound in ("minimum
 
 
 def cost(values, seeds):
-    """Share of the time limit that the mission takes, 1 if it is not completed; more for each share of time in pieces."""
+    """Share of the time limit that the mission takes, 1 if it is not completed; and the share of time in pieces."""
     try:
         runs = [banyan.run(scenario, seed=seed, parameters=dict(zip(KEYS, values))) for seed in seeds]
     except banyan.ScenarioError:  # lengths in the wrong order

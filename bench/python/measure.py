@@ -43,7 +43,11 @@ def overheads(pairs, ticks=200):
     ratios = {"without reading": [], "reading all arrays": []}
     hashes = set()
     for pair in range(pairs):
-        ways = [("C++", lambda w: w.step(ticks)), ("without reading", lambda w: loop(w, ticks)), ("reading all arrays", lambda w: loop_reading(w, ticks))]
+        ways = [
+            ("C++", lambda w: w.step(ticks)),
+            ("without reading", lambda w: loop(w, ticks)),
+            ("reading all arrays", lambda w: loop_reading(w, ticks)),
+        ]
         seconds = {}
         for k in range(len(ways)):
             name, way = ways[(pair + k) % len(ways)]
@@ -56,13 +60,17 @@ def overheads(pairs, ticks=200):
     assert len(hashes) == 1
     for name, values in ratios.items():
         quarters = statistics.quantiles(values, n=4)
-        print(f"stepping {len(start)} robots from Python, {name}: {statistics.median(values):+.1%} "
-              f"(quartiles {quarters[0]:+.1%} to {quarters[2]:+.1%}, {pairs} pairs of {ticks} ticks)")
+        print(
+            f"stepping {len(start)} robots from Python, {name}: {statistics.median(values):+.1%} "
+            f"(quartiles {quarters[0]:+.1%} to {quarters[2]:+.1%}, {pairs} pairs of {ticks} ticks)"
+        )
 
 
 def lockstep(windows, worlds=1000, robots=20, ticks=10):
     """1,000 worlds of 20 robots with a trivial policy in numpy: everybody drives on, workers towards their targets."""
-    env = banyan.BatchEnv("scenarios/three-targets.toml", worlds, set={"swarm.robots": robots}, message_floats=2, copy=False)
+    env = banyan.BatchEnv(
+        "scenarios/three-targets.toml", worlds, set={"swarm.robots": robots}, message_floats=2, copy=False
+    )
     begun = time.process_time()
     seen = env.reset(seed=1)
     print(f"{worlds} worlds of {robots} robots: reset in {time.process_time() - begun:.2f} s")
@@ -77,8 +85,10 @@ def lockstep(windows, worlds=1000, robots=20, ticks=10):
             message[..., 0] = seen.heard
             seen, *_ = env.step(banyan.Actions(velocity, message))
         rates.append(worlds * robots * ticks / (time.process_time() - begun))
-    print(f"lockstep: {statistics.median(rates):,.0f} robot-steps per second of one core (lowest {min(rates):,.0f}, highest {max(rates):,.0f}, "
-          f"{windows} windows of {ticks} ticks)")
+    print(
+        f"lockstep: {statistics.median(rates):,.0f} robot-steps per second of one core "
+        f"(lowest {min(rates):,.0f}, highest {max(rates):,.0f}, {windows} windows of {ticks} ticks)"
+    )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What robots sense and what they do, as arrays. `...` in a shape is (robots,) in one world, (num_envs, robots) in many."""
+"""What robots sense and what they do, as arrays. `...` in a shape is (robots,) in one world, (num_envs, robots) in many
+worlds."""
 
 from __future__ import annotations
 
@@ -16,8 +17,8 @@ LARGEST_MESSAGE: int = _core.largest_payload  # bytes
 
 
 class Role(IntEnum):
-    """What a robot is in the network, as observers count it. UNSAID: worker if it was sent to a target, root if it was
-    the root at the start, else connector."""
+    """What a robot is in the network, as observers count it. UNSAID: worker if it was sent to a target, root if it
+    was the root at the start, else connector."""
 
     UNSAID = -1
     SPARE = 0
@@ -107,7 +108,8 @@ class Observations:
         return np.concatenate(parts, axis=-1).astype(np.float32)
 
     def __repr__(self) -> str:
-        return f"<banyan.Observations: {self.sent.shape}, {self.sender.shape[-1]} neighbours at most, message {self.message.shape[-1]}>"
+        neighbours, message = self.sender.shape[-1], self.message.shape[-1]
+        return f"<banyan.Observations: {self.sent.shape}, {neighbours} neighbours at most, message {message}>"
 
 
 @dataclass
@@ -151,7 +153,9 @@ class Writer:
         if isinstance(actions, Mapping):
             unknown = set(actions) - set(Actions.__dataclass_fields__)
             if unknown:
-                raise ActionError(f"an action has no {sorted(unknown)[0]!r}; it has {', '.join(Actions.__dataclass_fields__)}")
+                raise ActionError(
+                    f"an action has no {sorted(unknown)[0]!r}; it has {', '.join(Actions.__dataclass_fields__)}"
+                )
             actions = Actions(**{"velocity": None, **actions})
         elif not isinstance(actions, Actions):
             actions = Actions(actions)
@@ -160,7 +164,9 @@ class Writer:
         # All is looked at before anything is written.
         velocity = self._velocity(actions.velocity)
         message = None if actions.message is None else self._message(actions.message)
-        said = {name: self._whole(name, getattr(actions, name)) for name in _unsaid if getattr(actions, name) is not None}
+        said = {
+            name: self._whole(name, getattr(actions, name)) for name in _unsaid if getattr(actions, name) is not None
+        }
         if velocity.shape[-1] == 3:
             self.velocity[...] = velocity
         else:
@@ -201,7 +207,9 @@ class Writer:
     def _velocity(self, values: Any) -> np.ndarray:
         velocity = self._real("velocity", values, (2, 3))
         if velocity.shape[-1] == 3 and not self.holonomic and (velocity[..., 1] != 0).any():
-            raise ActionError("velocity: these robots have two wheels and cannot drive to the left; give (forward, turn), see drive()")
+            raise ActionError(
+                "velocity: these robots have two wheels and cannot drive to the left; give (forward, turn), see drive()"
+            )
         return velocity
 
     def _message(self, values: Any) -> np.ndarray:
@@ -242,7 +250,9 @@ def _as_floats(bytes_: np.ndarray) -> np.ndarray:
     return bytes_.view(np.float32)
 
 
-def drive(velocity: Any, speed_limit_m_s: float = 0.2, wheel_distance_m: float = 0.1054, holonomic: bool = False) -> np.ndarray:
+def drive(
+    velocity: Any, speed_limit_m_s: float = 0.2, wheel_distance_m: float = 0.1054, holonomic: bool = False
+) -> np.ndarray:
     """What two wheels do to move along vectors in the robot's own frame, as Banyan's own algorithms do it: turn towards
     it, and drive as far as it lies ahead.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Controllers written in Python. The world hosts them like any algorithm: same radio, same measures, same recordings."""
+"""Controllers written in Python. The world hosts them like any algorithm: same radio, measures and recordings."""
 
 from __future__ import annotations
 
@@ -174,9 +174,19 @@ class _Crowd(Policy):
             if hasattr(robot, "reset"):
                 robot.reset(Robot(i, i in workers, i == swarm.root, swarm))
         n = swarm.robots
-        message = np.zeros((n, self.message_floats), np.float32) if self.message_floats else np.zeros((n, self.message_bytes), np.uint8)
-        self.actions = Actions(np.zeros((n, 3 if swarm.holonomic else 2), np.float32), message if message.size else None,
-                               np.full(n, -1), np.full(n, -1), np.full(n, -2), np.full((n, 12), -1))
+        message = (
+            np.zeros((n, self.message_floats), np.float32)
+            if self.message_floats
+            else np.zeros((n, self.message_bytes), np.uint8)
+        )
+        self.actions = Actions(
+            np.zeros((n, 3 if swarm.holonomic else 2), np.float32),
+            message if message.size else None,
+            np.full(n, -1),
+            np.full(n, -1),
+            np.full(n, -2),
+            np.full((n, 12), -1),
+        )
 
     def __deepcopy__(self, memo: dict[int, Any]) -> "_Crowd":
         twin = copy.copy(self)
@@ -207,7 +217,11 @@ class _Crowd(Policy):
         if action.message is not None:
             if to.message is None:
                 raise ActionError("message: there are none; set message_floats or message_bytes")
-            message = np.frombuffer(action.message, np.uint8) if isinstance(action.message, (bytes, bytearray)) else np.asarray(action.message)
+            message = (
+                np.frombuffer(action.message, np.uint8)
+                if isinstance(action.message, (bytes, bytearray))
+                else np.asarray(action.message)
+            )
             if message.shape != to.message.shape[1:]:
                 raise ActionError(f"message: has shape {message.shape}; needed is {to.message.shape[1:]}")
             to.message[i] = message
@@ -253,7 +267,11 @@ def payload_of(floats: int, bytes_: int) -> int:
         raise ValueError("a message has floats or bytes, not both: message_floats or message_bytes must be 0")
     size = 4 * floats + bytes_
     if size > LARGEST_MESSAGE:
-        most = f"message_floats: {floats} are too many; at most {LARGEST_MESSAGE // 4}" if floats else f"message_bytes: {bytes_} are too many; at most {LARGEST_MESSAGE}"
+        most = (
+            f"message_floats: {floats} are too many; at most {LARGEST_MESSAGE // 4}"
+            if floats
+            else f"message_bytes: {bytes_} are too many; at most {LARGEST_MESSAGE}"
+        )
         raise ValueError(f"{most}, since a message has 96 bytes and 2 of them are its sender's id")
     return size
 
@@ -268,11 +286,15 @@ def described(controller: Any, name: str | None = None) -> tuple[Any, ...]:
     elif callable(controller):
         make, like = controller, controller()
     else:
-        raise TypeError(f"a controller is a class with step(), an object of one or a function that makes one, not {controller!r}")
+        raise TypeError(
+            f"a controller is a class with step(), an object of one or a function that makes one, not {controller!r}"
+        )
     if not callable(getattr(like, "step", None)):
         raise TypeError(f"{like!r} has no step(): a controller is a banyan.Policy or a banyan.Controller")
     kind = like if isinstance(like, type) else type(like)
-    name = name or getattr(like, "name", None) or re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "-", kind.__name__).lower().lstrip("_")
+    name = (
+        name or getattr(like, "name", None) or re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "-", kind.__name__).lower().lstrip("_")
+    )
     if not _name.fullmatch(name):
         raise ValueError(f"a controller cannot be called {name!r}: 1 to 100 letters, digits, '-' and '_'")
     base = getattr(like, "base", None)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Worlds as environments for learning: many in lockstep as in VMAS, or one with PettingZoo's parallel calls. Needs neither."""
+"""Worlds as environments for learning: many in lockstep as in VMAS, or one with PettingZoo's parallel calls. Needs
+neither."""
 
 from __future__ import annotations
 
@@ -38,7 +39,10 @@ class Reward:
         for name in self.weights:
             if name not in names:
                 near = difflib.get_close_matches(name, names, 1)
-                raise ValueError(f"reward: there is no metric {name!r}" + (f"; did you mean {near[0]!r}?" if near else f"; there are {', '.join(names)}"))
+                raise ValueError(
+                    f"reward: there is no metric {name!r}"
+                    + (f"; did you mean {near[0]!r}?" if near else f"; there are {', '.join(names)}")
+                )
 
     def __call__(self, now: Metrics, before: Metrics) -> np.ndarray:
         total = np.zeros(len(now["complete"]))
@@ -100,7 +104,9 @@ class BatchEnv:
         self.scenario = scenario_of(scenario, keys)
         core = self.scenario._core
         if core.asynchronous:
-            raise ValueError("clocks.asynchronous: robots with clocks of their own do not step together; run them with a Policy")
+            raise ValueError(
+                "clocks.asynchronous: robots with clocks of their own do not step together; run them with a Policy"
+            )
         if num_envs < 1:
             raise ValueError(f"num_envs: is {num_envs}; at least 1")
         if threads < 1:
@@ -145,7 +151,9 @@ class BatchEnv:
         self._begin(which, None if seed is None else [seed])
         return self._observations()
 
-    def step(self, actions: Actions | Mapping[str, Any] | np.ndarray) -> tuple[Observations, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
+    def step(
+        self, actions: Actions | Mapping[str, Any] | np.ndarray
+    ) -> tuple[Observations, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
         """One tick of all worlds. Actions have shapes (E, N, ...). Returns observations; rewards (E, N) float32;
         terminated (E,): the mission is complete; truncated (E,): its time is over; info: the metrics, and with
         auto_reset `ended`, the worlds that have begun anew."""
@@ -159,7 +167,9 @@ class BatchEnv:
         if rewards.shape == (self.num_envs,):
             rewards = np.repeat(rewards[:, None], self.num_robots, axis=1)
         if rewards.shape != (self.num_envs, self.num_robots):
-            raise ValueError(f"reward: has shape {rewards.shape}; needed is {(self.num_envs,)} or {(self.num_envs, self.num_robots)}")
+            raise ValueError(
+                f"reward: has shape {rewards.shape}; needed is {(self.num_envs,)} or {(self.num_envs, self.num_robots)}"
+            )
         terminated = now["complete"].copy()
         truncated = now["finished"] & ~terminated
         info: dict[str, Any] = {"metrics": now}
@@ -221,7 +231,9 @@ class ParallelEnv:
     metadata = {"name": "banyan_v0", "render_modes": ["svg"], "is_parallelizable": True}
     render_mode = "svg"
 
-    def __init__(self, scenario: str | os.PathLike[str] | Mapping[str, Any] | Scenario, *, message_floats: int = 0, **keys: Any) -> None:
+    def __init__(
+        self, scenario: str | os.PathLike[str] | Mapping[str, Any] | Scenario, *, message_floats: int = 0, **keys: Any
+    ) -> None:
         self._batch = BatchEnv(scenario, 1, message_floats=message_floats, **keys)
         if keys.get("message_bytes") or keys.get("auto_reset"):
             raise ValueError("message_bytes and auto_reset are for BatchEnv")
@@ -249,7 +261,9 @@ class ParallelEnv:
     def action_space(self, agent: str) -> Box:
         return self._action[self._index(agent)]
 
-    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, np.ndarray], dict[str, dict[str, Any]]]:
+    def reset(
+        self, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, np.ndarray], dict[str, dict[str, Any]]]:
         """(observations, infos) by agent."""
         seen = self._batch.reset(seed)
         self.agents = list(self.possible_agents)
@@ -267,7 +281,8 @@ class ParallelEnv:
         for agent in self.agents:
             action = np.asarray(actions[agent])
             if action.shape != all_.shape[2:] or action.dtype.kind not in "fiu":
-                raise ValueError(f"actions[{agent!r}]: has shape {action.shape} and type {action.dtype}; needed are {all_.shape[2:]} real numbers")
+                found = f"shape {action.shape} and type {action.dtype}"
+                raise ValueError(f"actions[{agent!r}]: has {found}; needed are {all_.shape[2:]} real numbers")
             all_[0, self._index(agent)] = action
         message = all_[..., self._velocity :] if self._messages else None
         seen, rewards, terminated, truncated, info = self._batch.step(Actions(all_[..., : self._velocity], message))

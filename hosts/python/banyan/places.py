@@ -38,6 +38,7 @@ def program() -> str:
         if candidate and os.access(candidate, os.X_OK) and os.path.isfile(candidate):
             return str(candidate)
     raise FileNotFoundError(
-        f"BANYAN_PROGRAM names {named}, which is no program" if named
-        else "the program `banyan`, which makes films, is not installed; build it with cmake, or set BANYAN_PROGRAM to its path"
+        f"BANYAN_PROGRAM names {named}, which is no program"
+        if named
+        else "the program `banyan`, which makes films, is not there; build it, or set BANYAN_PROGRAM to its path"
     )

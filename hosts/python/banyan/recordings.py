@@ -20,7 +20,7 @@ _look = ("fps", "speed", "from_s", "to_s", "width", "height", "trail_s", "links"
 
 
 def film(recording: str, path: str | os.PathLike[str], *, replace: bool = False, **look: Any) -> str:
-    """Has the program `banyan film` make it. Options are those of the command: speed=4, fps=30, dark=True, width=640, from_s=10."""
+    """Has the program `banyan film` make it. Options are those of the command: speed=4, dark=True, from_s=10."""
     command = [program(), "film", recording, "-o", os.fspath(path), "--quiet", *(["--force"] if replace else [])]
     for name, value in look.items():
         if name not in _look:
@@ -86,7 +86,7 @@ class Recording(_core.Recording):
         return self.frame_at(float(time_s), float(trail_s))
 
     def film(self, path: str | os.PathLike[str], *, replace: bool = False, **look: Any) -> str:
-        """A film (.mp4, .webm, .gif). Options are those of `banyan film`, such as speed=4, fps=30, width=640, dark=True."""
+        """A film (.mp4, .webm, .gif). Options are those of `banyan film`: speed=4, fps=30, width=640, dark=True."""
         return film(self.path, path, replace=replace, **look)
 
     def __repr__(self) -> str:

@@ -137,7 +137,11 @@ class Scenario:
 
 
 def scenario_of(source: Any, keys: Mapping[str, Any]) -> Scenario:
-    return source if isinstance(source, Scenario) and not any(value is not None and value != () for value in keys.values()) else Scenario(source, **keys)
+    return (
+        source
+        if isinstance(source, Scenario) and not any(value is not None and value != () for value in keys.values())
+        else Scenario(source, **keys)
+    )
 
 
 class Result(Mapping[str, Any]):
@@ -175,7 +179,7 @@ class Result(Mapping[str, Any]):
         return Recording(os.path.join(self.folder, "run.mcap"))
 
     def film(self, path: str | os.PathLike[str], **look: Any) -> str:
-        """The run as a film; see banyan.Recording.film. If it was not recorded, it is done once more: every run is the same."""
+        """The run as a film; see banyan.Recording.film. If it was not recorded, it is done once more, to the same bits."""
         if self.folder is not None and os.path.exists(os.path.join(self.folder, "run.mcap")):
             return self.recording.film(path, **look)
         with tempfile.TemporaryDirectory() as folder:
@@ -194,7 +198,11 @@ class Result(Mapping[str, Any]):
         return len(self.row)
 
     def __repr__(self) -> str:
-        end = f"complete after {self.row['completion_time_s']:.1f} s" if self.complete else f"not complete after {self.row['time_s']:.1f} s"
+        end = (
+            f"complete after {self.row['completion_time_s']:.1f} s"
+            if self.complete
+            else f"not complete after {self.row['time_s']:.1f} s"
+        )
         return f"<banyan.Result {self.scenario.name}, {self.row['algorithm']}, seed {self.row['seed']}: {end}>"
 
     def _repr_svg_(self) -> str:
@@ -231,12 +239,28 @@ def run(
     tick. `progress`: True, or a function of (share of the time limit, time in s). Ctrl-C ends it. Other threads run
     meanwhile.
     """
-    keys = dict(algorithm=algorithm, seed=seed, parameters=parameters, set=set, with_files=with_files, controller=controller, controllers=controllers)
+    keys = dict(
+        algorithm=algorithm,
+        seed=seed,
+        parameters=parameters,
+        set=set,
+        with_files=with_files,
+        controller=controller,
+        controllers=controllers,
+    )
     scenario = scenario_of(scenario, keys)
     if threads < 1:
         raise ValueError(f"threads: is {threads}; at least 1")
     folder = None if out is None else str(Path(out))
-    told = _core.run(scenario._core, folder or "", replace, series, int(trajectories), threads, (_shown if progress is True else progress) or None)
+    told = _core.run(
+        scenario._core,
+        folder or "",
+        replace,
+        series,
+        int(trajectories),
+        threads,
+        (_shown if progress is True else progress) or None,
+    )
     if progress is True and sys.stderr.isatty():
         sys.stderr.write("\r\033[K")
     return Result(told, scenario, folder)

@@ -30,15 +30,22 @@ class Box:
 
     def contains(self, x: Any) -> bool:
         array = np.asarray(x)
-        return array.shape == self.shape and bool(np.can_cast(array.dtype, self.dtype, "same_kind") and ((array >= self.low) & (array <= self.high)).all())
+        return array.shape == self.shape and bool(
+            np.can_cast(array.dtype, self.dtype, "same_kind") and ((array >= self.low) & (array <= self.high)).all()
+        )
 
     __contains__ = contains
 
     def __eq__(self, other: object) -> bool:
-        return (isinstance(other, Box) and self.shape == other.shape and self.dtype == other.dtype
-                and np.array_equal(self.low, other.low) and np.array_equal(self.high, other.high))
+        return (
+            isinstance(other, Box)
+            and self.shape == other.shape
+            and self.dtype == other.dtype
+            and np.array_equal(self.low, other.low)
+            and np.array_equal(self.high, other.high)
+        )
 
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        return f"Box({self.low.min() if self.low.size else '-'}, {self.high.max() if self.high.size else '-'}, {self.shape}, {self.dtype})"
+        return f"Box({self.low.min(initial=np.inf)}, {self.high.max(initial=-np.inf)}, {self.shape}, {self.dtype})"

@@ -81,8 +81,20 @@ def study(
     own = [described(each, name) for name, each in (controllers or {}).items()]
     told = _Progress() if progress is True else progress or None
     try:
-        done = _core.study(path, text, changes_of(set, with_files), own, "" if out is None else str(Path(out)), threads, number, count, retry,
-                           extend, mix_versions, told)
+        done = _core.study(
+            path,
+            text,
+            changes_of(set, with_files),
+            own,
+            "" if out is None else str(Path(out)),
+            threads,
+            number,
+            count,
+            retry,
+            extend,
+            mix_versions,
+            told,
+        )
     finally:
         if isinstance(told, _Progress):
             told.end()

@@ -11,7 +11,7 @@ import numpy as np
 
 
 class Table(Mapping[str, np.ndarray]):
-    """Columns by name, all as long as each other. `table["time_s"]`, `table.to_pandas()`; len() is the number of rows."""
+    """Columns by name, all as long as each other. `table["time_s"]`, `table.to_pandas()`; len() counts the rows."""
 
     def __init__(self, columns: Mapping[str, Any]) -> None:
         self._columns = {name: np.asarray(values) for name, values in columns.items()}

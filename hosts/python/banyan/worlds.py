@@ -48,7 +48,15 @@ class World(_core.World):
         controllers: Mapping[str, Any] | None = None,
         measure: bool = False,
     ) -> None:
-        keys = dict(algorithm=algorithm, seed=seed, parameters=parameters, set=set, with_files=with_files, controller=controller, controllers=controllers)
+        keys = dict(
+            algorithm=algorithm,
+            seed=seed,
+            parameters=parameters,
+            set=set,
+            with_files=with_files,
+            controller=controller,
+            controllers=controllers,
+        )
         made = scenario_of(scenario, keys)
         self._own = made._own
         super().__init__(made._core, measure)

@@ -9,11 +9,16 @@ namespace {
 
 py::dtype dtype_of(Item item) {
   switch (item) {
-    case Item::flag: return py::dtype::of<bool>();
-    case Item::byte: return py::dtype::of<std::uint8_t>();
-    case Item::small: return py::dtype::of<std::int8_t>();
-    case Item::whole: return py::dtype::of<std::int32_t>();
-    default: return py::dtype::of<float>();
+    case Item::flag:
+      return py::dtype::of<bool>();
+    case Item::byte:
+      return py::dtype::of<std::uint8_t>();
+    case Item::small:
+      return py::dtype::of<std::int8_t>();
+    case Item::whole:
+      return py::dtype::of<std::int32_t>();
+    default:
+      return py::dtype::of<float>();
   }
 }
 
@@ -23,13 +28,15 @@ py::array column_of(const record::Column<measure::Tick>& column, std::span<const
   const record::Cell sample = column.cell(measure::Tick{});
   if (std::holds_alternative<bool>(sample)) {
     py::array_t<bool> values(length);
-    for (py::ssize_t k = 0; k < length; ++k) values.mutable_at(k) = std::get<bool>(column.cell(ticks[static_cast<std::size_t>(k)]));
+    for (py::ssize_t k = 0; k < length; ++k)
+      values.mutable_at(k) = std::get<bool>(column.cell(ticks[static_cast<std::size_t>(k)]));
     return values;
   }
   if (std::holds_alternative<std::uint64_t>(sample)) {
     py::array_t<std::int64_t> values(length);
     for (py::ssize_t k = 0; k < length; ++k)
-      values.mutable_at(k) = static_cast<std::int64_t>(std::get<std::uint64_t>(column.cell(ticks[static_cast<std::size_t>(k)])));
+      values.mutable_at(k) =
+          static_cast<std::int64_t>(std::get<std::uint64_t>(column.cell(ticks[static_cast<std::size_t>(k)])));
     return values;
   }
   py::array_t<double> values(length);
@@ -43,15 +50,16 @@ py::array column_of(const record::Column<measure::Tick>& column, std::span<const
 
 }  // namespace
 
-py::array view_of(const py::dtype& type, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, const void* data,
-                  const py::handle& owner, bool writeable) {
+py::array view_of(const py::dtype& type, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
+                  const void* data, const py::handle& owner, bool writeable) {
   py::array array(type, std::move(shape), std::move(strides), data, owner);
   if (!writeable) py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 
 py::dict arrays_of(const std::shared_ptr<Block>& block, bool always) {
-  const py::capsule owner(new std::shared_ptr<Block>(block), [](void* p) { delete static_cast<std::shared_ptr<Block>*>(p); });
+  const py::capsule owner(new std::shared_ptr<Block>(block),
+                          [](void* p) { delete static_cast<std::shared_ptr<Block>*>(p); });
   const Shape& shape = block->shape();
   py::dict arrays;
   for (const FieldInfoOf& info : fields()) {
@@ -63,7 +71,8 @@ py::dict arrays_of(const std::shared_ptr<Block>& block, bool always) {
     std::vector<py::ssize_t> strides(lengths.size());
     auto step = static_cast<py::ssize_t>(size_of(info.item));
     for (std::size_t k = lengths.size(); k-- > 0; step *= lengths[k]) strides[k] = step;
-    arrays[info.name] = view_of(dtype_of(info.item), std::move(lengths), std::move(strides), block->data(info.field), owner, info.decided);
+    arrays[info.name] = view_of(dtype_of(info.item), std::move(lengths), std::move(strides), block->data(info.field),
+                                owner, info.decided);
   }
   return arrays;
 }
@@ -78,7 +87,8 @@ py::object object_of(const record::Cell& cell) {
 
 py::dict table_of(std::span<const measure::Tick> ticks) {
   py::dict table;
-  for (const auto& column : record::series_columns()) table[py::str(std::string(column.name))] = column_of(column, ticks);
+  for (const auto& column : record::series_columns())
+    table[py::str(std::string(column.name))] = column_of(column, ticks);
   return table;
 }
 

@@ -53,7 +53,8 @@ struct Algorithms {
 // decides, with decide(arrays) and clone().
 [[nodiscard]] std::shared_ptr<const Algorithms> algorithms_from(const py::sequence& own);
 // Changes of a scenario or a study: a key and its value as TOML, or "" and a file.
-[[nodiscard]] std::vector<config::Override> overrides_of(const std::vector<std::pair<std::string, std::string>>& changes);
+[[nodiscard]] std::vector<config::Override> overrides_of(
+    const std::vector<std::pair<std::string, std::string>>& changes);
 // Banyan's alone.
 [[nodiscard]] std::shared_ptr<const Algorithms> shipped_algorithms();
 
@@ -63,14 +64,16 @@ struct PyScenario {
   std::vector<std::string> warnings;
 };
 
-// Asks now and then whether Ctrl-C was pressed, from code that does not hold the interpreter. The main thread alone hears
-// of it.
+// Asks now and then whether Ctrl-C was pressed, from code that does not hold the interpreter. The main thread alone
+// hears of it.
 class CtrlC {
  public:
   // Throws what Python raised, KeyboardInterrupt.
   void check() {
-    if (const auto now = Clock::now(); now < next_) return;
-    else next_ = now + std::chrono::milliseconds(50);
+    if (const auto now = Clock::now(); now < next_)
+      return;
+    else
+      next_ = now + std::chrono::milliseconds(50);
     const py::gil_scoped_acquire interpreter;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
@@ -84,7 +87,8 @@ class CtrlC {
 class Busy {
  public:
   Busy(std::atomic<bool>& flag, const char* what) : flag_(flag) {
-    if (flag_.exchange(true)) throw std::runtime_error(std::string(what) + " is being stepped, by another thread or from within a controller");
+    if (flag_.exchange(true))
+      throw std::runtime_error(std::string(what) + " is being stepped, by another thread or from within a controller");
   }
   ~Busy() { flag_ = false; }
   Busy(const Busy&) = delete;
@@ -95,11 +99,10 @@ class Busy {
 };
 
 // Memory of `owner` as an array that keeps it alive and cannot be written.
-[[nodiscard]] py::array view_of(const py::dtype& type, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, const void* data,
-                                const py::handle& owner, bool writeable = false);
+[[nodiscard]] py::array view_of(const py::dtype& type, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
+                                const void* data, const py::handle& owner, bool writeable = false);
 // A vector that numpy takes over.
-template <class T>
-[[nodiscard]] py::array_t<T> taken(std::vector<T> values, std::vector<py::ssize_t> shape) {
+template <class T> [[nodiscard]] py::array_t<T> taken(std::vector<T> values, std::vector<py::ssize_t> shape) {
   auto* const kept = new std::vector<T>(std::move(values));
   const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
   return py::array_t<T>(std::move(shape), kept->data(), owner);
@@ -108,8 +111,7 @@ template <class T>
 [[nodiscard]] py::dict arrays_of(const std::shared_ptr<Block>& block, bool always);
 
 [[nodiscard]] py::object object_of(const record::Cell& cell);
-template <class Row>
-[[nodiscard]] py::dict row_of(std::span<const record::Column<Row>> columns, const Row& row) {
+template <class Row> [[nodiscard]] py::dict row_of(std::span<const record::Column<Row>> columns, const Row& row) {
   py::dict dict;
   for (const auto& column : columns) dict[py::str(std::string(column.name))] = object_of(column.cell(row));
   return dict;

@@ -16,24 +16,24 @@ constexpr std::array<FieldInfoOf, fields_count> table{{
     {Field::sent, "sent", "it has been sent to a target", Item::flag, {}, false},
     {Field::has_target, "has_target", "that target is sensed now", Item::flag, {}, false},
     {Field::target, "target", "from the robot to its target, m, own frame", Item::real, {Axis::two, Axis::none}, false},
-    {Field::given_up, "given_up", "a target that has been given up, by the robot first sent there; -1: none", Item::whole, {}, false},
+    {Field::given_up, "given_up", "a target that has been given up, by the robot first sent there; -1: none", Item::whole, {}, false, -1},
     {Field::odometry, "odometry", "own motion since the last step: forward m, left m, turn rad", Item::real, {Axis::three, Axis::none}, false},
     {Field::obstacles, "obstacles", "how many obstacles are within reach of its sensor", Item::whole, {}, false},
     {Field::obstacle_position, "obstacle_position", "their nearest points, m, own frame", Item::real, {Axis::obstacles, Axis::two}, false},
     {Field::heard, "heard", "how many neighbours are heard", Item::whole, {}, false},
-    {Field::sender, "sender", "their ids; -1 behind the last", Item::whole, {Axis::neighbours, Axis::none}, false},
+    {Field::sender, "sender", "their ids; -1 behind the last", Item::whole, {Axis::neighbours, Axis::none}, false, -1},
     {Field::position, "position", "where they are, m, own frame", Item::real, {Axis::neighbours, Axis::two}, false},
     {Field::age, "age", "ticks since they composed the message", Item::whole, {Axis::neighbours, Axis::none}, false},
     {Field::message, "message", "what they broadcast", Item::byte, {Axis::neighbours, Axis::payload}, false},
     {Field::own_role, "own_role", "the role that it reported last", Item::small, {}, false},
-    {Field::own_parent, "own_parent", "the parent that it reported last; -1: nobody", Item::whole, {}, false},
+    {Field::own_parent, "own_parent", "the parent that it reported last; -1: nobody", Item::whole, {}, false, -1},
     {Field::suggested, "suggested", "velocity of the algorithm beneath, if there is one", Item::real, {Axis::three, Axis::none}, false},
     {Field::velocity, "velocity", "forward m/s, left m/s, turn rad/s", Item::real, {Axis::three, Axis::none}, true},
     {Field::broadcast, "broadcast", "what its neighbours hear", Item::byte, {Axis::payload, Axis::none}, true},
-    {Field::role, "role", "spare 0, connector 1, worker 2, root 3; -1: as it was sent", Item::small, {}, true},
-    {Field::parent, "parent", "the robot whose link it promises to keep; -1: nobody", Item::whole, {}, true},
-    {Field::serves, "serves", "a worker's target, by the robot first sent there; -1: none, -2: its own", Item::whole, {}, true},
-    {Field::kept, "kept", "further links that it promises to keep; -1: nobody", Item::whole, {Axis::kept, Axis::none}, true},
+    {Field::role, "role", "spare 0, connector 1, worker 2, root 3; -1: as it was sent", Item::small, {}, true, -1},
+    {Field::parent, "parent", "the robot whose link it promises to keep; -1: nobody", Item::whole, {}, true, -1},
+    {Field::serves, "serves", "a worker's target, by the robot first sent there; -1: none, -2: its own", Item::whole, {}, true, -2},
+    {Field::kept, "kept", "further links that it promises to keep; -1: nobody", Item::whole, {Axis::kept, Axis::none}, true, -1},
 }};
 
 }  // namespace
@@ -85,13 +85,11 @@ void Block::copy_from(Block& other, std::size_t from, std::size_t to) {
 
 void Block::clear(std::size_t swarm) {
   for (const FieldInfoOf& info : table) {
-    const bool names_robots = info.field == Field::sender || info.field == Field::given_up || info.field == Field::own_parent ||
-                              info.field == Field::parent || info.field == Field::kept || info.field == Field::role;
     const std::size_t bytes = bytes_per_swarm(info.field);
-    std::fill_n(data(info.field) + swarm * bytes, bytes, std::byte{static_cast<unsigned char>(names_robots ? 0xFF : 0)});
+    std::byte* const begin = data(info.field) + swarm * bytes;
+    if (info.item == Item::whole) std::fill_n(reinterpret_cast<std::int32_t*>(begin), bytes / size_of(info.item), info.blank);
+    else std::fill_n(begin, bytes, static_cast<std::byte>(info.blank));
   }
-  std::int32_t* const serves = exchange(swarm).of<std::int32_t>(Field::serves);
-  std::fill_n(serves, shape_.robots, -2);
   decided_[swarm] = 0;
 }
 

@@ -41,7 +41,10 @@ class Lockstep {
  public:
   Lockstep(const PyScenario& scenario, std::size_t worlds, std::size_t neighbours, std::size_t payload, bool floats,
            const std::optional<std::string>& beneath, int threads)
-      : scenario_(scenario), robots_(world::robot_count(scenario.configuration.scenario)), team_(threads), places_(worlds) {
+      : scenario_(scenario),
+        robots_(world::robot_count(scenario.configuration.scenario)),
+        team_(threads),
+        places_(worlds) {
     block_ = std::make_shared<Block>(Shape{robots_, neighbours, payload}, worlds);
     const Algorithm* const under = beneath ? algorithms().find(*beneath) : nullptr;
     for (std::size_t w = 0; w < worlds; ++w) {
@@ -65,7 +68,8 @@ class Lockstep {
   // New worlds at the places where `which` is true, each with its seed; in each a first tick, in which robots sense.
   void reset(const std::vector<std::uint64_t>& seeds, const std::vector<bool>& which) {
     const Busy busy(stepping_, "this environment");
-    if (seeds.size() != places_.size() || which.size() != places_.size()) throw std::invalid_argument("as many seeds as worlds are needed");
+    if (seeds.size() != places_.size() || which.size() != places_.size())
+      throw std::invalid_argument("as many seeds as worlds are needed");
     const py::gil_scoped_release others;
     everywhere([&](std::size_t w) {
       if (which[w]) begin(w, seeds[w]);
@@ -85,14 +89,16 @@ class Lockstep {
   }
 
   [[nodiscard]] const world::World& world(std::size_t w) const {
-    if (w >= places_.size()) throw py::index_error("there is no world " + std::to_string(w) + " of " + std::to_string(places_.size()));
+    if (w >= places_.size())
+      throw py::index_error("there is no world " + std::to_string(w) + " of " + std::to_string(places_.size()));
     if (stepping_) throw std::runtime_error("this environment is being stepped by another thread");
     if (!places_[w].world) throw std::runtime_error("reset() comes first");
     return *places_[w].world;
   }
   [[nodiscard]] py::dict result(std::size_t w) const {
     const world::World& of = world(w);
-    const record::RunRow row{record::identify(of.scenario(), version, git_id()), places_[w].observer->result(of), !places_[w].observer->finished()};
+    const record::RunRow row{record::identify(of.scenario(), version, git_id()), places_[w].observer->result(of),
+                             !places_[w].observer->finished()};
     return row_of<record::RunRow>(record::run_columns(), row);
   }
 
@@ -105,7 +111,8 @@ class Lockstep {
     py::dict arrays;
     py::ssize_t c = 0;
     const auto column = [&] {
-      return view_of(py::dtype::of<double>(), {worlds}, {columns * static_cast<py::ssize_t>(sizeof(double))}, metrics_.data() + c++, self);
+      return view_of(py::dtype::of<double>(), {worlds}, {columns * static_cast<py::ssize_t>(sizeof(double))},
+                     metrics_.data() + c++, self);
     };
     for (const auto& info : record::series_columns()) arrays[py::str(std::string(info.name))] = column();
     arrays[mean_distance] = column();
@@ -139,7 +146,8 @@ class Lockstep {
     world::Scenario scenario = scenario_.configuration.scenario;
     scenario.seed = seed;
     if (world::robot_count(scenario) != robots_)
-      throw ScenarioFault("the number of robots depends on the seed: give swarm.robots, since all worlds need the same number");
+      throw ScenarioFault(
+          "the number of robots depends on the seed: give swarm.robots, since all worlds need the same number");
     Place& place = places_[w];
     place.observer.reset();
     block_->clear(w);
@@ -190,18 +198,25 @@ py::array_t<double> copied(std::span<const world::Vec2> points) {
 
 void bind_lockstep(py::module_& m) {
   py::class_<Lockstep>(m, "Lockstep")
-      .def(py::init<const PyScenario&, std::size_t, std::size_t, std::size_t, bool, const std::optional<std::string>&, int>(), py::arg("scenario"),
-           py::arg("worlds"), py::arg("neighbours"), py::arg("payload"), py::arg("floats"), py::arg("beneath"), py::arg("threads"))
+      .def(py::init<const PyScenario&, std::size_t, std::size_t, std::size_t, bool, const std::optional<std::string>&,
+                    int>(),
+           py::arg("scenario"), py::arg("worlds"), py::arg("neighbours"), py::arg("payload"), py::arg("floats"),
+           py::arg("beneath"), py::arg("threads"))
       .def("reset", &Lockstep::reset, py::arg("seeds"), py::arg("which"))
       .def("step", &Lockstep::step)
       .def_property_readonly("robots", &Lockstep::robots)
       .def("__len__", &Lockstep::size)
       .def("arrays", [](const Lockstep& l) { return arrays_of(l.block(), true); })
       .def("outcomes", [](const py::object& self) { return self.cast<const Lockstep&>().outcomes(self); })
-      .def("hash", [](const Lockstep& l, std::size_t w) { return l.world(w).hash(); }, py::arg("world"))
-      .def("time_s", [](const Lockstep& l, std::size_t w) { return l.world(w).time_s(); }, py::arg("world"))
-      .def("positions", [](const Lockstep& l, std::size_t w) { return copied(l.world(w).positions()); }, py::arg("world"))
-      .def("headings", [](const Lockstep& l, std::size_t w) { return copied(l.world(w).headings()); }, py::arg("world"))
+      .def(
+          "hash", [](const Lockstep& l, std::size_t w) { return l.world(w).hash(); }, py::arg("world"))
+      .def(
+          "time_s", [](const Lockstep& l, std::size_t w) { return l.world(w).time_s(); }, py::arg("world"))
+      .def(
+          "positions", [](const Lockstep& l, std::size_t w) { return copied(l.world(w).positions()); },
+          py::arg("world"))
+      .def(
+          "headings", [](const Lockstep& l, std::size_t w) { return copied(l.world(w).headings()); }, py::arg("world"))
       .def("result", &Lockstep::result, py::arg("world"))
       .def("frame", &picture_of, py::arg("world"));
 }

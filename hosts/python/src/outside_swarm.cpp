@@ -55,8 +55,9 @@ std::span<const Packet> each_once(std::span<const Packet> packets) {
 
 }  // namespace
 
-OutsideSwarm::OutsideSwarm(std::span<const Member> members, const Setup& setup, std::shared_ptr<Block> block, std::size_t place,
-                           std::unique_ptr<Swarm> beneath, std::unique_ptr<Mind> mind, std::span<const FieldInfo> names)
+OutsideSwarm::OutsideSwarm(std::span<const Member> members, const Setup& setup, std::shared_ptr<Block> block,
+                           std::size_t place, std::unique_ptr<Swarm> beneath, std::unique_ptr<Mind> mind,
+                           std::span<const FieldInfo> names)
     : platform_(setup.platform),
       members_(members.begin(), members.end()),
       payload_(block->shape().payload),
@@ -97,7 +98,8 @@ OutsideSwarm::OutsideSwarm(const OutsideSwarm& other)
 
 std::unique_ptr<Swarm> OutsideSwarm::clone() const { return std::unique_ptr<Swarm>(new OutsideSwarm(*this)); }
 
-void OutsideSwarm::step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) {
+void OutsideSwarm::step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
+                        std::span<Report> reports) {
   if (beneath_) beneath_->step(first, sensed, commands, reports);
   const std::vector<std::uint8_t>& last = slots_[slot_of(1)];
   for (std::size_t k = 0; k < sensed.size(); ++k) {
@@ -221,7 +223,8 @@ void OutsideSwarm::decide(std::span<Velocity> commands, std::span<Report> report
     if (!exchange_.of<bool>(Field::steps)[i]) continue;
     commands[i] = velocity_of(i);
     if (beneath_) continue;
-    if (payload_ > 0) std::memcpy(now.data() + i * payload_, exchange_.of<std::uint8_t>(Field::broadcast) + i * payload_, payload_);
+    if (payload_ > 0)
+      std::memcpy(now.data() + i * payload_, exchange_.of<std::uint8_t>(Field::broadcast) + i * payload_, payload_);
     report_of(i, reports_[i]);
     reports[i] = reports_[i];
     exchange_.of<std::int8_t>(Field::own_role)[i] = static_cast<std::int8_t>(reports_[i].role);
@@ -243,7 +246,9 @@ std::size_t OutsideSwarm::send(std::size_t i, std::span<std::uint8_t> bytes) con
   return id_bytes + payload_;
 }
 
-std::size_t OutsideSwarm::message_bytes() const noexcept { return beneath_ ? beneath_->message_bytes() : id_bytes + payload_; }
+std::size_t OutsideSwarm::message_bytes() const noexcept {
+  return beneath_ ? beneath_->message_bytes() : id_bytes + payload_;
+}
 
 void OutsideSwarm::add_to(Digest& digest, std::size_t i) const noexcept {
   if (beneath_) return beneath_->add_to(digest, i);
@@ -254,7 +259,9 @@ void OutsideSwarm::add_to(Digest& digest, std::size_t i) const noexcept {
     for (std::size_t k = 0; k < payload_; ++k) digest.add(said(slot_of(age), i)[k]);
 }
 
-std::span<const FieldInfo> OutsideSwarm::message_fields() const noexcept { return beneath_ ? beneath_->message_fields() : names_; }
+std::span<const FieldInfo> OutsideSwarm::message_fields() const noexcept {
+  return beneath_ ? beneath_->message_fields() : names_;
+}
 
 void OutsideSwarm::message_numbers(std::size_t i, std::span<double> numbers) const noexcept {
   if (beneath_) return beneath_->message_numbers(i, numbers);
@@ -268,8 +275,9 @@ void OutsideSwarm::message_numbers(std::size_t i, std::span<double> numbers) con
 }
 
 std::size_t OutsideSwarm::memory_bytes() const noexcept {
-  return sizeof(*this) + slots_.size() * members_.size() * payload_ + members_.size() * (sizeof(Member) + sizeof(Report)) +
-         block_->memory_bytes() / block_->swarms() + (beneath_ ? beneath_->memory_bytes() : 0);
+  return sizeof(*this) + slots_.size() * members_.size() * payload_ +
+         members_.size() * (sizeof(Member) + sizeof(Report)) + block_->memory_bytes() / block_->swarms() +
+         (beneath_ ? beneath_->memory_bytes() : 0);
 }
 
 OutsideAlgorithm::OutsideAlgorithm(Outside outside) : outside_(std::move(outside)) {
@@ -284,13 +292,17 @@ std::vector<const ParameterInfo*> OutsideAlgorithm::parameters() const {
 std::vector<float> OutsideAlgorithm::values(const Setup& setup) const {
   return outside_.beneath != nullptr ? outside_.beneath->values(setup) : std::vector<float>{};
 }
-std::string OutsideAlgorithm::fault(const Setup& setup) const { return outside_.beneath != nullptr ? outside_.beneath->fault(setup) : ""; }
+std::string OutsideAlgorithm::fault(const Setup& setup) const {
+  return outside_.beneath != nullptr ? outside_.beneath->fault(setup) : "";
+}
 
 std::unique_ptr<Swarm> OutsideAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
-  auto block = outside_.block ? outside_.block : std::make_shared<Block>(Shape{members.size(), outside_.neighbours, outside_.payload});
+  auto block = outside_.block ? outside_.block
+                              : std::make_shared<Block>(Shape{members.size(), outside_.neighbours, outside_.payload});
   auto mind = outside_.mind ? outside_.mind(setup, members, block) : nullptr;
   return std::make_unique<OutsideSwarm>(members, setup, std::move(block), outside_.place,
-                                        outside_.beneath != nullptr ? outside_.beneath->make(setup, members) : nullptr, std::move(mind), names_);
+                                        outside_.beneath != nullptr ? outside_.beneath->make(setup, members) : nullptr,
+                                        std::move(mind), names_);
 }
 
 }  // namespace banyan::python

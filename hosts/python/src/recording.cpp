@@ -15,18 +15,29 @@ record::DrawOptions look_of(const py::kwargs& told) {
   look.width_px = 640.0;
   for (const auto& [name, value] : told) {
     const auto key = name.cast<std::string>();
-    if (key == "width") look.width_px = value.cast<double>();
-    else if (key == "height") look.height_px = value.cast<double>();
-    else if (key == "trail_s") look.trail_s = value.cast<double>();
-    else if (key == "links") look.links = value.cast<bool>();
-    else if (key == "blocked") look.blocked_links = value.cast<bool>();
-    else if (key == "ids") look.ids = value.cast<bool>();
-    else if (key == "legend") look.legend = value.cast<bool>();
-    else if (key == "dark") look.dark = value.cast<bool>();
-    else throw py::type_error("a picture has no option \"" + key + "\"; it has width, height, trail_s, links, blocked, ids, legend, dark");
+    if (key == "width")
+      look.width_px = value.cast<double>();
+    else if (key == "height")
+      look.height_px = value.cast<double>();
+    else if (key == "trail_s")
+      look.trail_s = value.cast<double>();
+    else if (key == "links")
+      look.links = value.cast<bool>();
+    else if (key == "blocked")
+      look.blocked_links = value.cast<bool>();
+    else if (key == "ids")
+      look.ids = value.cast<bool>();
+    else if (key == "legend")
+      look.legend = value.cast<bool>();
+    else if (key == "dark")
+      look.dark = value.cast<bool>();
+    else
+      throw py::type_error("a picture has no option \"" + key +
+                           "\"; it has width, height, trail_s, links, blocked, ids, legend, dark");
   }
   if (!(look.width_px >= 200.0 && look.width_px <= 20000.0)) throw py::value_error("width: allowed are 200 to 20000");
-  if (look.height_px != 0.0 && !(look.height_px >= 150.0 && look.height_px <= 20000.0)) throw py::value_error("height: allowed are 0 and 150 to 20000");
+  if (look.height_px != 0.0 && !(look.height_px >= 150.0 && look.height_px <= 20000.0))
+    throw py::value_error("height: allowed are 0 and 150 to 20000");
   if (!(look.trail_s >= 0.0 && std::isfinite(look.trail_s))) throw py::value_error("trail_s: must not be negative");
   return look;
 }
@@ -115,7 +126,12 @@ py::list events_of(record::Recording& recording) {
 PyFrame frame_at(record::Recording& recording, double time_s, double trail_s) {
   record::TrailLog log(trail_s);
   PyFrame found{recording.setting_at(time_s), recording.frame_at(time_s), {}};
-  recording.for_each([&](const record::Frame& frame) { log.add(frame); return true; }, time_s - trail_s, time_s);
+  recording.for_each(
+      [&](const record::Frame& frame) {
+        log.add(frame);
+        return true;
+      },
+      time_s - trail_s, time_s);
   found.trails = log.trails(found.frame);
   return found;
 }

@@ -84,8 +84,8 @@ py::dict tracks_of(Keeper& keeper, std::size_t robots_count) {
 }
 
 // `told(share, time_s)` now and then, if it is not None.
-py::dict run(const PyScenario& scenario, const std::string& folder, bool replace, bool series, std::size_t every, int threads,
-             const py::object& told) {
+py::dict run(const PyScenario& scenario, const std::string& folder, bool replace, bool series, std::size_t every,
+             int threads, const py::object& told) {
   record::Sinks files = files_of(scenario, folder, replace);
   Keeper keeper(series, every, files);
   record::RunEnd end;
@@ -107,7 +107,8 @@ py::dict run(const PyScenario& scenario, const std::string& folder, bool replace
     });
   }
   for (const auto& failure : files.failures()) throw record::FileError(failure.path, failure.text);
-  const record::RunRow row{record::identify(scenario.configuration.scenario, version, git_id()), end.run, end.interrupted};
+  const record::RunRow row{record::identify(scenario.configuration.scenario, version, git_id()), end.run,
+                           end.interrupted};
   py::dict result;
   result["row"] = row_of<record::RunRow>(record::run_columns(), row);
   result["frame"] = std::move(keeper.last);
@@ -119,8 +120,8 @@ py::dict run(const PyScenario& scenario, const std::string& folder, bool replace
 }  // namespace
 
 void bind_run(py::module_& m) {
-  m.def("run", &run, py::arg("scenario"), py::arg("folder"), py::arg("replace"), py::arg("series"), py::arg("every"), py::arg("threads"),
-        py::arg("told"));
+  m.def("run", &run, py::arg("scenario"), py::arg("folder"), py::arg("replace"), py::arg("series"), py::arg("every"),
+        py::arg("threads"), py::arg("told"));
 }
 
 }  // namespace banyan::python

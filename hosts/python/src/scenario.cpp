@@ -80,8 +80,10 @@ PyScenario made_of(config::Loaded loaded, std::shared_ptr<const Algorithms> algo
   PyScenario made{std::move(loaded.configuration), std::move(algorithms), {}};
   std::string faults;
   for (const config::Problem& problem : loaded.problems) {
-    if (problem.warning) made.warnings.push_back(to_string(problem));
-    else faults += (faults.empty() ? "" : "\n") + to_string(problem);
+    if (problem.warning)
+      made.warnings.push_back(to_string(problem));
+    else
+      faults += (faults.empty() ? "" : "\n") + to_string(problem);
   }
   if (!faults.empty()) throw ScenarioFault(faults);
   return made;
@@ -89,7 +91,7 @@ PyScenario made_of(config::Loaded loaded, std::shared_ptr<const Algorithms> algo
 
 // `text`: of the file, or nothing: it is read.
 PyScenario load_scenario(const std::string& path, const std::optional<std::string>& text,
-                const std::vector<std::pair<std::string, std::string>>& changes, const py::sequence& own) {
+                         const std::vector<std::pair<std::string, std::string>>& changes, const py::sequence& own) {
   auto algorithms = algorithms_from(own);
   const auto overrides = overrides_of(changes);
   auto loaded = text ? config::parse_configuration(path, *text, algorithms->list, overrides)
@@ -142,12 +144,14 @@ std::shared_ptr<const Algorithms> algorithms_from(const py::sequence& own) {
   for (const py::handle told : own) {
     made.push_back(algorithm_from(told.cast<py::tuple>()));
     if (algorithms().find(made.back()->name()) != nullptr)
-      throw ScenarioFault("a controller cannot be called \"" + std::string(made.back()->name()) + "\": that is one of Banyan's algorithms");
+      throw ScenarioFault("a controller cannot be called \"" + std::string(made.back()->name()) +
+                          "\": that is one of Banyan's algorithms");
   }
   return std::make_shared<Algorithms>(std::move(made));
 }
 
-Algorithms::Algorithms(std::vector<std::unique_ptr<OutsideAlgorithm>> of_user) : own(std::move(of_user)), list(all_of(own)) {}
+Algorithms::Algorithms(std::vector<std::unique_ptr<OutsideAlgorithm>> of_user)
+    : own(std::move(of_user)), list(all_of(own)) {}
 
 std::shared_ptr<const Algorithms> shipped_algorithms() {
   static const auto shipped = std::make_shared<const Algorithms>(std::vector<std::unique_ptr<OutsideAlgorithm>>{});
@@ -158,8 +162,10 @@ std::vector<config::Override> overrides_of(const std::vector<std::pair<std::stri
   std::vector<config::Override> overrides;
   overrides.reserve(changes.size());
   for (const auto& [key, value] : changes) {
-    if (key.empty()) overrides.push_back({"", "with " + value, value});
-    else overrides.push_back({key + "=" + value, key + " = " + value});
+    if (key.empty())
+      overrides.push_back({"", "with " + value, value});
+    else
+      overrides.push_back({key + "=" + value, key + " = " + value});
   }
   return overrides;
 }
@@ -177,16 +183,23 @@ void bind_scenario(py::module_& m) {
       .def(py::init(&load_scenario), py::arg("path"), py::arg("text"), py::arg("changes"), py::arg("controllers"))
       .def_readonly("warnings", &PyScenario::warnings)
       .def_property_readonly("name", [](const PyScenario& s) { return s.configuration.scenario.name; })
-      .def_property_readonly("algorithm", [](const PyScenario& s) { return s.configuration.scenario.mission.algorithm; })
+      .def_property_readonly("algorithm",
+                             [](const PyScenario& s) { return s.configuration.scenario.mission.algorithm; })
       .def_property_readonly("seed", [](const PyScenario& s) { return s.configuration.scenario.seed; })
       .def_property_readonly("tick_s", [](const PyScenario& s) { return s.configuration.scenario.tick_s; })
-      .def_property_readonly("time_limit_s", [](const PyScenario& s) { return world::time_limit_s(s.configuration.scenario); })
+      .def_property_readonly("time_limit_s",
+                             [](const PyScenario& s) { return world::time_limit_s(s.configuration.scenario); })
       .def_property_readonly("robots", [](const PyScenario& s) { return world::robot_count(s.configuration.scenario); })
-      .def_property_readonly("wheel_limit_m_s", [](const PyScenario& s) { return s.configuration.scenario.robot.wheel_limit_m_s; })
-      .def_property_readonly("wheel_distance_m", [](const PyScenario& s) { return s.configuration.scenario.robot.wheel_distance_m; })
+      .def_property_readonly("wheel_limit_m_s",
+                             [](const PyScenario& s) { return s.configuration.scenario.robot.wheel_limit_m_s; })
+      .def_property_readonly("wheel_distance_m",
+                             [](const PyScenario& s) { return s.configuration.scenario.robot.wheel_distance_m; })
       .def_property_readonly("range_m", [](const PyScenario& s) { return s.configuration.scenario.radio.range_m; })
-      .def_property_readonly("asynchronous", [](const PyScenario& s) { return s.configuration.scenario.clocks.asynchronous; })
-      .def_property_readonly("holonomic", [](const PyScenario& s) { return s.configuration.scenario.robot.body == world::BodyModel::linear; })
+      .def_property_readonly("asynchronous",
+                             [](const PyScenario& s) { return s.configuration.scenario.clocks.asynchronous; })
+      .def_property_readonly(
+          "holonomic",
+          [](const PyScenario& s) { return s.configuration.scenario.robot.body == world::BodyModel::linear; })
       .def("json", [](const PyScenario& s) { return config::config_json(s.configuration); })
       .def("toml", [](const PyScenario& s) { return config::config_toml(s.configuration); });
 }

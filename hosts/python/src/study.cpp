@@ -44,22 +44,27 @@ void check_folder(const Folder& folder, const Study& study, const Plan& plan, bo
   std::error_code ignored;
   const auto there = finished(folder);
   if (!there && journals_in(folder.path).empty()) {
-    for (const std::string& path : {folder.table(), folder.statistics(), folder.comparisons(), folder.figures(), folder.runs()})
-      if (std::filesystem::exists(path, ignored)) throw std::invalid_argument(path + " is not of a study; choose another folder by out=");
+    for (const std::string& path :
+         {folder.table(), folder.statistics(), folder.comparisons(), folder.figures(), folder.runs()})
+      if (std::filesystem::exists(path, ignored))
+        throw std::invalid_argument(path + " is not of a study; choose another folder by out=");
   }
   if (!there || extend) return;
   if (there->study != study.name)
-    throw std::invalid_argument(folder.path + " holds the finished study \"" + there->study + "\"; choose another folder by out=");
+    throw std::invalid_argument(folder.path + " holds the finished study \"" + there->study +
+                                "\"; choose another folder by out=");
   if (there->plan != plan_text(plan))
-    throw std::invalid_argument(folder.path + " holds this study finished with another plan; extend=True keeps the runs that both "
-                                              "have and makes the tables anew, or choose another folder by out=");
+    throw std::invalid_argument(folder.path +
+                                " holds this study finished with another plan; extend=True keeps the runs that both "
+                                "have and makes the tables anew, or choose another folder by out=");
 }
 
 void check_builds(const Gathered& gathered, bool mix_versions) {
   if (mix_versions) return;
   for (const std::string& build : gathered.builds)
     if (build != this_build())
-      throw std::invalid_argument("the results that are there were made by banyan " + build + ", and this is " + this_build() +
+      throw std::invalid_argument("the results that are there were made by banyan " + build + ", and this is " +
+                                  this_build() +
                                   ": mix_versions=True goes on with both, or choose another folder by out=");
 }
 
@@ -69,8 +74,8 @@ void make_folder(const std::string& path) {
   if (error) throw record::FileError(path, "cannot create", error.value());
 }
 
-Standing carry_out(const Plan& plan, const std::vector<std::size_t>& todo, const Study& study, const Folder& folder, const Wanted& wanted,
-                   const py::object& told) {
+Standing carry_out(const Plan& plan, const std::vector<std::size_t>& todo, const Study& study, const Folder& folder,
+                   const Wanted& wanted, const py::object& told) {
   Journal journal(folder.journal(wanted.shard), study.name, std::string(version), std::string(git_id()));
   const int cores = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 256U));
   const auto workers = thread_workers(simulate_one, wanted.threads > 0 ? wanted.threads : cores);
@@ -91,8 +96,9 @@ Standing carry_out(const Plan& plan, const std::vector<std::size_t>& todo, const
   return standing;
 }
 
-py::dict run_study(const std::string& path, const std::optional<std::string>& text, const std::vector<std::pair<std::string, std::string>>& changes,
-                   const py::sequence& own, const std::string& folder_path, int threads, std::size_t shard, std::size_t shards, bool retry,
+py::dict run_study(const std::string& path, const std::optional<std::string>& text,
+                   const std::vector<std::pair<std::string, std::string>>& changes, const py::sequence& own,
+                   const std::string& folder_path, int threads, std::size_t shard, std::size_t shards, bool retry,
                    bool extend, bool mix_versions, const py::object& told) {
   const std::unique_lock alone(one_study, std::try_to_lock);
   if (!alone) throw std::runtime_error("another study is running in this process");
@@ -102,7 +108,8 @@ py::dict run_study(const std::string& path, const std::optional<std::string>& te
   const auto loaded = text ? parse_study(path, *text, overrides) : load_study(path, overrides);
   if (!loaded.ok()) refuse(loaded.problems);
   const Study& study = loaded.study;
-  const Wanted wanted{folder_path.empty() ? "out/" + study.name : folder_path, threads, {shard, shards}, retry, extend, mix_versions};
+  const Wanted wanted{
+      folder_path.empty() ? "out/" + study.name : folder_path, threads, {shard, shards}, retry, extend, mix_versions};
   const Folder folder{wanted.folder};
   py::dict told_back;
   Standing standing;
@@ -136,8 +143,9 @@ py::dict run_study(const std::string& path, const std::optional<std::string>& te
 }  // namespace
 
 void bind_study(py::module_& m) {
-  m.def("study", &run_study, py::arg("path"), py::arg("text"), py::arg("changes"), py::arg("controllers"), py::arg("folder"), py::arg("threads"),
-        py::arg("shard"), py::arg("shards"), py::arg("retry"), py::arg("extend"), py::arg("mix_versions"), py::arg("told"));
+  m.def("study", &run_study, py::arg("path"), py::arg("text"), py::arg("changes"), py::arg("controllers"),
+        py::arg("folder"), py::arg("threads"), py::arg("shard"), py::arg("shards"), py::arg("retry"), py::arg("extend"),
+        py::arg("mix_versions"), py::arg("told"));
 }
 
 }  // namespace banyan::python

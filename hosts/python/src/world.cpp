@@ -19,18 +19,26 @@ namespace {
 class PyWorld {
  public:
   PyWorld(const PyScenario& scenario, bool measured)
-      : algorithms_(scenario.algorithms), configuration_(scenario.configuration), world(scenario.configuration.scenario) {
+      : algorithms_(scenario.algorithms),
+        configuration_(scenario.configuration),
+        world(scenario.configuration.scenario) {
     if (measured) observer_.emplace(world);
   }
   // As the other is now. A copy's measures begin where those of the other are, by the same ticks.
-  explicit PyWorld(const PyWorld& other) : algorithms_(other.algorithms_), configuration_(other.configuration_), world(other.idle()) {
-    if (other.observer_) throw std::invalid_argument("a world that is measured cannot be copied: measures belong to one run");
+  explicit PyWorld(const PyWorld& other)
+      : algorithms_(other.algorithms_), configuration_(other.configuration_), world(other.idle()) {
+    if (other.observer_)
+      throw std::invalid_argument("a world that is measured cannot be copied: measures belong to one run");
     broken_ = other.broken_;
   }
 
-  void step(std::size_t ticks, int threads) {
+  void step(std::int64_t ticks, int threads) {
+    if (ticks < 0) throw py::value_error("ticks: is " + std::to_string(ticks) + "; at least 0");
+    if (threads < 1) throw py::value_error("threads: is " + std::to_string(threads) + "; at least 1");
     const Busy busy(stepping_, "this world");
-    if (broken_) throw std::runtime_error("this world is worthless since its controller has failed; make another, or copy it before");
+    if (broken_)
+      throw std::runtime_error(
+          "this world is worthless since its controller has failed; make another, or copy it before");
     if (!team_ || team_->threads() != threads) team_ = std::make_unique<world::Executor>(threads);
     const py::gil_scoped_release others;
     CtrlC interrupt;
@@ -49,7 +57,8 @@ class PyWorld {
     const config::Configuration& c = configuration_;
     const py::gil_scoped_release others;
     CtrlC interrupt;
-    record::Recorder recorder(path, {config::config_json(c), std::string(version), std::string(git_id()), c.scenario.seed});
+    record::Recorder recorder(path,
+                              {config::config_json(c), std::string(version), std::string(git_id()), c.scenario.seed});
     measure::Observer observer(world);
     recorder.frame(world, measure::at_start(world));
     while (!observer.finished() && world.time_s() < until_s) {
@@ -81,7 +90,8 @@ class PyWorld {
 
   // What is rebuilt in a step must not be read meanwhile. The interpreter's lock is held: none begins now.
   [[nodiscard]] const world::World& idle() const {
-    if (stepping_) throw std::runtime_error("this world is being stepped, by another thread or from within a controller");
+    if (stepping_)
+      throw std::runtime_error("this world is being stepped, by another thread or from within a controller");
     return world;
   }
   [[nodiscard]] const measure::Observer& observer() const {
@@ -117,16 +127,15 @@ class PyWorld {
 
 py::ssize_t robots(const PyWorld& w) { return static_cast<py::ssize_t>(w.world.size()); }
 
-template <class Rows>
-py::array pairs_view(const py::object& self, Rows rows) {
+template <class Rows> py::array pairs_view(const py::object& self, Rows rows) {
   const auto data = rows(self.cast<const PyWorld&>());
   static_assert(sizeof(world::Vec2) == 2 * sizeof(double));
-  return view_of(py::dtype::of<double>(), {static_cast<py::ssize_t>(data.size()), 2}, {2 * sizeof(double), sizeof(double)}, data.data(), self);
+  return view_of(py::dtype::of<double>(), {static_cast<py::ssize_t>(data.size()), 2},
+                 {2 * sizeof(double), sizeof(double)}, data.data(), self);
 }
 
 // A member of every report, where it lies.
-template <class T>
-py::array report_view(const py::object& self, std::size_t offset) {
+template <class T> py::array report_view(const py::object& self, std::size_t offset) {
   const auto& w = self.cast<const PyWorld&>();
   const auto* const first = reinterpret_cast<const std::byte*>(w.world.reports().data()) + offset;
   return view_of(py::dtype::of<T>(), {robots(w)}, {static_cast<py::ssize_t>(sizeof(Report))}, first, self);
@@ -134,7 +143,8 @@ py::array report_view(const py::object& self, std::size_t offset) {
 // Ids as int16: nobody is -1. Where there are more robots than that holds, as they are.
 py::array id_view(const py::object& self, std::size_t offset) {
   static_assert(sizeof(RobotId) == 2);
-  return robots(self.cast<const PyWorld&>()) < 32768 ? report_view<std::int16_t>(self, offset) : report_view<std::uint16_t>(self, offset);
+  return robots(self.cast<const PyWorld&>()) < 32768 ? report_view<std::int16_t>(self, offset)
+                                                     : report_view<std::uint16_t>(self, offset);
 }
 
 py::array_t<std::int32_t> links_of(const PyWorld& w) {
@@ -170,12 +180,15 @@ PyFrame frame_of(const PyWorld& w) {
 }
 
 py::dict result_of(const PyWorld& w) {
-  const record::RunRow row{record::identify(w.world.scenario(), version, git_id()), w.observer().result(w.world), !w.observer().finished()};
+  const record::RunRow row{record::identify(w.world.scenario(), version, git_id()), w.observer().result(w.world),
+                           !w.observer().finished()};
   return row_of<record::RunRow>(record::run_columns(), row);
 }
 
 std::string message_of(const PyWorld& w, std::size_t robot) {
-  if (robot >= w.idle().size()) throw py::index_error("there is no robot " + std::to_string(robot) + ": the world has " + std::to_string(w.idle().size()));
+  if (robot >= w.idle().size())
+    throw py::index_error("there is no robot " + std::to_string(robot) + ": the world has " +
+                          std::to_string(w.idle().size()));
   return record::message_json(w.idle().swarm(), robot);
 }
 
@@ -186,25 +199,37 @@ PyScenario scenario_of(const PyWorld& w) {
 }
 
 void bind_arrays(py::class_<PyWorld>& c) {
-  c.def_property_readonly("positions", [](const py::object& s) { return pairs_view(s, [](const PyWorld& w) { return w.world.positions(); }); })
-      .def_property_readonly("headings", [](const py::object& s) { return pairs_view(s, [](const PyWorld& w) { return w.world.headings(); }); })
-      .def_property_readonly("roles", [](const py::object& s) { return report_view<std::uint8_t>(s, offsetof(Report, role)); })
+  c.def_property_readonly(
+       "positions",
+       [](const py::object& s) { return pairs_view(s, [](const PyWorld& w) { return w.world.positions(); }); })
+      .def_property_readonly(
+          "headings",
+          [](const py::object& s) { return pairs_view(s, [](const PyWorld& w) { return w.world.headings(); }); })
+      .def_property_readonly("roles",
+                             [](const py::object& s) { return report_view<std::uint8_t>(s, offsetof(Report, role)); })
       .def_property_readonly("parents", [](const py::object& s) { return id_view(s, offsetof(Report, parent)); })
-      .def_property_readonly("old_parents", [](const py::object& s) { return id_view(s, offsetof(Report, old_parent)); })
+      .def_property_readonly("old_parents",
+                             [](const py::object& s) { return id_view(s, offsetof(Report, old_parent)); })
       .def_property_readonly("serves", [](const py::object& s) { return id_view(s, offsetof(Report, serves)); })
       .def_property_readonly("roots", [](const py::object& s) { return id_view(s, offsetof(Report, root)); })
-      .def_property_readonly("alive", [](const py::object& s) {
-        const auto alive = s.cast<const PyWorld&>().world.alive();
-        return view_of(py::dtype::of<bool>(), {static_cast<py::ssize_t>(alive.size())}, {1}, alive.data(), s);
-      })
+      .def_property_readonly("alive",
+                             [](const py::object& s) {
+                               const auto alive = s.cast<const PyWorld&>().world.alive();
+                               return view_of(py::dtype::of<bool>(), {static_cast<py::ssize_t>(alive.size())}, {1},
+                                              alive.data(), s);
+                             })
       .def_property_readonly("links", &links_of)
       .def_property_readonly("targets", &targets_of)
-      .def("neighbours", [](const PyWorld& w, std::size_t i) {
-        if (i >= w.world.size()) throw py::index_error("there is no robot " + std::to_string(i));
-        const auto links = w.idle().links(i);
-        return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(links.size()), links.data());
-      }, py::arg("robot"))
-      .def("holder", [](const PyWorld& w, std::size_t target) { return w.idle().holder(target); }, py::arg("target"));
+      .def(
+          "neighbours",
+          [](const PyWorld& w, std::size_t i) {
+            if (i >= w.world.size()) throw py::index_error("there is no robot " + std::to_string(i));
+            const auto links = w.idle().links(i);
+            return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(links.size()), links.data());
+          },
+          py::arg("robot"))
+      .def(
+          "holder", [](const PyWorld& w, std::size_t target) { return w.idle().holder(target); }, py::arg("target"));
 }
 
 }  // namespace
@@ -225,7 +250,8 @@ void bind_world(py::module_& m) {
       .def_property_readonly("packets_sent", [](const PyWorld& w) { return w.world.packets_sent(); })
       .def_property_readonly("packets_received", [](const PyWorld& w) { return w.world.packets_received(); })
       .def_property_readonly("finished", [](const PyWorld& w) { return w.observer().finished(); })
-      .def("metrics_row", [](const PyWorld& w) { return row_of<measure::Tick>(record::series_columns(), w.observer().last()); })
+      .def("metrics_row",
+           [](const PyWorld& w) { return row_of<measure::Tick>(record::series_columns(), w.observer().last()); })
       .def("result_row", &result_of)
       .def("message_json", &message_of, py::arg("robot"))
       .def("frame", &frame_of)

@@ -81,7 +81,7 @@ def test_what_is_sensed_is_the_truth_in_the_own_frame(small):
         truth = rotated_back(world.headings[i], world.positions[others] - world.positions[i])
         assert np.allclose(seen.position[i, : seen.heard[i]], truth, atol=1e-5)
         assert np.array_equal(seen.message[i, : seen.heard[i]], [[j, 1] for j in others])  # of the tick before
-        assert (seen.sender[i, seen.heard[i]:] == -1).all() and not seen.position[i, seen.heard[i]:].any()
+        assert (seen.sender[i, seen.heard[i] :] == -1).all() and not seen.position[i, seen.heard[i] :].any()
     workers = np.flatnonzero(seen.sent)
     assert np.array_equal(workers, policy.swarm.workers) and len(workers) == 3
     for i in workers:
@@ -100,7 +100,9 @@ def test_of_many_neighbours_the_nearest_are_heard(small):
     for i in range(len(world)):
         assert np.array_equal(seen.sender[i], np.sort(np.argsort(distance[i])[1:5]))
     offsets, sender, position, message = seen.ragged()
-    assert np.array_equal(np.diff(offsets), seen.heard) and np.array_equal(sender[offsets[3]: offsets[4]], seen.sender[3])
+    assert np.array_equal(np.diff(offsets), seen.heard) and np.array_equal(
+        sender[offsets[3] : offsets[4]], seen.sender[3]
+    )
     assert position.shape == (18 * 4, 2) and message.shape == (18 * 4, 2)
 
 
@@ -117,12 +119,18 @@ def test_robots_do_what_was_decided():
         def step(self, seen):
             return np.tile([0.05, 0.4], (len(seen.sent), 1))
 
-    world = banyan.World("scenarios/three-targets.toml", controller=Turn, set={"swarm.start.pitch_m": 0.9, "swarm.robots": 5, "radio.range_m": 4})
+    world = banyan.World(
+        "scenarios/three-targets.toml",
+        controller=Turn,
+        set={"swarm.start.pitch_m": 0.9, "swarm.robots": 5, "radio.range_m": 4},
+    )
     world.step()
     before = world.positions.copy(), world.headings.copy()
     world.step(10)
-    turned = np.arctan2(*np.array([np.cross(before[1][i], world.headings[i]) for i in range(5)]).reshape(1, -1),
-                        np.einsum("ij,ij->i", before[1], world.headings))
+    turned = np.arctan2(
+        *np.array([np.cross(before[1][i], world.headings[i]) for i in range(5)]).reshape(1, -1),
+        np.einsum("ij,ij->i", before[1], world.headings),
+    )
     assert np.allclose(turned, 0.4, atol=1e-3)
     chord = 2 * 0.05 / 0.4 * np.sin(0.2)
     assert np.allclose(np.linalg.norm(world.positions - before[0], axis=1), chord, atol=1e-3)
@@ -133,7 +141,11 @@ def test_what_the_wheels_cannot_do_is_shortened():
         def step(self, seen):
             return np.tile([10.0, 0.0], (len(seen.sent), 1))
 
-    world = banyan.World("scenarios/three-targets.toml", controller=Fast, set={"swarm.start.pitch_m": 0.9, "swarm.robots": 5, "radio.range_m": 4})
+    world = banyan.World(
+        "scenarios/three-targets.toml",
+        controller=Fast,
+        set={"swarm.start.pitch_m": 0.9, "swarm.robots": 5, "radio.range_m": 4},
+    )
     world.step()
     before = world.positions.copy()
     world.step()
@@ -141,7 +153,9 @@ def test_what_the_wheels_cannot_do_is_shortened():
 
 
 def test_one_by_one_and_all_at_once_are_the_same(small):
-    hashes = {banyan.run(small, controller=kind, set={"mission.time_limit_s": 20}).hash for kind in (Wander, WanderAlone)}
+    hashes = {
+        banyan.run(small, controller=kind, set={"mission.time_limit_s": 20}).hash for kind in (Wander, WanderAlone)
+    }
     assert len(hashes) == 1
 
 
@@ -172,7 +186,7 @@ def test_measures_count_what_robots_report(small):
             parent = np.arange(n) - 1
             role = np.full(n, banyan.Role.CONNECTOR)
             role[0] = banyan.Role.ROOT
-            role[n - 2:] = banyan.Role.SPARE
+            role[n - 2 :] = banyan.Role.SPARE
             return {"velocity": np.zeros((n, 2)), "parent": parent, "role": role}
 
     world = banyan.World(small, controller=Chain, measure=True)
@@ -185,7 +199,10 @@ def test_measures_count_what_robots_report(small):
 def test_roles_are_as_the_mission_sent_them_unless_said(small):
     world = banyan.World(small, controller=Still)
     sent = banyan.World(small)
-    assert np.array_equal(np.flatnonzero(world.roles == 2), np.flatnonzero(world.serves >= 0)) and (world.roles == 3).sum() == 1
+    assert (
+        np.array_equal(np.flatnonzero(world.roles == 2), np.flatnonzero(world.serves >= 0))
+        and (world.roles == 3).sum() == 1
+    )
     world.step(5)
     assert (world.roles == 2).sum() == 3 and (world.roles == 1).sum() == 14 and np.allclose(sent.targets, world.targets)
 

@@ -16,7 +16,10 @@ def test_the_page_runs(tmp_path, monkeypatch, capsys):
         (tmp_path / folder).symlink_to(HOUSE / folder)
     monkeypatch.chdir(tmp_path)
     page = (HOUSE / "docs" / "python.md").read_text(encoding="utf-8")
-    blocks = [(page[: found.start()].count("\n") + 2, found[1]) for found in re.finditer(r"```python\n(.*?)```", page, re.DOTALL)]
+    blocks = [
+        (page[: found.start()].count("\n") + 2, found[1])
+        for found in re.finditer(r"```python\n(.*?)```", page, re.DOTALL)
+    ]
     assert len(blocks) >= 8
     names: dict = {}
     for line, block in blocks:

@@ -46,7 +46,12 @@ def test_the_same_bits_as_a_policy_in_a_world(threads):
 
 
 def test_rewards_and_ends():
-    env = banyan.BatchEnv("scenarios/three-targets.toml", 3, set={**KEYS, "mission.time_limit_s": 25}, reward={"progress_m": 1.0, "done": 10.0})
+    env = banyan.BatchEnv(
+        "scenarios/three-targets.toml",
+        3,
+        set={**KEYS, "mission.time_limit_s": 25},
+        reward={"progress_m": 1.0, "done": 10.0},
+    )
     seen = env.reset(seed=1)
     first = [np.linalg.norm(env.positions(e)[seen.sent[e]], axis=1) for e in range(3)]
     total = np.zeros((3, 9))
@@ -131,13 +136,21 @@ def test_nonsense_is_refused_and_does_no_harm():
         env.step(np.zeros((2, 9, 2)))
     env.reset()
     before = env.hash(0)
-    for wrong, words in ((np.zeros((9, 2)), "needed is"), (np.full((2, 9, 2), np.nan), r"at \(0, 0, 0\) is nan"),
-                         (banyan.Actions(np.zeros((2, 9, 2)), message=np.zeros((2, 9, 0))), "there are none")):
+    for wrong, words in (
+        (np.zeros((9, 2)), "needed is"),
+        (np.full((2, 9, 2), np.nan), r"at \(0, 0, 0\) is nan"),
+        (banyan.Actions(np.zeros((2, 9, 2)), message=np.zeros((2, 9, 0))), "there are none"),
+    ):
         with pytest.raises(banyan.ActionError, match=words):
             env.step(wrong)
     assert env.hash(0) == before
-    for keys, words in ((dict(num_envs=0), "num_envs"), (dict(max_neighbours=0), "max_neighbours"), (dict(threads=0), "threads"),
-                        (dict(base="convey"), "no algorithm"), (dict(set={"clocks.asynchronous": True}), "asynchronous")):
+    for keys, words in (
+        (dict(num_envs=0), "num_envs"),
+        (dict(max_neighbours=0), "max_neighbours"),
+        (dict(threads=0), "threads"),
+        (dict(base="convey"), "no algorithm"),
+        (dict(set={"clocks.asynchronous": True}), "asynchronous"),
+    ):
         with pytest.raises(ValueError, match=words):
             banyan.BatchEnv("scenarios/three-targets.toml", **keys)
 
@@ -158,9 +171,13 @@ def test_convoy_beneath():
 def test_parallel_environment():
     env = banyan.ParallelEnv("scenarios/three-targets.toml", set={**KEYS, "mission.time_limit_s": 3}, message_floats=1)
     observations, infos = env.reset(seed=5)
-    assert env.agents == env.possible_agents == [f"robot_{i}" for i in range(9)] and set(observations) == set(infos) == set(env.agents)
+    assert env.agents == env.possible_agents == [f"robot_{i}" for i in range(9)] and set(observations) == set(
+        infos
+    ) == set(env.agents)
     space = env.action_space("robot_0")
-    assert space.shape == (3,) and space.contains(space.sample()) and not space.contains(np.array([9.0, 0, 0], np.float32))
+    assert (
+        space.shape == (3,) and space.contains(space.sample()) and not space.contains(np.array([9.0, 0, 0], np.float32))
+    )
     assert env.observation_space("robot_3").contains(observations["robot_3"])
     steps = 0
     while env.agents:

@@ -14,10 +14,16 @@ HOUSE = Path(__file__).resolve().parents[3]
 
 @pytest.mark.skipif("BANYAN_BUILD" not in os.environ, reason="no BANYAN_BUILD names a build")
 def test_a_wheel_in_an_environment(tmp_path):
-    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "BANYAN_PROGRAM", "PYTHONDONTWRITEBYTECODE")}
+    environment = {
+        name: value
+        for name, value in os.environ.items()
+        if name not in ("PYTHONPATH", "BANYAN_PROGRAM", "PYTHONDONTWRITEBYTECODE")
+    }
 
     def call(*command, folder=HOUSE):
-        done = subprocess.run([str(word) for word in command], cwd=folder, env=environment, capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [str(word) for word in command], cwd=folder, env=environment, capture_output=True, text=True, check=False
+        )
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout
 
@@ -29,7 +35,14 @@ def test_a_wheel_in_an_environment(tmp_path):
     call(sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv")
     python = tmp_path / "venv" / "bin" / "python"
     call(python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--disable-pip-version-check", source)
-    told = call(python, "-c", "import banyan; print(banyan.__file__); r = banyan.run('scenarios/three-targets.toml'); print(r.complete); "
-                "print(banyan.places.program()); print(r.film('x.gif', width=240, height=160, fps=5))", folder=tmp_path).split()
-    assert told[0].startswith(str(tmp_path / "venv")) and told[1] == "True" and told[2].startswith(str(tmp_path / "venv"))
+    told = call(
+        python,
+        "-c",
+        "import banyan; print(banyan.__file__); r = banyan.run('scenarios/three-targets.toml'); print(r.complete); "
+        "print(banyan.places.program()); print(r.film('x.gif', width=240, height=160, fps=5))",
+        folder=tmp_path,
+    ).split()
+    assert (
+        told[0].startswith(str(tmp_path / "venv")) and told[1] == "True" and told[2].startswith(str(tmp_path / "venv"))
+    )
     assert (tmp_path / "x.gif").read_bytes()[:4] == b"GIF8"

@@ -21,7 +21,18 @@ CASES = [
 @pytest.mark.parametrize("file,algorithm,seed,keys", CASES)
 def test_same_bits_as_the_program(file, algorithm, seed, keys, command, tmp_path):
     sets = [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
-    program = command("run", file, "--set", f"mission.algorithm={algorithm}", "--seed", seed, *sets, "--json", "--out", tmp_path / "run")["result"]
+    program = command(
+        "run",
+        file,
+        "--set",
+        f"mission.algorithm={algorithm}",
+        "--seed",
+        seed,
+        *sets,
+        "--json",
+        "--out",
+        tmp_path / "run",
+    )["result"]
     result = banyan.run(file, algorithm=algorithm, seed=seed, set=keys)
     assert f"{result.hash:016x}" == program["hash"]
     for column, value in program.items():
@@ -29,7 +40,10 @@ def test_same_bits_as_the_program(file, algorithm, seed, keys, command, tmp_path
 
 
 def test_a_seed_more_is_another_run():
-    hashes = {banyan.run("scenarios/three-targets.toml", seed=seed, set={"mission.time_limit_s": 1}).hash for seed in (1, 2, 3)}
+    hashes = {
+        banyan.run("scenarios/three-targets.toml", seed=seed, set={"mission.time_limit_s": 1}).hash
+        for seed in (1, 2, 3)
+    }
     assert len(hashes) == 3
 
 
@@ -97,8 +111,12 @@ def test_parameters_change_what_happens():
 
 
 def test_ctrl_c_ends_a_run_and_a_world():
-    for call in (lambda: banyan.run("scenarios/swarm-1000.toml", set={"mission.time_limit_s": 1e6, "mission.stop_when_complete": False}),
-                 lambda: banyan.World("scenarios/paper-large.toml").step(10**9)):
+    for call in (
+        lambda: banyan.run(
+            "scenarios/swarm-1000.toml", set={"mission.time_limit_s": 1e6, "mission.stop_when_complete": False}
+        ),
+        lambda: banyan.World("scenarios/paper-large.toml").step(10**9),
+    ):
         timer = threading.Timer(0.3, signal.raise_signal, [signal.SIGINT])
         timer.start()
         begun = time.monotonic()
@@ -110,7 +128,9 @@ def test_ctrl_c_ends_a_run_and_a_world():
 
 def test_progress_is_told_and_may_raise():
     told = []
-    scenario = banyan.Scenario("scenarios/paper-large.toml", set={"mission.stop_when_complete": False, "mission.time_limit_s": 100000})
+    scenario = banyan.Scenario(
+        "scenarios/paper-large.toml", set={"mission.stop_when_complete": False, "mission.time_limit_s": 100000}
+    )
 
     def stop(share, time_s):
         told.append((share, time_s))

@@ -22,14 +22,16 @@ STUDY = {
 
 def text_of(study, folder):
     path = folder / "small.toml"
-    path.write_text(f"""name = "small"
+    path.write_text(
+        f"""name = "small"
 scenario = "{banyan.places.Path.cwd()}/scenarios/three-targets.toml"
 seeds = "1-4"
 [[axes]]
 name = "algorithm"
 key = "mission.algorithm"
 values = ["convoy", "inwards"]
-""")
+"""
+    )
     return path
 
 
@@ -71,7 +73,9 @@ def test_a_controller_beside_the_others(tmp_path):
             return self.swarm.drive(np.where(seen.has_target[:, None], seen.target, 0))
 
     study = {**STUDY, "axes": [{"key": "mission.algorithm", "values": ["convoy", "straight"], "name": "algorithm"}]}
-    table = banyan.study(study, out=tmp_path / "s", controllers={"straight": Straight}, threads=2, progress=False, pandas=False)
+    table = banyan.study(
+        study, out=tmp_path / "s", controllers={"straight": Straight}, threads=2, progress=False, pandas=False
+    )
     mine = table["algorithm"] == "straight"
     assert mine.sum() == 4 and not table["complete"][mine].any() and table["complete"][~mine].all()
     assert (table["split_ticks"][mine] > 0).all()
@@ -100,13 +104,20 @@ def test_ctrl_c_stops_and_the_same_call_resumes(tmp_path):
 
 
 def test_what_is_wrong_is_said(tmp_path):
-    for change, words in (({"seeds": "4-1"}, "seeds"), ({"axis": []}, "axes"), ({"scenario": "scenarios/none.toml"}, "none.toml")):
+    for change, words in (
+        ({"seeds": "4-1"}, "seeds"),
+        ({"axis": []}, "axes"),
+        ({"scenario": "scenarios/none.toml"}, "none.toml"),
+    ):
         with pytest.raises(banyan.ScenarioError, match=words):
             banyan.study({**STUDY, **change}, out=tmp_path / "s", progress=False)
     banyan.study({**STUDY, "seeds": [1]}, out=tmp_path / "s", progress=False)
     with pytest.raises(ValueError, match="another plan"):
         banyan.study({**STUDY, "seeds": [1, 2]}, out=tmp_path / "s", progress=False)
-    assert len(banyan.study({**STUDY, "seeds": [1, 2]}, out=tmp_path / "s", progress=False, extend=True, pandas=False)) == 4
+    assert (
+        len(banyan.study({**STUDY, "seeds": [1, 2]}, out=tmp_path / "s", progress=False, extend=True, pandas=False))
+        == 4
+    )
     with pytest.raises(ValueError, match="shard"):
         banyan.study(STUDY, shard=(3, 2))
     with pytest.raises(OSError):
@@ -133,7 +144,11 @@ def test_a_recording_as_arrays(tmp_path):
     assert np.allclose(np.cos(recording.headings_rad), tracks["headings"][..., 0], atol=1e-3)
     assert np.array_equal(recording.series["targets_reached"][-10:], result.series["targets_reached"][-10:])
     assert "target_reached" in set(recording.events["kind"]) or len(recording.events) > 3
-    assert recording.result["hash"] == result["hash"] and recording.config["name"] == "three-targets" and recording.seed == 1
+    assert (
+        recording.result["hash"] == result["hash"]
+        and recording.config["name"] == "three-targets"
+        and recording.seed == 1
+    )
     frame = recording.at(9.0)
     assert frame.time_s == pytest.approx(9.0) and frame.columns()["x_m"].shape == (18,)
     assert frame._repr_svg_().startswith("<svg") and recording._repr_svg_().startswith("<svg")

@@ -39,7 +39,9 @@ def test_arrays_show_the_present_without_copies(small):
     world.step(50)
     assert not np.array_equal(before, positions) and np.array_equal(positions, world.positions)
     assert np.shares_memory(positions, world.positions)
-    assert roles.dtype == np.uint8 and sorted(set(roles.tolist())) == sorted(set(world.frame().columns()["role"].astype(int).tolist()))
+    assert roles.dtype == np.uint8 and sorted(set(roles.tolist())) == sorted(
+        set(world.frame().columns()["role"].astype(int).tolist())
+    )
     assert np.array_equal(parents, world.frame().columns()["parent"].astype(int))
     assert np.allclose(np.hypot(*world.headings.T), 1) and world.alive.all()
 
@@ -102,8 +104,12 @@ def test_interventions_are_events_of_the_scenario(small):
     world.intervene("add_target", position_m=[0, 3])
     world.step()
     assert len(world.targets) == 4
-    for wrong, words in ((dict(kind="kil"), "kill"), (dict(kind="die", robot=18), "robot"), (dict(kind="set_loss", loss=2), "loss"),
-                         (dict(kind="die", robot=1, time_s=3), "now")):
+    for wrong, words in (
+        (dict(kind="kil"), "kill"),
+        (dict(kind="die", robot=18), "robot"),
+        (dict(kind="set_loss", loss=2), "loss"),
+        (dict(kind="die", robot=1, time_s=3), "now"),
+    ):
         with pytest.raises(banyan.ScenarioError, match=words):
             world.intervene(**wrong)
 
@@ -170,6 +176,17 @@ def test_what_was_not_measured_is_not_told(small):
         banyan.World(small).metrics
     with pytest.raises(ValueError, match="measured"):
         banyan.World(small, measure=True).copy()
+
+
+def test_steps_are_whole_and_forwards(small):
+    world = banyan.World(small)
+    world.step(0)
+    assert world.tick == 0
+    for wrong in (dict(ticks=-1), dict(threads=0)):
+        with pytest.raises(ValueError, match="at least"):
+            world.step(**wrong)
+    with pytest.raises(TypeError):
+        world.step(1.5)
 
 
 def test_pictures(small):

@@ -34,7 +34,9 @@ enum class Field : std::uint8_t {
 inline constexpr std::size_t fields_count = static_cast<std::size_t>(Field::count);
 
 enum class Item : std::uint8_t { flag, byte, small, whole, real };  // bool, uint8, int8, int32, float32
-[[nodiscard]] constexpr std::size_t size_of(Item item) noexcept { return item == Item::whole || item == Item::real ? 4 : 1; }
+[[nodiscard]] constexpr std::size_t size_of(Item item) noexcept {
+  return item == Item::whole || item == Item::real ? 4 : 1;
+}
 
 // Axes of a field behind that of the robots.
 enum class Axis : std::uint8_t { none, two, three, neighbours, payload, obstacles, kept };
@@ -45,7 +47,8 @@ struct FieldInfoOf {
   const char* meaning;
   Item item;
   std::array<Axis, 2> axes;
-  bool decided;  // written by who decides, not sensed
+  bool decided;              // written by who decides, not sensed
+  std::int8_t blank = 0;     // while nothing else is known
 };
 // In the order of Field.
 [[nodiscard]] std::span<const FieldInfoOf> fields() noexcept;
@@ -54,7 +57,9 @@ struct FieldInfoOf {
 // The arrays of one swarm.
 class Exchange {
  public:
-  template <class T> [[nodiscard]] T* of(Field field) const noexcept { return reinterpret_cast<T*>(at_[static_cast<std::size_t>(field)]); }
+  template <class T> [[nodiscard]] T* of(Field field) const noexcept {
+    return reinterpret_cast<T*>(at_[static_cast<std::size_t>(field)]);
+  }
 
  private:
   friend class Block;
@@ -63,12 +68,14 @@ class Exchange {
 
 class Block {
  public:
-  // All zero; senders, parents and links nobody.
+  // All fields blank.
   explicit Block(const Shape& shape, std::size_t swarms = 1);
   [[nodiscard]] const Shape& shape() const noexcept { return shape_; }
   [[nodiscard]] std::size_t swarms() const noexcept { return swarms_; }
   [[nodiscard]] Exchange exchange(std::size_t swarm) noexcept;
-  [[nodiscard]] std::byte* data(Field field) noexcept { return memory_.data() + offsets_[static_cast<std::size_t>(field)]; }
+  [[nodiscard]] std::byte* data(Field field) noexcept {
+    return memory_.data() + offsets_[static_cast<std::size_t>(field)];
+  }
   [[nodiscard]] std::size_t bytes_per_swarm(Field field) const noexcept;
   // Something has been decided for this swarm that its robots do not do yet.
   [[nodiscard]] std::uint8_t& decided(std::size_t swarm) noexcept { return decided_[swarm]; }

@@ -36,18 +36,23 @@ class OutsideSwarm final : public Swarm {
 
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override;
   [[nodiscard]] std::size_t size() const noexcept override { return members_.size(); }
-  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) override;
+  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
+            std::span<Report> reports) override;
   void decide(std::span<Velocity> commands, std::span<Report> reports) override;
   void advance() noexcept override;
   std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override;
   [[nodiscard]] std::size_t message_bytes() const noexcept override;
   // Nobody outside speaks this language.
   std::optional<std::uint32_t> receive(std::span<const std::uint8_t> /*bytes*/) override { return std::nullopt; }
-  [[nodiscard]] Report report(std::size_t i) const noexcept override { return beneath_ ? beneath_->report(i) : reports_[i]; }
+  [[nodiscard]] Report report(std::size_t i) const noexcept override {
+    return beneath_ ? beneath_->report(i) : reports_[i];
+  }
   void add_to(Digest& digest, std::size_t i) const noexcept override;
   [[nodiscard]] std::span<const FieldInfo> message_fields() const noexcept override;
   void message_numbers(std::size_t i, std::span<double> numbers) const noexcept override;
-  void set_line_of_sight(bool on) noexcept override { if (beneath_) beneath_->set_line_of_sight(on); }
+  void set_line_of_sight(bool on) noexcept override {
+    if (beneath_) beneath_->set_line_of_sight(on);
+  }
   [[nodiscard]] std::size_t memory_bytes() const noexcept override;
 
  private:
@@ -58,22 +63,26 @@ class OutsideSwarm final : public Swarm {
   [[nodiscard]] Velocity velocity_of(std::size_t i) const noexcept;
   void report_of(std::size_t i, Report& report) const noexcept;
   // Where the messages of `age` ticks ago begin; those of this tick are written to slot_.
-  [[nodiscard]] std::size_t slot_of(std::size_t age) const noexcept { return (slot_ + slots_.size() - age) % slots_.size(); }
-  [[nodiscard]] const std::uint8_t* said(std::size_t slot, std::size_t i) const noexcept { return slots_[slot].data() + i * payload_; }
+  [[nodiscard]] std::size_t slot_of(std::size_t age) const noexcept {
+    return (slot_ + slots_.size() - age) % slots_.size();
+  }
+  [[nodiscard]] const std::uint8_t* said(std::size_t slot, std::size_t i) const noexcept {
+    return slots_[slot].data() + i * payload_;
+  }
 
   Platform platform_;
   std::vector<Member> members_;
-  std::vector<Report> reports_;                  // without an algorithm beneath
+  std::vector<Report> reports_;  // without an algorithm beneath
   std::size_t payload_, neighbours_;
-  std::vector<std::vector<std::uint8_t>> slots_; // a ring: what each robot sent, tick by tick
+  std::vector<std::vector<std::uint8_t>> slots_;  // a ring: what each robot sent, tick by tick
   std::size_t slot_ = 0;
-  bool in_tick_ = false;                         // it has stepped and not advanced yet
+  bool in_tick_ = false;  // it has stepped and not advanced yet
   std::shared_ptr<Block> block_;
-  std::size_t place_;                            // in the block
+  std::size_t place_;  // in the block
   std::unique_ptr<Swarm> beneath_;
   std::unique_ptr<Mind> mind_;
-  std::span<const FieldInfo> names_;             // of the payload's bytes or floats
-  Exchange exchange_;                            // its arrays
+  std::span<const FieldInfo> names_;  // of the payload's bytes or floats
+  Exchange exchange_;                 // its arrays
 };
 
 // How such an algorithm is described.
