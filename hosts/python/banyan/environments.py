@@ -155,7 +155,7 @@ class BatchEnv:
         self, actions: Actions | Mapping[str, Any] | np.ndarray
     ) -> tuple[Observations, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
         """One tick of all worlds. Actions have shapes (E, N, ...). Returns observations; rewards (E, N) float32;
-        terminated (E,): the mission is complete; truncated (E,): its time is over; info: the metrics, and with
+        terminated (E,): the mission has ended complete; truncated (E,): its time is over; info: the metrics, and with
         auto_reset `ended`, the worlds that have begun anew."""
         if not self._ready:
             raise RuntimeError("reset() comes before step()")
@@ -170,8 +170,8 @@ class BatchEnv:
             raise ValueError(
                 f"reward: has shape {rewards.shape}; needed is {(self.num_envs,)} or {(self.num_envs, self.num_robots)}"
             )
-        terminated = now["complete"].copy()
-        truncated = now["finished"] & ~terminated
+        terminated = now["finished"] & now["complete"]
+        truncated = now["finished"] & ~now["complete"]
         info: dict[str, Any] = {"metrics": now}
         if self._auto_reset:
             info["ended"] = terminated | truncated

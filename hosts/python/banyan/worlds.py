@@ -62,7 +62,8 @@ class World(_core.World):
         super().__init__(made._core, measure)
 
     def copy(self) -> "World":
-        """The same world once more, its controllers' memory included. Both go on alike, bit for bit."""
+        """The same world once more, its controllers' memory included. Both go on alike, bit for bit. The copy is
+        not measured: measures are about a run from its start."""
         twin = World.__new__(World)
         _core.World.__init__(twin, self)
         twin._own = self._own

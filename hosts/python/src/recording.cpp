@@ -81,17 +81,14 @@ struct Film {
 
 py::dict arrays_of_recording(record::Recording& recording, std::size_t every) {
   Film film;
-  {
-    const py::gil_scoped_release others;
-    CtrlC interrupt;
-    recording.for_each(
-        [&](const record::Frame& frame) {
-          film.add(frame);
-          interrupt.check();
-          return true;
-        },
-        0.0, std::numeric_limits<double>::infinity(), every);
-  }
+  CtrlC interrupt;  // other threads wait: a recording is for one at a time
+  recording.for_each(
+      [&](const record::Frame& frame) {
+        film.add(frame);
+        interrupt.check();
+        return true;
+      },
+      0.0, std::numeric_limits<double>::infinity(), every);
   const auto frames = static_cast<py::ssize_t>(film.time_s.size());
   const auto robots = static_cast<py::ssize_t>(film.robots);
   py::dict arrays;

@@ -24,13 +24,12 @@ class PyWorld {
         world(scenario.configuration.scenario) {
     if (measured) observer_.emplace(world);
   }
-  // As the other is now. A copy's measures begin where those of the other are, by the same ticks.
+  // As the other is now. It is not measured, since measures are about a run from its start.
   explicit PyWorld(const PyWorld& other)
-      : algorithms_(other.algorithms_), configuration_(other.configuration_), world(other.idle()) {
-    if (other.observer_)
-      throw std::invalid_argument("a world that is measured cannot be copied: measures belong to one run");
-    broken_ = other.broken_;
-  }
+      : algorithms_(other.algorithms_),
+        configuration_(other.configuration_),
+        world(other.idle()),
+        broken_(other.broken_) {}
 
   void step(std::int64_t ticks, int threads) {
     if (ticks < 0) throw py::value_error("ticks: is " + std::to_string(ticks) + "; at least 0");
