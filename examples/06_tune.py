@@ -25,7 +25,7 @@ def cost(values, seeds):
 generations, population = (int(word) for word in sys.argv[1:3]) if len(sys.argv) > 2 else (8, 16)
 random = np.random.default_rng(1)
 mean = np.array([banyan.parameters("outwards")[key] for key in KEYS])
-first, spread = mean, 0.3 * mean
+first, spread = mean, 0.15 * mean
 for generation in range(generations):
     candidates = np.clip(random.normal(mean, spread, (population, len(KEYS))), low, high)
     costs = np.array([cost(candidate, seeds=(1, 2)) for candidate in candidates])

@@ -81,7 +81,7 @@ TEST(OutsideSwarm, BetweenTicksIsAsWithinThem) {
       ASSERT_EQ(a.hash(), b.hash()) << place << ", " << tick;
     }
     EXPECT_EQ(a.reports()[7].parent, 6);
-    EXPECT_GT(distance(a.positions()[0], world::World(scenario(place), within).positions()[0]), 0.1);
+    EXPECT_GT(distance(a.positions()[0], world::World(scenario(place), within).positions()[0]), 0.01);
   }
 }
 
