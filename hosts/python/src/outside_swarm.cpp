@@ -88,7 +88,6 @@ OutsideSwarm::OutsideSwarm(const OutsideSwarm& other)
       slot_(other.slot_),
       in_tick_(other.in_tick_),
       block_(std::make_shared<Block>(other.block_->shape())),
-      place_(0),
       beneath_(other.beneath_ ? other.beneath_->clone() : nullptr),
       mind_(other.mind_ ? other.mind_->clone() : nullptr),
       names_(other.names_),

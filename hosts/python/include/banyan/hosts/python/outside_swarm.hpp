@@ -78,7 +78,7 @@ class OutsideSwarm final : public Swarm {
   std::size_t slot_ = 0;
   bool in_tick_ = false;  // it has stepped and not advanced yet
   std::shared_ptr<Block> block_;
-  std::size_t place_;  // in the block
+  std::size_t place_ = 0;  // in the block
   std::unique_ptr<Swarm> beneath_;
   std::unique_ptr<Mind> mind_;
   std::span<const FieldInfo> names_;  // of the payload's bytes or floats
