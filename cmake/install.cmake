@@ -75,7 +75,7 @@ if(TARGET banyan_cli)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 endif()
 
-# cpack -G DEB: `banyan` (the program) and `libbanyan-dev` (what a developer links).
+# cpack -G DEB: `banyan` (the program), `libbanyan-dev` (what a developer links) and `python3-banyan`, where it is built.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME banyan)
 set(CPACK_PACKAGE_VENDOR "The Banyan authors")
@@ -83,6 +83,9 @@ set(CPACK_PACKAGE_CONTACT "The Banyan authors <maintainers@users.noreply.github.
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(TARGET banyan_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -97,11 +100,25 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbox2d-dev, libzstd-dev, libtoml
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION} (development files)
  The robot's program (controller), its algorithms, the simulated world, its measures and the
  writer of recordings, as static libraries with headers.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-banyan)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+# The module is for the interpreter that it was built with; scenarios and films come with the program.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "banyan, python3-numpy, python3 (>= 3.11), python3 (<< 3.12)")
+if(Python_VERSION_MAJOR)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "banyan, python3-numpy, python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor})")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION} (Python)
+ Runs, worlds, studies and recordings as arrays and tables; controllers of
+ your own, and environments for learning.")
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
 find_program(FILE_PROGRAM file)
 mark_as_advanced(DPKG_SHLIBDEPS FILE_PROGRAM)
 if(DPKG_SHLIBDEPS AND FILE_PROGRAM)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 else()
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
       "libc6, libstdc++6, libbox2d2, libzstd1, libtomlplusplus3, libpagmo8, libboost-serialization1.74.0, libopenmpi3, librsvg2-2, libcairo2, libcpp-httplib0.11")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Runs PROGRAM: it must exit with 0 and print something that matches the regular expression EXPECTED.
-execute_process(COMMAND ${PROGRAM} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+# Runs PROGRAM, with ARGUMENTS: it must exit with 0 and print something that matches the regular expression EXPECTED.
+execute_process(COMMAND ${PROGRAM} ${ARGUMENTS} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
 if(NOT status STREQUAL "0")
   message(FATAL_ERROR "exit status ${status}\n${output}${errors}")
 endif()

@@ -37,7 +37,11 @@ const std::map<std::string, Names, std::less<>> may_include = {
     {"hosts", {"controller", "algorithms"}},
     {"cli", {"controller", "algorithms", "world", "measure", "record", "config", "study", "hosts"}},
     {"viewer", {"controller", "algorithms", "world", "measure", "record", "config"}},
+    {"python", {"controller", "algorithms", "world", "measure", "record", "config", "study", "hosts"}},
 };
+
+// The one room that is not where its name says.
+fs::path folder_of(std::string_view room) { return room == "python" ? fs::path("hosts/python") : fs::path(room); }
 
 // Libraries that have one home: <prefix of the header> -> the rooms that know them.
 const std::map<std::string, Names, std::less<>> homes = {
@@ -55,6 +59,8 @@ const std::map<std::string, Names, std::less<>> homes = {
     {"mpi.h", {"study"}},
     {"sodium", {"hosts"}},
     {"emscripten", {"viewer"}},
+    {"pybind11/", {"python"}},
+    {"Python.h", {"python"}},
 };
 
 // The whole of the standard library that runs on a robot: no heap, no streams, no clock, no threads.
@@ -160,11 +166,12 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
 std::vector<std::string> faults(const fs::path& house) {
   std::vector<std::string> found;
   for (const auto& [room, allowed] : may_include) {
-    for (const fs::path& file : sources(house / room)) {
+    for (const fs::path& file : sources(house / folder_of(room))) {
       const std::string where = fs::relative(file, house).string();
-      const bool product = is_product(house / room, file);
+      if (room == "hosts" && where.starts_with("hosts/python/")) continue;
+      const bool product = is_product(house / folder_of(room), file);
       for (const Include& include : includes(file)) {
-        if (const auto what = fault(house / room, file, include, product)) found.push_back(where + ": " + include.name + " " + *what);
+        if (const auto what = fault(house / folder_of(room), file, include, product)) found.push_back(where + ": " + include.name + " " + *what);
       }
     }
   }
@@ -261,6 +268,14 @@ TEST_F(WrongHouse, AHostKnowsNoWorld) {
   std::filesystem::remove(house_ / "hosts/toy/src/x.cpp");
   EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/hosts/toy/x.hpp\""), "");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include <sodium.h>"), "world/src/x.cpp: sodium.h belongs into another room\n");
+}
+TEST_F(WrongHouse, PythonPutsAProgramTogether) {
+  EXPECT_EQ(faults_of("hosts/python/src/x.cpp", "#include <pybind11/pybind11.h>\n#include \"banyan/study/study.hpp\""), "");
+  EXPECT_EQ(faults_of("hosts/python/src/x.cpp", "#include \"banyan/cli/x.hpp\""), "hosts/python/src/x.cpp: banyan/cli/x.hpp points up\n");
+  EXPECT_EQ(faults_of("hosts/python/src/x.cpp", "#include \"banyan/controller/convoy/convoy.hpp\""),
+            "hosts/python/src/x.cpp: banyan/controller/convoy/convoy.hpp names an algorithm\n");
+  fs::remove(house_ / "hosts/python/src/x.cpp");
+  EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include <pybind11/numpy.h>"), "hosts/toy/src/x.cpp: pybind11/numpy.h belongs into another room\n");
 }
 TEST_F(WrongHouse, WorldIncludesMeasure) {
   EXPECT_NE(faults_of("world/include/banyan/world/x.hpp", "#include \"banyan/measure/metrics.hpp\""), "");

@@ -158,16 +158,6 @@ void check_builds(const Gathered& gathered, const StudyOptions& options) {
   }
 }
 
-std::vector<std::size_t> runs_to_do(const Plan& plan, const Shard& shard, const Outcomes& known, bool retry) {
-  std::vector<std::size_t> todo;
-  for (std::size_t run = 0; run < plan.runs.size(); ++run) {
-    if (!shard.holds(run)) continue;
-    const auto at = known.find(plan.runs[run].id);
-    if (at == known.end() || (retry && !at->second.error.empty())) todo.push_back(run);
-  }
-  return todo;
-}
-
 std::string plan_summary(const Prepared& prepared, const Shard& shard, std::size_t todo) {
   const auto& [study, plan] = prepared;
   std::string text = study.name + ": " + grouped(static_cast<double>(plan.rows.size())) + " runs\n";

@@ -4,6 +4,7 @@
 #include "banyan/config/config.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "banyan/world/faults.hpp"
 #include "scenario_reader.hpp"
@@ -90,6 +91,15 @@ Loaded load_configuration(const std::string& path, const AlgorithmList& algorith
   try {
     return parse_configuration(path, read_text_file(path), algorithms, overrides);
   } catch (const DocumentError& e) { return {{}, {e.problem}}; }
+}
+
+Loaded with_event(const Configuration& current, double now_s, Node event) {
+  const Place place = event.place;
+  event.table()->push_back({"time_s", Node{now_s, place}});
+  Node root = parse_document("intervention", config_json(current));
+  if (root.find("events") == nullptr) root.table()->push_back({"events", Node{Node::Array{}, place}});
+  root.find("events")->array()->push_back(std::move(event));
+  return configure(std::move(root), current.scenario.name, *current.scenario.algorithms);
 }
 
 }  // namespace banyan::config

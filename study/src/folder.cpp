@@ -64,6 +64,16 @@ std::string Folder::journal(const Shard& shard) const {
   return path + "/journal/shard-" + std::to_string(shard.number) + "-of-" + std::to_string(shard.count) + ".jsonl";
 }
 
+std::vector<std::size_t> runs_to_do(const Plan& plan, const Shard& shard, const Outcomes& known, bool retry) {
+  std::vector<std::size_t> todo;
+  for (std::size_t run = 0; run < plan.runs.size(); ++run) {
+    if (!shard.holds(run)) continue;
+    const auto at = known.find(plan.runs[run].id);
+    if (at == known.end() || (retry && !at->second.error.empty())) todo.push_back(run);
+  }
+  return todo;
+}
+
 std::string this_build() { return build_text(std::string(version), std::string(git_id())); }
 
 std::optional<Finished> finished(const Folder& folder) {

@@ -183,16 +183,6 @@ void Live::rewind(std::uint64_t tick) {
 
 namespace {
 
-// The configuration with one more event, read as strictly as from a file.
-config::Loaded with_event(const config::Configuration& current, double now_s, config::Node event) {
-  const auto place = event.place;
-  event.table()->push_back({"time_s", config::Node{now_s, place}});
-  config::Node root = config::parse_document("intervention", config_json(current));
-  if (root.find("events") == nullptr) root.table()->push_back({"events", config::Node{config::Node::Array{}, place}});
-  root.find("events")->array()->push_back(std::move(event));
-  return configure(std::move(root), current.scenario.name, *current.scenario.algorithms);
-}
-
 // "loss: is 3; allowed: 0 to 1" instead of "intervention:1: error: events[4].loss: is 3; ...".
 std::string about_event(const std::string& key, const std::string& text, std::size_t index) {
   const std::string path = "events[" + std::to_string(index) + "]";
@@ -221,7 +211,7 @@ std::vector<std::string> Live::intervene(std::string_view event_json) {
     for (const std::string_view key : {"time_s", "when"})
       if (event.find(key) != nullptr) lines.push_back(std::string(key) + ": what a visitor does happens now");
     if (!lines.empty()) return lines;
-    const config::Loaded loaded = with_event(r.current(), world.time_s(), std::move(event));
+    const config::Loaded loaded = config::with_event(r.current(), world.time_s(), std::move(event));
     for (const config::Problem& problem : loaded.problems)
       if (!problem.warning) lines.push_back(about_event(problem.key, problem.text, index));
     if (!lines.empty()) return lines;

@@ -31,6 +31,7 @@ void World::Impl::step_by_clocks(Executor& executor) {
     proximity.update(poses.position, alive, deaths);
     deliver(executor);
     wake(executor);
+    swarm->decide(commands, reports);
     swarm->advance();
   }
   for (const std::uint64_t r : received_by) received += r;

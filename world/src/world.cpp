@@ -203,6 +203,7 @@ void World::Impl::think(Executor& executor) {
       step_batch(first, count, inbox);
     }
   });
+  swarm->decide(commands, reports);
   swarm->advance();
   for (const std::uint64_t r : received_by) received += r;
 }
@@ -306,6 +307,8 @@ void World::step() {
   Executor alone(1);
   step(alone);
 }
+
+void World::decide() { impl_->swarm->decide(impl_->commands, impl_->reports); }
 
 std::vector<Fault> World::faults_now(const Event& event) const {
   Present present{impl_->targets.size(), impl_->obstacles};

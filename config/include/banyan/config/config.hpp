@@ -36,6 +36,10 @@ struct Loaded {
 [[nodiscard]] Loaded configure(Node root, const std::string& path, const AlgorithmList& algorithms,
                                std::vector<Problem> problems = {});
 
+// The configuration with one more event, a table without time_s, that happens at `now_s`: for who intervenes in a
+// running world.
+[[nodiscard]] Loaded with_event(const Configuration& current, double now_s, Node event);
+
 // The complete effective configuration. Read back, it gives the same scenario, bit for bit.
 [[nodiscard]] std::string config_json(const Configuration& configuration, int indent = -1);
 [[nodiscard]] std::string config_toml(const Configuration& configuration);

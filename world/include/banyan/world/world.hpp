@@ -45,6 +45,10 @@ class World {
   void step();
   void step(Executor& executor);
 
+  // Between two ticks: the swarm decides anew on what it sensed in the last one (Swarm::decide). For hosts whose
+  // decisions arrive after the tick; algorithms have decided within it.
+  void decide();
+
   // An intervention in the running world: `event` acts at the beginning of the next step, as if the
   // scenario had had it from the start as its last event, with time_s = time_s(); scenario() has it from
   // now on. So a world made from that scenario has the same hash() at every tick. `event.time_s` is

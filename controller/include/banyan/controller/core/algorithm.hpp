@@ -61,7 +61,9 @@ class Algorithm {
 class AlgorithmList {
  public:
   // They must outlive the list.
-  AlgorithmList(std::initializer_list<const Algorithm*> algorithms) : algorithms_(algorithms) {
+  AlgorithmList(std::initializer_list<const Algorithm*> algorithms)
+      : AlgorithmList(std::vector<const Algorithm*>(algorithms)) {}
+  explicit AlgorithmList(std::vector<const Algorithm*> algorithms) : algorithms_(std::move(algorithms)) {
     for (const Algorithm* algorithm : algorithms_) names_.push_back(algorithm->name());
     // In the order of the longest table, so that the texts of configurations keep theirs.
     const auto longest = std::max_element(algorithms_.begin(), algorithms_.end(), [](const Algorithm* a, const Algorithm* b) {

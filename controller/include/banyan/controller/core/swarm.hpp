@@ -48,10 +48,14 @@ class Swarm {
   [[nodiscard]] virtual std::size_t size() const noexcept = 0;
 
   // One tick is step() for ranges that do not overlap and together are all robots, in any order and on any
-  // threads, then advance(). step() writes the command and the report of each robot that steps, and neither
+  // threads, then decide() and advance(). step() writes the command and the report of each robot that steps, and neither
   // of one that does not; all spans are as long as `sensed`. No allocation after the first ticks.
   virtual void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) = 0;
   virtual void advance() noexcept = 0;
+  // For swarms whose robots are decided for all at once, by something that is no step: called on one thread, after all
+  // ranges of a tick and before advance(), or between ticks (World::decide). May change the command and the report of
+  // every robot that stepped last; the spans are of all robots. May throw; the world is then worthless.
+  virtual void decide(std::span<Velocity> /*commands*/, std::span<Report> /*reports*/) {}
 
   // What robot i broadcast last, as bytes: at most largest_wire (wire.hpp). Returns how many.
   virtual std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept = 0;
