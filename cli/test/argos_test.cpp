@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "started_program.hpp"
+#include "terminal.hpp"
 
 namespace banyan::cli {
 namespace {

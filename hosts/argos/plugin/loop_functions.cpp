@@ -204,7 +204,7 @@ void LoopFunctions::begin() {
     inhabitants_[i].died_at.reset();
   }
   mission_->begin();
-  done_ = false;
+  done_ = lost_ = false;
 }
 
 void LoopFunctions::Init(TConfigurationNode& node) {
@@ -257,11 +257,25 @@ void LoopFunctions::tell(std::size_t i, const Told& told) {
   if (!told.alive && !mission_->world().scenario().robot.dead_bodies) take_away(i);
 }
 
-void LoopFunctions::PostStep() {
-  if (!done_) mission_->tick();
+// In the next tick. ARGoS would give up then, and what was recorded would be lost.
+bool LoopFunctions::leaves_arena(std::size_t i) const {
+  const CRange<CVector3>& arena = CSimulator::GetInstance().GetSpace().GetArenaLimits();
+  const BasicVec2<double> p = pose(i).position;
+  constexpr double margin_m = 0.1;
+  return p.x < arena.GetMin().GetX() + margin_m || p.x > arena.GetMax().GetX() - margin_m || p.y < arena.GetMin().GetY() + margin_m ||
+         p.y > arena.GetMax().GetY() - margin_m;
 }
 
-bool LoopFunctions::IsExperimentFinished() { return mission_->finished(); }
+void LoopFunctions::PostStep() {
+  if (done_ || lost_) return;
+  mission_->tick();
+  for (std::size_t i = 0; i < inhabitants_.size() && !lost_; ++i) {
+    lost_ = leaves_arena(i);
+    if (lost_) LOGERR << "[WARNING] banyan: robot " << i << " is about to leave the arena; the mission ends here" << '\n';
+  }
+}
+
+bool LoopFunctions::IsExperimentFinished() { return lost_ || mission_->finished(); }
 
 void LoopFunctions::finish(bool interrupted) {
   if (done_ || mission_ == nullptr) return;

@@ -62,6 +62,7 @@ class LoopFunctions final : public ::argos::CLoopFunctions, public Robots {
   void place_lights();
   void begin();
   void take_away(std::size_t i);
+  [[nodiscard]] bool leaves_arena(std::size_t i) const;
   void finish(bool interrupted);
   void add(::argos::TConfigurationNode& element);
 
@@ -71,6 +72,7 @@ class LoopFunctions final : public ::argos::CLoopFunctions, public Robots {
   std::unique_ptr<Mission> mission_;
   int resets_ = 0;
   bool done_ = false;
+  bool lost_ = false;  // a robot was about to leave the arena
 };
 
 }  // namespace banyan::argos

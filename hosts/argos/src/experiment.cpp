@@ -64,6 +64,8 @@ class Xml {
   std::vector<std::string> open_;
 };
 
+constexpr double room_m = 10.0;  // the literal readings wander off, and ARGoS has nothing outside the arena
+
 // The least rectangle around everything that the scenario names, and room to drive.
 struct Extent {
   world::Vec2 low, high;
@@ -87,7 +89,6 @@ void add_obstacle(Extent& extent, const world::Obstacle& obstacle) {
 }
 
 Extent extent_of(const world::Scenario& scenario) {
-  constexpr double least_room_m = 2.0;
   Extent extent;
   for (const world::Vec2 p : world::place(scenario).position) extent.add(p);
   for (const world::Vec2 p : world::target_positions(scenario)) extent.add(p);
@@ -96,7 +97,6 @@ Extent extent_of(const world::Scenario& scenario) {
     if (const auto* added = std::get_if<world::AddTarget>(&event.action)) extent.add(added->position);
     if (const auto* moved = std::get_if<world::MoveTarget>(&event.action)) extent.add(moved->position);
   }
-  const double room_m = std::max(least_room_m, scenario.radio.range_m);
   const auto outwards = [&](double x) { return x < 0.0 ? std::floor(x - room_m) : std::ceil(x + room_m); };
   return {{outwards(std::min(extent.low.x, -1e-9)), outwards(std::min(extent.low.y, -1e-9))},
           {outwards(std::max(extent.high.x, 0.0)), outwards(std::max(extent.high.y, 0.0))}};
@@ -153,7 +153,7 @@ void add_medium(Xml& xml, const world::Scenario& scenario, Sight sight) {
 
 void add_view(Xml& xml, const Extent& extent, const std::string& library) {
   const world::Vec2 center = 0.5 * (extent.low + extent.high);
-  const double height_m = 1.2 * std::max(extent.high.x - extent.low.x, extent.high.y - extent.low.y);
+  const double height_m = 1.2 * std::max(extent.high.x - extent.low.x, extent.high.y - extent.low.y) - 2.0 * room_m;
   const std::string at = number(center.x) + "," + number(center.y);
   xml.open("visualization");
   xml.open("qt-opengl");

@@ -82,8 +82,8 @@ TEST(Experiment, ArenaHoldsEverything) {
     ASSERT_TRUE(std::regex_search(xml, found, std::regex(R"(<arena size="([0-9.]+),([0-9.]+),1" center="([-0-9.]+),([-0-9.]+),)"))) << xml;
     const double width = std::stod(found[1]), height = std::stod(found[2]), x = std::stod(found[3]), y = std::stod(found[4]);
     for (const world::Vec2 p : world::target_positions(s)) {
-      EXPECT_LT(std::abs(p.x - x), 0.5 * width - 1.9) << name;
-      EXPECT_LT(std::abs(p.y - y), 0.5 * height - 1.9) << name;
+      EXPECT_LT(std::abs(p.x - x), 0.5 * width - 9.9) << name;
+      EXPECT_LT(std::abs(p.y - y), 0.5 * height - 9.9) << name;
     }
   }
 }

@@ -24,7 +24,7 @@ TEST(Settings, CarryAScenario) {
     const std::string name(algorithm->name());
     const auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/paper-medium.toml", algorithms(),
                                                    {{"mission.algorithm=" + name, "test"}, {"radio.range_m=2.5", "test"},
-                                                    {"mission.scale=1.25", "test"}, {"robot.wheel_limit_m_s=0.15", "test"}});
+                                                    {"robot.wheel_limit_m_s=0.15", "test"}});
     ASSERT_TRUE(loaded.ok()) << name;
     const world::Scenario& scenario = loaded.configuration.scenario;
     const Settings settings = read_settings(attributes_of(scenario), algorithms(), scenario.tick_s);
