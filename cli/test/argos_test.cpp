@@ -98,6 +98,7 @@ class InArgos : public ArgosCommand {
 };
 
 TEST_F(InArgos, AMissionLeavesItsResultsInOneFolderFromWhereverItIsStarted) {
+  fs::create_directories(home_ / "there");
   write_experiment("there/three.argos", "three-targets");
   fs::create_directories(home_ / "elsewhere");
   const Outcome outcome = argos((home_ / "there/three.argos").string(), "elsewhere");
