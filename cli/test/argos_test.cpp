@@ -151,8 +151,51 @@ TEST_F(InArgos, MistakesAreNamed) {
   EXPECT_TRUE(has(option.out + option.err, "did you mean obstacles?")) << option.out << option.err;
 }
 
+TEST_F(InArgos, FootBotsFindALight) {
+  write_experiment("light.argos", "three-targets", {"--robot", "foot-bot", "--set", "targets.count=1", "--set", "swarm.robots=9"});
+  replace("light.argos", "<positioning implementation=\"default\" />", "<footbot_light implementation=\"rot_z_only\" />");
+  replace("light.argos", "<media>", "<media><led id=\"leds\" />");
+  const Outcome outcome = argos("light.argos");
+  ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(column("light", "complete"), "true");
+  // It does not tell lights apart.
+  write_experiment("lights.argos", "three-targets", {"--robot", "foot-bot"});
+  replace("lights.argos", "<positioning implementation=\"default\" />", "<footbot_light implementation=\"rot_z_only\" />");
+  EXPECT_TRUE(has(argos("lights.argos").err, "does not tell 3 targets apart"));
+}
+
+// Robots of the arena's own, without our loop functions: each controller says how its robots begin.
+TEST_F(InArgos, RobotsBeginAsTheirControllersSay) {
+  write_experiment("a.argos", "khepera-two-targets", {"--set", "mission.algorithm=convoy"});
+  std::string text = read("a.argos");
+  const std::size_t begin = text.find("<banyan_controller"), end = text.find("</banyan_controller>") + 20;
+  const std::string spare = text.substr(begin, end - begin);
+  const auto with = [&](const std::string& id, const std::string& words) {
+    std::string controller = spare;
+    controller.replace(controller.find("id=\"banyan\""), 11, "id=\"" + id + "\"");
+    return controller.replace(controller.find("<params "), 8, "<params " + words + " ");
+  };
+  text.replace(begin, end - begin, with("worker", "role=\"worker\" target_m=\"1.5,0\"") + with("root", "role=\"root\"") + with("spare", "role=\"spare\""));
+  const std::size_t loop = text.find("<loop_functions"), after = text.find("</loop_functions>") + 17;
+  text.erase(loop, after - loop);
+  std::string robots;
+  for (int k = 0; k < 3; ++k)
+    robots += "<kheperaiv id=\"kh" + std::to_string(k) + "\" rab_range=\"2\" rab_data_size=\"96\"><body position=\"" + std::to_string(0.3 * k) +
+              ",0,0\" orientation=\"0,0,0\" /><controller config=\"" + (k == 0 ? "root" : k == 1 ? "spare" : "worker") + "\" /></kheperaiv>";
+  text.replace(text.find("center=\"0,0,0.4\" />"), 20, "center=\"0,0,0.4\">" + robots + "</arena>");
+  text.replace(text.find("length=\"0\""), 10, "length=\"5\"");
+  write("b.argos", text);
+  const Outcome outcome = argos("b.argos");
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  text.replace(text.find("rab_data_size=\"96\""), 18, "rab_data_size=\"10\"");
+  write("b.argos", text);
+  const Outcome small = argos("b.argos");
+  EXPECT_NE(small.code, 0);
+  EXPECT_TRUE(has(small.out + small.err, "say rab_data_size=\"96\"")) << small.err;
+}
+
 TEST_F(InArgos, FootBotsDieAndObstaclesStand) {
-  write_experiment("dead.argos", "deaths", {"--robot", "foot-bot"});
+  write_experiment("dead.argos", "deaths", {"--robot", "foot-bot", "--set", "mission.time_limit_s=60"});
   ASSERT_EQ(argos("dead.argos").code, 0);
   EXPECT_NE(column("dead", "deaths"), "0");
   EXPECT_EQ(column("dead", "complete"), "true");

@@ -25,6 +25,8 @@ namespace {
 constexpr double obstacle_height_m = 0.5;
 constexpr double wall_thickness_m = 0.02;  // ARGoS has no walls without any
 
+constexpr double light_height_m = 0.01;  // that of the bodies' origins, from which ARGoS measures: so the distance is that on the ground
+
 std::string exact(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -187,7 +189,7 @@ void LoopFunctions::place_lights() {
     THROW_ARGOSEXCEPTION("A light sensor does not tell " << targets.size() << " targets apart; give the controller the sensor positioning");
   TConfigurationNode light("light");
   SetNodeAttribute(light, "id", "target0");
-  SetNodeAttribute(light, "position", triple(targets[0].position.x, targets[0].position.y, 0.2));
+  SetNodeAttribute(light, "position", triple(targets[0].position.x, targets[0].position.y, light_height_m));
   SetNodeAttribute(light, "orientation", "0,0,0");
   SetNodeAttribute(light, "color", "yellow");
   SetNodeAttribute(light, "intensity", exact(by_light->controller->settings().light_intensity_m));

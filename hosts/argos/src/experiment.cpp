@@ -153,7 +153,7 @@ void add_medium(Xml& xml, const world::Scenario& scenario, Sight sight) {
 
 void add_view(Xml& xml, const Extent& extent, const std::string& library) {
   const world::Vec2 center = 0.5 * (extent.low + extent.high);
-  const double height_m = 1.2 * std::max(extent.high.x - extent.low.x, extent.high.y - extent.low.y) - 2.0 * room_m;
+  const double height_m = 2.0 + std::max(extent.high.x - extent.low.x, extent.high.y - extent.low.y) - 2.0 * room_m;
   const std::string at = number(center.x) + "," + number(center.y);
   xml.open("visualization");
   xml.open("qt-opengl");
