@@ -54,7 +54,10 @@ class Xml {
   [[nodiscard]] std::string text() const { return "<?xml version=\"1.0\" ?>\n" + text_; }
 
  private:
-  [[nodiscard]] std::string indent() const { return std::string(2 * open_.size(), ' '); }
+  [[nodiscard]] std::string indent() const {
+    std::string spaces(2 * open_.size(), ' ');
+    return spaces;
+  }
   void line(std::string_view name, const Attributes& attributes, const char* end) {
     text_ += indent() + "<" + std::string(name);
     for (const Attribute& attribute : attributes) text_ += " " + attribute.name + "=\"" + escaped(attribute.value) + "\"";

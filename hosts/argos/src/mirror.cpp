@@ -43,7 +43,7 @@ class MirrorSwarm final : public Swarm {
       local_->message_numbers(i, mirror.numbers);
     }
   }
-  MirrorSwarm(const MirrorSwarm& other) : local_(other.local_->clone()), robots_(nullptr), mirrors_(other.mirrors_) {}
+  MirrorSwarm(const MirrorSwarm& other) : local_(other.local_->clone()), mirrors_(other.mirrors_) {}
   MirrorSwarm& operator=(const MirrorSwarm&) = delete;
   // A clone stays as it is: nobody lives in it.
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override { return std::make_unique<MirrorSwarm>(*this); }
@@ -106,7 +106,7 @@ class MirrorSwarm final : public Swarm {
   }
 
   std::unique_ptr<Swarm> local_;  // knows the messages
-  Robots* robots_;                // null: a clone
+  Robots* robots_ = nullptr;      // null: a clone
   std::vector<Mirror> mirrors_;
 };
 

@@ -86,6 +86,7 @@ std::vector<std::string> not_in_argos(const world::Scenario& scenario) {
 
 config::Configuration load_mission(const std::string& file, const std::vector<std::string>& assignments, const AlgorithmList& algorithms) {
   std::vector<config::Override> overrides;
+  overrides.reserve(assignments.size());
   for (const std::string& assignment : assignments) overrides.push_back({assignment, assignment});
   config::Loaded loaded = config::load_configuration(file, algorithms, overrides);
   std::vector<std::string> wrong;
@@ -96,9 +97,9 @@ config::Configuration load_mission(const std::string& file, const std::vector<st
   return std::move(loaded.configuration);
 }
 
-Mission::Mission(config::Configuration configuration, const std::string& out, bool force, const std::vector<Pose>& placed, Robots& robots)
+Mission::Mission(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed, Robots& robots)
     : configuration_(std::move(configuration)),
-      out_(out),
+      out_(std::move(out)),
       robots_(robots),
       algorithm_(world::algorithm_of(configuration_.scenario), robots) {
   world::Scenario& scenario = configuration_.scenario;

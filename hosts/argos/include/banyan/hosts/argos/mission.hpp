@@ -31,7 +31,7 @@ class Mission {
  public:
   // `out`: the directory of the results; "": none. Refuses to replace results unless `force`. With `placed`, robots
   // begin there instead of where the scenario has them. `robots` are not called before begin(). Throws MissionError.
-  Mission(config::Configuration configuration, const std::string& out, bool force, const std::vector<Pose>& placed, Robots& robots);
+  Mission(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed, Robots& robots);
   Mission(const Mission&) = delete;
   Mission& operator=(const Mission&) = delete;
 
