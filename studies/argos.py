@@ -4,12 +4,14 @@
 
     studies/argos.py run --seeds 1-2                adds rows to out/argos/rows.csv; may be stopped and called again
     studies/argos.py run --part deaths --seeds 1-3
-    studies/argos.py tables results/argos/ROWS.csv
+    studies/argos.py tables results/argos/worlds.csv.gz       and where ARGoS and our world agree
+    studies/argos.py claims results/argos/worlds.csv.gz       outwards against inwards
 
 Needs argos3 on PATH (or --argos FILE), with the plugin of the Khepera IV, and a banyan that was built with it.
 """
 import argparse
 import csv
+import gzip
 import itertools
 import os
 import shutil
@@ -124,7 +126,7 @@ def interval(ratios):
 
 def rows_of(files):
     for name in files:
-        with open(name, newline='') as file:
+        with (gzip.open(name, 'rt', newline='') if name.endswith('.gz') else open(name, newline='')) as file:
             yield from csv.DictReader(file)
 
 
@@ -140,25 +142,49 @@ def column(rows):
 
 
 def tables(args):
+    """ARGoS / our world, side by side. Where robots use their own sensors, our world is that whose robots see by the model."""
     groups = {}
     for row in rows_of(args.files):
-        world = (row['scenario'], row['r'] if args.by_radius else '')
-        group = (row['part'], world, row['loss'], row['algorithm'], row['reading'])
-        groups.setdefault(group, {}).setdefault((row['where'], row['sight'], row['obstacles']), []).append(row)
-    last = None
-    for (part, world, loss, algorithm, reading), by_place in sorted(groups.items()):
-        if (part, world, loss) != last:
-            print(f'\n{part}, {" r = ".join(w for w in world if w)}, loss {loss}\n\n| algorithm | where, sight | complete | median normalised time'
-                  ' | time, ARGoS / ours | runs with an edge ≥ C | time with a hidden edge | runs with a split |\n|---|---|---|---|---|---|---|---|')
-            last = (part, world, loss)
-        world_of = {(r['sight'], r['T'], r['r'], r['k'], r['seed']): r for (where, *_), rows in by_place.items() if where == 'banyan' for r in rows}
-        for place, rows in sorted(by_place.items()):
-            pairs = [(r, world_of.get((r['sight'], r['T'], r['r'], r['k'], r['seed']))) for r in rows]
-            ratios = [float(a['completion_time_s']) / float(b['completion_time_s']) for a, b in pairs
-                      if b and true(a['complete']) and true(b['complete'])]
-            cell = column(rows)
-            ratio = interval(ratios) if place[0] == 'argos' and len(ratios) > 1 else ''
-            print(f'| {algorithm}, {reading} | {" ".join(p for p in place if p)} | {cell["complete"]} | {cell["time"]} | {ratio} | {cell["far"]} | {cell["hidden"]} | {cell["split"]} |')
+        title = (row['part'], row['scenario'], 'r = ' + row['r'] if args.by_radius else '', 'loss ' + row['loss'])
+        groups.setdefault(title, {}).setdefault((row['algorithm'], row['reading'], row['sight']), []).append(row)
+    for title, by_algorithm in sorted(groups.items()):
+        print(f'\n{", ".join(word for word in title if word)}: ARGoS / ours\n\n| algorithm | sight | complete | median normalised time | ratio of times'
+              ' | runs with an edge ≥ C | time with a hidden edge | runs with a split |\n|---|---|---|---|---|---|---|---|')
+        for (algorithm, reading, sight), rows in sorted(by_algorithm.items()):
+            ours = {(r['T'], r['r'], r['k'], r['seed']): r for r in rows if r['where'] == 'banyan'}
+            for eyes in sorted({r['obstacles'] for r in rows if r['where'] == 'argos'}):
+                pairs = [(r, ours.get((r['T'], r['r'], r['k'], r['seed']))) for r in rows if r['where'] == 'argos' and r['obstacles'] == eyes]
+                pairs = [pair for pair in pairs if pair[1]]
+                if not pairs:
+                    continue
+                sides = [column([pair[n] for pair in pairs]) for n in (0, 1)]
+                ratios = [float(a['completion_time_s']) / float(b['completion_time_s']) for a, b in pairs if true(a['complete']) and true(b['complete'])]
+                cells = [' / '.join(side[name] for side in sides) for name in ('time', 'far', 'hidden', 'split')]
+                whole = ' / '.join(side['complete'].split()[0] for side in sides) + f' of {len(pairs)}'
+                print(f'| {algorithm}, {reading} | {" ".join(word for word in (sight, eyes) if word)} | {whole} | {cells[0]} | {interval(ratios) if ratios else ""}'
+                      f' | {" | ".join(cells[1:])} |')
+
+
+def claims(args):
+    """The paper's two algorithms against each other, world by world."""
+    runs = {}
+    for row in rows_of(args.files):
+        if row['part'] == 'worlds':
+            runs[tuple(row[name] for name in ('reading', 'sight', 'r', 'where', 'algorithm', 'T', 'k', 'seed'))] = row
+    print('| reading, sight | r | where | complete, outwards / inwards | median normalised time | pairs in which outwards is sooner | runs with an edge ≥ C'
+          ' | runs with a split |\n|---|---|---|---|---|---|---|---|')
+    cells = sorted({key[:4] for key in runs})
+    for cell in cells:
+        pairs = [(row, runs.get((*cell, 'inwards', *key[5:]))) for key, row in sorted(runs.items()) if key[:5] == (*cell, 'outwards')]
+        pairs = [pair for pair in pairs if pair[1]]
+        if not pairs:
+            continue
+        sides = [column([pair[n] for pair in pairs]) for n in (0, 1)]
+        sooner = sum(float(a['normalized_time']) < float(b['normalized_time']) for a, b in pairs)
+        reading, sight, r, where = cell
+        text = {name: ' / '.join(side[name] for side in sides) for name in ('time', 'far', 'split')}
+        whole = ' / '.join(side['complete'].split()[0] for side in sides)
+        print(f'| {reading}, {sight} | {r} | {where} | {whole} of {len(pairs)} | {text["time"]} | {sooner} of {len(pairs)} | {text["far"]} | {text["split"]} |')
 
 
 def main():
@@ -175,6 +201,9 @@ def main():
     command.add_argument('files', nargs='+')
     command.add_argument('--by-radius', action='store_true')
     command.set_defaults(call=tables)
+    command = commands.add_parser('claims')
+    command.add_argument('files', nargs='+')
+    command.set_defaults(call=claims)
     args = parser.parse_args()
     args.call(args)
 

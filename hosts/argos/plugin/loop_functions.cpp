@@ -245,8 +245,9 @@ void LoopFunctions::take_away(std::size_t i) {
   constexpr double from_edge_m = 0.3, apart_m = 0.25;
   const CVector3 corner = GetSpace().GetArenaLimits().GetMin();
   const auto a_row = static_cast<std::size_t>((GetSpace().GetArenaSize().GetX() - 2.0 * from_edge_m) / apart_m);
-  const CVector3 place(corner.GetX() + from_edge_m + apart_m * static_cast<double>(i % a_row),
-                       corner.GetY() + from_edge_m + apart_m * static_cast<double>(i / a_row), 0.0);
+  const std::size_t row = i / a_row, column = i % a_row;
+  const CVector3 place(corner.GetX() + from_edge_m + apart_m * static_cast<double>(column),
+                       corner.GetY() + from_edge_m + apart_m * static_cast<double>(row), 0.0);
   if (!robot.body->MoveTo(place, CQuaternion()))
     LOGERR << "[WARNING] banyan: the body of robot " << i << " stays: there is no room at the edge of the arena" << '\n';
 }

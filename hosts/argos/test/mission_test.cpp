@@ -97,6 +97,7 @@ TEST_F(MissionTest, DeathsReachTheRobots) {
 TEST_F(MissionTest, RobotsMayBeWhereTheSimulatorHasThem) {
   const auto configuration = load_mission(scenario_file("three-targets.toml"), {}, algorithms());
   std::vector<Pose> placed;
+  placed.reserve(13);
   for (int k = 0; k < 12; ++k) placed.push_back({{0.3 * k, 0.1}, 6.0 * k});
   ToySimulator simulator(configuration.scenario);
   const Mission mission(configuration, "", false, placed, simulator);
