@@ -33,7 +33,8 @@ class ArgosCommand : public StartedProgram {
 };
 
 TEST_F(ArgosCommand, WritesAnExperimentAndItsWorld) {
-  const Outcome outcome = run({"argos", scenario("paper-medium"), "-o", "medium.argos", "--set", "mission.algorithm=convoy", "--seed", "7"});
+  const Outcome outcome = run(
+      {"argos", scenario("paper-medium"), "-o", "medium.argos", "--set", "mission.algorithm=convoy", "--seed", "7"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "medium.argos: 63 robots, 4 targets")) << outcome.out;
   const std::string experiment = read("medium.argos");
@@ -54,14 +55,16 @@ TEST_F(ArgosCommand, ReplacesNothingUnasked) {
 }
 
 TEST_F(ArgosCommand, RefusesWhatArgosCannotDo) {
-  const Outcome outcome = run({"argos", scenario("three-targets"), "-o", "a.argos", "--set", "radio.latency_ticks=3", "--set", "radio.slots=4"});
+  const Outcome outcome = run({"argos", scenario("three-targets"), "-o", "a.argos", "--set", "radio.latency_ticks=3",
+                               "--set", "radio.slots=4"});
   EXPECT_EQ(outcome.code, exit_usage);
   EXPECT_TRUE(has(outcome.err, "radio.latency_ticks")) << outcome.err;
   EXPECT_TRUE(has(outcome.err, "radio.slots")) << outcome.err;
   EXPECT_FALSE(exists("a.argos"));
   EXPECT_FALSE(exists("a.world.toml"));
   EXPECT_EQ(run({"argos", scenario("three-targets"), "-o", "a.xml"}).code, exit_usage);
-  EXPECT_TRUE(has(run({"argos", scenario("three-targets"), "-o", "a.argos", "--set", "radio.lost=1"}).err, "radio.loss"));
+  EXPECT_TRUE(
+      has(run({"argos", scenario("three-targets"), "-o", "a.argos", "--set", "radio.lost=1"}).err, "radio.loss"));
 }
 
 // ---- In ARGoS ----
@@ -73,11 +76,14 @@ class InArgos : public ArgosCommand {
     if (*BANYAN_ARGOS_PROGRAM == '\0') GTEST_SKIP() << "ARGoS 3 was not found when this was built";
   }
   Outcome argos(const std::string& experiment, const std::string& directory = "") {
-    return finish(start({"-z", "-n", "-c", experiment}, {.directory = directory,
-                                                       .program = BANYAN_ARGOS_PROGRAM,
-                                                       .environment = {{"LD_LIBRARY_PATH", fs::path(BANYAN_ARGOS_CORE).parent_path().string()}}}));
+    return finish(start({"-z", "-n", "-c", experiment},
+                        {.directory = directory,
+                         .program = BANYAN_ARGOS_PROGRAM,
+                         .environment = {{"LD_LIBRARY_PATH", fs::path(BANYAN_ARGOS_CORE).parent_path().string()}}}));
   }
-  nlohmann::json result(const std::string& folder) { return nlohmann::json::parse(read(folder + "/run.json"), nullptr, false); }
+  nlohmann::json result(const std::string& folder) {
+    return nlohmann::json::parse(read(folder + "/run.json"), nullptr, false);
+  }
   std::vector<std::string> files() {
     std::vector<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(home_))
@@ -104,8 +110,9 @@ TEST_F(InArgos, AMissionLeavesItsResultsInOneFolderFromWhereverItIsStarted) {
   const Outcome outcome = argos((home_ / "there/three.argos").string(), "elsewhere");
   ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   EXPECT_TRUE(has(outcome.out, "banyan: complete at ")) << outcome.out;
-  EXPECT_EQ(files(), (std::vector<std::string>{"stderr.txt", "stdout.txt", "there/three.argos", "there/three.world.toml", "there/three/run.csv",
-                                               "there/three/run.json", "there/three/run.mcap"}));
+  EXPECT_EQ(files(),
+            (std::vector<std::string>{"stderr.txt", "stdout.txt", "there/three.argos", "there/three.world.toml",
+                                      "there/three/run.csv", "there/three/run.json", "there/three/run.mcap"}));
   EXPECT_EQ(run({"export", "there/three/run.mcap", "--csv", "-o", "robots.csv"}).code, 0);
   EXPECT_GT(fs::file_size(home_ / "robots.csv"), 10000U);
   // The same mission in our world takes as long, to a twentieth.
@@ -124,14 +131,17 @@ TEST_F(InArgos, TheExperimentHasTheLastWord) {
   replace("a.argos", "<params algorithm", "<params target_gain=\"0.7\" algorithm");
   const Outcome outcome = argos("a.argos");
   ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
-  for (const auto& [name, value] : {std::pair{"algorithm", "outwards"}, {"seed", "9"}, {"ticks", "30"}, {"complete", "false"}}) EXPECT_EQ(column("a", name), value);
+  for (const auto& [name, value] :
+       {std::pair{"algorithm", "outwards"}, {"seed", "9"}, {"ticks", "30"}, {"complete", "false"}})
+    EXPECT_EQ(column("a", name), value);
   EXPECT_EQ(std::stod(column("a", "loss")), 0.2);
   EXPECT_EQ(result("a")["config"]["mission"]["parameters"]["target_gain"], 0.7);
 }
 
 TEST_F(InArgos, RunsRepeatWhereSightIsExact) {
   for (const char* name : {"one", "two"}) {
-    write_experiment(std::string(name) + ".argos", "khepera-three-targets", {"--sight", "exact", "--set", "mission.algorithm=convoy"});
+    write_experiment(std::string(name) + ".argos", "khepera-three-targets",
+                     {"--sight", "exact", "--set", "mission.algorithm=convoy"});
     ASSERT_EQ(argos(std::string(name) + ".argos").code, 0);
   }
   EXPECT_EQ(column("one", "hash"), column("two", "hash"));
@@ -152,15 +162,18 @@ TEST_F(InArgos, MistakesAreNamed) {
 }
 
 TEST_F(InArgos, FootBotsFindALight) {
-  write_experiment("light.argos", "three-targets", {"--robot", "foot-bot", "--set", "targets.count=1", "--set", "swarm.robots=9"});
-  replace("light.argos", "<positioning implementation=\"default\" />", "<footbot_light implementation=\"rot_z_only\" />");
+  write_experiment("light.argos", "three-targets",
+                   {"--robot", "foot-bot", "--set", "targets.count=1", "--set", "swarm.robots=9"});
+  replace("light.argos", "<positioning implementation=\"default\" />",
+          "<footbot_light implementation=\"rot_z_only\" />");
   replace("light.argos", "<media>", "<media><led id=\"leds\" />");
   const Outcome outcome = argos("light.argos");
   ASSERT_EQ(outcome.code, 0) << outcome.out << outcome.err;
   EXPECT_EQ(column("light", "complete"), "true");
   // It does not tell lights apart.
   write_experiment("lights.argos", "three-targets", {"--robot", "foot-bot"});
-  replace("lights.argos", "<positioning implementation=\"default\" />", "<footbot_light implementation=\"rot_z_only\" />");
+  replace("lights.argos", "<positioning implementation=\"default\" />",
+          "<footbot_light implementation=\"rot_z_only\" />");
   EXPECT_TRUE(has(argos("lights.argos").err, "does not tell 3 targets apart"));
 }
 
@@ -175,13 +188,19 @@ TEST_F(InArgos, RobotsBeginAsTheirControllersSay) {
     controller.replace(controller.find("id=\"banyan\""), 11, "id=\"" + id + "\"");
     return controller.replace(controller.find("<params "), 8, "<params " + words + " ");
   };
-  text.replace(begin, end - begin, with("worker", "role=\"worker\" target_m=\"1.5,0\"") + with("root", "role=\"root\"") + with("spare", "role=\"spare\""));
+  text.replace(begin, end - begin,
+               with("worker", "role=\"worker\" target_m=\"1.5,0\"") + with("root", "role=\"root\"") +
+                   with("spare", "role=\"spare\""));
   const std::size_t loop = text.find("<loop_functions"), after = text.find("</loop_functions>") + 17;
   text.erase(loop, after - loop);
   std::string robots;
   for (int k = 0; k < 3; ++k)
-    robots += "<kheperaiv id=\"kh" + std::to_string(k) + "\" rab_range=\"2\" rab_data_size=\"96\"><body position=\"" + std::to_string(0.3 * k) +
-              ",0,0\" orientation=\"0,0,0\" /><controller config=\"" + (k == 0 ? "root" : k == 1 ? "spare" : "worker") + "\" /></kheperaiv>";
+    robots += "<kheperaiv id=\"kh" + std::to_string(k) + "\" rab_range=\"2\" rab_data_size=\"96\"><body position=\"" +
+              std::to_string(0.3 * k) + ",0,0\" orientation=\"0,0,0\" /><controller config=\"" +
+              (k == 0   ? "root"
+               : k == 1 ? "spare"
+                        : "worker") +
+              "\" /></kheperaiv>";
   text.replace(text.find("center=\"0,0,0.4\" />"), 20, "center=\"0,0,0.4\">" + robots + "</arena>");
   text.replace(text.find("length=\"0\""), 10, "length=\"5\"");
   write("b.argos", text);

@@ -28,13 +28,15 @@ void Controller::Init(TConfigurationNode& node) {
     settings_.setup.platform.wheel_distance_m = static_cast<float>(encoders_->GetReading().WheelAxisLength * 0.01);
   begin_by_settings();
   if (const std::size_t wanted = message_bytes(); voice_->GetSize() != wanted)
-    THROW_ARGOSEXCEPTION("The messages of " << settings_.algorithm->name() << " have " << wanted << " bytes, but robot \"" << GetId() << "\" sends "
-                                            << voice_->GetSize() << "; say rab_data_size=\"" << wanted << "\" in its element");
+    THROW_ARGOSEXCEPTION("The messages of " << settings_.algorithm->name() << " have " << wanted
+                                            << " bytes, but robot \"" << GetId() << "\" sends " << voice_->GetSize()
+                                            << "; say rab_data_size=\"" << wanted << "\" in its element");
   bytes_ = CByteArray(message_bytes());
 }
 
 void Controller::find_sensors() {
-  if (HasSensor("differential_steering")) encoders_ = GetSensor<CCI_DifferentialSteeringSensor>("differential_steering");
+  if (HasSensor("differential_steering"))
+    encoders_ = GetSensor<CCI_DifferentialSteeringSensor>("differential_steering");
   if (HasSensor("positioning")) positioning_ = GetSensor<CCI_PositioningSensor>("positioning");
   eyes_ = eyes_of(*this);
   light_ = light_of(*this, settings_.light_intensity_m);
@@ -43,12 +45,16 @@ void Controller::find_sensors() {
 // Without loop functions: <params role="worker" target_m="3,0" />.
 void Controller::begin_by_settings() {
   const std::optional<RobotId> id = id_of(GetId());
-  if (!id) THROW_ARGOSEXCEPTION("The id \"" << GetId() << "\" does not end with a number up to 65534, which says who a robot is, such as \"kh12\"");
+  if (!id)
+    THROW_ARGOSEXCEPTION(
+        "The id \"" << GetId()
+                    << "\" does not end with a number up to 65534, which says who a robot is, such as \"kh12\"");
   member_ = {.id = *id, .worker = settings_.part == Part::worker, .root = settings_.part == Part::root};
   told_ = {};
   told_.sent = member_.worker;
   told_.target = settings_.target.value_or(BasicVec2<double>{});
-  if (member_.worker && !finds_targets()) THROW_ARGOSEXCEPTION("Robot \"" << GetId() << "\" is a worker and needs the sensor positioning or footbot_light");
+  if (member_.worker && !finds_targets())
+    THROW_ARGOSEXCEPTION("Robot \"" << GetId() << "\" is a worker and needs the sensor positioning or footbot_light");
   if (member_.worker && !finds_targets_by_light() && !settings_.target)
     THROW_ARGOSEXCEPTION("Robot \"" << GetId() << "\" is a worker; say target_m=\"X,Y\" in its <params>");
   make_robot();

@@ -3,7 +3,8 @@
 //
 //   <banyan_controller id="banyan" library="libbanyan_argos">
 //     <actuators> range_and_bearing, differential_steering </actuators>
-//     <sensors>   range_and_bearing; if there, differential_steering (else wheels do what they are told), positioning or
+//     <sensors>   range_and_bearing; if there, differential_steering (else wheels do what they are told), positioning
+//     or
 //                 footbot_light (workers), kheperaiv_proximity or footbot_proximity (obstacles) </sensors>
 //     <params algorithm="convoy" range_m="2" ... />   settings.hpp
 //   </banyan_controller>
@@ -36,7 +37,9 @@ class Controller final : public ::argos::CCI_Controller {
   void tell(const Told& told);
   [[nodiscard]] Said said() const { return robot_->said(); }
   [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
-  [[nodiscard]] bool finds_targets_by_light() const noexcept { return positioning_ == nullptr && static_cast<bool>(light_); }
+  [[nodiscard]] bool finds_targets_by_light() const noexcept {
+    return positioning_ == nullptr && static_cast<bool>(light_);
+  }
   [[nodiscard]] bool finds_targets() const noexcept { return positioning_ != nullptr || static_cast<bool>(light_); }
   [[nodiscard]] std::size_t message_bytes() const { return robot_->message_bytes(); }
 
@@ -54,8 +57,8 @@ class Controller final : public ::argos::CCI_Controller {
   ::argos::CCI_DifferentialSteeringActuator* wheels_ = nullptr;
   ::argos::CCI_DifferentialSteeringSensor* encoders_ = nullptr;  // these two may be null
   ::argos::CCI_PositioningSensor* positioning_ = nullptr;
-  std::function<std::optional<Vec2>()> light_;                   // where the light is
-  std::function<void(Robot&)> eyes_;                             // shows the robot what proximity sensors see
+  std::function<std::optional<Vec2>()> light_;  // where the light is
+  std::function<void(Robot&)> eyes_;            // shows the robot what proximity sensors see
 
   Settings settings_;
   double tick_s_ = 0.1;

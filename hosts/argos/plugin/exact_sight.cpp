@@ -20,11 +20,12 @@ void ExactSight::Init(TConfigurationNode& node) {
   constexpr std::string_view known[] = {"id", "drop_m", "index", "grid_size"};
   for (const Attribute& attribute : attributes_of_node(node))
     if (std::find(std::begin(known), std::end(known), attribute.name) == std::end(known))
-      THROW_ARGOSEXCEPTION(place_in_experiment(node) << ": <banyan_exact_range_and_bearing>: " << attribute.name << " is unknown; allowed: "
-                                                     << world::alternatives(known));
+      THROW_ARGOSEXCEPTION(place_in_experiment(node) << ": <banyan_exact_range_and_bearing>: " << attribute.name
+                                                     << " is unknown; allowed: " << world::alternatives(known));
   CRABMedium::Init(node);
   GetNodeAttributeOrDefault(node, "drop_m", drop_m_, drop_m_);
-  if (!(drop_m_ > 0.0 && drop_m_ < 0.05)) THROW_ARGOSEXCEPTION(place_in_experiment(node) << ": drop_m must be above 0 and below 0.05, not " << drop_m_);
+  if (!(drop_m_ > 0.0 && drop_m_ < 0.05))
+    THROW_ARGOSEXCEPTION(place_in_experiment(node) << ": drop_m must be above 0 and below 0.05, not " << drop_m_);
 }
 
 // Whether nothing but the two bodies is on the line.
@@ -48,7 +49,9 @@ void ExactSight::Update() {
     for (std::size_t b = a + 1; b < robots_.size(); ++b) {
       CRABEquippedEntity &one = *robots_[a], &other = *robots_[b];
       const double distance_m = Distance(one.GetPosition(), other.GetPosition());
-      if (distance_m >= std::max(one.GetRange(), other.GetRange()) || one.GetMsgSize() != other.GetMsgSize() || !sees(one, other)) continue;
+      if (distance_m >= std::max(one.GetRange(), other.GetRange()) || one.GetMsgSize() != other.GetMsgSize() ||
+          !sees(one, other))
+        continue;
       if (distance_m < other.GetRange()) m_tRoutingTable[one.GetIndex()].insert(&other);
       if (distance_m < one.GetRange()) m_tRoutingTable[other.GetIndex()].insert(&one);
     }

@@ -25,7 +25,8 @@ namespace {
 constexpr double obstacle_height_m = 0.5;
 constexpr double wall_thickness_m = 0.02;  // ARGoS has no walls without any
 
-constexpr double light_height_m = 0.01;  // that of the bodies' origins, from which ARGoS measures: so the distance is that on the ground
+constexpr double light_height_m =
+    0.01;  // that of the bodies' origins, from which ARGoS measures: so the distance is that on the ground
 
 std::string exact(double value) {
   char text[32];
@@ -44,7 +45,9 @@ Pose pose_of(const CEmbodiedEntity& body) {
 
 bool truth(const Attribute& attribute, const std::string& where) {
   if (attribute.value == "true") return true;
-  if (attribute.value != "false") THROW_ARGOSEXCEPTION(where << ": " << attribute.name << " must be true or false, not " << world::the_text(attribute.value));
+  if (attribute.value != "false")
+    THROW_ARGOSEXCEPTION(where << ": " << attribute.name << " must be true or false, not "
+                               << world::the_text(attribute.value));
   return false;
 }
 
@@ -54,7 +57,8 @@ template <class Visit> void each_controller(CSpace& space, const Visit& visit) {
   if (found == space.GetEntityMapPerTypePerId().end()) return;
   for (auto& [id, any] : found->second) {
     auto* const entity = any_cast<CControllableEntity*>(any);
-    if (auto* const controller = dynamic_cast<Controller*>(&entity->GetController())) visit(*controller, entity->GetParent());
+    if (auto* const controller = dynamic_cast<Controller*>(&entity->GetController()))
+      visit(*controller, entity->GetParent());
   }
 }
 
@@ -62,24 +66,33 @@ template <class Visit> void each_controller(CSpace& space, const Visit& visit) {
 
 void LoopFunctions::read_options(TConfigurationNode& node) {
   if (!NodeExists(node, "mission"))
-    THROW_ARGOSEXCEPTION(place_in_experiment(node) << ": <loop_functions label=\"banyan_loop_functions\"> needs an element <mission scenario=\"FILE\" />");
+    THROW_ARGOSEXCEPTION(
+        place_in_experiment(node)
+        << ": <loop_functions label=\"banyan_loop_functions\"> needs an element <mission scenario=\"FILE\" />");
   TConfigurationNode& element = GetNode(node, "mission");
   const std::string where = place_in_experiment(element) + ": <mission>";
   constexpr std::string_view known[] = {"scenario", "out", "robot", "controller", "obstacles", "force"};
   for (const Attribute& attribute : attributes_of_node(element)) {
-    if (attribute.name == "scenario") options_.scenario = path_in_experiment(attribute.value);
-    else if (attribute.name == "out") options_.out = path_in_experiment(attribute.value);
-    else if (attribute.name == "robot") options_.robot = attribute.value;
-    else if (attribute.name == "controller") options_.controller = attribute.value;
-    else if (attribute.name == "force") options_.force = truth(attribute, where);
+    if (attribute.name == "scenario")
+      options_.scenario = path_in_experiment(attribute.value);
+    else if (attribute.name == "out")
+      options_.out = path_in_experiment(attribute.value);
+    else if (attribute.name == "robot")
+      options_.robot = attribute.value;
+    else if (attribute.name == "controller")
+      options_.controller = attribute.value;
+    else if (attribute.name == "force")
+      options_.force = truth(attribute, where);
     else if (attribute.name == "obstacles") {
       constexpr std::string_view eyes[] = {"sensors", "world"};
       if (attribute.value != eyes[0] && attribute.value != eyes[1])
-        THROW_ARGOSEXCEPTION(where << ": obstacles must be " << world::alternatives(eyes) << ", not " << world::the_text(attribute.value));
+        THROW_ARGOSEXCEPTION(where << ": obstacles must be " << world::alternatives(eyes) << ", not "
+                                   << world::the_text(attribute.value));
       options_.eyes_of_world = attribute.value == eyes[1];
     } else {
       const std::string_view near = world::nearest_name(attribute.name, known);
-      THROW_ARGOSEXCEPTION(where << ": " << attribute.name << " is unknown" << (near.empty() ? "" : "; did you mean " + std::string(near) + "?"));
+      THROW_ARGOSEXCEPTION(where << ": " << attribute.name << " is unknown"
+                                 << (near.empty() ? "" : "; did you mean " + std::string(near) + "?"));
     }
   }
   if (options_.scenario.empty()) THROW_ARGOSEXCEPTION(where << ": scenario=\"FILE\" is missing");
@@ -95,8 +108,9 @@ void LoopFunctions::find_robots() {
   std::sort(inhabitants_.begin(), inhabitants_.end(), [&](const auto& a, const auto& b) { return id(a) < id(b); });
   for (std::size_t i = 0; i < inhabitants_.size(); ++i)
     if (id(inhabitants_[i]) != i)
-      THROW_ARGOSEXCEPTION("The ids of robots must end with the numbers from 0 to " << inhabitants_.size() - 1 << ", each once; \""
-                                                                                    << inhabitants_[i].controller->GetId() << "\" does not fit");
+      THROW_ARGOSEXCEPTION("The ids of robots must end with the numbers from 0 to "
+                           << inhabitants_.size() - 1 << ", each once; \"" << inhabitants_[i].controller->GetId()
+                           << "\" does not fit");
 }
 
 // What the .argos file says, as options over the scenario.
@@ -105,12 +119,14 @@ std::vector<std::string> LoopFunctions::assignments() const {
   TConfigurationNode& controller = CSimulator::GetInstance().GetConfigForController(options_.controller);
   std::vector<std::string> list;
   try {
-    list = read_settings(attributes_of_node(GetNode(controller, "params")), algorithms(), tick_of_simulator_s()).assignments;
+    list = read_settings(attributes_of_node(GetNode(controller, "params")), algorithms(), tick_of_simulator_s())
+               .assignments;
   } catch (const SettingsError& error) {
     THROW_ARGOSEXCEPTION(place_in_experiment(GetNode(controller, "params")) << ": " << error.what());
   }
   double loss = 0.0, length_s = 0.0;
-  GetNodeAttributeOrDefault(GetNode(GetNode(controller, "sensors"), "range_and_bearing"), "packet_drop_prob", loss, loss);
+  GetNodeAttributeOrDefault(GetNode(GetNode(controller, "sensors"), "range_and_bearing"), "packet_drop_prob", loss,
+                            loss);
   GetNodeAttributeOrDefault(GetNode(GetNode(root, "framework"), "experiment"), "length", length_s, length_s);
   list.push_back("radio.loss=" + exact(loss));
   list.push_back("tick_s=" + exact(tick_of_simulator_s()));
@@ -121,10 +137,9 @@ std::vector<std::string> LoopFunctions::assignments() const {
 
 void LoopFunctions::make_mission(const std::string& out) {
   try {
-    mission_ = std::make_unique<Mission>(load_mission(options_.scenario, assignments(), algorithms()), out, options_.force, placed_, *this);
-  } catch (const MissionError& error) {
-    THROW_ARGOSEXCEPTION(error.what());
-  }
+    mission_ = std::make_unique<Mission>(load_mission(options_.scenario, assignments(), algorithms()), out,
+                                         options_.force, placed_, *this);
+  } catch (const MissionError& error) { THROW_ARGOSEXCEPTION(error.what()); }
 }
 
 void LoopFunctions::add(TConfigurationNode& element) {
@@ -180,13 +195,16 @@ void LoopFunctions::place_obstacles() {
   }
 }
 
-// Workers with light sensors go to the light, so there must be one, and one alone: the sensor does not tell lights apart.
+// Workers with light sensors go to the light, so there must be one, and one alone: the sensor does not tell lights
+// apart.
 void LoopFunctions::place_lights() {
-  const auto by_light = std::find_if(inhabitants_.begin(), inhabitants_.end(), [](const auto& robot) { return robot.controller->finds_targets_by_light(); });
+  const auto by_light = std::find_if(inhabitants_.begin(), inhabitants_.end(),
+                                     [](const auto& robot) { return robot.controller->finds_targets_by_light(); });
   if (by_light == inhabitants_.end()) return;
   const auto& targets = mission_->world().targets();
   if (targets.size() != 1)
-    THROW_ARGOSEXCEPTION("A light sensor does not tell " << targets.size() << " targets apart; give the controller the sensor positioning");
+    THROW_ARGOSEXCEPTION("A light sensor does not tell "
+                         << targets.size() << " targets apart; give the controller the sensor positioning");
   TConfigurationNode light("light");
   SetNodeAttribute(light, "id", "target0");
   SetNodeAttribute(light, "position", triple(targets[0].position.x, targets[0].position.y, light_height_m));
@@ -201,7 +219,8 @@ void LoopFunctions::begin() {
   for (std::size_t i = 0; i < inhabitants_.size(); ++i) {
     const Member member = mission_->member(i);
     if (member.worker && !inhabitants_[i].controller->finds_targets())
-      THROW_ARGOSEXCEPTION("Robot \"" << inhabitants_[i].controller->GetId() << "\" is a worker and needs the sensor positioning or footbot_light");
+      THROW_ARGOSEXCEPTION("Robot \"" << inhabitants_[i].controller->GetId()
+                                      << "\" is a worker and needs the sensor positioning or footbot_light");
     inhabitants_[i].controller->begin(member);
     inhabitants_[i].died_at.reset();
   }
@@ -249,7 +268,8 @@ void LoopFunctions::take_away(std::size_t i) {
   const CVector3 place(corner.GetX() + from_edge_m + apart_m * static_cast<double>(column),
                        corner.GetY() + from_edge_m + apart_m * static_cast<double>(row), 0.0);
   if (!robot.body->MoveTo(place, CQuaternion()))
-    LOGERR << "[WARNING] banyan: the body of robot " << i << " stays: there is no room at the edge of the arena" << '\n';
+    LOGERR << "[WARNING] banyan: the body of robot " << i << " stays: there is no room at the edge of the arena"
+           << '\n';
 }
 
 void LoopFunctions::tell(std::size_t i, const Told& told) {
@@ -265,8 +285,8 @@ bool LoopFunctions::leaves_arena(std::size_t i) const {
   const CRange<CVector3>& arena = CSimulator::GetInstance().GetSpace().GetArenaLimits();
   const BasicVec2<double> p = pose(i).position;
   constexpr double margin_m = 0.1;
-  return p.x < arena.GetMin().GetX() + margin_m || p.x > arena.GetMax().GetX() - margin_m || p.y < arena.GetMin().GetY() + margin_m ||
-         p.y > arena.GetMax().GetY() - margin_m;
+  return p.x < arena.GetMin().GetX() + margin_m || p.x > arena.GetMax().GetX() - margin_m ||
+         p.y < arena.GetMin().GetY() + margin_m || p.y > arena.GetMax().GetY() - margin_m;
 }
 
 void LoopFunctions::PostStep() {
@@ -274,7 +294,8 @@ void LoopFunctions::PostStep() {
   mission_->tick();
   for (std::size_t i = 0; i < inhabitants_.size() && !lost_; ++i) {
     lost_ = leaves_arena(i);
-    if (lost_) LOGERR << "[WARNING] banyan: robot " << i << " is about to leave the arena; the mission ends here" << '\n';
+    if (lost_)
+      LOGERR << "[WARNING] banyan: robot " << i << " is about to leave the arena; the mission ends here" << '\n';
   }
 }
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A Banyan mission in ARGoS: places robots and obstacles, sends workers to their targets, lets events happen, and keeps the
-// same recording and results as `banyan run`.
+// A Banyan mission in ARGoS: places robots and obstacles, sends workers to their targets, lets events happen, and keeps
+// the same recording and results as `banyan run`.
 //
 //   <loop_functions library="libbanyan_argos" label="banyan_loop_functions">
 //     <mission scenario="/…/medium.toml"       the rest of the world: placement, targets, obstacles, events
 //              out="/…/results"                directory; none: no results
-//              robot="kheperaiv" controller="banyan"   what is placed; unless the arena has robots with our controller already
-//              obstacles="sensors"             or "world": the world says what is near, up to robot.proximity_m
+//              robot="kheperaiv" controller="banyan"   what is placed; unless the arena has robots with our controller
+//              already obstacles="sensors"             or "world": the world says what is near, up to robot.proximity_m
 //              force="false" />                may replace results
 //   </loop_functions>
 //
-// What the .argos file says counts, whatever the scenario says: algorithm, parameters, range, sight, loss, seed, length.
+// What the .argos file says counts, whatever the scenario says: algorithm, parameters, range, sight, loss, seed,
+// length.
 #pragma once
 
 #include <argos3/core/simulator/entity/embodied_entity.h>

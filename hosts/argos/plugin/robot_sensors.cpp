@@ -40,7 +40,8 @@ std::function<void(Robot&)> eyes_of([[maybe_unused]] CCI_Controller& controller)
   return {};
 }
 
-std::function<std::optional<Vec2>()> light_of([[maybe_unused]] CCI_Controller& controller, [[maybe_unused]] const double& intensity_m) {
+std::function<std::optional<Vec2>()> light_of([[maybe_unused]] CCI_Controller& controller,
+                                              [[maybe_unused]] const double& intensity_m) {
 #ifdef BANYAN_HAS_FOOTBOT
   if (controller.HasSensor("footbot_light")) {
     auto* const sensor = controller.GetSensor<CCI_FootBotLightSensor>("footbot_light");

@@ -31,7 +31,9 @@ std::string place_in_experiment(TConfigurationNode& node) {
 
 std::string path_in_experiment(const std::string& path) {
   if (path.empty() || fs::path(path).is_absolute()) return path;
-  return (fs::absolute(CSimulator::GetInstance().GetExperimentFileName()).parent_path() / path).lexically_normal().string();
+  return (fs::absolute(CSimulator::GetInstance().GetExperimentFileName()).parent_path() / path)
+      .lexically_normal()
+      .string();
 }
 
 }  // namespace banyan::argos

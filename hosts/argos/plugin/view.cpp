@@ -21,7 +21,9 @@ CVector3 at(world::Vec2 p, double z_m) { return CVector3(p.x, p.y, z_m); }
 void View::Init(TConfigurationNode& /*node*/) {
   loop_functions_ = dynamic_cast<const LoopFunctions*>(&CSimulator::GetInstance().GetLoopFunctions());
   if (loop_functions_ == nullptr)
-    THROW_ARGOSEXCEPTION("banyan_qt_user_functions draw a mission of banyan_loop_functions, but this experiment has other loop functions");
+    THROW_ARGOSEXCEPTION(
+        "banyan_qt_user_functions draw a mission of banyan_loop_functions, but this experiment has other loop "
+        "functions");
 }
 
 void View::draw_edge(const world::World& world, std::size_t from, RobotId to, const CColor& edge) {
@@ -35,7 +37,8 @@ void View::DrawInWorld() {
   for (std::size_t i = 0; i < world.size(); ++i) {
     const Report& report = world.reports()[i];
     const bool lives = world.alive()[i] != 0;
-    DrawCircle(at(world.positions()[i], roof_m), CQuaternion(), radius_m, color(record::color_of(report.role, lives)), true, 24);
+    DrawCircle(at(world.positions()[i], roof_m), CQuaternion(), radius_m, color(record::color_of(report.role, lives)),
+               true, 24);
     if (!lives || report.role == Role::spare) continue;
     draw_edge(world, i, report.old_parent, color(record::palette::old_tree));
     draw_edge(world, i, report.parent, color(record::palette::tree));
@@ -43,7 +46,8 @@ void View::DrawInWorld() {
   }
   for (const world::Target& target : world.targets())
     if (target.active)
-      DrawCircle(at(target.position, floor_m), CQuaternion(), world.scenario().mission.target_tolerance_m, color(record::palette::target), true, 32);
+      DrawCircle(at(target.position, floor_m), CQuaternion(), world.scenario().mission.target_tolerance_m,
+                 color(record::palette::target), true, 32);
 }
 
 }  // namespace banyan::argos

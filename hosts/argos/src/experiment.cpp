@@ -12,18 +12,27 @@
 namespace banyan::argos {
 namespace {
 
-constexpr std::array<RobotKind, 2> kinds{{{"kheperaiv", "kheperaiv_proximity", 0.0704, 0.1054},
-                                          {"foot-bot", "footbot_proximity", 0.085036758, 0.14}}};
+constexpr std::array<RobotKind, 2> kinds{
+    {{"kheperaiv", "kheperaiv_proximity", 0.0704, 0.1054}, {"foot-bot", "footbot_proximity", 0.085036758, 0.14}}};
 
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -48,7 +57,8 @@ class Xml {
   // Two hyphens would end a comment before its time.
   void comment(std::string_view words) {
     std::string safe(words);
-    for (std::size_t at = safe.find("--"); at != std::string::npos; at = safe.find("--", at)) safe.replace(at, 2, "- -");
+    for (std::size_t at = safe.find("--"); at != std::string::npos; at = safe.find("--", at))
+      safe.replace(at, 2, "- -");
     text_ += indent() + "<!-- " + safe + " -->\n";
   }
   [[nodiscard]] std::string text() const { return "<?xml version=\"1.0\" ?>\n" + text_; }
@@ -60,7 +70,8 @@ class Xml {
   }
   void line(std::string_view name, const Attributes& attributes, const char* end) {
     text_ += indent() + "<" + std::string(name);
-    for (const Attribute& attribute : attributes) text_ += " " + attribute.name + "=\"" + escaped(attribute.value) + "\"";
+    for (const Attribute& attribute : attributes)
+      text_ += " " + attribute.name + "=\"" + escaped(attribute.value) + "\"";
     text_ += std::string(end) + "\n";
   }
   std::string text_;
@@ -128,8 +139,11 @@ void add_controller(Xml& xml, const world::Scenario& scenario, const Experiment&
 
 void add_mission(Xml& xml, const Experiment& experiment) {
   xml.open("loop_functions", {{"library", experiment.library}, {"label", "banyan_loop_functions"}});
-  Xml::Attributes attributes{{"scenario", experiment.world}, {"out", experiment.out}, {"robot", std::string(experiment.robot->entity)},
-                             {"controller", "banyan"}, {"obstacles", experiment.eyes == Eyes::sensors ? "sensors" : "world"}};
+  Xml::Attributes attributes{{"scenario", experiment.world},
+                             {"out", experiment.out},
+                             {"robot", std::string(experiment.robot->entity)},
+                             {"controller", "banyan"},
+                             {"obstacles", experiment.eyes == Eyes::sensors ? "sensors" : "world"}};
   if (experiment.force) attributes.push_back({"force", "true"});
   xml.leaf("mission", attributes);
   xml.close();
@@ -139,7 +153,8 @@ void add_arena(Xml& xml, const Extent& extent) {
   const world::Vec2 size = extent.high - extent.low, center = 0.5 * (extent.low + extent.high);
   xml.comment("The loop functions place robots and obstacles.");
   // ARGoS' index of the radio needs a height of at least one metre.
-  xml.leaf("arena", {{"size", number(size.x) + "," + number(size.y) + ",1"}, {"center", number(center.x) + "," + number(center.y) + ",0.4"}});
+  xml.leaf("arena", {{"size", number(size.x) + "," + number(size.y) + ",1"},
+                     {"center", number(center.x) + "," + number(center.y) + ",0.4"}});
   xml.open("physics_engines");
   xml.leaf("dynamics2d", {{"id", "dyn2d"}});
   xml.close();
@@ -150,7 +165,8 @@ void add_medium(Xml& xml, const world::Scenario& scenario, Sight sight) {
   if (sight == Sight::exact && scenario.radio.line_of_sight)
     xml.leaf("banyan_exact_range_and_bearing", {{"id", "rab"}});
   else
-    xml.leaf("range_and_bearing", {{"id", "rab"}, {"check_occlusions", scenario.radio.line_of_sight ? "true" : "false"}});
+    xml.leaf("range_and_bearing",
+             {{"id", "rab"}, {"check_occlusions", scenario.radio.line_of_sight ? "true" : "false"}});
   xml.close();
 }
 
@@ -163,7 +179,11 @@ void add_view(Xml& xml, const Extent& extent, const std::string& library) {
   xml.leaf("user_functions", {{"library", library}, {"label", "banyan_qt_user_functions"}});
   xml.open("camera");
   xml.open("placements");
-  xml.leaf("placement", {{"index", "0"}, {"position", at + "," + number(height_m)}, {"look_at", at + ",0"}, {"up", "0,1,0"}, {"lens_focal_length", "20"}});
+  xml.leaf("placement", {{"index", "0"},
+                         {"position", at + "," + number(height_m)},
+                         {"look_at", at + ",0"},
+                         {"up", "0,1,0"},
+                         {"lens_focal_length", "20"}});
   xml.close();
   xml.close();
   xml.close();
@@ -175,7 +195,8 @@ void add_view(Xml& xml, const Extent& extent, const std::string& library) {
 std::span<const RobotKind> robot_kinds() noexcept { return kinds; }
 
 const RobotKind* find_robot_kind(std::string_view entity) noexcept {
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const RobotKind& kind) { return kind.entity == entity; });
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const RobotKind& kind) { return kind.entity == entity; });
   return found == kinds.end() ? nullptr : &*found;
 }
 
@@ -193,7 +214,8 @@ std::string experiment_xml(const world::Scenario& scenario, const Experiment& ex
   xml.open("framework");
   xml.leaf("system", {{"threads", "0"}});
   xml.comment("length 0: the mission ends by itself. The seed places the robots, too.");
-  xml.leaf("experiment", {{"length", "0"}, {"ticks_per_second", number(std::round(1.0 / scenario.tick_s))},
+  xml.leaf("experiment", {{"length", "0"},
+                          {"ticks_per_second", number(std::round(1.0 / scenario.tick_s))},
                           {"random_seed", std::to_string(scenario.seed)}});
   xml.close();
   add_controller(xml, scenario, experiment);

@@ -11,9 +11,11 @@ namespace {
 class MirroredBodies final : public world::Bodies {
  public:
   explicit MirroredBodies(const Robots& robots) noexcept : robots_(robots) {}
-  [[nodiscard]] std::unique_ptr<world::Bodies> clone() const override { return std::make_unique<MirroredBodies>(robots_); }
-  void step(std::span<const Velocity> /*command*/, world::NearPairs /*near*/, std::uint64_t /*tick*/, world::Poses& poses,
-            std::span<Odometry> odometry) override {
+  [[nodiscard]] std::unique_ptr<world::Bodies> clone() const override {
+    return std::make_unique<MirroredBodies>(robots_);
+  }
+  void step(std::span<const Velocity> /*command*/, world::NearPairs /*near*/, std::uint64_t /*tick*/,
+            world::Poses& poses, std::span<Odometry> odometry) override {
     for (std::size_t i = 0; i < odometry.size(); ++i) {
       const Pose now = robots_.pose(i);
       const world::Vec2 heading = unit_vector(now.heading_rad);
@@ -49,7 +51,8 @@ class MirrorSwarm final : public Swarm {
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override { return std::make_unique<MirrorSwarm>(*this); }
   [[nodiscard]] std::size_t size() const noexcept override { return mirrors_.size(); }
 
-  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) override {
+  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
+            std::span<Report> reports) override {
     for (std::size_t k = 0; k < sensed.size(); ++k) {
       const Orders& orders = sensed[k].senses.orders;
       Told told;
@@ -112,7 +115,9 @@ class MirrorSwarm final : public Swarm {
 
 }  // namespace
 
-std::unique_ptr<world::Bodies> mirrored_bodies(const Robots& robots) { return std::make_unique<MirroredBodies>(robots); }
+std::unique_ptr<world::Bodies> mirrored_bodies(const Robots& robots) {
+  return std::make_unique<MirroredBodies>(robots);
+}
 
 std::unique_ptr<Swarm> MirrorAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
   members_.assign(members.begin(), members.end());

@@ -7,7 +7,7 @@
 namespace banyan::argos {
 namespace {
 
-constexpr int remembered_steps = 10;  // at 30 % loss, ten packets in a row get lost once in 170,000 times
+constexpr int remembered_steps = 10;               // at 30 % loss, ten packets in a row get lost once in 170,000 times
 constexpr float radius_per_wheel_distance = 0.7F;  // Khepera IV 0.668, foot-bot 0.607
 
 }  // namespace
@@ -49,7 +49,8 @@ bool Robot::is_robot(Vec2 point) const noexcept {
 Said Robot::step(const Readings& readings) {
   obstacles_.assign(readings.obstacles.begin(), readings.obstacles.end());
   if (has_eyes_) remember(readings.odometry);
-  std::copy_if(seen_.begin(), seen_.end(), std::back_inserter(obstacles_), [&](Vec2 point) { return !is_robot(point); });
+  std::copy_if(seen_.begin(), seen_.end(), std::back_inserter(obstacles_),
+               [&](Vec2 point) { return !is_robot(point); });
   std::array<Sensed, 1> sensed;
   sensed[0].packets = packets_;
   sensed[0].senses.odometry = readings.odometry;

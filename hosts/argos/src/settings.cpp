@@ -13,13 +13,15 @@ namespace banyan::argos {
 namespace {
 
 // Attributes that are keys of scenarios, without their section.
-constexpr std::string_view scenario_paths[] = {"mission.algorithm",         "mission.reading",        "mission.scale",
-                                               "mission.target_tolerance_m", "radio.range_m",          "radio.line_of_sight",
-                                               "robot.wheel_limit_m_s",      "robot.wheel_distance_m"};
+constexpr std::string_view scenario_paths[] = {
+    "mission.algorithm", "mission.reading",     "mission.scale",         "mission.target_tolerance_m",
+    "radio.range_m",     "radio.line_of_sight", "robot.wheel_limit_m_s", "robot.wheel_distance_m"};
 constexpr std::string_view own_names[] = {"role", "target_m", "light_intensity_m"};
 constexpr std::string_view parts[] = {"spare", "worker", "root"};
 
-const world::Key<world::Scenario>& key_at(std::string_view path) { return *world::find_key(world::scenario_keys(), path); }
+const world::Key<world::Scenario>& key_at(std::string_view path) {
+  return *world::find_key(world::scenario_keys(), path);
+}
 
 std::optional<double> number_of(const std::string& text) {
   char* end = nullptr;
@@ -62,7 +64,8 @@ class Reader {
   }
 
   void read(const Attribute& attribute) {
-    if (std::find(std::begin(own_names), std::end(own_names), attribute.name) != std::end(own_names)) return read_own(attribute);
+    if (std::find(std::begin(own_names), std::end(own_names), attribute.name) != std::end(own_names))
+      return read_own(attribute);
     for (const std::string_view path : scenario_paths)
       if (key_at(path).name() == attribute.name) return read_key(path, attribute);
     for (const ParameterInfo* info : parameters_)
@@ -75,13 +78,15 @@ class Reader {
     for (const std::string_view path : scenario_paths) known.push_back(key_at(path).name());
     for (const ParameterInfo* info : parameters_) known.push_back(info->key);
     const std::string_view near = world::nearest_name(name, known);
-    fail(name, "is unknown to the algorithm " + scenario_.mission.algorithm + (near.empty() ? "" : "; did you mean " + std::string(near) + "?"));
+    fail(name, "is unknown to the algorithm " + scenario_.mission.algorithm +
+                   (near.empty() ? "" : "; did you mean " + std::string(near) + "?"));
   }
 
   void read_own(const Attribute& attribute) {
     if (attribute.name == "role") {
       if (const auto fault = world::name_fault(attribute.value, parts)) return fail("role", *fault);
-      settings_.part = static_cast<Part>(std::find(std::begin(parts), std::end(parts), attribute.value) - std::begin(parts));
+      settings_.part =
+          static_cast<Part>(std::find(std::begin(parts), std::end(parts), attribute.value) - std::begin(parts));
     } else if (attribute.name == "target_m") {
       const std::size_t comma = std::min(attribute.value.find(','), attribute.value.size());
       const auto x = number_of(attribute.value.substr(0, comma));
@@ -118,7 +123,8 @@ class Reader {
         return fail(attribute.name, "must be true or false, not " + world::the_text(attribute.value));
       world::set(key, scenario_, attribute.value == "true");
     } else {
-      if (const auto fault = world::name_fault(attribute.value, key.access.names(scenario_)); fault && !key.access.names(scenario_).empty())
+      if (const auto fault = world::name_fault(attribute.value, key.access.names(scenario_));
+          fault && !key.access.names(scenario_).empty())
         return fail(attribute.name, *fault);
       world::set(key, scenario_, attribute.value);
     }
@@ -126,7 +132,8 @@ class Reader {
 
   void read_parameter(const ParameterInfo& info, const Attribute& attribute) {
     const world::Range range{world::widened(info.minimum), world::widened(info.maximum)};
-    if (const auto value = number(attribute, range, info.unit)) scenario_.mission.parameters.emplace_back(attribute.name, *value);
+    if (const auto value = number(attribute, range, info.unit))
+      scenario_.mission.parameters.emplace_back(attribute.name, *value);
     settings_.assignments.push_back("mission.parameters." + attribute.name + "=" + attribute.value);
   }
 
@@ -134,7 +141,8 @@ class Reader {
   void finish() {
     settings_.setup = world::setup_of(scenario_);
     settings_.setup.history = 1;
-    if (const std::string text = settings_.algorithm->fault(settings_.setup); !text.empty()) fail("", "together: " + text);
+    if (const std::string text = settings_.algorithm->fault(settings_.setup); !text.empty())
+      fail("", "together: " + text);
   }
 
   world::Scenario scenario_;
@@ -157,7 +165,8 @@ Settings read_settings(std::span<const Attribute> attributes, const AlgorithmLis
 
 std::vector<Attribute> attributes_of(const world::Scenario& scenario) {
   std::vector<Attribute> attributes;
-  for (const std::string_view path : scenario_paths) attributes.push_back({std::string(key_at(path).name()), text_of(world::get(key_at(path), scenario))});
+  for (const std::string_view path : scenario_paths)
+    attributes.push_back({std::string(key_at(path).name()), text_of(world::get(key_at(path), scenario))});
   const auto own = world::algorithm_of(scenario).parameters();
   for (const auto& [key, value] : scenario.mission.parameters)
     if (std::any_of(own.begin(), own.end(), [&, &key = key](const ParameterInfo* info) { return info->key == key; }))

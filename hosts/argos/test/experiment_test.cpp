@@ -41,9 +41,13 @@ TEST(Experiment, OfThePapersMediumScale) {
 TEST(Experiment, SaysWhatTheScenarioSays) {
   Experiment e = experiment("foot-bot");
   e.sight = Sight::exact;
-  const std::string xml = experiment_xml(with_robot(scenario("wall-with-gap.toml", {"radio.line_of_sight=true", "radio.loss=0.3", "seed=42"}), *e.robot), e);
-  for (const char* words : {"packet_drop_prob=\"0.3\"", "<footbot_proximity implementation=\"default\" />", "random_seed=\"42\"", "wheel_distance_m=\"0.14\"",
-                            "<banyan_exact_range_and_bearing id=\"rab\" />", "robot=\"foot-bot\"", "line_of_sight=\"true\""})
+  const std::string xml = experiment_xml(
+      with_robot(scenario("wall-with-gap.toml", {"radio.line_of_sight=true", "radio.loss=0.3", "seed=42"}), *e.robot),
+      e);
+  for (const char* words :
+       {"packet_drop_prob=\"0.3\"", "<footbot_proximity implementation=\"default\" />", "random_seed=\"42\"",
+        "wheel_distance_m=\"0.14\"", "<banyan_exact_range_and_bearing id=\"rab\" />", "robot=\"foot-bot\"",
+        "line_of_sight=\"true\""})
     EXPECT_NE(xml.find(words), std::string::npos) << words << " in\n" << xml;
   e.eyes = Eyes::world;
   EXPECT_EQ(experiment_xml(scenario("wall-with-gap.toml"), e).find("footbot_proximity"), std::string::npos);
@@ -79,8 +83,11 @@ TEST(Experiment, ArenaHoldsEverything) {
     const world::Scenario s = scenario(name);
     const std::string xml = experiment_xml(s, experiment());
     std::smatch found;
-    ASSERT_TRUE(std::regex_search(xml, found, std::regex(R"(<arena size="([0-9.]+),([0-9.]+),1" center="([-0-9.]+),([-0-9.]+),)"))) << xml;
-    const double width = std::stod(found[1]), height = std::stod(found[2]), x = std::stod(found[3]), y = std::stod(found[4]);
+    ASSERT_TRUE(std::regex_search(xml, found,
+                                  std::regex(R"(<arena size="([0-9.]+),([0-9.]+),1" center="([-0-9.]+),([-0-9.]+),)")))
+        << xml;
+    const double width = std::stod(found[1]), height = std::stod(found[2]), x = std::stod(found[3]),
+                 y = std::stod(found[4]);
     for (const world::Vec2 p : world::target_positions(s)) {
       EXPECT_LT(std::abs(p.x - x), 0.5 * width - 9.9) << name;
       EXPECT_LT(std::abs(p.y - y), 0.5 * height - 9.9) << name;

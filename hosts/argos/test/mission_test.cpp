@@ -26,7 +26,8 @@ class MissionTest : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  measure::Run play(const config::Configuration& configuration, const std::string& out, const std::vector<Pose>& placed = {}) {
+  measure::Run play(const config::Configuration& configuration, const std::string& out,
+                    const std::vector<Pose>& placed = {}) {
     ToySimulator simulator(configuration.scenario);
     Mission mission(configuration, out, false, placed, simulator);
     simulator.enter(mission);
@@ -65,7 +66,8 @@ class MissionTest : public ::testing::Test {
 // The whole way, with another simulator than ours: as long as in our own world, to 5 %.
 TEST_F(MissionTest, TakesAsLongInAnotherSimulatorAsInTheWorld) {
   for (const char* algorithm : {"convoy", "outwards"}) {
-    const auto configuration = load_mission(scenario_file("three-targets.toml"), {std::string("mission.algorithm=") + algorithm}, algorithms());
+    const auto configuration = load_mission(scenario_file("three-targets.toml"),
+                                            {std::string("mission.algorithm=") + algorithm}, algorithms());
     const auto run = play(configuration, (folder_ / algorithm).string());
     record::Sinks none;
     world::Executor alone(1);
@@ -73,15 +75,17 @@ TEST_F(MissionTest, TakesAsLongInAnotherSimulatorAsInTheWorld) {
     ASSERT_TRUE(ours.run.complete);
     EXPECT_TRUE(run.complete) << algorithm << ": " << words_;
     EXPECT_NEAR(run.completion_time_s, ours.run.completion_time_s, 0.05 * ours.run.completion_time_s) << algorithm;
-    for (const char* file : {"run.csv", "run.json", "run.mcap"}) EXPECT_TRUE(fs::exists(folder_ / algorithm / file)) << file;
+    for (const char* file : {"run.csv", "run.json", "run.mcap"})
+      EXPECT_TRUE(fs::exists(folder_ / algorithm / file)) << file;
     EXPECT_GT(fs::file_size(folder_ / algorithm / "run.mcap"), 10000U);
   }
 }
 
 TEST_F(MissionTest, EveryAlgorithmRuns) {
   for (const Algorithm* algorithm : algorithms()) {
-    const auto configuration = load_mission(scenario_file("khepera-three-targets.toml"),
-                                            {"mission.algorithm=" + std::string(algorithm->name()), "mission.time_limit_s=5"}, algorithms());
+    const auto configuration =
+        load_mission(scenario_file("khepera-three-targets.toml"),
+                     {"mission.algorithm=" + std::string(algorithm->name()), "mission.time_limit_s=5"}, algorithms());
     (void)play(configuration, "");
     EXPECT_NE(words_, "") << algorithm->name();
   }
@@ -109,7 +113,8 @@ TEST_F(MissionTest, RobotsMayBeWhereTheSimulatorHasThem) {
 }
 
 TEST_F(MissionTest, ResultsAreNotReplacedUnasked) {
-  const auto configuration = load_mission(scenario_file("khepera-three-targets.toml"), {"mission.algorithm=convoy", "mission.time_limit_s=1"}, algorithms());
+  const auto configuration = load_mission(scenario_file("khepera-three-targets.toml"),
+                                          {"mission.algorithm=convoy", "mission.time_limit_s=1"}, algorithms());
   const std::string out = (folder_ / "once").string();
   (void)play(configuration, out);
   ToySimulator simulator(configuration.scenario);
@@ -121,14 +126,14 @@ TEST_F(MissionTest, SaysWhatArgosDoesNotDo) {
   const auto fault = [](const std::vector<std::string>& assignments) -> std::string {
     try {
       (void)load_mission(scenario_file("three-targets.toml"), assignments, algorithms());
-    } catch (const MissionError& error) {
-      return error.what();
-    }
+    } catch (const MissionError& error) { return error.what(); }
     return "";
   };
   EXPECT_EQ(fault({}), "");
-  const std::string many = fault({"radio.latency_ticks=3", "radio.model=bursts", "robot.wheel_noise=0.1", "tick_s=0.3", "seed=0"});
-  for (const char* word : {"latency_ticks", "radio.model", "wheel_noise", "tick_s", "seed"}) EXPECT_NE(many.find(word), std::string::npos) << word;
+  const std::string many =
+      fault({"radio.latency_ticks=3", "radio.model=bursts", "robot.wheel_noise=0.1", "tick_s=0.3", "seed=0"});
+  for (const char* word : {"latency_ticks", "radio.model", "wheel_noise", "tick_s", "seed"})
+    EXPECT_NE(many.find(word), std::string::npos) << word;
   EXPECT_NE(fault({"radio.lost=0.3"}).find("radio.loss"), std::string::npos) << "the nearest name";
   auto scenario = load_mission(scenario_file("three-targets.toml"), {}, algorithms()).scenario;
   scenario.events.push_back({.time_s = 1.0, .action = world::Blackout{2.0}});

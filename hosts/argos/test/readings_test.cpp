@@ -32,7 +32,8 @@ TEST(Readings, SilenceIsZeros) {
 
 // Against the motion itself, integrated in small steps.
 TEST(Readings, OdometryIsTheWayOfTheWheels) {
-  for (const auto& [left, right] : std::array<std::pair<double, double>, 5>{{{20, 20}, {-20, 20}, {5, 20}, {20, -3}, {0, 0}}}) {
+  for (const auto& [left, right] :
+       std::array<std::pair<double, double>, 5>{{{20, 20}, {-20, 20}, {5, 20}, {20, -3}, {0, 0}}}) {
     double x = 0.0, y = 0.0, turn = 0.0;
     constexpr int steps = 20000;
     for (int k = 0; k < steps; ++k) {
@@ -95,7 +96,8 @@ TEST(Readings, LightIsWhereTheRingIsBrightest) {
       for (int k = 0; k < 24; ++k) {
         const double angle = (k + 0.5) * pi<double> / 12.0 - pi<double>;
         const double off = std::abs(std::remainder(bearing - angle, 2.0 * pi<double>));
-        ring.push_back({std::exp(-2.0 * distance_m / intensity_m) * std::max(0.0, 1.0 - 2.0 * off / pi<double>), angle});
+        ring.push_back(
+            {std::exp(-2.0 * distance_m / intensity_m) * std::max(0.0, 1.0 - 2.0 * off / pi<double>), angle});
       }
       const auto seen = light_at(ring, intensity_m);
       ASSERT_TRUE(seen);
@@ -114,7 +116,7 @@ TEST(Readings, IdsEndNames) {
   EXPECT_EQ(id_of("a1b20"), RobotId{20});
   EXPECT_FALSE(id_of("robot"));
   EXPECT_FALSE(id_of(""));
-  EXPECT_FALSE(id_of("kh65535"));   // nobody
+  EXPECT_FALSE(id_of("kh65535"));  // nobody
   EXPECT_FALSE(id_of("kh700000"));
 }
 

@@ -12,7 +12,9 @@ namespace {
 
 const Algorithm& convoy() { return *algorithms().find("convoy"); }
 
-Robot lone_worker(bool has_eyes = false) { return {convoy(), {}, Member{.id = 3, .worker = true, .root = false}, has_eyes}; }
+Robot lone_worker(bool has_eyes = false) {
+  return {convoy(), {}, Member{.id = 3, .worker = true, .root = false}, has_eyes};
+}
 Robot lone_root() { return {convoy(), {}, Member{.id = 1, .worker = false, .root = true}, false}; }
 
 TEST(Robot, WhatOneSaysAnotherHears) {

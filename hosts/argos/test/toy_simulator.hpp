@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Another simulator, as small as can be, in ARGoS' order of a tick: wheels turn, the radio carries what was said last, robots
-// step, then the mission looks. Measures in cm and radians, as ARGoS does.
+// Another simulator, as small as can be, in ARGoS' order of a tick: wheels turn, the radio carries what was said last,
+// robots step, then the mission looks. Measures in cm and radians, as ARGoS does.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,11 @@ class ToySimulator final : public Robots {
     const Settings settings = read_settings(attributes_of(scenario_), *scenario_.algorithms, scenario_.tick_s);
     for (std::size_t i = 0; i < mission.world().size(); ++i) {
       const Member& member = mission.member(i);
-      robots_.push_back({mission.start(i), {}, {}, std::vector<std::uint8_t>(96), Robot(*settings.algorithm, settings.setup, member, false)});
+      robots_.push_back({mission.start(i),
+                         {},
+                         {},
+                         std::vector<std::uint8_t>(96),
+                         Robot(*settings.algorithm, settings.setup, member, false)});
       platform_ = settings.setup.platform;
     }
   }
@@ -53,8 +57,10 @@ class ToySimulator final : public Robots {
     constexpr int parts = 20;
     for (int k = 0; k < parts; ++k) {
       const double forward_m = 0.005 * (robot.wheels.left_cm_s + robot.wheels.right_cm_s) * scenario_.tick_s / parts;
-      robot.pose.position += forward_m * BasicVec2<double>{std::cos(robot.pose.heading_rad), std::sin(robot.pose.heading_rad)};
-      robot.pose.heading_rad += 0.01 * (robot.wheels.right_cm_s - robot.wheels.left_cm_s) / scenario_.robot.wheel_distance_m * scenario_.tick_s / parts;
+      robot.pose.position +=
+          forward_m * BasicVec2<double>{std::cos(robot.pose.heading_rad), std::sin(robot.pose.heading_rad)};
+      robot.pose.heading_rad += 0.01 * (robot.wheels.right_cm_s - robot.wheels.left_cm_s) /
+                                scenario_.robot.wheel_distance_m * scenario_.tick_s / parts;
     }
   }
 
@@ -72,7 +78,8 @@ class ToySimulator final : public Robots {
       me.robot.hear(said[j], position_of(100.0 * norm(d), bearing, 0.0));
     }
     Robot::Readings readings;
-    readings.odometry = odometry_of(me.wheels.left_cm_s, me.wheels.right_cm_s, scenario_.robot.wheel_distance_m, scenario_.tick_s);
+    readings.odometry =
+        odometry_of(me.wheels.left_cm_s, me.wheels.right_cm_s, scenario_.robot.wheel_distance_m, scenario_.tick_s);
     readings.sent = me.told.sent;
     if (me.told.sent) readings.target = in_body_frame(me.told.target, me.pose.position, me.pose.heading_rad);
     readings.given_up = me.told.given_up;

@@ -26,14 +26,14 @@ enum class Sight : unsigned char { stock, exact };
 enum class Eyes : unsigned char { sensors, world };
 
 struct Experiment {
-  std::string made_by;   // for the comment at the top: a command line
-  std::string world;     // the scenario's file. These three paths should be absolute: ARGoS is started anywhere
-  std::string out;       // directory of the results
-  std::string library;   // libbanyan_argos, or its name alone if ARGOS_PLUGIN_PATH leads to it
+  std::string made_by;  // for the comment at the top: a command line
+  std::string world;    // the scenario's file. These three paths should be absolute: ARGoS is started anywhere
+  std::string out;      // directory of the results
+  std::string library;  // libbanyan_argos, or its name alone if ARGOS_PLUGIN_PATH leads to it
   const RobotKind* robot = nullptr;
   Sight sight = Sight::stock;
   Eyes eyes = Eyes::sensors;
-  bool force = false;    // results may replace others
+  bool force = false;  // results may replace others
 };
 
 // The scenario with a robot of that kind: its radius and wheel distance.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A Banyan mission whose robots live in another simulator: placement from the scenario before the first tick, then tick by
-// tick targets and events, metrics, and the outputs of `banyan run`.
+// A Banyan mission whose robots live in another simulator: placement from the scenario before the first tick, then tick
+// by tick targets and events, metrics, and the outputs of `banyan run`.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,8 @@
 
 namespace banyan::argos {
 
-// What of a scenario ARGoS does not do, or does in a way of its own: "radio.latency_ticks: ...". None: all of it is done.
+// What of a scenario ARGoS does not do, or does in a way of its own: "radio.latency_ticks: ...". None: all of it is
+// done.
 [[nodiscard]] std::vector<std::string> not_in_argos(const world::Scenario& scenario);
 
 struct MissionError : std::runtime_error {
@@ -31,7 +32,8 @@ class Mission {
  public:
   // `out`: the directory of the results; "": none. Refuses to replace results unless `force`. With `placed`, robots
   // begin there instead of where the scenario has them. `robots` are not called before begin(). Throws MissionError.
-  Mission(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed, Robots& robots);
+  Mission(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed,
+          Robots& robots);
   Mission(const Mission&) = delete;
   Mission& operator=(const Mission&) = delete;
 

@@ -20,7 +20,8 @@ namespace banyan::argos {
 [[nodiscard]] bool is_silence(std::span<const std::uint8_t> bytes) noexcept;
 
 // The way of two wheels that have turned at these speeds for one tick: the chord of the arc.
-[[nodiscard]] Odometry odometry_of(double left_cm_s, double right_cm_s, double wheel_distance_m, double tick_s) noexcept;
+[[nodiscard]] Odometry odometry_of(double left_cm_s, double right_cm_s, double wheel_distance_m,
+                                   double tick_s) noexcept;
 
 struct WheelCommand {
   double left_cm_s = 0.0;

@@ -17,10 +17,10 @@ namespace banyan::argos {
 // What has been told to a robot by the mission. Without one, what its settings say.
 struct Told {
   bool alive = true;
-  bool sent = false;                               // to a target
-  BasicVec2<double> target;                        // where that is, m, in the arena's frame
-  RobotId given_up = nobody;                       // announced once
-  std::span<const Vec2> obstacles{};               // in its body frame of the last step; a world's, instead of sensors
+  bool sent = false;                  // to a target
+  BasicVec2<double> target;           // where that is, m, in the arena's frame
+  RobotId given_up = nobody;          // announced once
+  std::span<const Vec2> obstacles{};  // in its body frame of the last step; a world's, instead of sensors
 };
 
 // What a robot has done in its last step.
@@ -43,7 +43,7 @@ class Robot {
   struct Readings {
     Odometry odometry{};
     bool sent = false;
-    std::optional<Vec2> target;         // in the body frame; none: not sensed
+    std::optional<Vec2> target;  // in the body frame; none: not sensed
     RobotId given_up = nobody;
     std::span<const Vec2> obstacles{};  // besides those seen
   };
@@ -63,8 +63,8 @@ class Robot {
 
   std::unique_ptr<Swarm> swarm_;  // of this robot alone
   bool has_eyes_;
-  float radius_m_;                // of a robot, generously
-  float step_m_;                  // the farthest that one moves in a step
+  float radius_m_;  // of a robot, generously
+  float step_m_;    // the farthest that one moves in a step
   std::vector<Packet> packets_;
   std::vector<Known> known_;
   std::vector<Vec2> seen_, obstacles_;

@@ -32,10 +32,10 @@ struct Settings {
   Setup setup;
   // The same as options of `banyan run --set`: "mission.algorithm=convoy". Only what was written.
   std::vector<std::string> assignments;
-  bool knows_wheels = false;                       // wheel_distance_m was written
+  bool knows_wheels = false;  // wheel_distance_m was written
   Part part = Part::spare;
-  std::optional<BasicVec2<double>> target;         // m, in the arena's frame
-  double light_intensity_m = 2.0;                  // of the light that is the target
+  std::optional<BasicVec2<double>> target;  // m, in the arena's frame
+  double light_intensity_m = 2.0;           // of the light that is the target
 };
 
 // `tick_s`: of the simulator. `list` must outlive the settings. Throws SettingsError.
