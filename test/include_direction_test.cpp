@@ -3,7 +3,7 @@
 // and viewer -> config: a browser has no processes to start. Only algorithms -> controller, rivals knows the
 // algorithms; the others see them through controller/core, and who composes a program hands the list down. So does
 // rivals -> controller/core. A host is a program of its own beside the world: hosts -> controller/core; what starts one
-// is above it, cli -> hosts. Reads the include lines of every source file and names each that points up.
+// is above it, cli -> hosts. hosts/argos is one that observes and records its robots as a world: hosts/argos -> config. Reads the include lines of every source file and names each that points up.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -37,13 +37,15 @@ const std::map<std::string, Names, std::less<>> may_include = {
     {"hosts", {"controller", "algorithms"}},
     {"cli", {"controller", "algorithms", "world", "measure", "record", "config", "study", "hosts"}},
     {"viewer", {"controller", "algorithms", "world", "measure", "record", "config"}},
-    {"python", {"controller", "algorithms", "world", "measure", "record", "config", "study", "hosts"}},
 };
 
-// The one room that is not where its name says.
-fs::path folder_of(std::string_view room) { return room == "python" ? fs::path("hosts/python") : fs::path(room); }
+// Folders of hosts/ that may include more than the room.
+const std::map<std::string, Names, std::less<>> host_may_include = {
+    {"argos", {"controller", "algorithms", "world", "measure", "record", "config"}},
+    {"python", {"controller", "algorithms", "world", "measure", "record", "config", "study"}},
+};
 
-// Libraries that have one home: <prefix of the header> -> the rooms that know them.
+// Libraries that have one home: <prefix of the header> -> the rooms, or folders of hosts/, that know them.
 const std::map<std::string, Names, std::less<>> homes = {
     {"Eigen/", {"measure", "study", "rivals"}},
     {"Spectra/", {"measure"}},
@@ -59,8 +61,9 @@ const std::map<std::string, Names, std::less<>> homes = {
     {"mpi.h", {"study"}},
     {"sodium", {"hosts"}},
     {"emscripten", {"viewer"}},
-    {"pybind11/", {"python"}},
-    {"Python.h", {"python"}},
+    {"pybind11/", {"hosts/python"}},
+    {"Python.h", {"hosts/python"}},
+    {"argos3/", {"hosts/argos"}},
 };
 
 // The whole of the standard library that runs on a robot: no heap, no streams, no clock, no threads.
@@ -87,6 +90,12 @@ bool is_product(const fs::path& room_folder, const fs::path& file) {
   const fs::path part = part_of(room_folder, file);
   const std::string folder = file.lexically_relative(part).begin()->string();
   return folder == "include" || folder == "src" || (part != room_folder && folder != "test");
+}
+
+const Names& allowed_for(const fs::path& room_folder, const fs::path& file) {
+  if (room_folder.filename() == "hosts")
+    if (const auto found = host_may_include.find(part_of(room_folder, file).filename().string()); found != host_may_include.end()) return found->second;
+  return may_include.at(room_folder.filename().string());
 }
 
 struct Include {
@@ -150,12 +159,13 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
     if (on_robot && is_for_hosts(name)) return "is for hosts";
     if (other == "algorithms" && !product && room != "controller") return std::nullopt;  // tests name them
     if (!may_include.contains(other)) return "names no room";
-    if (other != room && !may_include.at(room).contains(other)) return "points up";
+    if (other != room && !allowed_for(room_folder, file).contains(other)) return "points up";
     return std::nullopt;
   }
   if (include.quoted) return quoted_fault(room_folder, file, name);
+  const std::string part = room + "/" + part_of(room_folder, file).filename().string();
   for (const auto& [prefix, rooms] : homes) {
-    if (name.starts_with(prefix) && !rooms.contains(room)) return "belongs into another room";
+    if (name.starts_with(prefix) && !rooms.contains(room) && !rooms.contains(part)) return "belongs into another room";
   }
   if (product && (room == "controller" || room == "rivals") && !on_the_robot.contains(name) &&
       (on_robot || !of_hosts.contains(name)))
@@ -166,12 +176,11 @@ std::optional<std::string> fault(const fs::path& room_folder, const fs::path& fi
 std::vector<std::string> faults(const fs::path& house) {
   std::vector<std::string> found;
   for (const auto& [room, allowed] : may_include) {
-    for (const fs::path& file : sources(house / folder_of(room))) {
+    for (const fs::path& file : sources(house / room)) {
       const std::string where = fs::relative(file, house).string();
-      if (room == "hosts" && where.starts_with("hosts/python/")) continue;
-      const bool product = is_product(house / folder_of(room), file);
+      const bool product = is_product(house / room, file);
       for (const Include& include : includes(file)) {
-        if (const auto what = fault(house / folder_of(room), file, include, product)) found.push_back(where + ": " + include.name + " " + *what);
+        if (const auto what = fault(house / room, file, include, product)) found.push_back(where + ": " + include.name + " " + *what);
       }
     }
   }
@@ -266,6 +275,9 @@ TEST_F(WrongHouse, AHostKnowsNoWorld) {
   EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include \"banyan/controller/convoy/convoy.hpp\""),
             "hosts/toy/src/x.cpp: banyan/controller/convoy/convoy.hpp names an algorithm\n");
   std::filesystem::remove(house_ / "hosts/toy/src/x.cpp");
+  EXPECT_EQ(faults_of("hosts/argos/src/x.cpp", "#include \"banyan/config/config.hpp\"\n#include <argos3/core/simulator/simulator.h>"), "");
+  EXPECT_EQ(faults_of("hosts/argos/src/x.cpp", "#include \"banyan/study/study.hpp\""), "hosts/argos/src/x.cpp: banyan/study/study.hpp points up\n");
+  std::filesystem::remove(house_ / "hosts/argos/src/x.cpp");
   EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/hosts/toy/x.hpp\""), "");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include <sodium.h>"), "world/src/x.cpp: sodium.h belongs into another room\n");
 }

@@ -61,6 +61,20 @@ struct FleetOptions {
 };
 int fleet_command(const FleetOptions& options);
 
+// An experiment for ARGoS (docs/argos.md).
+struct ArgosOptions {
+  std::string scenario;
+  std::vector<config::Override> overrides;
+  std::string output;                  // the .argos file; the world goes beside it
+  std::string out;                     // directory of its results; "": beside it, without the ending
+  std::string robot = "kheperaiv";
+  std::string sight = "stock";         // or "exact"
+  std::string obstacles = "sensors";   // or "world"
+  std::string library;                 // "": the one that was built with this program
+  bool force = false;
+};
+int argos_command(const ArgosOptions& options);
+
 struct ExportOptions {
   std::string recording;
   std::string output = "-";  // "-": standard output

@@ -101,6 +101,14 @@ constexpr const char* fleet_footer =
     "  banyan fleet scenarios/khepera-two-targets.toml --loss 0.1 --delay-ms 20 --jitter-ms 10\n"
     "  banyan fleet scenarios/khepera-three-targets.toml --set mission.algorithm=convoy --speed 5";
 
+constexpr const char* argos_footer =
+    "Writes FILE.argos, which `argos3 -c` runs from any directory, and FILE.world.toml, the scenario with all that was\n"
+    "changed. Robots, targets and obstacles come from the scenario, the results are those of `banyan run`.\n"
+    "docs/argos.md has the rest.\n\n"
+    "Examples:\n"
+    "  banyan argos scenarios/paper-medium.toml -o medium.argos\n"
+    "  banyan argos scenarios/paper-medium.toml --set mission.algorithm=convoy --seed 7 --sight exact -o convoy.argos";
+
 constexpr const char* algorithms_footer = "Examples:\n  banyan algorithms\n  banyan algorithms inwards --json";
 
 constexpr const char* keys_footer =
@@ -597,6 +605,27 @@ void add_fleet(CLI::App& app, std::function<int()>& action) {
   command->callback([options, &action] { action = [options] { return fleet_command(*options); }; });
 }
 
+void add_argos(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<ArgosOptions>();
+  auto* command = app.add_subcommand("argos", "write an experiment for the simulator ARGoS 3")->group(command_group);
+  command->footer(argos_footer);
+  command->add_option("scenario", options->scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
+  command->add_option("-o,--output", options->output, "the experiment, FILE.argos")->required()->type_name("FILE");
+  command->add_option("--out", options->out, "directory for its results, default FILE without .argos")->type_name("DIR");
+  const auto choice = [&](const char* name, std::string& value, const std::vector<std::string>& allowed, const char* meaning) {
+    command->add_option(name, value, meaning)->check(CLI::IsMember(allowed).description(""));
+  };
+  choice("--robot", options->robot, {"kheperaiv", "foot-bot"}, "kheperaiv, the default, or foot-bot");
+  choice("--sight", options->sight, {"stock", "exact"}, "stock: lines of sight as ARGoS has them, the default; or exact");
+  choice("--obstacles", options->obstacles, {"sensors", "world"},
+         "who sees them: the robots' proximity sensors, the default, or the world for them");
+  command->add_option("--library", options->library, "libbanyan_argos, default the one built with this program")->type_name("FILE");
+  command->add_flag("-f,--force", options->force, "replace the files, and later the results, that are there");
+  add_overrides(*command, options->overrides);
+  add_seed(*command, options->overrides);
+  command->callback([options, &action] { action = [options] { return argos_command(*options); }; });
+}
+
 // "did you mean" for a mistyped command or option.
 std::string suggestion(const CLI::App& app, const std::vector<std::string>& arguments) {
   const CLI::App* command = &app;
@@ -659,6 +688,7 @@ int run_program(int argc, char** argv) {
   add_hub(app, action);
   add_robot(app, action);
   add_fleet(app, action);
+  add_argos(app, action);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
     app.parse(argc, argv);

@@ -607,7 +607,7 @@ class Completion : public Program {
 using Words = std::vector<std::string>;
 
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
-  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "bench", "collect", "draw", "export", "film",
+  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "argos", "bench", "collect", "draw", "export", "film",
                                   "fleet", "hub", "keys", "robot", "run", "soak", "study", "tune", "validate", "view"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
