@@ -54,6 +54,9 @@ const std::map<std::string, Names, std::less<>> homes = {
     {"boost/", {"study"}},
     {"mpi.h", {"study"}},
     {"sodium", {"hosts"}},
+    {"dds/", {"hosts"}},
+    {"fastdds/", {"hosts"}},
+    {"fastcdr/", {"hosts"}},
     {"emscripten", {"viewer"}},
 };
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct PoseLine {
   std::size_t robot = 0;
   TrackedPose pose;
 };
+// Finite, and in bounds within which positions and headings are exact.
+[[nodiscard]] bool is_sound(const TrackedPose& pose) noexcept;
+// With its end.
+[[nodiscard]] std::string pose_line(const PoseLine& line);
 // Nothing if any of its lines is none.
 [[nodiscard]] std::optional<std::vector<PoseLine>> parse_poses(std::string_view datagram);
 
