@@ -75,7 +75,13 @@ if(TARGET banyan_cli)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 endif()
 
-# cpack -G DEB: `banyan` (the program) and `libbanyan-dev` (what a developer links).
+# In a package of its own, so that nobody else needs DDS.
+if(TARGET banyan_ros2)
+  install(TARGETS banyan_ros2 RUNTIME COMPONENT ros2)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/banyan-ros2 RENAME copyright COMPONENT ros2)
+endif()
+
+# cpack -G DEB: `banyan` (the program), `libbanyan-dev` (what a developer links) and `banyan-ros2`.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME banyan)
 set(CPACK_PACKAGE_VENDOR "The Banyan authors")
@@ -83,6 +89,9 @@ set(CPACK_PACKAGE_CONTACT "The Banyan authors <maintainers@users.noreply.github.
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(TARGET banyan_ros2)
+  list(APPEND CPACK_COMPONENTS_ALL ros2)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -97,12 +106,18 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libbox2d-dev, libzstd-dev, libtoml
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION} (development files)
  The robot's program (controller), its algorithms, the simulated world, its measures and the
  writer of recordings, as static libraries with headers.")
+set(CPACK_DEBIAN_ROS2_PACKAGE_NAME banyan-ros2)
+set(CPACK_DEBIAN_ROS2_PACKAGE_SECTION science)
+set(CPACK_COMPONENT_ROS2_DESCRIPTION "${PROJECT_DESCRIPTION} (bridge to ROS 2)
+ Robots and tracker of ROS 2 for a hub and robots of Banyan, without ROS.")
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
 find_program(FILE_PROGRAM file)
 mark_as_advanced(DPKG_SHLIBDEPS FILE_PROGRAM)
 if(DPKG_SHLIBDEPS AND FILE_PROGRAM)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_ROS2_PACKAGE_SHLIBDEPS ON)
 else()
+  set(CPACK_DEBIAN_ROS2_PACKAGE_DEPENDS "libc6, libstdc++6, libsodium23, libddsc0debian")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
       "libc6, libstdc++6, libbox2d2, libzstd1, libtomlplusplus3, libpagmo8, libboost-serialization1.74.0, libopenmpi3, librsvg2-2, libcairo2, libcpp-httplib0.11")
 endif()

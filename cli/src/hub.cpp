@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `banyan hub`: a scenario whose robots are processes. And `banyan robot`, which starts one.
+// `banyan hub`: a scenario whose robots are processes. And `banyan robot` and `banyan ros2`, programs of their own.
 #include <signal.h>
 #include <unistd.h>
 
@@ -257,6 +257,14 @@ int print_robots(const HubOptions& options) {
   return exit_done;
 }
 
+[[noreturn]] void become(std::string program, std::vector<std::string> arguments) {
+  std::vector<char*> words{program.data()};
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
+  ::execv(program.c_str(), words.data());
+  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
+}
+
 }  // namespace
 
 int hub_command(const HubOptions& options) {
@@ -274,14 +282,8 @@ int hub_command(const HubOptions& options) {
   });
 }
 
-int robot_command(const std::vector<std::string>& arguments) {
-  std::string program = robot_program();
-  std::vector<char*> words{program.data()};
-  std::vector<std::string> copies = arguments;
-  for (std::string& argument : copies) words.push_back(argument.data());
-  words.push_back(nullptr);
-  ::execv(program.c_str(), words.data());
-  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
-}
+int robot_command(const std::vector<std::string>& arguments) { become(robot_program(), arguments); }
+
+int ros2_command(const std::vector<std::string>& arguments) { become(ros2_program(), arguments); }
 
 }  // namespace banyan::cli

@@ -576,6 +576,13 @@ void add_robot(CLI::App& app, std::function<int()>& action) {
   command->callback([command, &action] { action = [command] { return robot_command(command->remaining()); }; });
 }
 
+void add_ros2(CLI::App& app, std::function<int()>& action) {
+  auto* command = app.add_subcommand("ros2", "connect a fleet with ROS 2; see banyan ros2 --help")->group(command_group);
+  command->prefix_command();
+  command->set_help_flag();
+  command->callback([command, &action] { action = [command] { return ros2_command(command->remaining()); }; });
+}
+
 void add_fleet(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<FleetOptions>();
   auto* command = app.add_subcommand("fleet", "run a scenario as processes, over real UDP")->group(command_group);
@@ -658,6 +665,7 @@ int run_program(int argc, char** argv) {
   add_bench(app, action);
   add_hub(app, action);
   add_robot(app, action);
+  add_ros2(app, action);
   add_fleet(app, action);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {

@@ -21,7 +21,7 @@ namespace {
 std::atomic<int> caught_by_bridge{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): all that a handler can reach
 
 constexpr double look_around_s = 0.1;
-constexpr double ask_after_s = 5.0;  // a topic on which nothing has come
+constexpr double ask_after_s = 3.0;  // a topic on which nothing has come
 constexpr double last_word_s = 0.5;  // for robots to hear that they stand still
 
 void catch_signals() {
@@ -136,12 +136,13 @@ class Bridge {
 
   [[nodiscard]] std::string account() const {
     std::string text = std::to_string(tracked_.taken()) + " poses";
-    for (const Sightings* judge : {&tracked_, &odometry_}) {
-      if (judge == &odometry_ && odometry_.taken() > 0) text += ", " + std::to_string(odometry_.taken()) + " of odometry";
-      for (std::size_t k = 0; k < refusals; ++k)
-        if (const auto count = judge->refused().at(k); count > 0)
-          text += "; dropped: " + std::to_string(count) + " " + name_of(static_cast<Refusal>(k));
+    if (odometry_.taken() > 0) text += ", " + std::to_string(odometry_.taken()) + " of odometry";
+    std::string dropped;
+    for (std::size_t k = 0; k < refusals; ++k) {
+      const std::uint64_t count = tracked_.refused().at(k) + odometry_.refused().at(k);
+      if (count > 0) dropped += (dropped.empty() ? "; dropped: " : ", ") + std::to_string(count) + " " + name_of(static_cast<Refusal>(k));
     }
+    text += dropped;
     if (node_.unsent() > 0) text += "; not sent: " + std::to_string(node_.unsent()) + " messages";
     return text;
   }
