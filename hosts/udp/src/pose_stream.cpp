@@ -58,9 +58,24 @@ void PoseStream::listen() {
       continue;
     }
     heard_s_ = clock_.now_s();
-    for (const PoseLine& line : *lines)
-      if (line.robot < poses_.size()) poses_[line.robot] = line.pose;  // others may be tracked, too
+    take(*lines);
   }
+}
+
+void PoseStream::take(const std::vector<PoseLine>& lines) {
+  for (const PoseLine& line : lines)
+    if (line.robot < poses_.size()) poses_[line.robot] = line.pose;  // others may be tracked, too
+}
+
+std::string PoseStream::lines() const {
+  std::string text;
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    if (poses_[i]) text += pose_line({i, *poses_[i]});
+  return text;
+}
+
+void PoseStream::restore(std::string_view text) {
+  if (const auto lines = parse_poses(text)) take(*lines);
 }
 
 std::vector<std::size_t> PoseStream::missing() const {

@@ -42,6 +42,9 @@ class PoseStream {
   PoseStream(const Address& listen, std::size_t robots) : socket_(listen), poses_(robots) {}
   // Takes in what has come.
   void listen();
+  // Where each robot was seen last, as lines; and from such lines again, as if they had just come.
+  [[nodiscard]] std::string lines() const;
+  void restore(std::string_view lines);
   // Where each robot was seen last; nothing for one that never was.
   [[nodiscard]] std::span<const std::optional<TrackedPose>> poses() const noexcept { return poses_; }
   [[nodiscard]] std::vector<std::size_t> missing() const;
@@ -51,6 +54,7 @@ class PoseStream {
   [[nodiscard]] Address local() const noexcept { return socket_.local(); }
 
  private:
+  void take(const std::vector<PoseLine>& lines);
   Socket socket_;
   std::vector<std::optional<TrackedPose>> poses_;
   Clock clock_;
