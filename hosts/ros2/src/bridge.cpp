@@ -44,8 +44,7 @@ class Bridge {
         node_(options),
         tracked_(options.robots, options.frame, options.max_age_s),
         odometry_(options.robots, "", options.max_age_s),
-        poses_(options.robots),
-        missing_(options.robots, 1) {
+        poses_(options.robots) {
     if (!options.bases.empty()) bases_.emplace(udp::parse_address(options.bases), options.robots);
     if (!options.poses.empty()) hub_ = udp::parse_address(options.poses);
   }
@@ -57,11 +56,11 @@ class Bridge {
       clock_.wait(descriptors(), next_look_s_);
       node_.listen([&](Source source, std::size_t place, const Sighting& sighting) { take(source, place, sighting); });
       hand_on();
-      if (bases_) bases_->listen(clock_.now_s(), [&](std::size_t place, const Velocity& v) { node_.drive(place, v, now_ns()); });
+      if (bases_) bases_->listen(clock_.now_s(), [&](std::size_t place, const Velocity& v) { node_.drive(place, v, stamp_ns()); });
       if (clock_.now_s() >= next_look_s_) look_around();
     }
     if (bases_)
-      for (std::size_t k = 0; k < options_.robots; ++k) node_.drive(k, {}, now_ns());
+      for (std::size_t k = 0; k < options_.robots; ++k) node_.drive(k, {}, stamp_ns());
     node_.settle(last_word_s);
     say(account());
     return 128 + caught_by_bridge;
@@ -71,6 +70,8 @@ class Bridge {
   // Without poses of a tracker, odometry says where a robot is, too.
   [[nodiscard]] Source tracker() const noexcept { return options_.pose_topic.empty() ? Source::odometry : Source::pose; }
   [[nodiscard]] Source odometer() const noexcept { return options_.odometry_topic.empty() ? Source::pose : Source::odometry; }
+  // Where poses follow the clock of a simulation, commands do so, too.
+  [[nodiscard]] std::int64_t stamp_ns() const { return options_.max_age_s > 0.0 ? now_ns() : newest_ns_; }
   [[nodiscard]] std::size_t id(std::size_t place) const noexcept { return options_.first + place; }
 
   static void say(const std::string& text) { std::fprintf(stderr, "banyan-ros2: %s\n", text.c_str()); }
@@ -81,15 +82,16 @@ class Bridge {
     return list;
   }
 
+  [[nodiscard]] const Sightings& judge(Source source) const noexcept { return source == tracker() ? tracked_ : odometry_; }
+
   void take(Source source, std::size_t place, const Sighting& sighting) {
-    Sightings& judge = source == tracker() ? tracked_ : odometry_;
     Refusal why{};
-    const auto pose = judge.take(place, sighting, now_ns(), why);
+    const auto pose = (source == tracker() ? tracked_ : odometry_).take(place, sighting, now_ns(), why);
     if (!pose) return refuse(source, place, sighting, why);
+    newest_ns_ = sighting.stamp_ns;
     if (source == odometer() && bases_)
       bases_->tell(place, {{static_cast<float>(pose->position.x), static_cast<float>(pose->position.y)}, static_cast<float>(pose->heading_rad)});
     if (source != tracker()) return;
-    missing_[place] = 0;
     poses_[place] = BodyFrame{sighting.stamp_ns, options_.frame, of_robot(options_.body_frame, id(place)),
                               pose->position.x, pose->position.y, pose->heading_rad};
   }
@@ -98,10 +100,10 @@ class Bridge {
   void refuse(Source source, std::size_t place, const Sighting& sighting, Refusal why) {
     if (!told_.insert({source, why}).second) return;
     std::string text = "robot " + std::to_string(id(place)) + ": a pose is dropped because it is " + name_of(why);
-    const Sightings& judge = source == tracker() ? tracked_ : odometry_;
-    if (why == Refusal::other_frame) text += ": \"" + sighting.frame + "\", not \"" + judge.frame(place) + "\"";
-    if (why == Refusal::too_old || why == Refusal::early)
-      text += ": it is stamped " + udp::option_text(1e-9 * static_cast<double>(now_ns() - sighting.stamp_ns)) + " s before now";
+    if (why == Refusal::other_frame) text += ": \"" + sighting.frame + "\", not \"" + judge(source).frame(place) + "\"";
+    const std::int64_t off_ms = (now_ns() - sighting.stamp_ns) / 1'000'000;
+    if (why == Refusal::too_old) text += ": it is stamped " + std::to_string(off_ms) + " ms before now";
+    if (why == Refusal::early) text += ": it is stamped " + std::to_string(-off_ms) + " ms after now";
     say(text + "; others like it are only counted");
   }
 
@@ -124,13 +126,16 @@ class Bridge {
     next_look_s_ = clock_.now_s() + look_around_s;
     if (asked_ || clock_.now_s() < ask_after_s) return;
     asked_ = true;
-    const std::string& topic = tracker() == Source::pose ? options_.pose_topic : options_.odometry_topic;
-    for (std::size_t k = 0; k < missing_.size(); ++k) {
-      if (missing_[k] == 0) continue;
-      const std::size_t publishers = node_.publishers(tracker(), k);
+    if (!options_.pose_topic.empty()) name_missing(Source::pose, options_.pose_topic, "geometry_msgs/PoseStamped");
+    if (!options_.odometry_topic.empty()) name_missing(Source::odometry, options_.odometry_topic, "nav_msgs/Odometry");
+  }
+
+  void name_missing(Source source, const std::string& topic, const std::string& type) const {
+    for (std::size_t k = 0; k < options_.robots; ++k) {
+      if (judge(source).has_seen(k)) continue;
+      const std::size_t publishers = node_.publishers(source, k);
       say("robot " + std::to_string(id(k)) + ": no sound pose so far on " + of_robot(topic, id(k)) + ", which has " +
-          std::to_string(publishers) + (publishers == 1 ? " publisher of " : " publishers of ") +
-          (tracker() == Source::pose ? "geometry_msgs/PoseStamped" : "nav_msgs/Odometry"));
+          std::to_string(publishers) + (publishers == 1 ? " publisher of " : " publishers of ") + type);
     }
   }
 
@@ -151,12 +156,12 @@ class Bridge {
   Node node_;
   Sightings tracked_, odometry_;
   std::vector<std::optional<BodyFrame>> poses_;  // that have not been handed on
-  std::vector<char> missing_;                    // never seen
   std::optional<Bases> bases_;
   std::optional<udp::Address> hub_;
   udp::Socket socket_{udp::Address{}};
   udp::Clock clock_;
   double next_look_s_ = 0.0;
+  std::int64_t newest_ns_ = 0;  // stamp of the last pose that was taken
   bool asked_ = false;
   std::set<std::pair<Source, Refusal>> told_;
 };

@@ -78,7 +78,9 @@ TEST(Sightings, AreCountedAndTheLastOneStays) {
   s.stamp_ns += 2;
   EXPECT_EQ(verdict(judge, s), "taken");
   Refusal why{};
+  EXPECT_FALSE(judge.has_seen(1));
   EXPECT_TRUE(judge.take(1, sighting(), now, why));  // each robot has a last one of its own
+  EXPECT_TRUE(judge.has_seen(1));
   EXPECT_EQ(judge.taken(), 3U);
   EXPECT_EQ(judge.refused().at(static_cast<std::size_t>(Refusal::overtaken)), 2U);
 }

@@ -40,6 +40,7 @@ class Sightings {
   [[nodiscard]] std::optional<udp::TrackedPose> take(std::size_t place, const Sighting& sighting, std::int64_t now_ns, Refusal& why);
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
   [[nodiscard]] const std::array<std::uint64_t, refusals>& refused() const noexcept { return refused_; }
+  [[nodiscard]] bool has_seen(std::size_t place) const noexcept { return last_ns_[place].has_value(); }
   [[nodiscard]] const std::string& frame(std::size_t place) const noexcept { return frames_[place]; }
 
  private:
