@@ -38,14 +38,17 @@ std::uint64_t digest_of(const std::string& text) {
 }
 
 // The configuration is the one that was given, wherever a tracker sees robots.
-std::unique_ptr<udp::Tape> open_tape(const HubOptions& options, const config::Configuration& configuration, udp::PoseStream* tracker) {
+std::unique_ptr<udp::Tape> open_tape(const HubOptions& options, const config::Configuration& configuration,
+                                     udp::PoseStream* tracker) {
   if (options.tape.empty()) return nullptr;
   const std::uint64_t digest = digest_of(config::config_json(configuration));
-  if (!options.resume) return std::make_unique<udp::Tape>(options.tape, digest, std::random_device{}(), tracker != nullptr ? tracker->lines() : "");
+  if (!options.resume)
+    return std::make_unique<udp::Tape>(options.tape, digest, std::random_device{}(), tracker ? tracker->lines() : "");
   auto tape = std::make_unique<udp::Tape>(options.tape, digest);
   if (tape->start().empty() != (tracker == nullptr))
-    throw CommandError(exit_usage, options.tape + (tracker == nullptr ? ": is the tape of a mission with a tracker; --poses is missing"
-                                                                      : ": is the tape of a mission without a tracker; leave --poses out"));
+    throw CommandError(exit_usage, options.tape + (tracker == nullptr
+                                                       ? ": is the tape of a mission with a tracker; --poses is missing"
+                                                       : ": is the tape of a mission without a tracker; leave --poses out"));
   if (tracker != nullptr) tracker->restore(tape->start());
   return tape;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A fleet whose robots and tracker are ROS 2's (docs/ros2.md): hub, robots and banyan-ros2 here, bodies in a process that
-// speaks another implementation of DDS (hosts/ros2/test/peer.cpp). Clocks are five times as fast as the wall's.
+// A fleet whose robots and tracker are ROS 2's (docs/ros2.md): hub, robots and banyan-ros2 here, bodies in a process
+// that speaks another implementation of DDS (hosts/ros2/test/peer.cpp). Clocks are five times as fast as the wall's.
 #include <signal.h>
 
 #include <cmath>
@@ -24,10 +24,12 @@ class RosLaboratory : public StartedProcesses {
     hub_address_ = "127.0.0.1:" + std::to_string(port);
     poses_ = "127.0.0.1:" + std::to_string(port + 1);
     first_base_ = port + 2;
-    const std::string domain = std::to_string(91 + ::getpid() % 10);  // ports that neither free_port() nor the system hands out
-    bodies_ = shell(std::string(BANYAN_ROS2_PEER) + " 9 " + domain + " 5 " + peer_options + " >peer.txt 2>peer-errors.txt");
-    bridge_ = shell(std::string(BANYAN_ROS2) + " --localhost --robots 9 --domain " + domain + " --poses " + poses_ + " --bases 127.0.0.1:" +
-                    std::to_string(first_base_) + " " + bridge_options + " 2>bridge.txt");
+    const std::string domain =
+        std::to_string(91 + ::getpid() % 10);  // ports that neither free_port() nor the system hands out
+    bodies_ =
+        shell(std::string(BANYAN_ROS2_PEER) + " 9 " + domain + " 5 " + peer_options + " >peer.txt 2>peer-errors.txt");
+    bridge_ = shell(std::string(BANYAN_ROS2) + " --localhost --robots 9 --domain " + domain + " --poses " + poses_ +
+                    " --bases 127.0.0.1:" + std::to_string(first_base_) + " " + bridge_options + " 2>bridge.txt");
     ASSERT_TRUE(becomes([&] { return answers(first_base_ + count - 1); })) << read("bridge.txt");
     for (int i = 0; i < count; ++i) robots_.push_back(start_robot(i));
   }
@@ -39,12 +41,17 @@ class RosLaboratory : public StartedProcesses {
   }
   pid_t shell(const std::string& command) { return start({"-c", "exec " + command}, {.program = "sh"}); }
   pid_t start_robot(int i) {
-    return start({"robot", "--id", std::to_string(i), "--hub", hub_address_, "--key", "fleet.key", "--algorithm", "outwards", "--speed", "5", "--base",
-                  "tcp:127.0.0.1:" + std::to_string(first_base_ + i)});
+    return start({"robot", "--id", std::to_string(i), "--hub", hub_address_, "--key", "fleet.key", "--algorithm",
+                  "outwards", "--speed", "5", "--base", "tcp:127.0.0.1:" + std::to_string(first_base_ + i)});
   }
   [[nodiscard]] Arguments hub() const {
-    return {"hub", std::string(BANYAN_SCENARIOS) + "/khepera-three-targets.toml", "--key", "fleet.key", "--listen", hub_address_, "--poses", poses_,
-            "--speed", "5", "--out", "result", "--force"};
+    return {"hub",      std::string(BANYAN_SCENARIOS) + "/khepera-three-targets.toml",
+            "--key",    "fleet.key",
+            "--listen", hub_address_,
+            "--poses",  poses_,
+            "--speed",  "5",
+            "--out",    "result",
+            "--force"};
   }
   static void expect_complete(const Outcome& hub) {
     EXPECT_EQ(hub.code, 0) << hub.err;
@@ -93,9 +100,10 @@ class RosLaboratory : public StartedProcesses {
 
 // Names and types as ROS 2 mangles them, qualities of service as rclcpp, tf2_ros and rmw_dds_common have them.
 std::set<std::string> endpoints(const std::string& pose_reader, const std::string& command_type) {
-  std::set<std::string> lines{"participant enclave=/;", "writer rt/tf tf2_msgs::msg::dds_::TFMessage_ reliable volatile",
-                              "writer ros_discovery_info rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_ reliable transient-local",
-                              "node / banyan_ros2: 9 readers, 10 writers, 0 unknown"};
+  std::set<std::string> lines{
+      "participant enclave=/;", "writer rt/tf tf2_msgs::msg::dds_::TFMessage_ reliable volatile",
+      "writer ros_discovery_info rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_ reliable transient-local",
+      "node / banyan_ros2: 9 readers, 10 writers, 0 unknown"};
   for (int i = 0; i < 9; ++i) {
     const std::string robot = "rt/robot_" + std::to_string(i);
     lines.insert("reader " + robot + pose_reader + " best-effort volatile");
@@ -134,7 +142,8 @@ TEST_F(RosLaboratory, CompletesWithPoseStampedAndTwistWhateverElseIsSaid) {
   auto said = close();
   expect_frames(said, last);
   EXPECT_EQ(said, endpoints("/pose geometry_msgs::msg::dds_::PoseStamped_", "Twist_"));  // and no robot still moves
-  for (const char* why : {"not finite", "of a quaternion that is no rotation", "tilted by more than 45 degrees", "of another frame", "too old"})
+  for (const char* why : {"not finite", "of a quaternion that is no rotation", "tilted by more than 45 degrees",
+                          "of another frame", "too old"})
     EXPECT_GE(counted(why), 9U) << why << "\n" << read("bridge.txt");
   EXPECT_GT(counted("poses"), 9U * 50U);
   EXPECT_TRUE(has(read("bridge.txt"), "it is of another frame: \"camera\", not \"map\"")) << read("bridge.txt");
@@ -148,7 +157,8 @@ TEST_F(RosLaboratory, CompletesWithOdometryAndTwistStampedAndIsSeenByHumble) {
   expect_frames(said, last);
   EXPECT_EQ(said, endpoints("/odom nav_msgs::msg::dds_::Odometry_", "TwistStamped_"));
   // On a machine that has other work, some may be too old.
-  for (const char* why : {"not finite", "of a quaternion", "tilted", "of another frame", "from the future"}) EXPECT_EQ(counted(why), 0U) << read("bridge.txt");
+  for (const char* why : {"not finite", "of a quaternion", "tilted", "of another frame", "from the future"})
+    EXPECT_EQ(counted(why), 0U) << read("bridge.txt");
 }
 
 // The tracker's poses in the map, and odometry since the start, which only the robots learn of.
@@ -195,9 +205,11 @@ TEST_F(RosLaboratory, SaysWhatIsMissingAndWhatCannotBe) {
   EXPECT_EQ(help.code, 0);
   EXPECT_TRUE(has(help.out, "--odometry TOPIC")) << help.out;
   // Nobody publishes.
-  const pid_t alone = shell(std::string(BANYAN_ROS2) + " --localhost --id 7 --domain 90 --poses 127.0.0.1:9 --pose /seven 2>bridge.txt");
+  const pid_t alone = shell(std::string(BANYAN_ROS2) +
+                            " --localhost --id 7 --domain 90 --poses 127.0.0.1:9 --pose /seven 2>bridge.txt");
   EXPECT_TRUE(becomes([&] {
-    return has(read("bridge.txt"), "robot 7: no sound pose so far on /seven, which has 0 publishers of geometry_msgs/PoseStamped");
+    return has(read("bridge.txt"),
+               "robot 7: no sound pose so far on /seven, which has 0 publishers of geometry_msgs/PoseStamped");
   })) << read("bridge.txt");
   ::kill(alone, SIGINT);
   EXPECT_EQ(finish(alone).code, 130);

@@ -26,13 +26,16 @@ int listen_at(const udp::Address& address) {
   throw udp::SocketError("tcp:" + udp::to_string(address) + ": " + reason);
 }
 
-bool is_still(const Velocity& v) noexcept { return v.forward_m_s == 0.0F && v.sideways_m_s == 0.0F && v.turn_rad_s == 0.0F; }
+bool is_still(const Velocity& v) noexcept {
+  return v.forward_m_s == 0.0F && v.sideways_m_s == 0.0F && v.turn_rad_s == 0.0F;
+}
 
 }  // namespace
 
 Bases::Bases(const udp::Address& first, std::size_t robots) : Bases(robots) {
   if (first.port() != 0 && first.port() + robots > 65536)
-    throw udp::SocketError(udp::to_string(first) + ": there are not " + std::to_string(robots) + " ports from there on");
+    throw udp::SocketError(udp::to_string(first) + ": there are not " + std::to_string(robots) +
+                           " ports from there on");
   udp::Address address = first;
   for (Base& base : bases_) {
     base.door = listen_at(address);

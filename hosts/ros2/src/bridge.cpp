@@ -18,7 +18,8 @@
 namespace banyan::ros2 {
 namespace {
 
-std::atomic<int> caught_by_bridge{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): all that a handler can reach
+std::atomic<int> caught_by_bridge{
+    0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): all that a handler can reach
 
 constexpr double look_around_s = 0.1;
 constexpr double ask_after_s = 3.0;  // a topic on which nothing has come
@@ -33,9 +34,7 @@ void catch_signals() {
   ::signal(SIGPIPE, SIG_IGN);
 }
 
-std::int64_t now_ns() {
-  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
-}
+std::int64_t now_ns() { return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count(); }
 
 class Bridge {
  public:
@@ -56,7 +55,9 @@ class Bridge {
       clock_.wait(descriptors(), next_look_s_);
       node_.listen([&](Source source, std::size_t place, const Sighting& sighting) { take(source, place, sighting); });
       hand_on();
-      if (bases_) bases_->listen(clock_.now_s(), [&](std::size_t place, const Velocity& v) { node_.drive(place, v, stamp_ns()); });
+      if (bases_)
+        bases_->listen(clock_.now_s(),
+                       [&](std::size_t place, const Velocity& v) { node_.drive(place, v, stamp_ns()); });
       if (clock_.now_s() >= next_look_s_) look_around();
     }
     if (bases_)
@@ -68,8 +69,12 @@ class Bridge {
 
  private:
   // Without poses of a tracker, odometry says where a robot is, too.
-  [[nodiscard]] Source tracker() const noexcept { return options_.pose_topic.empty() ? Source::odometry : Source::pose; }
-  [[nodiscard]] Source odometer() const noexcept { return options_.odometry_topic.empty() ? Source::pose : Source::odometry; }
+  [[nodiscard]] Source tracker() const noexcept {
+    return options_.pose_topic.empty() ? Source::odometry : Source::pose;
+  }
+  [[nodiscard]] Source odometer() const noexcept {
+    return options_.odometry_topic.empty() ? Source::pose : Source::odometry;
+  }
   // Where poses follow the clock of a simulation, commands do so, too.
   [[nodiscard]] std::int64_t stamp_ns() const { return options_.max_age_s > 0.0 ? now_ns() : newest_ns_; }
   [[nodiscard]] std::size_t id(std::size_t place) const noexcept { return options_.first + place; }
@@ -82,7 +87,9 @@ class Bridge {
     return list;
   }
 
-  [[nodiscard]] const Sightings& judge(Source source) const noexcept { return source == tracker() ? tracked_ : odometry_; }
+  [[nodiscard]] const Sightings& judge(Source source) const noexcept {
+    return source == tracker() ? tracked_ : odometry_;
+  }
 
   void take(Source source, std::size_t place, const Sighting& sighting) {
     Refusal why{};
@@ -90,10 +97,11 @@ class Bridge {
     if (!pose) return refuse(source, place, sighting, why);
     newest_ns_ = sighting.stamp_ns;
     if (source == odometer() && bases_)
-      bases_->tell(place, {{static_cast<float>(pose->position.x), static_cast<float>(pose->position.y)}, static_cast<float>(pose->heading_rad)});
+      bases_->tell(place, {{static_cast<float>(pose->position.x), static_cast<float>(pose->position.y)},
+                           static_cast<float>(pose->heading_rad)});
     if (source != tracker()) return;
-    poses_[place] = BodyFrame{sighting.stamp_ns, options_.frame, of_robot(options_.body_frame, id(place)),
-                              pose->position.x, pose->position.y, pose->heading_rad};
+    poses_[place] = BodyFrame{sighting.stamp_ns, options_.frame,   of_robot(options_.body_frame, id(place)),
+                              pose->position.x,  pose->position.y, pose->heading_rad};
   }
 
   // The first of each kind is told at once; the account at the end has them all.
@@ -145,7 +153,9 @@ class Bridge {
     std::string dropped;
     for (std::size_t k = 0; k < refusals; ++k) {
       const std::uint64_t count = tracked_.refused().at(k) + odometry_.refused().at(k);
-      if (count > 0) dropped += (dropped.empty() ? "; dropped: " : ", ") + std::to_string(count) + " " + name_of(static_cast<Refusal>(k));
+      if (count > 0)
+        dropped +=
+            (dropped.empty() ? "; dropped: " : ", ") + std::to_string(count) + " " + name_of(static_cast<Refusal>(k));
     }
     text += dropped;
     if (node_.unsent() > 0) text += "; not sent: " + std::to_string(node_.unsent()) + " messages";

@@ -59,8 +59,9 @@ Qos quality_of_discovery() {
 
 // What rmw_cyclonedds sets for LOCALHOST, and that nothing is sent by another interface.
 constexpr const char* on_this_computer =
-    "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast><Interfaces><NetworkInterface address=\"127.0.0.1\" multicast=\"false\"/></Interfaces>"
-    "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
+    "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast>"
+    "<Interfaces><NetworkInterface address=\"127.0.0.1\" multicast=\"false\"/></Interfaces></General>"
+    "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
     "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";
 
 dds_entity_t join(const Options& options) {
@@ -86,13 +87,18 @@ builtin_interfaces_msg_dds__Time_ time_of(std::int64_t ns) noexcept {
 
 Sighting sighting_of(const std_msgs_msg_dds__Header_& header, const geometry_msgs_msg_dds__Pose_& pose) {
   const auto& q = pose.orientation;
-  return {nanoseconds_of(header.stamp), header.frame_id == nullptr ? "" : header.frame_id, pose.position.x, pose.position.y,
+  return {nanoseconds_of(header.stamp),
+          header.frame_id == nullptr ? "" : header.frame_id,
+          pose.position.x,
+          pose.position.y,
           {q.x, q.y, q.z, q.w}};
 }
 Sighting sighting_of(const PoseMessage& message) { return sighting_of(message.header, message.pose); }
 Sighting sighting_of(const OdometryMessage& message) { return sighting_of(message.header, message.pose.pose); }
 
-TwistMessage twist_of(const Velocity& v) noexcept { return {{v.forward_m_s, v.sideways_m_s, 0.0}, {0.0, 0.0, v.turn_rad_s}}; }
+TwistMessage twist_of(const Velocity& v) noexcept {
+  return {{v.forward_m_s, v.sideways_m_s, 0.0}, {0.0, 0.0, v.turn_rad_s}};
+}
 
 // Hands out what a reader has; dds_take lends its samples.
 template <class Message, class Use> void take_all(dds_entity_t reader, const Use& use) {
@@ -137,8 +143,9 @@ template <class Of> typename Of::Gid gid_of(dds_entity_t entity) {
   return gid;
 }
 
-template <class Of> void introduce(dds_entity_t writer, dds_entity_t participant, const std::string& name,
-                                   const std::vector<dds_entity_t>& readers, const std::vector<dds_entity_t>& writers) {
+template <class Of>
+void introduce(dds_entity_t writer, dds_entity_t participant, const std::string& name,
+               const std::vector<dds_entity_t>& readers, const std::vector<dds_entity_t>& writers) {
   std::vector<typename Of::Gid> reader_gids, writer_gids;
   for (const dds_entity_t entity : readers) reader_gids.push_back(gid_of<Of>(entity));
   for (const dds_entity_t entity : writers) writer_gids.push_back(gid_of<Of>(entity));
@@ -188,7 +195,8 @@ struct Node::Parts {
       odometry.push_back(read(of_robot(options.odometry_topic, id), nav_msgs_msg_dds__Odometry__desc));
     if (options.bases.empty()) return;
     commands.push_back(write(of_robot(options.command_topic, id),
-                             stamped ? geometry_msgs_msg_dds__TwistStamped__desc : geometry_msgs_msg_dds__Twist__desc, depth));
+                             stamped ? geometry_msgs_msg_dds__TwistStamped__desc : geometry_msgs_msg_dds__Twist__desc,
+                             depth));
   }
 
   dds_entity_t topic(const std::string& name, const dds_topic_descriptor_t& descriptor) const {
@@ -197,22 +205,27 @@ struct Node::Parts {
   // Best effort, which any publisher can serve; a pose that was lost is overtaken by the next.
   dds_entity_t read(const std::string& name, const dds_topic_descriptor_t& descriptor) {
     const Qos qos = quality(DDS_RELIABILITY_BEST_EFFORT, depth);
-    readers.push_back(sound(dds_create_reader(participant, topic(dds_topic(name), descriptor), qos.get(), listener), name));
+    readers.push_back(
+        sound(dds_create_reader(participant, topic(dds_topic(name), descriptor), qos.get(), listener), name));
     return readers.back();
   }
   dds_entity_t write(const std::string& name, const dds_topic_descriptor_t& descriptor, std::int32_t kept) {
     const Qos qos = quality(DDS_RELIABILITY_RELIABLE, kept);
-    writers.push_back(sound(dds_create_writer(participant, topic(dds_topic(name), descriptor), qos.get(), nullptr), name));
+    writers.push_back(
+        sound(dds_create_writer(participant, topic(dds_topic(name), descriptor), qos.get(), nullptr), name));
     return writers.back();
   }
 
-  void introduce_node(const Options& options) {
+  void introduce_node(const Options& options) const {
     const Qos qos = quality_of_discovery();
     const dds_topic_descriptor_t& descriptor = options.humble ? OfHumble::descriptor() : OfNow::descriptor();
-    const dds_entity_t writer = sound(
-        dds_create_writer(participant, topic("ros_discovery_info", descriptor), qos.get(), nullptr), "ros_discovery_info");
-    if (options.humble) introduce<OfHumble>(writer, participant, options.node, readers, writers);
-    else introduce<OfNow>(writer, participant, options.node, readers, writers);
+    const dds_entity_t writer =
+        sound(dds_create_writer(participant, topic("ros_discovery_info", descriptor), qos.get(), nullptr),
+              "ros_discovery_info");
+    if (options.humble)
+      introduce<OfHumble>(writer, participant, options.node, readers, writers);
+    else
+      introduce<OfNow>(writer, participant, options.node, readers, writers);
   }
 
   void call() const noexcept {
@@ -226,7 +239,7 @@ struct Node::Parts {
   std::string frame;
   dds_entity_t domain = DDS_ENTITY_NIL, participant = DDS_ENTITY_NIL, transforms = DDS_ENTITY_NIL;
   dds_listener_t* listener = nullptr;
-  std::vector<dds_entity_t> readers, writers;        // all of them
+  std::vector<dds_entity_t> readers, writers;           // all of them
   std::vector<dds_entity_t> poses, odometry, commands;  // by robot
   std::uint64_t unsent = 0;
 };
@@ -240,7 +253,8 @@ void Node::listen(const Take& take) {
   std::uint64_t calls = 0;
   static_cast<void>(::read(parts_->wake, &calls, sizeof calls));
   for (std::size_t k = 0; k < parts_->odometry.size(); ++k)
-    take_all<OdometryMessage>(parts_->odometry[k], [&](const auto& message) { take(Source::odometry, k, sighting_of(message)); });
+    take_all<OdometryMessage>(parts_->odometry[k],
+                              [&](const auto& message) { take(Source::odometry, k, sighting_of(message)); });
   for (std::size_t k = 0; k < parts_->poses.size(); ++k)
     take_all<PoseMessage>(parts_->poses[k], [&](const auto& message) { take(Source::pose, k, sighting_of(message)); });
 }
@@ -262,7 +276,8 @@ void Node::publish(std::vector<BodyFrame>& bodies) {
     BodyFrame& body = bodies[k];
     list[k].header = {time_of(body.stamp_ns), body.parent.data()};
     list[k].child_frame_id = body.child.data();
-    list[k].transform = {{body.x_m, body.y_m, 0.0}, {0.0, 0.0, std::sin(body.heading_rad / 2.0), std::cos(body.heading_rad / 2.0)}};
+    list[k].transform = {{body.x_m, body.y_m, 0.0},
+                         {0.0, 0.0, std::sin(body.heading_rad / 2.0), std::cos(body.heading_rad / 2.0)}};
   }
   tf2_msgs_msg_dds__TFMessage_ message{};
   message.transforms._length = message.transforms._maximum = static_cast<std::uint32_t>(list.size());

@@ -17,8 +17,12 @@ template <class Get> Row text(const char* name, const char* form, const char* me
   return udp::text_option<Options>(name, form, meaning, get);
 }
 
-Row whole(const char* name, const char* meaning, double least, double most, std::function<void(Options&, double)> set) {
-  return {name, "N", meaning, [=](Options& o, const std::string& value) { set(o, udp::option_whole_number(value, least, most)); },
+Row whole(const char* name, const char* meaning, double least, double most,
+          const std::function<void(Options&, double)>& set) {
+  return {name,
+          "N",
+          meaning,
+          [=](Options& o, const std::string& value) { set(o, udp::option_whole_number(value, least, most)); },
           {}};
 }
 
@@ -35,24 +39,32 @@ const std::vector<Row>& rows() {
               o.first = static_cast<std::size_t>(n);
               o.robots = 1;
             }),
-      text("--poses", "ADDRESS:PORT", "send where robots are to banyan hub --poses there", [](Options& o) -> std::string& { return o.poses; }),
-      text("--bases", "ADDRESS:PORT", "be the base of robot i for banyan-robot --base tcp:ADDRESS:(PORT + i); with --id, at PORT itself",
+      text("--poses", "ADDRESS:PORT", "send where robots are to banyan hub --poses there",
+           [](Options& o) -> std::string& { return o.poses; }),
+      text("--bases", "ADDRESS:PORT",
+           "be the base of robot i for banyan-robot --base tcp:ADDRESS:(PORT + i); with --id, at PORT itself",
            [](Options& o) -> std::string& { return o.bases; }),
       text("--pose", "TOPIC", "geometry_msgs/PoseStamped in --frame; default /robot_{}/pose if there is no --odometry",
            [](Options& o) -> std::string& { return o.pose_topic; }),
-      text("--odometry", "TOPIC", "nav_msgs/Odometry, for the base; without --pose also where the robot is, and then in --frame",
+      text("--odometry", "TOPIC",
+           "nav_msgs/Odometry, for the base; without --pose also where the robot is, and then in --frame",
            [](Options& o) -> std::string& { return o.odometry_topic; }),
-      text("--cmd-vel", "TOPIC", "geometry_msgs/Twist; default /robot_{}/cmd_vel", [](Options& o) -> std::string& { return o.command_topic; }),
+      text("--cmd-vel", "TOPIC", "geometry_msgs/Twist; default /robot_{}/cmd_vel",
+           [](Options& o) -> std::string& { return o.command_topic; }),
       flag("--stamped", "commands are geometry_msgs/TwistStamped", &Options::stamped),
-      text("--frame", "NAME", "in which the scenario has its targets; default map", [](Options& o) -> std::string& { return o.frame; }),
-      text("--body-frame", "NAME", "of a robot in /tf; default robot_{}/base_link", [](Options& o) -> std::string& { return o.body_frame; }),
+      text("--frame", "NAME", "in which the scenario has its targets; default map",
+           [](Options& o) -> std::string& { return o.frame; }),
+      text("--body-frame", "NAME", "of a robot in /tf; default robot_{}/base_link",
+           [](Options& o) -> std::string& { return o.body_frame; }),
       flag("--no-tf", "publish no tf2_msgs/TFMessage on /tf", &Options::tf, false),
-      udp::real_option<Options>("--max-age", "of a pose, s; default 0.3; 0: stamps are not compared with this computer's clock", 0.0, 3600.0,
-                                [](Options& o) -> double& { return o.max_age_s; }),
+      udp::real_option<Options>("--max-age",
+                                "of a pose, s; default 0.3; 0: stamps are not compared with this computer's clock", 0.0,
+                                3600.0, [](Options& o) -> double& { return o.max_age_s; }),
       text("--node", "NAME", "of this node; default banyan_ros2", [](Options& o) -> std::string& { return o.node; }),
       whole("--domain", "default ROS_DOMAIN_ID, else 0", 0, largest_domain,
             [](Options& o, double n) { o.domain = static_cast<std::uint32_t>(n); }),
-      flag("--localhost", "talk to this computer alone, as with ROS_LOCALHOST_ONLY=1 or ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST",
+      flag("--localhost",
+           "talk to this computer alone, as with ROS_LOCALHOST_ONLY=1 or ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST",
            &Options::localhost),
       flag("--humble", "be seen by ros2 node list of ROS 2 Humble and older, and not by newer ones", &Options::humble),
   };
@@ -69,9 +81,7 @@ Options from_environment(const Environment& environment) {
   try {
     if (const std::string domain = value("ROS_DOMAIN_ID"); !domain.empty())
       options.domain = static_cast<std::uint32_t>(udp::option_whole_number(domain, 0, largest_domain));
-  } catch (const OptionError& error) {
-    throw OptionError(std::string("ROS_DOMAIN_ID ") + error.what());
-  }
+  } catch (const OptionError& error) { throw OptionError(std::string("ROS_DOMAIN_ID ") + error.what()); }
   options.localhost = value("ROS_LOCALHOST_ONLY") == "1" || value("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST";
   return options;
 }
@@ -86,7 +96,8 @@ void check_topic(const char* option, const std::string& pattern, std::size_t rob
 
 void check(const Options& options) {
   if (options.robots == 0) throw OptionError("--robots or --id is missing");
-  if (options.poses.empty() && options.bases.empty()) throw OptionError("--poses, --bases or both are missing: there is nothing to do");
+  if (options.poses.empty() && options.bases.empty())
+    throw OptionError("--poses, --bases or both are missing: there is nothing to do");
   check_topic("--pose", options.pose_topic, options.robots);
   check_topic("--odometry", options.odometry_topic, options.robots);
   check_topic("--cmd-vel", options.command_topic, options.robots);
@@ -94,7 +105,8 @@ void check(const Options& options) {
   if (options.frame.empty()) throw OptionError("--frame must not be empty");
   if (options.tf && options.robots > 1 && options.body_frame.find("{}") == std::string::npos)
     throw OptionError("--body-frame \"" + options.body_frame + "\" must have {} where the robot's id belongs");
-  if (const std::string fault = node_fault(options.node); !fault.empty()) throw OptionError("--node \"" + options.node + "\" " + fault);
+  if (const std::string fault = node_fault(options.node); !fault.empty())
+    throw OptionError("--node \"" + options.node + "\" " + fault);
 }
 
 }  // namespace

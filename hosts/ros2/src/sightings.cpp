@@ -6,8 +6,8 @@
 namespace banyan::ros2 {
 namespace {
 
-constexpr double norm_tolerance = 0.01;  // programs round, and some write 0.707
-constexpr double least_upright = 0.7;    // cosine of some 45 degrees
+constexpr double norm_tolerance = 0.01;             // programs round, and some write 0.707
+constexpr double least_upright = 0.7;               // cosine of some 45 degrees
 constexpr std::int64_t restart_ns = 1'000'000'000;  // a simulation's clock that goes back by more has begun anew
 
 double norm_of(const Quaternion& q) noexcept { return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w); }
@@ -16,14 +16,22 @@ double norm_of(const Quaternion& q) noexcept { return std::sqrt(q.x * q.x + q.y 
 
 const char* name_of(Refusal refusal) noexcept {
   switch (refusal) {
-    case Refusal::not_finite: return "not finite";
-    case Refusal::no_rotation: return "of a quaternion that is no rotation";
-    case Refusal::tilted: return "tilted by more than 45 degrees";
-    case Refusal::far_away: return "farther than 100 km from the origin";
-    case Refusal::other_frame: return "of another frame";
-    case Refusal::too_old: return "too old";
-    case Refusal::early: return "from the future";
-    case Refusal::overtaken: return "not newer than the last";
+    case Refusal::not_finite:
+      return "not finite";
+    case Refusal::no_rotation:
+      return "of a quaternion that is no rotation";
+    case Refusal::tilted:
+      return "tilted by more than 45 degrees";
+    case Refusal::far_away:
+      return "farther than 100 km from the origin";
+    case Refusal::other_frame:
+      return "of another frame";
+    case Refusal::too_old:
+      return "too old";
+    case Refusal::early:
+      return "from the future";
+    case Refusal::overtaken:
+      return "not newer than the last";
   }
   return "";
 }
@@ -48,7 +56,8 @@ std::optional<Refusal> Sightings::fault(std::size_t place, const Sighting& sight
   return Refusal::overtaken;
 }
 
-std::optional<udp::TrackedPose> Sightings::take(std::size_t place, const Sighting& sighting, std::int64_t now_ns, Refusal& why) {
+std::optional<udp::TrackedPose> Sightings::take(std::size_t place, const Sighting& sighting, std::int64_t now_ns,
+                                                Refusal& why) {
   if (const auto refusal = fault(place, sighting, now_ns)) {
     why = *refusal;
     ++refused_.at(static_cast<std::size_t>(why));

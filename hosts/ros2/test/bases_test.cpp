@@ -86,7 +86,8 @@ TEST_F(BasesTest, NonsenseDrivesNobody) {
   const int wire = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address = udp::parse_address("127.0.0.1:" + std::to_string(bases.port(0))).raw;
   ASSERT_EQ(::connect(wire, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  const std::string text = "drive 1 2\ndrive nan 0 0\nDRIVE 1 2 3\n" + std::string(10000, 'x') + "\npose 1 2 3\ndrive 0.5 0 0\r\n";
+  const std::string text =
+      "drive 1 2\ndrive nan 0 0\nDRIVE 1 2 3\n" + std::string(10000, 'x') + "\npose 1 2 3\ndrive 0.5 0 0\r\n";
   ASSERT_EQ(::send(wire, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
   listen_until(1.0, 1);
   EXPECT_FLOAT_EQ(driven[0].second.forward_m_s, 0.5F);

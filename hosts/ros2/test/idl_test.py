@@ -19,8 +19,8 @@ from rosidl_adapter.msg import convert_msg_to_idl
 SHARE = pathlib.Path("/usr/share")
 ORIGINALS = {
     "std_msgs": ["Header"],
-    "geometry_msgs": ["Point", "Quaternion", "Pose", "PoseStamped", "PoseWithCovariance", "Vector3", "Twist", "TwistStamped",
-                      "TwistWithCovariance", "Transform", "TransformStamped"],
+    "geometry_msgs": ["Point", "Quaternion", "Pose", "PoseStamped", "PoseWithCovariance", "Vector3", "Twist",
+                      "TwistStamped", "TwistWithCovariance", "Transform", "TransformStamped"],
     "nav_msgs": ["Odometry"],
     "tf2_msgs": ["TFMessage"],
 }
@@ -29,7 +29,8 @@ NEW = {
     "builtin_interfaces": {"Time": "int32 sec\nuint32 nanosec\n"},
     "rmw_dds_common": {
         "Gid": "char[16] data\n",
-        "NodeEntitiesInfo": "string<=256 node_namespace\nstring<=256 node_name\nGid[] reader_gid_seq\nGid[] writer_gid_seq\n",
+        "NodeEntitiesInfo": "string<=256 node_namespace\nstring<=256 node_name\n"
+                            "Gid[] reader_gid_seq\nGid[] writer_gid_seq\n",
         "ParticipantEntitiesInfo": "Gid gid\nNodeEntitiesInfo[] node_entities_info_seq\n",
     },
 }
@@ -94,7 +95,7 @@ faults = [f"{name}:\n  ours   {ours.get(name)}\n  theirs {theirs.get(name)}"
           for name in sorted(ours.keys() | theirs.keys()) if ours.get(name) != theirs.get(name)]
 # The same but for the length of an identifier.
 for name, members in humble.items():
-    of_now = [(f"humble::{kind}" if kind.startswith("rmw") else kind.replace("<rmw", "<humble::rmw").replace("[16]", "[24]"), member)
+    of_now = [(re.sub(r"\brmw_dds_common", "humble::rmw_dds_common", kind).replace("[16]", "[24]"), member)
               for kind, member in ours[name.removeprefix("humble::")]]
     if members != of_now:
         faults.append(f"{name}:\n  ours   {members}\n  wanted {of_now}")

@@ -20,9 +20,7 @@ Options parsed(const std::vector<std::string>& arguments, const Variables& varia
 std::string fault(const std::vector<std::string>& arguments, const Variables& variables = {}) {
   try {
     static_cast<void>(parsed(arguments, variables));
-  } catch (const udp::OptionError& error) {
-    return error.what();
-  }
+  } catch (const udp::OptionError& error) { return error.what(); }
   return "";
 }
 const std::vector<std::string> few = {"--robots", "9", "--poses", "127.0.0.1:4700"};
@@ -60,9 +58,11 @@ TEST(Ros2Options, WhatIsWrongIsSaid) {
   EXPECT_EQ(fault(with({"--robot", "1"})), "\"--robot\" is unknown; see --help");
   EXPECT_EQ(fault(with({"--pose", "/pose"})), "--pose \"/pose\" must have {} where the robot's id belongs");
   EXPECT_EQ(fault(with({"--pose", "robot_{}/pose"})), "--pose \"robot_{}/pose\" must begin with /");
-  EXPECT_EQ(fault(with({"--body-frame", "base_link"})), "--body-frame \"base_link\" must have {} where the robot's id belongs");
+  EXPECT_EQ(fault(with({"--body-frame", "base_link"})),
+            "--body-frame \"base_link\" must have {} where the robot's id belongs");
   EXPECT_EQ(fault(with({"--max-age", "nan"})), "--max-age must be a number from 0 to 3600, not \"nan\"");
-  EXPECT_EQ(fault(with({"--node", "a/b"})), "--node \"a/b\" must consist of letters, digits and _, and not begin with a digit");
+  EXPECT_EQ(fault(with({"--node", "a/b"})),
+            "--node \"a/b\" must consist of letters, digits and _, and not begin with a digit");
   EXPECT_EQ(fault(with({"--bases", "127.0.0.1:5000", "--cmd-vel", ""})), "--cmd-vel must not be empty");
   EXPECT_EQ(fault(with({"--frame", ""})), "--frame must not be empty");
   EXPECT_NE(usage().find("--max-age"), std::string::npos);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Robots of ROS 2 as they would be elsewhere: another implementation of DDS (eProsima Fast DDS), which integrates the
-// commands that it hears and publishes where its bodies are. They have no dead man's switch: what is told last, goes on.
+// commands that it hears and publishes where its bodies are. They have no dead man's switch: what is told last, goes
+// on.
 //
 //   banyan_ros2_peer COUNT DOMAIN SPEED MODE [bad] [stamped] [humble]
 //
@@ -9,6 +10,8 @@
 // hosts/udp/examples/base.py; after SIGTERM, what it has seen of the other side, for the test to compare.
 #include <signal.h>
 
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -18,8 +21,6 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 
 #include <atomic>
 #include <chrono>
@@ -86,8 +87,11 @@ class Discovery final : public DomainParticipantListener {
     const auto durability = data.m_qos.m_durability.kind;
     lines_.insert(kind + data.topicName().to_string() + " " + data.typeName().to_string() +
                   (data.m_qos.m_reliability.kind == RELIABLE_RELIABILITY_QOS ? " reliable" : " best-effort") +
-                  (durability == VOLATILE_DURABILITY_QOS ? " volatile" : durability == TRANSIENT_LOCAL_DURABILITY_QOS ? " transient-local" : " other") +
-                  (data.topicKind() == rtps::NO_KEY ? "" : " keyed") + (data.m_qos.m_partition.empty() ? "" : " partition"));
+                  (durability == VOLATILE_DURABILITY_QOS          ? " volatile"
+                   : durability == TRANSIENT_LOCAL_DURABILITY_QOS ? " transient-local"
+                                                                  : " other") +
+                  (data.topicKind() == rtps::NO_KEY ? "" : " keyed") +
+                  (data.m_qos.m_partition.empty() ? "" : " partition"));
   }
   mutable std::mutex mutex_;
   std::set<std::string> lines_, guids_;
@@ -106,7 +110,8 @@ class Participant {
     rtps::IPLocator::setIPv4(neighbour, "127.0.0.1");
     qos.wire_protocol().builtin.initialPeersList.push_back(neighbour);
     qos.wire_protocol().builtin.discovery_config.initial_announcements.count = 50;
-    participant_ = DomainParticipantFactory::get_instance()->create_participant(domain, qos, &discovery, StatusMask::none());
+    participant_ =
+        DomainParticipantFactory::get_instance()->create_participant(domain, qos, &discovery, StatusMask::none());
     if (participant_ == nullptr) throw std::runtime_error("no participant");
     publisher_ = participant_->create_publisher(PUBLISHER_QOS_DEFAULT);
     subscriber_ = participant_->create_subscriber(SUBSCRIBER_QOS_DEFAULT);
@@ -165,12 +170,16 @@ struct Choice {
 struct Place {
   double x = 0.0, y = 0.0, turn = 0.0;
 };
-Pose in_space(const Place& at) { return {{at.x, at.y, 0.25, 0.0, 0.0, std::sin(at.turn / 2.0), std::cos(at.turn / 2.0)}}; }
+Pose in_space(const Place& at) {
+  return {{at.x, at.y, 0.25, 0.0, 0.0, std::sin(at.turn / 2.0), std::cos(at.turn / 2.0)}};
+}
 
 Header header(const std::string& frame, double age_s = 0.0) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch() - std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * age_s));
+  const auto now = std::chrono::system_clock::now().time_since_epoch() -
+                   std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * age_s));
   const auto whole = std::chrono::duration_cast<std::chrono::seconds>(now);
-  return {static_cast<std::int32_t>(whole.count()), static_cast<std::uint32_t>(std::chrono::nanoseconds(now - whole).count()), frame};
+  return {static_cast<std::int32_t>(whole.count()),
+          static_cast<std::uint32_t>(std::chrono::nanoseconds(now - whole).count()), frame};
 }
 
 class Body {
@@ -181,12 +190,15 @@ class Body {
     at_ = start_ = {0.32 * (number % side - side / 2), 0.32 * (number / side - side / 2), 7.0 * number};
     if (choice.mode != "odometry") poses_ = participant.writer<PoseStamped>(base + "/pose");
     if (choice.mode != "pose") odometry_ = participant.writer<Odometry>(base + "/odom");
-    commands_ = choice.stamped ? participant.reader<TwistStamped>(base + "/cmd_vel") : participant.reader<Twist>(base + "/cmd_vel");
+    commands_ = choice.stamped ? participant.reader<TwistStamped>(base + "/cmd_vel")
+                               : participant.reader<Twist>(base + "/cmd_vel");
   }
 
   void move(double seconds) {
-    if (choice_.stamped) take_all<TwistStamped>(commands_, [&](const auto& message) { command_ = message.values; });
-    else take_all<Twist>(commands_, [&](const auto& message) { command_ = message.values; });
+    if (choice_.stamped)
+      take_all<TwistStamped>(commands_, [&](const auto& message) { command_ = message.values; });
+    else
+      take_all<Twist>(commands_, [&](const auto& message) { command_ = message.values; });
     const double c = std::cos(at_.turn), s = std::sin(at_.turn);
     at_.x += (c * command_[0] - s * command_[1]) * seconds;
     at_.y += (s * command_[0] + c * command_[1]) * seconds;
@@ -219,12 +231,24 @@ class Body {
     PoseStamped message{header("map"), in_space(wrong)};
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     switch (kind) {
-      case 0: message.pose.values[5] = nan; break;
-      case 1: message.header.frame_id = "camera"; break;
-      case 2: message.header = header("map", 2.0); break;
-      case 3: message.pose.values = {wrong.x, wrong.y, 0.0, 0.0, 0.0, 0.0, 0.0}; break;
-      case 4: message.pose.values = {wrong.x, wrong.y, 0.0, 0.7071068, 0.0, 0.0, 0.7071068}; break;
-      default: message.pose.values[0] = std::numeric_limits<double>::infinity(); break;
+      case 0:
+        message.pose.values[5] = nan;
+        break;
+      case 1:
+        message.header.frame_id = "camera";
+        break;
+      case 2:
+        message.header = header("map", 2.0);
+        break;
+      case 3:
+        message.pose.values = {wrong.x, wrong.y, 0.0, 0.0, 0.0, 0.0, 0.0};
+        break;
+      case 4:
+        message.pose.values = {wrong.x, wrong.y, 0.0, 0.7071068, 0.0, 0.0, 0.7071068};
+        break;
+      default:
+        message.pose.values[0] = std::numeric_limits<double>::infinity();
+        break;
     }
     say(message);
   }
@@ -282,8 +306,10 @@ int play(const Choice& choice) {
     });
   }
   for (const std::string& line : discovery.lines()) std::printf("%s\n", line.c_str());
-  if (choice.humble) print_nodes<24>(nodes, discovery);
-  else print_nodes<16>(nodes, discovery);
+  if (choice.humble)
+    print_nodes<24>(nodes, discovery);
+  else
+    print_nodes<16>(nodes, discovery);
   for (const auto& [child, t] : frames)
     std::printf("tf %s %s %.3f %.3f %.3f\n", t.header.frame_id.c_str(), child.c_str(), t.values[0], t.values[1],
                 2.0 * std::atan2(t.values[5], t.values[6]));

@@ -145,7 +145,9 @@ template <class Message> class DataType final : public eprosima::fastdds::dds::T
   }
   void* createData() override { return new Message; }
   void deleteData(void* data) override { delete static_cast<Message*>(data); }
-  bool getKey(void* /*data*/, eprosima::fastrtps::rtps::InstanceHandle_t* /*key*/, bool /*md5*/) override { return false; }
+  bool getKey(void* /*data*/, eprosima::fastrtps::rtps::InstanceHandle_t* /*key*/, bool /*md5*/) override {
+    return false;
+  }
 
  private:
   static constexpr std::uint32_t largest = 16384;

@@ -13,7 +13,9 @@ constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t now = 1'700'000'000 * second;
 constexpr double pi = 3.14159265358979323846;
 
-Sighting sighting(double heading_rad = 0.0) { return {now, "map", 1.0, -2.0, {0.0, 0.0, std::sin(heading_rad / 2.0), std::cos(heading_rad / 2.0)}}; }
+Sighting sighting(double heading_rad = 0.0) {
+  return {now, "map", 1.0, -2.0, {0.0, 0.0, std::sin(heading_rad / 2.0), std::cos(heading_rad / 2.0)}};
+}
 
 std::string verdict(Sightings& judge, const Sighting& sighting, std::int64_t at = now) {
   Refusal why{};
@@ -35,8 +37,10 @@ TEST(Sightings, TheHeadingIsTheTurnAboutTheVertical) {
     EXPECT_EQ(pose->position.y, -2.0);
   }
   // Yaw 0.7, then pitch 0.2, then roll -0.1, multiplied out by hand: q = qz * qy * qx.
-  const double cz = std::cos(0.35), sz = std::sin(0.35), cy = std::cos(0.1), sy = std::sin(0.1), cx = std::cos(-0.05), sx = std::sin(-0.05);
-  const Quaternion leaning{sx * cy * cz - cx * sy * sz, cx * sy * cz + sx * cy * sz, cx * cy * sz - sx * sy * cz, cx * cy * cz + sx * sy * sz};
+  const double cz = std::cos(0.35), sz = std::sin(0.35), cy = std::cos(0.1), sy = std::sin(0.1), cx = std::cos(-0.05),
+               sx = std::sin(-0.05);
+  const Quaternion leaning{sx * cy * cz - cx * sy * sz, cx * sy * cz + sx * cy * sz, cx * cy * sz - sx * sy * cz,
+                           cx * cy * cz + sx * sy * sz};
   EXPECT_NEAR(heading_of(leaning), 0.7, 1e-12);
   EXPECT_NEAR(heading_of({0.0, 0.0, -std::sin(0.25), -std::cos(0.25)}), 0.5, 1e-12);  // the same rotation
 }
@@ -57,7 +61,10 @@ TEST(Sightings, WhatCannotBeBelieved) {
   EXPECT_EQ(changed([](auto& s) { s.rotation = {0, 0, 0, 0}; }), "of a quaternion that is no rotation");
   EXPECT_EQ(changed([](auto& s) { s.rotation = {0, 0, 0, 1.02}; }), "of a quaternion that is no rotation");
   EXPECT_EQ(changed([](auto& s) { s.rotation = {0, 0, 0, 1.005}; }), "taken");
-  EXPECT_EQ(changed([](auto& s) { s.rotation = {0.7071, 0, 0, 0.7071}; }), "tilted by more than 45 degrees");  // y is up
+  EXPECT_EQ(changed([](auto& s) {
+              s.rotation = {0.7071, 0, 0, 0.7071};
+            }),
+            "tilted by more than 45 degrees");  // y is up
   EXPECT_EQ(changed([](auto& s) { s.rotation = {1, 0, 0, 0}; }), "tilted by more than 45 degrees");
   EXPECT_EQ(changed([](auto& s) { s.x_m = 1e6; }), "farther than 100 km from the origin");
   EXPECT_EQ(changed([](auto& s) { s.frame = "odom"; }), "of another frame");

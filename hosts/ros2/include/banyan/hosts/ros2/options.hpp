@@ -17,11 +17,11 @@ struct Options {
   std::size_t first = 0;   // the id of the first robot
   std::size_t robots = 0;  // as many, with ids one after the other
   std::string poses;       // ADDRESS:PORT of the hub's --poses; "": there is no hub to tell
-  std::string bases;       // ADDRESS:PORT of the first robot's base, the others' follow; "": robots are driven by others
-  std::string pose_topic;  // geometry_msgs/PoseStamped; "": none
+  std::string bases;  // ADDRESS:PORT of the first robot's base, the others' follow; "": robots are driven by others
+  std::string pose_topic;      // geometry_msgs/PoseStamped; "": none
   std::string odometry_topic;  // nav_msgs/Odometry; "": none. Without a pose topic, these are the tracker's poses, too
   std::string command_topic = "/robot_{}/cmd_vel";
-  bool stamped = false;    // commands are geometry_msgs/TwistStamped
+  bool stamped = false;  // commands are geometry_msgs/TwistStamped
   std::string frame = "map";
   std::string body_frame = "robot_{}/base_link";
   bool tf = true;
@@ -29,7 +29,7 @@ struct Options {
   std::string node = "banyan_ros2";
   std::uint32_t domain = 0;
   bool localhost = false;
-  bool humble = false;     // ros_discovery_info as in ROS 2 Humble and older
+  bool humble = false;  // ros_discovery_info as in ROS 2 Humble and older
 };
 
 using Environment = std::function<const char*(const char*)>;  // as std::getenv

@@ -28,16 +28,17 @@ constexpr std::size_t refusals = 8;
 [[nodiscard]] const char* name_of(Refusal refusal) noexcept;  // "1 pose was ..."
 
 // The turn about the vertical axis.
-[[nodiscard]] double heading_of(const Quaternion& rotation) noexcept;
+[[nodiscard]] double heading_of(const Quaternion& q) noexcept;
 
 class Sightings {
  public:
   // `frame` "": that of each robot's first pose. `max_age_s` 0: stamps are not compared with the clock.
-  Sightings(std::size_t robots, std::string frame, double max_age_s)
+  Sightings(std::size_t robots, const std::string& frame, double max_age_s)
       : frames_(robots, frame), last_ns_(robots), max_age_s_(max_age_s) {}
 
   // Of the robot at that place of the list. Nothing: it was refused, by the reason in `why`.
-  [[nodiscard]] std::optional<udp::TrackedPose> take(std::size_t place, const Sighting& sighting, std::int64_t now_ns, Refusal& why);
+  [[nodiscard]] std::optional<udp::TrackedPose> take(std::size_t place, const Sighting& sighting, std::int64_t now_ns,
+                                                     Refusal& why);
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
   [[nodiscard]] const std::array<std::uint64_t, refusals>& refused() const noexcept { return refused_; }
   [[nodiscard]] bool has_seen(std::size_t place) const noexcept { return last_ns_[place].has_value(); }

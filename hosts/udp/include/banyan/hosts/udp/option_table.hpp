@@ -97,7 +97,8 @@ template <class Options> std::string option_usage(std::span<const OptionRow<Opti
 
 // Throws OptionError, also for values that are out of range or missing.
 template <class Options>
-Options read_options(std::span<const OptionRow<Options>> rows, std::span<const std::string> arguments, Options parsed = {}) {
+Options read_options(std::span<const OptionRow<Options>> rows, std::span<const std::string> arguments,
+                     Options parsed = {}) {
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     const OptionRow<Options>* chosen = nullptr;
     for (const auto& row : rows)
@@ -107,9 +108,7 @@ Options read_options(std::span<const OptionRow<Options>> rows, std::span<const s
     if (takes_value && k + 1 == arguments.size()) throw OptionError(arguments[k] + " needs a value");
     try {
       chosen->read(parsed, takes_value ? arguments[++k] : "");
-    } catch (const OptionError& error) {
-      throw OptionError(std::string(chosen->name) + " " + error.what());
-    }
+    } catch (const OptionError& error) { throw OptionError(std::string(chosen->name) + " " + error.what()); }
   }
   return parsed;
 }
