@@ -562,7 +562,7 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
       ->type_name("S")
       ->check(number_within(0.5, 1e6));
   command->add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")->type_name("ADDRESS:PORT");
-  command->add_option("--tape", options->tape, "note there what robots say, to resume from")->type_name("FILE");
+  command->add_option("--tape", options->tape, "note there what robots say and what the tracker sees, to resume from")->type_name("FILE");
   command->add_flag("--resume", options->resume, "go on where the tape ends");
   add_results(*command, options->run);
   add_pace(*command, *options);
