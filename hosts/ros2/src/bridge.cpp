@@ -18,8 +18,8 @@
 namespace banyan::ros2 {
 namespace {
 
-std::atomic<int> caught_by_bridge{
-    0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): all that a handler can reach
+// All that a handler can reach.
+std::atomic<int> caught_by_bridge{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 constexpr double look_around_s = 0.1;
 constexpr double ask_after_s = 3.0;  // a topic on which nothing has come

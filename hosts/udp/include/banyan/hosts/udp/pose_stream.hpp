@@ -44,7 +44,7 @@ class PoseStream {
   void listen();
   // Where each robot was seen last, as lines; and from such lines again, as if they had just come.
   [[nodiscard]] std::string lines() const;
-  void restore(std::string_view lines);
+  void restore(std::string_view text);
   // Where each robot was seen last; nothing for one that never was.
   [[nodiscard]] std::span<const std::optional<TrackedPose>> poses() const noexcept { return poses_; }
   [[nodiscard]] std::vector<std::size_t> missing() const;
