@@ -206,8 +206,8 @@ class Body {
   }
 
   void publish(std::uint64_t step) {
-    if (choice_.bad && step % 5 == 0) publish_bad(step / 5 % 6);
     if (poses_ != nullptr) say({header("map"), in_space(at_)});
+    if (choice_.bad && step % 5 == 0) publish_bad(step / 5 % 6);  // and so the last word of this step
     if (odometry_ == nullptr) return;
     Odometry message;
     message.child_frame_id = "robot_" + std::to_string(number_) + "/base_link";
