@@ -115,8 +115,9 @@ class Bridge {
     say(text + "; others like it are only counted");
   }
 
-  // The newest of each robot, in one datagram and one message.
+  // The newest of each robot, in as many datagrams as it takes and in one message.
   void hand_on() {
+    constexpr std::size_t fits_a_packet = 1300;
     std::string lines;
     std::vector<BodyFrame> bodies;
     for (std::size_t k = 0; k < poses_.size(); ++k) {
@@ -124,10 +125,16 @@ class Bridge {
       lines += udp::pose_line({id(k), {{poses_[k]->x_m, poses_[k]->y_m}, poses_[k]->heading_rad}});
       bodies.push_back(std::move(*poses_[k]));
       poses_[k].reset();
+      if (lines.size() > fits_a_packet) tell_hub(lines);
     }
-    if (lines.empty()) return;
-    if (hub_) socket_.send({reinterpret_cast<const std::uint8_t*>(lines.data()), lines.size()}, *hub_);
+    tell_hub(lines);
     node_.publish(bodies);
+  }
+
+  void tell_hub(std::string& lines) const {
+    if (hub_ && !lines.empty())
+      socket_.send({reinterpret_cast<const std::uint8_t*>(lines.data()), lines.size()}, *hub_);
+    lines.clear();
   }
 
   void look_around() {
