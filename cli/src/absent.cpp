@@ -22,6 +22,7 @@ int soak_command(const SoakOptions& /*options*/) { absent("soak"); }
 int hub_command(const HubOptions& /*options*/) { absent("hub"); }
 int robot_command(const std::vector<std::string>& /*arguments*/) { absent("robot"); }
 int argos_command(const ArgosOptions& /*options*/) { absent("argos"); }
+int ros2_command(const std::vector<std::string>& /*arguments*/) { absent("ros2"); }
 int fleet_command(const FleetOptions& /*options*/) { absent("fleet"); }
 int collect_command(const CollectOptions& /*options*/) { absent("collect"); }
 

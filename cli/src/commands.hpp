@@ -45,6 +45,8 @@ int hub_command(const HubOptions& options);
 
 // Becomes banyan-robot.
 int robot_command(const std::vector<std::string>& arguments);
+// Becomes banyan-ros2.
+int ros2_command(const std::vector<std::string>& arguments);
 
 struct FleetOptions {
   RunOptions run;

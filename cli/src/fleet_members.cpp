@@ -32,11 +32,19 @@ udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i) 
 
 std::string own_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
-std::string robot_program() {
-  const auto program = std::filesystem::path(own_program()).parent_path() / "banyan-robot";
-  if (!std::filesystem::exists(program))
-    throw CommandError(exit_lost, program.string() + " is not there; build the target banyan_robot, or call ./banyan");
+namespace {
+
+std::string program_beside(const char* name, const char* advice) {
+  const auto program = std::filesystem::path(own_program()).parent_path() / name;
+  if (!std::filesystem::exists(program)) throw CommandError(exit_lost, program.string() + " is not there; " + advice);
   return program.string();
+}
+
+}  // namespace
+
+std::string robot_program() { return program_beside("banyan-robot", "build the target banyan_robot, or call ./banyan"); }
+std::string ros2_program() {
+  return program_beside("banyan-ros2", "install cyclonedds-dev and cyclonedds-tools, configure again and build the target banyan_ros2, or call ./banyan");
 }
 
 int with_fleet_errors(const std::function<int()>& command) {

@@ -19,6 +19,8 @@ namespace banyan::cli {
 
 // banyan-robot, beside this program. Throws CommandError.
 [[nodiscard]] std::string robot_program();
+// banyan-ros2, likewise.
+[[nodiscard]] std::string ros2_program();
 // This program.
 [[nodiscard]] std::string own_program();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `banyan hub`: a scenario whose robots are processes. And `banyan robot`, which starts one.
+// `banyan hub`: a scenario whose robots are processes. And `banyan robot` and `banyan ros2`, programs of their own.
 #include <signal.h>
 #include <unistd.h>
 
@@ -37,11 +37,20 @@ std::uint64_t digest_of(const std::string& text) {
   return digest.value();
 }
 
-std::unique_ptr<udp::Tape> open_tape(const HubOptions& options, const config::Configuration& configuration) {
+// The configuration is the one that was given, wherever a tracker sees robots.
+std::unique_ptr<udp::Tape> open_tape(const HubOptions& options, const config::Configuration& configuration,
+                                     udp::PoseStream* tracker) {
   if (options.tape.empty()) return nullptr;
   const std::uint64_t digest = digest_of(config::config_json(configuration));
-  if (options.resume) return std::make_unique<udp::Tape>(options.tape, digest);
-  return std::make_unique<udp::Tape>(options.tape, digest, std::random_device{}());
+  if (!options.resume)
+    return std::make_unique<udp::Tape>(options.tape, digest, std::random_device{}(), tracker ? tracker->lines() : "");
+  auto tape = std::make_unique<udp::Tape>(options.tape, digest);
+  if (tape->start().empty() != (tracker == nullptr))
+    throw CommandError(exit_usage, options.tape + (tracker == nullptr
+                                                       ? ": is the tape of a mission with a tracker; --poses is missing"
+                                                       : ": is the tape of a mission without a tracker; leave --poses out"));
+  if (tracker != nullptr) tracker->restore(tape->start());
+  return tape;
 }
 
 std::string list_of(const std::vector<std::size_t>& robots) {
@@ -50,47 +59,23 @@ std::string list_of(const std::vector<std::size_t>& robots) {
   return text;
 }
 
-// The fleet's keys may change while a mission goes on.
-class KeyFile {
- public:
-  explicit KeyFile(std::string path) : path_(std::move(path)), written_(written()) {}
-  // The keys, if the file has been written since. One that is wrong is named and changes nothing.
-  [[nodiscard]] std::optional<udp::KeyRing> changed() {
-    const auto now = written();
-    if (now == written_) return std::nullopt;
-    written_ = now;
-    try {
-      return udp::read_keys(path_);
-    } catch (const udp::KeyError& error) {
-      complain(std::string(error.what()) + "; the keys stay as they were");
-      return std::nullopt;
-    }
-  }
-
- private:
-  [[nodiscard]] std::filesystem::file_time_type written() const {
-    std::error_code none;
-    return std::filesystem::last_write_time(path_, none);
-  }
-  std::string path_;
-  std::filesystem::file_time_type written_;
-};
-
 // What takes the place of World::step's own robots: waits for the moment of each tick.
 class Conductor {
  public:
   // `tracker`: null if bodies are simulated.
-  Conductor(udp::Hub& hub, udp::PoseStream* tracker, const HubOptions& options) : hub_(hub), tracker_(tracker), options_(options), key_file_(options.key_file) {}
+  Conductor(udp::Hub& hub, udp::PoseStream* tracker, udp::KeyFile& keys, const HubOptions& options)
+      : hub_(hub), tracker_(tracker), keys_(keys), options_(options) {}
 
   record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor, const record::GoOn& go_on) {
     record::Simulation simulation(std::move(world), sink);
     const auto stopped = [&] { return !go_on(simulation); };
     simulation.stop_when(stopped);
+    if (tracker_ != nullptr) hub_.watch(*tracker_, [&] { see(stopped); });
     if (!options_.resume) gather(stopped);
     while (!simulation.finished()) {
       const auto dead = hub_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
-      if (!see(stopped) || stopped()) return end(simulation, true);
-      if (auto keys = key_file_.changed()) hub_.use(std::move(*keys));
+      if (stopped()) return end(simulation, true);
+      refresh_keys();
       for (const std::size_t robot : dead) bury(simulation, robot);
       simulation.step(executor);
     }
@@ -98,23 +83,29 @@ class Conductor {
   }
 
  private:
+  void refresh_keys() {
+    if (const std::string fault = keys_.refresh(); !fault.empty()) complain(fault);
+    hub_.use(keys_.keys());
+  }
+
   void gather(const udp::Hub::Stopped& stopped) {
-    const auto missing = hub_.gather(options_.wait_s, stopped);
+    const auto missing = hub_.gather(options_.wait_s, [&] {
+      refresh_keys();
+      return stopped();
+    });
     if (missing.empty() || stopped()) return;
     hub_.stop_all();
     throw CommandError(exit_lost, format("within %g s nothing was heard of robot ", options_.wait_s) + list_of(missing));
   }
 
   // Without poses nothing goes on: the hub is silent, so the robots stand still, until the tracker is back.
-  [[nodiscard]] bool see(const udp::Hub::Stopped& stopped) const {
-    if (tracker_ == nullptr) return true;
+  void see(const udp::Hub::Stopped& stopped) const {
     tracker_->listen();
     if (tracker_->silence_s() > blind_after_s) complain("the tracker is silent; the mission waits");
     while (tracker_->silence_s() > blind_after_s && !stopped()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       tracker_->listen();
     }
-    return !stopped();
   }
 
   static void bury(record::Simulation& simulation, std::size_t robot) {
@@ -133,8 +124,8 @@ class Conductor {
 
   udp::Hub& hub_;
   udp::PoseStream* tracker_;
+  udp::KeyFile& keys_;
   const HubOptions& options_;
-  KeyFile key_file_;
 };
 
 std::string remarks_on(const udp::HubCounts& counts) {
@@ -156,7 +147,6 @@ std::string remarks_on(const udp::HubCounts& counts) {
 // Until each robot has been seen.
 std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, std::size_t robots) {
   if (options.poses.empty()) return nullptr;
-  if (!options.tape.empty()) throw CommandError(exit_usage, "--tape is for simulated bodies; it does not have a tracker's poses");
   auto tracker = std::make_unique<udp::PoseStream>(udp::parse_address(options.poses), robots);
   const udp::Clock clock;
   while (!tracker->missing().empty() && clock.now_s() < options.wait_s) {
@@ -183,28 +173,28 @@ world::World make_world(const world::Scenario& scenario, const Algorithm& remote
   return {scenario, remote, tracked_bodies(*tracker)};
 }
 
-udp::KeyRing keys_of(const HubOptions& options) {
+udp::KeyFile keys_of(const HubOptions& options) {
   if (options.key_file.empty()) throw CommandError(exit_usage, "--key is missing; make one with banyan hub --new-key FILE");
-  return udp::read_keys(options.key_file);
+  return udp::KeyFile(options.key_file);
 }
 
 int play_scenario(const HubOptions& options) {
   config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
   world::Scenario& scenario = configuration.scenario;
-  const udp::KeyRing keys = keys_of(options);
+  udp::KeyFile keys = keys_of(options);
   const std::size_t robots = world::robot_count(scenario);
   const auto tracker = open_tracker(options, robots);
+  const auto tape = open_tape(options, configuration, tracker.get());
   if (tracker) scenario = seen_by(*tracker, scenario);
-  const auto tape = open_tape(options, configuration);
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
   try {
     const udp::HubOptions hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s, options.bundle};
-    udp::Hub hub(hub_options, robots, keys, tape.get());
+    udp::Hub hub(hub_options, robots, keys.keys(), tape.get());
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
     const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
     run.threads = 1;
-    return keep_run(configuration, outputs, run, make_world(scenario, remote, tracker.get()), Conductor(hub, tracker.get(), options),
+    return keep_run(configuration, outputs, run, make_world(scenario, remote, tracker.get()), Conductor(hub, tracker.get(), keys, options),
                     [&hub] { return remarks_on(hub.counts()); });
   } catch (...) {
     outputs.abandon();
@@ -215,7 +205,7 @@ int play_scenario(const HubOptions& options) {
 // Nobody knows how many there are, so whoever is there has this long to answer.
 int stop_peers(const HubOptions& options) {
   constexpr double insist_s = 2.0, call_every_s = 0.05;
-  const udp::KeyRing keys = keys_of(options);
+  const udp::KeyRing keys = keys_of(options).keys();
   const std::vector<udp::Address> addresses = udp::parse_addresses(options.stop);
   const udp::Socket socket(udp::Address{});
   const std::array<int, 1> descriptor{socket.descriptor()};
@@ -257,6 +247,14 @@ int print_robots(const HubOptions& options) {
   return exit_done;
 }
 
+[[noreturn]] void become(std::string program, std::vector<std::string> arguments) {
+  std::vector<char*> words{program.data()};
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
+  ::execv(program.c_str(), words.data());
+  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
+}
+
 }  // namespace
 
 int hub_command(const HubOptions& options) {
@@ -274,14 +272,8 @@ int hub_command(const HubOptions& options) {
   });
 }
 
-int robot_command(const std::vector<std::string>& arguments) {
-  std::string program = robot_program();
-  std::vector<char*> words{program.data()};
-  std::vector<std::string> copies = arguments;
-  for (std::string& argument : copies) words.push_back(argument.data());
-  words.push_back(nullptr);
-  ::execv(program.c_str(), words.data());
-  throw CommandError(exit_lost, program + ": " + std::strerror(errno));
-}
+int robot_command(const std::vector<std::string>& arguments) { become(robot_program(), arguments); }
+
+int ros2_command(const std::vector<std::string>& arguments) { become(ros2_program(), arguments); }
 
 }  // namespace banyan::cli

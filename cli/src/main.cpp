@@ -570,7 +570,7 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
       ->type_name("S")
       ->check(number_within(0.5, 1e6));
   command->add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")->type_name("ADDRESS:PORT");
-  command->add_option("--tape", options->tape, "note there what robots say, to resume from")->type_name("FILE");
+  command->add_option("--tape", options->tape, "note there what robots say and what the tracker sees, to resume from")->type_name("FILE");
   command->add_flag("--resume", options->resume, "go on where the tape ends");
   add_results(*command, options->run);
   add_pace(*command, *options);
@@ -582,6 +582,13 @@ void add_robot(CLI::App& app, std::function<int()>& action) {
   command->prefix_command();
   command->set_help_flag();
   command->callback([command, &action] { action = [command] { return robot_command(command->remaining()); }; });
+}
+
+void add_ros2(CLI::App& app, std::function<int()>& action) {
+  auto* command = app.add_subcommand("ros2", "connect a fleet with ROS 2; see banyan ros2 --help")->group(command_group);
+  command->prefix_command();
+  command->set_help_flag();
+  command->callback([command, &action] { action = [command] { return ros2_command(command->remaining()); }; });
 }
 
 void add_fleet(CLI::App& app, std::function<int()>& action) {
@@ -687,6 +694,7 @@ int run_program(int argc, char** argv) {
   add_bench(app, action);
   add_hub(app, action);
   add_robot(app, action);
+  add_ros2(app, action);
   add_fleet(app, action);
   add_argos(app, action);
   const std::vector<std::string> arguments(argv + 1, argv + argc);

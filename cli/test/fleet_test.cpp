@@ -24,7 +24,7 @@
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/robot.hpp"
 #include "banyan/record/simulation.hpp"
-#include "started_program.hpp"
+#include "started_processes.hpp"
 
 namespace banyan::cli {
 namespace {
@@ -131,34 +131,8 @@ TEST(RemoteSwarm, ACopyOfItsWorldIsOfTheSameHashAndTalksToNobody) {
 
 // ---- Processes ----
 
-class FleetProgram : public StartedProgram {
+class FleetProgram : public StartedProcesses {
  protected:
-  using Clock = std::chrono::steady_clock;
-
-  // Polls until it is so, at most 20 s.
-  static bool becomes(const std::function<bool()>& so) {
-    const auto end = Clock::now() + std::chrono::seconds(20);
-    while (!so()) {
-      if (Clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return true;
-  }
-  static std::vector<pid_t> children_of(pid_t parent) {
-    std::istringstream list(contents("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children"));
-    std::vector<pid_t> children;
-    for (pid_t child = 0; list >> child;) children.push_back(child);
-    return children;
-  }
-  static std::string command_line(pid_t pid) {
-    std::string line = contents("/proc/" + std::to_string(pid) + "/cmdline");
-    std::replace(line.begin(), line.end(), '\0', ' ');
-    return line;
-  }
-  static bool runs(pid_t pid) {
-    const std::string status = contents("/proc/" + std::to_string(pid) + "/status");
-    return !status.empty() && !has(status, "State:\tZ");
-  }
   // The child of the fleet whose command line has these words; 0: there is none.
   static pid_t child_with(pid_t fleet, const std::string& words) {
     for (const pid_t child : children_of(fleet))
@@ -267,29 +241,6 @@ TEST_F(FleetProgram, ARobotIsSmall) {
   EXPECT_EQ(finish(fleet).code, 143);
 }
 
-// A port that nobody has; and so, most likely, are the next ones.
-int free_port() {
-  const int s = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  EXPECT_EQ(::bind(s, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  socklen_t length = sizeof address;
-  ::getsockname(s, reinterpret_cast<sockaddr*>(&address), &length);
-  ::close(s);
-  return ntohs(address.sin_port) % 20000 + 10000;  // below those that the system hands out
-}
-
-bool answers(int port) {
-  const int s = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const bool connected = ::connect(s, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
-  ::close(s);
-  return connected;
-}
-
 // The laboratory of docs/robots.md: nine bases behind TCP, a tracker, nine robots, and a hub that simulates nothing.
 class Laboratory : public FleetProgram {
  protected:
@@ -378,6 +329,55 @@ TEST_F(Laboratory, KeysChangeDuringAMission) {
   const Outcome outcome = finish(mission);
   EXPECT_TRUE(has(outcome.err, "fleet.key")) << outcome.err;  // the nonsense
   expect_complete(outcome);
+}
+
+// The hub waits for robots that have a key which it learns of only then.
+TEST_F(Laboratory, KeysChangeWhileTheHubGathers) {
+  const std::string second = "2 " + std::string(64, 'b') + "\n";
+  write("hub.key", read("fleet.key"));
+  std::filesystem::permissions(home_ / "hub.key", std::filesystem::perms{0600});
+  write("fleet.key", second);  // which robots notice by themselves
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  Arguments arguments = hub();
+  *(std::find(arguments.begin(), arguments.end(), "--key") + 1) = "hub.key";
+  const pid_t mission = start(arguments);
+  EXPECT_TRUE(becomes([&] { return runs(mission) && has(command_line(mission), "hub.key"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  write("hub.key", second);
+  expect_complete(finish(mission));
+}
+
+// A hub that is killed goes on from its tape, which has what the tracker saw, too.
+TEST_F(Laboratory, AHubThatIsStartedAgainGoesOnWhereItWas) {
+  Arguments arguments = hub();
+  for (const char* more : {"--tape", "mission.tape"}) arguments.emplace_back(more);
+  const pid_t first = start(arguments);
+  const auto tape = home_ / "mission.tape";
+  EXPECT_TRUE(becomes([&] { return std::filesystem::exists(tape) && std::filesystem::file_size(tape) > 30000; })) << read("stderr.txt");
+  ::kill(first, SIGKILL);
+  finish(first);
+  const auto blind = run({"hub", three_targets, "--key", "fleet.key", "--listen", hub_address_, "--tape", "mission.tape", "--resume"});
+  EXPECT_EQ(blind.code, 2);
+  EXPECT_TRUE(has(blind.err, "mission.tape: is the tape of a mission with a tracker; --poses is missing")) << blind.err;
+  arguments.emplace_back("--resume");
+  expect_complete(run(arguments));
+  // The recording is that of the whole mission: from where robots stood in the beginning, without a gap.
+  ASSERT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
+  std::istringstream rows(read("robots.csv"));
+  std::string row;
+  std::getline(rows, row);
+  std::size_t count = 0;
+  for (; std::getline(rows, row); ++count) {
+    std::replace(row.begin(), row.end(), ',', ' ');
+    std::istringstream words(row);
+    double tick = 0.0, time_s = 0.0, robot = 0.0, x = 0.0, y = 0.0;
+    words >> tick >> time_s >> robot >> x >> y;
+    ASSERT_EQ(tick, std::floor(static_cast<double>(count) / 9.0));
+    if (count >= 9) continue;
+    EXPECT_NEAR(x, 0.32 * static_cast<double>(count % 3) - 0.32, 0.03);
+    EXPECT_NEAR(y, 0.32 * static_cast<double>(count / 3) - 0.32, 0.03);
+  }
+  EXPECT_EQ(count, 9 * (nlohmann::json::parse(read("result/run.json"))["result"]["ticks"].get<std::size_t>() + 1));
 }
 
 TEST_F(Laboratory, RobotsStandStillWithoutTheHubAndGoOnWithAnother) {

@@ -8,6 +8,7 @@ With a RANGE they measure each other up to there, in m, for robots without a hub
 Base i listens on port FIRST_PORT + i and stands at the i-th point of a square grid. Replace move() by your motors and
 encoders, and you have a driver for your robot. On standard output, for tracker.py, is what a camera would see.
 """
+import contextlib
 import math
 import selectors
 import socket
@@ -30,7 +31,10 @@ class Base:
         self.command, self.heard = (0.0, 0.0, 0.0), 0.0
 
     def listen(self):
-        data = self.wire.recv(4096)
+        try:
+            data = self.wire.recv(4096)
+        except OSError:  # the robot was killed, with words of ours that it had not read
+            return False
         *lines, self.buffer = (self.buffer + data).split(b"\n")
         for words in (line.split() for line in lines):
             if words[:1] == [b"drive"] and len(words) == 4:
@@ -84,7 +88,8 @@ while True:
     for base in bases:
         base.move(speed * (now - then))
         if base.wire:
-            base.wire.sendall(base.odometry() + base.measurements())
+            with contextlib.suppress(OSError):  # as above; recv() will say so
+                base.wire.sendall(base.odometry() + base.measurements())
         print(base.number, base.x, base.y, base.turn, sep=",")
     sys.stdout.flush()
     then = now

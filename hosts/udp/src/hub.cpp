@@ -169,9 +169,23 @@ TapeTick Hub::arrivals(std::uint32_t tick) {
   return entries;
 }
 
+// What the tracker sees, in as many entries as it takes.
+void Hub::add_sight(TapeTick& entries) const {
+  constexpr std::size_t most = 60000;
+  const std::string lines = tracker_->lines();
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = lines.size() - begin <= most ? lines.size() : lines.rfind('\n', begin + most) + 1;
+    entries.push_back({TapeEntry::tracker, {lines.begin() + static_cast<std::ptrdiff_t>(begin), lines.begin() + static_cast<std::ptrdiff_t>(end)}});
+    begin = end;
+  }
+}
+
 void Hub::play(std::uint32_t tick) {
-  for (const TapeEntry& entry : tape_->recorded()[tick])
+  for (const TapeEntry& entry : tape_->recorded()[tick]) {
+    if (entry.robot == TapeEntry::tracker && tracker_ != nullptr)
+      tracker_->restore({reinterpret_cast<const char*>(entry.status.data()), entry.status.size()});
     if (entry.robot < robots_.size() && !entry.status.empty()) robots_[entry.robot].arrived = entry.status;
+  }
 }
 
 std::vector<std::size_t> Hub::wait_for(std::uint32_t tick, const Stopped& stopped) {
@@ -183,12 +197,14 @@ std::vector<std::size_t> Hub::wait_for(std::uint32_t tick, const Stopped& stoppe
     play(tick);
   } else {
     keep_time(tick, stopped);
+    if (tracker_ != nullptr) look_();
     entries = arrivals(tick);
+    if (tape_ != nullptr && tracker_ != nullptr) add_sight(entries);
     if (tape_ != nullptr) tape_->append(tick, entries);
   }
   std::vector<std::size_t> dead;
   for (const TapeEntry& entry : entries) {
-    if (!entry.status.empty() || entry.robot >= robots_.size()) continue;
+    if (!entry.says_dead() || entry.robot >= robots_.size()) continue;
     robots_[entry.robot].dead = true;
     dead.push_back(entry.robot);
   }

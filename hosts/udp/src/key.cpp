@@ -71,6 +71,26 @@ KeyRing read_keys(const std::string& path) {
   return KeyRing(std::move(keys));
 }
 
+KeyFile::KeyFile(std::string path) : path_(std::move(path)), read_(version()), keys_(read_keys(path_)) {}
+
+KeyFile::Version KeyFile::version() const noexcept {
+  struct stat status {};
+  if (::stat(path_.c_str(), &status) != 0) return {};
+  return {status.st_mtim.tv_sec * 1'000'000'000 + status.st_mtim.tv_nsec, status.st_size, status.st_ino};
+}
+
+std::string KeyFile::refresh(bool anyway) {
+  const Version now = version();
+  if (now == read_ && !anyway) return "";
+  read_ = now;
+  try {
+    keys_ = read_keys(path_);
+    return "";
+  } catch (const KeyError& error) {
+    return std::string(error.what()) + "; the keys stay as they were";
+  }
+}
+
 std::string new_key_text() {
   start_library();
   Key key;

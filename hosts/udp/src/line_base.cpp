@@ -126,6 +126,18 @@ std::string drive_line(const Velocity& velocity) {
          in_decimals(velocity.turn_rad_s) + "\n";
 }
 
+std::optional<Velocity> parse_drive_line(std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  if (take_word(line) != "drive") return std::nullopt;
+  const auto values = numbers(line);
+  if (!values || values->size() != 3) return std::nullopt;
+  return Velocity{values->at(0), values->at(1), values->at(2)};
+}
+
+std::string base_pose_line(const OdometricPose& pose) {
+  return "pose " + in_decimals(pose.position.x) + " " + in_decimals(pose.position.y) + " " + in_decimals(pose.turn_rad) + "\n";
+}
+
 LineBase::~LineBase() { ::close(descriptor_); }
 
 void LineBase::take(const OdometricPose& pose, double now_s) {

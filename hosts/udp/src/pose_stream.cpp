@@ -19,12 +19,22 @@ template <class T> bool take_number(std::string_view& line, T& value, char end) 
   return true;
 }
 
+std::string in_words(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+}  // namespace
+
 bool is_sound(const TrackedPose& pose) noexcept {  // false for NaN, too
   return std::fabs(pose.position.x) <= farthest_m && std::fabs(pose.position.y) <= farthest_m &&
          std::fabs(pose.heading_rad) <= largest_turn_rad;
 }
 
-}  // namespace
+std::string pose_line(const PoseLine& line) {
+  return std::to_string(line.robot) + " " + in_words(line.pose.position.x) + " " + in_words(line.pose.position.y) + " " +
+         in_words(line.pose.heading_rad) + "\n";
+}
 
 std::optional<std::vector<PoseLine>> parse_poses(std::string_view datagram) {
   std::vector<PoseLine> lines;
@@ -48,9 +58,24 @@ void PoseStream::listen() {
       continue;
     }
     heard_s_ = clock_.now_s();
-    for (const PoseLine& line : *lines)
-      if (line.robot < poses_.size()) poses_[line.robot] = line.pose;  // others may be tracked, too
+    take(*lines);
   }
+}
+
+void PoseStream::take(const std::vector<PoseLine>& lines) {
+  for (const PoseLine& line : lines)
+    if (line.robot < poses_.size()) poses_[line.robot] = line.pose;  // others may be tracked, too
+}
+
+std::string PoseStream::lines() const {
+  std::string text;
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    if (poses_[i]) text += pose_line({i, *poses_[i]});
+  return text;
+}
+
+void PoseStream::restore(std::string_view text) {
+  if (const auto lines = parse_poses(text)) take(*lines);
 }
 
 std::vector<std::size_t> PoseStream::missing() const {

@@ -1,91 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/hosts/udp/robot_options.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <sstream>
-
 namespace banyan::udp {
 namespace {
 
-struct Option {
-  const char* name;
-  const char* form;  // "" for a flag
-  const char* meaning;
-  std::function<void(RobotOptions&, const std::string&)> read;
-  std::function<std::vector<std::string>(const RobotOptions&)> write;  // the values to write; none: as by default
-};
-
-double number(const std::string& text, double least, double most) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(value >= least && value <= most)) {
-    std::ostringstream words;
-    words << "must be a number from " << least << " to " << most << ", not \"" << text << "\"";
-    throw OptionError(words.str());
-  }
-  return value;
-}
-
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-std::string text_of(float value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
+using Option = OptionRow<RobotOptions>;
 
 template <class Get> Option real(const char* name, const char* meaning, double least, double most, Get get) {
-  return {name, "X", meaning,
-          [=](RobotOptions& o, const std::string& text) {
-            auto& value = get(o);
-            value = static_cast<std::remove_reference_t<decltype(value)>>(number(text, least, most));
-          },
-          [=](const RobotOptions& o) {
-            RobotOptions now = o, by_default;
-            if (get(now) == get(by_default)) return std::vector<std::string>{};
-            return std::vector{text_of(get(now))};
-          }};
+  return real_option<RobotOptions>(name, meaning, least, most, get);
 }
-
 template <class Get> Option text(const char* name, const char* form, const char* meaning, Get get) {
-  return {name, form, meaning, [=](RobotOptions& o, const std::string& value) { get(o) = value; },
-          [=](const RobotOptions& o) {
-            RobotOptions now = o, by_default;
-            if (get(now) == get(by_default)) return std::vector<std::string>{};
-            return std::vector{get(now)};
-          }};
+  return text_option<RobotOptions>(name, form, meaning, get);
 }
+constexpr auto flag = flag_option<RobotOptions>;
 
 void set_parameter(RobotOptions& options, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos) throw OptionError("must be KEY=VALUE, not \"" + assignment + "\"");
-  options.setup.parameters.emplace_back(assignment.substr(0, equals), number(assignment.substr(equals + 1), -1e9, 1e9));
+  options.setup.parameters.emplace_back(assignment.substr(0, equals), option_number(assignment.substr(equals + 1), -1e9, 1e9));
 }
 
 std::vector<std::string> parameters_of(const RobotOptions& options) {
   std::vector<std::string> list;
-  for (const auto& [key, value] : options.setup.parameters) list.push_back(key + "=" + text_of(value));
+  for (const auto& [key, value] : options.setup.parameters) list.push_back(key + "=" + option_text(value));
   return list;
-}
-
-Option flag(const char* name, const char* meaning, std::function<bool(const RobotOptions&)> is, std::function<void(RobotOptions&)> set) {
-  return {name, "", meaning, [set = std::move(set)](RobotOptions& o, const std::string&) { set(o); },
-          [is = std::move(is)](const RobotOptions& o) { return is(o) ? std::vector<std::string>{""} : std::vector<std::string>{}; }};
 }
 
 const std::vector<Option>& options() {
   static const std::vector<Option> list = {
       {"--id", "N", "of this robot, from 0; required",
        [](RobotOptions& o, const std::string& value) {
-         const double id = number(value, 0, nobody - 2);
-         if (id != std::floor(id)) throw OptionError("must be a whole number, not \"" + value + "\"");
-         o.id = static_cast<RobotId>(id);
+         o.id = static_cast<RobotId>(option_whole_number(value, 0, nobody - 2));
        },
        [](const RobotOptions& o) { return std::vector{std::to_string(o.id)}; }},
       text("--hub", "ADDRESS:PORT", "where the hub is; this or --peers is required", [](RobotOptions& o) -> std::string& { return o.hub; }),
@@ -127,13 +72,7 @@ const std::vector<Option>& options() {
 }  // namespace
 
 std::string robot_usage() {
-  std::string usage = "banyan-robot: one robot of a fleet (docs/robots.md)\n\n";
-  for (const Option& option : options()) {
-    std::string line = std::string("  ") + option.name + " " + option.form;
-    line.resize(std::max<std::size_t>(line.size() + 1, 26), ' ');
-    usage += line + option.meaning + "\n";
-  }
-  return usage;
+  return "banyan-robot: one robot of a fleet (docs/robots.md)\n\n" + option_usage<RobotOptions>(options());
 }
 
 namespace {
@@ -152,35 +91,13 @@ void check_who_guides(const RobotOptions& options) {
 }  // namespace
 
 RobotOptions parse_robot_options(std::span<const std::string> arguments) {
-  RobotOptions parsed;
-  for (std::size_t k = 0; k < arguments.size(); ++k) {
-    const Option* chosen = nullptr;
-    for (const Option& option : options())
-      if (arguments[k] == option.name) chosen = &option;
-    if (chosen == nullptr) throw OptionError("\"" + arguments[k] + "\" is unknown; see --help");
-    const bool takes_value = *chosen->form != '\0';
-    if (takes_value && k + 1 == arguments.size()) throw OptionError(arguments[k] + " needs a value");
-    try {
-      chosen->read(parsed, takes_value ? arguments[++k] : "");
-    } catch (const OptionError& error) {
-      throw OptionError(std::string(chosen->name) + " " + error.what());
-    }
-  }
+  RobotOptions parsed = read_options<RobotOptions>(options(), arguments);
   if (parsed.id == nobody) throw OptionError("--id is missing");
   check_who_guides(parsed);
   if (parsed.key_file.empty()) throw OptionError("--key is missing");
   return parsed;
 }
 
-std::vector<std::string> to_arguments(const RobotOptions& wanted) {
-  std::vector<std::string> arguments;
-  for (const Option& option : options()) {
-    for (const std::string& value : option.write(wanted)) {
-      arguments.emplace_back(option.name);
-      if (*option.form != '\0') arguments.push_back(value);
-    }
-  }
-  return arguments;
-}
+std::vector<std::string> to_arguments(const RobotOptions& wanted) { return written_options<RobotOptions>(options(), wanted); }
 
 }  // namespace banyan::udp

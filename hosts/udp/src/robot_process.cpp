@@ -44,11 +44,11 @@ class Process {
  public:
   Process(const RobotOptions& options, const Algorithm& algorithm)
       : options_(options),
-        keys_(read_keys(options.key_file)),
+        keys_(options.key_file),
         socket_(options.listen.empty() ? Address{} : parse_address(options.listen)),
         driver_(options.base.empty() ? std::unique_ptr<Driver>(std::make_unique<SimulatedWheels>()) : open_line_base(options.base)),
         robot_(algorithm, options.setup, options.id, options.stop_after_s),
-        contact_(make_contact({options_, socket_, *driver_, robot_, keys_})),
+        contact_(make_contact({options_, socket_, *driver_, robot_, keys_.keys()})),
         clock_(options.speed),
         next_step_s_(clock_.now_s()) {}
   ~Process() { driver_->drive({}); }
@@ -59,7 +59,7 @@ class Process {
     const std::array<int, 2> descriptors{socket_.descriptor(), driver_->descriptor()};
     while (caught == 0 && !driver_->lost() && (stopped_s_ < 0.0 || clock_.now_s() < stopped_s_ + linger_s * options_.speed)) {
       clock_.wait(descriptors, next_step_s_);
-      if (reread.exchange(false)) reread_keys();
+      if (reread.exchange(false)) refresh_keys(true);
       driver_->listen(clock_.now_s());
       hear();
       if (clock_.now_s() >= next_step_s_) act(clock_.now_s());
@@ -70,13 +70,9 @@ class Process {
  private:
   static std::unique_ptr<Contact> make_contact(const ContactEnds& ends) { return ends.options.peers.empty() ? contact_with_hub(ends) : contact_with_peers(ends); }
 
-  // A file that is wrong changes nothing: a robot on its way keeps the keys that it has.
-  void reread_keys() {
-    try {
-      keys_ = read_keys(options_.key_file);
-    } catch (const KeyError& error) {
-      std::fprintf(stderr, "banyan-robot %d: %s; the keys stay as they were\n", options_.id, error.what());
-    }
+  void refresh_keys(bool anyway = false) {
+    if (const std::string fault = keys_.refresh(anyway); !fault.empty())
+      std::fprintf(stderr, "banyan-robot %d: %s\n", options_.id, fault.c_str());
   }
 
   void hear() {
@@ -85,7 +81,7 @@ class Process {
     while (const auto datagram = socket_.receive(room, from)) {
       const double now_s = clock_.now_s();
       Drop reason{};
-      const auto envelope = authenticate(*datagram, keys_, reason);
+      const auto envelope = authenticate(*datagram, keys_.keys(), reason);
       if (!envelope || !contact_->take(*envelope, from, now_s)) ++dropped_;
       if (!contact_->is_stopped() || stopped_s_ >= 0.0) continue;
       driver_->drive({});
@@ -97,6 +93,7 @@ class Process {
     const double tick_s = static_cast<double>(options_.setup.platform.tick_s);
     next_step_s_ += tick_s;
     if (next_step_s_ < now_s) next_step_s_ = now_s + tick_s;  // it was held up
+    refresh_keys();
     if (stopped_s_ >= 0.0) return driver_->drive({});
     contact_->guide(now_s);
     if (!robot_.is_guided(now_s)) {
@@ -110,7 +107,7 @@ class Process {
   }
 
   RobotOptions options_;
-  KeyRing keys_;
+  KeyFile keys_;
   Socket socket_;
   std::unique_ptr<Driver> driver_;
   Robot robot_;

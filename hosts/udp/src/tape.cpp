@@ -13,8 +13,8 @@
 namespace banyan::udp {
 namespace {
 
-constexpr std::array<std::uint8_t, 8> mark = {'b', 'a', 'n', 'y', 'a', 'n', '1', '\n'};
-constexpr std::size_t header = 20;
+constexpr std::array<std::uint8_t, 8> mark = {'b', 'a', 'n', 'y', 'a', 'n', '2', '\n'};
+constexpr std::size_t header = 24;
 
 Bytes bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -24,13 +24,15 @@ Bytes bytes_of(const std::string& path) {
 
 }  // namespace
 
-Tape::Tape(const std::string& path, std::uint64_t configuration, std::uint32_t mission)
-    : path_(path), file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)), mission_(mission) {
+Tape::Tape(const std::string& path, std::uint64_t configuration, std::uint32_t mission, const std::string& start)
+    : path_(path), file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)), mission_(mission), start_(start) {
   if (file_ < 0) throw TapeError(path + ": " + std::strerror(errno));
   Bytes begin(mark.begin(), mark.end());
   ByteWriter out(begin);
   out.put(configuration);
   out.put(mission);
+  out.put(static_cast<std::uint32_t>(start.size()));
+  begin.insert(begin.end(), start.begin(), start.end());
   write(begin);
 }
 
@@ -56,8 +58,10 @@ std::size_t Tape::read(const std::string& path, std::uint64_t configuration) {
   if (!std::equal(begin.begin(), begin.end(), mark.begin(), mark.end())) throw TapeError(path + ": is no tape of a hub");
   if (in.take<std::uint64_t>() != configuration) throw TapeError(path + ": is the tape of another configuration");
   mission_ = in.take<std::uint32_t>();
+  const ByteView start = in.take(in.take<std::uint32_t>());
   if (!in.ok()) throw TapeError(path + ": is no tape of a hub");
-  std::size_t sound = header, end = header;
+  start_.assign(start.begin(), start.end());
+  std::size_t sound = header + start.size(), end = sound;
   while (in.ok()) {
     const auto tick = in.take<std::uint32_t>();
     const auto count = in.take<std::uint16_t>();

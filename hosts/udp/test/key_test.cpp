@@ -11,7 +11,7 @@
 namespace banyan::udp {
 namespace {
 
-class KeyFile : public ::testing::Test {
+class KeyFiles : public ::testing::Test {
  protected:
   void SetUp() override {
     path_ = ::testing::TempDir() + "banyan-key-" + std::to_string(::getpid());
@@ -34,7 +34,7 @@ class KeyFile : public ::testing::Test {
   const std::string a_ = std::string(64, 'a'), b_ = std::string(64, '0');
 };
 
-TEST_F(KeyFile, ANewOneIsForItsOwnerAndRandom) {
+TEST_F(KeyFiles, ANewOneIsForItsOwnerAndRandom) {
   write_new_key(path_);
   struct stat status {};
   ASSERT_EQ(::stat(path_.c_str(), &status), 0);
@@ -47,7 +47,7 @@ TEST_F(KeyFile, ANewOneIsForItsOwnerAndRandom) {
   EXPECT_NE(read_keys(path_).signing().secret, first.secret);
 }
 
-TEST_F(KeyFile, TheFirstSignsAndAllAreAccepted) {
+TEST_F(KeyFiles, TheFirstSignsAndAllAreAccepted) {
   write("# a fleet\n\n7 " + a_ + "  # since May\n3 " + b_ + "\n");
   const KeyRing keys = read_keys(path_);
   EXPECT_EQ(keys.signing().number, 7);
@@ -57,14 +57,14 @@ TEST_F(KeyFile, TheFirstSignsAndAllAreAccepted) {
   EXPECT_EQ(keys.find(1), nullptr);
 }
 
-TEST_F(KeyFile, OthersMustNotReadIt) {
+TEST_F(KeyFiles, OthersMustNotReadIt) {
   for (const mode_t mode : {0640U, 0604U, 0620U, 0666U}) {
     write("1 " + a_ + "\n", mode);
     EXPECT_NE(fault().find("chmod 600"), std::string::npos) << std::oct << mode;
   }
 }
 
-TEST_F(KeyFile, WhatIsWrongIsSaidWithItsLine) {
+TEST_F(KeyFiles, WhatIsWrongIsSaidWithItsLine) {
   const std::string line = path_ + ":1: must be a number from 0 to 255 and 64 hexadecimal digits";
   for (const std::string& wrong : std::vector<std::string>{"1 " + a_ + "a", "1 " + a_.substr(1), "256 " + a_, "-1 " + a_, "1", "1 " + a_ + " x", "1 g" + a_.substr(1)}) {
     write(wrong + "\n");
@@ -76,6 +76,28 @@ TEST_F(KeyFile, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_EQ(fault(), path_ + ": has no key");
   std::filesystem::remove(path_);
   EXPECT_EQ(fault(), path_ + ": No such file or directory");
+}
+
+TEST_F(KeyFiles, IsReadAgainWhenItHasChanged) {
+  write("1 " + a_ + "\n");
+  KeyFile file(path_);
+  EXPECT_EQ(file.refresh(), "");
+  write("2 " + b_ + "\n1 " + a_ + "\n");
+  EXPECT_EQ(file.keys().signing().number, 1);
+  EXPECT_EQ(file.refresh(), "");
+  EXPECT_EQ(file.keys().signing().number, 2);
+  write("nonsense\n");
+  const std::string fault = path_ + ":1: must be a number from 0 to 255 and 64 hexadecimal digits; the keys stay as they were";
+  EXPECT_EQ(file.refresh(), fault);
+  EXPECT_EQ(file.refresh(), "");  // it is said once,
+  EXPECT_EQ(file.refresh(true), fault);  // or whenever it is asked for
+  EXPECT_NE(file.keys().find(1), nullptr);
+  std::filesystem::remove(path_);
+  EXPECT_EQ(file.refresh(), path_ + ": No such file or directory; the keys stay as they were");
+  write("2 " + b_ + "\n");
+  EXPECT_EQ(file.refresh(), "");
+  EXPECT_EQ(file.keys().find(1), nullptr);
+  EXPECT_THROW(KeyFile("/nowhere/fleet.key"), KeyError);
 }
 
 }  // namespace

@@ -54,6 +54,17 @@ TEST(BaseLine, WhatIsNoneIsRefused) {
 
 TEST(BaseLine, Drive) { EXPECT_EQ(drive_line({0.2F, 0.0F, -1.25F}), "drive 0.2000 0.0000 -1.2500\n"); }
 
+TEST(BaseLine, TheBasesSide) {
+  const auto velocity = parse_drive_line("drive 0.2 -1e-1 -1.25\r");
+  ASSERT_TRUE(velocity);
+  EXPECT_FLOAT_EQ(velocity->forward_m_s, 0.2F);
+  EXPECT_FLOAT_EQ(velocity->sideways_m_s, -0.1F);
+  EXPECT_FLOAT_EQ(velocity->turn_rad_s, -1.25F);
+  for (const char* line : {"", "drive", "drive 1 2", "drive 1 2 3 4", "drive 1 2 inf", "Drive 1 2 3", "pose 1 2 3", "drive 1  2"})
+    EXPECT_FALSE(parse_drive_line(line)) << line;
+  EXPECT_EQ(base_pose_line({{1.5F, -0.25F}, 0.5F}), "pose 1.5000 -0.2500 0.5000\n");
+}
+
 class WiredBase : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -17,6 +17,15 @@ TEST(PoseLines, AreReadAsTheyAreWritten) {
   EXPECT_EQ(lines->at(1).pose, (TrackedPose{{-0.125, 0.3}, -3.14}));
 }
 
+TEST(PoseLines, AreWrittenAsTheyAreRead) {
+  const PoseLine line{12, {{-1e-7, 0.1 + 0.2}, -3.14}};
+  const auto again = parse_poses(pose_line(line) + pose_line({0, {}}));
+  ASSERT_TRUE(again);
+  ASSERT_EQ(again->size(), 2U);
+  EXPECT_EQ(again->at(0).robot, 12U);
+  EXPECT_EQ(again->at(0).pose, line.pose);
+}
+
 TEST(PoseLines, OneThatIsWrongSpoilsAll) {
   for (const char* wrong : {"0 1 2 3", "0 1 2\n", "0 1 2 3 4\n", "-1 1 2 3\n", "0 nan 2 3\n", "0 1 inf 3\n", "0 1 2 1e9\n", "0 1e9 2 3\n", "x\n", "\n",
                             "0  1 2 3\n", "0 1 2 3\r\n", "0,1,2,3\n", "0 1 2 3\n0 1 2\n"})
@@ -41,6 +50,10 @@ TEST(PoseStream, KeepsTheLastPoseOfEach) {
   say("1 9 9 9\nnonsense\n");
   EXPECT_EQ(stream.poses()[1], (TrackedPose{{2.5, 3.0}, 0.5}));
   EXPECT_EQ(stream.refused(), 1U);
+  PoseStream again(parse_address("127.0.0.1:0"), 2);
+  again.restore(stream.lines());
+  EXPECT_EQ(again.poses()[1], stream.poses()[1]);
+  EXPECT_EQ(again.lines(), "0 0 0 0\n1 2.5 3 0.5\n");
   EXPECT_TRUE(stream.missing().empty());
 }
 

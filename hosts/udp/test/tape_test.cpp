@@ -39,7 +39,7 @@ TEST_F(TapeFile, ATickThatWasCutOffIsNotThere) {
     Tape tape(path_, 42, 7);
     for (std::uint32_t tick = 0; tick < 4; ++tick) tape.append(tick, ticks_[tick]);
   }
-  for (auto size = std::filesystem::file_size(path_) - 1; size >= 20; --size) {
+  for (auto size = std::filesystem::file_size(path_) - 1; size >= 24; --size) {
     std::filesystem::resize_file(path_, size);
     std::size_t there = 0;
     {
@@ -54,6 +54,21 @@ TEST_F(TapeFile, ATickThatWasCutOffIsNotThere) {
     ASSERT_EQ(again.recorded()[there], (TapeTick{{9, {9}}}));
     size = std::min(size, std::filesystem::file_size(path_));
   }
+}
+
+TEST_F(TapeFile, KeepsWhereATrackerSawRobots) {
+  const std::string start = "0 1 2 3\n1 4 5 6\n";
+  const TapeTick seen{{TapeEntry::tracker, {'0', ' '}}, {1, {}}};
+  {
+    Tape tape(path_, 42, 7, start);
+    EXPECT_EQ(tape.start(), start);
+    tape.append(0, seen);
+  }
+  const Tape again(path_, 42);
+  EXPECT_EQ(again.start(), start);
+  EXPECT_EQ(again.recorded(), std::vector<TapeTick>{seen});
+  EXPECT_FALSE(TapeEntry({TapeEntry::tracker, {}}).says_dead());
+  EXPECT_TRUE(seen[1].says_dead());
 }
 
 TEST_F(TapeFile, OfSomethingElseIsRefused) {

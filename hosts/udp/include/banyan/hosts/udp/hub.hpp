@@ -12,6 +12,7 @@
 
 #include "banyan/hosts/udp/envelope.hpp"
 #include "banyan/hosts/udp/periods.hpp"
+#include "banyan/hosts/udp/pose_stream.hpp"
 #include "banyan/hosts/udp/remote_swarm.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 #include "banyan/hosts/udp/tape.hpp"
@@ -44,6 +45,11 @@ class Hub final : public Link {
   using Stopped = std::function<bool()>;
   // Waits until every robot has said something, at most so long. Those that have not.
   [[nodiscard]] std::vector<std::size_t> gather(double seconds, const Stopped& stopped);
+  // From now on, with `look` at the moment of each tick: where bodies are, is not known here. Both must outlive it.
+  void watch(PoseStream& tracker, std::function<void()> look) {
+    tracker_ = &tracker;
+    look_ = std::move(look);
+  }
   // Waits for the moment of that tick and takes what has come by then. The robots that count as dead from now on.
   // Ends early if it is stopped.
   [[nodiscard]] std::vector<std::size_t> wait_for(std::uint32_t tick, const Stopped& stopped);
@@ -52,7 +58,7 @@ class Hub final : public Link {
   std::size_t stop_all();
 
   // From now on.
-  void use(KeyRing keys) { keys_ = std::move(keys); }
+  void use(const KeyRing& keys) { keys_ = keys; }
 
   [[nodiscard]] const HubCounts& counts() const noexcept { return counts_; }
   [[nodiscard]] bool is_replaying(std::uint32_t tick) const noexcept { return tape_ != nullptr && tick < tape_->recorded().size(); }
@@ -84,10 +90,13 @@ class Hub final : public Link {
   void keep_time(std::uint32_t tick, const Stopped& stopped);
   [[nodiscard]] TapeTick arrivals(std::uint32_t tick);
   void play(std::uint32_t tick);
+  void add_sight(TapeTick& entries) const;
 
   HubOptions options_;
   KeyRing keys_;
   Tape* tape_;
+  PoseStream* tracker_ = nullptr;     // none: bodies are simulated
+  std::function<void()> look_;
   Socket socket_;
   Clock clock_;
   std::uint32_t mission_;

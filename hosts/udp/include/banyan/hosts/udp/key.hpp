@@ -36,6 +36,27 @@ class KeyRing {
 
 // Throws KeyError, also if others than the owner may read or write the file.
 [[nodiscard]] KeyRing read_keys(const std::string& path);
+
+// A fleet's key file, which may change while a mission goes on. One that is wrong then changes nothing.
+class KeyFile {
+ public:
+  explicit KeyFile(std::string path);  // throws KeyError
+  [[nodiscard]] const KeyRing& keys() const noexcept { return keys_; }
+  // Reads the file again if it has been written since, or anyway. What is wrong with it, in words; "": nothing.
+  [[nodiscard]] std::string refresh(bool anyway = false);
+
+ private:
+  struct Version {
+    std::int64_t written_ns = 0, size = 0;
+    std::uint64_t inode = 0;
+    friend bool operator==(const Version&, const Version&) = default;
+  };
+  [[nodiscard]] Version version() const noexcept;
+  std::string path_;
+  Version read_;
+  KeyRing keys_;
+};
+
 // A key file with one random key, as text. Throws KeyError.
 [[nodiscard]] std::string new_key_text();
 // A new file with one random key, mode 0600. Throws KeyError, also if the file exists.

@@ -48,6 +48,9 @@ using BaseLine = std::variant<OdometricPose, Seen, Near, Sought>;
 // One line without its end; nothing if it is none of a base.
 [[nodiscard]] std::optional<BaseLine> parse_base_line(std::string_view line);
 [[nodiscard]] std::string drive_line(const Velocity& velocity);
+// The base's side of both: nothing if the line, without its end, is no command; a pose with its end.
+[[nodiscard]] std::optional<Velocity> parse_drive_line(std::string_view line);
+[[nodiscard]] std::string base_pose_line(const OdometricPose& pose);
 
 class LineBase final : public Driver {
  public:

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct PoseLine {
   std::size_t robot = 0;
   TrackedPose pose;
 };
+// Finite, and in bounds within which positions and headings are exact.
+[[nodiscard]] bool is_sound(const TrackedPose& pose) noexcept;
+// With its end.
+[[nodiscard]] std::string pose_line(const PoseLine& line);
 // Nothing if any of its lines is none.
 [[nodiscard]] std::optional<std::vector<PoseLine>> parse_poses(std::string_view datagram);
 
@@ -37,6 +42,9 @@ class PoseStream {
   PoseStream(const Address& listen, std::size_t robots) : socket_(listen), poses_(robots) {}
   // Takes in what has come.
   void listen();
+  // Where each robot was seen last, as lines; and from such lines again, as if they had just come.
+  [[nodiscard]] std::string lines() const;
+  void restore(std::string_view text);
   // Where each robot was seen last; nothing for one that never was.
   [[nodiscard]] std::span<const std::optional<TrackedPose>> poses() const noexcept { return poses_; }
   [[nodiscard]] std::vector<std::size_t> missing() const;
@@ -46,6 +54,7 @@ class PoseStream {
   [[nodiscard]] Address local() const noexcept { return socket_.local(); }
 
  private:
+  void take(const std::vector<PoseLine>& lines);
   Socket socket_;
   std::vector<std::optional<TrackedPose>> poses_;
   Clock clock_;

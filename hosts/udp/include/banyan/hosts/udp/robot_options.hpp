@@ -3,11 +3,11 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "banyan/controller/core/algorithm.hpp"
+#include "banyan/hosts/udp/option_table.hpp"
 
 namespace banyan::udp {
 
@@ -25,11 +25,6 @@ struct RobotOptions {
   double stop_after_s = 0.5;     // without a frame from the hub; without a hub, without a pose of its base
   double delay_s = 0.0;          // from a measurement of the tracker to its arrival here; with a base only
   double speed = 1.0;            // of its clock
-};
-
-class OptionError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 [[nodiscard]] std::string robot_usage();

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/hosts/ros2/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+namespace banyan::ros2 {
+namespace {
+
+using Variables = std::map<std::string, std::string>;
+
+Options parsed(const std::vector<std::string>& arguments, const Variables& variables = {}) {
+  return parse_options(arguments, [&](const char* name) -> const char* {
+    const auto found = variables.find(name);
+    return found == variables.end() ? nullptr : found->second.c_str();
+  });
+}
+std::string fault(const std::vector<std::string>& arguments, const Variables& variables = {}) {
+  try {
+    static_cast<void>(parsed(arguments, variables));
+  } catch (const udp::OptionError& error) { return error.what(); }
+  return "";
+}
+const std::vector<std::string> few = {"--robots", "9", "--poses", "127.0.0.1:4700"};
+std::vector<std::string> with(std::vector<std::string> more) {
+  more.insert(more.begin(), few.begin(), few.end());
+  return more;
+}
+
+TEST(Ros2Options, PosesUnlessThereIsOdometry) {
+  EXPECT_EQ(parsed(few).pose_topic, "/robot_{}/pose");
+  EXPECT_EQ(parsed(with({"--odometry", "/robot_{}/odom"})).pose_topic, "");
+  const Options both = parsed(with({"--odometry", "/r{}/odom", "--pose", "/r{}/pose"}));
+  EXPECT_EQ(both.pose_topic + both.odometry_topic, "/r{}/pose/r{}/odom");
+  const Options one = parsed({"--id", "7", "--bases", "127.0.0.1:5000", "--pose", "/pose", "--no-tf"});
+  EXPECT_EQ(one.first, 7U);
+  EXPECT_EQ(one.robots, 1U);
+  EXPECT_FALSE(one.tf);
+}
+
+TEST(Ros2Options, TheEnvironmentOfRos2) {
+  EXPECT_EQ(parsed(few).domain, 0U);
+  EXPECT_EQ(parsed(few, {{"ROS_DOMAIN_ID", "42"}}).domain, 42U);
+  EXPECT_EQ(parsed(few, {{"ROS_DOMAIN_ID", ""}}).domain, 0U);
+  EXPECT_EQ(parsed(with({"--domain", "3"}), {{"ROS_DOMAIN_ID", "42"}}).domain, 3U);
+  EXPECT_FALSE(parsed(few, {{"ROS_LOCALHOST_ONLY", "0"}}).localhost);
+  EXPECT_TRUE(parsed(few, {{"ROS_LOCALHOST_ONLY", "1"}}).localhost);
+  EXPECT_TRUE(parsed(few, {{"ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST"}}).localhost);
+  EXPECT_EQ(fault(few, {{"ROS_DOMAIN_ID", "1000"}}), "ROS_DOMAIN_ID must be a number from 0 to 232, not \"1000\"");
+}
+
+TEST(Ros2Options, WhatIsWrongIsSaid) {
+  EXPECT_EQ(fault({}), "--robots or --id is missing");
+  EXPECT_EQ(fault({"--robots", "9"}), "--poses, --bases or both are missing: there is nothing to do");
+  EXPECT_EQ(fault({"--robots", "0"}), "--robots must be a number from 1 to 1000, not \"0\"");
+  EXPECT_EQ(fault(with({"--robot", "1"})), "\"--robot\" is unknown; see --help");
+  EXPECT_EQ(fault(with({"--pose", "/pose"})), "--pose \"/pose\" must have {} where the robot's id belongs");
+  EXPECT_EQ(fault(with({"--pose", "robot_{}/pose"})), "--pose \"robot_{}/pose\" must begin with /");
+  EXPECT_EQ(fault(with({"--body-frame", "base_link"})),
+            "--body-frame \"base_link\" must have {} where the robot's id belongs");
+  EXPECT_EQ(fault(with({"--max-age", "nan"})), "--max-age must be a number from 0 to 3600, not \"nan\"");
+  EXPECT_EQ(fault(with({"--node", "a/b"})),
+            "--node \"a/b\" must consist of letters, digits and _, and not begin with a digit");
+  EXPECT_EQ(fault(with({"--bases", "127.0.0.1:5000", "--cmd-vel", ""})), "--cmd-vel must not be empty");
+  EXPECT_EQ(fault(with({"--frame", ""})), "--frame must not be empty");
+  EXPECT_NE(usage().find("--max-age"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace banyan::ros2
