@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The page: which runs are open, and the way from what a visitor does to what is shown. Sources bring
 // frames, the player chooses the moment, stages and panels show it; nothing here draws or computes.
-import { button, download, h } from './dom';
+import { button, download, h, setText } from './dom';
 import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge, nameIn } from './files';
+import type { RunEvent } from './frame';
 import { Keyboard } from './keyboard';
 import { EventsList, type ListedEvent } from './panels/events_list';
 import { Help } from './panels/help';
@@ -22,14 +23,16 @@ import type { Source } from './source/client';
 import { openFile, openLive, openUrl } from './source/open';
 import { Problem } from './source/problem';
 import type { Intervention } from './source/protocol';
-import { Controls, LossHistory } from './state/controls';
+import { Controls } from './state/controls';
 import { Horizon } from './state/horizon';
 import { Pace } from './state/pace';
 import { Player, tickAt } from './state/player';
 import { eventAfter } from './state/events';
 import { Store } from './state/store';
 import { RobotWatch } from './robot_watch';
-import { Stage, type Shared, type StageActions } from './stage';
+import { PlaceCursor } from './place_cursor';
+import { mostRuns, namesOf, runsOf } from './runs';
+import { between, Stage, type Shared, type StageActions } from './stage';
 
 const trailS = 10; // how far back trails go
 const panelEveryMs = 80; // panels are read, not watched: twelve times a second is enough
@@ -44,13 +47,14 @@ export class App {
   private readonly horizon = new Horizon();
   private readonly tables = new Pace(tellEveryMs);
   private readonly controls = new Controls();
-  private loss = new LossHistory('');
   private opening = 0; // counts attempts: a later one makes an earlier one void
 
   private readonly notice = new Notice();
   private readonly help = new Help();
   private readonly what = h('span', { class: 'what-runs' });
-  private readonly stagesElement = h('main', { class: 'stages' });
+  private readonly loading = h('div', { class: 'loading', role: 'status' }, 'Loading …');
+  private readonly stagesElement = h('main', { class: 'stages' }, this.loading);
+  private chosen = 0; // the run whose robot the inspector shows
   private readonly plots = new Plots((timeS) => this.seek(timeS));
   private readonly transport = new Transport({
     toggle: () => this.toggle(), seek: (timeS) => this.seek(timeS), step: (ticks) => this.step(ticks),
@@ -73,23 +77,39 @@ export class App {
     saveScenario: () => void this.save((source) => source.saveScenario()),
   });
   private readonly switches = new SwitchPanel(this.store, () => this.fit());
+  private readonly plotsTab = h('div');
   private readonly tabs = new Tabs([
     { name: 'live', title: 'Live', content: this.live.element },
     { name: 'robot', title: 'Robot', content: this.inspector.element },
     { name: 'events', title: 'Events', content: this.events.element, className: 'events-tab' },
+    { name: 'plots', title: 'Plots', content: this.plotsTab },
     { name: 'run', title: 'Run', content: this.facts.element },
     { name: 'view', title: 'View', content: this.switches.element },
   ], 'Panels');
 
   constructor(root: HTMLElement) {
-    root.append(h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element), this.help.element);
+    const page = h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element);
+    root.replaceChildren(page, this.help.element);
+    this.placePlots(page);
     this.stagesElement.append(this.notice.element);
-    acceptDrops((file) => void this.openFile(file));
+    acceptDrops((files) => void this.openFiles(files));
     new Keyboard(this.keys());
     this.store.subscribe(() => this.onStore());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.onStore());
     this.onStore();
     requestAnimationFrame((now) => this.loop(now));
+  }
+
+  /** Beside the picture where there is room, else on a tab: a small screen shows the picture and one panel. */
+  private placePlots(page: HTMLElement): void {
+    const small = matchMedia('(max-width: 760px), (max-height: 480px)');
+    const place = () => {
+      this.tabs.offer('plots', small.matches);
+      if (small.matches) this.plotsTab.append(this.plots.element);
+      else page.insertBefore(this.plots.element, this.tabs.element);
+    };
+    small.addEventListener('change', place);
+    place();
   }
 
   /** Where something is on the screen: for scripts that drive the page, and its tests. */
@@ -129,11 +149,18 @@ export class App {
 
   // ---- What is open ----
 
-  private async openFile(file: File): Promise<void> {
+  /** Recordings side by side, or one scenario. */
+  private async openFiles(files: File[]): Promise<void> {
     try {
-      const opened = await judge(file);
-      if ('recording' in opened) return void await this.open([openFile(opened.recording)], false);
-      this.live.setOwn(opened.scenario.name, opened.scenario.text, []);
+      const opened = await Promise.all(files.map(judge));
+      const recordings = opened.flatMap((o) => ('recording' in o ? [o.recording] : []));
+      const scenarios = opened.flatMap((o) => ('scenario' in o ? [o.scenario] : []));
+      if (recordings.length > mostRuns) throw new Error(`At most ${mostRuns} recordings stand side by side; these are ${recordings.length}.`);
+      if (scenarios.length > 1 || (scenarios.length === 1 && recordings.length > 0)) {
+        throw new Error('Open one scenario, or recordings; not both, and not several scenarios.');
+      }
+      if (recordings.length > 0) return void await this.open(recordings.map(openFile), false);
+      this.live.setOwn(scenarios[0].name, scenarios[0].text, []);
       this.tabs.show('live');
       await this.startLive(this.live.choice());
     } catch (problem) {
@@ -150,22 +177,23 @@ export class App {
   /** Whether it is shown. */
   private async startLive(choice: LiveChoice): Promise<boolean> {
     this.live.setProblems([]);
-    const sources = choice.algorithms.map((algorithm) => openLive({
-      name: choice.name, text: choice.text,
-      overrides: algorithm === '' ? choice.overrides : [...choice.overrides, `mission.algorithm=${algorithm}`],
-    }));
+    const sources = runsOf(choice).map((overrides) => openLive({ name: choice.name, text: choice.text, overrides }));
     return await this.open(sources, true);
   }
 
   /** Shows the sources once all of them are open; until then, and if one fails, what was there stays. */
   private async open(sources: Source[], live: boolean): Promise<boolean> {
     const attempt = ++this.opening;
+    this.loading.hidden = false;
+    setText(this.loading, live ? 'Loading the simulation …' : 'Reading the recording …');
     try {
       await Promise.all(sources.map(opened));
     } catch (problem) {
       for (const source of sources) source.close();
       if (attempt === this.opening) this.refused(problem, live);
       return false;
+    } finally {
+      if (attempt === this.opening) this.loading.hidden = true;
     }
     const wanted = attempt === this.opening;
     if (wanted) this.show(sources, live);
@@ -183,10 +211,14 @@ export class App {
   private show(sources: Source[], live: boolean): void {
     for (const stage of this.stages) stage.dispose();
     this.notice.hide();
+    this.live.setProblems([]);
     this.setTool('look');
     this.select(null);
+    this.chosen = 0;
     this.stages = sources.map((source) => new Stage(source, this.theme, this.stageActions));
     this.stagesElement.prepend(...this.stages.map((stage) => stage.element));
+    this.stagesElement.dataset.runs = String(this.stages.length);
+    this.stages.forEach((stage, k) => { stage.element.dataset.run = String(k + 1); });
     for (const source of sources) this.listen(source);
     this.horizon.open(live);
     this.controls.forget();
@@ -218,6 +250,7 @@ export class App {
     requestAnimationFrame((now) => this.loop(now));
     if (this.player.frame(nowMs)) this.dirty = true;
     if (this.tables.due(nowMs)) this.tell();
+    for (const stage of this.stages) stage.showWaiting(this.player.waiting, this.player.timeS, nowMs);
     if (!this.dirty) return;
     this.dirty = false;
     const shared = this.shared();
@@ -232,16 +265,16 @@ export class App {
     this.plots.setTime(this.player.timeS);
     this.events.setTime(this.player.timeS);
     const { selection, followed } = this.store.state;
-    const stage = this.stages[0];
-    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive);
-    this.showControls(stage?.source ?? null);
+    const stage = this.stages[this.chosen] ?? this.stages[0];
+    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive, this.chosen);
+    this.showControls(this.stages[0]?.source ?? null);
   }
 
   private showControls(source: Source | null): void {
     const { timeS, waiting } = this.player;
     const setting = source?.settingAt(timeS) ?? null;
     if (!this.isLive || setting === null) return this.live.setLive(null);
-    const known = { loss: this.loss.at(timeS), lineOfSight: setting.line_of_sight };
+    const known = { loss: this.stages[0].lossAt(timeS), lineOfSight: setting.line_of_sight };
     this.live.setLive(this.controls.at(timeS, !waiting, known));
   }
 
@@ -263,8 +296,8 @@ export class App {
     this.what.textContent = headers.length === 0 ? '' : `${headers[0].name} · seed ${headers[0].seed}`;
     document.title = headers.length === 0 ? 'Banyan' : `${headers[0].name} – Banyan`;
     this.facts.update(headers);
-    this.loss = new LossHistory(headers[0]?.config ?? '');
     this.notice.warn(headers.flatMap((header) => header.warnings), this.stages);
+    this.tables.want(); // events are in the configuration, too
     this.draw();
   }
 
@@ -280,12 +313,19 @@ export class App {
     this.draw();
   }
 
+  /** What the frames tell and what was done, in order of time. */
   private shownEvents(): ListedEvent[] {
-    if (this.sources.length < 2) return this.sources.flatMap((source) => this.horizon.events(source.events.value));
-    const named = (source: Source) =>
-      this.horizon.events(source.events.value).map((event) => ({ ...event, run: source.settingAt(0)?.algorithm }));
-    return this.sources.flatMap(named).sort((a, b) => a.time_s - b.time_s);
+    const all = (stage: Stage) => {
+      const deeds = stage.deedEvents;
+      const told = stage.source.events.value;
+      return this.horizon.events(deeds.length === 0 ? told : [...deeds, ...told].sort(byTime));
+    };
+    if (this.stages.length < 2) return this.stages.flatMap(all);
+    return this.stages.flatMap((stage, k) => all(stage).map((event) => ({ ...event, run: this.runNames[k] }))).sort(byTime);
   }
+
+  /** Of runs side by side: what they differ in. */
+  private get runNames(): string[] { return namesOf(this.sources.flatMap((source) => source.header.value ?? [])); }
 
   private showEvents(): void {
     const events = this.shownEvents();
@@ -350,7 +390,10 @@ export class App {
     const wanted = this.isLive ? tool : 'look';
     this.live.setTool(wanted);
     for (const stage of this.stages) stage.setMode(wanted === 'look' ? 'look' : wanted === 'add_target' ? 'add' : 'area');
-    if (wanted !== 'look') this.notice.good(wanted === 'add_target' ? 'Click where the new target is to be.' : 'Draw a rectangle around the robots that are to die.');
+    if (wanted === 'look') this.places.stop();
+    else this.places.start({ kind: wanted });
+    if (wanted === 'add_target') this.notice.good('Click where the new target is to be; or arrows, then Enter.');
+    if (wanted === 'kill_area') this.notice.good('Draw a rectangle around the robots that are to die; or arrows, then Enter at two corners.');
   }
 
   // ---- What is done to a live run ----
@@ -412,18 +455,56 @@ export class App {
   }
 
   private readonly stageActions: StageActions = {
-    select: (item) => this.select(item),
+    select: (stage, item) => { this.chosen = this.stages.indexOf(stage); this.select(item); },
     moveTarget: (target, toM) => this.intervene([{ kind: 'move_target', target, position_m: place(toM) }]),
     moveObstacle: (obstacle, toM) => this.intervene([{ kind: 'move_obstacle', obstacle, position_m: place(toM) }]),
     addTarget: (atM) => { this.setTool('look'); this.intervene([{ kind: 'add_target', position_m: place(atM) }]); },
     killArea: (area) => this.killArea(area),
     moved: () => { if (this.store.state.followed !== null) this.follow(null); },
+    looked: (from, camera) => { for (const stage of this.stages) if (stage !== from) stage.lookLike(camera); },
     changed: () => this.draw(),
   };
 
   private killArea(area: Bounds): void {
     this.setTool('look');
     this.act((stage) => stage.robotsIn(area).map((robot) => ({ kind: 'die', robot })));
+  }
+
+  private readonly places = new PlaceCursor({
+    begin: (task) => (task.kind === 'move_target' ? this.stages[0]?.targetPlace(task.target) : this.stages[0]?.middle) ?? null,
+    metresPerPx: () => this.stages[0]?.metresPerPx ?? 0,
+    show: (at, task, corner) => {
+      for (const stage of this.stages) stage.showCursor(at, task.kind === 'move_target' ? task.target : null, corner);
+    },
+    take: (task, at, corner) => {
+      this.setTool('look');
+      if (task.kind === 'add_target') this.stageActions.addTarget(at);
+      if (task.kind === 'move_target') this.stageActions.moveTarget(task.target, at);
+      if (task.kind === 'kill_area' && corner !== null) this.killArea(between(at, corner));
+    },
+  });
+
+  private grab(): void {
+    const { selection } = this.store.state;
+    if (!this.isLive) return;
+    if (selection?.kind !== 'target') return this.notice.good('Select a target first: click it, or Shift+N.');
+    this.notice.good(`Move target T${selection.index} by the arrow keys, then Enter.`);
+    this.places.start({ kind: 'move_target', target: selection.index });
+  }
+
+  private selectNextTarget(direction: 1 | -1): void {
+    const count = this.stages[0]?.shown?.targets.x.length ?? 0;
+    if (count === 0) return;
+    const { selection } = this.store.state;
+    const now = selection?.kind === 'target' ? selection.index : direction > 0 ? -1 : 0;
+    this.select({ kind: 'target', index: (now + direction + count) % count });
+  }
+
+  private undo(): void {
+    if (!this.isLive) return;
+    this.controls.forget();
+    for (const source of this.sources) this.change(source, source.undo().then((undone) => { if (!undone) this.notice.good('Nothing has been done that could be undone.'); }));
+    this.draw();
   }
 
   private release(): void {
@@ -453,6 +534,8 @@ export class App {
         if (selection?.kind === 'robot') this.follow(followed === selection.index ? null : selection.index);
       },
       kill: () => this.killSelected(), switchOn: (name) => this.store.toggle(name),
+      grab: () => this.grab(), selectNextTarget: (direction) => this.selectNextTarget(direction), undo: () => this.undo(),
+      place: (key, shift) => this.places.key(key, shift),
       tool: (name) => this.setTool(name), theme: () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' }),
       release: () => this.release(), help: () => this.help.open(this.theme),
     };
@@ -480,12 +563,14 @@ export class App {
       'header', { class: 'bar' },
       h('h1', {}, logo(), 'Banyan'),
       this.what,
-      button('Open …', 'A recording (.mcap) or a scenario (.toml); or drop it on the page', () => chooseFile((file) => void this.openFile(file))),
+      button('Open …', 'A recording (.mcap) or a scenario (.toml); or drop it on the page', () => chooseFile((files) => void this.openFiles(files))),
       button('◐', 'Light or dark (M)', () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' })),
       button('?', 'Keys and signs (?)', () => this.help.open(this.theme)),
     );
   }
 }
+
+const byTime = (a: RunEvent, b: RunEvent) => a.time_s - b.time_s;
 
 /** Millimetres are enough, and read well in a saved scenario. */
 const place = (at: Spot): [number, number] => [Math.round(at.x * 1000) / 1000, Math.round(at.y * 1000) / 1000];

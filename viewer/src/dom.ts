@@ -20,9 +20,11 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** A button with a text for those who cannot see its sign. */
+/** A button. Its label is its name, so that it can be called by what is seen; one that shows only a sign is called by
+ *  its title. */
 export function button(sign: string | Node, title: string, onclick: () => void, attributes: Attributes = {}): HTMLButtonElement {
-  return h('button', { type: 'button', title, 'aria-label': title, onclick, ...attributes }, sign);
+  const isLabel = typeof sign === 'string' && /[A-Za-z]{2}/.test(sign);
+  return h('button', { type: 'button', title, ...(isLabel ? {} : { 'aria-label': title }), onclick, ...attributes }, sign);
 }
 
 const icons = {

@@ -37,7 +37,7 @@ export function apart(names: string[], algorithms: string[]): string[] {
   });
 }
 
-export function acceptDrops(open: (file: File) => void): void {
+export function acceptDrops(open: (files: File[]) => void): void {
   const root = document.documentElement;
   let inside = 0; // dragenter and dragleave come for every element
   const show = () => root.classList.toggle('dragging', inside > 0);
@@ -49,14 +49,14 @@ export function acceptDrops(open: (file: File) => void): void {
     event.preventDefault();
     inside = 0;
     show();
-    const file = event.dataTransfer?.files[0];
-    if (file) open(file);
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length > 0) open(files);
   });
 }
 
-export function chooseFile(open: (file: File) => void): void {
-  const input = h('input', { type: 'file', accept: '.mcap,.part,.toml,.json' });
-  input.addEventListener('change', () => { if (input.files?.[0]) open(input.files[0]); });
+export function chooseFile(open: (files: File[]) => void): void {
+  const input = h('input', { type: 'file', multiple: true, accept: '.mcap,.part,.toml,.json' });
+  input.addEventListener('change', () => { if (input.files?.length) open([...input.files]); });
   input.click();
 }
 

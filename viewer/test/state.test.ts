@@ -4,7 +4,8 @@ import { describe, expect, it } from 'vitest';
 import { column, type RunEvent } from '../src/frame';
 import { apart, nameIn } from '../src/files';
 import { outdated } from '../src/panels/transport';
-import { Controls, LossHistory } from '../src/state/controls';
+import { Controls } from '../src/state/controls';
+import { Deeds } from '../src/state/deeds';
 import { eventAfter } from '../src/state/events';
 import { interpolate, normalized } from '../src/state/interpolate';
 import { Pace } from '../src/state/pace';
@@ -145,9 +146,9 @@ describe('what the live controls show', () => {
       { kind: 'set_loss', time_s: 8, loss: 0.8 }, { kind: 'set_loss', time_s: 4, loss: 0.4 }, { kind: 'set_loss', time_s: 4, loss: 0.5 },
       { kind: 'set_loss', when: 'complete', time_s: 1, loss: 0.9 }, { kind: 'die', time_s: 5 },
     ];
-    const loss = new LossHistory(JSON.stringify({ radio: { loss: 0.1 }, events }));
-    expect([0, 3.9, 4, 7.9, 8, 99].map((timeS) => loss.at(timeS))).toEqual([0.1, 0.1, 0.5, 0.5, 0.8, 0.8]);
-    for (const config of ['', '{', '{}', '{"radio":{}}']) expect(new LossHistory(config).at(1)).toBe(0);
+    const loss = new Deeds(JSON.stringify({ radio: { loss: 0.1 }, events }));
+    expect([0, 3.9, 4, 7.9, 8, 99].map((timeS) => loss.lossAt(timeS))).toEqual([0.1, 0.1, 0.5, 0.5, 0.8, 0.8]);
+    for (const config of ['', '{', '{}', '{"radio":{}}']) expect(new Deeds(config).lossAt(1)).toBe(0);
   });
 });
 

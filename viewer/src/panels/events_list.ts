@@ -6,7 +6,7 @@ import { h, setText } from '../dom';
 import { eventMark } from './event_marks';
 import { clockText } from './transport';
 
-const rowPx = 26;
+const rowPx = 42; // two lines: most texts need no more
 const spare = 8; // rows beyond the edges, so that scrolling shows no gap
 
 /** `run`: the algorithm of the run it is of, when two stand side by side. */
@@ -28,6 +28,8 @@ export class EventsList {
   readonly element: HTMLElement;
   private readonly list = h('ol', { class: 'events-rows' });
   private readonly space = h('div', { class: 'events-space' }, this.list);
+  /** The text of the present event, however long. */
+  private readonly full = h('p', { class: 'event-full', 'aria-live': 'off' });
   private readonly view: HTMLElement;
   private readonly filter: HTMLInputElement;
   private all: ListedEvent[] = [];
@@ -45,7 +47,7 @@ export class EventsList {
       type: 'search', placeholder: 'Filter, such as death or robot 12', 'aria-label': 'Filter the events', oninput: () => this.refilter(),
     });
     this.view = h('div', { class: 'events-view', tabindex: 0, 'aria-label': 'Events', onscroll: () => this.render() }, this.space);
-    this.element = h('section', { class: 'events' }, this.filter, this.view);
+    this.element = h('section', { class: 'events' }, this.filter, this.view, this.full);
     new ResizeObserver(() => this.resize()).observe(this.view);
   }
 
@@ -64,6 +66,7 @@ export class EventsList {
     const now = lastAt(this.shown, this.timeS);
     if (now === this.now) return false;
     this.now = now;
+    setText(this.full, this.shown[now]?.text ?? '');
     if (!this.view.matches(':hover, :focus-within')) this.scrollToNow();
     return true;
   }

@@ -86,7 +86,8 @@ export function valueAt(curve: Curve, series: Series, timeS: number): number | n
   return null;
 }
 
-const runColors = ['--run-1', '--run-2'];
+const runColors = ['--run-1', '--run-2', '--run-3', '--run-4'];
+const dashes = [undefined, [5, 3], [2, 3], [9, 3, 2, 3]];
 
 class Plot {
   readonly element: HTMLElement;
@@ -155,7 +156,7 @@ class Plot {
         series: [
           {},
           ...this.runs.map((_, k) => ({
-            stroke: color(runColors[k]), width: 1.5, dash: k === 0 ? undefined : [5, 3], spanGaps: true, points: { show: false },
+            stroke: color(runColors[k]), width: 1.5, dash: dashes[k], spanGaps: true, points: { show: false },
           })),
         ],
       },

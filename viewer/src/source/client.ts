@@ -151,6 +151,19 @@ export class Source {
     return this.changePast(0, (id) => ({ type: 'reset', id }));
   }
 
+  /** Takes back what was done last; false: nothing was. */
+  async undo(): Promise<boolean> {
+    ++this.undoing;
+    try {
+      const reply = await this.ask((id) => ({ type: 'undo', id }));
+      const tick = reply.type === 'undone' ? reply.tick : null;
+      if (tick !== null) this.forgetAfter(tick * this.tickS);
+      return tick !== null;
+    } finally {
+      --this.undoing;
+    }
+  }
+
   /** Live: 16 hexadecimal digits over everything that can influence a later tick. */
   async hash(tick: number): Promise<string> {
     const reply = await this.ask((id) => ({ type: 'hash', id, tick }));
