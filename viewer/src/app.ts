@@ -2,9 +2,10 @@
 // The page: which runs are open, and the way from what a visitor does to what is shown. Sources bring
 // frames, the player chooses the moment, stages and panels show it; nothing here draws or computes.
 import { button, download, h, setText } from './dom';
-import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge, nameIn } from './files';
+import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge } from './files';
 import type { RunEvent } from './frame';
 import { Keyboard } from './keyboard';
+import { longestLink, nothing, readLink, writeLink, type Experiment } from './link';
 import { EventsList, type ListedEvent } from './panels/events_list';
 import { Help } from './panels/help';
 import { Inspector } from './panels/inspector';
@@ -22,9 +23,10 @@ import type { Item } from './scene/view';
 import type { Source } from './source/client';
 import { openFile, openLive, openUrl } from './source/open';
 import { Problem } from './source/problem';
-import type { Intervention } from './source/protocol';
+import type { Act, Header, Intervention } from './source/protocol';
 import { Controls } from './state/controls';
 import { Horizon } from './state/horizon';
+import { outcomeOf } from './state/outcome';
 import { Pace } from './state/pace';
 import { Player, tickAt } from './state/player';
 import { eventAfter } from './state/events';
@@ -54,6 +56,9 @@ export class App {
   private readonly what = h('span', { class: 'what-runs' });
   private readonly loading = h('div', { class: 'loading', role: 'status' }, 'Loading …');
   private readonly stagesElement = h('main', { class: 'stages' }, this.loading);
+  private started: { choice: LiveChoice; picked: string } | null = null; // of live runs
+  private address = ''; // of a recording that has one
+  private written = ''; // the last address that was written here
   private chosen = 0; // the run whose robot the inspector shows
   private readonly plots = new Plots((timeS) => this.seek(timeS));
   private readonly transport = new Transport({
@@ -128,23 +133,98 @@ export class App {
   private async openFirst(): Promise<void> {
     const [start, scenarios] = await Promise.all([askServer(), askScenarios()]);
     if (scenarios && scenarios.length > 0) this.live.setScenarios(scenarios);
+    if (readLink(location.hash) !== null && !start.recording && !start.scenario) return void await this.openLink(true);
     if (start.recording) return void await this.open([openUrl(start.recording.url, start.recording.name, start.recording.size)], false);
     if (start.scenario) {
       this.live.setOwn(start.scenario.name, start.scenario.text, start.scenario.overrides);
       return void await this.startLive(this.live.choice());
     }
-    const name = nameIn(location.hash);
-    const found = name === '' || this.live.pick(name);
-    const shown = await this.startLive(this.live.choice());
-    if (shown && !found) this.notice.bad(`There is no scenario “${name}”; this is another one.`);
+    if (!(await this.openLink(true))) await this.startLive(this.live.choice());
   }
 
-  /** The address names another scenario now. */
+  /** The address says something else now. */
   private async openOther(): Promise<void> {
-    const name = nameIn(location.hash);
-    if (name === '') return;
-    if (this.live.pick(name)) await this.startLive(this.live.choice());
-    else this.notice.bad(`There is no scenario “${name}”.`);
+    if (location.hash !== this.written) await this.openLink(false);
+  }
+
+  /** What the address says. `instead`: if there is no such scenario, another one. False: it says nothing. */
+  private async openLink(instead: boolean): Promise<boolean> {
+    const read = readLink(location.hash);
+    if (read === null) return false;
+    const { experiment, problems } = read;
+    if (experiment.recording !== '' && problems.length === 0) {
+      const shown = await this.open([openUrl(experiment.recording, nameOfAddress(experiment.recording))], false);
+      if (shown) this.address = experiment.recording;
+      if (shown) this.lookAt(experiment);
+      return true;
+    }
+    const found = experiment.recording === '' && this.live.set(experiment);
+    if (!found && !instead) {
+      this.notice.bad([...problems, `There is no scenario “${experiment.scenario}”.`].join('\n'));
+      return true;
+    }
+    const shown = await this.startLive(this.live.choice(), found ? experiment.acts : []);
+    if (!shown) return true;
+    if (found) this.lookAt(experiment);
+    else problems.push(`There is no scenario “${experiment.scenario}”; this is another one.`);
+    if (problems.length > 0) this.notice.bad(problems.join('\n'));
+    return true;
+  }
+
+  /** The moment, the place and the robot that an address names. */
+  private lookAt({ timeS, view, robot }: Experiment): void {
+    if (timeS !== null) {
+      this.player.pause();
+      if (this.isLive) this.player.goOnTo(timeS);
+      else this.player.seek(timeS);
+    }
+    if (view !== null) for (const stage of this.stages) stage.lookLike(view);
+    if (robot !== null) this.store.set({ selection: { kind: 'robot', index: robot } });
+    if (robot !== null) this.tabs.show('robot');
+    this.draw();
+  }
+
+  /** All of what is shown as an address; null: it would be too long, or it is a file of the visitor's. */
+  private link(): string | null {
+    const headers = this.sources.flatMap((source) => source.header.value ?? []);
+    const view = this.stages[0]?.place ?? null;
+    const { selection } = this.store.state;
+    const look = { timeS: this.player.timeS, view, robot: selection?.kind === 'robot' ? selection.index : null };
+    if (this.started === null) return this.address === '' ? null : writeLink({ ...nothing, recording: this.address, ...look });
+    const { choice, picked } = this.started;
+    const seeds = choice.seeds.flatMap((seed) => seed ?? []);
+    const written = writeLink({
+      ...nothing, scenario: picked, name: choice.name, text: picked === '' ? choice.text : '', algorithms: choice.algorithms.filter((a) => a !== '' || choice.algorithms.length > 1),
+      seeds, sets: [...choice.overrides, ...this.longer(headers)], acts: headers.map((header) => header.acts ?? []), ...look,
+    });
+    return written.length > longestLink ? null : written;
+  }
+
+  /** `banyan run` ends with the mission: what was done after that needs a longer one. */
+  private longer(headers: Header[]): string[] {
+    const ticks = headers.flatMap(({ acts }) => acts ?? []).map(({ tick }) => tick);
+    const lastS = Math.max(-1, ...ticks) * (this.sources[0]?.tickS ?? 0.1);
+    const overS = Math.min(...headers.map(({ result }) => outcomeOf(result)?.endS ?? Infinity));
+    if (lastS < overS) return [];
+    const afterS = 10; // of what that led to
+    return ['mission.stop_when_complete=false', `mission.time_limit_s=${Math.ceil(Math.max(this.player.timeS, lastS + afterS))}`];
+  }
+
+  private async copyLink(): Promise<void> {
+    const written = this.link();
+    if (written === null) {
+      if (!this.isLive) return this.notice.bad('A recording of yours has no address: send the file.');
+      this.notice.good('The address would be too long; the scenario with all that was done is saved as a file instead.');
+      return await this.save((source) => source.saveScenario());
+    }
+    this.written = written;
+    history.replaceState(null, '', written);
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.notice.good('Copied: the address of this experiment, this moment and this view.');
+    } catch {
+      this.notice.good('It is in the address bar now, to be copied from there.'); // the clipboard is not allowed
+    }
   }
 
   // ---- What is open ----
@@ -175,10 +255,13 @@ export class App {
   }
 
   /** Whether it is shown. */
-  private async startLive(choice: LiveChoice): Promise<boolean> {
+  private async startLive(choice: LiveChoice, acts: Act[][] = []): Promise<boolean> {
     this.live.setProblems([]);
-    const sources = runsOf(choice).map((overrides) => openLive({ name: choice.name, text: choice.text, overrides }));
-    return await this.open(sources, true);
+    const { picked } = this.live;
+    const sources = runsOf(choice).map((overrides, k) => openLive({ name: choice.name, text: choice.text, overrides, acts: acts[k] ?? [] }));
+    const shown = await this.open(sources, true);
+    if (shown) this.started = { choice, picked };
+    return shown;
   }
 
   /** Shows the sources once all of them are open; until then, and if one fails, what was there stays. */
@@ -215,6 +298,8 @@ export class App {
     this.setTool('look');
     this.select(null);
     this.chosen = 0;
+    this.started = null;
+    this.address = '';
     this.stages = sources.map((source) => new Stage(source, this.theme, this.stageActions));
     this.stagesElement.prepend(...this.stages.map((stage) => stage.element));
     this.stagesElement.dataset.runs = String(this.stages.length);
@@ -564,11 +649,14 @@ export class App {
       h('h1', {}, logo(), 'Banyan'),
       this.what,
       button('Open …', 'A recording (.mcap) or a scenario (.toml); or drop it on the page', () => chooseFile((files) => void this.openFiles(files))),
+      button('Copy link', 'The address of this experiment: scenario, seed, what was done, moment and view', () => void this.copyLink()),
       button('◐', 'Light or dark (M)', () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' })),
       button('?', 'Keys and signs (?)', () => this.help.open(this.theme)),
     );
   }
 }
+
+const nameOfAddress = (address: string) => address.replace(/[?#].*$/, '').replace(/^.*\//, '') || 'recording';
 
 const byTime = (a: RunEvent, b: RunEvent) => a.time_s - b.time_s;
 

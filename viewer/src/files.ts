@@ -17,16 +17,6 @@ export async function judge(file: File): Promise<Opened> {
   return { recording: file }; // its reader reports what is wrong with it
 }
 
-/** The scenario that an address names after its #; "" without one. */
-export function nameIn(hash: string): string {
-  const written = hash.replace(/^#/, '');
-  try {
-    return decodeURIComponent(written);
-  } catch {
-    return written; // a % that encodes nothing
-  }
-}
-
 /** Names under which the files of runs side by side are saved: none twice. */
 export function apart(names: string[], algorithms: string[]): string[] {
   if (names.length < 2) return names;

@@ -105,6 +105,8 @@ export class Stage {
 
   facts(): Facts | null { return this.view === null ? null : this.scene.facts(this.view); }
 
+  /** Where the visitor has chosen to look; null: at all of it. */
+  get place(): Pick<Camera, 'xM' | 'yM' | 'scale'> | null { return this.touched ? this.camera : null; }
   /** In the middle of the picture, m. */
   get middle(): Spot | null { return this.camera === null ? null : { x: this.camera.xM, y: this.camera.yM }; }
   get metresPerPx(): number { return this.camera === null ? 0 : 1 / this.camera.scale; }
@@ -225,7 +227,7 @@ export class Stage {
   }
 
   /** At the same place, as large. */
-  lookLike({ xM, yM, scale }: Camera): void {
+  lookLike({ xM, yM, scale }: Pick<Camera, 'xM' | 'yM' | 'scale'>): void {
     const { widthPx, heightPx } = this.scene;
     this.camera = { xM, yM, scale, widthPx, heightPx };
     this.touched = true;
@@ -246,7 +248,7 @@ export class Stage {
     for (let i = 0; i < frame.robots; ++i) living += alive[i];
     const dead = frame.robots - living;
     const reading = setting.reading === 'corrected' ? '' : ` (${setting.reading})`;
-    const { drawn, all } = this.scene.radioLinks;
+    const { drawn, all, about } = this.scene.radioLinks;
     const deeds = this.deeds();
     const loss = deeds.lossAt(frame.timeS);
     setText(this.captionText, [
@@ -256,7 +258,7 @@ export class Stage {
       ...(loss > 0 ? [`${Math.round(1000 * loss) / 10} % loss`] : []),
       ...(setting.line_of_sight ? ['line of sight'] : []),
       ...(deeds.isBlackoutAt(frame.timeS) ? ['blackout'] : []),
-      ...(drawn < all ? [`the shortest ${drawn} of ${all} links`] : []),
+      ...(drawn < all ? [`the shortest ${drawn} of ${about ? `about ${Number(all.toPrecision(2))}` : all} links`] : []),
     ].join(' · '));
     this.showStory(setting, frame, living);
   }

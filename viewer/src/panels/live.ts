@@ -4,6 +4,7 @@
 import { algorithms } from '../algorithms';
 import { button, h, setText } from '../dom';
 import { aboutOf, scenarios as builtIn, type Scenario } from '../scenarios';
+import type { Experiment } from '../link';
 import type { Intervention } from '../source/protocol';
 import type { Settings } from '../state/controls';
 
@@ -102,6 +103,22 @@ export class LivePanel {
     this.tool = tool;
     for (const [name, element] of Object.entries(this.tools)) element.setAttribute('aria-pressed', String(name === tool));
   }
+
+  /** As an address has it; false: there is no such scenario. */
+  set(experiment: Experiment): boolean {
+    const { scenario, name, text, algorithms, seeds, sets } = experiment;
+    if (text !== '') this.setOwn(name === '' ? 'link.toml' : name, text, []);
+    else if (!this.pick(scenario)) return false;
+    this.first.value = algorithms[0] ?? '';
+    this.second.value = algorithms[1] ?? '';
+    this.seed.value = seeds[0] === undefined ? '' : String(seeds[0]);
+    this.repeats.value = String(Math.min(4, Math.max(1, seeds.length)));
+    this.keys.value = sets.join('\n');
+    return true;
+  }
+
+  /** The name of what is picked, "" if it is the visitor's own. */
+  get picked(): string { return this.scenario.value === ownName ? '' : this.scenario.value; }
 
   choice(): LiveChoice {
     const picked = this.scenarios.find((s) => s.name === this.scenario.value);

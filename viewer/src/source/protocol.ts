@@ -22,6 +22,8 @@ export interface Header {
   config: string; // the whole configuration as JSON, "" if unknown
   /** Columns of the run table, as text; empty for a run that has not ended or was cut short. */
   result: Record<string, string>;
+  /** Live: what a visitor did, in order; undefined in a recording. */
+  acts?: Act[];
   warnings: string[]; // damage that was skipped, in words
 }
 
