@@ -17,7 +17,6 @@ LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s:]+)(#[^)\s]*)?\)")
 AS_THEY_ARE = {".svg", ".png", ".gif", ".pdf", ".md"}  # all others become pages that show their text
 LANGUAGES = {".cpp": "cpp", ".hpp": "cpp", ".toml": "toml", ".csv": "text", ".py": "python", ".cff": "yaml"}
 LARGEST_TEXT = 200_000  # bytes: nobody reads more on a page
-LARGEST_GALLERY = 100  # robots: larger scenarios take long to draw
 gathered = set()
 
 
@@ -107,21 +106,21 @@ def run(*arguments):
 
 
 def picture(scenario, into, work):
-    """Draws a moment of a scenario, as far as it is small; whether it did."""
-    text = scenario.read_text()
-    redundancy_large = re.search(r"(swarm|benchmark)-\d|paper-large|ring-of-8", scenario.stem)
-    if redundancy_large:
+    """Draws a moment of a scenario; False: it is too large, since whoever builds the site waits for it."""
+    robots = tomllib.loads(scenario.read_text()).get("swarm", {}).get("robots", 0)
+    if robots > 1000:
         return False
-    out = work / scenario.stem
-    run("run", scenario, "--out", out, "--quiet", "--set", "mission.time_limit_s=14", "--set", "output.messages=false")
-    svg = run("draw", out / "run.mcap", "--at", "9").stdout
+    out, moment = work / scenario.stem, 3 if robots >= 500 else 9
+    run("run", scenario, "--out", out, "--quiet", "--set", f"mission.time_limit_s={moment}", "--set", "output.messages=false",
+        "--set", "mission.stop_when_complete=false")
+    svg = run("draw", out / "run.mcap", "--at", moment).stdout
     (INTO / into).parent.mkdir(parents=True, exist_ok=True)
     (INTO / into).write_text(svg)
     return True
 
 
 def gallery():
-    cards = []
+    cards = {True: [], False: []}  # with a picture, without
     with tempfile.TemporaryDirectory() as folder:
         for scenario in sorted((ROOT / "scenarios").glob("*.toml")):
             about = tomllib.loads(scenario.read_text()).get("description", "")
@@ -129,12 +128,12 @@ def gallery():
             shown = picture(scenario, image, Path(folder))
             picture_html = f'<img src="{image}" alt="" loading="lazy">' if shown else '<span class="no-picture">large</span>'
             gather(Path("scenarios") / scenario.name)
-            cards.append(
+            cards[shown].append(
                 f'<li><a href="page/index.html#{scenario.stem}">{picture_html}<strong>{scenario.stem}</strong></a>'
                 f'<p>{about}</p><p><a href="scenarios/{scenario.name}.html">its file</a></p></li>')
     write("gallery.md", "# Gallery\n\nEach of these plays in your browser, computed there, when you click it. "
           "Drag a target, kill a robot, go back and try something else.\n\n"
-          f'<ul class="gallery">\n{chr(10).join(cards)}\n</ul>\n')
+          f'<ul class="gallery">\n{chr(10).join(cards[True] + cards[False])}\n</ul>\n')
 
 
 gather(Path("README.md"))

@@ -3,12 +3,13 @@
 // frames, the player chooses the moment, stages and panels show it; nothing here draws or computes.
 import { button, download, h, setText } from './dom';
 import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge } from './files';
-import type { RunEvent } from './frame';
+import type { RunEvent, Series } from './frame';
 import { Keyboard } from './keyboard';
 import { longestLink, nothing, readLink, writeLink, type Experiment } from './link';
 import { EventsList, type ListedEvent } from './panels/events_list';
 import { Help } from './panels/help';
 import { Inspector } from './panels/inspector';
+import { Keep } from './panels/keep';
 import { LivePanel, type LiveChoice, type Tool } from './panels/live';
 import { logo } from './panels/logo';
 import { Notice } from './panels/notice';
@@ -16,6 +17,7 @@ import { Plots } from './panels/plots';
 import { RunFacts } from './panels/run_facts';
 import { SwitchPanel } from './panels/switches';
 import { Tabs } from './panels/tabs';
+import { Tour } from './panels/tour';
 import { Transport, type Clock } from './panels/transport';
 import type { Spot, Bounds } from './scene/camera';
 import { themes } from './scene/themes';
@@ -52,7 +54,7 @@ export class App {
   private opening = 0; // counts attempts: a later one makes an earlier one void
 
   private readonly notice = new Notice();
-  private readonly help = new Help();
+  private readonly help = new Help(() => this.tour.start());
   private readonly what = h('span', { class: 'what-runs' });
   private readonly loading = h('div', { class: 'loading', role: 'status' }, 'Loading …');
   private readonly stagesElement = h('main', { class: 'stages' }, this.loading);
@@ -63,7 +65,7 @@ export class App {
   private readonly plots = new Plots((timeS) => this.seek(timeS));
   private readonly transport = new Transport({
     toggle: () => this.toggle(), seek: (timeS) => this.seek(timeS), step: (ticks) => this.step(ticks),
-    setSpeed: (speed) => this.setSpeed(speed), jump: (direction) => this.jump(direction),
+    loop: () => this.loopOn(), setSpeed: (speed) => this.setSpeed(speed), jump: (direction) => this.jump(direction),
   });
   private readonly inspector = new Inspector({
     select: (robot) => this.select(robot === null ? null : { kind: 'robot', index: robot }),
@@ -82,13 +84,24 @@ export class App {
     saveScenario: () => void this.save((source) => source.saveScenario()),
   });
   private readonly switches = new SwitchPanel(this.store, () => this.fit());
+  private readonly keep = new Keep({
+    pictures: () => this.stages.map((stage) => stage.picture),
+    tables: () => this.seenTables(),
+    name: () => (this.sources[0]?.header.value?.name ?? 'banyan').replace(/\.[^.]*$/, ''),
+  });
+  private readonly tour = new Tour({
+    point: (part) => { for (const stage of this.stages) stage.point(part); },
+    killRelay: () => this.killRelay(),
+    compare: () => this.compare(),
+    over: () => this.store.set({ toured: true }),
+  });
   private readonly plotsTab = h('div');
   private readonly tabs = new Tabs([
     { name: 'live', title: 'Live', content: this.live.element },
     { name: 'robot', title: 'Robot', content: this.inspector.element },
     { name: 'events', title: 'Events', content: this.events.element, className: 'events-tab' },
     { name: 'plots', title: 'Plots', content: this.plotsTab },
-    { name: 'run', title: 'Run', content: this.facts.element },
+    { name: 'run', title: 'Run', content: h('div', {}, this.keep.element, this.facts.element) },
     { name: 'view', title: 'View', content: this.switches.element },
   ], 'Panels');
 
@@ -96,7 +109,7 @@ export class App {
     const page = h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element);
     root.replaceChildren(page, this.help.element);
     this.placePlots(page);
-    this.stagesElement.append(this.notice.element);
+    this.stagesElement.append(this.notice.element, this.tour.element);
     acceptDrops((files) => void this.openFiles(files));
     new Keyboard(this.keys());
     this.store.subscribe(() => this.onStore());
@@ -139,7 +152,9 @@ export class App {
       this.live.setOwn(start.scenario.name, start.scenario.text, start.scenario.overrides);
       return void await this.startLive(this.live.choice());
     }
-    if (!(await this.openLink(true))) await this.startLive(this.live.choice());
+    if (await this.openLink(true)) return;
+    const shown = await this.startLive(this.live.choice());
+    if (shown && !this.store.state.toured) this.tour.start();
   }
 
   /** The address says something else now. */
@@ -307,6 +322,7 @@ export class App {
     for (const source of sources) this.listen(source);
     this.horizon.open(live);
     this.controls.forget();
+    this.player.loop = null;
     this.player.attach(sources);
     this.player.home();
     this.player.play();
@@ -340,6 +356,7 @@ export class App {
     this.dirty = false;
     const shared = this.shared();
     for (const stage of this.stages) stage.draw(shared, nowMs); // what is not there yet will arrive and be drawn
+    this.keep.drawn();
     if (this.horizon.see(this.player.timeS) || (!this.player.playing && this.horizon.behind)) this.tables.want();
     this.transport.update(this.clock());
     if (nowMs - this.panelsAt >= panelEveryMs || !this.player.playing) this.showPanels(nowMs);
@@ -364,8 +381,8 @@ export class App {
   }
 
   private clock(): Clock {
-    const { playing, waiting, speed, timeS, startS, growing } = this.player;
-    return { playing, waiting, speed, timeS, startS, growing, endS: Math.min(this.horizon.timeS, this.player.endS) };
+    const { playing, waiting, speed, timeS, startS, growing, loop } = this.player;
+    return { playing, waiting, speed, timeS, startS, growing, loop, endS: Math.min(this.horizon.timeS, this.player.endS) };
   }
 
   private shared(): Shared {
@@ -432,6 +449,7 @@ export class App {
     else this.player.end();
     this.draw();
   }
+  private loopOn(): void { this.player.nextLoop(); this.draw(); }
   private setSpeed(speed: number): void { this.player.setSpeed(speed); this.draw(); }
   /** Everything is in the picture then, and stays: nobody is followed. */
   private fit(): void {
@@ -569,6 +587,28 @@ export class App {
     },
   });
 
+  /** The connector that most others hang on. */
+  private killRelay(): void {
+    const stage = this.stages[0];
+    const relay = stage?.busiestRelay() ?? null;
+    if (relay === null) return this.notice.good('There is no connector yet: let it play for some seconds.');
+    this.select({ kind: 'robot', index: relay });
+    this.intervene([{ kind: 'die', robot: relay }]);
+    this.player.play();
+  }
+
+  private compare(): void {
+    this.live.compare('outwards', 'convoy');
+    void this.startLive(this.live.choice());
+  }
+
+  /** As far as it has been seen. */
+  private seenTables(): { name: string; series: Series }[] {
+    const { sources } = this;
+    const names = apart(sources.map((source) => `${source.header.value?.name ?? 'run'}`), sources.map((source) => source.settingAt(0)?.algorithm ?? ''));
+    return sources.flatMap((source, k) => (source.series.value.time_s === undefined ? [] : [{ name: names[k], series: this.horizon.rows(source.series.value) }]));
+  }
+
   private grab(): void {
     const { selection } = this.store.state;
     if (!this.isLive) return;
@@ -619,7 +659,7 @@ export class App {
         if (selection?.kind === 'robot') this.follow(followed === selection.index ? null : selection.index);
       },
       kill: () => this.killSelected(), switchOn: (name) => this.store.toggle(name),
-      grab: () => this.grab(), selectNextTarget: (direction) => this.selectNextTarget(direction), undo: () => this.undo(),
+      loop: () => this.loopOn(), grab: () => this.grab(), selectNextTarget: (direction) => this.selectNextTarget(direction), undo: () => this.undo(),
       place: (key, shift) => this.places.key(key, shift),
       tool: (name) => this.setTool(name), theme: () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' }),
       release: () => this.release(), help: () => this.help.open(this.theme),

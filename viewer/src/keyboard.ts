@@ -20,6 +20,7 @@ export interface KeyActions {
   grab(): void; // the selected target, to be moved by keys
   selectNextTarget(direction: 1 | -1): void;
   undo(): void;
+  loop(): void;
   /** Whether the key moves or takes the place that is being chosen. */
   place(key: string, shift: boolean): boolean;
   theme(): void;
@@ -105,7 +106,7 @@ export class Keyboard {
       PageUp: () => a.zoom(zoomStep), PageDown: () => a.zoom(1 / zoomStep),
       n: () => (event.shiftKey ? a.selectNextTarget(1) : a.selectNext(1)),
       p: () => (event.shiftKey ? a.selectNextTarget(-1) : a.selectNext(-1)),
-      f: a.follow, g: a.grab, u: a.undo, Delete: a.kill,
+      f: a.follow, g: a.grab, u: a.undo, a: a.loop, Delete: a.kill,
       l: () => a.switchOn('links'), b: () => a.switchOn('blocked'), o: () => a.switchOn('oldTree'),
       r: () => a.switchOn('trails'), i: () => a.switchOn('ids'),
       t: () => a.tool('add_target'), k: () => a.tool('kill_area'), m: a.theme, Escape: a.release, '?': a.help,

@@ -14,7 +14,8 @@ import { Scene } from './scene/picture';
 import type { Theme } from './scene/themes';
 import { sameItem, type Item, type SceneView, type Switches } from './scene/view';
 import type { Source } from './source/client';
-import { column } from './frame';
+import { column, roles } from './frame';
+import type { Part } from './panels/tour';
 import { Deeds } from './state/deeds';
 import { interpolate } from './state/interpolate';
 import { outcomeOf } from './state/outcome';
@@ -44,8 +45,10 @@ export interface StageActions {
   changed(): void; // draw again
 }
 
-const fitMarginPx = 22;
+const fitMarginPx = 28; // a target's number is beside it
 const scaleBarPx = 36; // above the legend
+const captionLinePx = 23; // with its share of what is around
+const narrowPx = 480; // where the story takes two lines
 const gapPx = 8;
 const slowMs = 350; // what takes longer is said
 
@@ -104,6 +107,25 @@ export class Stage {
   robotsIn(area: Bounds): number[] { return this.frame === null ? [] : robotsIn(this.frame, area); }
 
   facts(): Facts | null { return this.view === null ? null : this.scene.facts(this.view); }
+
+  get picture(): { canvas: HTMLCanvasElement; words: string } {
+    return { canvas: this.scene.canvas, words: `${this.captionText.textContent ?? ''}\n${this.story.textContent ?? ''}` };
+  }
+
+  /** Marks one of these until the pointer is over something; null: none. */
+  point(part: Part | null): void {
+    this.hovered = part === null || this.frame === null ? null : itemOf(part, this.frame);
+    this.actions.changed();
+  }
+
+  /** The living connector with most robots below it in the tree; null: there is none. */
+  busiestRelay(): number | null {
+    const { facts, frame } = { facts: this.facts(), frame: this.frame };
+    if (facts === null || frame === null) return null;
+    const role = column(frame, 'role'), alive = column(frame, 'alive');
+    const relays = Array.from({ length: frame.robots }, (_, i) => i).filter((i) => role[i] === roles.indexOf('connector') && alive[i] === 1);
+    return relays.reduce<number | null>((best, i) => (best === null || facts.subtreeSizes[i] > facts.subtreeSizes[best] ? i : best), null);
+  }
 
   /** Where the visitor has chosen to look; null: at all of it. */
   get place(): Pick<Camera, 'xM' | 'yM' | 'scale'> | null { return this.touched ? this.camera : null; }
@@ -198,8 +220,9 @@ export class Stage {
   /** What caption, legend and scale bar cover. */
   private insets(): Insets {
     const { caption, legend } = this;
+    const lines = this.scene.widthPx < narrowPx ? 3 : 2; // it has no words yet when the first picture is drawn
     return {
-      top: caption.offsetTop + caption.offsetHeight, right: 0, left: 0,
+      top: Math.max(caption.offsetTop + caption.offsetHeight, captionLinePx * lines), right: 0, left: 0,
       bottom: legend.element.offsetHeight + gapPx + scaleBarPx,
     };
   }
@@ -347,6 +370,14 @@ export class Stage {
     this.area = area;
     this.actions.changed();
   }
+}
+
+/** One of the kind: the first target, or the first living robot of the role. */
+function itemOf(part: Part, frame: Frame): Item | null {
+  if (part === 'target') return frame.targets.x.length > 0 ? { kind: 'target', index: 0 } : null;
+  const role = column(frame, 'role'), alive = column(frame, 'alive');
+  const index = role.findIndex((r, i) => r === roles.indexOf(part) && alive[i] === 1);
+  return index < 0 ? null : { kind: 'robot', index };
 }
 
 /** The rectangle with these corners. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The keys, and what the signs in the picture mean.
 import { button, h } from '../dom';
+import { terms } from '../glossary';
 import { legendMarks } from '../scene/legend';
 import type { Theme } from '../scene/themes';
 import { Legend } from './legend';
@@ -11,6 +12,7 @@ const keys: [string, string][] = [
   ['Home End', 'to the beginning, to the end'],
   ['[ ]', 'to the last, the next event: insertion, hand-over, broken edge, death …'],
   ['− +', 'slower, faster'],
+  ['A', 'loop from here; again: up to here; again: no more'],
   ['0–9 Enter', 'select a robot by its number'],
   ['N P', 'select the next, the previous robot; with Shift target'],
   ['F', 'follow the selected robot'],
@@ -29,7 +31,7 @@ export class Help {
   readonly element: HTMLDialogElement;
   private readonly legend = new Legend(legendMarks);
 
-  constructor() {
+  constructor(tour: () => void) {
     const rows = keys.map(([key, meaning]) => h('tr', {}, h('td', {}, ...key.split(' ').flatMap((k) => [h('kbd', {}, k), ' '])), h('td', {}, meaning)));
     this.element = h(
       'dialog',
@@ -46,6 +48,9 @@ export class Help {
             'Drag to move the picture, turn the wheel or pinch to zoom, click a robot to look into it. In a live run drag targets and obstacles; ' +
             'double click adds a target; a drag with Shift draws an area in which all robots die; Delete removes the selected ' +
             'robot or target.'))),
+      h('details', { class: 'glossary' }, h('summary', {}, 'Glossary'),
+        h('dl', {}, ...terms.flatMap(({ name, meaning }) => [h('dt', {}, name), h('dd', {}, meaning)]))),
+      h('div', { class: 'buttons' }, button('First look', 'A guided half minute', () => { this.element.close(); tour(); })),
       button('Close', 'Close', () => this.element.close(), { class: 'primary' }),
     );
     this.element.addEventListener('click', (event) => { if (event.target === this.element) this.element.close(); });

@@ -117,6 +117,11 @@ export class LivePanel {
     return true;
   }
 
+  compare(first: string, second: string): void {
+    this.first.value = first;
+    this.second.value = second;
+  }
+
   /** The name of what is picked, "" if it is the visitor's own. */
   get picked(): string { return this.scenario.value === ownName ? '' : this.scenario.value; }
 
