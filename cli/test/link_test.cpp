@@ -78,7 +78,7 @@ TEST(Link, SaysWhatIsWrong) {
   EXPECT_TRUE(has(problem_of("#three-target"), "did you mean three-targets?"));
   EXPECT_TRUE(has(problem_of("#"), "names no scenario"));
   EXPECT_TRUE(has(problem_of("#../secret"), "there is no scenario"));
-  EXPECT_TRUE(has(problem_of("#scenario=three-targets&sed=3"), "did you mean seed?"));
+  EXPECT_TRUE(has(problem_of("#scenario=three-targets&algoritm=mst"), "did you mean algorithm?"));
   EXPECT_TRUE(has(problem_of("#scenario=three-targets&do=5"), "it is a tick, a colon and an event as JSON"));
   EXPECT_TRUE(has(problem_of("#scenario=three-targets&do=99999999999999999999:{}"), "it is a tick"));
   EXPECT_TRUE(has(problem_of("#scenario=three-targets&do=5:{\"kind\":\"die\",\"robot\":99}"), "robot"));

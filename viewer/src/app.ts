@@ -18,6 +18,7 @@ import { RunFacts } from './panels/run_facts';
 import { SwitchPanel } from './panels/switches';
 import { Tabs } from './panels/tabs';
 import { Tour } from './panels/tour';
+import { Why } from './panels/why';
 import { Transport, type Clock } from './panels/transport';
 import type { Spot, Bounds } from './scene/camera';
 import { themes } from './scene/themes';
@@ -76,10 +77,15 @@ export class App {
   private readonly events = new EventsList((event) => {
     this.seek(event.time_s);
     if (event.robot >= 0) this.select({ kind: 'robot', index: event.robot });
+  }, (event) => void this.explain(event));
+  private readonly why = new Why((timeS, robot) => {
+    this.player.pause();
+    this.seek(timeS);
+    this.select({ kind: 'robot', index: robot });
   });
   private readonly facts = new RunFacts((run) => this.hash(run));
   private readonly live = new LivePanel({
-    start: (choice) => void this.startByHand(choice), reset: () => this.reset(), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
+    start: (choice) => void this.startByHand(choice), reset: () => this.reset(), undo: () => this.undo(), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
     saveRecording: () => void this.save((source) => source.saveRecording()),
     saveScenario: () => void this.save((source) => source.saveScenario()),
   });
@@ -107,7 +113,7 @@ export class App {
 
   constructor(root: HTMLElement) {
     const page = h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element);
-    root.replaceChildren(page, this.help.element);
+    root.replaceChildren(page, this.help.element, this.why.element);
     this.placePlots(page);
     this.stagesElement.append(this.notice.element, this.tour.element);
     acceptDrops((files) => void this.openFiles(files));
@@ -586,6 +592,20 @@ export class App {
       if (task.kind === 'kill_area' && corner !== null) this.killArea(between(at, corner));
     },
   });
+
+  private async explain(event: ListedEvent): Promise<void> {
+    const source = this.sources[Math.max(0, event.run === undefined ? 0 : this.runNames.indexOf(event.run))];
+    if (source === undefined) return;
+    this.player.pause();
+    try {
+      await this.why.open(event, {
+        frames: (fromS, toS) => source.frames(fromS, toS), message: (robot, tick) => source.message(robot, tick),
+        settingAt: (timeS) => source.settingAt(timeS), tickS: source.tickS, live: this.isLive,
+      });
+    } catch (problem) {
+      this.notice.bad(textOf(problem));
+    }
+  }
 
   /** The connector that most others hang on. */
   private killRelay(): void {

@@ -24,6 +24,7 @@ export interface LiveChoice {
 export interface LiveActions {
   start(choice: LiveChoice): void;
   reset(): void;
+  undo(): void;
   setTool(tool: Tool): void;
   intervene(events: Intervention[]): void;
   saveRecording(): void;
@@ -192,6 +193,7 @@ export class LivePanel {
       h('legend', {}, 'While it runs'),
       h('p', { class: 'hint' }, 'Drag a target or an obstacle. Go back in time and do something else: the run is simulated anew from there.'),
       h('div', { class: 'buttons' }, this.tools.add_target, this.tools.kill_area,
+        button('Undo', 'Takes back what you did last (U)', this.actions.undo),
         button('Reset', 'The same run from its beginning, without what you did', this.actions.reset),
         button('Blackout', 'Nobody hears anything for a second', () => this.actions.intervene([{ kind: 'blackout', duration_s: 1 }]))),
       h('div', { class: 'field' }, h('label', { for: 'live-loss' }, 'Packet loss'), this.loss, this.lossText),

@@ -152,6 +152,17 @@ export class Radio {
     return false;
   }
 
+  /** What hides them from each other, in words; "" if nothing does. */
+  blocker(i: number, j: number): string {
+    const [ax, ay, bx, by] = [this.x[i]!, this.y[i]!, this.x[j]!, this.y[j]!];
+    for (let k = 0; k < this.x.length; ++k) {
+      if (k === i || k === j || (this.alive[k] === 0 && !this.deadHide)) continue;
+      if (discBlocks(this.x[k]!, this.y[k]!, this.setting.radius_m, ax, ay, bx, by) && !this.isLookedOver(k, i, j)) return `robot ${k}`;
+    }
+    const wall = this.setting.obstacles.findIndex((obstacle) => blocks(obstacle, ax, ay, bx, by));
+    return wall < 0 ? '' : `obstacle ${wall}`;
+  }
+
   /** Where sight leaks: whether the nearer of i and j looks over the body of k, which is in their way. */
   private isLookedOver(k: number, i: number, j: number): boolean {
     if (this.raised[i] === 0 && this.raised[j] === 0) return false;

@@ -136,6 +136,12 @@ export class Source {
     this.trouble.set(null);
   }
 
+  /** All frames from one time to another, whether they are shown or not. */
+  async frames(fromS: number, toS: number): Promise<Frame[]> {
+    const reply = await this.ask((id) => ({ type: 'frames', id, fromS, toS, stride: 1 }));
+    return reply.type === 'frames' ? reply.frames : [];
+  }
+
   async message(robot: number, tick: number): Promise<MessageFields | null> {
     const reply = await this.ask((id) => ({ type: 'message', id, robot, tick }));
     return reply.type === 'message' ? reply.fields : null;

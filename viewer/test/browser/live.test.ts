@@ -243,7 +243,7 @@ describe('a live run', () => {
     await keys('Shift+p', 'g', 'Shift+ArrowRight', 'Enter');
     await settle(tab);
     await expect.poll(async () => Math.round((await placeOf(tab, 'target', 3)).x - before.x)).toBeGreaterThan(30);
-    await keys('k', 'ArrowUp', 'Enter', ...Array<string>(6).fill('Shift+ArrowRight'), ...Array<string>(4).fill('Shift+ArrowDown'), 'Enter');
+    await keys('k', 'ArrowUp', 'Enter', ...Array<string>(5).fill('Shift+ArrowLeft'), ...Array<string>(4).fill('Shift+ArrowDown'), 'Enter');
     await expect.poll(() => tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
   });
 
