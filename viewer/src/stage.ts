@@ -57,7 +57,7 @@ export class Stage {
   readonly scene: Scene;
   private readonly input: Input;
   private readonly captionText = h('span');
-  private readonly story = h('p', { class: 'story' });
+  private readonly story = h('p', { class: 'story', role: 'status' });
   private readonly caption = h('div', { class: 'caption' },
     h('p', {}, h('i', { class: 'run-line', 'aria-hidden': 'true' }), this.captionText), this.story);
   private readonly busy = h('div', { class: 'busy', role: 'status', hidden: true });
