@@ -93,7 +93,7 @@ describe('the page without banyan view', () => {
     await tab.waitForSelector('.tour:visible');
     for (let k = 0; k < 5; ++k) await tab.click('.tour >> text=Next');
     await playedTo(tab, 2);
-    await tab.click('.tour >> text=Kill a connector');
+    await tab.click('.tour button:text-is("Kill a connector")'); // its words are in the text, too
     await expect.poll(() => tab.textContent('.caption')).toContain('1 dead');
     await tab.click('.tour >> text=Skip');
     await tab.reload();
@@ -122,7 +122,8 @@ describe('the page without banyan view', () => {
     await settle(tab);
     await tab.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
     const found: string[] = [];
-    for (const panel of ['live', 'robot', 'events', 'run', 'view']) {
+    const others = theme === 'light' && width > 1000 ? ['robot', 'events', 'view'] : []; // each takes a while
+    for (const panel of ['live', 'run', ...others]) {
       await tab.click(`#tab-${panel}`);
       await settle(tab);
       found.push(...await tab.evaluate(async () => {
