@@ -47,6 +47,9 @@ export interface StageActions {
 
 const fitMarginPx = 28; // a target's number is beside it
 const scaleBarPx = 36; // above the legend
+const marginShare = 0.08;
+const mostTopShare = 0.2;
+const mostBottomShare = 0.16;
 const captionLinePx = 23; // with its share of what is around
 const narrowPx = 480; // where the story takes two lines
 const gapPx = 8;
@@ -217,13 +220,14 @@ export class Stage {
     return frames.filter((f) => f.tick % every === 0 || shared.stride >= every);
   }
 
-  /** What caption, legend and scale bar cover. */
+  /** What caption, legend and scale bar cover; in a low picture they may cover a little, or nothing else would fit. */
   private insets(): Insets {
     const { caption, legend } = this;
     const lines = this.scene.widthPx < narrowPx ? 3 : 2; // it has no words yet when the first picture is drawn
+    const { heightPx } = this.scene;
     return {
-      top: Math.max(caption.offsetTop + caption.offsetHeight, captionLinePx * lines), right: 0, left: 0,
-      bottom: legend.element.offsetHeight + gapPx + scaleBarPx,
+      top: Math.min(Math.max(caption.offsetTop + caption.offsetHeight, captionLinePx * lines), mostTopShare * heightPx), right: 0, left: 0,
+      bottom: Math.min(legend.element.offsetHeight + gapPx + scaleBarPx, mostBottomShare * heightPx),
     };
   }
 
@@ -233,7 +237,7 @@ export class Stage {
     if (this.camera && (this.camera.widthPx !== widthPx || this.camera.heightPx !== heightPx)) {
       this.camera = this.touched || followed !== null ? resized(this.camera, widthPx, heightPx) : null;
     }
-    this.camera ??= fitted(boundsOf(setting, frame), widthPx, heightPx, fitMarginPx, this.insets());
+    this.camera ??= fitted(boundsOf(setting, frame), widthPx, heightPx, Math.min(fitMarginPx, marginShare * heightPx), this.insets());
     if (followed !== null && followed < frame.robots) {
       const at = { x: column(frame, 'x_m')[followed], y: column(frame, 'y_m')[followed] };
       const share = followShare(Math.min(0.1, Math.max(0, nowMs - this.lastDrawMs) / 1000));

@@ -5,7 +5,7 @@
 import type { Facts } from './facts';
 import { drawGround } from './layers/ground';
 import { drawObstacles } from './layers/obstacles';
-import { crowd, drawRadio, mostLinks, type RadioCount } from './layers/radio';
+import { crowd, crowdLinks, drawRadio, mostLinks, type RadioCount } from './layers/radio';
 import type { Shot } from './shot';
 import type { SceneView } from './view';
 
@@ -26,7 +26,7 @@ export class Backdrop {
   get coarse(): boolean { return this.isCoarse; }
 
   draw(shot: Shot): RadioCount {
-    shot.linkBudget = mostLinks;
+    shot.linkBudget = shot.robots < crowd ? mostLinks : crowdLinks;
     if (!isWorthKeeping(shot)) {
       this.isCoarse = false;
       return drawAll(shot);

@@ -35,6 +35,8 @@ export interface RadioCount { drawn: number; all: number; about: boolean }
 
 /** From this number on only the links that may be drawn are computed: all of 10,000 robots take longer than a tick. */
 export const crowd = 2000;
+/** Of those: more would be drawn anew with every tick, over the whole picture, and tell no more. */
+export const crowdLinks = 2000;
 const spareShare = 1.2; // of the budget: the estimate may be low
 
 /** The links to choose from, and about how many others there are. */
