@@ -210,7 +210,7 @@ void add_run(CLI::App& app, std::function<int()>& action) {
   command->footer(run_footer);
   command
       ->add_option("scenario", options->scenario,
-                   "a scenario (.toml or .json), an earlier run.json, - for standard input, or a link of the page")
+                   "a scenario (.toml or .json), an earlier run.json, a link of the page, - for standard input")
       ->required()
       ->type_name("FILE");
   add_overrides(*command, options->overrides);
@@ -372,7 +372,7 @@ void add_view(CLI::App& app, std::function<int()>& action) {
   command->footer(view_footer);
   command
       ->add_option("file", options->file,
-                   "a run.mcap, a scenario to be run in the page, or a link of the page; none: a choice of scenarios")
+                   "a run.mcap, a scenario to be run in the page, or a link; none: a choice of scenarios")
       ->type_name("FILE");
   add_overrides(*command, options->overrides);
   add_seed(*command, options->overrides);
