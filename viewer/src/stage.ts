@@ -48,7 +48,7 @@ export interface StageActions {
 const fitMarginPx = 28; // a target's number is beside it
 const scaleBarPx = 36; // above the legend
 const marginShare = 0.08;
-const mostTopShare = 0.2;
+const mostTopShare = 0.27;
 const mostBottomShare = 0.16;
 const captionLinePx = 23; // with its share of what is around
 const narrowPx = 480; // where the story takes two lines
