@@ -19,7 +19,7 @@ export default defineConfig({
   publicDir: here('public'),
   cacheDir: here('../build/viewer/cache'),
   resolve: { alias: { '@live': live } },
-  server: { fs: { allow: [here('.'), live] } }, // the simulation lies outside of this folder
+  server: { fs: { allow: [here('.'), here('../docs'), here('../scenarios'), live] } }, // the simulation lies outside of this folder
   worker: { format: 'es' },
   build: { outDir: process.env.BANYAN_PAGE ?? here('../build/viewer/page'), emptyOutDir: true, target: 'es2022' },
   test: {

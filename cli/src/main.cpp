@@ -218,7 +218,7 @@ void add_run(CLI::App& app, std::function<int()>& action) {
   command->footer(run_footer);
   command
       ->add_option("scenario", options->scenario,
-                   "a scenario (.toml or .json), an earlier run.json, or - for standard input")
+                   "a scenario (.toml or .json), an earlier run.json, a link of the page, - for standard input")
       ->required()
       ->type_name("FILE");
   add_overrides(*command, options->overrides);
@@ -380,7 +380,7 @@ void add_view(CLI::App& app, std::function<int()>& action) {
   command->footer(view_footer);
   command
       ->add_option("file", options->file,
-                   "a run.mcap, or a scenario to be run in the page; none: a choice of scenarios")
+                   "a run.mcap, a scenario to be run in the page, or a link; none: a choice of scenarios")
       ->type_name("FILE");
   add_overrides(*command, options->overrides);
   add_seed(*command, options->overrides);

@@ -14,6 +14,7 @@
 #include "banyan/version.hpp"
 #include "commands.hpp"
 #include "keep_run.hpp"
+#include "link.hpp"
 #include "outputs.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
@@ -81,8 +82,16 @@ class Complaints {
   std::size_t told_ = 0;
 };
 
+Loaded load_experiment(const RunOptions& options) {
+  if (!is_link(options.scenario)) return load_configuration(options.scenario, algorithms(), options.overrides);
+  LoadedLink link = load_link(options.scenario, options.overrides);
+  if (link.loaded.ok() && link.runs > 1)
+    complain(format("the link shows %zu runs side by side; this is the first (--set mission.algorithm, --seed for the others)", link.runs));
+  return std::move(link.loaded);
+}
+
 Loaded load_or_leave(const RunOptions& options) {
-  auto loaded = load_configuration(options.scenario, algorithms(), options.overrides);
+  auto loaded = load_experiment(options);
   print_problems(loaded.problems);
   return loaded;
 }

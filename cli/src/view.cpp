@@ -17,6 +17,7 @@
 #include "banyan/algorithms/algorithms.hpp"
 #include "banyan/record/recording.hpp"
 #include "commands.hpp"
+#include "link.hpp"
 #include "page_server.hpp"
 #include "shipped.hpp"
 #include "terminal.hpp"
@@ -136,7 +137,15 @@ int view_command(const ViewOptions& options) {
   PageContent content;
   content.page = page_folder(options);
   content.scenarios = scenarios_folder(options);
-  if (!options.file.empty() && is_recording(options.file)) {
+  std::string fragment;
+  if (is_link(options.file)) {
+    if (!options.overrides.empty())
+      throw CommandError(exit_usage, "a link carries its own changes: --set, --seed and --with are for scenarios");
+    const LoadedLink link = load_link(options.file);
+    print_problems(link.loaded.problems);
+    if (!link.loaded.ok()) return exit_usage;
+    fragment = link.fragment;
+  } else if (!options.file.empty() && is_recording(options.file)) {
     if (!options.overrides.empty())
       throw CommandError(exit_usage, "a recording cannot be changed: --set, --seed and --with are for scenarios");
     check_recording(options.file);
@@ -150,9 +159,10 @@ int view_command(const ViewOptions& options) {
   ::signal(SIGCHLD, SIG_IGN);  // the browser is not waited for
   ::signal(SIGPIPE, SIG_IGN);  // a browser that is closed must not end us
   const PageServer server(content, options.port);
-  print(server.address() + "\n");
+  const std::string address = server.address() + fragment;
+  print(address + "\n");
   complain("the page is at this address as long as this runs; Ctrl-C ends it");
-  if (options.open) open_browser(server.address());
+  if (options.open) open_browser(address);
   while (stop_signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return exit_signal + stop_signal();
 }

@@ -39,8 +39,13 @@ struct ChunkEntry {
   std::uint64_t compressed = 0, uncompressed = 0;
 };
 
+// The first chunk of a group is small and each one after it twice as large: of a file that is cut off early
+// something can be shown, and a page has its first picture soon.
+constexpr std::size_t first_chunk_bytes = std::size_t{1} << 14;
+
 // A chunk that is being filled.
 struct OpenChunk {
+  std::size_t limit = first_chunk_bytes;
   std::string records;
   Nanoseconds start = 0, end = 0;
   std::map<std::uint16_t, std::vector<std::pair<Nanoseconds, std::uint64_t>>> index;  // per channel: time, offset
@@ -189,7 +194,7 @@ void Writer::message(std::uint16_t channel_id, Nanoseconds time, std::string_vie
     put(chunk.records, time);
     chunk.records.append(data);
   }
-  if (chunk.records.size() >= w.options.chunk_bytes) w.end(chunk);
+  if (chunk.records.size() >= std::min(chunk.limit, w.options.chunk_bytes)) w.end(chunk);
 }
 
 std::string_view Writer::Impl::compress(std::string_view records) {
@@ -225,6 +230,7 @@ void Writer::Impl::end(OpenChunk& chunk) {
   }
   entry.length = scratch.size();
   chunk.records.clear();
+  chunk.limit = std::min(2 * chunk.limit, options.chunk_bytes);
   data(scratch);
   write_index(chunk, entry);
   chunks.push_back(std::move(entry));

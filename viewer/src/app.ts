@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The page: which runs are open, and the way from what a visitor does to what is shown. Sources bring
 // frames, the player chooses the moment, stages and panels show it; nothing here draws or computes.
-import { button, download, h } from './dom';
-import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge, nameIn } from './files';
+import { button, download, h, setText } from './dom';
+import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge } from './files';
+import type { RunEvent, Series } from './frame';
 import { Keyboard } from './keyboard';
+import { longestLink, nothing, readLink, writeLink, type Experiment } from './link';
 import { EventsList, type ListedEvent } from './panels/events_list';
 import { Help } from './panels/help';
 import { Inspector } from './panels/inspector';
+import { Keep } from './panels/keep';
 import { LivePanel, type LiveChoice, type Tool } from './panels/live';
 import { logo } from './panels/logo';
 import { Notice } from './panels/notice';
@@ -14,6 +17,8 @@ import { Plots } from './panels/plots';
 import { RunFacts } from './panels/run_facts';
 import { SwitchPanel } from './panels/switches';
 import { Tabs } from './panels/tabs';
+import { Tour } from './panels/tour';
+import { Why } from './panels/why';
 import { Transport, type Clock } from './panels/transport';
 import type { Spot, Bounds } from './scene/camera';
 import { themes } from './scene/themes';
@@ -21,15 +26,18 @@ import type { Item } from './scene/view';
 import type { Source } from './source/client';
 import { openFile, openLive, openUrl } from './source/open';
 import { Problem } from './source/problem';
-import type { Intervention } from './source/protocol';
-import { Controls, LossHistory } from './state/controls';
+import type { Act, Header, Intervention } from './source/protocol';
+import { Controls } from './state/controls';
 import { Horizon } from './state/horizon';
+import { outcomeOf } from './state/outcome';
 import { Pace } from './state/pace';
 import { Player, tickAt } from './state/player';
 import { eventAfter } from './state/events';
 import { Store } from './state/store';
 import { RobotWatch } from './robot_watch';
-import { Stage, type Shared, type StageActions } from './stage';
+import { PlaceCursor } from './place_cursor';
+import { mostRuns, namesOf, runsOf } from './runs';
+import { between, Stage, type Shared, type StageActions } from './stage';
 
 const trailS = 10; // how far back trails go
 const panelEveryMs = 80; // panels are read, not watched: twelve times a second is enough
@@ -44,17 +52,21 @@ export class App {
   private readonly horizon = new Horizon();
   private readonly tables = new Pace(tellEveryMs);
   private readonly controls = new Controls();
-  private loss = new LossHistory('');
   private opening = 0; // counts attempts: a later one makes an earlier one void
 
   private readonly notice = new Notice();
-  private readonly help = new Help();
+  private readonly help = new Help(() => this.tour.start());
   private readonly what = h('span', { class: 'what-runs' });
-  private readonly stagesElement = h('main', { class: 'stages' });
+  private readonly loading = h('div', { class: 'loading', role: 'status' }, 'Loading …');
+  private readonly stagesElement = h('main', { class: 'stages' }, this.loading);
+  private started: { choice: LiveChoice; picked: string } | null = null; // of live runs
+  private address = ''; // of a recording that has one
+  private written = ''; // the last address that was written here
+  private chosen = 0; // the run whose robot the inspector shows
   private readonly plots = new Plots((timeS) => this.seek(timeS));
   private readonly transport = new Transport({
     toggle: () => this.toggle(), seek: (timeS) => this.seek(timeS), step: (ticks) => this.step(ticks),
-    setSpeed: (speed) => this.setSpeed(speed), jump: (direction) => this.jump(direction),
+    loop: () => this.loopOn(), setSpeed: (speed) => this.setSpeed(speed), jump: (direction) => this.jump(direction),
   });
   private readonly inspector = new Inspector({
     select: (robot) => this.select(robot === null ? null : { kind: 'robot', index: robot }),
@@ -65,31 +77,63 @@ export class App {
   private readonly events = new EventsList((event) => {
     this.seek(event.time_s);
     if (event.robot >= 0) this.select({ kind: 'robot', index: event.robot });
+  }, (event) => void this.explain(event));
+  private readonly why = new Why((timeS, robot) => {
+    this.player.pause();
+    this.seek(timeS);
+    this.select({ kind: 'robot', index: robot });
   });
   private readonly facts = new RunFacts((run) => this.hash(run));
   private readonly live = new LivePanel({
-    start: (choice) => void this.startByHand(choice), reset: () => this.reset(), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
+    start: (choice) => void this.startByHand(choice), reset: () => this.reset(), undo: () => this.undo(), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
     saveRecording: () => void this.save((source) => source.saveRecording()),
     saveScenario: () => void this.save((source) => source.saveScenario()),
   });
   private readonly switches = new SwitchPanel(this.store, () => this.fit());
+  private readonly keep = new Keep({
+    pictures: () => this.stages.map((stage) => stage.picture),
+    tables: () => this.seenTables(),
+    name: () => (this.sources[0]?.header.value?.name ?? 'banyan').replace(/\.[^.]*$/, ''),
+  });
+  private readonly tour = new Tour({
+    point: (part) => { for (const stage of this.stages) stage.point(part); },
+    killRelay: () => this.killRelay(),
+    compare: () => this.compare(),
+    over: () => this.store.set({ toured: true }),
+  });
+  private readonly plotsTab = h('div');
   private readonly tabs = new Tabs([
     { name: 'live', title: 'Live', content: this.live.element },
     { name: 'robot', title: 'Robot', content: this.inspector.element },
     { name: 'events', title: 'Events', content: this.events.element, className: 'events-tab' },
-    { name: 'run', title: 'Run', content: this.facts.element },
+    { name: 'plots', title: 'Plots', content: this.plotsTab },
+    { name: 'run', title: 'Run', content: h('div', {}, this.keep.element, this.facts.element) },
     { name: 'view', title: 'View', content: this.switches.element },
   ], 'Panels');
 
   constructor(root: HTMLElement) {
-    root.append(h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element), this.help.element);
-    this.stagesElement.append(this.notice.element);
-    acceptDrops((file) => void this.openFile(file));
+    const page = h('div', { class: 'page' }, this.bar(), this.stagesElement, this.plots.element, this.tabs.element, this.transport.element);
+    root.replaceChildren(page, this.help.element, this.why.element);
+    this.placePlots(page);
+    this.stagesElement.append(this.notice.element, this.tour.element);
+    acceptDrops((files) => void this.openFiles(files));
     new Keyboard(this.keys());
     this.store.subscribe(() => this.onStore());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.onStore());
     this.onStore();
     requestAnimationFrame((now) => this.loop(now));
+  }
+
+  /** Beside the picture where there is room, else on a tab: a small screen shows the picture and one panel. */
+  private placePlots(page: HTMLElement): void {
+    const small = matchMedia('(max-width: 760px), (max-height: 480px)');
+    const place = () => {
+      this.tabs.offer('plots', small.matches);
+      if (small.matches) this.plotsTab.append(this.plots.element);
+      else page.insertBefore(this.plots.element, this.tabs.element);
+    };
+    small.addEventListener('change', place);
+    place();
   }
 
   /** Where something is on the screen: for scripts that drive the page, and its tests. */
@@ -108,32 +152,116 @@ export class App {
   private async openFirst(): Promise<void> {
     const [start, scenarios] = await Promise.all([askServer(), askScenarios()]);
     if (scenarios && scenarios.length > 0) this.live.setScenarios(scenarios);
+    if (readLink(location.hash) !== null && !start.recording && !start.scenario) return void await this.openLink(true);
     if (start.recording) return void await this.open([openUrl(start.recording.url, start.recording.name, start.recording.size)], false);
     if (start.scenario) {
       this.live.setOwn(start.scenario.name, start.scenario.text, start.scenario.overrides);
       return void await this.startLive(this.live.choice());
     }
-    const name = nameIn(location.hash);
-    const found = name === '' || this.live.pick(name);
+    if (await this.openLink(true)) return;
     const shown = await this.startLive(this.live.choice());
-    if (shown && !found) this.notice.bad(`There is no scenario “${name}”; this is another one.`);
+    if (shown && !this.store.state.toured) this.tour.start();
   }
 
-  /** The address names another scenario now. */
+  /** The address says something else now. */
   private async openOther(): Promise<void> {
-    const name = nameIn(location.hash);
-    if (name === '') return;
-    if (this.live.pick(name)) await this.startLive(this.live.choice());
-    else this.notice.bad(`There is no scenario “${name}”.`);
+    if (location.hash !== this.written) await this.openLink(false);
+  }
+
+  /** What the address says. `instead`: if there is no such scenario, another one. False: it says nothing. */
+  private async openLink(instead: boolean): Promise<boolean> {
+    const read = readLink(location.hash);
+    if (read === null) return false;
+    const { experiment, problems } = read;
+    if (experiment.recording !== '' && problems.length === 0) {
+      const shown = await this.open([openUrl(experiment.recording, nameOfAddress(experiment.recording))], false);
+      if (shown) this.address = experiment.recording;
+      if (shown) this.lookAt(experiment);
+      return true;
+    }
+    const found = experiment.recording === '' && this.live.set(experiment);
+    if (!found && !instead) {
+      this.notice.bad([...problems, `There is no scenario “${experiment.scenario}”.`].join('\n'));
+      return true;
+    }
+    const shown = await this.startLive(this.live.choice(), found ? experiment.acts : []);
+    if (!shown) return true;
+    if (found) this.lookAt(experiment);
+    else problems.push(`There is no scenario “${experiment.scenario}”; this is another one.`);
+    if (problems.length > 0) this.notice.bad(problems.join('\n'));
+    return true;
+  }
+
+  /** The moment, the place and the robot that an address names. */
+  private lookAt({ timeS, view, robot }: Experiment): void {
+    if (timeS !== null) {
+      this.player.pause();
+      if (this.isLive) this.player.goOnTo(timeS);
+      else this.player.seek(timeS);
+    }
+    if (view !== null) for (const stage of this.stages) stage.lookLike(view);
+    if (robot !== null) this.store.set({ selection: { kind: 'robot', index: robot } });
+    if (robot !== null) this.tabs.show('robot');
+    this.draw();
+  }
+
+  /** All of what is shown as an address; null: it would be too long, or it is a file of the visitor's. */
+  private link(): string | null {
+    const headers = this.sources.flatMap((source) => source.header.value ?? []);
+    const view = this.stages[0]?.place ?? null;
+    const { selection } = this.store.state;
+    const look = { timeS: this.player.timeS, view, robot: selection?.kind === 'robot' ? selection.index : null };
+    if (this.started === null) return this.address === '' ? null : writeLink({ ...nothing, recording: this.address, ...look });
+    const { choice, picked } = this.started;
+    const seeds = choice.seeds.flatMap((seed) => seed ?? []);
+    const written = writeLink({
+      ...nothing, scenario: picked, name: choice.name, text: picked === '' ? choice.text : '', algorithms: choice.algorithms.filter((a) => a !== '' || choice.algorithms.length > 1),
+      seeds, sets: [...choice.overrides, ...this.longer(headers)], acts: headers.map((header) => header.acts ?? []), ...look,
+    });
+    return written.length > longestLink ? null : written;
+  }
+
+  /** `banyan run` ends with the mission: what was done after that needs a longer one. */
+  private longer(headers: Header[]): string[] {
+    const ticks = headers.flatMap(({ acts }) => acts ?? []).map(({ tick }) => tick);
+    const lastS = Math.max(-1, ...ticks) * (this.sources[0]?.tickS ?? 0.1);
+    const overS = Math.min(...headers.map(({ result }) => outcomeOf(result)?.endS ?? Infinity));
+    if (lastS < overS) return [];
+    const afterS = 10; // of what that led to
+    return ['mission.stop_when_complete=false', `mission.time_limit_s=${Math.ceil(Math.max(this.player.timeS, lastS + afterS))}`];
+  }
+
+  private async copyLink(): Promise<void> {
+    const written = this.link();
+    if (written === null) {
+      if (!this.isLive) return this.notice.bad('A recording of yours has no address: send the file.');
+      this.notice.good('The address would be too long; the scenario with all that was done is saved as a file instead.');
+      return await this.save((source) => source.saveScenario());
+    }
+    this.written = written;
+    history.replaceState(null, '', written);
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.notice.good('Copied: the address of this experiment, this moment and this view.');
+    } catch {
+      this.notice.good('It is in the address bar now, to be copied from there.'); // the clipboard is not allowed
+    }
   }
 
   // ---- What is open ----
 
-  private async openFile(file: File): Promise<void> {
+  /** Recordings side by side, or one scenario. */
+  private async openFiles(files: File[]): Promise<void> {
     try {
-      const opened = await judge(file);
-      if ('recording' in opened) return void await this.open([openFile(opened.recording)], false);
-      this.live.setOwn(opened.scenario.name, opened.scenario.text, []);
+      const opened = await Promise.all(files.map(judge));
+      const recordings = opened.flatMap((o) => ('recording' in o ? [o.recording] : []));
+      const scenarios = opened.flatMap((o) => ('scenario' in o ? [o.scenario] : []));
+      if (recordings.length > mostRuns) throw new Error(`At most ${mostRuns} recordings stand side by side; these are ${recordings.length}.`);
+      if (scenarios.length > 1 || (scenarios.length === 1 && recordings.length > 0)) {
+        throw new Error('Open one scenario, or recordings; not both, and not several scenarios.');
+      }
+      if (recordings.length > 0) return void await this.open(recordings.map(openFile), false);
+      this.live.setOwn(scenarios[0].name, scenarios[0].text, []);
       this.tabs.show('live');
       await this.startLive(this.live.choice());
     } catch (problem) {
@@ -148,24 +276,28 @@ export class App {
   }
 
   /** Whether it is shown. */
-  private async startLive(choice: LiveChoice): Promise<boolean> {
+  private async startLive(choice: LiveChoice, acts: Act[][] = []): Promise<boolean> {
     this.live.setProblems([]);
-    const sources = choice.algorithms.map((algorithm) => openLive({
-      name: choice.name, text: choice.text,
-      overrides: algorithm === '' ? choice.overrides : [...choice.overrides, `mission.algorithm=${algorithm}`],
-    }));
-    return await this.open(sources, true);
+    const { picked } = this.live;
+    const sources = runsOf(choice).map((overrides, k) => openLive({ name: choice.name, text: choice.text, overrides, acts: acts[k] ?? [] }));
+    const shown = await this.open(sources, true);
+    if (shown) this.started = { choice, picked };
+    return shown;
   }
 
   /** Shows the sources once all of them are open; until then, and if one fails, what was there stays. */
   private async open(sources: Source[], live: boolean): Promise<boolean> {
     const attempt = ++this.opening;
+    this.loading.hidden = false;
+    setText(this.loading, live ? 'Loading the simulation …' : 'Reading the recording …');
     try {
       await Promise.all(sources.map(opened));
     } catch (problem) {
       for (const source of sources) source.close();
       if (attempt === this.opening) this.refused(problem, live);
       return false;
+    } finally {
+      if (attempt === this.opening) this.loading.hidden = true;
     }
     const wanted = attempt === this.opening;
     if (wanted) this.show(sources, live);
@@ -183,13 +315,20 @@ export class App {
   private show(sources: Source[], live: boolean): void {
     for (const stage of this.stages) stage.dispose();
     this.notice.hide();
+    this.live.setProblems([]);
     this.setTool('look');
     this.select(null);
+    this.chosen = 0;
+    this.started = null;
+    this.address = '';
     this.stages = sources.map((source) => new Stage(source, this.theme, this.stageActions));
     this.stagesElement.prepend(...this.stages.map((stage) => stage.element));
+    this.stagesElement.dataset.runs = String(this.stages.length);
+    this.stages.forEach((stage, k) => { stage.element.dataset.run = String(k + 1); });
     for (const source of sources) this.listen(source);
     this.horizon.open(live);
     this.controls.forget();
+    this.player.loop = null;
     this.player.attach(sources);
     this.player.home();
     this.player.play();
@@ -218,10 +357,12 @@ export class App {
     requestAnimationFrame((now) => this.loop(now));
     if (this.player.frame(nowMs)) this.dirty = true;
     if (this.tables.due(nowMs)) this.tell();
+    for (const stage of this.stages) stage.showWaiting(this.player.waiting, this.player.timeS, nowMs);
     if (!this.dirty) return;
     this.dirty = false;
     const shared = this.shared();
     for (const stage of this.stages) stage.draw(shared, nowMs); // what is not there yet will arrive and be drawn
+    this.keep.drawn();
     if (this.horizon.see(this.player.timeS) || (!this.player.playing && this.horizon.behind)) this.tables.want();
     this.transport.update(this.clock());
     if (nowMs - this.panelsAt >= panelEveryMs || !this.player.playing) this.showPanels(nowMs);
@@ -232,22 +373,22 @@ export class App {
     this.plots.setTime(this.player.timeS);
     this.events.setTime(this.player.timeS);
     const { selection, followed } = this.store.state;
-    const stage = this.stages[0];
-    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive);
-    this.showControls(stage?.source ?? null);
+    const stage = this.stages[this.chosen] ?? this.stages[0];
+    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive, this.chosen);
+    this.showControls(this.stages[0]?.source ?? null);
   }
 
   private showControls(source: Source | null): void {
     const { timeS, waiting } = this.player;
     const setting = source?.settingAt(timeS) ?? null;
     if (!this.isLive || setting === null) return this.live.setLive(null);
-    const known = { loss: this.loss.at(timeS), lineOfSight: setting.line_of_sight };
+    const known = { loss: this.stages[0].lossAt(timeS), lineOfSight: setting.line_of_sight };
     this.live.setLive(this.controls.at(timeS, !waiting, known));
   }
 
   private clock(): Clock {
-    const { playing, waiting, speed, timeS, startS, growing } = this.player;
-    return { playing, waiting, speed, timeS, startS, growing, endS: Math.min(this.horizon.timeS, this.player.endS) };
+    const { playing, waiting, speed, timeS, startS, growing, loop } = this.player;
+    return { playing, waiting, speed, timeS, startS, growing, loop, endS: Math.min(this.horizon.timeS, this.player.endS) };
   }
 
   private shared(): Shared {
@@ -263,8 +404,8 @@ export class App {
     this.what.textContent = headers.length === 0 ? '' : `${headers[0].name} · seed ${headers[0].seed}`;
     document.title = headers.length === 0 ? 'Banyan' : `${headers[0].name} – Banyan`;
     this.facts.update(headers);
-    this.loss = new LossHistory(headers[0]?.config ?? '');
     this.notice.warn(headers.flatMap((header) => header.warnings), this.stages);
+    this.tables.want(); // events are in the configuration, too
     this.draw();
   }
 
@@ -280,12 +421,19 @@ export class App {
     this.draw();
   }
 
+  /** What the frames tell and what was done, in order of time. */
   private shownEvents(): ListedEvent[] {
-    if (this.sources.length < 2) return this.sources.flatMap((source) => this.horizon.events(source.events.value));
-    const named = (source: Source) =>
-      this.horizon.events(source.events.value).map((event) => ({ ...event, run: source.settingAt(0)?.algorithm }));
-    return this.sources.flatMap(named).sort((a, b) => a.time_s - b.time_s);
+    const all = (stage: Stage) => {
+      const deeds = stage.deedEvents;
+      const told = stage.source.events.value;
+      return this.horizon.events(deeds.length === 0 ? told : [...deeds, ...told].sort(byTime));
+    };
+    if (this.stages.length < 2) return this.stages.flatMap(all);
+    return this.stages.flatMap((stage, k) => all(stage).map((event) => ({ ...event, run: this.runNames[k] }))).sort(byTime);
   }
+
+  /** Of runs side by side: what they differ in. */
+  private get runNames(): string[] { return namesOf(this.sources.flatMap((source) => source.header.value ?? [])); }
 
   private showEvents(): void {
     const events = this.shownEvents();
@@ -307,6 +455,7 @@ export class App {
     else this.player.end();
     this.draw();
   }
+  private loopOn(): void { this.player.nextLoop(); this.draw(); }
   private setSpeed(speed: number): void { this.player.setSpeed(speed); this.draw(); }
   /** Everything is in the picture then, and stays: nobody is followed. */
   private fit(): void {
@@ -350,7 +499,10 @@ export class App {
     const wanted = this.isLive ? tool : 'look';
     this.live.setTool(wanted);
     for (const stage of this.stages) stage.setMode(wanted === 'look' ? 'look' : wanted === 'add_target' ? 'add' : 'area');
-    if (wanted !== 'look') this.notice.good(wanted === 'add_target' ? 'Click where the new target is to be.' : 'Draw a rectangle around the robots that are to die.');
+    if (wanted === 'look') this.places.stop();
+    else this.places.start({ kind: wanted });
+    if (wanted === 'add_target') this.notice.good('Click where the new target is to be; or arrows, then Enter.');
+    if (wanted === 'kill_area') this.notice.good('Draw a rectangle around the robots that are to die; or arrows, then Enter at two corners.');
   }
 
   // ---- What is done to a live run ----
@@ -412,18 +564,92 @@ export class App {
   }
 
   private readonly stageActions: StageActions = {
-    select: (item) => this.select(item),
+    select: (stage, item) => { this.chosen = this.stages.indexOf(stage); this.select(item); },
     moveTarget: (target, toM) => this.intervene([{ kind: 'move_target', target, position_m: place(toM) }]),
     moveObstacle: (obstacle, toM) => this.intervene([{ kind: 'move_obstacle', obstacle, position_m: place(toM) }]),
     addTarget: (atM) => { this.setTool('look'); this.intervene([{ kind: 'add_target', position_m: place(atM) }]); },
     killArea: (area) => this.killArea(area),
     moved: () => { if (this.store.state.followed !== null) this.follow(null); },
+    looked: (from, camera) => { for (const stage of this.stages) if (stage !== from) stage.lookLike(camera); },
     changed: () => this.draw(),
   };
 
   private killArea(area: Bounds): void {
     this.setTool('look');
     this.act((stage) => stage.robotsIn(area).map((robot) => ({ kind: 'die', robot })));
+  }
+
+  private readonly places = new PlaceCursor({
+    begin: (task) => (task.kind === 'move_target' ? this.stages[0]?.targetPlace(task.target) : this.stages[0]?.middle) ?? null,
+    metresPerPx: () => this.stages[0]?.metresPerPx ?? 0,
+    show: (at, task, corner) => {
+      for (const stage of this.stages) stage.showCursor(at, task.kind === 'move_target' ? task.target : null, corner);
+    },
+    take: (task, at, corner) => {
+      this.setTool('look');
+      if (task.kind === 'add_target') this.stageActions.addTarget(at);
+      if (task.kind === 'move_target') this.stageActions.moveTarget(task.target, at);
+      if (task.kind === 'kill_area' && corner !== null) this.killArea(between(at, corner));
+    },
+  });
+
+  private async explain(event: ListedEvent): Promise<void> {
+    const source = this.sources[Math.max(0, event.run === undefined ? 0 : this.runNames.indexOf(event.run))];
+    if (source === undefined) return;
+    this.player.pause();
+    try {
+      await this.why.open(event, {
+        frames: (fromS, toS) => source.frames(fromS, toS), message: (robot, tick) => source.message(robot, tick),
+        settingAt: (timeS) => source.settingAt(timeS), tickS: source.tickS, live: this.isLive,
+      });
+    } catch (problem) {
+      this.notice.bad(textOf(problem));
+    }
+  }
+
+  /** The connector that most others hang on. */
+  private killRelay(): void {
+    const stage = this.stages[0];
+    const relay = stage?.busiestRelay() ?? null;
+    if (relay === null) return this.notice.good('There is no connector yet: let it play for some seconds.');
+    this.select({ kind: 'robot', index: relay });
+    this.intervene([{ kind: 'die', robot: relay }]);
+    this.player.play();
+  }
+
+  private compare(): void {
+    this.live.compare('outwards', 'convoy');
+    void this.startLive(this.live.choice());
+  }
+
+  /** As far as it has been seen. */
+  private seenTables(): { name: string; series: Series }[] {
+    const { sources } = this;
+    const names = apart(sources.map((source) => `${source.header.value?.name ?? 'run'}`), sources.map((source) => source.settingAt(0)?.algorithm ?? ''));
+    return sources.flatMap((source, k) => (source.series.value.time_s === undefined ? [] : [{ name: names[k], series: this.horizon.rows(source.series.value) }]));
+  }
+
+  private grab(): void {
+    const { selection } = this.store.state;
+    if (!this.isLive) return;
+    if (selection?.kind !== 'target') return this.notice.good('Select a target first: click it, or Shift+N.');
+    this.notice.good(`Move target T${selection.index} by the arrow keys, then Enter.`);
+    this.places.start({ kind: 'move_target', target: selection.index });
+  }
+
+  private selectNextTarget(direction: 1 | -1): void {
+    const count = this.stages[0]?.shown?.targets.x.length ?? 0;
+    if (count === 0) return;
+    const { selection } = this.store.state;
+    const now = selection?.kind === 'target' ? selection.index : direction > 0 ? -1 : 0;
+    this.select({ kind: 'target', index: (now + direction + count) % count });
+  }
+
+  private undo(): void {
+    if (!this.isLive) return;
+    this.controls.forget();
+    for (const source of this.sources) this.change(source, source.undo().then((undone) => { if (!undone) this.notice.good('Nothing has been done that could be undone.'); }));
+    this.draw();
   }
 
   private release(): void {
@@ -453,6 +679,8 @@ export class App {
         if (selection?.kind === 'robot') this.follow(followed === selection.index ? null : selection.index);
       },
       kill: () => this.killSelected(), switchOn: (name) => this.store.toggle(name),
+      loop: () => this.loopOn(), grab: () => this.grab(), selectNextTarget: (direction) => this.selectNextTarget(direction), undo: () => this.undo(),
+      place: (key, shift) => this.places.key(key, shift),
       tool: (name) => this.setTool(name), theme: () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' }),
       release: () => this.release(), help: () => this.help.open(this.theme),
     };
@@ -480,12 +708,17 @@ export class App {
       'header', { class: 'bar' },
       h('h1', {}, logo(), 'Banyan'),
       this.what,
-      button('Open …', 'A recording (.mcap) or a scenario (.toml); or drop it on the page', () => chooseFile((file) => void this.openFile(file))),
+      button('Open …', 'A recording (.mcap) or a scenario (.toml); or drop it on the page', () => chooseFile((files) => void this.openFiles(files))),
+      button('Copy link', 'The address of this experiment: scenario, seed, what was done, moment and view', () => void this.copyLink()),
       button('◐', 'Light or dark (M)', () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' })),
       button('?', 'Keys and signs (?)', () => this.help.open(this.theme)),
     );
   }
 }
+
+const nameOfAddress = (address: string) => address.replace(/[?#].*$/, '').replace(/^.*\//, '') || 'recording';
+
+const byTime = (a: RunEvent, b: RunEvent) => a.time_s - b.time_s;
 
 /** Millimetres are enough, and read well in a saved scenario. */
 const place = (at: Spot): [number, number] => [Math.round(at.x * 1000) / 1000, Math.round(at.y * 1000) / 1000];

@@ -20,9 +20,11 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** A button with a text for those who cannot see its sign. */
+/** A button. Its label is its name, so that it can be called by what is seen; one that shows only a sign is called by
+ *  its title. */
 export function button(sign: string | Node, title: string, onclick: () => void, attributes: Attributes = {}): HTMLButtonElement {
-  return h('button', { type: 'button', title, 'aria-label': title, onclick, ...attributes }, sign);
+  const isLabel = typeof sign === 'string' && /[A-Za-z]{2}/.test(sign);
+  return h('button', { type: 'button', title, ...(isLabel ? {} : { 'aria-label': title }), onclick, ...attributes }, sign);
 }
 
 const icons = {
@@ -31,6 +33,7 @@ const icons = {
   back: 'M15.5 5v14L6 12z',
   on: 'M8.5 5v14l9.5-7z',
   last: 'M5 5h2.5v14H5zM18.5 5v14L9 12z',
+  loop: 'M7 7h10v3l4-4-4-4v3H5v6h2zM17 17H7v-3l-4 4 4 4v-3h12v-6h-2z',
   next: 'M16.5 5H19v14h-2.5zM5.5 5v14L15 12z',
 };
 export type Icon = keyof typeof icons;

@@ -17,16 +17,6 @@ export async function judge(file: File): Promise<Opened> {
   return { recording: file }; // its reader reports what is wrong with it
 }
 
-/** The scenario that an address names after its #; "" without one. */
-export function nameIn(hash: string): string {
-  const written = hash.replace(/^#/, '');
-  try {
-    return decodeURIComponent(written);
-  } catch {
-    return written; // a % that encodes nothing
-  }
-}
-
 /** Names under which the files of runs side by side are saved: none twice. */
 export function apart(names: string[], algorithms: string[]): string[] {
   if (names.length < 2) return names;
@@ -37,7 +27,7 @@ export function apart(names: string[], algorithms: string[]): string[] {
   });
 }
 
-export function acceptDrops(open: (file: File) => void): void {
+export function acceptDrops(open: (files: File[]) => void): void {
   const root = document.documentElement;
   let inside = 0; // dragenter and dragleave come for every element
   const show = () => root.classList.toggle('dragging', inside > 0);
@@ -49,14 +39,14 @@ export function acceptDrops(open: (file: File) => void): void {
     event.preventDefault();
     inside = 0;
     show();
-    const file = event.dataTransfer?.files[0];
-    if (file) open(file);
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length > 0) open(files);
   });
 }
 
-export function chooseFile(open: (file: File) => void): void {
-  const input = h('input', { type: 'file', accept: '.mcap,.part,.toml,.json' });
-  input.addEventListener('change', () => { if (input.files?.[0]) open(input.files[0]); });
+export function chooseFile(open: (files: File[]) => void): void {
+  const input = h('input', { type: 'file', multiple: true, accept: '.mcap,.part,.toml,.json' });
+  input.addEventListener('change', () => { if (input.files?.length) open([...input.files]); });
   input.click();
 }
 

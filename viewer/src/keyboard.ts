@@ -17,6 +17,12 @@ export interface KeyActions {
   kill(): void;
   switchOn(name: 'links' | 'blocked' | 'oldTree' | 'trails' | 'ids'): void;
   tool(name: 'add_target' | 'kill_area'): void;
+  grab(): void; // the selected target, to be moved by keys
+  selectNextTarget(direction: 1 | -1): void;
+  undo(): void;
+  loop(): void;
+  /** Whether the key moves or takes the place that is being chosen. */
+  place(key: string, shift: boolean): boolean;
   theme(): void;
   release(): void; // Escape
   help(): void;
@@ -57,10 +63,15 @@ export class Keyboard {
 
   private onKey(event: KeyboardEvent): void {
     this.taken = '';
+    if ((event.ctrlKey || event.metaKey) && event.key === 'z' && !isTyping(event.target, event.key)) {
+      event.preventDefault();
+      return this.actions.undo();
+    }
     if (event.ctrlKey || event.metaKey || event.defaultPrevented && !isTimeline(event.target)) return;
     if (document.querySelector('dialog[open]') !== null) return;
     if (event.key === 'Escape' && event.target instanceof HTMLElement) event.target.blur();
     if (event.key !== 'Escape' && isTyping(event.target, event.key)) return;
+    if (!event.altKey && this.actions.place(event.key, event.shiftKey)) return event.preventDefault();
     if (presses(event.target, event.key, this.clicked) && this.digits === '') return;
     const action = this.digit(event.key) ?? this.find(event);
     if (action === null) return;
@@ -93,7 +104,9 @@ export class Keyboard {
       ' ': a.toggle, ArrowLeft: () => a.step(-ticks), ArrowRight: () => a.step(ticks), Home: a.toStart, End: a.toEnd,
       '[': () => a.jump(-1), ']': () => a.jump(1), '-': () => a.speed(-1), '+': () => a.speed(1), '=': () => a.speed(1),
       PageUp: () => a.zoom(zoomStep), PageDown: () => a.zoom(1 / zoomStep),
-      n: () => a.selectNext(1), p: () => a.selectNext(-1), f: a.follow, Delete: a.kill,
+      n: () => (event.shiftKey ? a.selectNextTarget(1) : a.selectNext(1)),
+      p: () => (event.shiftKey ? a.selectNextTarget(-1) : a.selectNext(-1)),
+      f: a.follow, g: a.grab, u: a.undo, a: a.loop, Delete: a.kill,
       l: () => a.switchOn('links'), b: () => a.switchOn('blocked'), o: () => a.switchOn('oldTree'),
       r: () => a.switchOn('trails'), i: () => a.switchOn('ids'),
       t: () => a.tool('add_target'), k: () => a.tool('kill_area'), m: a.theme, Escape: a.release, '?': a.help,

@@ -14,13 +14,13 @@ export class RobotWatch {
 
   constructor(private readonly inspector: Inspector) {}
 
-  show(stage: Stage | null, robot: number | null, followed: number | null, live: boolean): void {
+  show(stage: Stage | null, robot: number | null, followed: number | null, live: boolean, run = 0): void {
     this.attend(stage?.source ?? null);
     const frame = stage?.recordedFrame ?? null;
     if (stage === null || frame === null || robot === null || robot >= frame.robots) return this.inspector.update(null);
     this.ask(stage, robot, frame.tick);
     this.inspector.update({
-      frame, robot, live, followed: followed === robot,
+      frame, robot, live, run, followed: followed === robot,
       algorithm: stage.source.settingAt(frame.timeS)?.algorithm ?? '',
       neighbours: stage.facts()?.radio.neighbours(robot) ?? [],
       said: this.answer?.robot === robot ? this.answer : null,

@@ -10,7 +10,9 @@ export interface Scenario {
 const files = import.meta.glob<string>('../../scenarios/*.toml', { query: '?raw', import: 'default', eager: true });
 
 const nameOf = (path: string) => path.replace(/^.*\//, '').replace(/\.toml$/, '');
-const aboutOf = (text: string) => /^description\s*=\s*"((?:[^"\\]|\\.)*)"/m.exec(text)?.[1].replaceAll('\\"', '"') ?? '';
+/** The description in a scenario's text, TOML or JSON; "" without one. */
+export const aboutOf = (text: string): string =>
+  /^\s*(?:description\s*=|"description"\s*:)\s*"((?:[^"\\]|\\.)*)"/m.exec(text)?.[1].replaceAll('\\"', '"') ?? '';
 
 export const scenarios: Scenario[] = Object.entries(files)
   .map(([path, text]) => ({ name: nameOf(path), text, about: aboutOf(text) }))

@@ -2,10 +2,11 @@
 // One run in the picture: its source, its camera, and what the pointer does there. Two stages stand side by
 // side when runs are compared; what they share (clock, selection, switches) is the page's.
 import { h, setText } from './dom';
-import type { Frame, Setting } from './frame';
+import { heldTargets } from './scene/held';
+import type { Frame, RunEvent, Setting } from './frame';
 import { firstMarks, Legend } from './panels/legend';
 import { boundsOf } from './scene/bounds';
-import { fitted, following, followShare, panned, resized, toPx, toWorld, zoomedAt, type Bounds, type Camera, type Spot } from './scene/camera';
+import { fitted, following, followShare, panned, resized, toPx, toWorld, zoomedAt, type Bounds, type Camera, type Insets, type Spot } from './scene/camera';
 import type { Facts } from './scene/facts';
 import { Input, type Mode } from './scene/input';
 import { gripAt, itemAt, pointerReachPx, robotsIn, touchReachPx } from './scene/picking';
@@ -13,8 +14,11 @@ import { Scene } from './scene/picture';
 import type { Theme } from './scene/themes';
 import { sameItem, type Item, type SceneView, type Switches } from './scene/view';
 import type { Source } from './source/client';
-import { column } from './frame';
+import { column, roles } from './frame';
+import type { Part } from './panels/tour';
+import { Deeds } from './state/deeds';
 import { interpolate } from './state/interpolate';
+import { outcomeOf } from './state/outcome';
 
 /** What all stages show alike. */
 export interface Shared {
@@ -28,7 +32,7 @@ export interface Shared {
 }
 
 export interface StageActions {
-  select(item: Item | null): void;
+  select(stage: Stage, item: Item | null): void;
   // Interventions, in all live runs alike.
   moveTarget(target: number, toM: Spot): void;
   moveObstacle(obstacle: number, toM: Spot): void;
@@ -36,33 +40,50 @@ export interface StageActions {
   killArea(area: Bounds): void;
   /** The visitor moved the picture by hand: no robot is followed any more. */
   moved(): void;
+  /** The visitor looks elsewhere; runs side by side show the same place. */
+  looked(stage: Stage, camera: Camera): void;
   changed(): void; // draw again
 }
 
-const fitMarginPx = 44;
+const fitMarginPx = 28; // a target's number is beside it
+const scaleBarPx = 36; // above the legend
+const marginShare = 0.08;
+const mostTopShare = 0.27;
+const mostBottomShare = 0.16;
+const captionLinePx = 23; // with its share of what is around
+const narrowPx = 480; // where the story takes two lines
+const gapPx = 8;
+const slowMs = 350; // what takes longer is said
 
 export class Stage {
   readonly element: HTMLElement;
   readonly scene: Scene;
   private readonly input: Input;
   private readonly captionText = h('span');
-  private readonly caption = h('div', { class: 'caption' }, h('i', { class: 'run-line', 'aria-hidden': 'true' }), this.captionText);
+  private readonly story = h('p', { class: 'story', role: 'status' });
+  private readonly caption = h('div', { class: 'caption' },
+    h('p', {}, h('i', { class: 'run-line', 'aria-hidden': 'true' }), this.captionText), this.story);
+  private readonly busy = h('div', { class: 'busy', role: 'status', hidden: true });
+  private waitingSinceMs: number | null = null;
   private readonly legend = new Legend(firstMarks, (mark) => mark); // the words in full are in the help
   private camera: Camera | null = null;
   private touched = false; // the visitor controls the camera; otherwise everything is kept in view
   private hovered: Item | null = null;
   private dragged: { item: Item; toM: Spot } | null = null;
   private area: Bounds | null = null;
+  private cursor: Spot | null = null;
   private frame: Frame | null = null; // interpolated
   private own: Frame | undefined; // its memory, used again
   private recorded: Frame | null = null;
   private setting: Setting | null = null;
   private view: SceneView | null = null;
   private lastDrawMs = 0;
+  private done = new Deeds('');
+  private deedsOf = '';
 
   constructor(readonly source: Source, theme: Theme, private readonly actions: StageActions) {
     const picture = h('div', { class: 'picture' });
-    this.element = h('div', { class: 'stage' }, picture, this.caption, this.legend.element);
+    this.element = h('div', { class: 'stage' }, picture, this.caption, this.legend.element, this.busy);
     this.scene = new Scene(picture, theme, () => actions.changed());
     this.scene.canvas.setAttribute('role', 'img');
     this.scene.canvas.setAttribute('aria-label', 'The swarm; press ? for the keys');
@@ -89,6 +110,41 @@ export class Stage {
   robotsIn(area: Bounds): number[] { return this.frame === null ? [] : robotsIn(this.frame, area); }
 
   facts(): Facts | null { return this.view === null ? null : this.scene.facts(this.view); }
+
+  get picture(): { canvas: HTMLCanvasElement; words: string } {
+    return { canvas: this.scene.canvas, words: `${this.captionText.textContent ?? ''}\n${this.story.textContent ?? ''}` };
+  }
+
+  /** Marks one of these until the pointer is over something; null: none. */
+  point(part: Part | null): void {
+    this.hovered = part === null || this.frame === null ? null : itemOf(part, this.frame);
+    this.actions.changed();
+  }
+
+  /** The living connector with most robots below it in the tree; null: there is none. */
+  busiestRelay(): number | null {
+    const { facts, frame } = { facts: this.facts(), frame: this.frame };
+    if (facts === null || frame === null) return null;
+    const role = column(frame, 'role'), alive = column(frame, 'alive');
+    const relays = Array.from({ length: frame.robots }, (_, i) => i).filter((i) => role[i] === roles.indexOf('connector') && alive[i] === 1);
+    return relays.reduce<number | null>((best, i) => (best === null || facts.subtreeSizes[i] > facts.subtreeSizes[best] ? i : best), null);
+  }
+
+  /** Where the visitor has chosen to look; null: at all of it. */
+  get place(): Pick<Camera, 'xM' | 'yM' | 'scale'> | null { return this.touched ? this.camera : null; }
+  /** In the middle of the picture, m. */
+  get middle(): Spot | null { return this.camera === null ? null : { x: this.camera.xM, y: this.camera.yM }; }
+  get metresPerPx(): number { return this.camera === null ? 0 : 1 / this.camera.scale; }
+  targetPlace(target: number): Spot | null {
+    return this.frame && this.setting ? positionOf({ kind: 'target', index: target }, this.frame, this.setting) : null;
+  }
+
+  /** What is being done by keys: a cross, a target on its way to it, an area that ends at it. */
+  showCursor(at: Spot | null, target: number | null, corner: Spot | null): void {
+    this.cursor = at;
+    this.dragged = at !== null && target !== null ? { item: { kind: 'target', index: target }, toM: at } : null;
+    this.mark(at !== null && corner !== null ? between(at, corner) : null);
+  }
 
   setMode(mode: Mode): void {
     this.input.mode = mode;
@@ -151,9 +207,10 @@ export class Stage {
       switches: shared.switches,
       camera: this.camera!,
       theme: shared.theme,
-      insets: { top: 0, right: 0, bottom: this.legend.element.offsetHeight + 8, left: 0 },
+      insets: { top: 0, right: 0, bottom: this.legend.element.offsetHeight + gapPx, left: 0 },
       dragged: this.dragged,
       area: this.area,
+      cursor: this.cursor,
     };
   }
 
@@ -163,13 +220,24 @@ export class Stage {
     return frames.filter((f) => f.tick % every === 0 || shared.stride >= every);
   }
 
+  /** What caption, legend and scale bar cover; in a low picture they may cover a little, or nothing else would fit. */
+  private insets(): Insets {
+    const { caption, legend } = this;
+    const lines = this.scene.widthPx < narrowPx ? 3 : 2; // it has no words yet when the first picture is drawn
+    const { heightPx } = this.scene;
+    return {
+      top: Math.min(Math.max(caption.offsetTop + caption.offsetHeight, captionLinePx * lines), mostTopShare * heightPx), right: 0, left: 0,
+      bottom: Math.min(legend.element.offsetHeight + gapPx + scaleBarPx, mostBottomShare * heightPx),
+    };
+  }
+
   private aim(frame: Frame, setting: Setting, shared: Shared, nowMs: number): void {
     const { widthPx, heightPx } = this.scene;
     const followed = shared.followed;
     if (this.camera && (this.camera.widthPx !== widthPx || this.camera.heightPx !== heightPx)) {
       this.camera = this.touched || followed !== null ? resized(this.camera, widthPx, heightPx) : null;
     }
-    this.camera ??= fitted(boundsOf(setting, frame), widthPx, heightPx, fitMarginPx);
+    this.camera ??= fitted(boundsOf(setting, frame), widthPx, heightPx, Math.min(fitMarginPx, marginShare * heightPx), this.insets());
     if (followed !== null && followed < frame.robots) {
       const at = { x: column(frame, 'x_m')[followed], y: column(frame, 'y_m')[followed] };
       const share = followShare(Math.min(0.1, Math.max(0, nowMs - this.lastDrawMs) / 1000));
@@ -181,9 +249,24 @@ export class Stage {
   }
 
   private look(camera: Camera): void {
-    this.camera = camera;
+    this.lookLike(camera);
+    this.actions.looked(this, camera);
+  }
+
+  /** At the same place, as large. */
+  lookLike({ xM, yM, scale }: Pick<Camera, 'xM' | 'yM' | 'scale'>): void {
+    const { widthPx, heightPx } = this.scene;
+    this.camera = { xM, yM, scale, widthPx, heightPx };
     this.touched = true;
     this.actions.changed();
+  }
+
+  /** The picture is older than the moment that is chosen; said only if that lasts. */
+  showWaiting(waiting: boolean, timeS: number, nowMs: number): void {
+    this.waitingSinceMs = waiting ? (this.waitingSinceMs ?? nowMs) : null;
+    const said = this.waitingSinceMs !== null && nowMs - this.waitingSinceMs > slowMs;
+    this.busy.hidden = !said;
+    if (said) setText(this.busy, this.live ? `Simulating up to ${timeS.toFixed(1)} s …` : 'Loading …');
   }
 
   private showCaption(setting: Setting, frame: Frame): void {
@@ -192,19 +275,53 @@ export class Stage {
     for (let i = 0; i < frame.robots; ++i) living += alive[i];
     const dead = frame.robots - living;
     const reading = setting.reading === 'corrected' ? '' : ` (${setting.reading})`;
-    const { drawn, all } = this.scene.radioLinks;
-    const fewer = drawn < all ? ` · the shortest ${drawn} of ${all} links` : '';
-    setText(this.captionText, `${setting.algorithm}${reading} · ${living} robots${dead > 0 ? `, ${dead} dead` : ''} · ${frame.targets.x.length} targets${fewer}`);
+    const { drawn, all, about } = this.scene.radioLinks;
+    const deeds = this.deeds();
+    const loss = deeds.lossAt(frame.timeS);
+    setText(this.captionText, [
+      `${setting.algorithm}${reading}`,
+      `${living} robots${dead > 0 ? `, ${dead} dead` : ''}`,
+      `${frame.targets.x.length} targets`,
+      ...(loss > 0 ? [`${Math.round(1000 * loss) / 10} % loss`] : []),
+      ...(setting.line_of_sight ? ['line of sight'] : []),
+      ...(deeds.isBlackoutAt(frame.timeS) ? ['blackout'] : []),
+      ...(drawn < all ? [`the shortest ${drawn} of ${about ? `about ${Number(all.toPrecision(2))}` : all} links`] : []),
+    ].join(' · '));
+    this.showStory(setting, frame, living);
   }
+
+  /** The goal and how far it is, and in the end how it went. */
+  private showStory(setting: Setting, frame: Frame, living: number): void {
+    const outcome = outcomeOf(this.source.header.value?.result ?? {});
+    const over = outcome !== null && frame.timeS >= outcome.endS - 1e-6;
+    const { held, wanted } = heldTargets(frame, setting.target_tolerance_m);
+    const state = over ? (outcome.good ? 'good' : 'bad') : living === 0 ? 'bad' : '';
+    if (this.story.dataset.state !== state) this.story.dataset.state = state;
+    if (over) setText(this.story, [outcome.headline, ...outcome.details].join(' · '));
+    else if (living === 0) setText(this.story, 'All robots have died: nothing more will happen');
+    else setText(this.story, `${held} of ${wanted} ${wanted === 1 ? 'target' : 'targets'} held by a worker`);
+  }
+
+  /** Of the configuration as it is now: it lists what a visitor has done. */
+  private deeds(): Deeds {
+    const config = this.source.header.value?.config ?? '';
+    if (config !== this.deedsOf) {
+      this.deedsOf = config;
+      this.done = new Deeds(config);
+    }
+    return this.done;
+  }
+
+  /** What was done to the radio, as events. */
+  get deedEvents(): readonly RunEvent[] { return this.deeds().events; }
+  lossAt(timeS: number): number { return this.deeds().lossAt(timeS); }
 
   private get live(): boolean { return this.source.header.value?.kind === 'live'; }
 
   private world(atPx: Spot): Spot { return this.camera ? toWorld(this.camera, atPx) : { x: 0, y: 0 }; }
 
   private rectangle(fromPx: Spot, toPx: Spot): Bounds {
-    const a = this.world(fromPx);
-    const b = this.world(toPx);
-    return { minX: Math.min(a.x, b.x), maxX: Math.max(a.x, b.x), minY: Math.min(a.y, b.y), maxY: Math.max(a.y, b.y) };
+    return between(this.world(fromPx), this.world(toPx));
   }
 
   private intentions(): ConstructorParameters<typeof Input>[1] {
@@ -230,7 +347,7 @@ export class Stage {
         }
         actions.changed();
       },
-      pick: (item) => actions.select(item),
+      pick: (item) => actions.select(this, item),
       dragStart: (item, atPx) => this.drag({ item, toM: this.world(atPx) }),
       dragMove: (item, atPx) => this.drag({ item, toM: this.world(atPx) }),
       dragEnd: (item, atPx, dropped) => {
@@ -257,6 +374,19 @@ export class Stage {
     this.area = area;
     this.actions.changed();
   }
+}
+
+/** One of the kind: the first target, or the first living robot of the role. */
+function itemOf(part: Part, frame: Frame): Item | null {
+  if (part === 'target') return frame.targets.x.length > 0 ? { kind: 'target', index: 0 } : null;
+  const role = column(frame, 'role'), alive = column(frame, 'alive');
+  const index = role.findIndex((r, i) => r === roles.indexOf(part) && alive[i] === 1);
+  return index < 0 ? null : { kind: 'robot', index };
+}
+
+/** The rectangle with these corners. */
+export function between(a: Spot, b: Spot): Bounds {
+  return { minX: Math.min(a.x, b.x), maxX: Math.max(a.x, b.x), minY: Math.min(a.y, b.y), maxY: Math.max(a.y, b.y) };
 }
 
 function positionOf({ kind, index }: Item, frame: Frame, setting: Setting): Spot | null {

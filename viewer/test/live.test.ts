@@ -6,7 +6,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { describe, expect, it } from 'vitest';
 import { column, columns } from '../src/frame';
 import { History } from '../src/source/history';
-import { LossHistory } from '../src/state/controls';
+import { Deeds } from '../src/state/deeds';
 import { LiveRun } from '../src/source/live';
 import { LiveHost } from '../src/source/live_host';
 import type { LiveModule } from '../src/source/live_module';
@@ -111,14 +111,14 @@ describe('a live run', () => {
 
   it('tells at once what was done to it, also where nothing is undone', async () => {
     const run = runTo(LiveRun.load(await module, request), 20);
-    expect(new LossHistory(run.header().config).at(5)).toBe(0);
+    expect(new Deeds(run.header().config).lossAt(5)).toBe(0);
     run.intervene(20, [{ kind: 'set_loss', loss: 0.3 }]);
     expect(run.headerChanged).toBe(true);
     runTo(run, 30).intervene(30, [{ kind: 'set_loss', loss: 0.5 }]);
-    const loss = new LossHistory(run.header().config);
-    expect([0, 1.9, 2, 2.9, 3, 99].map((timeS) => loss.at(timeS))).toEqual([0, 0, 0.3, 0.3, 0.5, 0.5]);
+    const loss = new Deeds(run.header().config);
+    expect([0, 1.9, 2, 2.9, 3, 99].map((timeS) => loss.lossAt(timeS))).toEqual([0, 0, 0.3, 0.3, 0.5, 0.5]);
     run.intervene(10, []);
-    expect(new LossHistory(run.header().config).at(5)).toBe(0);
+    expect(new Deeds(run.header().config).lossAt(5)).toBe(0);
     run.close();
   });
 

@@ -4,10 +4,14 @@ import { describe, expect, it } from 'vitest';
 import type { RunEvent } from '../src/frame';
 import { lastAt } from '../src/panels/events_list';
 import { algorithms } from '../src/algorithms';
+import { terms, termsOf } from '../src/glossary';
+import { csvOf } from '../src/panels/keep';
+import { written } from '../src/panels/run_facts';
 import { facts, messageFacts } from '../src/panels/inspector';
 import { shortened } from '../src/panels/notice';
+import { momentsOf, otherEnd } from '../src/panels/why';
 import { readOff } from '../src/panels/plots';
-import { frameOf } from './scene_frames';
+import { frameOf, settingOf } from './scene_frames';
 
 describe('the panel of a live run', () => {
   it('offers the algorithms that the simulation knows', () => {
@@ -58,6 +62,45 @@ describe('a value of a plot', () => {
     expect(shown).toEqual(['0.0000', '0.5000', '0.0012', '0.00012', '3.4·10⁻⁷', '1.2·10⁻¹¹', '–']);
     expect(readOff({ digits: 0 }, 3)).toBe('3');
     expect(readOff({ digits: 2 }, 0.001)).toBe('0.00'); // of metres that is near enough
+  });
+});
+
+describe('what is kept', () => {
+  it('is a table as the program writes it', () => {
+    expect(csvOf({ tick: Float64Array.of(0, 1), fiedler: Float64Array.of(NaN, 0.25) })).toBe('tick,fiedler\n0,\n1,0.25\n');
+    expect(csvOf({})).toBe('\n');
+  });
+});
+
+describe('the glossary', () => {
+  it('is that of the documents', () => {
+    expect(termsOf('| term | meaning |\n|---|---|\n| **old parent** | *paper* ("old tree"): the [parent](a.md) | `old_parent` |\n')).toEqual([{ name: 'old parent', meaning: 'paper ("old tree"): the parent' }]);
+    expect(terms.length).toBeGreaterThan(40);
+    for (const name of ['root', 'worker', 'connector', 'spare']) expect(terms.map((term) => term.name)).toContain(name);
+  });
+});
+
+describe('a result in the panel Run', () => {
+  it('has as many digits as can be read, and a unit', () => {
+    expect([['11.7000', 's'], ['8', ''], ['951.7949', 'bytes/s'], ['0.0123', '%'], ['', 's'], ['convoy', '']].map(([value, unit]) => written(value, unit)))
+      .toEqual(['11.70 s', '8', '951.8 bytes/s', '1.2 %', '', 'convoy']);
+  });
+});
+
+describe('why an edge broke', () => {
+  const setting = settingOf({ range_m: 2, line_of_sight: true, radius_m: 0.1 });
+  const frame = frameOf({ x_m: [0, 1.5, 0.7, 5], y_m: [0, 0, 0.05, 0], parent: [-1, 0, 0, 0], old_parent: [-1, -1, -1, 1] });
+  it('is said of each tick: apart, and what stands between', () => {
+    const [moment] = momentsOf([frame], () => setting, 0, 1);
+    expect(moment.words).toBe('hidden by robot 2');
+    expect(moment.distanceM).toBe(1.5);
+    expect(momentsOf([frame], () => setting, 0, 3)[0].words).toBe('out of range (2 m)');
+    expect(momentsOf([frame], () => setting, 0, 2)[0].words).toBe('in contact');
+    expect(momentsOf([frame], () => setting, 0, 9)).toEqual([]);
+  });
+  it('is about the edge that does not hold', () => {
+    expect(otherEnd(frame, setting, 1)).toBe(0);
+    expect(otherEnd(frameOf({ x_m: [0, 1, 9], parent: [-1, 0, 0], old_parent: [-1, 2, -1] }), setting, 1)).toBe(2);
   });
 });
 

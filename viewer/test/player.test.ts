@@ -54,6 +54,26 @@ describe('the player', () => {
     expect(player.playing).toBe(true);
   });
 
+  it('plays a stretch again and again', () => {
+    const { player, run } = playing(new Fake(20));
+    player.seek(2);
+    player.nextLoop();
+    player.nextLoop(); // here is no stretch yet: let go
+    expect(player.loop).toBeNull();
+    player.nextLoop();
+    player.seek(3);
+    player.nextLoop();
+    expect(player.loop).toEqual({ fromS: 2, toS: 3 });
+    player.seek(2.5);
+    player.play();
+    run(1000);
+    expect(player.timeS).toBeGreaterThan(2);
+    expect(player.timeS).toBeLessThan(3);
+    player.nextLoop();
+    run(1000);
+    expect(player.timeS).toBeGreaterThan(3);
+  });
+
   it('plays at its speed and stops at the end', () => {
     const { player, run } = playing(new Fake(20));
     player.play();

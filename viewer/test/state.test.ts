@@ -2,9 +2,16 @@
 // Interpolation, jumps between events, live controls, names, the page's state.
 import { describe, expect, it } from 'vitest';
 import { column, type RunEvent } from '../src/frame';
-import { apart, nameIn } from '../src/files';
+import { apart } from '../src/files';
+import { fromBase64, nothing, readLink, toBase64, writeLink } from '../src/link';
+import { outcomeOf, percent } from '../src/state/outcome';
+import { eventsNear } from '../src/panels/transport';
+import { namesOf, runsOf } from '../src/runs';
+import { PlaceCursor, type PlaceTask } from '../src/place_cursor';
+import { kindOf, Warnings } from '../src/source/problem';
 import { outdated } from '../src/panels/transport';
-import { Controls, LossHistory } from '../src/state/controls';
+import { Controls } from '../src/state/controls';
+import { Deeds } from '../src/state/deeds';
 import { eventAfter } from '../src/state/events';
 import { interpolate, normalized } from '../src/state/interpolate';
 import { Pace } from '../src/state/pace';
@@ -145,20 +152,120 @@ describe('what the live controls show', () => {
       { kind: 'set_loss', time_s: 8, loss: 0.8 }, { kind: 'set_loss', time_s: 4, loss: 0.4 }, { kind: 'set_loss', time_s: 4, loss: 0.5 },
       { kind: 'set_loss', when: 'complete', time_s: 1, loss: 0.9 }, { kind: 'die', time_s: 5 },
     ];
-    const loss = new LossHistory(JSON.stringify({ radio: { loss: 0.1 }, events }));
-    expect([0, 3.9, 4, 7.9, 8, 99].map((timeS) => loss.at(timeS))).toEqual([0.1, 0.1, 0.5, 0.5, 0.8, 0.8]);
-    for (const config of ['', '{', '{}', '{"radio":{}}']) expect(new LossHistory(config).at(1)).toBe(0);
+    const loss = new Deeds(JSON.stringify({ radio: { loss: 0.1 }, events }));
+    expect([0, 3.9, 4, 7.9, 8, 99].map((timeS) => loss.lossAt(timeS))).toEqual([0.1, 0.1, 0.5, 0.5, 0.8, 0.8]);
+    for (const config of ['', '{', '{}', '{"radio":{}}']) expect(new Deeds(config).lossAt(1)).toBe(0);
   });
 });
 
 describe('names', () => {
   it('of scenarios come from an address, whatever it is', () => {
-    expect(['', '#', '#rooms', '#two%20rooms', '#100%'].map(nameIn)).toEqual(['', '', 'rooms', 'two rooms', '100%']);
+    expect(['', '#', '#rooms', '#two%20rooms', '#100%'].map((hash) => readLink(hash)?.experiment.scenario ?? '')).toEqual(['', '', 'rooms', 'two rooms', '100%']);
   });
   it('of files of runs side by side differ', () => {
     expect(apart(['a.b.toml'], ['convoy'])).toEqual(['a.b.toml']);
     expect(apart(['a.toml', 'a.toml'], ['outwards', 'convoy'])).toEqual(['a-outwards.toml', 'a-convoy.toml']);
     expect(apart(['a.mcap', 'a.mcap'], ['convoy', 'convoy'])).toEqual(['a-convoy-1.mcap', 'a-convoy-2.mcap']);
+  });
+});
+
+describe('a link', () => {
+  const act = (tick: number, json: string) => ({ tick, json });
+  it('is read as it was written', () => {
+    const experiment = {
+      ...nothing, scenario: 'rooms', algorithms: ['outwards', ''], seeds: [3, 4], sets: ['radio.loss=0.3', 'name="ä & b"'],
+      acts: [[act(50, '{"kind":"die","robot":4}')], [act(50, '{"kind":"die","robot":4}'), act(60, '{"kind":"set_loss","loss":0.5}')]],
+      timeS: 12.3, view: { xM: 1.5, yM: -2, scale: 40 }, robot: 7,
+    };
+    const read = readLink(writeLink(experiment));
+    expect(read?.problems).toEqual([]);
+    expect(read?.experiment).toEqual(experiment);
+  });
+  it('carries a text of any letters', () => {
+    const text = 'name = "größer ☃"\n';
+    expect(readLink(writeLink({ ...nothing, name: 'a.toml', text }))?.experiment).toEqual({ ...nothing, name: 'a.toml', text });
+    for (const bytes of [[], [0], [255, 254], [1, 2, 3, 4]]) expect([...fromBase64(toBase64(Uint8Array.from(bytes)))!]).toEqual(bytes);
+    expect(fromBase64('a*b')).toBeNull();
+  });
+  it.each([
+    '#scenario=rooms&seed=x', '#scenario=rooms&t=-1', '#scenario=rooms&view=1,2', '#scenario=rooms&do=5', '#text=%2A',
+    '#recording=https://example.org/a.mcap', '#scenario=rooms&robot=1.5',
+  ])('%s tells what is wrong in it', (hash) => expect(readLink(hash)?.problems).toHaveLength(1));
+});
+
+describe('the end of a run', () => {
+  const result = { complete: 'true', completion_time_s: '11.7', time_s: '11.7', ticks: '117', robots: '18', committed: '8', broken_ticks: '0', split_ticks: '0', deaths: '0' };
+  it('is told in the words of banyan run', () => {
+    expect(outcomeOf(result)).toEqual({ endS: 11.7, good: true, headline: 'Complete after 11.7 s', details: ['8 of 18 robots used', 'no edge ever broken'] });
+    const missed = outcomeOf({ ...result, complete: 'false', completion_time_s: '', time_s: '150', time_limit_s: '150', held_ratio: '0.667', broken_ticks: '3', ticks: '1500', deaths: '2' });
+    expect(missed).toEqual({ endS: 150, good: false, headline: 'Not complete within 150.0 s', details: ['67 % of the targets held', '8 of 18 robots used', 'some edge broken 0.2 % of the time', '2 died'] });
+    expect(outcomeOf({ ...result, complete: 'false', survivors: '0' })?.headline).toContain('all robots have died');
+    expect(outcomeOf({})).toBeNull();
+  });
+  it('rounds no share to nothing or to all', () => expect([0, 0.0004, 0.012, 0.5, 0.9996, 1].map(percent)).toEqual(['0 %', 'less than 0.1 %', '1.2 %', '50 %', '99.9 %', '100 %']));
+});
+
+describe('what was done to the radio', () => {
+  it('is among the events, and holds from then on', () => {
+    const deeds = new Deeds(JSON.stringify({ tick_s: 0.1, events: [{ kind: 'blackout', time_s: 3, duration_s: 1 }, { kind: 'set_loss', time_s: 2, loss: 0.3 }] }));
+    expect(deeds.events.map(({ tick, kind }) => [tick, kind])).toEqual([[20, 'set_loss'], [30, 'blackout']]);
+    expect([2.9, 3, 3.9, 4].map((timeS) => deeds.isBlackoutAt(timeS))).toEqual([false, true, true, false]);
+  });
+});
+
+describe('runs side by side', () => {
+  it('are every algorithm with every seed, at most four', () => {
+    expect(runsOf({ algorithms: ['a', ''], seeds: [1, 2], overrides: ['x=1'] })).toEqual([
+      ['x=1', 'seed=1', 'mission.algorithm=a'], ['x=1', 'seed=1'], ['x=1', 'seed=2', 'mission.algorithm=a'], ['x=1', 'seed=2'],
+    ]);
+    expect(runsOf({ algorithms: ['a', 'b'], seeds: [1, 2, 3], overrides: [] })).toHaveLength(4);
+  });
+  it('are called by what they differ in', () => {
+    const run = (algorithm: string, seed: number) => ({ name: 'n', seed, settings: [{ timeS: 0, setting: { algorithm } }] }) as never;
+    expect(namesOf([run('a', 1), run('b', 1)])).toEqual(['a', 'b']);
+    expect(namesOf([run('a', 1), run('a', 2)])).toEqual(['seed 1', 'seed 2']);
+    expect(namesOf([run('a', 1), run('a', 1)])).toEqual(['a 1', 'a 2']);
+  });
+});
+
+describe('a place chosen by keys', () => {
+  const cursorOf = (task: PlaceTask) => {
+    const taken: unknown[] = [];
+    const cursor = new PlaceCursor({ begin: () => ({ x: 1, y: 2 }), metresPerPx: () => 0.125, show: () => {}, take: (t, at, corner) => taken.push([t.kind, at, corner]) });
+    cursor.start(task);
+    return { cursor, taken };
+  };
+  it('begins in the middle, moves, and is taken', () => {
+    const { cursor, taken } = cursorOf({ kind: 'add_target' });
+    expect(cursor.key('Enter', false)).toBe(false); // no arrow yet: Enter is for the page
+    for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp']) expect(cursor.key(key, false)).toBe(true);
+    cursor.key('Enter', false);
+    expect(taken).toEqual([['add_target', { x: 2, y: 3 }, null]]);
+    expect(cursor.key('ArrowLeft', false)).toBe(false);
+  });
+  it('takes two corners for an area', () => {
+    const { cursor, taken } = cursorOf({ kind: 'kill_area' });
+    for (const key of ['ArrowRight', 'Enter', 'ArrowRight', 'Enter']) cursor.key(key, true);
+    expect(taken).toEqual([['kill_area', { x: 7, y: 2 }, { x: 1, y: 2 }]]);
+  });
+});
+
+describe('warnings of one kind', () => {
+  it('are one, with how many there are', () => {
+    const warnings = new Warnings();
+    for (let k = 0; k < 116; ++k) warnings.add(`frame ${k}`, 'frames');
+    warnings.add('frame 3', 'frames');
+    warnings.add('another');
+    expect(warnings.list()).toEqual(['frame 0 (and 115 more like it)', 'another']);
+    expect(kindOf(warnings.list()[0])).toBe('frame 0');
+  });
+});
+
+describe('the timeline', () => {
+  it('tells the marks near the pointer, the nearest first', () => {
+    const at = (time_s: number, kind = 'death') => ({ time_s, kind, text: '', tick: 0, robot: -1, target: -1 }) as RunEvent;
+    const near = eventsNear([at(10), at(10.3), at(50), at(10.1, 'phase')], { startS: 0, endS: 100 }, 7 + 10.2 * 9.86, 1000);
+    expect(near.map(({ time_s }) => time_s)).toEqual([10.3, 10]);
   });
 });
 

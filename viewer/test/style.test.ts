@@ -28,5 +28,5 @@ describe.each(['light', 'dark'] as const)('the %s theme', (theme) => {
     for (const ground of ['ground', 'panel']) expect(contrast(color[name], color[ground])).toBeGreaterThanOrEqual(4.5);
   });
   it('has buttons that can be read', () => expect(contrast(color['accent-text'], color.accent)).toBeGreaterThanOrEqual(4.5));
-  it.each(['run-1', 'run-2'])('has curves that can be seen: %s', (name) => expect(contrast(color[name], color.panel)).toBeGreaterThanOrEqual(3));
+  it.each(['run-1', 'run-2', 'run-3', 'run-4'])('has curves that can be seen: %s', (name) => expect(contrast(color[name], color.panel)).toBeGreaterThanOrEqual(3));
 });

@@ -2,11 +2,11 @@
 // What happened, as a list that follows the clock; a click goes there. Long runs have thousands of
 // events: only those in view are in the document.
 import type { RunEvent } from '../frame';
-import { h, setText } from '../dom';
+import { button, h, setText } from '../dom';
 import { eventMark } from './event_marks';
 import { clockText } from './transport';
 
-const rowPx = 26;
+const rowPx = 42; // two lines: most texts need no more
 const spare = 8; // rows beyond the edges, so that scrolling shows no gap
 
 /** `run`: the algorithm of the run it is of, when two stand side by side. */
@@ -28,6 +28,9 @@ export class EventsList {
   readonly element: HTMLElement;
   private readonly list = h('ol', { class: 'events-rows' });
   private readonly space = h('div', { class: 'events-space' }, this.list);
+  /** The text of the present event, however long. */
+  private readonly full = h('p', { class: 'event-full', 'aria-live': 'off' });
+  private readonly why: HTMLButtonElement;
   private readonly view: HTMLElement;
   private readonly filter: HTMLInputElement;
   private all: ListedEvent[] = [];
@@ -40,12 +43,13 @@ export class EventsList {
   private rows: Row[] = [];
   private first = 0;
 
-  constructor(private readonly go: (event: RunEvent) => void) {
+  constructor(private readonly go: (event: RunEvent) => void, why: (event: ListedEvent) => void) {
+    this.why = button('Why?', 'The ticks before, and what both ends believed and said', () => { const event = this.shown[this.now]; if (event) why(event); }, { hidden: true });
     this.filter = h('input', {
       type: 'search', placeholder: 'Filter, such as death or robot 12', 'aria-label': 'Filter the events', oninput: () => this.refilter(),
     });
     this.view = h('div', { class: 'events-view', tabindex: 0, 'aria-label': 'Events', onscroll: () => this.render() }, this.space);
-    this.element = h('section', { class: 'events' }, this.filter, this.view);
+    this.element = h('section', { class: 'events' }, this.filter, this.view, h('div', { class: 'event-foot' }, this.full, this.why));
     new ResizeObserver(() => this.resize()).observe(this.view);
   }
 
@@ -64,6 +68,9 @@ export class EventsList {
     const now = lastAt(this.shown, this.timeS);
     if (now === this.now) return false;
     this.now = now;
+    setText(this.full, this.shown[now]?.text ?? '');
+    const event = this.shown[now];
+    this.why.hidden = event?.kind !== 'edges_broken' || event.robot < 0;
     if (!this.view.matches(':hover, :focus-within')) this.scrollToNow();
     return true;
   }

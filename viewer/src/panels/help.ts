@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The keys, and what the signs in the picture mean.
 import { button, h } from '../dom';
+import { terms } from '../glossary';
 import { legendMarks } from '../scene/legend';
 import type { Theme } from '../scene/themes';
 import { Legend } from './legend';
@@ -11,13 +12,15 @@ const keys: [string, string][] = [
   ['Home End', 'to the beginning, to the end'],
   ['[ ]', 'to the last, the next event: insertion, hand-over, broken edge, death …'],
   ['− +', 'slower, faster'],
+  ['A', 'loop from here; again: up to here; again: no more'],
   ['0–9 Enter', 'select a robot by its number'],
-  ['N P', 'select the next, the previous robot'],
+  ['N P', 'select the next, the previous robot; with Shift target'],
   ['F', 'follow the selected robot'],
   ['0', 'fit everything into the picture'],
   ['PgUp PgDn', 'zoom in, out; Alt with arrows moves the picture'],
   ['L B O R I', 'radio links, blocked links, old tree, trails, numbers'],
-  ['T K', 'live: add a target, kill an area'],
+  ['T K G', 'live: add a target, kill an area, grab the selected target; then arrows (Shift: far) and Enter, or the pointer'],
+  ['U', 'live: undo what was done last'],
   ['Delete', 'live: kill the selected robot, remove the selected target'],
   ['M', 'light, dark'],
   ['Escape', 'let go'],
@@ -28,7 +31,7 @@ export class Help {
   readonly element: HTMLDialogElement;
   private readonly legend = new Legend(legendMarks);
 
-  constructor() {
+  constructor(tour: () => void) {
     const rows = keys.map(([key, meaning]) => h('tr', {}, h('td', {}, ...key.split(' ').flatMap((k) => [h('kbd', {}, k), ' '])), h('td', {}, meaning)));
     this.element = h(
       'dialog',
@@ -43,7 +46,11 @@ export class Help {
           h('h2', {}, 'Pointer'),
           h('p', { class: 'hint' },
             'Drag to move the picture, turn the wheel or pinch to zoom, click a robot to look into it. In a live run drag targets and obstacles; ' +
-            'double click adds a target; a drag with Shift kills the robots in an area.'))),
+            'double click adds a target; a drag with Shift draws an area in which all robots die; Delete removes the selected ' +
+            'robot or target.'))),
+      h('details', { class: 'glossary' }, h('summary', {}, 'Glossary'),
+        h('dl', {}, ...terms.flatMap(({ name, meaning }) => [h('dt', {}, name), h('dd', {}, meaning)]))),
+      h('div', { class: 'buttons' }, button('First look', 'A guided half minute', () => { this.element.close(); tour(); })),
       button('Close', 'Close', () => this.element.close(), { class: 'primary' }),
     );
     this.element.addEventListener('click', (event) => { if (event.target === this.element) this.element.close(); });

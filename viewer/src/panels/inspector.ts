@@ -99,7 +99,8 @@ export function messageFacts(said: Said, live: boolean): Fact[] {
 export interface Inspected {
   frame: Frame;
   robot: number;
-  algorithm: string; // of the run; shown when two stand side by side
+  algorithm: string; // of the run; shown when several stand side by side
+  run: number; // which of them, from 0
   neighbours: number[]; // robots it can hear
   said: Said | null; // null: not there yet
   followed: boolean;
@@ -110,6 +111,7 @@ export class Inspector {
   readonly element = h('section', { class: 'inspector', 'aria-label': 'Robot' });
   private readonly title = h('h2');
   private readonly run = h('span');
+  private readonly line = h('i', { class: 'run-line', 'aria-hidden': 'true' });
   private readonly follow = button('Follow', 'Keep this robot in the middle (F)', () => this.actions.follow(this.shown?.followed ? null : (this.shown?.robot ?? null)));
   private readonly kill = button('Kill', 'This robot dies now (Delete)', () => { if (this.shown) this.actions.kill(this.shown.robot); }, { class: 'danger' });
   private readonly state = h('table', { class: 'facts' });
@@ -119,7 +121,7 @@ export class Inspector {
   private readonly body = h(
     'div', {},
     h('header', { class: 'robot-head' }, this.title, this.follow, this.kill, button('×', 'Close (Escape)', () => this.actions.select(null)),
-      h('p', { class: 'of-run' }, h('i', { class: 'run-line', 'aria-hidden': 'true' }), this.run)),
+      h('p', { class: 'of-run' }, this.line, this.run)),
     this.state, h('h3', {}, 'Neighbours in radio contact'), this.neighbours, this.messageTitle, this.message,
   );
   private readonly empty = h('p', { class: 'hint' }, 'Click a robot, or type its number and press Enter, to see what it knows, whom it hears and what it says.');
@@ -138,6 +140,7 @@ export class Inspector {
     setText(this.title, `Robot ${shown.robot}`);
     this.title.dataset.role = roleName;
     setText(this.run, `of the run with ${shown.algorithm}`);
+    this.line.dataset.run = String(shown.run + 1);
     setText(this.follow, shown.followed ? 'Unfollow' : 'Follow');
     this.follow.setAttribute('aria-pressed', String(shown.followed));
     this.kill.hidden = !shown.live || column(shown.frame, 'alive')[shown.robot] === 0;

@@ -3,7 +3,8 @@
 // or an intervention; the panel keeps only what has been typed in.
 import { algorithms } from '../algorithms';
 import { button, h, setText } from '../dom';
-import { scenarios as builtIn, type Scenario } from '../scenarios';
+import { aboutOf, scenarios as builtIn, type Scenario } from '../scenarios';
+import type { Experiment } from '../link';
 import type { Intervention } from '../source/protocol';
 import type { Settings } from '../state/controls';
 
@@ -15,12 +16,15 @@ export interface LiveChoice {
   text: string; // of the scenario
   /** One or two algorithms, side by side; "": the scenario's own. */
   algorithms: string[];
-  overrides: string[]; // "key=value", beside the algorithm
+  /** Of the runs side by side; null: the scenario's own. */
+  seeds: (number | null)[];
+  overrides: string[]; // "key=value", beside algorithm and seed
 }
 
 export interface LiveActions {
   start(choice: LiveChoice): void;
   reset(): void;
+  undo(): void;
   setTool(tool: Tool): void;
   intervene(events: Intervention[]): void;
   saveRecording(): void;
@@ -37,6 +41,7 @@ export class LivePanel {
   private readonly about = h('p', { class: 'hint' });
   private readonly first = this.algorithmSelect('live-algorithm', 'the scenario’s');
   private readonly second = this.algorithmSelect('live-versus', 'nothing');
+  private readonly repeats = h('select', { id: 'live-repeats' }, ...[1, 2, 3, 4].map((n) => h('option', { value: n }, n === 1 ? 'this one only' : `${n} in a row`)));
   private readonly seed = h('input', { id: 'live-seed', type: 'number', min: 0, step: 1, placeholder: 'the scenario’s' });
   private readonly keys = h('textarea', {
     id: 'live-keys', rows: 3, spellcheck: false, placeholder: 'radio.loss = 0.3\nswarm.redundancy = 3', 'aria-describedby': 'live-keys-help',
@@ -100,12 +105,35 @@ export class LivePanel {
     for (const [name, element] of Object.entries(this.tools)) element.setAttribute('aria-pressed', String(name === tool));
   }
 
+  /** As an address has it; false: there is no such scenario. */
+  set(experiment: Experiment): boolean {
+    const { scenario, name, text, algorithms, seeds, sets } = experiment;
+    if (text !== '') this.setOwn(name === '' ? 'link.toml' : name, text, []);
+    else if (!this.pick(scenario)) return false;
+    this.first.value = algorithms[0] ?? '';
+    this.second.value = algorithms[1] ?? '';
+    this.seed.value = seeds[0] === undefined ? '' : String(seeds[0]);
+    this.repeats.value = String(Math.min(4, Math.max(1, seeds.length)));
+    this.keys.value = sets.join('\n');
+    return true;
+  }
+
+  compare(first: string, second: string): void {
+    this.first.value = first;
+    this.second.value = second;
+  }
+
+  /** The name of what is picked, "" if it is the visitor's own. */
+  get picked(): string { return this.scenario.value === ownName ? '' : this.scenario.value; }
+
   choice(): LiveChoice {
     const picked = this.scenarios.find((s) => s.name === this.scenario.value);
     const { name, text } = this.own && this.scenario.value === ownName ? this.own : (picked ?? this.scenarios[0]);
     const overrides = this.keys.value.split('\n').map(assignment).filter((line) => line !== '');
-    if (this.seed.value !== '') overrides.push(`seed=${this.seed.value}`);
-    return { name, text, algorithms: [this.first.value, ...(this.second.value === '' ? [] : [this.second.value])], overrides };
+    const count = Number(this.repeats.value);
+    const first = this.seed.value === '' ? (count === 1 ? null : seedIn(text)) : Number(this.seed.value);
+    const seeds = first === null ? [null] : Array.from({ length: count }, (_, k) => first + k);
+    return { name, text, algorithms: [this.first.value, ...(this.second.value === '' ? [] : [this.second.value])], seeds, overrides };
   }
 
   /** Picks one of the built-in scenarios by its name. */
@@ -136,7 +164,8 @@ export class LivePanel {
   }
 
   private describe(): void {
-    setText(this.about, this.scenarios.find((s) => s.name === this.scenario.value)?.about ?? '');
+    const own = this.scenario.value === ownName ? this.own : null;
+    setText(this.about, own ? aboutOf(own.text) : (this.scenarios.find((s) => s.name === this.scenario.value)?.about ?? ''));
   }
 
   private startForm(): HTMLElement {
@@ -148,6 +177,7 @@ export class LivePanel {
       field('Algorithm', 'live-algorithm', this.first),
       field('Beside it', 'live-versus', this.second),
       field('Seed', 'live-seed', this.seed),
+      field('Seeds', 'live-repeats', this.repeats),
       h('details', {}, h('summary', {}, 'Change other keys'),
         h('label', { for: 'live-keys', class: 'hint', id: 'live-keys-help' }, 'One “key = value” a line, as with banyan run --set.'), this.keys),
       h('button', { type: 'submit', class: 'primary' }, 'Start'),
@@ -163,6 +193,7 @@ export class LivePanel {
       h('legend', {}, 'While it runs'),
       h('p', { class: 'hint' }, 'Drag a target or an obstacle. Go back in time and do something else: the run is simulated anew from there.'),
       h('div', { class: 'buttons' }, this.tools.add_target, this.tools.kill_area,
+        button('Undo', 'Takes back what you did last (U)', this.actions.undo),
         button('Reset', 'The same run from its beginning, without what you did', this.actions.reset),
         button('Blackout', 'Nobody hears anything for a second', () => this.actions.intervene([{ kind: 'blackout', duration_s: 1 }]))),
       h('div', { class: 'field' }, h('label', { for: 'live-loss' }, 'Packet loss'), this.loss, this.lossText),
@@ -173,6 +204,9 @@ export class LivePanel {
     );
   }
 }
+
+/** A scenario's own seed; 1 if it names none. */
+export const seedIn = (text: string): number => Number(/^\s*"?seed"?\s*[=:]\s*(\d+)/m.exec(text)?.[1] ?? 1);
 
 const percent = (value: string) => `${Math.round(Number(value) * 100)} %`;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One message at a time over the picture: what went wrong, or what was done. Read out by screen readers.
 import { button, h } from '../dom';
+import { kindOf } from '../source/problem';
 
 const goodForMs = 6000;
 const mostWarnings = 3; // a damaged file has dozens
@@ -19,7 +20,7 @@ export class Notice {
   /** Warnings about what is open, `run`; the panel Run has all of them. What has been said of it once is not said
    *  again: the visitor may have closed it. */
   warn(warnings: readonly string[], run: object): void {
-    const all = warnings.join('\n');
+    const all = warnings.map(kindOf).join('\n'); // one more damaged frame is no news
     if (run === this.run && all === this.warned) return;
     this.run = run;
     this.warned = all;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Four curves in step with the clock. The numbers are those of the series table; runs side by side
+// Four curves in step with the clock; any column of the series table can be chosen for each. The numbers are those of the series table; runs side by side
 // share the axes. A click or a drag in a plot moves the clock.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
@@ -18,7 +18,7 @@ interface Curve {
   whole: boolean;
 }
 
-export const curves: Curve[] = [
+export const curves: Curve[] = [ // those shown first
   {
     title: 'Broken tree edges', unit: '', digits: 0, whole: true,
     help: 'Edges of the tree whose ends are out of range or hidden from each other',
@@ -86,7 +86,34 @@ export function valueAt(curve: Curve, series: Series, timeS: number): number | n
   return null;
 }
 
-const runColors = ['--run-1', '--run-2'];
+/** What can be chosen: the curves above, and every column as it is. */
+function choices(runs: Series[]): Curve[] {
+  const names = new Set(runs.flatMap((series) => Object.keys(series)));
+  for (const name of ['tick', 'time_s']) names.delete(name);
+  return [...curves, ...[...names].map(columnCurve)];
+}
+
+function columnCurve(name: string): Curve {
+  return {
+    title: name, unit: '', digits: 4, tiny: true, whole: false, help: `The column ${name} of the series table`,
+    value: (series, k) => series[name]?.[k] ?? NaN,
+  };
+}
+
+const runColors = ['--run-1', '--run-2', '--run-3', '--run-4'];
+const dashes = [undefined, [5, 3], [2, 3], [9, 3, 2, 3]];
+
+interface Range { min: number; max: number }
+
+interface PlotActions {
+  seek(timeS: number): void;
+  hover(timeS: number | null): void;
+  /** `factor` > 1: a longer stretch around `atS`; Infinity: all. */
+  zoom(atS: number, factor: number, now: Range): void;
+  changed(): void;
+}
+
+const wheelStep = 0.002; // per pixel of the wheel
 
 class Plot {
   readonly element: HTMLElement;
@@ -94,24 +121,47 @@ class Plot {
   private readonly readout = h('output', { class: 'plot-value', 'aria-live': 'off' }); // it changes all the time
   private readonly canvas = h('div', { class: 'plot-canvas' });
   private readonly cursor = h('div', { class: 'plot-cursor' });
+  private readonly hover = h('div', { class: 'plot-cursor plot-hover', hidden: true });
+  private range: Range | null = null;
   private runs: Series[] = [];
+  private readonly select: HTMLSelectElement;
+  private offered = ''; // the titles to choose from
 
-  constructor(private readonly curve: Curve, private readonly seek: (timeS: number) => void) {
+  constructor(private curve: Curve, private readonly to: PlotActions) {
+    this.select = h('select', { class: 'plot-choice', 'aria-label': 'Curve', onchange: () => this.choose() });
     this.element = h(
       'figure',
       { class: 'plot', title: curve.help },
-      h('figcaption', {}, h('span', {}, curve.title), this.readout),
+      h('figcaption', {}, this.select, this.readout),
       this.canvas,
     );
+    this.offer([]);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
+  private offer(runs: Series[]): void {
+    const titles = choices(runs).map(({ title }) => title);
+    if (titles.join() === this.offered) return;
+    this.offered = titles.join();
+    this.select.replaceChildren(...titles.map((title) => h('option', { value: title }, title)));
+    this.select.value = this.curve.title;
+  }
+
+  private choose(): void {
+    this.curve = choices(this.runs).find(({ title }) => title === this.select.value) ?? this.curve;
+    this.element.title = this.curve.help;
+    this.remake();
+    this.to.changed();
+  }
+
   setRuns(runs: Series[]): void {
+    this.offer(runs);
     if (runs.every((series) => series.time_s.length === 0)) return this.clear();
     const remake = this.chart === null || runs.length !== this.runs.length;
     this.runs = runs;
     if (remake) this.make();
     else this.chart?.setData(tabulate(this.curve, runs) as unknown as uPlot.AlignedData);
+    this.zoom(this.range);
   }
 
   /** Another run is open, of which nothing is known yet: the curves of the last one are not its. */
@@ -122,13 +172,26 @@ class Plot {
     setText(this.readout, '');
   }
 
-  setTime(timeS: number): void {
-    const values = this.runs.map((s) => valueAt(this.curve, s, timeS));
+  /** A stretch of time instead of all of it; null: all. */
+  zoom(range: Range | null): void {
+    const was = this.range;
+    this.range = range;
+    if (this.chart === null || (range === null && was === null)) return;
+    const times = this.runs.flatMap(({ time_s: t }) => (t.length === 0 ? [] : [t[0], t[t.length - 1]]));
+    this.chart.setScale('x', range ?? { min: Math.min(...times), max: Math.max(...times) });
+  }
+
+  /** `hoverS`: the pointer is at another moment, in whichever plot. */
+  setTime(timeS: number, hoverS: number | null = null): void {
+    const values = this.runs.map((s) => valueAt(this.curve, s, hoverS ?? timeS));
     const text = values.map((v) => readOff(this.curve, v)).join(' | ');
+    this.readout.classList.toggle('hovered', hoverS !== null);
     setText(this.readout, this.curve.unit && text !== '' && text !== '–' ? `${text} ${this.curve.unit}` : text);
     if (this.chart === null) return;
     const left = this.chart.valToPos(timeS, 'x');
     this.cursor.style.transform = `translateX(${left.toFixed(1)}px)`;
+    this.hover.hidden = hoverS === null;
+    if (hoverS !== null) this.hover.style.transform = `translateX(${this.chart.valToPos(hoverS, 'x').toFixed(1)}px)`;
   }
 
   remake(): void {
@@ -155,26 +218,34 @@ class Plot {
         series: [
           {},
           ...this.runs.map((_, k) => ({
-            stroke: color(runColors[k]), width: 1.5, dash: k === 0 ? undefined : [5, 3], spanGaps: true, points: { show: false },
+            stroke: color(runColors[k]), width: 1.5, dash: dashes[k], spanGaps: true, points: { show: false },
           })),
         ],
       },
       tabulate(this.curve, this.runs) as unknown as uPlot.AlignedData,
       this.canvas,
     );
-    this.chart.over.append(this.cursor);
+    this.chart.over.append(this.cursor, this.hover);
     this.listen(this.chart);
   }
 
   private listen(chart: uPlot): void {
-    const to = (event: PointerEvent) => this.seek(chart.posToVal(event.clientX - chart.over.getBoundingClientRect().left, 'x'));
+    const timeAt = (event: MouseEvent) => chart.posToVal(event.clientX - chart.over.getBoundingClientRect().left, 'x');
     chart.over.addEventListener('pointerdown', (event) => {
       chart.over.setPointerCapture(event.pointerId);
-      to(event);
+      this.to.seek(timeAt(event));
     });
     chart.over.addEventListener('pointermove', (event) => {
-      if (chart.over.hasPointerCapture(event.pointerId)) to(event);
+      const dragged = chart.over.hasPointerCapture(event.pointerId);
+      if (dragged) this.to.seek(timeAt(event));
+      this.to.hover(dragged || event.pointerType === 'touch' ? null : timeAt(event));
     });
+    chart.over.addEventListener('pointerleave', () => this.to.hover(null));
+    chart.over.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      this.to.zoom(timeAt(event), Math.exp(event.deltaY * wheelStep), { min: chart.scales.x.min ?? 0, max: chart.scales.x.max ?? 1 });
+    }, { passive: false });
+    chart.over.addEventListener('dblclick', () => this.to.zoom(0, Infinity, { min: 0, max: 1 }));
   }
 
   private size(): { width: number; height: number } {
@@ -183,26 +254,54 @@ class Plot {
 
   private resize(): void {
     const { width, height } = this.size();
-    if (this.chart && (this.chart.width !== width || this.chart.height !== height)) this.chart.setSize({ width, height });
+    if (this.chart && (this.chart.width !== width || this.chart.height !== height)) {
+      this.chart.setSize({ width, height });
+      this.to.changed(); // the clock's line is elsewhere now
+    }
   }
 }
+
+const shortestS = 0.5; // of a stretch that is zoomed to
 
 export class Plots {
   readonly element: HTMLElement;
   private readonly plots: Plot[];
 
+  private timeS = 0;
+  private hoverS: number | null = null;
+  private runs: Series[] = [];
+
   constructor(seek: (timeS: number) => void) {
-    this.plots = curves.map((curve) => new Plot(curve, seek));
+    const actions: PlotActions = {
+      seek,
+      hover: (timeS) => { this.hoverS = timeS; this.setTime(this.timeS); },
+      zoom: (atS, factor, now) => this.zoom(atS, factor, now),
+      changed: () => this.setTime(this.timeS),
+    };
+    this.plots = curves.map((curve) => new Plot(curve, actions));
     this.element = h('section', { class: 'plots', 'aria-label': 'Plots' }, ...this.plots.map((p) => p.element));
   }
 
   /** The series of each run shown; called again whenever one has grown. */
+  private zoom(atS: number, factor: number, now: Range): void {
+    const all = Math.max(0, ...this.runs.map(({ time_s: t }) => (t.length === 0 ? 0 : t[t.length - 1])));
+    const min = Math.max(0, atS - (atS - now.min) * factor);
+    const max = Math.min(all, atS + (now.max - atS) * factor);
+    const range = Number.isFinite(factor) && max - min < 0.98 * all && max - min > 1e-6 ? { min, max } : null;
+    if (Number.isFinite(factor) && max - min < shortestS) return;
+    for (const plot of this.plots) plot.zoom(range);
+    this.setTime(this.timeS);
+  }
+
   setRuns(runs: Series[]): void {
+    this.runs = runs;
+    this.element.classList.toggle('many', runs.length > 1);
     for (const plot of this.plots) plot.setRuns(runs);
   }
 
   setTime(timeS: number): void {
-    for (const plot of this.plots) plot.setTime(timeS);
+    this.timeS = timeS;
+    for (const plot of this.plots) plot.setTime(timeS, this.hoverS);
   }
 
   /** The colours have changed. */

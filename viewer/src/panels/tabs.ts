@@ -33,13 +33,22 @@ export class Tabs {
     });
   }
 
+  /** A tab that is there only on some screens. */
+  offer(name: string, offered: boolean): void {
+    const k = this.tabs.findIndex((tab) => tab.name === name);
+    if (!offered && !this.panels[k].hidden) this.show(this.tabs[0].name);
+    this.buttons[k].hidden = !offered;
+  }
+
   private onKey(event: KeyboardEvent): void {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (step === undefined) return;
     event.preventDefault();
     event.stopPropagation();
     const now = this.buttons.findIndex((b) => b.getAttribute('aria-selected') === 'true');
-    const next = (now + step + this.tabs.length) % this.tabs.length;
+    let next = now;
+    do next = (next + step + this.tabs.length) % this.tabs.length;
+    while (this.buttons[next].hidden);
     this.show(this.tabs[next].name);
     this.buttons[next].focus();
   }

@@ -14,6 +14,7 @@ export interface Clock {
   startS: number;
   endS: number;
   growing: boolean; // a live run: the end moves
+  loop: { fromS: number; toS: number | null } | null;
 }
 
 export interface TransportActions {
@@ -21,6 +22,7 @@ export interface TransportActions {
   seek(timeS: number): void;
   step(ticks: number): void;
   setSpeed(speed: number): void;
+  loop(): void; // begin, end, let go
   jump(direction: 1 | -1): void; // to the next or the last notable event
 }
 
@@ -53,12 +55,32 @@ export function outdated(drawn: Drawn | null, now: Drawn, playing: boolean): boo
   return Math.abs(now.endS - drawn.endS) > allowed;
 }
 
+const loopTitles = { none: 'Loop from here (A)', begun: 'Loop up to here (A)', whole: 'Loop no more (A)' };
+const thumb = 7; // px: half of the handle's width, beyond which it does not go
+const mostHints = 4;
+const hintReachPx = 4;
+
+/** Where a moment is on the timeline. */
+function markPx(timeS: number, { startS, endS }: Pick<Clock, 'startS' | 'endS'>, width: number): number {
+  return thumb + ((timeS - startS) / (endS - startS)) * (width - 2 * thumb);
+}
+
+/** The marked events near a place on the timeline, the nearest first. */
+export function eventsNear(events: readonly RunEvent[], clock: Pick<Clock, 'startS' | 'endS'>, x: number, width: number): RunEvent[] {
+  if (clock.endS <= clock.startS) return [];
+  const away = (event: RunEvent) => Math.abs(markPx(event.time_s, clock, width) - x);
+  return events.filter((event) => eventMark(event.kind) !== null && away(event) <= hintReachPx).sort((a, b) => away(a) - away(b));
+}
+
 export class Transport {
   readonly element: HTMLElement;
   private readonly play: HTMLButtonElement;
   private readonly timeline: HTMLInputElement;
   private readonly marks = h('canvas', { class: 'marks', 'aria-hidden': 'true' });
+  private readonly hint = h('div', { class: 'timeline-hint', hidden: true });
   private readonly time = h('output', { class: 'time', 'aria-live': 'off' });
+  private readonly loop: HTMLButtonElement;
+  private readonly range = h('div', { class: 'timeline-loop', 'aria-hidden': 'true', hidden: true });
   private readonly end = h('span', { class: 'time end' });
   private readonly speed: HTMLSelectElement;
   private events: RunEvent[] = [];
@@ -78,6 +100,7 @@ export class Transport {
       { title: 'Speed: simulated seconds per second (- and +)', 'aria-label': 'Speed', onchange: () => actions.setSpeed(Number(this.speed.value)) },
       ...speeds.map((s) => h('option', { value: s }, `${s}×`)),
     );
+    this.loop = button(icon('loop'), loopTitles.none, actions.loop, { class: 'loop' });
     this.element = h(
       'section',
       { class: 'transport', 'aria-label': 'Time' },
@@ -87,11 +110,28 @@ export class Transport {
       button(icon('on'), 'One tick on (→)', () => actions.step(1)),
       button(icon('next'), 'Next event (])', () => actions.jump(1)),
       this.time,
-      h('div', { class: 'timeline' }, this.marks, this.timeline),
+      this.timelineBox(),
       this.end,
+      this.loop,
       this.speed,
     );
     new ResizeObserver(() => this.drawMarks(true)).observe(this.marks);
+  }
+
+  /** What the marks near the pointer mean. */
+  private timelineBox(): HTMLElement {
+    const box = h('div', { class: 'timeline' }, this.range, this.marks, this.timeline, this.hint);
+    box.addEventListener('pointermove', (event) => {
+      const x = event.clientX - this.marks.getBoundingClientRect().left;
+      const near = this.clock === null ? [] : eventsNear(this.events, this.clock, x, this.marks.clientWidth);
+      this.hint.hidden = near.length === 0;
+      const width = this.marks.clientWidth;
+      this.hint.style.insetInlineStart = x < width / 2 ? `${x}px` : 'auto';
+      this.hint.style.insetInlineEnd = x < width / 2 ? 'auto' : `${width - x}px`;
+      setText(this.hint, [...near.slice(0, mostHints).map((e) => `${clockText(e.time_s)} ${e.text}`), ...(near.length > mostHints ? [`… and ${near.length - mostHints} more`] : [])].join('\n'));
+    });
+    box.addEventListener('pointerleave', () => { this.hint.hidden = true; });
+    return box;
   }
 
   setEvents(events: RunEvent[]): void {
@@ -120,7 +160,23 @@ export class Transport {
     this.timeline.setAttribute('aria-valuetext', `${clock.timeS.toFixed(1)} seconds`);
     const speed = String(clock.speed);
     if (this.speed.value !== speed) this.speed.value = speed;
+    this.showLoop(clock);
     this.drawMarks(false);
+  }
+
+  private showLoop({ loop, timeS, startS, endS }: Clock): void {
+    const title = loop === null ? loopTitles.none : loop.toS === null ? loopTitles.begun : loopTitles.whole;
+    if (this.loop.title !== title) {
+      this.loop.title = title;
+      this.loop.setAttribute('aria-label', title);
+      this.loop.setAttribute('aria-pressed', String(loop !== null));
+    }
+    this.range.hidden = loop === null;
+    if (loop === null) return;
+    const width = this.marks.clientWidth;
+    const from = markPx(loop.fromS, { startS, endS }, width), to = markPx(loop.toS ?? Math.max(timeS, loop.fromS), { startS, endS }, width);
+    this.range.style.left = `${from}px`;
+    this.range.style.width = `${Math.max(2, to - from)}px`;
   }
 
   /** The colours have changed. */
@@ -148,11 +204,10 @@ export class Transport {
       if (!colors.has(name)) colors.set(name, style.getPropertyValue(name));
       return colors.get(name)!;
     };
-    const thumb = 7; // px: half of the handle's width, beyond which it does not go
     for (const event of this.events) {
       const mark = eventMark(event.kind);
       if (mark === null) continue;
-      const x = thumb + ((event.time_s - startS) / (endS - startS)) * (width - 2 * thumb);
+      const x = markPx(event.time_s, { startS, endS }, width);
       context.fillStyle = colorOf(mark.color);
       context.fillRect(x - 0.75, height * (1 - mark.height), 1.5, height * mark.height);
     }

@@ -5,7 +5,7 @@
 import type { Facts } from './facts';
 import { drawGround } from './layers/ground';
 import { drawObstacles } from './layers/obstacles';
-import { drawRadio, mostLinks, type RadioCount } from './layers/radio';
+import { crowd, crowdLinks, drawRadio, mostLinks, type RadioCount } from './layers/radio';
 import type { Shot } from './shot';
 import type { SceneView } from './view';
 
@@ -18,7 +18,7 @@ export class Backdrop {
   private facts: Facts | null = null;
   private view: SceneView | null = null;
   private ratio = 0;
-  private count: RadioCount = { drawn: 0, all: 0 };
+  private count: RadioCount = { drawn: 0, all: 0, about: false };
   private fullMs = 0; // what all links took the last time
   private isCoarse = false;
 
@@ -26,7 +26,7 @@ export class Backdrop {
   get coarse(): boolean { return this.isCoarse; }
 
   draw(shot: Shot): RadioCount {
-    shot.linkBudget = mostLinks;
+    shot.linkBudget = shot.robots < crowd ? mostLinks : crowdLinks;
     if (!isWorthKeeping(shot)) {
       this.isCoarse = false;
       return drawAll(shot);
@@ -70,8 +70,9 @@ export class Backdrop {
   }
 }
 
-function isWorthKeeping({ view: { switches }, facts }: Shot): boolean {
+function isWorthKeeping({ view: { switches }, facts, robots }: Shot): boolean {
   if (!switches.links && !switches.blocked) return false;
+  if (robots >= crowd) return true;
   const { open, blocked } = facts.links;
   const links = (switches.links ? open.length : 0) + (switches.blocked ? blocked.length : 0);
   return links / 2 >= keepFromLinks;

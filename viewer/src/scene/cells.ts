@@ -29,7 +29,7 @@ export class Cells {
     // A few robots that went far away must not cost a grid of millions of empty cells.
     let size = wishedM;
     const cells = () => (Math.floor((maxX - minX) / size) + 1) * (Math.floor((maxY - minY) / size) + 1);
-    while (cells() > 64 * x.length + 4096) size *= 2;
+    while (cells() > 8 * x.length + 4096) size *= 2; // nor a large swarm one that takes longer to make than to search
     this.sizeM = size;
     this.columns = Math.floor((maxX - minX) / size) + 1;
     this.rows = Math.floor((maxY - minY) / size) + 1;

@@ -17,6 +17,8 @@ export type Link = 'open' | 'out of range' | 'blocked' | 'dead';
 
 const slack = 1e-6; // m, against rounding when cells are chosen
 const flat = 1e-6; // m: nearly along a row
+const sampled = 400; // robots: of 10,000 enough for a few per cent
+const lengthClasses = 64;
 
 class Pairs {
   private data = new Int32Array(1024);
@@ -78,16 +80,59 @@ export class Radio {
     return { open: open.taken(), blocked: blocked.taken() };
   }
 
+  /** The links up to a length of which at least one end is seen (`seen`: one entry per robot). */
+  linksWithin(lengthM: number, seen: Uint8Array): Links {
+    const open = new Pairs();
+    const blocked = new Pairs();
+    const length2 = lengthM * lengthM;
+    for (let i = 0; i < this.x.length; ++i) {
+      if (seen[i] === 0 || this.alive[i] === 0) continue;
+      this.forEachNear(i, (j) => {
+        if (j < i && seen[j] === 1) return;
+        const dx = this.x[j]! - this.x[i]!, dy = this.y[j]! - this.y[i]!;
+        if (dx * dx + dy * dy > length2) return;
+        const link = this.link(i, j);
+        if (link === 'open') open.add(i, j);
+        else if (link === 'blocked') blocked.add(i, j);
+      }, lengthM);
+    }
+    return { open: open.taken(), blocked: blocked.taken() };
+  }
+
+  /** Up to which length about `most` pairs are in range, and how many there are of any length: estimated from some of
+   *  the robots that are seen, since to count a million pairs takes longer than a picture may. */
+  lengthFor(most: number, seen: Uint8Array): { lengthM: number; pairs: number } {
+    const range = this.setting.range_m;
+    const candidates: number[] = [];
+    for (let i = 0; i < this.x.length; ++i) if (seen[i] === 1 && this.alive[i] === 1) candidates.push(i);
+    const step = Math.max(1, Math.floor(candidates.length / sampled));
+    const counts = new Float64Array(lengthClasses);
+    let asked = 0;
+    for (let k = 0; k < candidates.length; k += step, ++asked) {
+      const i = candidates[k]!;
+      this.forEachNear(i, (j) => {
+        const length = Math.hypot(this.x[j]! - this.x[i]!, this.y[j]! - this.y[i]!);
+        if (length < range && this.alive[j] === 1) ++counts[Math.floor((lengthClasses * length) / range)]!;
+      });
+    }
+    const perCount = candidates.length / Math.max(1, asked) / 2; // each pair is seen from both ends
+    const pairs = perCount * counts.reduce((sum, count) => sum + count, 0);
+    if (pairs <= most) return { lengthM: range, pairs };
+    let sum = 0;
+    let c = 0;
+    while (c < lengthClasses - 1 && perCount * (sum + counts[c]!) <= most) sum += counts[c++]!;
+    return { lengthM: (range * Math.max(1, c)) / lengthClasses, pairs };
+  }
+
   private inRange(i: number, j: number): boolean {
     const dx = this.x[j]! - this.x[i]!;
     const dy = this.y[j]! - this.y[i]!;
     return Math.sqrt(dx * dx + dy * dy) < this.setting.range_m;
   }
 
-  /** All others in the cells that `range_m` reaches. */
-  private forEachNear(i: number, visit: (j: number) => void): void {
+  /** All others in the cells that `range` reaches. */
+  private forEachNear(i: number, visit: (j: number) => void, range = this.setting.range_m): void {
     const { cells } = this;
-    const range = this.setting.range_m;
     const right = cells.column(this.x[i]! + range);
     const top = cells.row(this.y[i]! + range);
     for (let row = cells.row(this.y[i]! - range); row <= top; ++row) {
@@ -105,6 +150,17 @@ export class Radio {
     if (this.bodyBlocks(i, j, ax, ay, bx, by)) return true;
     for (const obstacle of this.setting.obstacles) if (blocks(obstacle, ax, ay, bx, by)) return true;
     return false;
+  }
+
+  /** What hides them from each other, in words; "" if nothing does. */
+  blocker(i: number, j: number): string {
+    const [ax, ay, bx, by] = [this.x[i]!, this.y[i]!, this.x[j]!, this.y[j]!];
+    for (let k = 0; k < this.x.length; ++k) {
+      if (k === i || k === j || (this.alive[k] === 0 && !this.deadHide)) continue;
+      if (discBlocks(this.x[k]!, this.y[k]!, this.setting.radius_m, ax, ay, bx, by) && !this.isLookedOver(k, i, j)) return `robot ${k}`;
+    }
+    const wall = this.setting.obstacles.findIndex((obstacle) => blocks(obstacle, ax, ay, bx, by));
+    return wall < 0 ? '' : `obstacle ${wall}`;
   }
 
   /** Where sight leaks: whether the nearer of i and j looks over the body of k, which is in their way. */

@@ -28,7 +28,7 @@ export class Scene {
   private readonly backdrop = new Backdrop();
   private later: ReturnType<typeof setTimeout> | undefined;
   private readonly shot = new Shot();
-  private count: RadioCount = { drawn: 0, all: 0 };
+  private count: RadioCount = { drawn: 0, all: 0, about: false };
 
   /** `changed` is called when the picture has to be drawn again for reasons of its own: it was resized, moved to a
    *  screen with other pixels, its tab is shown again, or the camera stands still and what was left out is due. */

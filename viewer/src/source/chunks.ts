@@ -15,7 +15,7 @@ export async function chunkRecords(bytes: Bytes, stretch: Stretch, decompress: D
   if (!stretch.chunk) return record;
   const records = unpack(record, decompress);
   if (typeof records !== 'string') return records;
-  warnings.add(`${records} (at byte ${stretch.offset})`);
+  warnings.add(`${records} (at byte ${stretch.offset})`, records);
   return null;
 }
 
@@ -74,7 +74,7 @@ export class Chunks {
     }
     ++this.unpacked;
     const contents = walk(records);
-    if (!contents.whole) this.warnings.add(`a chunk ends in the middle of a record (at byte ${stretch.offset})`);
+    if (!contents.whole) this.warnings.add(`a chunk ends in the middle of a record (at byte ${stretch.offset})`, 'a chunk ends early');
     const loaded = { records, messages: contents.messages };
     if (keep) this.put(stretch, loaded);
     return loaded;

@@ -136,6 +136,12 @@ export class Source {
     this.trouble.set(null);
   }
 
+  /** All frames from one time to another, whether they are shown or not. */
+  async frames(fromS: number, toS: number): Promise<Frame[]> {
+    const reply = await this.ask((id) => ({ type: 'frames', id, fromS, toS, stride: 1 }));
+    return reply.type === 'frames' ? reply.frames : [];
+  }
+
   async message(robot: number, tick: number): Promise<MessageFields | null> {
     const reply = await this.ask((id) => ({ type: 'message', id, robot, tick }));
     return reply.type === 'message' ? reply.fields : null;
@@ -149,6 +155,19 @@ export class Source {
   /** Back to the start, without the interventions. */
   reset(): Promise<void> {
     return this.changePast(0, (id) => ({ type: 'reset', id }));
+  }
+
+  /** Takes back what was done last; false: nothing was. */
+  async undo(): Promise<boolean> {
+    ++this.undoing;
+    try {
+      const reply = await this.ask((id) => ({ type: 'undo', id }));
+      const tick = reply.type === 'undone' ? reply.tick : null;
+      if (tick !== null) this.forgetAfter(tick * this.tickS);
+      return tick !== null;
+    } finally {
+      --this.undoing;
+    }
   }
 
   /** Live: 16 hexadecimal digits over everything that can influence a later tick. */

@@ -8,7 +8,7 @@ import type { LiveClass, LiveModule } from './live_module';
 import { pack, type Packed, unpack } from './packed';
 import { noTargets, parseEvent, parseTargets } from './parse';
 import { Problem } from './problem';
-import type { FramesReply, Header, Intervention, LiveRequest, MessageFields } from './protocol';
+import type { Act, FramesReply, Header, Intervention, LiveRequest, MessageFields } from './protocol';
 import type { TimedSetting } from './provenance';
 import { SeriesBuilder } from './series';
 import { parseSetting } from './setting';
@@ -22,10 +22,9 @@ interface Spoken extends Kept {
   json: Map<number, string>; // by robot
 }
 
-/** What a visitor did, at the beginning of the step after `tick`. */
-interface Act {
-  tick: number;
-  json: string;
+/** What a visitor did, and with which request: those of one are undone together. */
+interface Deed extends Act {
+  request: number;
 }
 
 export class LiveRun {
@@ -39,9 +38,10 @@ export class LiveRun {
   private settings: TimedSetting[] = [];
   private settingVersion = NaN;
   private readonly listened = new Set<number>();
-  private done: Act[] = [];
+  private done: Deed[] = [];
+  private requests = 0;
   /** To be done again once their tick comes. */
-  private due: Act[] = [];
+  private due: Deed[] = [];
   private result: Record<string, string> = {};
   private warnings: string[] = [];
   private tickS = 0.1;
@@ -62,6 +62,7 @@ export class LiveRun {
     const own = module.columns();
     if (own.join() !== columns.join()) throw new Error('the simulation speaks of other columns than this page');
     run.listenToAll();
+    run.due = (request.acts ?? []).map((act) => ({ ...act, request: ++run.requests }));
     run.capture();
     return run;
   }
@@ -112,8 +113,7 @@ export class LiveRun {
   }
 
   step(): void {
-    const now = this.due.filter((act) => act.tick === this.head);
-    for (const act of now) this.act(act.json);
+    for (const deed of this.due) if (deed.tick === this.head) this.again(deed);
     this.live.step(1);
     this.capture();
   }
@@ -149,15 +149,51 @@ export class LiveRun {
     const before = [...this.done, ...this.due];
     if (tick < this.head) this.rewind(tick);
     this.due = before.filter((act) => act.tick > tick);
-    for (const event of events) this.act(JSON.stringify(event));
+    const request = ++this.requests;
+    for (const event of events) this.act(JSON.stringify(event), request);
     this.due = [];
   }
 
+  /** Takes back what was done last, with all of that request. Returns the tick from which on all may differ; null:
+   *  nothing was done. */
+  undo(): number | null {
+    const last = this.done.at(-1);
+    if (last === undefined) return null;
+    const kept = this.done.filter(({ request }) => request !== last.request);
+    const { tick } = last; // of all of them
+    if (tick === 0) {
+      this.reset();
+      for (const deed of kept) this.again(deed);
+      return 0;
+    }
+    this.done = kept;
+    if (tick < this.head) {
+      this.rewind(tick);
+      return tick;
+    }
+    // Going back to the head itself would undo nothing.
+    this.rewind(tick - 1);
+    this.due = kept.filter((deed) => deed.tick === tick);
+    this.step();
+    return tick;
+  }
+
+  /** What was done once, now; what cannot be any more (a link from another version) is a warning. */
+  private again({ json, request }: Deed): void {
+    try {
+      this.act(json, request);
+    } catch (problem) {
+      if (!(problem instanceof Problem)) throw problem;
+      this.warnings.push(`what was done at ${this.live.timeS().toFixed(1)} s cannot be done: ${problem.message}`);
+      this.headerChanged = true;
+    }
+  }
+
   /** Now. */
-  private act(json: string): void {
+  private act(json: string, request: number): void {
     const lines = this.live.intervene(json);
     if (lines.length > 0) throw new Problem(lines.join('; '), lines);
-    this.done.push({ tick: this.head, json });
+    this.done.push({ tick: this.head, json, request });
     this.headerChanged = true; // its configuration lists what was done
   }
 
@@ -165,7 +201,7 @@ export class LiveRun {
     const here = this.done.filter((act) => act.tick === tick);
     this.done = this.done.filter((act) => act.tick < tick);
     this.live.rewind(tick); // forgets what was done at `tick` itself, too
-    for (const act of here) this.act(act.json);
+    for (const deed of here) this.act(deed.json, deed.request);
     this.frames.cut(tick);
     this.messages.cut(tick);
     this.builder.cut(tick + 1); // a row per tick
@@ -196,6 +232,7 @@ export class LiveRun {
       kind: 'live', name: this.request.name, settings: this.settings, robots: live.robots(), startS: 0,
       endS: this.head * this.tickS, growing: true, version: this.module.version(), git: this.module.git(),
       seed: live.seed(), config: live.configJson(), result: this.result, warnings: this.warnings,
+      acts: [...this.done, ...this.due].map(({ tick, json }) => ({ tick, json })),
     };
   }
 

@@ -27,6 +27,7 @@ export class LiveHost extends Host {
     else if (request.type === 'message') this.message(run, request);
     else if (request.type === 'intervene') this.intervene(run, request);
     else if (request.type === 'reset') this.reset(run, request.id);
+    else if (request.type === 'undo') this.undo(run, request.id);
     else if (request.type === 'hash') this.send({ type: 'hash', id: request.id, hash: run.hashAt(request.tick) });
     else if (request.type === 'save_recording') this.saveRecording(run, request.id);
     else if (request.type === 'save_scenario') this.saveScenario(run, request.id);
@@ -79,6 +80,12 @@ export class LiveHost extends Host {
     run.reset();
     this.tell(run);
     this.send({ type: 'done', id });
+  }
+
+  private undo(run: LiveRun, id: number): void {
+    const tick = run.undo();
+    this.tell(run);
+    this.send({ type: 'undone', id, tick });
   }
 
   private saveRecording(run: LiveRun, id: number): void {

@@ -15,22 +15,39 @@ export function wordsOf(error: unknown): string {
   return error instanceof Error ? `an internal error: ${error.message}` : `an internal error: ${String(error)}`;
 }
 
-/** Warnings, each once; a file that is all damage needs no longer list. */
+/** Warnings, each once; of one kind (a damaged frame, and another) the first, and how many there are. */
 export class Warnings {
-  static readonly most = 40;
-  readonly texts: string[] = [];
-  private left = 0;
+  static readonly most = 40; // kinds
+  private readonly kinds = new Map<string, Set<string>>();
+  private all = 0;
 
-  add(text: string): void {
-    if (this.texts.includes(text)) return;
-    if (this.texts.length < Warnings.most) this.texts.push(text);
-    else ++this.left;
+  /** `kind`: what it has in common with others; without one it stands alone. */
+  add(text: string, kind = text): void {
+    const texts = this.kinds.get(kind) ?? new Set();
+    if (texts.has(text)) return;
+    if (texts.size < mostOfKind) texts.add(text);
+    this.kinds.set(kind, texts);
+    ++this.all;
   }
   /** Changes whenever a warning was added. */
   get count(): number {
-    return this.texts.length + this.left;
+    return this.all;
   }
   list(): string[] {
-    return this.left === 0 ? [...this.texts] : [...this.texts, `and ${this.left} more warnings`];
+    const first = [...this.kinds.values()].slice(0, Warnings.most);
+    const left = this.kinds.size - first.length;
+    const lines = first.map((texts) => [...texts][0] + andMore(texts.size));
+    return left === 0 ? lines : [...lines, `and ${left} more warnings`];
   }
+}
+
+const mostOfKind = 100_000;
+
+function andMore(count: number): string {
+  return count === 1 ? '' : ` (and ${count - 1} more like it)`;
+}
+
+/** A warning without the number of its like: what it says that is new. */
+export function kindOf(warning: string): string {
+  return warning.replace(/ \(and \d+ more like it\)$/, '');
 }

@@ -22,6 +22,8 @@ export interface Header {
   config: string; // the whole configuration as JSON, "" if unknown
   /** Columns of the run table, as text; empty for a run that has not ended or was cut short. */
   result: Record<string, string>;
+  /** Live: what a visitor did, in order; undefined in a recording. */
+  acts?: Act[];
   warnings: string[]; // damage that was skipped, in words
 }
 
@@ -41,6 +43,13 @@ export interface LiveRequest {
   name: string;
   text: string;
   overrides: string[];
+  /** What was done to it, to be done again: an event's JSON, at the beginning of the step after `tick`. */
+  acts?: Act[];
+}
+
+export interface Act {
+  tick: number;
+  json: string; // an Intervention
 }
 
 export type MessageFields = Record<string, number | string | boolean>;
@@ -71,6 +80,8 @@ export type Request =
   | { type: 'intervene'; id: number; tick: number; events: Intervention[] }
   /** The scenario from its beginning, without the interventions; a new header is sent. */
   | { type: 'reset'; id: number }
+  /** Takes back what was done last, all events of that request; `undone` tells from when on all may differ. */
+  | { type: 'undo'; id: number }
   /** The state hash after so many ticks, which `banyan run` has there too. */
   | { type: 'hash'; id: number; tick: number }
   | { type: 'save_recording'; id: number }
@@ -86,6 +97,8 @@ export type Reply =
   | { type: 'message'; id: number; fields: MessageFields | null }
   | { type: 'hash'; id: number; hash: string }
   | { type: 'done'; id: number }
+  /** tick null: there was nothing to undo. */
+  | { type: 'undone'; id: number; tick: number | null }
   | { type: 'file'; id: number; name: string; blob: Blob }
   /** A request that could not be met, in words for the visitor; id 0: the source could not be opened
    *  or is lost. */

@@ -121,19 +121,19 @@ export class Recording {
     for (const entry of track?.entriesIn(loaded) ?? []) this.attempt(name, () => take(entry.text()));
   }
 
-  private attempt<T>(name: string, parse: () => T): T | null {
+  private attempt<T>(name: string, parse: () => T, kind = `damaged ${name}`): T | null {
     try {
       return parse();
     } catch (error) {
       if (!(error instanceof Malformed)) throw error;
-      this.warnings.add(`${name}: ${error.message}`);
+      this.warnings.add(`${name}: ${error.message}`, kind);
       return null;
     }
   }
 
   private parse(entry: Entry): Frame | null {
     const timeS = entry.time * 1e-9;
-    const frame = this.attempt(`the frame at ${Number(timeS.toFixed(4))} s was skipped`, () => parseFrame(entry.text()));
+    const frame = this.attempt(`the frame at ${Number(timeS.toFixed(4))} s was skipped`, () => parseFrame(entry.text()), 'a damaged frame');
     // Everything goes by log times; a frame must not claim another one.
     if (frame !== null && Math.abs(frame.timeS - timeS) > 1e-3) frame.timeS = timeS;
     return frame;

@@ -43,37 +43,3 @@ export class Controls {
     return this.asked === null ? known : { ...known, ...values };
   }
 }
-
-/** Packet loss over time by a run's configuration, which lists what was done to it, too. An event that waits for
- *  a condition is not among them: when it happens is not written there. */
-export class LossHistory {
-  private readonly changes: { timeS: number; loss: number }[] = []; // in order of time
-  private readonly first: number;
-
-  constructor(config: string) {
-    const { radio, events } = parsed(config);
-    this.first = radio?.loss ?? 0;
-    for (const { kind, when, time_s: timeS, loss } of events ?? []) {
-      const timed = when === undefined || when === 'time';
-      if (kind === 'set_loss' && timed && timeS !== undefined && loss !== undefined) this.changes.push({ timeS, loss });
-    }
-    this.changes.sort((a, b) => a.timeS - b.timeS); // stable: of two at one time the later one holds
-  }
-
-  at(timeS: number): number {
-    return this.changes.filter((change) => change.timeS <= timeS + slack).at(-1)?.loss ?? this.first;
-  }
-}
-
-interface Config {
-  radio?: { loss?: number };
-  events?: { kind?: string; when?: string; time_s?: number; loss?: number }[];
-}
-
-function parsed(config: string): Config {
-  try {
-    return JSON.parse(config) as Config;
-  } catch {
-    return {}; // damaged or unknown
-  }
-}

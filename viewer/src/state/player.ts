@@ -32,6 +32,8 @@ export class Player {
   speed = 1;
   /** The frames for `timeS`, or for going on, are not there yet. */
   waiting = false;
+  /** Played again and again; `toS` null: its end has not been chosen yet. */
+  loop: { fromS: number; toS: number | null } | null = null;
   private lastMs: number | null = null;
   private backwards = false; // the last jump: what is fetched ahead lies there
   private sources: readonly Playable[] = [];
@@ -91,6 +93,13 @@ export class Player {
     this.setSpeed(this.speed / 2);
   }
 
+  /** From here; then to here; then no more. */
+  nextLoop(): void {
+    if (this.loop === null) this.loop = { fromS: this.timeS, toS: null };
+    else if (this.loop.toS === null && this.timeS > this.loop.fromS + this.tickS) this.loop.toS = this.timeS;
+    else this.loop = null;
+  }
+
   seek(timeS: number): void {
     if (Number.isFinite(timeS)) this.jump(this.clamped(timeS));
   }
@@ -136,6 +145,8 @@ export class Player {
     this.waiting = !here || (this.playing && reached < goal - slack);
     if (this.playing) this.backwards = false;
     this.timeS = reached;
+    const { loop } = this;
+    if (this.playing && loop !== null && loop.toS !== null && (reached >= loop.toS || this.atEnd)) return this.jump(loop.fromS);
     if (this.playing && this.atEnd) this.playing = false;
     const speed = this.playing ? this.speed : 0;
     for (const source of this.open) source.prefetch(this.timeS, this.backwards ? -1 : speed, stride);

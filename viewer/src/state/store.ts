@@ -10,12 +10,13 @@ export interface State {
   followed: number | null; // robot
   switches: Switches;
   theme: ThemeChoice;
+  toured: boolean; // the first look has been seen or left
 }
 
-export const initialState: Readonly<State> = { selection: null, followed: null, switches: defaultSwitches, theme: 'auto' };
+export const initialState: Readonly<State> = { selection: null, followed: null, switches: defaultSwitches, theme: 'auto', toured: false };
 
 // The visitor's lasting choices; the rest belongs to the run being shown.
-const kept = ['switches', 'theme'] as const;
+const kept = ['switches', 'theme', 'toured'] as const;
 const storageKey = 'banyan.viewer';
 
 /** The part of localStorage that is used. */
@@ -60,9 +61,9 @@ export class Store {
   }
 
   private save(): void {
-    const { switches, theme } = this.current;
+    const { switches, theme, toured } = this.current;
     try {
-      this.storage?.setItem(storageKey, JSON.stringify({ switches, theme }));
+      this.storage?.setItem(storageKey, JSON.stringify({ switches, theme, toured }));
     } catch {
       // Full or forbidden: then it is not remembered.
     }
@@ -76,7 +77,7 @@ function load(storage: Storage | null): Partial<State> {
     const theme = (['light', 'dark', 'auto'] as const).find((name) => name === saved?.theme) ?? initialState.theme;
     const given = (saved?.switches ?? {}) as Record<string, unknown>;
     const sound = Object.keys(defaultSwitches).filter((name) => typeof given[name] === 'boolean');
-    return { theme, switches: { ...defaultSwitches, ...Object.fromEntries(sound.map((name) => [name, given[name]])) } };
+    return { theme, toured: saved?.toured === true, switches: { ...defaultSwitches, ...Object.fromEntries(sound.map((name) => [name, given[name]])) } };
   } catch {
     return {};
   }

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { banyan, scenario, served } from './harness';
-import { clickRobot, expectEvent, factsShown, placeOf, seekTo, settle, timeShown } from './visitor';
+import { clickRobot, expectEvent, factsShown, placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
 
 const { folder, visit } = served(() => scenario('three-targets'));
 
@@ -170,6 +170,81 @@ describe('a live run', () => {
     expect((await factsShown(tab)).alive).toBe('yes');
     await clickRobot(tab, 6);
     expect((await factsShown(tab)).alive).toBe('no');
+  });
+
+  it('undoes what was done last, all of it at once', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 5);
+    await killByKeys(tab, 5);
+    await playTo(tab, 8);
+    await killByKeys(tab, 6);
+    await settle(tab);
+    await tab.keyboard.press('u');
+    await tab.keyboard.press('Control+z');
+    await settle(tab);
+    await playTo(tab, 20);
+    expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'undone')} at tick 200`);
+    await tab.keyboard.press('u');
+    await expect.poll(() => tab.textContent('.notice')).toContain('Nothing has been done');
+    expect(errors).toEqual([]);
+  });
+
+  it('is an address, from which the page and the program come to the same hash', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 5);
+    await killByKeys(tab, 5);
+    await playTo(tab, 6);
+    await tab.click('#tab-live');
+    await tab.click('text=Blackout');
+    await playTo(tab, 20);
+    await clickRobot(tab, 3);
+    const shown = await hashShown(tab);
+    await tab.click('text=Copy link');
+    await expect.poll(() => new URL(tab.url()).hash).toContain('do=');
+    const link = tab.url().replace('?start', ''); // elsewhere
+    expect(shown).toBe(`${nativeHash(link, 200, 'linked')} at tick 200`);
+    const again = await tab.context().newPage();
+    await again.goto(link);
+    await waitForRun(again);
+    await expect.poll(() => timeShown(again)).toBeCloseTo(20);
+    await expect.poll(() => again.textContent('.robot-head h2')).toBe('Robot 3');
+    expect(await hashShown(again)).toBe(shown);
+    for (const words of ['robot 5 died', 'blackout']) await expectEvent(again, words);
+    expect(errors).toEqual([]);
+  });
+
+  it('says what was done and how it ended: in caption, list and story', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 3);
+    await tab.click('#tab-live');
+    await tab.fill('#live-loss', '0.3');
+    await tab.dispatchEvent('#live-loss', 'change');
+    await settle(tab);
+    await expect.poll(() => tab.textContent('.caption')).toContain('30 % loss');
+    await tab.click('text=Blackout');
+    await settle(tab);
+    await expect.poll(() => tab.textContent('.caption')).toContain('blackout');
+    await expect.poll(() => tab.textContent('.story')).toMatch(/^[0-3] of 3 targets held/);
+    await playTo(tab, 60);
+    await expect.poll(() => tab.textContent('.story')).toMatch(/^Complete after \d+\.\d s · \d+ of 18 robots used/);
+    await expectEvent(tab, 'packet loss is 30 % from now on');
+    await expectEvent(tab, 'blackout: nobody hears anything for 1 s');
+    await tab.click('#tab-run');
+    expect(await tab.textContent('.headline')).toMatch(/^Complete after/);
+  });
+
+  it('has places that are chosen by keys: a target is added and moved, an area dies', async () => {
+    const { tab } = await visit();
+    await playTo(tab, 2);
+    const keys = async (...names: string[]) => { for (const name of names) await tab.keyboard.press(name); };
+    await keys('t', 'ArrowUp', 'Shift+ArrowUp', 'Enter');
+    await expect.poll(() => tab.textContent('.caption')).toContain('4 targets');
+    const before = await placeOf(tab, 'target', 3);
+    await keys('Shift+p', 'g', 'Shift+ArrowRight', 'Enter');
+    await settle(tab);
+    await expect.poll(async () => Math.round((await placeOf(tab, 'target', 3)).x - before.x)).toBeGreaterThan(30);
+    await keys('k', 'ArrowUp', 'Enter', ...Array<string>(5).fill('Shift+ArrowLeft'), ...Array<string>(4).fill('Shift+ArrowDown'), 'Enter');
+    await expect.poll(() => tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
   });
 
   it('is reset to its begin, without what was done', async () => {

@@ -54,7 +54,7 @@ struct WriterOptions {
   std::string profile;
   std::string library;
   int compression_level = 1;             // zstd; 0: chunks are stored uncompressed
-  std::size_t chunk_bytes = 1 << 20;     // a chunk is closed when it exceeds this
+  std::size_t chunk_bytes = 1 << 20;     // a chunk is closed when it exceeds this; a group's first ones are smaller
 };
 
 // Channels of one group share chunks, and no chunk holds channels of two groups: who wants the small

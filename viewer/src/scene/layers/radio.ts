@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Radio links: the fine mesh behind everything else. If all robots hear each other it would cover all else, and
 // drawing it takes most of the time: the more links, the fainter, and beyond a number only the shortest.
+import type { Links } from '../links';
 import type { Shot } from '../shot';
 import { mixed } from '../themes';
 
@@ -28,8 +29,26 @@ function longestPx(shot: Shot, pairs: Int32Array): number {
   return (rangePx * Math.max(1, c)) / lengthClasses;
 }
 
-/** Links that are drawn, and all that are in sight: fewer are drawn only when the longest are left out. */
-export interface RadioCount { drawn: number; all: number }
+/** Links that are drawn, and all that are in sight: fewer are drawn only when the longest are left out. `about`: so many
+ *  robots that all are estimated. */
+export interface RadioCount { drawn: number; all: number; about: boolean }
+
+/** From this number on only the links that may be drawn are computed: all of 10,000 robots take longer than a tick. */
+export const crowd = 2000;
+/** Of those: more would be drawn anew with every tick, over the whole picture, and tell no more. */
+export const crowdLinks = 2000;
+const spareShare = 1.2; // of the budget: the estimate may be low
+
+/** The links to choose from, and about how many others there are. */
+function linksOf(shot: Shot): Links & { others: number } {
+  if (shot.robots < crowd) return { ...shot.facts.links, others: 0 };
+  const { linkBudget, facts: { radio } } = shot;
+  const seen = new Uint8Array(shot.facts.frame.robots);
+  for (let i = 0; i < shot.robots; ++i) if (shot.inSight(shot.x[i]!, shot.y[i]!, 0)) seen[i] = 1;
+  const { lengthM, pairs } = radio.lengthFor(spareShare * linkBudget, seen);
+  const found = radio.linksWithin(lengthM, seen);
+  return { ...found, others: Math.max(0, Math.round(pairs) - (found.open.length + found.blocked.length) / 2) };
+}
 
 /** Draws the pairs as one path and counts them. */
 function strokePairs(shot: Shot, pairs: Int32Array, dashed: boolean, count: RadioCount): void {
@@ -57,11 +76,11 @@ function faintness(pairs: Int32Array, shot: Shot): number {
 }
 
 export function drawRadio(shot: Shot): RadioCount {
-  const { pen, view, theme, facts } = shot;
+  const { pen, view, theme } = shot;
   const { links, blocked } = view.switches;
-  const count = { drawn: 0, all: 0 };
+  const count = { drawn: 0, all: 0, about: false };
   if (!links && !blocked) return count;
-  const found = facts.links;
+  const found = linksOf(shot);
   pen.lineCap = 'butt';
   // One device pixel: lines up to that width are drawn one by one, wider ones as a single huge area, ten times slower.
   pen.lineWidth = 1 / shot.ratio;
@@ -78,5 +97,7 @@ export function drawRadio(shot: Shot): RadioCount {
     strokePairs(shot, found.blocked, dashed, count);
     pen.setLineDash([]);
   }
+  count.all += found.others;
+  count.about = found.others > 0;
   return count;
 }

@@ -30,13 +30,14 @@ function discs(shot: Shot, which: Which, radius: number, color: string, inner?: 
   }
 }
 
-/** Squares look like discs at two pixels and are filled much faster. */
-function traceDots(shot: Shot, which: Which, radius: number): void {
+/** Squares look like discs at two pixels and are filled much faster; one by one, since a path of ten thousand takes
+ *  half as long again. */
+function fillDots(shot: Shot, which: Which, radius: number, color: string): void {
   const { pen, x, y } = shot;
   const side = 1.8 * radius;
-  pen.beginPath();
+  pen.fillStyle = color;
   for (let i = 0; i < shot.robots; ++i) {
-    if (which(i) && shot.inSight(x[i]!, y[i]!, radius)) pen.rect(x[i]! - side / 2, y[i]! - side / 2, side, side);
+    if (which(i) && shot.inSight(x[i]!, y[i]!, radius)) pen.fillRect(x[i]! - side / 2, y[i]! - side / 2, side, side);
   }
 }
 
@@ -63,9 +64,7 @@ export function drawSparesAndDead(shot: Shot): void {
   const isSpare = (i: number) => shot.role(i) === spare && shot.isAlive(i);
   const radius = shot.radiusPx[spare]!;
   if (shot.dots) {
-    traceDots(shot, isSpare, radius);
-    shot.pen.fillStyle = theme.dot;
-    shot.pen.fill();
+    fillDots(shot, isSpare, radius, theme.dot);
   } else {
     discs(shot, isSpare, radius, theme.roles[spare]);
   }

@@ -75,6 +75,7 @@ export function drawOverSelection(shot: Shot): void {
   if (view.selection) ring(shot, view.selection, 2.5, 1);
   if (view.dragged) drawDragged(shot);
   if (view.area) drawArea(shot);
+  if (view.cursor) drawCursor(shot);
 }
 
 /** Adds the outline of an item, `gapPx` outside of it, to the path; moved by (dx, dy) m. */
@@ -140,6 +141,22 @@ function drawDragged(shot: Shot): void {
   pen.globalAlpha = 0.45;
   pen.fill();
   pen.globalAlpha = 1;
+  pen.lineWidth = 2;
+  pen.stroke();
+}
+
+/** A cross around the place, open in its middle. */
+function drawCursor({ pen, theme, view }: Shot): void {
+  const x = toPxX(view.camera, view.cursor!.x), y = toPxY(view.camera, view.cursor!.y);
+  pen.beginPath();
+  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]] as const) {
+    pen.moveTo(x + 5 * dx, y + 5 * dy);
+    pen.lineTo(x + 18 * dx, y + 18 * dy);
+  }
+  pen.strokeStyle = theme.background;
+  pen.lineWidth = 5;
+  pen.stroke();
+  pen.strokeStyle = theme.accent;
   pen.lineWidth = 2;
   pen.stroke();
 }

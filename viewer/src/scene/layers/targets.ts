@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Targets: the circle of their tolerance and a cross; filled once a worker holds the target. One that was
 // given up is a faint dashed ring. Their numbers are written with the other labels.
-import { column, givenUp } from '../../frame';
+import { givenUp } from '../../frame';
 import { toPxX, toPxY } from '../camera';
+import { targetsHeld } from '../held';
 import { worker, type Shot } from '../shot';
 
 /** The circle's radius, px; large enough to stand around a robot. */
 export function targetRadiusPx(shot: Shot): number {
   return Math.max(shot.view.setting.target_tolerance_m * shot.view.camera.scale, shot.radiusPx[worker]! + 4);
-}
-
-/** Is a living worker that serves target k within the tolerance? (docs/model.md, events) */
-function isHeld({ view, facts, robots }: Shot, k: number): boolean {
-  const { targets } = view.frame;
-  const x = column(view.frame, 'x_m'), y = column(view.frame, 'y_m'), target = column(facts.frame, 'target');
-  const tolerance = view.setting.target_tolerance_m;
-  for (let i = 0; i < robots; ++i) {
-    if (target[i] !== k || facts.alive[i] === 0 || facts.role[i] !== worker) continue;
-    if (Math.hypot(x[i]! - targets.x[k]!, y[i]! - targets.y[k]!) < tolerance) return true;
-  }
-  return false;
 }
 
 export function traceTarget(pen: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
@@ -44,6 +33,7 @@ export function drawTargets(shot: Shot): void {
   const { pen, view, theme } = shot;
   const { targets } = view.frame;
   const radius = targetRadiusPx(shot);
+  const holds = targetsHeld(view.frame, view.setting.target_tolerance_m);
   pen.lineCap = 'butt';
   for (let k = 0; k < targets.x.length; ++k) {
     const x = toPxX(view.camera, targets.x[k]!);
@@ -53,7 +43,7 @@ export function drawTargets(shot: Shot): void {
       drawGivenUp(shot, x, y, radius);
       continue;
     }
-    const held = isHeld(shot, k);
+    const held = holds[k] === 1;
     pen.beginPath();
     traceTarget(pen, x, y, radius);
     pen.globalAlpha = held ? 0.42 : 0.16;
