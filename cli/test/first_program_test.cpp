@@ -28,7 +28,7 @@ std::set<std::string> commands_of(const std::string& help) {
 std::set<std::string> given_by_script() {
   const std::string script = contents(BANYAN_SCRIPT);
   std::smatch match;
-  if (!std::regex_search(script, match, std::regex("\n +(run[a-z| ]*)\\) target=banyan_first"))) return {};
+  if (!std::regex_search(script, match, std::regex("\n +(run[a-z| ]*)\\) targets=\\(banyan_first\\)"))) return {};
   std::istringstream words(std::regex_replace(match[1].str(), std::regex("\\|"), " "));
   return {std::istream_iterator<std::string>(words), {}};
 }
