@@ -5,12 +5,21 @@
 #include <array>
 #include <utility>
 
+#include "banyan/controller/core/proximity.hpp"
 #include "banyan/controller/core/wire.hpp"
 
 namespace banyan::udp {
 
-Robot::Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s)
-    : algorithm_(algorithm), setup_(std::move(setup)), id_(id), stop_after_s_(stop_after_s) {}
+namespace {
+
+// For so long a robot counts as where it was heard, and so far from there it may have come, or its sensors may err.
+constexpr double remembered_s = 0.5;
+constexpr float tolerance_m = 0.1F;
+
+}  // namespace
+
+Robot::Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m)
+    : algorithm_(algorithm), setup_(std::move(setup)), id_(id), stop_after_s_(stop_after_s), radius_m_(radius_m) {}
 
 // A robot that has started again in the middle of a mission is not its first root.
 void Robot::begin(const Frame& frame) {
@@ -39,7 +48,7 @@ void Robot::take(const Heard& heard, const std::optional<OdometricPose>& at) {
   for (const Hearing& packet : heard.packets) {
     const auto [place, is_new] = known_.try_emplace(packet.sender);
     if (!is_new && heard.tick <= place->second.tick) continue;
-    place->second = {heard.tick, pose.outside(packet.position), packet.message};
+    place->second = {heard.tick, pose.outside(packet.position), packet.message, place->second.given_s};
   }
 }
 
@@ -52,14 +61,23 @@ float Robot::elapsed_s(double now_s) const noexcept {
   return static_cast<float>(ticks) * setup_.platform.tick_s;
 }
 
-void Robot::collect(const OdometricPose& pose) {
+void Robot::collect(const OdometricPose& pose, double now_s) {
   packets_.clear();
   for (auto& [sender, known] : known_) {
     if (known.message.empty()) continue;
     if (const auto place = swarm_->receive(known.message))
       packets_.push_back({.sender = *place, .age_ticks = 1, .position = pose.inside(known.position), .age_s = 0.0F});
     known.message.clear();
+    known.given_s = now_s;
   }
+}
+
+std::span<const Vec2> Robot::without_neighbors(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
+  neighbors_.clear();
+  for (const auto& [sender, known] : known_)
+    if (now_s - known.given_s <= remembered_s) neighbors_.push_back(pose.inside(known.position));
+  seen_.assign(seen.begin(), seen.end());
+  return without_robots(seen_, neighbors_, radius_m_, tolerance_m);
 }
 
 Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
@@ -69,7 +87,8 @@ Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, doubl
   if (frame_.sent && frame_.has_target) senses.orders.target = pose.inside(target_);
   if (frame_.given_up_serial != given_up_serial_) senses.orders.given_up = frame_.given_up;
   obstacles_.assign(frame_.obstacles.begin(), frame_.obstacles.end());
-  obstacles_.insert(obstacles_.end(), seen.begin(), seen.end());
+  const auto bodies = without_neighbors(pose, seen, now_s);
+  obstacles_.insert(obstacles_.end(), bodies.begin(), bodies.end());
   senses.obstacles = obstacles_;
   senses.elapsed_s = elapsed_s(now_s);
   return senses;
@@ -78,7 +97,7 @@ Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, doubl
 Status Robot::step(double now_s, const std::optional<OdometricPose>& pose, std::span<const Vec2> seen) {
   const OdometricPose here = pose ? *pose : frame_.odometry;
   if (step_s_ <= 0.0) pose_ = here;  // the first one: there is no motion before
-  collect(here);
+  collect(here, now_s);
   std::array<Sensed, 1> sensed;
   sensed[0].packets = packets_;
   sensed[0].senses = sense(here, seen, now_s);

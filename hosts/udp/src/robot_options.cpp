@@ -54,6 +54,8 @@ const std::vector<Option>& options() {
            [](RobotOptions& o) -> float& { return o.setup.platform.wheel_limit_m_s; }),
       real("--wheel-distance", "between the wheels, m; default 0.1054", 1e-4, 100.0,
            [](RobotOptions& o) -> float& { return o.setup.platform.wheel_distance_m; }),
+      real("--radius", "of a robot's body, m; what a base sees where a robot was heard is no obstacle; default 0.0704", 1e-3, 100.0,
+           [](RobotOptions& o) -> double& { return o.radius_m; }),
       real("--arrival", "how near to a target is there, m; default 0.2", 1e-4, 1e3, [](RobotOptions& o) -> double& { return o.setup.arrival_distance_m; }),
       flag("--holonomic", "it can move sideways", [](const RobotOptions& o) { return o.setup.platform.drive == Drive::holonomic; },
            [](RobotOptions& o) { o.setup.platform.drive = Drive::holonomic; }),

@@ -84,7 +84,7 @@ class RobotAlone : public ::testing::Test {
   }
   Given given_;
   Listening algorithm_{given_};
-  Robot robot_{algorithm_, banyan::Setup{}, 7, 0.5};
+  Robot robot_{algorithm_, banyan::Setup{}, 7, 0.5, 0.07F};
 };
 
 TEST_F(RobotAlone, BeginsAsTheHubSays) {
@@ -212,6 +212,22 @@ TEST_F(RobotAlone, ABaseOfItsOwnMeasuresItself) {
   static_cast<void>(robot_.step(10.1, now, seen));
   EXPECT_NEAR(given_.senses.orders.target->x, 2.0F, 1e-5F);
   EXPECT_NEAR(given_.packets[0].position.x, 1.0F, 1e-5F);
+  EXPECT_EQ(given_.obstacles, seen);
+}
+
+// A proximity sensor cannot tell a robot from a wall; whom the robot hears, it knows. The dead say nothing and remain.
+TEST_F(RobotAlone, WhatItsBaseSeesWhereARobotWasHeardIsNoObstacle) {
+  const OdometricPose here{};
+  const std::vector<Vec2> seen{{0.93F, 0.0F}, {0.0F, 0.5F}};
+  robot_.take(frame(1), 10.0, here);
+  robot_.take(Heard{1, {}, {{3, {1.0F, 0.0F}, {1}}}}, here);
+  static_cast<void>(robot_.step(10.1, here, seen));
+  EXPECT_EQ(given_.obstacles, (std::vector<Vec2>{{0.0F, 0.5F}}));
+  robot_.take(frame(2), 10.5, here);  // a packet of it was lost
+  static_cast<void>(robot_.step(10.5, OdometricPose{{0.5F, 0.0F}, 0.0F}, std::vector<Vec2>{{0.43F, 0.0F}}));
+  EXPECT_TRUE(given_.obstacles.empty()) << "the robot has driven on, the other stands where it was";
+  robot_.take(frame(3), 10.9, here);
+  static_cast<void>(robot_.step(10.9, here, seen));
   EXPECT_EQ(given_.obstacles, seen);
 }
 

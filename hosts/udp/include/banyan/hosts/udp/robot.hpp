@@ -19,8 +19,8 @@ namespace banyan::udp {
 
 class Robot {
  public:
-  // Stands still while its newest frame is older than `stop_after_s`. `algorithm` must outlive it.
-  Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s);
+  // Stands still while its newest frame is older than `stop_after_s`. `radius_m`: of a body. `algorithm` must outlive it.
+  Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m);
 
   // What the hub has said. `at`: where the own odometry was when it was measured; nothing: the hub knows that itself.
   void take(const Frame& frame, double now_s, const std::optional<OdometricPose>& at = {});
@@ -28,7 +28,8 @@ class Robot {
 
   // Whether a step makes sense: it has been told how to begin, and lately.
   [[nodiscard]] bool is_guided(double now_s) const noexcept;
-  // One step of the controller. Call it only if is_guided(). `pose` and `seen`: of a base that measures them itself.
+  // One step of the controller. Call it only if is_guided(). `pose` and `seen`: of a base that measures them itself;
+  // what it sees where a robot was heard is that robot, and no obstacle.
   [[nodiscard]] Status step(double now_s, const std::optional<OdometricPose>& pose = {}, std::span<const Vec2> seen = {});
 
  private:
@@ -36,17 +37,20 @@ class Robot {
     std::uint32_t tick = 0;
     Vec2 position;  // in the frame of the odometry
     Bytes message;  // empty: it has been given to the controller
+    double given_s = 0.0;  // when that was
   };
 
   void begin(const Frame& frame);
   [[nodiscard]] float elapsed_s(double now_s) const noexcept;
   [[nodiscard]] Senses sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s);
-  void collect(const OdometricPose& pose);
+  void collect(const OdometricPose& pose, double now_s);
+  [[nodiscard]] std::span<const Vec2> without_neighbors(const OdometricPose& pose, std::span<const Vec2> seen, double now_s);
 
   const Algorithm& algorithm_;
   Setup setup_;
   RobotId id_;
   double stop_after_s_;
+  float radius_m_;
   std::unique_ptr<Swarm> swarm_;  // of this robot alone; none before the first frame
 
   Frame frame_;                   // the newest
@@ -60,7 +64,7 @@ class Robot {
   bool interrupted_ = false;      // it has been without guidance since
   std::uint8_t given_up_serial_ = 0;
   std::vector<Packet> packets_;
-  std::vector<Vec2> obstacles_;
+  std::vector<Vec2> obstacles_, seen_, neighbors_;
 };
 
 }  // namespace banyan::udp
