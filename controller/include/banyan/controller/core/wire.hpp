@@ -33,7 +33,7 @@ inline constexpr std::uint8_t obstacles = 1U << 5;
 inline constexpr std::uint8_t convoy = 1U << 6;
 inline constexpr std::uint8_t wide_ids = 1U << 7;  // ids of 32 bits; no robot sends them yet
 }  // namespace block
-inline constexpr std::uint8_t wire_version = 7;    // the low four bits
+inline constexpr std::uint8_t wire_version = 6;    // the low four bits
 
 inline constexpr std::size_t largest_wire = 96;    // bytes
 
