@@ -40,7 +40,7 @@ class NearbyRobots final : public udp::Link {
     Setup setup = world::setup_of(scenario);
     setup.history = 1;
     for (std::size_t i = 0; i < robots; ++i)
-      robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5);
+      robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5, static_cast<float>(scenario.robot.radius_m));
   }
   [[nodiscard]] std::optional<udp::Status> take(std::size_t i) override { return std::exchange(answers_[i], std::nullopt); }
   void deliver(std::size_t i, udp::Frame frame, std::span<const udp::Hearing> heard) override {
