@@ -22,11 +22,13 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -41,7 +43,7 @@ namespace {
 using namespace eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-std::atomic<bool> peer_stopped{false};
+std::atomic<bool> peer_stopped{false};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): set by a signal
 
 std::string hex(const std::uint8_t* bytes, std::size_t count) {
   std::string text;
@@ -187,7 +189,8 @@ class Body {
   Body(Participant& participant, const Choice& choice, int number) : choice_(choice), number_(number) {
     const std::string base = "rt/robot_" + std::to_string(number);
     const int side = static_cast<int>(std::ceil(std::sqrt(choice.count)));
-    at_ = start_ = {0.32 * (number % side - side / 2), 0.32 * (number / side - side / 2), 7.0 * number};
+    const int column = number % side - side / 2, row = number / side - side / 2;
+    at_ = start_ = {0.32 * column, 0.32 * row, 7.0 * number};
     if (choice.mode != "odometry") poses_ = participant.writer<PoseStamped>(base + "/pose");
     if (choice.mode != "pose") odometry_ = participant.writer<Odometry>(base + "/odom");
     commands_ = choice.stamped ? participant.reader<TwistStamped>(base + "/cmd_vel")
@@ -218,13 +221,13 @@ class Body {
   }
   void print() const { std::printf("%d,%.5f,%.5f,%.5f\n", number_, at_.x, at_.y, at_.turn); }
   [[nodiscard]] bool stands() const {
-    for (const double value : command_)
-      if (value != 0.0) return false;
-    return true;
+    return std::all_of(std::begin(command_), std::end(command_), [](double value) { return value == 0.0; });
   }
 
  private:
-  void say(PoseStamped message) { poses_->write(&message); }
+  void say(PoseStamped message) {
+    if (poses_ != nullptr) poses_->write(&message);
+  }
   // Each of them far from where the robot is.
   void publish_bad(std::uint64_t kind) {
     const Place wrong{at_.x + 5.0, at_.y - 5.0, at_.turn + 1.0};
@@ -324,7 +327,7 @@ int play(const Choice& choice) {
 int main(int argc, char** argv) {
   using namespace banyan::ros2::peer;
   if (argc < 5) return 2;
-  Choice choice{std::atoi(argv[1]), static_cast<std::uint32_t>(std::atoi(argv[2])), std::atof(argv[3]), argv[4]};
+  Choice choice{std::stoi(argv[1]), static_cast<std::uint32_t>(std::stoul(argv[2])), std::stod(argv[3]), argv[4]};
   for (int k = 5; k < argc; ++k) {
     choice.bad |= std::strcmp(argv[k], "bad") == 0;
     choice.stamped |= std::strcmp(argv[k], "stamped") == 0;

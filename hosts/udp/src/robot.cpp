@@ -13,8 +13,8 @@ namespace banyan::udp {
 namespace {
 
 // For so long a robot counts as where it was heard, and so far from there it may have come, or its sensors may err.
-constexpr double remembered_s = 0.5;
-constexpr float tolerance_m = 0.1F;
+constexpr double heard_for_s = 0.5;
+constexpr float place_tolerance_m = 0.1F;
 
 }  // namespace
 
@@ -75,9 +75,9 @@ void Robot::collect(const OdometricPose& pose, double now_s) {
 std::span<const Vec2> Robot::without_neighbors(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
   neighbors_.clear();
   for (const auto& [sender, known] : known_)
-    if (now_s - known.given_s <= remembered_s) neighbors_.push_back(pose.inside(known.position));
+    if (now_s - known.given_s <= heard_for_s) neighbors_.push_back(pose.inside(known.position));
   seen_.assign(seen.begin(), seen.end());
-  return without_robots(seen_, neighbors_, radius_m_, tolerance_m);
+  return without_robots(seen_, neighbors_, radius_m_, place_tolerance_m);
 }
 
 Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
