@@ -10,18 +10,15 @@
 Needs argos3 on PATH (or --argos FILE), with the plugin of the Khepera IV, and a banyan that was built with it.
 """
 import argparse
-import csv
-import gzip
 import itertools
 import os
-import shutil
 import statistics
 import subprocess
-import sys
-import tempfile
 import time
 
-HOUSE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from missions import BANYAN, HOUSE, play_all, result
+from tables import rows_of
+
 RESULTS = ['git', 'complete', 'completion_time_s', 'normalized_time', 'broken_ticks', 'broken_ticks_by_distance',
            'broken_ticks_by_occlusion', 'disconnected_time_ratio_by_occlusion', 'split_ticks', 'committed', 'robots', 'ticks', 'deaths', 'recovered']
 KEY = ['part', 'scenario', 'T', 'r', 'k', 'algorithm', 'reading', 'sight', 'loss', 'obstacles', 'seed', 'where']
@@ -68,49 +65,24 @@ def options(m):
     return [word for key, value in sets.items() for word in ('--set', f'{key}={value}')]
 
 
-def play(m, args):
-    """The row of one mission; its files are thrown away."""
-    folder = tempfile.mkdtemp(prefix='banyan-argos-')
+def play(m, args, folder):
     scenario = os.path.join(HOUSE, 'scenarios', m['scenario'] + '.toml')
     out = os.path.join(folder, 'out')
-    try:
-        begun = time.time()
-        if m['where'] == 'argos':
-            experiment = os.path.join(folder, 'mission.argos')
-            subprocess.run([args.banyan, 'argos', scenario, '-o', experiment, '--out', out, '--sight', 'exact' if m['sight'] == 'exact' else 'stock',
-                            '--obstacles', m['obstacles'] or 'sensors', *options(m)], check=True, stdout=subprocess.DEVNULL)
-            command = [args.argos, '-z', '-c', experiment]
-        else:
-            command = [args.banyan, 'run', scenario, '--out', out, '-q', '--threads', '1', *options(m)]
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        if not os.path.exists(os.path.join(out, 'run.csv')):
-            sys.exit(f'{m}: no result\n{done.stdout[-2000:]}')
-        with open(os.path.join(out, 'run.csv'), newline='') as file:
-            row = next(csv.DictReader(file))
-        return m | {name: row[name] for name in RESULTS} | {'wall_s': f'{time.time() - begun:.2f}'}
-    finally:
-        shutil.rmtree(folder)
+    begun = time.time()
+    if m['where'] == 'argos':
+        experiment = os.path.join(folder, 'mission.argos')
+        subprocess.run([args.banyan, 'argos', scenario, '-o', experiment, '--out', out, '--sight', 'exact' if m['sight'] == 'exact' else 'stock',
+                        '--obstacles', m['obstacles'] or 'sensors', *options(m)], check=True, stdout=subprocess.DEVNULL)
+        command = [args.argos, '-z', '-c', experiment]
+    else:
+        command = [args.banyan, 'run', scenario, '--out', out, '-q', '--threads', '1', *options(m)]
+    return result(command, out, RESULTS) | {'wall_s': f'{time.time() - begun:.2f}'}
 
 
 def run(args):
     first, _, last = args.seeds.partition('-')
     wanted = list(plan(args.part, range(int(first), int(last or first) + 1)))
-    os.makedirs(os.path.dirname(args.rows) or '.', exist_ok=True)
-    done = set()
-    if os.path.exists(args.rows):
-        with open(args.rows, newline='') as file:
-            done = {tuple(row[name] for name in KEY) for row in csv.DictReader(file)}
-    else:
-        with open(args.rows, 'w') as file:
-            file.write(','.join(KEY + RESULTS + ['wall_s']) + '\n')
-    for n, m in enumerate(wanted):
-        key = tuple(m[name] for name in KEY)
-        if key in done:
-            continue
-        row = play(m, args)
-        with open(args.rows, 'a', newline='') as file:  # a line at a time: whoever stops this loses one mission
-            csv.DictWriter(file, list(row)).writerow(row)
-        print(f'{n + 1} of {len(wanted)}: {" ".join(key)}: {row["completion_time_s"]} s', flush=True)
+    play_all(args.rows, wanted, KEY, RESULTS + ['wall_s'], lambda m, folder: play(m, args, folder))
 
 
 def true(text):
@@ -122,12 +94,6 @@ def interval(ratios):
     ratios = sorted(ratios)
     low = max(0, int(len(ratios) / 2 - 0.98 * len(ratios) ** 0.5))
     return f'{statistics.median(ratios):.3f} ({ratios[low]:.3f}–{ratios[-1 - low]:.3f})'
-
-
-def rows_of(files):
-    for name in files:
-        with (gzip.open(name, 'rt', newline='') if name.endswith('.gz') else open(name, newline='')) as file:
-            yield from csv.DictReader(file)
 
 
 def column(rows):
@@ -144,7 +110,7 @@ def column(rows):
 def tables(args):
     """ARGoS / our world, side by side. Where robots use their own sensors, our world is that whose robots see by the model."""
     groups = {}
-    for row in rows_of(args.files):
+    for row in itertools.chain.from_iterable(map(rows_of, args.files)):
         title = (row['part'], row['scenario'], 'r = ' + row['r'] if args.by_radius else '', 'loss ' + row['loss'])
         groups.setdefault(title, {}).setdefault((row['algorithm'], row['reading'], row['sight']), []).append(row)
     for title, by_algorithm in sorted(groups.items()):
@@ -168,7 +134,7 @@ def tables(args):
 def claims(args):
     """The paper's two algorithms against each other, world by world."""
     runs = {}
-    for row in rows_of(args.files):
+    for row in itertools.chain.from_iterable(map(rows_of, args.files)):
         if row['part'] == 'worlds':
             runs[tuple(row[name] for name in ('reading', 'sight', 'r', 'where', 'algorithm', 'T', 'k', 'seed'))] = row
     print('| reading, sight | r | where | complete, outwards / inwards | median normalised time | pairs in which outwards is sooner | runs with an edge ≥ C'
@@ -194,7 +160,7 @@ def main():
     command.add_argument('--part', choices=('worlds', 'loss', 'deaths', 'obstacles'), default='worlds')
     command.add_argument('--seeds', default='1', help='1 or 1-10')
     command.add_argument('--rows', default='out/argos/rows.csv')
-    command.add_argument('--banyan', default=os.path.join(HOUSE, 'build/release/bin/banyan'))
+    command.add_argument('--banyan', default=BANYAN)
     command.add_argument('--argos', default='argos3')
     command.set_defaults(call=run)
     command = commands.add_parser('tables')

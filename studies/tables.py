@@ -11,11 +11,11 @@ import sys
 
 
 def rows_of(path):
-    """The rows of a table, which may lie compressed beside its name."""
-    if os.path.exists(path):
+    """The rows of a table, which may be compressed, or lie compressed beside its name."""
+    if os.path.exists(path) and not path.endswith(".gz"):
         file = open(path, newline="", encoding="utf-8")
     else:
-        file = gzip.open(path + ".gz", "rt", newline="", encoding="utf-8")
+        file = gzip.open(path.removesuffix(".gz") + ".gz", "rt", newline="", encoding="utf-8")
     with file:
         return list(csv.DictReader(file))
 

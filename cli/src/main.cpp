@@ -556,7 +556,7 @@ template <class Options> void add_pace(CLI::App& command, Options& options) {
 void add_hub(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<HubOptions>();
   auto* command =
-      app.add_subcommand("hub", "be the ears of robots that are processes")->group(command_group);
+      app.add_subcommand("hub", "hand each robot that is a process what it could hear")->group(command_group);
   command->footer(hub_footer);
   command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->type_name("FILE");
   command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->type_name("FILE");

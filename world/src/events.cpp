@@ -193,7 +193,7 @@ void World::Impl::move_target(std::size_t target, Vec2 position, double speed_m_
 }
 
 // A new target goes to the nearest living spare, since a connector has others below it; to the nearest
-// connector if there is no spare. Not to a robot sent to a target before: its id names that target for
+// connector if there is not a spare. Not to a robot sent to a target before: its id names that target for
 // as long as any robot may serve it.
 void World::Impl::assign_target(Vec2 position) {
   std::size_t best = alive.size();

@@ -157,7 +157,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      {.not_beside = "robots", .selector = "swarm.start.layout"}},
     {"swarm.root", of<&SwarmModel::root>, "", {0.0, most_ids - 1},
      "index of the first root, counted from 0 at the centre of the start",
-     {.otherwise = "a random robot that is no worker"}},
+     {.otherwise = "a random robot that is not a worker"}},
 
     {"swarm.start.layout", of<&Start::layout>, "", any_value,
      "a compact cluster on a hexagonal or square lattice, a line along the x axis, a ring, a cross, two clusters with "

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Bases that speak banyan-robot's line protocol over TCP, here with pretended wheels.
+"""Bases that speak banyan-robot's line protocol over TCP, here with simulated wheels.
 
     base.py COUNT FIRST_PORT [SPEED [RANGE [X,Y ...]]]
 

@@ -16,14 +16,14 @@ struct Tick {
   std::uint32_t alive = 0;
   std::uint32_t roots = 0, workers = 0, connectors = 0, spares = 0;   // living robots by role
   std::uint32_t committed = 0;             // alive and no spare
-  std::uint32_t edges = 0;                 // tree edges: parent and old parent of every robot that is no spare, links that it keeps
+  std::uint32_t edges = 0;                 // tree edges: parent and old parent of every robot that is not a spare, links that it keeps
   std::uint32_t broken_by_distance = 0;    // of these, d >= C
   std::uint32_t broken_by_occlusion = 0;   // of these, d < C but no line of sight, nor a leak
   std::uint32_t broken_by_death = 0;       // of these, the other end is dead
   std::uint32_t broken_after_silence = 0;  // of all broken ones, for longer than I without a break
   std::uint32_t components = 0;            // communication graph of the living robots
   std::uint32_t components_by_distance = 0;  // the same without occlusion
-  std::uint32_t tree_parts = 1;            // components of the graph of the living that are no spares; 0: no root lives
+  std::uint32_t tree_parts = 1;            // components of the graph of the living that are not spares; 0: no root lives
   bool fiedler_low = false;                // lambda_2 < 1e-3, with occlusion as simulated
   bool fiedler_low_by_distance = false;
   double fiedler = -1.0;                   // lambda_2; -1: not computed this tick

@@ -16,7 +16,7 @@ namespace banyan::world {
 
 struct Assignment {
   std::vector<std::size_t> worker;   // per target: the nearest robot, distinct, in target order
-  std::size_t root = 0;              // scenario.swarm.root or a random robot that is no worker
+  std::size_t root = 0;              // scenario.swarm.root or a random robot that is not a worker
 };
 // Needs more robots than targets (faults() checks). A given root is never a worker. O(N T).
 [[nodiscard]] Assignment assign(const Scenario& scenario, const Poses& poses, const std::vector<Vec2>& targets);

@@ -49,7 +49,7 @@ struct SwarmModel {
   std::optional<std::size_t> robots;    // none: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
   double redundancy = 2.0;              // k
   Start start;
-  std::optional<std::size_t> root;      // index; none: a random robot that is no worker
+  std::optional<std::size_t> root;      // index; none: a random robot that is not a worker
 };
 
 enum class BodyModel : std::uint8_t { disks, box2d, linear };

@@ -8,7 +8,7 @@
 namespace banyan {
 
 struct ConvoyStanding {
-  std::uint8_t child_count = 0;       // living children that are no spares
+  std::uint8_t child_count = 0;       // living children that are not spares
   RobotId below = nobody;             // the only worker below me, by its target; nobody: there are branches
 
   friend bool operator==(const ConvoyStanding&, const ConvoyStanding&) = default;
@@ -32,7 +32,7 @@ template <class Visitor, class M>
 constexpr void visit_convoy_block(Visitor& visit, M& m) noexcept {
   visit.robot("warned", "the child whose line of sight to the sender is about to be cut, -1: nobody", m.warned);
   visit.robot("task_host", "at which target the branch of `task` is to begin, -1: no plan", m.task_host);
-  visit.number("child_count", "living children that are no spares", m.child_count);
+  visit.number("child_count", "living children that are not spares", m.child_count);
   visit.robot("above", "next worker above in the tree, by its target, -1: none", m.above);
   visit.robot("below", "the only worker below, by its target, -1: none or branches", m.below);
 }

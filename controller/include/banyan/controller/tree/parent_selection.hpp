@@ -30,7 +30,7 @@ struct ParentRule {
 // The pair (seqno, label) flows down the tree: the seqno of neighbour k, and a label above its label.
 void keep_up(TreeRobot& robot, int k) noexcept;
 
-// A living child of this epoch that is no spare names me as its parent.
+// A living child of this epoch that is not a spare names me as its parent.
 [[nodiscard]] bool is_named_parent(const TreeRobot& robot) noexcept;
 
 // Chooses a parent if this robot may and needs to, repairs a lost one, re-attaches an orphan, and

@@ -96,7 +96,7 @@ struct TreeRobot {
   IndexList children;          // living neighbours that name me as parent
   IndexList old_children;      // living neighbours that name me as old parent and not as parent
   std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours
-  std::uint8_t useful_children = 0;  // living children (by parent or old parent) that are no spares
+  std::uint8_t useful_children = 0;  // living children (by parent or old parent) that are not spares
 
   // To a count of the ticks since something happened: those since the last step. It stays at its largest value.
   void add_elapsed(std::uint16_t& ticks) const noexcept { ticks = static_cast<std::uint16_t>(std::min(ticks + elapsed_ticks, UINT16_MAX)); }

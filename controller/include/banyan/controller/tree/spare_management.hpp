@@ -26,7 +26,7 @@ void count_unserved(TreeRobot& robot, bool unserved) noexcept;
 // The edge to my parent is too long, and some worker below still has to travel. As printed (literal)
 // the second half is missing, and the first reads "smaller" (docs/algorithms.md, row 2).
 [[nodiscard]] bool is_stretched(const TreeRobot& robot) noexcept;
-// A child that is no spare is in NEED.
+// A child that is not a spare is in NEED.
 [[nodiscard]] bool child_in_need(const TreeRobot& robot) noexcept;
 
 // Where a spare in EXTEND EDGE is heading: the midpoint of the edge it was granted, own frame, m.

@@ -46,8 +46,8 @@ struct TreeState {
   RobotId old_parent = nobody;
   bool committed = false;
   std::uint16_t search_ticks = 0;        // without a candidate parent
-  std::uint16_t orphan_ticks = 0;        // depth invalid, while I am a worker or have a child that is no spare
-  std::uint16_t childless_ticks = 0;     // connector without a child that is no spare
+  std::uint16_t orphan_ticks = 0;        // depth invalid, while I am a worker or have a child that is not a spare
+  std::uint16_t childless_ticks = 0;     // connector without a child that is not a spare
   Serial seqno = 0;
   std::uint16_t seqno_ticks = 0;         // since it changed
   RobotId pending_parent = nobody;       // the robot I want as parent as soon as it is ahead of me

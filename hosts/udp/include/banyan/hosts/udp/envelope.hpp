@@ -16,7 +16,7 @@
 //
 // A packet is accepted once. It must carry the receiver's present boot, so what was recorded before the receiver
 // started is worthless; and the newest boot of its sender, so a robot that has started again is accepted and its old
-// packets are not. A hello proves nothing of this: it only says that somebody is there. What is said to everybody has no
+// packets are not. A hello proves nothing of this: it only says that somebody is there. A broadcast has no
 // receiver whose boot it could carry; peers.hpp says when it is accepted.
 #pragma once
 
