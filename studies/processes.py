@@ -28,7 +28,8 @@ LOSSES = ('0', '0.1', '0.3')
 
 def plan(args):
     algorithms = [args.algorithm] if args.algorithm else ALGORITHMS
-    for scenario, algorithm, loss in itertools.product(REPETITIONS, algorithms, LOSSES):
+    scenarios = [args.scenario] if args.scenario else REPETITIONS
+    for scenario, algorithm, loss in itertools.product(scenarios, algorithms, LOSSES):
         for where, seeds in (('processes', args.seeds or REPETITIONS[scenario]), ('world', WORLD_SEEDS)):
             for seed in range(1, seeds + 1):
                 yield dict(zip(KEY, (scenario, algorithm, loss, str(seed), where)))
@@ -74,7 +75,8 @@ def main():
     command = commands.add_parser('run')
     command.add_argument('--seeds', type=int, help='1 to this, instead of 15 and 10')
     command.add_argument('--algorithm', choices=ALGORITHMS, help='this one only')
-    command.add_argument('--speed', default='5', help='of all clocks')
+    command.add_argument('--scenario', choices=REPETITIONS, help='this one only')
+    command.add_argument('--speed', default='1', help='of all clocks; a busy machine then delays packets by more')
     command.add_argument('--rows', default='out/processes/rows.csv')
     command.add_argument('--banyan', default=BANYAN)
     command.set_defaults(call=lambda args: play_all(args.rows, list(plan(args)), KEY, RESULTS, lambda m, folder: play(m, args, folder)))
