@@ -15,6 +15,7 @@ import type { Theme } from './scene/themes';
 import { sameItem, type Item, type SceneView, type Switches } from './scene/view';
 import type { Source } from './source/client';
 import { column, roles } from './frame';
+import type { Shown } from './panels/keep';
 import type { Part } from './panels/tour';
 import { Deeds } from './state/deeds';
 import { interpolate } from './state/interpolate';
@@ -111,8 +112,11 @@ export class Stage {
 
   facts(): Facts | null { return this.view === null ? null : this.scene.facts(this.view); }
 
-  get picture(): { canvas: HTMLCanvasElement; words: string } {
-    return { canvas: this.scene.canvas, words: `${this.captionText.textContent ?? ''}\n${this.story.textContent ?? ''}` };
+  get picture(): Shown {
+    const words = [this.captionText.textContent ?? '', this.story.textContent ?? ''];
+    const { canvas, widthPx, heightPx } = this.scene;
+    const { view } = this;
+    return { canvas, words, svg: () => (view === null ? null : { widthPx, heightPx, content: this.scene.svg(view, words) }) };
   }
 
   /** Marks one of these until the pointer is over something; null: none. */

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { banyan, scenario, served } from './harness';
-import { clickRobot, expectEvent, factsShown, placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
+import { clickRobot, expectEvent, factsShown, placeOf, saved, seekTo, settle, timeShown, waitForRun } from './visitor';
 
 const { folder, visit } = served(() => scenario('three-targets'));
 
@@ -39,14 +39,9 @@ function nativeHash(file: string, ticks: number, out: string): string {
 const lossShown = (tab: Page) => tab.$eval('#live-loss', (e) => Number((e as HTMLInputElement).value));
 const isPlaying = (tab: Page) => tab.$('button.play[aria-label^="Pause"]').then((button) => button !== null);
 
-async function saved(tab: Page, button: string): Promise<string> {
+async function savedOfLive(tab: Page, button: string): Promise<string> {
   await tab.click('#tab-live');
-  const download = tab.waitForEvent('download');
-  await tab.click(`text=${button}`);
-  const file = await download;
-  const path = join(folder.path, `${Math.random().toString(36).slice(2)}-${file.suggestedFilename()}`);
-  await file.saveAs(path);
-  return path;
+  return await saved(tab, `text=${button}`, folder.path);
 }
 
 async function dragTo(tab: Page, from: { x: number; y: number }, to: { x: number; y: number }): Promise<void> {
@@ -122,7 +117,7 @@ describe('a live run', () => {
     await expect.poll(() => tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
     await expectEvent(tab, 'robot 4 died');
     const shown = await hashShown(tab);
-    const file = await saved(tab, 'Save .toml');
+    const file = await savedOfLive(tab, 'Save .toml');
     const text = readFileSync(file, 'utf8');
     expect(text).toContain('kind = "die"');
     expect(text).toContain('kind = "set_loss"');
@@ -152,7 +147,7 @@ describe('a live run', () => {
     for (const words of ['obstacle 0', 'line of sight', 'T3']) await expectEvent(tab, words);
     expect(moved).not.toBeNull();
     const shown = await hashShown(tab);
-    const file = await saved(tab, 'Save .toml');
+    const file = await savedOfLive(tab, 'Save .toml');
     expect(readFileSync(file, 'utf8')).toContain('kind = "move_obstacle"');
     expect(shown).toBe(`${nativeHash(file, 90, 'obstacles')} at tick 90`);
     expect(errors).toEqual([]);
@@ -316,7 +311,7 @@ describe('a live run', () => {
     await tab.keyboard.press(' ');
     await settle(tab);
     expect(await isPlaying(tab)).toBe(true);
-    const text = readFileSync(await saved(tab, 'Save .toml'), 'utf8');
+    const text = readFileSync(await savedOfLive(tab, 'Save .toml'), 'utf8');
     expect(text.split('kind = "blackout"')).toHaveLength(2); // one of it
   });
 
@@ -340,7 +335,7 @@ describe('a live run', () => {
   it('is saved as a recording that the program reads', async () => {
     const { tab } = await visit();
     await playTo(tab, 6);
-    const file = await saved(tab, 'Save .mcap');
+    const file = await savedOfLive(tab, 'Save .mcap');
     const csv = banyan('export', file, '--csv');
     expect(csv.includes('\n50,5.0000,')).toBe(true);
   });

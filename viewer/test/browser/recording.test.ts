@@ -6,16 +6,10 @@ import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { banyan, scenario, served } from './harness';
-import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, settle, timeShown } from './visitor';
+import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, settle, table, timeShown } from './visitor';
 
 let recording: string;
 let rows: Record<string, string>[]; // of the exported table
-
-function table(csv: string): Record<string, string>[] {
-  const [head, ...lines] = csv.trim().split('\n');
-  const names = head.split(',');
-  return lines.map((line) => Object.fromEntries(line.split(',').map((cell, k) => [names[k], cell])));
-}
 
 const { folder, visit: open } = served((home) => {
   recording = home.record('run', scenario('three-targets'), '--series');

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a visitor does and sees, in words of the page: used by the tests that play it.
+import { mkdtempSync } from 'node:fs';
+import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { expect } from 'vitest';
 
@@ -71,6 +73,23 @@ export async function expectEvent(tab: Page, words: string): Promise<void> {
   await tab.click('#tab-events');
   await tab.fill('.events input', words);
   await expect.poll(() => tab.textContent('.events-rows')).toContain(words);
+}
+
+/** The rows of a CSV file, by column. */
+export function table(csv: string): Record<string, string>[] {
+  const [head, ...lines] = csv.trim().split('\n');
+  const names = head.split(',');
+  return lines.map((line) => Object.fromEntries(line.split(',').map((cell, k) => [names[k], cell])));
+}
+
+/** Presses what hands out a file, and returns where it lies. */
+export async function saved(tab: Page, selector: string, folder: string): Promise<string> {
+  const download = tab.waitForEvent('download');
+  await tab.click(selector);
+  const file = await download;
+  const path = join(mkdtempSync(join(folder, 'saved-')), file.suggestedFilename());
+  await file.saveAs(path);
+  return path;
 }
 
 /** How many pixels of each colour ("r,g,b") the picture has. */
