@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
-import { banyan, scenario, served } from './harness';
+import { banyan, scenario, served, Server } from './harness';
 import { clickRobot, expectEvent, factsShown, placeOf, saved, seekTo, settle, timeShown, waitForRun } from './visitor';
 
 const { folder, visit } = served(() => scenario('three-targets'));
@@ -12,7 +12,7 @@ const { folder, visit } = served(() => scenario('three-targets'));
 /** Plays on to a moment, and stands there. */
 async function playTo(tab: Page, timeS: number): Promise<void> {
   if (await tab.$('button.play[aria-label^="Play"]')) await tab.click('button.play');
-  await tab.selectOption('select[aria-label=Speed]', '16');
+  await tab.selectOption('select[aria-label=Speed]', '64');
   await tab.waitForFunction((t) => Number(document.querySelector<HTMLInputElement>('.timeline input')!.value) >= t, timeS);
   await seekTo(tab, timeS);
 }
@@ -205,6 +205,18 @@ describe('a live run', () => {
     await expect.poll(() => again.textContent('.robot-head h2')).toBe('Robot 3');
     expect(await hashShown(again)).toBe(shown);
     for (const words of ['robot 5 died', 'blackout']) await expectEvent(again, words);
+    await again.close();
+    // Elsewhere, by `banyan view LINK`: on another port, and from another server's address.
+    const server = await Server.start(link.replace(/^http:\/\/[^/]*/, 'https://example.org/elsewhere'));
+    try {
+      await tab.goto(server.url);
+      await waitForRun(tab);
+      await expect.poll(() => timeShown(tab)).toBeCloseTo(20);
+      expect(await hashShown(tab)).toBe(shown);
+      expect(await tab.textContent('.robot-head h2')).toBe('Robot 3');
+    } finally {
+      await server.stop();
+    }
     expect(errors).toEqual([]);
   });
 

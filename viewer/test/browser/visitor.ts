@@ -16,11 +16,19 @@ interface PageInside {
   place(kind: string, index: number, stage: number): { x: number; y: number };
 }
 
+const calmFrames = 3; // what was done has been drawn, and what that led to
+
 /** Until the page shows what it was told: on a busy machine that takes a while. */
 export async function settle(tab: Page): Promise<void> {
-  await tab.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
-  await tab.waitForFunction(() => !(window as unknown as { banyan: PageInside }).banyan.player.waiting);
-  await tab.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
+  await tab.evaluate((enough) => new Promise<void>((done) => {
+    let calm = 0;
+    const look = () => {
+      calm = (window as unknown as { banyan: PageInside }).banyan.player.waiting ? 0 : calm + 1;
+      if (calm >= enough) done();
+      else requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+  }), calmFrames);
 }
 
 /** Of the next picture. */
