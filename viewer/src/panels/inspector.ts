@@ -70,9 +70,10 @@ export function facts(frame: Frame, robot: number): Fact[] {
 }
 
 /** Recordings have enumerators by number, live runs by name. */
-function word(field: string, value: number | string | boolean): string {
+export function word(field: string, value: number | string | boolean): string {
   const names: Record<string, readonly string[]> = { role: roles, phase: phases, need: needs };
-  return typeof value === 'number' ? (names[field]?.[value] ?? String(value)) : String(value);
+  if (typeof value !== 'number') return String(value);
+  return names[field]?.[value] ?? String(Number.isInteger(value) ? value : Number(value.toPrecision(5)));
 }
 
 export interface InspectorActions {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A live run in the page: the simulation in WebAssembly, and what a visitor can do to it.
 import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
@@ -181,6 +182,131 @@ describe('a live run', () => {
     expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'undone')} at tick 200`);
     await tab.keyboard.press('u');
     await expect.poll(() => tab.textContent('.notice')).toContain('Nothing has been done');
+    expect(errors).toEqual([]);
+  });
+
+  it('does again what was undone, by keys and by buttons, until something else is done', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 5);
+    await killByKeys(tab, 5);
+    await playTo(tab, 8);
+    await killByKeys(tab, 6);
+    await playTo(tab, 20);
+    const shown = await hashShown(tab);
+    await tab.keyboard.press('u');
+    await tab.click('#tab-live');
+    await tab.click('button:text-is("Undo")');
+    await seekTo(tab, 5);
+    await expect.poll(() => tab.textContent('.caption')).not.toContain('dead');
+    await tab.keyboard.press('Control+Shift+z');
+    await expect.poll(() => tab.textContent('.caption')).toContain('1 dead');
+    await tab.click('button:text-is("Redo")');
+    await expect.poll(() => tab.textContent('.caption')).toContain('2 dead'); // at 8 s, to which it went on
+    expect(await timeShown(tab)).toBeCloseTo(8.1);
+    await playTo(tab, 20);
+    expect(await hashShown(tab)).toBe(shown);
+    await tab.keyboard.press('u');
+    await seekTo(tab, 7);
+    await killByKeys(tab, 1);
+    await tab.keyboard.press('y');
+    await expect.poll(() => tab.textContent('.notice')).toContain('Nothing has been undone');
+    expect(errors).toEqual([]);
+  });
+
+  it('gets obstacles by pointer and by keys, and loses them: in link, list, timeline, undo', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 4);
+    const obstacles = () => tab.evaluate(() => {
+      const { stages } = (window as unknown as { banyan: { stages: { source: { settingAt(timeS: number): { obstacles: { center_m: number[]; radius_m: number }[] } }; shown: { timeS: number } }[] } }).banyan;
+      return stages[0].source.settingAt(stages[0].shown.timeS).obstacles;
+    });
+    const place = await placeOf(tab, 'target', 0);
+    await tab.click('#tab-live');
+    await tab.click('text=Add obstacle');
+    await dragTo(tab, { x: place.x - 60, y: place.y + 90 }, { x: place.x - 60, y: place.y + 60 }); // from its middle to its edge
+    await expect.poll(async () => (await obstacles()).length).toBe(1);
+    const metresPerPx = await tab.evaluate(() => (window as unknown as { banyan: { stages: { metresPerPx: number }[] } }).banyan.stages[0].metresPerPx);
+    expect((await obstacles())[0].radius_m).toBeCloseTo(30 * metresPerPx, 2);
+    await tab.click('text=Add obstacle');
+    await tab.mouse.click(place.x - 60, place.y - 90); // of the usual size
+    await expect.poll(async () => (await obstacles()).map((o) => o.radius_m)).toContain(0.25);
+    const keys = async (...names: string[]) => { for (const name of names) await tab.keyboard.press(name); };
+    await keys('x', 'ArrowUp', 'Shift+ArrowUp', 'Enter', 'Shift+ArrowRight', 'Enter');
+    await expect.poll(async () => (await obstacles()).length).toBe(3);
+    expect((await obstacles())[2].radius_m).toBeCloseTo(48 * metresPerPx, 2);
+    await keys('Shift+n', 'Shift+p', 'g', 'Shift+ArrowUp', 'Enter'); // the last of targets and obstacles
+    await expect.poll(async () => (await obstacles())[2].center_m[1]).toBeGreaterThan(80 * metresPerPx);
+    await tab.mouse.click(place.x - 60, place.y + 90);
+    await keys('Delete');
+    await expect.poll(async () => (await obstacles()).length).toBe(2);
+    await playTo(tab, 20);
+    const shown = await hashShown(tab);
+    for (const words of ['obstacle 0 is new', 'obstacle 2 is new', 'obstacle 2 has moved', 'obstacle 0 is gone']) await expectEvent(tab, words);
+    const line = (await (await tab.$('.timeline'))!.boundingBox())!;
+    await expect.poll(async () => { // along the timeline until its hint tells of it
+      for (let x = 0; x < line.width; x += 3) {
+        await tab.mouse.move(line.x + x, line.y + line.height / 2);
+        if ((await tab.textContent('.timeline-hint'))!.includes('obstacle 0 is new')) return true;
+      }
+      return false;
+    }).toBe(true);
+    await tab.click('text=Copy link');
+    await expect.poll(() => new URL(tab.url()).hash).toContain('remove_obstacle');
+    expect(shown).toBe(`${nativeHash(tab.url().replace('?start', ''), 200, 'obstacles-linked')} at tick 200`);
+    await keys('u', 'u', 'u', 'u', 'u');
+    await playTo(tab, 20);
+    expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'no-obstacles')} at tick 200`);
+    expect(errors).toEqual([]);
+  });
+
+  it('says why an edge broke: who stood between, what both ends believed, what was said and not heard', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 7);
+    await tab.click('#tab-live');
+    await tab.click('#live-sight');
+    await playTo(tab, 8);
+    const [from, to] = await tab.evaluate(() => { // the longest edge
+      interface Stage { facts(): { edges: { from: number; to: number; link: string }[] }; worldPlaceOf(item: { kind: string; index: number }): { x: number; y: number } }
+      const [stage] = (window as unknown as { banyan: { stages: Stage[] } }).banyan.stages;
+      const long = ({ from: a, to: b }: { from: number; to: number }) => {
+        const [p, q] = [a, b].map((index) => stage.worldPlaceOf({ kind: 'robot', index }));
+        return Math.hypot(p.x - q.x, p.y - q.y);
+      };
+      const [edge] = stage.facts().edges.filter((e) => e.link === 'open').sort((a, b) => long(b) - long(a));
+      return [edge.from, edge.to];
+    });
+    const [a, b] = [await placeOf(tab, 'robot', from), await placeOf(tab, 'robot', to)];
+    const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
+    await tab.click('text=Add obstacle');
+    await dragTo(tab, middle, { x: middle.x + 8, y: middle.y });
+    await playTo(tab, 9);
+    await tab.click('#tab-events');
+    await tab.fill('.events input', 'hidden by obstacle 0');
+    await tab.click('.event button');
+    await settle(tab);
+    await tab.click('.events button:text-is("Why?")');
+    await tab.waitForSelector('dialog.why[open]');
+    const text = (await tab.textContent('dialog.why'))!;
+    for (const words of ['Why did it break?', 'hidden by obstacle 0', `Robot ${from}`, `Robot ${to}`, `Robot ${to} to robot ${from}`]) expect(text).toContain(words);
+    expect(text).toMatch(/\d+ messages each way up to \d+\.\d s/);
+    const rows = await tab.$$eval('.why .moments tbody tr', (all) => all.map((row) => [...(row as HTMLTableRowElement).cells].map((cell) => cell.textContent)));
+    expect(rows.filter(([, , , heard]) => heard === 'yes').length).toBeGreaterThan(5);
+    expect(rows.filter(([, , , heard]) => heard === 'no').length).toBeGreaterThan(0);
+    await tab.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
+    expect(await tab.evaluate(async () => {
+      const { axe } = window as unknown as { axe: { run(where: string): Promise<{ violations: { id: string; impact: string }[] }> } };
+      return (await axe.run('dialog.why')).violations.filter(({ impact }) => impact === 'serious' || impact === 'critical').map(({ id }) => id);
+    })).toEqual([]);
+    if (process.env.BANYAN_SHOTS) await tab.screenshot({ path: join(process.env.BANYAN_SHOTS, 'why.png') });
+    // What was not heard last is what the robot says then.
+    const [name, , said] = await tab.$eval('.why .unheard tbody tr', (row) => [...(row as HTMLTableRowElement).cells].map((cell) => cell.textContent ?? ''));
+    const timeS = Number.parseFloat(/each way up to (\d+\.\d) s/.exec(text)![1]);
+    const speaker = Number(await tab.$eval('.why .unheard', (table) => /Robot (\d+)/.exec(table.previousElementSibling!.textContent!)![1]));
+    await tab.keyboard.press('Escape');
+    await seekTo(tab, timeS);
+    await tab.keyboard.type(String(speaker));
+    await tab.keyboard.press('Enter');
+    await expect.poll(async () => (await factsShown(tab, '.message'))[name]).toBe(said);
     expect(errors).toEqual([]);
   });
 
