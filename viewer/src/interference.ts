@@ -24,7 +24,7 @@ export interface Interfered {
 
 const words: Record<Exclude<Tool, 'look'>, string> = {
   add_target: 'Click where the new target is to be; or arrows, then Enter.',
-  add_obstacle: 'Click where the new obstacle is to be, or draw it from its middle to its edge; or arrows, then Enter twice.',
+  add_obstacle: 'Click where the new obstacle is to be, or draw it from its middle; or arrows, then Enter twice.',
   kill_area: 'Draw a rectangle around the robots that are to die; or arrows, then Enter at two corners.',
 };
 const modes = { look: 'look', add_target: 'add', add_obstacle: 'disc', kill_area: 'area' } as const;
@@ -34,6 +34,8 @@ const usualShare = 1 / 8;
 const leastRadiusM = 0.01;
 
 export class Interference {
+  private hinted = false; // how to use a tool is shown
+
   constructor(
     private readonly page: Interfered, private readonly player: Player, private readonly controls: Controls,
     private readonly panel: LivePanel, private readonly notice: Notice,
@@ -43,6 +45,8 @@ export class Interference {
     const wanted = this.page.isLive ? tool : 'look';
     this.panel.setTool(wanted);
     for (const stage of this.page.stages) stage.setMode(modes[wanted]);
+    if (this.hinted) this.notice.hide(); // it has been done, or is not wanted
+    this.hinted = wanted !== 'look';
     if (wanted === 'look') return this.places.stop();
     this.places.start({ kind: wanted });
     this.notice.good(words[wanted]);
