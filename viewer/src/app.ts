@@ -381,7 +381,7 @@ export class App {
     this.events.setTime(this.player.timeS);
     const { selection, followed } = this.store.state;
     const stage = this.stages[this.chosen] ?? this.stages[0];
-    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive, this.chosen);
+    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive, this.chosen, this.namedRuns);
     this.showControls(this.stages[0]?.source ?? null);
   }
 
@@ -451,6 +451,12 @@ export class App {
 
   /** Of runs side by side: what they differ in. */
   private get runNames(): string[] { return namesOf(this.sources.flatMap((source) => source.header.value ?? [])); }
+
+  private get namedRuns(): { name: string; stage: Stage }[] {
+    if (this.stages.length < 2) return [];
+    const { runNames } = this;
+    return this.stages.map((stage, k) => ({ name: runNames[k] ?? '', stage }));
+  }
 
   private showEvents(): void {
     const events = this.shownEvents();

@@ -6,7 +6,8 @@ import { column, type Frame, type RunEvent, type Setting } from '../frame';
 import { Radio } from '../scene/links';
 import type { MessageFields } from '../source/protocol';
 import { Deeds } from '../state/deeds';
-import { facts, messageFacts, word, type Fact, type Said } from './inspector';
+import { beside } from './beside';
+import { facts, messageFacts, word, type Said } from './inspector';
 import { difference, momentsOf, silenceOf, type Moment, type Silence } from './unheard';
 
 /** What it asks of a run. */
@@ -60,9 +61,9 @@ export class Why {
       h('h2', {}, `Why did it break? ${event.text}`),
       ...(moments.length > 0 ? [this.moments(moments, ends[0], event.time_s)] : []),
       h('h3', {}, `What they believed at ${before.timeS.toFixed(1)} s, just before`),
-      beside(ends, ends.map((end) => facts(before, end))),
+      beside(ends.map(robotName), ends.map((end) => facts(before, end))),
       h('h3', {}, 'What they said last then'),
-      beside(ends, said.map((message) => messageFacts(message, witness.live))),
+      beside(ends.map(robotName), said.map((message) => messageFacts(message, witness.live))),
       ...(moments.length > 0 ? await this.unheard(ends, silenceOf(moments, event.time_s, tickS), witness) : []),
     );
     this.element.showModal();
@@ -105,14 +106,4 @@ function missed(heard: MessageFields | null, said: MessageFields | null, before:
     h('tbody', {}, ...rows.map((row) => h('tr', {}, h('th', { scope: 'row' }, row.name.replaceAll('_', ' ')), h('td', {}, row.heard), h('td', {}, row.said)))));
 }
 
-/** One column for each robot; what they differ in stands out. */
-function beside(robots: number[], all: Fact[][]): HTMLElement {
-  const names = [...new Set(all.flatMap((facts) => facts.map(({ name }) => name)))];
-  const valueOf = (facts: Fact[], name: string) => facts.find((fact) => fact.name === name)?.value ?? '–';
-  return h('table', { class: 'facts beside' },
-    h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, ''), ...robots.map((robot) => h('th', { scope: 'col' }, `Robot ${robot}`)))),
-    h('tbody', {}, ...names.map((name) => {
-      const values = all.map((facts) => valueOf(facts, name));
-      return h('tr', { class: new Set(values).size > 1 ? 'differs' : undefined }, h('th', { scope: 'row' }, name.replaceAll('_', ' ')), ...values.map((value) => h('td', {}, value)));
-    })));
-}
+const robotName = (robot: number) => `Robot ${robot}`;

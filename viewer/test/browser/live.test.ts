@@ -490,6 +490,19 @@ describe('a live run', () => {
     const captions = () => tab.$$eval('.caption', (all) => all.map((e) => e.textContent ?? '').join(' | '));
     await expect.poll(captions).toMatch(/outwards.*\|.*inwards/);
     expect(await timeShown(tab)).toBeCloseTo(3);
+    // One robot in both runs: what the page says of each is what its inspector says where it is clicked.
+    await tab.keyboard.type('3');
+    await tab.keyboard.press('Enter');
+    await expect.poll(() => tab.$$eval('.in-all thead th', (all) => all.map((e) => e.textContent))).toEqual(['outwards', 'inwards']);
+    const inAll = await tab.$$eval('.in-all tbody tr', (all) => all.map((row) => [...(row as HTMLTableRowElement).cells].map((cell) => cell.textContent ?? '')));
+    for (const run of [0, 1]) {
+      const at = await placeOf(tab, 'robot', 3, run);
+      await tab.mouse.click(at.x, at.y);
+      await expect.poll(() => tab.textContent('.of-run')).toContain(['outwards', 'inwards'][run]);
+      await settle(tab);
+      const facts = await factsShown(tab);
+      expect(Object.fromEntries(inAll.map((row) => [row[0], row[1 + run]]))).toEqual(facts);
+    }
     await tab.click('#tab-live');
     const names: string[] = [];
     tab.on('download', (download) => names.push(download.suggestedFilename()));
