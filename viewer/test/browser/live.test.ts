@@ -297,7 +297,6 @@ describe('a live run', () => {
       const { axe } = window as unknown as { axe: { run(where: string): Promise<{ violations: { id: string; impact: string }[] }> } };
       return (await axe.run('dialog.why')).violations.filter(({ impact }) => impact === 'serious' || impact === 'critical').map(({ id }) => id);
     })).toEqual([]);
-    if (process.env.BANYAN_SHOTS) await tab.screenshot({ path: join(process.env.BANYAN_SHOTS, 'why.png') });
     // What was not heard last is what the robot says then.
     const [name, , said] = await tab.$eval('.why .unheard tbody tr', (row) => [...(row as HTMLTableRowElement).cells].map((cell) => cell.textContent ?? ''));
     const timeS = Number.parseFloat(/each way up to (\d+\.\d) s/.exec(text)![1]);
