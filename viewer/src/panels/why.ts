@@ -67,6 +67,7 @@ export class Why {
       ...(moments.length > 0 ? await this.unheard(ends, silenceOf(moments, event.time_s, tickS), witness) : []),
     );
     this.element.showModal();
+    this.content.querySelector('.broke')?.scrollIntoView({ block: 'center' }); // in its table
     this.element.scrollTop = 0;
   }
 
