@@ -351,7 +351,7 @@ class ViewCommand : public View {
       said = read("stdout.txt");
     }
     json answer;
-    if (const auto colon = said.rfind(':'); colon != std::string::npos) {
+    if (const auto colon = said.find(':', std::string_view("http:").size()); colon != std::string::npos) {
       httplib::Client client("127.0.0.1", std::stoi(said.substr(colon + 1)));
       if (const auto got = client.Get("/start.json")) answer = json::parse(got->body, nullptr, false);
     }
@@ -359,8 +359,11 @@ class ViewCommand : public View {
     const auto outcome = finish(child);
     EXPECT_EQ(outcome.code, 128 + signal) << outcome.err;
     EXPECT_TRUE(outcome.out.starts_with("http://127.0.0.1:")) << outcome.out;
+    said_ = outcome.out;
     return answer;
   }
+
+  std::string said_;  // by the last that was started
 };
 
 TEST_F(ViewCommand, TakesARecordingAScenarioOrNothing) {
@@ -385,6 +388,15 @@ TEST_F(ViewCommand, TakesARecordingAScenarioOrNothing) {
   const json earlier = started({"o/run.json"});
   EXPECT_EQ(earlier["scenario"]["name"], "run.json");
   EXPECT_EQ(earlier["scenario"]["text"], read("o/run.json"));
+}
+
+// The page reads what is behind the #; wherever the link was copied, nothing is asked of that server.
+TEST_F(ViewCommand, OpensALinkHere) {
+  const std::string experiment = "#scenario=three-targets&seed=7&do=50:{%22kind%22:%22die%22,%22robot%22:4}&t=12&view=0,1,60&robot=3";
+  EXPECT_EQ(started({"https://example.org/elsewhere/" + experiment}), json::object());
+  EXPECT_TRUE(said_.ends_with("/?start" + experiment + "\n")) << said_;
+  EXPECT_EQ(started({"#three-targets"}), json::object());
+  EXPECT_TRUE(said_.ends_with("/?start#three-targets\n")) << said_;
 }
 
 // One that stays in the foreground is not waited for, neither at the beginning nor at the end.
@@ -428,6 +440,10 @@ TEST_F(ViewCommand, RefusesInWords) {
   refuse({"missing.mcap"}, 1, "missing.mcap: cannot open: No such file or directory");
   refuse({"run.mcap"}, 1, "run.mcap: is not an MCAP file");
   refuse({"run.mcap", "--set", "radio.loss=0"}, 2, "a recording cannot be changed");
+  refuse({"#three-target"}, 2, "did you mean three-targets?");
+  refuse({"#scenario=three-targets&do=50:{%22kind%22:%22die%22,%22robot%22:99}"}, 2, "there is no robot 99");
+  refuse({"#recording=run.mcap"}, 2, "the link shows a recording");
+  refuse({"#three-targets", "--seed", "7"}, 2, "a link carries its own changes");
   refuse({"small.toml", "--port", "70000"}, 2, "--port");
   refuse({"small.toml", "--scenarios", "nowhere"}, 2, "nowhere: there is no such folder");
   refuse({"small.toml", "--page", "scenarios"}, 1, "scenarios: the page is not there (no index.html)");

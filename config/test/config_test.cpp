@@ -224,6 +224,15 @@ time_s = 11
 kind = "move_obstacle"
 obstacle = 1
 position_m = [-3, 4.5]
+[[events]]
+time_s = 12
+kind = "add_obstacle"
+position_m = [4, -4]
+radius_m = 0.4
+[[events]]
+time_s = 13
+kind = "remove_obstacle"
+obstacle = 2
 [[obstacles]]
 kind = "disc"
 center_m = [9, 9]
@@ -237,7 +246,10 @@ to_m = [9, -8]
   using world::Event;
   using world::Kill;
   const auto& events = loaded.configuration.scenario.events;
-  ASSERT_EQ(events.size(), 7U);
+  ASSERT_EQ(events.size(), 9U);
+  EXPECT_EQ(std::get<world::AddObstacle>(events[7].action).position, (world::Vec2{4.0, -4.0}));
+  EXPECT_EQ(std::get<world::AddObstacle>(events[7].action).radius_m, 0.4);
+  EXPECT_EQ(std::get<world::RemoveObstacle>(events[8].action).obstacle, 2U) << "that of the event before";
   const auto& some = std::get<Kill>(events[0].action);
   EXPECT_EQ(events[0].time_s, 5.0);
   EXPECT_EQ(events[0].when, Event::When::half_way);

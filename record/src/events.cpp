@@ -156,14 +156,26 @@ void EventWatcher::watch_setting(const Setting& setting) {
     add("line_of_sight", -1, -1,
         setting.line_of_sight ? "links need a line of sight from now on" : "links need no line of sight from now on");
   }
-  drifting_.resize(setting.obstacles.size(), 0);
-  for (std::size_t k = 0; k < std::min(setting.obstacles.size(), setting_.obstacles.size()); ++k) {
-    const bool moved = !(setting.obstacles[k] == setting_.obstacles[k]);
-    if (moved && drifting_[k] == 0) {
-      add("obstacle_moved", -1, -1,
-          "obstacle " + std::to_string(k) + " has moved to " + place(world::center_of(setting.obstacles[k])));
+  watch_obstacles(setting_.obstacles, setting.obstacles);
+}
+
+// Where fewer are left, the first that are not where one was are those that are gone; what is at the end is new.
+void EventWatcher::watch_obstacles(std::span<const world::Obstacle> before, std::span<const world::Obstacle> now) {
+  drifting_.resize(std::max(before.size(), now.size()), 0);
+  std::size_t to = 0;
+  for (std::size_t from = 0; from < before.size(); ++from) {
+    const bool stays = to < now.size() && now[to] == before[from];
+    if (!stays && now.size() - to < before.size() - from) {
+      add("obstacle_removed", -1, -1, "obstacle " + std::to_string(from) + " is gone");
+      continue;
     }
-    drifting_[k] = moved ? 1 : 0;
+    if (!stays && drifting_[to] == 0) {
+      add("obstacle_moved", -1, -1, "obstacle " + std::to_string(to) + " has moved to " + place(world::center_of(now[to])));
+    }
+    drifting_[to++] = stays ? 0 : 1;
+  }
+  for (; to < now.size(); ++to) {
+    add("obstacle_added", -1, -1, "obstacle " + std::to_string(to) + " is new, at " + place(world::center_of(now[to])));
   }
 }
 

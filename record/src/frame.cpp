@@ -133,12 +133,8 @@ Setting setting_of(const world::World& world) {
 }
 
 bool still_holds(const Setting& setting, const world::World& world) noexcept {
-  const auto same_place = [](const world::Obstacle& a, const world::Obstacle& b) {
-    return world::center_of(a) == world::center_of(b);
-  };
   return setting.line_of_sight == world.line_of_sight() &&
-         std::equal(setting.obstacles.begin(), setting.obstacles.end(), world.obstacles().begin(),
-                    world.obstacles().end(), same_place);
+         std::equal(setting.obstacles.begin(), setting.obstacles.end(), world.obstacles().begin(), world.obstacles().end());
 }
 
 std::string_view name_of(Role role) noexcept {

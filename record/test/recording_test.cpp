@@ -591,6 +591,23 @@ TEST(Recording, ASettingThatChangesIsKept) {
   EXPECT_EQ(reader.message_count(reader.find_channel("/banyan/setting")->id), 2U);
 }
 
+TEST(Recording, ObstaclesThatComeAndGoAreTold) {
+  const test::TemporaryDirectory directory;
+  Told told(directory.file("a.mcap"));
+  Setting setting = test::sample_setting();
+  const world::Obstacle a = world::Disc{{1.0, 1.0}, 0.25}, b = world::Wall{{2.0, 2.0}, {3.0, 2.0}}, c = world::Disc{{4.0, 4.0}, 0.5},
+                        d = world::Disc{{-1.0, 0.5}, 0.5};
+  for (const auto& there : std::vector<std::vector<world::Obstacle>>{{a, b}, {a, b, c}, {b, c}, {b, d}, {b, d}, {}, {a}}) {
+    setting.obstacles = there;
+    told.next(setting, chain());
+  }
+  EXPECT_EQ(told.events(), (std::vector<std::string>{"obstacle_added -1: obstacle 2 is new, at (4.00, 4.00) m",
+                                                     "obstacle_removed -1: obstacle 0 is gone",
+                                                     "obstacle_moved -1: obstacle 1 has moved to (-1.00, 0.50) m",
+                                                     "obstacle_removed -1: obstacle 0 is gone", "obstacle_removed -1: obstacle 1 is gone",
+                                                     "obstacle_added -1: obstacle 0 is new, at (1.00, 1.00) m"}));
+}
+
 // Recordings of before there were such channels, made by renaming these to something unknown.
 TEST(Recording, OlderRecordingsAreRead) {
   const test::TemporaryDirectory directory;

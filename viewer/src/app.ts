@@ -4,13 +4,14 @@
 import { button, download, h, setText } from './dom';
 import { acceptDrops, apart, askScenarios, askServer, chooseFile, judge } from './files';
 import type { RunEvent, Series } from './frame';
+import { Interference } from './interference';
 import { Keyboard } from './keyboard';
 import { longestLink, nothing, readLink, writeLink, type Experiment } from './link';
 import { EventsList, type ListedEvent } from './panels/events_list';
 import { Help } from './panels/help';
 import { Inspector } from './panels/inspector';
 import { Keep } from './panels/keep';
-import { LivePanel, type LiveChoice, type Tool } from './panels/live';
+import { LivePanel, type LiveChoice } from './panels/live';
 import { logo } from './panels/logo';
 import { Notice } from './panels/notice';
 import { Plots } from './panels/plots';
@@ -20,24 +21,23 @@ import { Tabs } from './panels/tabs';
 import { Tour } from './panels/tour';
 import { Why } from './panels/why';
 import { Transport, type Clock } from './panels/transport';
-import type { Spot, Bounds } from './scene/camera';
+import type { Spot } from './scene/camera';
 import { themes } from './scene/themes';
-import type { Item } from './scene/view';
+import { sameItem, type Item } from './scene/view';
 import type { Source } from './source/client';
 import { openFile, openLive, openUrl } from './source/open';
 import { Problem } from './source/problem';
-import type { Act, Header, Intervention } from './source/protocol';
+import type { Act, Header } from './source/protocol';
 import { Controls } from './state/controls';
 import { Horizon } from './state/horizon';
 import { outcomeOf } from './state/outcome';
 import { Pace } from './state/pace';
-import { Player, tickAt } from './state/player';
+import { Player } from './state/player';
 import { eventAfter } from './state/events';
 import { Store } from './state/store';
 import { RobotWatch } from './robot_watch';
-import { PlaceCursor } from './place_cursor';
 import { mostRuns, namesOf, runsOf } from './runs';
-import { between, Stage, type Shared, type StageActions } from './stage';
+import { Stage, type Shared, type StageActions } from './stage';
 
 const trailS = 10; // how far back trails go
 const panelEveryMs = 80; // panels are read, not watched: twelve times a second is enough
@@ -46,7 +46,7 @@ const tellEveryMs = 250; // lists and plots cover the whole run: the longer it i
 export class App {
   private readonly store = new Store();
   private readonly player = new Player();
-  private stages: Stage[] = [];
+  stages: Stage[] = [];
   private dirty = true;
   private panelsAt = 0;
   private readonly horizon = new Horizon();
@@ -63,7 +63,7 @@ export class App {
   private address = ''; // of a recording that has one
   private written = ''; // the last address that was written here
   private chosen = 0; // the run whose robot the inspector shows
-  private readonly plots = new Plots((timeS) => this.seek(timeS));
+  private readonly plots = new Plots((timeS) => this.seek(timeS), () => this.tables.want());
   private readonly transport = new Transport({
     toggle: () => this.toggle(), seek: (timeS) => this.seek(timeS), step: (ticks) => this.step(ticks),
     loop: () => this.loopOn(), setSpeed: (speed) => this.setSpeed(speed), jump: (direction) => this.jump(direction),
@@ -71,12 +71,12 @@ export class App {
   private readonly inspector = new Inspector({
     select: (robot) => this.select(robot === null ? null : { kind: 'robot', index: robot }),
     follow: (robot) => this.follow(robot),
-    kill: (robot) => this.intervene([{ kind: 'die', robot }]),
+    kill: (robot) => this.interference.intervene([{ kind: 'die', robot }]),
   });
   private readonly watch = new RobotWatch(this.inspector);
   private readonly events = new EventsList((event) => {
     this.seek(event.time_s);
-    if (event.robot >= 0) this.select({ kind: 'robot', index: event.robot });
+    if (event.robot >= 0) this.select({ kind: 'robot', index: event.robot }, false); // the list stays: Why? is in it
   }, (event) => void this.explain(event));
   private readonly why = new Why((timeS, robot) => {
     this.player.pause();
@@ -85,7 +85,9 @@ export class App {
   });
   private readonly facts = new RunFacts((run) => this.hash(run));
   private readonly live = new LivePanel({
-    start: (choice) => void this.startByHand(choice), reset: () => this.reset(), undo: () => this.undo(), setTool: (tool) => this.setTool(tool), intervene: (events) => this.intervene(events),
+    start: (choice) => void this.startByHand(choice), reset: () => this.interference.reset(),
+    undo: () => this.interference.undo(), redo: () => this.interference.redo(), remove: () => this.interference.removeSelected(),
+    setTool: (tool) => this.interference.setTool(tool), intervene: (events) => this.interference.intervene(events),
     saveRecording: () => void this.save((source) => source.saveRecording()),
     saveScenario: () => void this.save((source) => source.saveScenario()),
   });
@@ -97,10 +99,11 @@ export class App {
   });
   private readonly tour = new Tour({
     point: (part) => { for (const stage of this.stages) stage.point(part); },
-    killRelay: () => this.killRelay(),
+    killRelay: () => this.interference.killRelay(),
     compare: () => this.compare(),
     over: () => this.store.set({ toured: true }),
   });
+  private readonly interference = new Interference(this, this.player, this.controls, this.live, this.notice);
   private readonly plotsTab = h('div');
   private readonly tabs = new Tabs([
     { name: 'live', title: 'Live', content: this.live.element },
@@ -316,7 +319,7 @@ export class App {
     for (const stage of this.stages) stage.dispose();
     this.notice.hide();
     this.live.setProblems([]);
-    this.setTool('look');
+    this.interference.setTool('look');
     this.select(null);
     this.chosen = 0;
     this.started = null;
@@ -345,11 +348,15 @@ export class App {
     source.failure.subscribe((problem) => { if (problem && this.sources.includes(source)) this.notice.bad(problem.message); });
     source.trouble.subscribe((problem) => { if (problem) this.notice.bad(`${problem.message}\nPlay tries again.`); });
     source.arrived.subscribe(() => this.draw());
-    source.rewound.subscribe((timeS) => { this.horizon.cut(timeS); this.tell(); });
+    source.rewound.subscribe((timeS) => {
+      for (const stage of this.stages) if (stage.source === source) stage.robotSeries.cut(timeS);
+      this.horizon.cut(timeS);
+      this.tell();
+    });
   }
 
   private get sources(): Source[] { return this.stages.map((stage) => stage.source); }
-  private get isLive(): boolean { return this.sources[0]?.header.value?.kind === 'live'; }
+  get isLive(): boolean { return this.sources[0]?.header.value?.kind === 'live'; }
 
   // ---- What is shown ----
 
@@ -374,7 +381,7 @@ export class App {
     this.events.setTime(this.player.timeS);
     const { selection, followed } = this.store.state;
     const stage = this.stages[this.chosen] ?? this.stages[0];
-    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive, this.chosen);
+    this.watch.show(stage ?? null, selection?.kind === 'robot' ? selection.index : null, followed, this.isLive, this.chosen, this.namedRuns);
     this.showControls(this.stages[0]?.source ?? null);
   }
 
@@ -397,7 +404,7 @@ export class App {
     return { timeS, stride, selection, followed, switches, theme: this.theme, trailS };
   }
 
-  private draw(): void { this.dirty = true; }
+  draw(): void { this.dirty = true; }
 
   private showHeaders(): void {
     const headers = this.sources.flatMap((source) => source.header.value ?? []);
@@ -417,8 +424,18 @@ export class App {
 
   private showSeries(): void {
     const runs = this.sources.map((source) => source.series.value).filter((s) => s.time_s !== undefined);
-    this.plots.setRuns(runs.map((series) => this.horizon.rows(series)));
+    this.plots.setRuns(runs.map((series) => this.horizon.rows(series)), this.robotSeries());
     this.draw();
+  }
+
+  /** Of the selected robot in each run, as far as it is there; what is missing is asked for, if a plot shows it. */
+  private robotSeries(): Series[] {
+    const { selection } = this.store.state;
+    if (selection?.kind !== 'robot' || !this.plots.showRobot) return [];
+    return this.stages.map(({ robotSeries, source }) => {
+      robotSeries.gather(selection.index, Math.min(this.horizon.timeS, source.endS)).then((more) => { if (more) this.tables.want(); }, () => {}); // a source that is lost says so itself
+      return robotSeries.value;
+    });
   }
 
   /** What the frames tell and what was done, in order of time. */
@@ -434,6 +451,12 @@ export class App {
 
   /** Of runs side by side: what they differ in. */
   private get runNames(): string[] { return namesOf(this.sources.flatMap((source) => source.header.value ?? [])); }
+
+  private get namedRuns(): { name: string; stage: Stage }[] {
+    if (this.stages.length < 2) return [];
+    const { runNames } = this;
+    return this.stages.map((stage, k) => ({ name: runNames[k] ?? '', stage }));
+  }
 
   private showEvents(): void {
     const events = this.shownEvents();
@@ -478,11 +501,15 @@ export class App {
     if (event.robot >= 0) this.select({ kind: 'robot', index: event.robot });
   }
 
-  private select(item: Item | null): void {
+  get selection(): Item | null { return this.store.state.selection; }
+
+  /** `reveal`: its panel comes to the front. */
+  select(item: Item | null, reveal = true): void {
     const robots = this.stages[0]?.shown?.robots ?? 0;
     if (item?.kind === 'robot' && item.index >= robots) return this.notice.bad(`There is no robot ${item.index}: they are numbered from 0 to ${robots - 1}.`);
     this.store.set({ selection: item, followed: item?.kind === 'robot' && item.index === this.store.state.followed ? item.index : null });
-    if (item?.kind === 'robot') this.tabs.show('robot');
+    if (item?.kind === 'robot' && reveal) this.tabs.show('robot');
+    this.tables.want(); // a plot may be of it
   }
 
   private selectNext(direction: 1 | -1): void {
@@ -494,54 +521,6 @@ export class App {
   }
 
   private follow(robot: number | null): void { this.store.set({ followed: robot }); }
-
-  private setTool(tool: Tool): void {
-    const wanted = this.isLive ? tool : 'look';
-    this.live.setTool(wanted);
-    for (const stage of this.stages) stage.setMode(wanted === 'look' ? 'look' : wanted === 'add_target' ? 'add' : 'area');
-    if (wanted === 'look') this.places.stop();
-    else this.places.start({ kind: wanted });
-    if (wanted === 'add_target') this.notice.good('Click where the new target is to be; or arrows, then Enter.');
-    if (wanted === 'kill_area') this.notice.good('Draw a rectangle around the robots that are to die; or arrows, then Enter at two corners.');
-  }
-
-  // ---- What is done to a live run ----
-
-  private intervene(events: Intervention[]): void { this.act(() => events); }
-
-  /** Applies each run's own interventions. If the clock stands still, it moves on until they are seen. */
-  private act(eventsFor: (stage: Stage) => Intervention[]): void {
-    if (!this.isLive) return;
-    const { timeS } = this.player;
-    for (const stage of this.stages) {
-      const { source } = stage;
-      const events = eventsFor(stage);
-      if (events.length === 0) continue;
-      const tick = tickAt(timeS, source);
-      this.controls.ask(events, tick, source.tickS);
-      this.change(source, source.intervene(tick, events));
-      this.player.goOnTo((tick + 1) * source.tickS);
-    }
-    this.draw();
-  }
-
-  /** Back to the start, without the interventions. */
-  private reset(): void {
-    this.player.home();
-    this.controls.forget();
-    for (const source of this.sources) this.change(source, source.reset());
-    this.draw();
-  }
-
-  /** Says what went wrong, unless another run is shown by then. */
-  private change(source: Source, done: Promise<void>): void {
-    done.catch((problem: unknown) => {
-      if (!this.sources.includes(source)) return;
-      this.controls.forget();
-      this.notice.bad([textOf(problem), ...(problem instanceof Problem ? problem.problems : [])].join('\n'));
-      this.draw();
-    });
-  }
 
   private async hash(run: number): Promise<string> {
     const { source, tick } = this.stages[run]; // of the moment when it was asked for
@@ -565,33 +544,14 @@ export class App {
 
   private readonly stageActions: StageActions = {
     select: (stage, item) => { this.chosen = this.stages.indexOf(stage); this.select(item); },
-    moveTarget: (target, toM) => this.intervene([{ kind: 'move_target', target, position_m: place(toM) }]),
-    moveObstacle: (obstacle, toM) => this.intervene([{ kind: 'move_obstacle', obstacle, position_m: place(toM) }]),
-    addTarget: (atM) => { this.setTool('look'); this.intervene([{ kind: 'add_target', position_m: place(atM) }]); },
-    killArea: (area) => this.killArea(area),
+    move: (item, toM) => this.interference.move(item, toM),
+    addTarget: (atM) => this.interference.addTarget(atM),
+    addObstacle: (atM, edgeM) => this.interference.addObstacle(atM, edgeM),
+    killArea: (area) => this.interference.killArea(area),
     moved: () => { if (this.store.state.followed !== null) this.follow(null); },
     looked: (from, camera) => { for (const stage of this.stages) if (stage !== from) stage.lookLike(camera); },
     changed: () => this.draw(),
   };
-
-  private killArea(area: Bounds): void {
-    this.setTool('look');
-    this.act((stage) => stage.robotsIn(area).map((robot) => ({ kind: 'die', robot })));
-  }
-
-  private readonly places = new PlaceCursor({
-    begin: (task) => (task.kind === 'move_target' ? this.stages[0]?.targetPlace(task.target) : this.stages[0]?.middle) ?? null,
-    metresPerPx: () => this.stages[0]?.metresPerPx ?? 0,
-    show: (at, task, corner) => {
-      for (const stage of this.stages) stage.showCursor(at, task.kind === 'move_target' ? task.target : null, corner);
-    },
-    take: (task, at, corner) => {
-      this.setTool('look');
-      if (task.kind === 'add_target') this.stageActions.addTarget(at);
-      if (task.kind === 'move_target') this.stageActions.moveTarget(task.target, at);
-      if (task.kind === 'kill_area' && corner !== null) this.killArea(between(at, corner));
-    },
-  });
 
   private async explain(event: ListedEvent): Promise<void> {
     const source = this.sources[Math.max(0, event.run === undefined ? 0 : this.runNames.indexOf(event.run))];
@@ -600,21 +560,12 @@ export class App {
     try {
       await this.why.open(event, {
         frames: (fromS, toS) => source.frames(fromS, toS), message: (robot, tick) => source.message(robot, tick),
-        settingAt: (timeS) => source.settingAt(timeS), tickS: source.tickS, live: this.isLive,
+        settingAt: (timeS) => source.settingAt(timeS), config: source.header.value?.config ?? '',
+        tickS: source.tickS, seenS: Math.min(this.horizon.timeS, source.endS), live: this.isLive,
       });
     } catch (problem) {
       this.notice.bad(textOf(problem));
     }
-  }
-
-  /** The connector that most others hang on. */
-  private killRelay(): void {
-    const stage = this.stages[0];
-    const relay = stage?.busiestRelay() ?? null;
-    if (relay === null) return this.notice.good('There is no connector yet: let it play for some seconds.');
-    this.select({ kind: 'robot', index: relay });
-    this.intervene([{ kind: 'die', robot: relay }]);
-    this.player.play();
   }
 
   private compare(): void {
@@ -629,40 +580,20 @@ export class App {
     return sources.flatMap((source, k) => (source.series.value.time_s === undefined ? [] : [{ name: names[k], series: this.horizon.rows(source.series.value) }]));
   }
 
-  private grab(): void {
-    const { selection } = this.store.state;
-    if (!this.isLive) return;
-    if (selection?.kind !== 'target') return this.notice.good('Select a target first: click it, or Shift+N.');
-    this.notice.good(`Move target T${selection.index} by the arrow keys, then Enter.`);
-    this.places.start({ kind: 'move_target', target: selection.index });
-  }
-
-  private selectNextTarget(direction: 1 | -1): void {
-    const count = this.stages[0]?.shown?.targets.x.length ?? 0;
-    if (count === 0) return;
-    const { selection } = this.store.state;
-    const now = selection?.kind === 'target' ? selection.index : direction > 0 ? -1 : 0;
-    this.select({ kind: 'target', index: (now + direction + count) % count });
-  }
-
-  private undo(): void {
-    if (!this.isLive) return;
-    this.controls.forget();
-    for (const source of this.sources) this.change(source, source.undo().then((undone) => { if (!undone) this.notice.good('Nothing has been done that could be undone.'); }));
-    this.draw();
+  private selectNextThing(direction: 1 | -1): void {
+    const stage = this.stages[0];
+    const things: Item[] = (['target', 'obstacle'] as const).flatMap((kind) =>
+      Array.from({ length: kind === 'target' ? stage?.shown?.targets.x.length ?? 0 : stage?.obstacles ?? 0 }, (_, index) => ({ kind, index })));
+    if (things.length === 0) return;
+    const now = things.findIndex((thing) => sameItem(thing, this.store.state.selection));
+    this.select(things[((now < 0 && direction < 0 ? 0 : now) + direction + things.length) % things.length]);
   }
 
   private release(): void {
     if (this.stages.filter((stage) => stage.cancel()).length > 0) return;
-    this.setTool('look');
+    this.interference.setTool('look');
     this.notice.hide();
     this.select(null);
-  }
-
-  private killSelected(): void {
-    const { selection } = this.store.state;
-    if (selection?.kind === 'robot') this.intervene([{ kind: 'die', robot: selection.index }]);
-    if (selection?.kind === 'target') this.intervene([{ kind: 'remove_target', target: selection.index }]);
   }
 
   private keys(): ConstructorParameters<typeof Keyboard>[0] {
@@ -678,10 +609,11 @@ export class App {
         const { selection, followed } = this.store.state;
         if (selection?.kind === 'robot') this.follow(followed === selection.index ? null : selection.index);
       },
-      kill: () => this.killSelected(), switchOn: (name) => this.store.toggle(name),
-      loop: () => this.loopOn(), grab: () => this.grab(), selectNextTarget: (direction) => this.selectNextTarget(direction), undo: () => this.undo(),
-      place: (key, shift) => this.places.key(key, shift),
-      tool: (name) => this.setTool(name), theme: () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' }),
+      kill: () => this.interference.removeSelected(), switchOn: (name) => this.store.toggle(name),
+      loop: () => this.loopOn(), grab: () => this.interference.grab(), selectNextThing: (direction) => this.selectNextThing(direction),
+      undo: () => this.interference.undo(), redo: () => this.interference.redo(),
+      place: (key, shift) => this.interference.key(key, shift),
+      tool: (name) => this.interference.setTool(name), theme: () => this.store.set({ theme: this.theme.name === 'dark' ? 'light' : 'dark' }),
       release: () => this.release(), help: () => this.help.open(this.theme),
     };
   }
@@ -719,9 +651,6 @@ export class App {
 const nameOfAddress = (address: string) => address.replace(/[?#].*$/, '').replace(/^.*\//, '') || 'recording';
 
 const byTime = (a: RunEvent, b: RunEvent) => a.time_s - b.time_s;
-
-/** Millimetres are enough, and read well in a saved scenario. */
-const place = (at: Spot): [number, number] => [Math.round(at.x * 1000) / 1000, Math.round(at.y * 1000) / 1000];
 
 const textOf = (problem: unknown) => (problem instanceof Error ? problem.message : String(problem));
 

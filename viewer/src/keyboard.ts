@@ -16,10 +16,12 @@ export interface KeyActions {
   follow(): void;
   kill(): void;
   switchOn(name: 'links' | 'blocked' | 'oldTree' | 'trails' | 'ids'): void;
-  tool(name: 'add_target' | 'kill_area'): void;
-  grab(): void; // the selected target, to be moved by keys
-  selectNextTarget(direction: 1 | -1): void;
+  tool(name: 'add_target' | 'add_obstacle' | 'kill_area'): void;
+  grab(): void; // the selected target or obstacle, to be moved by keys
+  /** Targets and obstacles. */
+  selectNextThing(direction: 1 | -1): void;
   undo(): void;
+  redo(): void;
   loop(): void;
   /** Whether the key moves or takes the place that is being chosen. */
   place(key: string, shift: boolean): boolean;
@@ -63,9 +65,11 @@ export class Keyboard {
 
   private onKey(event: KeyboardEvent): void {
     this.taken = '';
-    if ((event.ctrlKey || event.metaKey) && event.key === 'z' && !isTyping(event.target, event.key)) {
+    const { undo, redo } = this.actions;
+    const again = event.ctrlKey || event.metaKey ? { z: event.shiftKey ? redo : undo, y: redo }[event.key.toLowerCase()] : undefined;
+    if (again !== undefined && !isTyping(event.target, event.key)) {
       event.preventDefault();
-      return this.actions.undo();
+      return again();
     }
     if (event.ctrlKey || event.metaKey || event.defaultPrevented && !isTimeline(event.target)) return;
     if (document.querySelector('dialog[open]') !== null) return;
@@ -104,12 +108,12 @@ export class Keyboard {
       ' ': a.toggle, ArrowLeft: () => a.step(-ticks), ArrowRight: () => a.step(ticks), Home: a.toStart, End: a.toEnd,
       '[': () => a.jump(-1), ']': () => a.jump(1), '-': () => a.speed(-1), '+': () => a.speed(1), '=': () => a.speed(1),
       PageUp: () => a.zoom(zoomStep), PageDown: () => a.zoom(1 / zoomStep),
-      n: () => (event.shiftKey ? a.selectNextTarget(1) : a.selectNext(1)),
-      p: () => (event.shiftKey ? a.selectNextTarget(-1) : a.selectNext(-1)),
-      f: a.follow, g: a.grab, u: a.undo, a: a.loop, Delete: a.kill,
+      n: () => (event.shiftKey ? a.selectNextThing(1) : a.selectNext(1)),
+      p: () => (event.shiftKey ? a.selectNextThing(-1) : a.selectNext(-1)),
+      f: a.follow, g: a.grab, u: a.undo, y: a.redo, a: a.loop, Delete: a.kill,
       l: () => a.switchOn('links'), b: () => a.switchOn('blocked'), o: () => a.switchOn('oldTree'),
       r: () => a.switchOn('trails'), i: () => a.switchOn('ids'),
-      t: () => a.tool('add_target'), k: () => a.tool('kill_area'), m: a.theme, Escape: a.release, '?': a.help,
+      t: () => a.tool('add_target'), x: () => a.tool('add_obstacle'), k: () => a.tool('kill_area'), m: a.theme, Escape: a.release, '?': a.help,
     };
     return plain[event.key.length === 1 ? event.key.toLowerCase() : event.key] ?? null;
   }

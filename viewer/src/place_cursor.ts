@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A place in the picture chosen by keys: arrows move a cross, Enter takes the place. For all that is otherwise done
-// with a pointer: adding a target, moving one, drawing the area in which robots die.
+// with a pointer: adding targets and obstacles, moving them, drawing the area in which robots die.
 import type { Spot } from './scene/camera';
+import type { Item } from './scene/view';
 
-export type PlaceTask = { kind: 'add_target' } | { kind: 'move_target'; target: number } | { kind: 'kill_area' };
+export type PlaceTask = { kind: 'add_target' | 'add_obstacle' | 'kill_area' } | { kind: 'move'; item: Item };
+
+/** Those that take two places: the corners of an area, middle and edge of an obstacle. */
+const takesTwo = ({ kind }: PlaceTask) => kind === 'kill_area' || kind === 'add_obstacle';
 
 export interface PlaceActions {
   /** Where the cross begins, m; null: nothing is shown. */
   begin(task: PlaceTask): Spot | null;
   metresPerPx(): number;
-  /** `corner`: where an area began. null: no cross. */
+  /** `corner`: the first of two places. null: no cross. */
   show(at: Spot | null, task: PlaceTask, corner: Spot | null): void;
   take(task: PlaceTask, at: Spot, corner: Spot | null): void;
 }
@@ -27,7 +31,7 @@ export class PlaceCursor {
   start(task: PlaceTask): void {
     this.stop();
     this.task = task;
-    if (task.kind === 'move_target') this.showAt(this.actions.begin(task)); // nobody grabs a target without wanting to see it
+    if (task.kind === 'move') this.showAt(this.actions.begin(task)); // nobody grabs a thing without wanting to see it
   }
 
   stop(): void {
@@ -52,7 +56,7 @@ export class PlaceCursor {
   }
 
   private enter(task: PlaceTask, at: Spot): void {
-    if (task.kind === 'kill_area' && this.corner === null) {
+    if (takesTwo(task) && this.corner === null) {
       this.corner = at;
       return this.showAt(at);
     }

@@ -14,13 +14,18 @@ export class RobotWatch {
 
   constructor(private readonly inspector: Inspector) {}
 
-  show(stage: Stage | null, robot: number | null, followed: number | null, live: boolean, run = 0): void {
+  /** `runs`: those side by side, with their names. */
+  show(
+    stage: Stage | null, robot: number | null, followed: number | null, live: boolean, run = 0,
+    runs: readonly { name: string; stage: Pick<Stage, 'recordedFrame'> }[] = [],
+  ): void {
     this.attend(stage?.source ?? null);
     const frame = stage?.recordedFrame ?? null;
     if (stage === null || frame === null || robot === null || robot >= frame.robots) return this.inspector.update(null);
     this.ask(stage, robot, frame.tick);
     this.inspector.update({
       frame, robot, live, run, followed: followed === robot,
+      runs: runs.flatMap(({ name, stage: { recordedFrame } }) => (recordedFrame === null ? [] : [{ name, frame: recordedFrame }])),
       algorithm: stage.source.settingAt(frame.timeS)?.algorithm ?? '',
       neighbours: stage.facts()?.radio.neighbours(robot) ?? [],
       said: this.answer?.robot === robot ? this.answer : null,

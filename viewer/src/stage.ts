@@ -15,10 +15,13 @@ import type { Theme } from './scene/themes';
 import { sameItem, type Item, type SceneView, type Switches } from './scene/view';
 import type { Source } from './source/client';
 import { column, roles } from './frame';
+import type { Shown } from './panels/keep';
 import type { Part } from './panels/tour';
+import type { PlaceTask } from './place_cursor';
 import { Deeds } from './state/deeds';
 import { interpolate } from './state/interpolate';
 import { outcomeOf } from './state/outcome';
+import { RobotSeries } from './state/robot_series';
 
 /** What all stages show alike. */
 export interface Shared {
@@ -34,9 +37,9 @@ export interface Shared {
 export interface StageActions {
   select(stage: Stage, item: Item | null): void;
   // Interventions, in all live runs alike.
-  moveTarget(target: number, toM: Spot): void;
-  moveObstacle(obstacle: number, toM: Spot): void;
+  move(item: Item, toM: Spot): void;
   addTarget(atM: Spot): void;
+  addObstacle(atM: Spot, edgeM: Spot): void;
   killArea(area: Bounds): void;
   /** The visitor moved the picture by hand: no robot is followed any more. */
   moved(): void;
@@ -58,6 +61,7 @@ const slowMs = 350; // what takes longer is said
 export class Stage {
   readonly element: HTMLElement;
   readonly scene: Scene;
+  readonly robotSeries: RobotSeries;
   private readonly input: Input;
   private readonly captionText = h('span');
   private readonly story = h('p', { class: 'story', role: 'status' });
@@ -71,6 +75,7 @@ export class Stage {
   private hovered: Item | null = null;
   private dragged: { item: Item; toM: Spot } | null = null;
   private area: Bounds | null = null;
+  private disc: SceneView['disc'] = null;
   private cursor: Spot | null = null;
   private frame: Frame | null = null; // interpolated
   private own: Frame | undefined; // its memory, used again
@@ -83,6 +88,7 @@ export class Stage {
 
   constructor(readonly source: Source, theme: Theme, private readonly actions: StageActions) {
     const picture = h('div', { class: 'picture' });
+    this.robotSeries = new RobotSeries(source);
     this.element = h('div', { class: 'stage' }, picture, this.caption, this.legend.element, this.busy);
     this.scene = new Scene(picture, theme, () => actions.changed());
     this.scene.canvas.setAttribute('role', 'img');
@@ -111,8 +117,11 @@ export class Stage {
 
   facts(): Facts | null { return this.view === null ? null : this.scene.facts(this.view); }
 
-  get picture(): { canvas: HTMLCanvasElement; words: string } {
-    return { canvas: this.scene.canvas, words: `${this.captionText.textContent ?? ''}\n${this.story.textContent ?? ''}` };
+  get picture(): Shown {
+    const words = [this.captionText.textContent ?? '', this.story.textContent ?? ''];
+    const { canvas, widthPx, heightPx } = this.scene;
+    const { view } = this;
+    return { canvas, words, svg: () => (view === null ? null : { widthPx, heightPx, content: this.scene.svg(view, words) }) };
   }
 
   /** Marks one of these until the pointer is over something; null: none. */
@@ -135,15 +144,18 @@ export class Stage {
   /** In the middle of the picture, m. */
   get middle(): Spot | null { return this.camera === null ? null : { x: this.camera.xM, y: this.camera.yM }; }
   get metresPerPx(): number { return this.camera === null ? 0 : 1 / this.camera.scale; }
-  targetPlace(target: number): Spot | null {
-    return this.frame && this.setting ? positionOf({ kind: 'target', index: target }, this.frame, this.setting) : null;
+  /** In the world, m; null: there is no such thing. */
+  worldPlaceOf(item: Item): Spot | null {
+    return this.frame && this.setting ? positionOf(item, this.frame, this.setting) : null;
   }
+  get obstacles(): number { return this.setting?.obstacles.length ?? 0; }
 
-  /** What is being done by keys: a cross, a target on its way to it, an area that ends at it. */
-  showCursor(at: Spot | null, target: number | null, corner: Spot | null): void {
+  /** What is being done by keys: a cross, a thing on its way to it, an area or an obstacle that ends at it. */
+  showCursor(at: Spot | null, task: PlaceTask, corner: Spot | null): void {
     this.cursor = at;
-    this.dragged = at !== null && target !== null ? { item: { kind: 'target', index: target }, toM: at } : null;
-    this.mark(at !== null && corner !== null ? between(at, corner) : null);
+    this.dragged = at !== null && task.kind === 'move' ? { item: task.item, toM: at } : null;
+    if (task.kind === 'add_obstacle') this.markDisc(corner, at);
+    else this.mark(at !== null && corner !== null ? between(at, corner) : null);
   }
 
   setMode(mode: Mode): void {
@@ -210,6 +222,7 @@ export class Stage {
       insets: { top: 0, right: 0, bottom: this.legend.element.offsetHeight + gapPx, left: 0 },
       dragged: this.dragged,
       area: this.area,
+      disc: this.disc,
       cursor: this.cursor,
     };
   }
@@ -353,13 +366,19 @@ export class Stage {
       dragEnd: (item, atPx, dropped) => {
         this.drag(null);
         if (!dropped) return;
-        if (item.kind === 'target') actions.moveTarget(item.index, this.world(atPx));
-        else actions.moveObstacle(item.index, this.world(atPx));
+        actions.move(item, this.world(atPx));
       },
-      areaMove: (fromPx, toPx) => this.mark(this.live ? this.rectangle(fromPx, toPx) : null),
+      areaMove: (fromPx, toPx) => {
+        if (!this.live) return;
+        if (this.input.mode === 'disc') this.markDisc(this.world(fromPx), this.world(toPx));
+        else this.mark(this.rectangle(fromPx, toPx));
+      },
       areaEnd: (fromPx, toPx, taken) => {
         this.mark(null);
-        if (taken && this.live) actions.killArea(this.rectangle(fromPx, toPx));
+        this.markDisc(null, null);
+        if (!taken || !this.live) return;
+        if (this.input.mode === 'disc') actions.addObstacle(this.world(fromPx), this.world(toPx));
+        else actions.killArea(this.rectangle(fromPx, toPx));
       },
       add: (atPx) => { if (this.live) actions.addTarget(this.world(atPx)); },
     };
@@ -367,6 +386,11 @@ export class Stage {
 
   private drag(dragged: { item: Item; toM: Spot } | null): void {
     this.dragged = dragged;
+    this.actions.changed();
+  }
+
+  private markDisc(at: Spot | null, edge: Spot | null): void {
+    this.disc = at !== null && edge !== null ? { at, radiusM: Math.hypot(edge.x - at.x, edge.y - at.y) } : null;
     this.actions.changed();
   }
 

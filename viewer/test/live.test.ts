@@ -122,6 +122,41 @@ describe('a live run', () => {
     run.close();
   });
 
+  it('undoes and does again, in whatever order, and then is the run that it was', async () => {
+    const run = runTo(LiveRun.load(await module, request), 20);
+    run.intervene(20, [{ kind: 'die', robot: 4 }, { kind: 'die', robot: 5 }]);
+    runTo(run, 30).intervene(30, [{ kind: 'add_obstacle', position_m: [1, 1], radius_m: 0.3 }]);
+    runTo(run, 40).intervene(40, [{ kind: 'remove_obstacle', obstacle: 0 }]);
+    const acts = run.header().acts!;
+    expect(acts.map(({ tick }) => tick)).toEqual([20, 20, 30, 40]);
+    const hash = runTo(run, 60).hashAt(60);
+    expect(run.redo()).toBeNull(); // nothing was undone
+    expect([run.undo(), run.undo(), run.undo(), run.undo()]).toEqual([40, 30, 20, null]);
+    expect(run.header().acts).toEqual([]);
+    expect(run.redo()).toBe(20);
+    expect(run.redo()).toBe(30); // not simulated yet
+    expect(run.header().acts).toEqual(acts.slice(0, 3));
+    expect(run.undo()).toBe(run.head); // and taken back before it happened
+    expect([run.redo(), run.redo(), run.redo()]).toEqual([30, 40, null]);
+    expect(runTo(run, 60).hashAt(60)).toBe(hash);
+    expect(run.header().acts).toEqual(acts);
+    expect(run.undo()).toBe(40);
+    run.intervene(run.head, [{ kind: 'die', robot: 1 }]);
+    expect(run.redo()).toBeNull(); // something else was done
+    run.close();
+  });
+
+  it('has what an address does to it once, and undoes it like anything else', async () => {
+    const plain = runTo(LiveRun.load(await module, request), 40);
+    const acts = [{ tick: 10, json: '{"kind":"die","robot":4}' }, { tick: 20, json: '{"kind":"die","robot":5}' }];
+    const run = runTo(LiveRun.load(await module, { ...request, acts }), 40);
+    expect(run.header().acts).toEqual(acts);
+    expect([run.undo(), run.undo(), run.undo()]).toEqual([20, 10, null]);
+    expect(runTo(run, 40).hashAt(40)).toBe(plain.hashAt(40));
+    run.close();
+    plain.close();
+  });
+
   it('knows settings that change, messages, files', async () => {
     const run = runTo(LiveRun.load(await module, request), 20);
     run.intervene(20, [{ kind: 'set_line_of_sight', line_of_sight: false }]);

@@ -9,8 +9,10 @@ import { csvOf } from '../src/panels/keep';
 import { written } from '../src/panels/run_facts';
 import { facts, messageFacts } from '../src/panels/inspector';
 import { shortened } from '../src/panels/notice';
-import { momentsOf, otherEnd } from '../src/panels/why';
-import { readOff } from '../src/panels/plots';
+import { difference, momentsOf, silenceOf } from '../src/panels/unheard';
+import { otherEnd } from '../src/panels/why';
+import { Deeds } from '../src/state/deeds';
+import { readOff } from '../src/panels/curves';
 import { frameOf, settingOf } from './scene_frames';
 
 describe('the panel of a live run', () => {
@@ -52,7 +54,8 @@ describe('the inspector', () => {
     expect(words(true, 'the worker is gone')).toBe('the worker is gone');
   });
   it('has a message in words', () => {
-    expect(messageFacts({ tick: 3, fields: { role: 3, phase: 'init', id: 7 }, problem: '' }, false).map(({ value }) => value)).toEqual(['root', 'init', '7']);
+    expect(messageFacts({ tick: 3, fields: { role: 3, phase: 'init', id: 7, seqno: 1234567, pull_x: 0.30000001192 }, problem: '' }, false).map(({ value }) => value))
+      .toEqual(['root', 'init', '7', '1234567', '0.3']);
   });
 });
 
@@ -91,12 +94,30 @@ describe('why an edge broke', () => {
   const setting = settingOf({ range_m: 2, line_of_sight: true, radius_m: 0.1 });
   const frame = frameOf({ x_m: [0, 1.5, 0.7, 5], y_m: [0, 0, 0.05, 0], parent: [-1, 0, 0, 0], old_parent: [-1, -1, -1, 1] });
   it('is said of each tick: apart, and what stands between', () => {
-    const [moment] = momentsOf([frame], () => setting, 0, 1);
-    expect(moment.words).toBe('hidden by robot 2');
-    expect(moment.distanceM).toBe(1.5);
-    expect(momentsOf([frame], () => setting, 0, 3)[0].words).toBe('out of range (2 m)');
-    expect(momentsOf([frame], () => setting, 0, 2)[0].words).toBe('in contact');
-    expect(momentsOf([frame], () => setting, 0, 9)).toEqual([]);
+    const at = (other: number, deeds = new Deeds('')) => momentsOf([frame], () => setting, 0, other, deeds);
+    expect(at(1)[0]).toMatchObject({ words: 'hidden by robot 2', distanceM: 1.5, heard: 'no' });
+    expect(at(3)[0]).toMatchObject({ words: 'out of range (2 m)', heard: 'no' });
+    expect(at(2)[0]).toMatchObject({ words: 'in contact', heard: 'yes' });
+    expect(at(9)).toEqual([]);
+    const lossy = new Deeds('{"radio":{"loss":0.25},"events":[]}');
+    expect(at(2, lossy)[0]).toMatchObject({ words: 'in contact, 25 % loss', heard: 'perhaps' });
+    const dark = new Deeds('{"events":[{"kind":"blackout","time_s":0,"duration_s":3}]}');
+    expect(at(2, dark)[0]).toMatchObject({ words: 'in contact, but blackout', heard: 'no' });
+  });
+  it('is followed by a silence, which has a begin, perhaps an end, and words that were not heard', () => {
+    const moments = (heard: string) => [...heard].map((sign, tick) => (
+      { tick, timeS: tick / 10, distanceM: 1, words: '', heard: sign === '+' ? 'yes' as const : sign === '?' ? 'perhaps' as const : 'no' as const }));
+    const silence = (heard: string, breakS: number) => {
+      const found = silenceOf(moments(heard), breakS, 0.1);
+      return found && [found.before?.tick, found.last.tick, found.count, found.over];
+    };
+    expect(silence('+++---++', 0.3)).toEqual([2, 5, 3, true]);
+    expect(silence('+-?---', 0.3)).toEqual([2, 5, 3, false]); // one that is over before the break is not meant
+    expect(silence('----', 0)).toEqual([undefined, 3, 4, false]);
+    expect(silence('+++??', 0.3)).toBeNull();
+    const heard = { id: 4, role: 1, depth: 2 };
+    expect(difference(heard, { id: 4, role: 0, depth: 3, fresh: true }, (name, value) => `${name} ${value}`)).toEqual([
+      { name: 'role', heard: 'role 1', said: 'role 0' }, { name: 'depth', heard: 'depth 2', said: 'depth 3' }, { name: 'fresh', heard: '–', said: 'fresh true' }]);
   });
   it('is about the edge that does not hold', () => {
     expect(otherEnd(frame, setting, 1)).toBe(0);

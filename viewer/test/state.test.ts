@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Interpolation, jumps between events, live controls, names, the page's state.
+import { RobotSeries } from '../src/state/robot_series';
+import { frameOf } from './scene_frames';
 import { describe, expect, it } from 'vitest';
 import { column, type RunEvent } from '../src/frame';
 import { apart } from '../src/files';
@@ -299,5 +301,48 @@ describe('the store', () => {
     const store = new Store(broken);
     store.set({ theme: 'light' } satisfies Partial<State>);
     expect(store.state.theme).toBe('light');
+  });
+});
+
+describe('the numbers of a robot over time', () => {
+  /** Robot i has depth i + tick; a source hands out at most `most` frames at a time. */
+  const source = (most = Infinity) => {
+    const asked: [number, number][] = [];
+    return {
+      asked, tickS: 0.1, depthOf: (robot: number, tick: number) => robot + tick,
+      async frames(fromS: number, toS: number) {
+        asked.push([fromS, toS]);
+        const first = Math.max(0, Math.ceil(fromS / 0.1 - 1e-6) - 1); // and the one before
+        const ticks = Array.from({ length: Math.floor(toS / 0.1 + 1e-6) - first + 1 }, (_, k) => first + k).slice(0, most);
+        return ticks.map((tick) => ({ ...frameOf({ x_m: [0, 1], depth: [this.depthOf(0, tick), this.depthOf(1, tick)], parent: [-1, 0] }, tick), timeS: tick * 0.1 }));
+      },
+    };
+  };
+  const gathered = async (series: RobotSeries, robot: number, toS: number) => { while (await series.gather(robot, toS)); return series.value; };
+
+  it('come piece by piece, each once, and none for what is not', async () => {
+    const from = source(4);
+    const series = new RobotSeries(from);
+    const { time_s: times, depth, parent } = await gathered(series, 1, 1);
+    expect([...times].map((t) => Math.round(10 * t))).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
+    expect([...depth]).toEqual([1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
+    expect([...parent]).toEqual(Array(11).fill(0));
+    expect([...(await gathered(series, 0, 0.2)).parent]).toEqual([NaN, NaN, NaN]); // another robot, and none is its parent
+    const before = from.asked.length;
+    await gathered(series, 0, 0.2);
+    expect(from.asked.length).toBe(before);
+  });
+
+  it('are forgotten where the run was changed, also while they are on their way', async () => {
+    const from = source();
+    const series = new RobotSeries(from);
+    await gathered(series, 1, 1);
+    from.depthOf = () => 77;
+    series.cut(0.5);
+    expect([...(await gathered(series, 1, 0.7)).depth]).toEqual([1, 2, 3, 4, 5, 6, 77, 77]);
+    const late = series.gather(1, 1);
+    series.cut(0.2);
+    expect(await late).toBe(false);
+    expect(series.value.time_s).toHaveLength(3);
   });
 });

@@ -53,14 +53,11 @@ class CheckEventFits {
   void operator()(const RemoveTarget& remove) const { target(remove.target); }
   void operator()(const AddTarget& add) const { room(add.position); }
   void operator()(const MoveObstacle& move) const {
-    const std::size_t count = before_.obstacles.size();
-    if (move.obstacle >= count)
-      list_.fail(key_ + ".obstacle", "there is no obstacle " + std::to_string(move.obstacle) +
-                                         (count == 0 ? "" : "; the last one is " + std::to_string(count - 1)));
-    else
+    if (obstacle(move.obstacle))
       check_obstacle_body(list_, scenario_, key_ + ".position_m",
                           moved(before_.obstacles[move.obstacle], move.position));
   }
+  void operator()(const RemoveObstacle& remove) const { (void)obstacle(remove.obstacle); }
   template <class Other> void operator()(const Other& refers_to_nothing) const { static_cast<void>(refers_to_nothing); }
 
  private:
@@ -74,6 +71,13 @@ class CheckEventFits {
       list_.fail(key_ + ".target", "there is no target " + std::to_string(i) + " at that time; the last one is " +
                                        std::to_string(before_.targets - 1));
   }
+  [[nodiscard]] bool obstacle(std::size_t i) const {
+    const std::size_t count = before_.obstacles.size();
+    if (i >= count)
+      list_.fail(key_ + ".obstacle", "there is no obstacle " + std::to_string(i) +
+                                         (count == 0 ? "" : "; the last one is " + std::to_string(count - 1)));
+    return i < count;
+  }
   void room(Vec2 p) const {
     check_target_room(list_, scenario_, before_.obstacles, key_ + ".position_m", "the target", p);
   }
@@ -86,9 +90,7 @@ class CheckEventFits {
 };
 
 void follow(Sequel& sequel, const Event& event) {
-  if (const auto* move = std::get_if<MoveObstacle>(&event.action);
-      move != nullptr && move->obstacle < sequel.obstacles.size())
-    sequel.obstacles[move->obstacle] = moved(sequel.obstacles[move->obstacle], move->position);
+  change(sequel.obstacles, event.action);
   if (std::holds_alternative<AddTarget>(event.action)) {
     ++sequel.targets;
     sequel.most = std::max(sequel.most, ++sequel.served);

@@ -113,7 +113,9 @@ void World::Impl::apply(const EventQueue::Entry& entry) {
                  [&](const Blackout& e) { silent_until = std::max(silent_until, tick_after(e.duration_s)); },
                  [&](const RemoveTarget& e) { give_up(e.target); },
                  [&](const SetLineOfSight& e) { set_line_of_sight(e.line_of_sight); },
-                 [&](const MoveObstacle& e) { move_obstacle(e.obstacle, e.position); },
+                 [&](const MoveObstacle&) { change_obstacles(entry.event.action); },
+                 [&](const AddObstacle&) { change_obstacles(entry.event.action); },
+                 [&](const RemoveObstacle&) { change_obstacles(entry.event.action); },
              },
              entry.event.action);
 }
@@ -226,8 +228,10 @@ void World::Impl::set_line_of_sight(bool on) {
   radio.set_line_of_sight(on);
 }
 
-void World::Impl::move_obstacle(std::size_t obstacle, Vec2 center) {
-  obstacles[obstacle] = moved(obstacles[obstacle], center);
+// Nothing if an event that waited for its moment has taken away what this one refers to.
+void World::Impl::change_obstacles(const Action& action) {
+  if (!change(obstacles, action)) return;
+  obstacles_changed = obstacles_changed || !std::holds_alternative<MoveObstacle>(action);
   bodies->set_obstacles(obstacles);
   radio.set_obstacles(obstacles);
   proximity.set_obstacles(obstacles);
@@ -246,11 +250,13 @@ Scenario World::Impl::with(const Event& event) const {
 void World::Impl::add_events(Digest& digest) const noexcept {
   if (silent_until > tick) digest.add(silent_until);
   if (line_of_sight != scenario.radio.line_of_sight) digest.add(line_of_sight);
+  if (obstacles_changed) digest.add(obstacles.size());
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     const Vec2 center = center_of(obstacles[k]);
-    if (center == center_of(scenario.obstacles[k])) continue;
+    if (!obstacles_changed && center == center_of(scenario.obstacles[k])) continue;
     digest.add(k);
     digest.add(center);
+    if (const Disc* disc = std::get_if<Disc>(&obstacles[k]); obstacles_changed && disc != nullptr) digest.add(disc->radius_m);
   }
   const bool half_way_counts = event_queue.waits_for(Event::When::half_way);
   for (std::size_t t = 0; t < targets.size(); ++t) {

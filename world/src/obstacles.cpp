@@ -206,4 +206,20 @@ Obstacle moved(const Obstacle& obstacle, Vec2 center) noexcept {
   return std::visit(Move{center}, obstacle);
 }
 
+bool change(std::vector<Obstacle>& obstacles, const Action& action) {
+  if (const auto* add = std::get_if<AddObstacle>(&action)) {
+    obstacles.emplace_back(Disc{add->position, add->radius_m});
+    return true;
+  }
+  if (const auto* move = std::get_if<MoveObstacle>(&action); move != nullptr && move->obstacle < obstacles.size()) {
+    obstacles[move->obstacle] = moved(obstacles[move->obstacle], move->position);
+    return true;
+  }
+  if (const auto* gone = std::get_if<RemoveObstacle>(&action); gone != nullptr && gone->obstacle < obstacles.size()) {
+    obstacles.erase(obstacles.begin() + static_cast<std::ptrdiff_t>(gone->obstacle));
+    return true;
+  }
+  return false;
+}
+
 }  // namespace banyan::world

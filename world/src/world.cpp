@@ -103,7 +103,7 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
 
 World::Impl::Impl(const Impl& o)
     : scenario(o.scenario), algorithm(o.algorithm), losses(o.losses), loss(o.loss),
-      line_of_sight(o.line_of_sight), obstacles(o.obstacles), tick(o.tick), poses(o.poses),
+      line_of_sight(o.line_of_sight), obstacles(o.obstacles), obstacles_changed(o.obstacles_changed), tick(o.tick), poses(o.poses),
       bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), raised(o.raised), frozen_until(o.frozen_until),
       target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), tree_parts(o.tree_parts), commands(o.commands),
       moving(o.moving), odometry(o.odometry), event_queue(o.event_queue), silent_until(o.silent_until), deaths(o.deaths),
@@ -313,8 +313,7 @@ void World::decide() { impl_->swarm->decide(impl_->commands, impl_->reports); }
 std::vector<Fault> World::faults_now(const Event& event) const {
   Present present{impl_->targets.size(), impl_->obstacles};
   impl_->event_queue.each_due(time_s() + 1e-9, [&](const Event& sooner) {
-    if (const auto* move = std::get_if<MoveObstacle>(&sooner.action))
-      present.obstacles[move->obstacle] = moved(present.obstacles[move->obstacle], move->position);
+    change(present.obstacles, sooner.action);
   });
   std::vector<Fault> found = event_faults(impl_->with(event), &present);
   std::erase_if(found, [](const Fault& fault) { return fault.warning; });

@@ -97,7 +97,7 @@ struct World::Impl {
   void assign_target(Vec2 position);
   void give_up(std::size_t target);
   void set_line_of_sight(bool on);
-  void move_obstacle(std::size_t obstacle, Vec2 center);
+  void change_obstacles(const Action& action);
   [[nodiscard]] Scenario with(const Event& event) const;   // the scenario, and this happening now
   [[nodiscard]] double remaining_m(std::size_t target) const noexcept;
   [[nodiscard]] bool half_way() const noexcept;
@@ -114,6 +114,7 @@ struct World::Impl {
   double loss;                                 // radio.loss, now
   bool line_of_sight;                          // now, and so are
   std::vector<Obstacle> obstacles;             // these; radio, proximity and bodies have copies
+  bool obstacles_changed = false;              // some were added or taken away
   std::uint64_t tick = 0;
   std::uint64_t moment = 0;                    // what is drawn now is drawn for: the tick, or the substep
 

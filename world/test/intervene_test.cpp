@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <random>
 #include <string>
 
@@ -55,7 +56,9 @@ Action any_action(Random& random, const World& world) {
     case 6: return Blackout{between(random, 0.1, 2.0)};
     case 7: return RemoveTarget{target};
     case 8: return SetLineOfSight{below(random, 2) == 0};
-    default: return MoveObstacle{below(random, world.obstacles().size()), position};
+    case 9: return AddObstacle{position, between(random, 0.05, 0.4)};
+    case 10: return RemoveObstacle{below(random, world.obstacles().size() + 1)};  // one more than there are
+    default: return MoveObstacle{below(random, world.obstacles().size() + 1), position};
   }
 }
 Event anything(Random& random, const World& world) {
@@ -95,6 +98,7 @@ TEST(Intervene, IsAsIfTheScenarioHadHadTheEventFromTheStart) {
       ASSERT_EQ(planned.hash(), hashes[t]) << "world " << k << ", tick " << t + 1;
     }
     EXPECT_EQ(planned.line_of_sight(), live.line_of_sight());
+    ASSERT_EQ(planned.obstacles().size(), live.obstacles().size());
     for (std::size_t o = 0; o < live.obstacles().size(); ++o)
       EXPECT_EQ(center_of(planned.obstacles()[o]), center_of(live.obstacles()[o]));
   }
@@ -107,6 +111,8 @@ TEST(Intervene, ACopyGoesOnAlikeWithObstaclesAndSightAsTheyAre) {
     Random random(7 + static_cast<unsigned>(body));
     World world(arena(random, body));
     world.intervene({.action = MoveObstacle{1, {0.4, 0.2}}});
+    world.intervene({.action = AddObstacle{{-0.6, 0.3}, 0.2}});
+    world.intervene({.action = RemoveObstacle{0}});
     world.intervene({.action = SetLineOfSight{!world.line_of_sight()}});
     for (int t = 0; t < 10; ++t) world.step();
     World copy(world);
@@ -150,6 +156,33 @@ TEST(Intervene, MovesTheObstacleForBodiesRadioAndSensors) {
   }
 }
 
+// A wall that was there and goes; a disc that stands where nothing was.
+TEST(Intervene, ObstaclesComeAndGoForBodiesRadioAndSensors) {
+  for (const BodyModel body : bodies) {
+    Scenario s = ring("outwards", 2, 1, 3.0, 1);
+    s.robot.body = body;
+    s.radio.line_of_sight = true;
+    s.swarm.start = {.layout = Layout::list, .positions = {{-0.5, -1.5}, {0.5, -1.5}}, .headings_rad = {0.0, 0.0}};
+    s.obstacles = {Wall{{0.0, -1.0}, {0.0, 1.0}}, Disc{{9.0, 9.0}, 0.3}};
+    World world(s);
+    world.intervene({.action = MoveObstacle{0, {0.0, -1.5}}});
+    world.step();
+    ASSERT_TRUE(world.links(0).empty()) << "the wall stands between them";
+    world.intervene({.action = RemoveObstacle{0}});
+    world.step();
+    EXPECT_EQ(world.links(0).size(), 1U);
+    ASSERT_EQ(world.obstacles().size(), 1U);
+    EXPECT_EQ(std::get<Disc>(world.obstacles()[0]).center, (Vec2{9.0, 9.0})) << "it has moved up";
+    world.intervene({.action = AddObstacle{(world.positions()[0] + world.positions()[1]) * 0.5, 0.2}});
+    world.step();
+    EXPECT_TRUE(world.links(0).empty()) << "the disc stands between them";
+    world.intervene({.action = MoveObstacle{1, world.positions()[1] + Vec2{0.1, 0.0}}});
+    for (int t = 0; t < 100; ++t) world.step();
+    EXPECT_GT(clearance(world.obstacles()[1], world.positions()[1]), s.robot.radius_m - 0.01) << "it is a body, too";
+    EXPECT_EQ(world.scenario().obstacles.size(), 2U) << "what it began with";
+  }
+}
+
 // Exactly on their centres, where there is no direction to push in; among obstacles, where pushing out
 // of one is pushing into another.
 TEST(Intervene, ObstaclesMayJumpOntoRobots) {
@@ -181,6 +214,15 @@ TEST(Intervene, IsHashedWhileItLasts) {
   b.step();
   EXPECT_EQ(a.positions()[0], b.positions()[0]) << "nobody has met it yet";
   EXPECT_NE(a.hash(), b.hash());
+
+  std::set<std::uint64_t> hashes;
+  for (const Action& action : {Action(SetLoss{}), Action(AddObstacle{{60.0, 50.0}, 0.3}), Action(AddObstacle{{60.0, 50.0}, 0.4}), Action(RemoveObstacle{0})}) {
+    World world(s);
+    world.intervene({.action = action});
+    world.step();
+    hashes.insert(world.hash());
+  }
+  EXPECT_EQ(hashes.size(), 4U);
 }
 
 TEST(Intervene, RefusesWhatCannotHappenInTheWordsOfFaults) {
@@ -196,6 +238,9 @@ TEST(Intervene, RefusesWhatCannotHappenInTheWordsOfFaults) {
       {{.action = MoveTarget{2}}, "events[1].target: there is no target 2 at that time; the last one is 1"},
       {{.action = RemoveTarget{2}}, "events[1].target: there is no target 2"},
       {{.action = MoveObstacle{1}}, "events[1].obstacle: there is no obstacle 1; the last one is 0"},
+      {{.action = RemoveObstacle{1}}, "events[1].obstacle: there is no obstacle 1; the last one is 0"},
+      {{.action = AddObstacle{{0.0, 5.0}, 0.0}}, "events[1].radius_m: "},
+      {{.action = AddObstacle{{0.0, 5.0}, -0.3}}, "events[1].radius_m: "},
       {{.action = MoveObstacle{0, {nan, 0.0}}}, "events[1].position_m[0]: is nan; allowed: -10000 to 10000 m"},
       {{.action = AddTarget{{5.0, 5.0}}}, "events[1].position_m: the target at (5, 5) lies inside an obstacle"},
       {{.action = SetLoss{nan}}, "events[1].loss: is nan; allowed: 0 to 1"},

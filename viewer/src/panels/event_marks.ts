@@ -27,6 +27,8 @@ const marks: Record<string, Mark> = {
   blackout: { color: '--bad', height: 1, sign: '◼' },
   target_moved: { color: '--target', height: 0.6, sign: '⊙' },
   obstacle_moved: { color: '--quiet', height: 0.6, sign: '▣' },
+  obstacle_added: { color: '--quiet', height: 0.6, sign: '▣' },
+  obstacle_removed: { color: '--quiet', height: 0.6, sign: '▢' },
   line_of_sight: { color: '--quiet', height: 0.6, sign: '◐' },
   interrupted: { color: '--quiet', height: 1, sign: '■' },
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One robot in full: its state, its neighbours, its last message.
 import { button, h, setText } from '../dom';
+import { beside } from './beside';
 import { column, type Column, type Frame, needs, phases, roles, spareStates } from '../frame';
 
 /** A row of the state: its name, and its value in words. */
@@ -70,9 +71,10 @@ export function facts(frame: Frame, robot: number): Fact[] {
 }
 
 /** Recordings have enumerators by number, live runs by name. */
-function word(field: string, value: number | string | boolean): string {
+export function word(field: string, value: number | string | boolean): string {
   const names: Record<string, readonly string[]> = { role: roles, phase: phases, need: needs };
-  return typeof value === 'number' ? (names[field]?.[value] ?? String(value)) : String(value);
+  if (typeof value !== 'number') return String(value);
+  return names[field]?.[value] ?? String(Number.isInteger(value) ? value : Number(value.toPrecision(5)));
 }
 
 export interface InspectorActions {
@@ -98,6 +100,8 @@ export function messageFacts(said: Said, live: boolean): Fact[] {
 
 export interface Inspected {
   frame: Frame;
+  /** All runs side by side, this one among them; fewer than two: it is alone. */
+  runs: { name: string; frame: Frame }[];
   robot: number;
   algorithm: string; // of the run; shown when several stand side by side
   run: number; // which of them, from 0
@@ -118,11 +122,12 @@ export class Inspector {
   private readonly neighbours = h('div', { class: 'neighbours' });
   private readonly message = h('table', { class: 'facts message' });
   private readonly messageTitle = h('h3');
+  private readonly inAll = h('div', { class: 'in-all', tabindex: 0, role: 'region', 'aria-label': 'In all runs', hidden: true });
   private readonly body = h(
     'div', {},
     h('header', { class: 'robot-head' }, this.title, this.follow, this.kill, button('×', 'Close (Escape)', () => this.actions.select(null)),
       h('p', { class: 'of-run' }, this.line, this.run)),
-    this.state, h('h3', {}, 'Neighbours in radio contact'), this.neighbours, this.messageTitle, this.message,
+    this.inAll, this.state, h('h3', {}, 'Neighbours in radio contact'), this.neighbours, this.messageTitle, this.message,
   );
   private readonly empty = h('p', { class: 'hint' }, 'Click a robot, or type its number and press Enter, to see what it knows, whom it hears and what it says.');
   private shown: Inspected | null = null;
@@ -144,9 +149,21 @@ export class Inspector {
     setText(this.follow, shown.followed ? 'Unfollow' : 'Follow');
     this.follow.setAttribute('aria-pressed', String(shown.followed));
     this.kill.hidden = !shown.live || column(shown.frame, 'alive')[shown.robot] === 0;
+    this.fillRuns(shown);
     this.fill(this.state, facts(shown.frame, shown.robot));
     this.fillNeighbours(shown.neighbours);
     this.fillMessage(shown);
+  }
+
+  /** The robot of this number in each run. */
+  private fillRuns({ runs, robot }: Inspected): void {
+    const there = runs.filter(({ frame }) => robot < frame.robots);
+    const table = there.length < 2 ? null : beside(there.map(({ name }) => name), there.map(({ frame }) => facts(frame, robot)));
+    const key = table?.textContent ?? '';
+    if (this.inAll.dataset.key === key) return;
+    this.inAll.dataset.key = key;
+    this.inAll.hidden = table === null; // no place for Tab to stop
+    this.inAll.replaceChildren(...(table === null ? [] : [h('h3', {}, 'In all runs'), table, h('h3', {}, 'In this run')]));
   }
 
   private fill(table: HTMLTableElement, rows: Fact[]): void {

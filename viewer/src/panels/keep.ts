@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What a visitor takes along: a picture of the moment, the series as a table, a film of a stretch.
+// What a visitor takes along: a picture or a drawing of the moment, the series as a table, a film of a stretch.
 import { button, download, h, setText } from '../dom';
 import type { Series } from '../frame';
+import { documentOf, type Part } from '../scene/svg';
 
 export interface Shown {
   canvas: HTMLCanvasElement;
-  words: string; // the caption
+  words: string[]; // the lines of the caption
+  /** null: nothing has been drawn yet. */
+  svg(): Part | null;
 }
 
 export interface KeepSources {
@@ -40,6 +43,7 @@ export class Keep {
       h('h3', {}, 'Keep'),
       h('div', { class: 'buttons' },
         button('Picture', 'This moment as PNG, runs side by side in one', () => this.savePicture()),
+        button('Drawing', 'This moment as SVG, to be printed at any size and to be changed', () => this.saveDrawing()),
         button('Table', 'The series of each run as CSV, as far as it has been seen', () => this.saveTables()),
         this.film));
   }
@@ -53,6 +57,12 @@ export class Keep {
     const canvas = document.createElement('canvas');
     paint(this.sources.pictures(), canvas);
     canvas.toBlob((blob) => { if (blob) download(`${this.sources.name()}.png`, blob); }, 'image/png');
+  }
+
+  private saveDrawing(): void {
+    const parts = this.sources.pictures().flatMap(({ svg }) => svg() ?? []);
+    const text = documentOf(parts, this.sources.name());
+    download(`${this.sources.name()}.svg`, new Blob([text], { type: 'image/svg+xml' }));
   }
 
   private saveTables(): void {
@@ -97,7 +107,7 @@ function paint(pictures: Shown[], into: HTMLCanvasElement): void {
     pen.drawImage(canvas, x, 0);
     pen.font = `${13 * ratio}px system-ui, sans-serif`;
     pen.fillStyle = getComputedStyle(canvas).color;
-    words.split('\n').forEach((line, k) => pen.fillText(line, x + 12 * ratio, (20 + 17 * k) * ratio));
+    words.forEach((line, k) => pen.fillText(line, x + 12 * ratio, (20 + 17 * k) * ratio));
     x += canvas.width;
   }
 }

@@ -9,7 +9,7 @@ import type { Intervention } from '../source/protocol';
 import type { Settings } from '../state/controls';
 
 /** What the pointer does in the picture, beside looking. */
-export type Tool = 'look' | 'add_target' | 'kill_area';
+export type Tool = 'look' | 'add_target' | 'add_obstacle' | 'kill_area';
 
 export interface LiveChoice {
   name: string;
@@ -25,6 +25,9 @@ export interface LiveActions {
   start(choice: LiveChoice): void;
   reset(): void;
   undo(): void;
+  redo(): void;
+  /** What is selected. */
+  remove(): void;
   setTool(tool: Tool): void;
   intervene(events: Intervention[]): void;
   saveRecording(): void;
@@ -58,6 +61,7 @@ export class LivePanel {
   constructor(private readonly actions: LiveActions) {
     this.tools = {
       add_target: button('Add target', 'Then click where it is to be (T)', () => this.choose('add_target'), { 'aria-pressed': 'false' }),
+      add_obstacle: button('Add obstacle', 'Then click where it is to be, or draw it from its middle (X)', () => this.choose('add_obstacle'), { 'aria-pressed': 'false' }),
       kill_area: button('Kill area', 'Then draw a rectangle: all robots in it die (K)', () => this.choose('kill_area'), { 'aria-pressed': 'false' }),
     };
     this.loss.addEventListener('input', () => { this.sliding = true; setText(this.lossText, percent(this.loss.value)); });
@@ -191,9 +195,11 @@ export class LivePanel {
       'fieldset',
       { class: 'now' },
       h('legend', {}, 'While it runs'),
-      h('p', { class: 'hint' }, 'Drag a target or an obstacle. Go back in time and do something else: the run is simulated anew from there.'),
-      h('div', { class: 'buttons' }, this.tools.add_target, this.tools.kill_area,
+      h('p', { class: 'hint' }, 'Drag a target or an obstacle; Remove takes away the one that you click. Go back in time and do something else: the run is simulated anew from there.'),
+      h('div', { class: 'buttons' }, this.tools.add_target, this.tools.add_obstacle, this.tools.kill_area,
+        button('Remove', 'The selected target or obstacle is no more; a selected robot dies (Delete)', this.actions.remove),
         button('Undo', 'Takes back what you did last (U)', this.actions.undo),
+        button('Redo', 'Does again what you took back last (Y)', this.actions.redo),
         button('Reset', 'The same run from its beginning, without what you did', this.actions.reset),
         button('Blackout', 'Nobody hears anything for a second', () => this.actions.intervene([{ kind: 'blackout', duration_s: 1 }]))),
       h('div', { class: 'field' }, h('label', { for: 'live-loss' }, 'Packet loss'), this.loss, this.lossText),

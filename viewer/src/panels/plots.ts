@@ -1,104 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Four curves in step with the clock; any column of the series table can be chosen for each. The numbers are those of the series table; runs side by side
-// share the axes. A click or a drag in a plot moves the clock.
+// Four curves in step with the clock; what each shows can be chosen (curves.ts). Runs side by side share the axes. A click
+// or a drag in a plot moves the clock.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import type { Series } from '../frame';
 import { h, setText } from '../dom';
-
-interface Curve {
-  title: string;
-  unit: string;
-  help: string;
-  /** From the columns of the series table; NaN where there is no value. */
-  value(series: Series, tick: number): number;
-  digits: number;
-  /** Tells a small value from 0. */
-  tiny?: boolean;
-  whole: boolean;
-}
-
-export const curves: Curve[] = [ // those shown first
-  {
-    title: 'Broken tree edges', unit: '', digits: 0, whole: true,
-    help: 'Edges of the tree whose ends are out of range or hidden from each other',
-    value: (s, k) => s.broken_by_distance[k] + s.broken_by_occlusion[k],
-  },
-  {
-    title: 'λ₂ of the radio network', unit: '', digits: 4, tiny: true, whole: false,
-    help: 'Algebraic connectivity: 0 when the network is in several parts',
-    value: (s, k) => (s.components[k] > 1 ? 0 : s.fiedler[k]),
-  },
-  {
-    title: 'Farthest worker', unit: 'm', digits: 2, whole: false,
-    help: 'Largest remaining distance of a worker to its target',
-    value: (s, k) => s.worst_target_distance_m[k],
-  },
-  {
-    title: 'Committed robots', unit: '', digits: 0, whole: true,
-    help: 'Robots in the tree: alive and no spare',
-    value: (s, k) => s.committed[k],
-  },
-];
-
-type Table = [number[], ...(number | null)[][]];
-
-/** One curve of all runs as uPlot wants it: their times joined, null where a run has no value. */
-export function tabulate(curve: Curve, runs: Series[]): Table {
-  if (runs.length === 1) {
-    const times = Array.from(runs[0].time_s);
-    return [times, times.map((_, k) => known(curve.value(runs[0], k)))];
-  }
-  const joined = uPlot.join(
-    runs.map((s) => {
-      const times = Array.from(s.time_s);
-      return [times, times.map((_, k) => known(curve.value(s, k)))] as uPlot.AlignedData;
-    }),
-  );
-  return joined as unknown as Table;
-}
-
-/** A value as it is read off. What is small is not shown as nothing: λ₂ of a large network in one piece is. */
-export function readOff({ digits, tiny = false }: Pick<Curve, 'digits' | 'tiny'>, value: number | null): string {
-  if (value === null) return '–';
-  const isSmall = value !== 0 && Math.abs(value) < 10 ** (1 - digits);
-  return tiny && isSmall ? value.toPrecision(2).replace('e-', '·10⁻').replace(/(?<=⁻)\d+/, superscript) : value.toFixed(digits);
-}
-const superscript = (digits: string) => [...digits].map((d) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)]).join('');
-
-const known = (v: number) => (Number.isFinite(v) ? v : null);
-
-/** The last value at or before a time; null if there is none. */
-export function valueAt(curve: Curve, series: Series, timeS: number): number | null {
-  const times = series.time_s;
-  if (times === undefined) return null;
-  let low = 0;
-  let high = times.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (times[middle] <= timeS + 1e-9) low = middle + 1;
-    else high = middle;
-  }
-  for (let k = low - 1; k >= 0; --k) {
-    const v = curve.value(series, k);
-    if (Number.isFinite(v)) return v;
-  }
-  return null;
-}
-
-/** What can be chosen: the curves above, and every column as it is. */
-function choices(runs: Series[]): Curve[] {
-  const names = new Set(runs.flatMap((series) => Object.keys(series)));
-  for (const name of ['tick', 'time_s']) names.delete(name);
-  return [...curves, ...[...names].map(columnCurve)];
-}
-
-function columnCurve(name: string): Curve {
-  return {
-    title: name, unit: '', digits: 4, tiny: true, whole: false, help: `The column ${name} of the series table`,
-    value: (series, k) => series[name]?.[k] ?? NaN,
-  };
-}
+import { choices, curves, readOff, tabulate, valueAt, type Curve } from './curves';
 
 const runColors = ['--run-1', '--run-2', '--run-3', '--run-4'];
 const dashes = [undefined, [5, 3], [2, 3], [9, 3, 2, 3]];
@@ -113,6 +20,12 @@ interface PlotActions {
   changed(): void;
 }
 
+/** From 0 on, or from below it if there are such values. */
+function rangeOf(low: number, high: number, whole: boolean): [number, number] {
+  const [least, most] = [low, high].map((v) => (Number.isFinite(v) ? v : 0));
+  return [Math.min(0, least * 1.08), Math.max(whole ? 1 : 1e-3, most * 1.08)];
+}
+
 const wheelStep = 0.002; // per pixel of the wheel
 
 class Plot {
@@ -123,7 +36,9 @@ class Plot {
   private readonly cursor = h('div', { class: 'plot-cursor' });
   private readonly hover = h('div', { class: 'plot-cursor plot-hover', hidden: true });
   private range: Range | null = null;
-  private runs: Series[] = [];
+  private runs: Series[] = []; // of the curve: from one of these two
+  private tables: Series[] = [];
+  private robots: Series[] = [];
   private readonly select: HTMLSelectElement;
   private offered = ''; // the titles to choose from
 
@@ -135,27 +50,35 @@ class Plot {
       h('figcaption', {}, this.select, this.readout),
       this.canvas,
     );
-    this.offer([]);
+    this.offer();
     new ResizeObserver(() => this.resize()).observe(this.canvas);
   }
 
-  private offer(runs: Series[]): void {
-    const titles = choices(runs).map(({ title }) => title);
-    if (titles.join() === this.offered) return;
-    this.offered = titles.join();
-    this.select.replaceChildren(...titles.map((title) => h('option', { value: title }, title)));
+  private offer(): void {
+    const groups = choices(this.tables);
+    const titles = groups.flatMap((group) => group.curves.map(({ title }) => title)).join();
+    if (titles === this.offered) return;
+    this.offered = titles;
+    this.select.replaceChildren(...groups.map((group) =>
+      h('optgroup', { label: group.title }, ...group.curves.map(({ title }) => h('option', { value: title }, title)))));
     this.select.value = this.curve.title;
   }
 
   private choose(): void {
-    this.curve = choices(this.runs).find(({ title }) => title === this.select.value) ?? this.curve;
+    this.curve = choices(this.tables).flatMap((group) => group.curves).find(({ title }) => title === this.select.value) ?? this.curve;
     this.element.title = this.curve.help;
+    this.setRuns(this.tables, this.robots);
     this.remake();
     this.to.changed();
   }
 
-  setRuns(runs: Series[]): void {
-    this.offer(runs);
+  get ofRobot(): boolean { return this.curve.robot === true; }
+
+  setRuns(tables: Series[], robots: Series[]): void {
+    this.tables = tables;
+    this.robots = robots;
+    this.offer();
+    const runs = this.ofRobot ? robots : tables;
     if (runs.every((series) => series.time_s.length === 0)) return this.clear();
     const remake = this.chart === null || runs.length !== this.runs.length;
     this.runs = runs;
@@ -210,7 +133,7 @@ class Plot {
         legend: { show: false },
         cursor: { show: false },
         padding: [6, 16, 0, 0],
-        scales: { x: { time: false }, y: { range: (_, __, high) => [0, Math.max(whole ? 1 : 1e-3, (Number.isFinite(high) ? high : 0) * 1.08)] } },
+        scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, whole) } },
         axes: [
           { ...axis, size: 20, gap: 3, space: 60, values: (_, ticks) => ticks.map((t) => `${t} s`) },
           { ...axis, size: 38, gap: 4, space: 22, incrs: whole ? [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000] : undefined },
@@ -271,18 +194,17 @@ export class Plots {
   private hoverS: number | null = null;
   private runs: Series[] = [];
 
-  constructor(seek: (timeS: number) => void) {
+  constructor(seek: (timeS: number) => void, chosen: () => void) {
     const actions: PlotActions = {
       seek,
       hover: (timeS) => { this.hoverS = timeS; this.setTime(this.timeS); },
       zoom: (atS, factor, now) => this.zoom(atS, factor, now),
-      changed: () => this.setTime(this.timeS),
+      changed: () => { this.setTime(this.timeS); chosen(); },
     };
     this.plots = curves.map((curve) => new Plot(curve, actions));
     this.element = h('section', { class: 'plots', 'aria-label': 'Plots' }, ...this.plots.map((p) => p.element));
   }
 
-  /** The series of each run shown; called again whenever one has grown. */
   private zoom(atS: number, factor: number, now: Range): void {
     const all = Math.max(0, ...this.runs.map(({ time_s: t }) => (t.length === 0 ? 0 : t[t.length - 1])));
     const min = Math.max(0, atS - (atS - now.min) * factor);
@@ -293,11 +215,15 @@ export class Plots {
     this.setTime(this.timeS);
   }
 
-  setRuns(runs: Series[]): void {
+  /** The series of each run shown, and that of its selected robot; called again whenever one has grown. */
+  setRuns(runs: Series[], robots: Series[]): void {
     this.runs = runs;
     this.element.classList.toggle('many', runs.length > 1);
-    for (const plot of this.plots) plot.setRuns(runs);
+    for (const plot of this.plots) plot.setRuns(runs, robots);
   }
+
+  /** Whether any curve is of the selected robot. */
+  get showRobot(): boolean { return this.plots.some((plot) => plot.ofRobot); }
 
   setTime(timeS: number): void {
     this.timeS = timeS;

@@ -29,8 +29,8 @@ export interface Intentions {
 }
 
 /** 'look': pan, pick, drag. 'area': a drag draws a rectangle, without shift too (touch has none). 'add': a click
- *  or tap adds a target. */
-export type Mode = 'look' | 'area' | 'add';
+ *  or tap adds a target. 'disc': a drag draws from a middle to an edge, and a click or tap is one that has no length. */
+export type Mode = 'look' | 'area' | 'add' | 'disc';
 
 type Gesture =
   | { kind: 'none' }
@@ -109,7 +109,7 @@ export class Input {
     const pans = event.pointerType === 'mouse' && event.button === 1;
     this.gesture = pans ? { kind: 'pan', lastPx: atPx } : {
       kind: 'pressed', fromPx: atPx, item: this.to.itemAt(atPx, touch),
-      area: event.shiftKey || this.mode === 'area', touch,
+      area: event.shiftKey || this.mode === 'area' || this.mode === 'disc', touch,
     };
   }
 
@@ -183,6 +183,7 @@ export class Input {
 
   private click(press: Extract<Gesture, { kind: 'pressed' }>, timeMs: number): void {
     const atPx = press.fromPx;
+    if (this.mode === 'disc') return this.to.areaEnd(atPx, atPx, true);
     const twice = timeMs - this.lastClick.timeMs < doubleMs && far(atPx, this.lastClick.atPx) < 2 * tapPx;
     if (this.mode === 'add' || (twice && !press.item)) {
       this.lastClick = { atPx, timeMs: -Infinity }; // a third click starts a new one

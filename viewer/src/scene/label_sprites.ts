@@ -8,7 +8,8 @@ export type LabelStyle = 'id' | 'strong' | 'target' | 'scale';
 const family = 'system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif';
 const sizesPx: Record<LabelStyle, number> = { id: 11, strong: 13, target: 14, scale: 12 };
 const most = 4000;
-const haloPx = 3;
+export const haloPx = 3;
+export const haloAlpha = 0.85;
 
 export class LabelSprites {
   private readonly made = new Map<string, LabelSprite>();
@@ -40,6 +41,14 @@ export class LabelSprites {
   }
 }
 
+/** How a label is written, on a canvas or elsewhere. */
+export function writingOf(style: LabelStyle, theme: Theme): { sizePx: number; weight: number; family: string; color: string } {
+  return {
+    sizePx: sizesPx[style], weight: style === 'target' || style === 'strong' ? 600 : 400, family,
+    color: style === 'target' ? theme.targetText : style === 'scale' ? theme.quietText : theme.text,
+  };
+}
+
 function blank(): OffscreenCanvas | HTMLCanvasElement {
   return typeof OffscreenCanvas === 'undefined' ? document.createElement('canvas') : new OffscreenCanvas(1, 1);
 }
@@ -47,8 +56,8 @@ function blank(): OffscreenCanvas | HTMLCanvasElement {
 function write(text: string, style: LabelStyle, theme: Theme, ratio: number): LabelSprite {
   const canvas = blank();
   const pen = canvas.getContext('2d') as CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
-  const size = sizesPx[style];
-  const font = `${style === 'target' || style === 'strong' ? '600 ' : ''}${size}px ${family}`;
+  const { sizePx: size, weight, color } = writingOf(style, theme);
+  const font = `${weight} ${size}px ${family}`;
   pen.font = font;
   const device = (px: number) => Math.max(1, Math.ceil(px * ratio));
   canvas.width = device(pen.measureText(text).width + 2 * haloPx);
@@ -60,10 +69,10 @@ function write(text: string, style: LabelStyle, theme: Theme, ratio: number): La
   pen.lineJoin = 'round';
   pen.lineWidth = haloPx;
   pen.strokeStyle = theme.background;
-  pen.globalAlpha = 0.85;
+  pen.globalAlpha = haloAlpha;
   pen.strokeText(text, haloPx, heightPx / 2);
   pen.globalAlpha = 1;
-  pen.fillStyle = style === 'target' ? theme.targetText : style === 'scale' ? theme.quietText : theme.text;
+  pen.fillStyle = color;
   pen.fillText(text, haloPx, heightPx / 2);
   // A bitmap that cannot change any more is copied faster than a canvas.
   const image = 'transferToImageBitmap' in canvas ? canvas.transferToImageBitmap() : canvas;

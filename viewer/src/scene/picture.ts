@@ -4,17 +4,13 @@
 import { Backdrop } from './backdrop';
 import { FactsCache, type Facts } from './facts';
 import { LabelSprites } from './label_sprites';
+import { layers } from './layers/all';
 import { drawScaleBar } from './layers/ground';
-import { drawJoining } from './layers/joining';
 import { Labels } from './layers/labels';
 import type { RadioCount } from './layers/radio';
-import { drawCommitted, drawHeadings, drawSparesAndDead } from './layers/robots';
-import { drawOverSelection, drawUnderSelection } from './layers/selection';
-import { drawTargets } from './layers/targets';
-import { drawTrails } from './layers/trails';
-import { drawTree } from './layers/tree';
 import { Shot } from './shot';
 import { Surface } from './surface';
+import { contentOf } from './svg';
 import type { Theme } from './themes';
 import type { SceneView } from './view';
 
@@ -56,18 +52,15 @@ export class Scene {
     shot.labels = this.sprites;
     shot.take(pen, ratio, view, this.facts(view));
     this.count = this.backdrop.draw(shot);
-    drawTrails(shot);
-    drawTargets(shot);
-    drawUnderSelection(shot);
-    drawHeadings(shot);
-    drawSparesAndDead(shot);
-    drawTree(shot);
-    drawJoining(shot);
-    drawCommitted(shot);
-    drawOverSelection(shot);
+    for (const layer of layers) layer.draw(shot);
     this.labels.draw(shot);
     drawScaleBar(shot);
     this.drawAgainLater();
+  }
+
+  /** The same picture as the content of an SVG. */
+  svg(view: SceneView, caption: readonly string[]): string {
+    return contentOf(view, this.facts(view), this.labels, caption);
   }
 
   dispose(): void {

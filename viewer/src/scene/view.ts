@@ -37,6 +37,8 @@ export interface SceneView {
   dragged?: { item: Item; toM: Spot } | null;
   /** A rectangle that is being drawn, m; the living robots in it are marked. */
   area?: Bounds | null;
+  /** An obstacle that is being drawn, m. */
+  disc?: { at: Spot; radiusM: number } | null;
   /** A place that is being chosen by keys, m. */
   cursor?: Spot | null;
 }

@@ -157,14 +157,18 @@ export class Source {
     return this.changePast(0, (id) => ({ type: 'reset', id }));
   }
 
-  /** Takes back what was done last; false: nothing was. */
-  async undo(): Promise<boolean> {
+  /** Takes back what was done last; the tick in which it had been done, null: nothing was. */
+  undo(): Promise<number | null> { return this.again('undo'); }
+  /** Does it again; null: there is nothing that was undone. */
+  redo(): Promise<number | null> { return this.again('redo'); }
+
+  private async again(type: 'undo' | 'redo'): Promise<number | null> {
     ++this.undoing;
     try {
-      const reply = await this.ask((id) => ({ type: 'undo', id }));
+      const reply = await this.ask((id) => ({ type, id }));
       const tick = reply.type === 'undone' ? reply.tick : null;
       if (tick !== null) this.forgetAfter(tick * this.tickS);
-      return tick !== null;
+      return tick;
     } finally {
       --this.undoing;
     }

@@ -42,6 +42,8 @@ export class LiveRun {
   private requests = 0;
   /** To be done again once their tick comes. */
   private due: Deed[] = [];
+  /** What was undone, a request each, the last one at the end. */
+  private undone: Deed[][] = [];
   private result: Record<string, string> = {};
   private warnings: string[] = [];
   private tickS = 0.1;
@@ -77,6 +79,7 @@ export class LiveRun {
     this.settingVersion = NaN;
     this.done = [];
     this.due = [];
+    this.undone = [];
     this.result = {};
     this.whole = true;
     this.headerChanged = true;
@@ -113,7 +116,7 @@ export class LiveRun {
   }
 
   step(): void {
-    for (const deed of this.due) if (deed.tick === this.head) this.again(deed);
+    if (this.due.length > 0) this.doDue();
     this.live.step(1);
     this.capture();
   }
@@ -146,21 +149,36 @@ export class LiveRun {
    *  Throws a Problem if it cannot be; then what was done later will happen again. */
   intervene(tick: number, events: Intervention[]): void {
     if (!Number.isInteger(tick) || tick < 0 || tick > this.head) throw new Problem('that moment has not been simulated yet');
+    this.actAt(tick, events.map((event) => JSON.stringify(event)), ++this.requests);
+    this.due = [];
+    this.undone = [];
+  }
+
+  private actAt(tick: number, events: readonly string[], request: number): void {
     const before = [...this.done, ...this.due];
     if (tick < this.head) this.rewind(tick);
     this.due = before.filter((act) => act.tick > tick);
-    const request = ++this.requests;
-    for (const event of events) this.act(JSON.stringify(event), request);
-    this.due = [];
+    for (const json of events) this.act(json, request);
   }
 
   /** Takes back what was done last, with all of that request. Returns the tick from which on all may differ; null:
    *  nothing was done. */
   undo(): number | null {
-    const last = this.done.at(-1);
+    const last = this.due.at(-1) ?? this.done.at(-1); // what is due comes after all that is done
     if (last === undefined) return null;
-    const kept = this.done.filter(({ request }) => request !== last.request);
-    const { tick } = last; // of all of them
+    const isLast = ({ request }: Deed) => request === last.request;
+    const undone = [...this.undone, [...this.done, ...this.due].filter(isLast)];
+    const tick = this.takeBack(last, this.done.filter((deed) => !isLast(deed)));
+    this.undone = undone;
+    return tick;
+  }
+
+  private takeBack({ tick, request }: Deed, kept: Deed[]): number {
+    if (this.due.some((deed) => deed.request === request)) {
+      this.due = this.due.filter((deed) => deed.request !== request);
+      this.headerChanged = true;
+      return Math.min(tick, this.head);
+    }
     if (tick === 0) {
       this.reset();
       for (const deed of kept) this.again(deed);
@@ -175,6 +193,28 @@ export class LiveRun {
     this.rewind(tick - 1);
     this.due = kept.filter((deed) => deed.tick === tick);
     this.step();
+    return tick;
+  }
+
+  private doDue(): void {
+    const now = this.due.filter(({ tick }) => tick === this.head);
+    this.due = this.due.filter(({ tick }) => tick !== this.head);
+    for (const deed of now) this.again(deed);
+  }
+
+  /** Does again what was undone last. Returns its tick; null: there is nothing. Throws a Problem if it cannot be. */
+  redo(): number | null {
+    const deeds = this.undone.at(-1);
+    if (deeds === undefined) return null;
+    const [{ tick, request }] = deeds;
+    const rest = this.undone.slice(0, -1);
+    if (tick > this.head) {
+      this.due = [...this.due, ...deeds]; // when it comes
+      this.headerChanged = true;
+    } else {
+      this.actAt(tick, deeds.map(({ json }) => json), request);
+    }
+    this.undone = rest;
     return tick;
   }
 

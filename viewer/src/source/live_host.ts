@@ -28,6 +28,7 @@ export class LiveHost extends Host {
     else if (request.type === 'intervene') this.intervene(run, request);
     else if (request.type === 'reset') this.reset(run, request.id);
     else if (request.type === 'undo') this.undo(run, request.id);
+    else if (request.type === 'redo') this.redo(run, request.id);
     else if (request.type === 'hash') this.send({ type: 'hash', id: request.id, hash: run.hashAt(request.tick) });
     else if (request.type === 'save_recording') this.saveRecording(run, request.id);
     else if (request.type === 'save_scenario') this.saveScenario(run, request.id);
@@ -86,6 +87,17 @@ export class LiveHost extends Host {
     const tick = run.undo();
     this.tell(run);
     this.send({ type: 'undone', id, tick });
+  }
+
+  private redo(run: LiveRun, id: number): void {
+    try {
+      const tick = run.redo();
+      this.tell(run);
+      this.send({ type: 'undone', id, tick });
+    } catch (problem) {
+      this.tell(run); // it may have gone back in any case
+      throw problem;
+    }
   }
 
   private saveRecording(run: LiveRun, id: number): void {

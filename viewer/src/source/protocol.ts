@@ -36,7 +36,9 @@ export type Intervention =
   | { kind: 'set_loss'; loss: number }
   | { kind: 'blackout'; duration_s: number }
   | { kind: 'set_line_of_sight'; line_of_sight: boolean }
-  | { kind: 'move_obstacle'; obstacle: number; position_m: [number, number] };
+  | { kind: 'move_obstacle'; obstacle: number; position_m: [number, number] }
+  | { kind: 'add_obstacle'; position_m: [number, number]; radius_m: number }
+  | { kind: 'remove_obstacle'; obstacle: number };
 
 /** A live run: text of a scenario (TOML or JSON) and "key=value" changes, as with --set. */
 export interface LiveRequest {
@@ -82,6 +84,9 @@ export type Request =
   | { type: 'reset'; id: number }
   /** Takes back what was done last, all events of that request; `undone` tells from when on all may differ. */
   | { type: 'undo'; id: number }
+  /** Does again what was undone last, unless something else has been done since. At a moment that is not simulated yet
+   *  it happens when that comes. */
+  | { type: 'redo'; id: number }
   /** The state hash after so many ticks, which `banyan run` has there too. */
   | { type: 'hash'; id: number; tick: number }
   | { type: 'save_recording'; id: number }
@@ -97,7 +102,7 @@ export type Reply =
   | { type: 'message'; id: number; fields: MessageFields | null }
   | { type: 'hash'; id: number; hash: string }
   | { type: 'done'; id: number }
-  /** tick null: there was nothing to undo. */
+  /** Also of a redo. tick null: there was nothing to undo, or to do again. */
   | { type: 'undone'; id: number; tick: number | null }
   | { type: 'file'; id: number; name: string; blob: Blob }
   /** A request that could not be met, in words for the visitor; id 0: the source could not be opened

@@ -5,7 +5,7 @@ import type { RunEvent } from '../frame';
 /** What [ and ] stop at. `recruited` is what older recordings call an insertion too. */
 export const notableKinds: ReadonlySet<string> = new Set([
   'inserted', 'recruited', 'root', 'edges_broken', 'death', 'split', 'complete',
-  'set_loss', 'blackout', 'line_of_sight', 'target_added', 'target_removed',
+  'set_loss', 'blackout', 'line_of_sight', 'target_added', 'target_removed', 'obstacle_added', 'obstacle_removed',
 ]);
 
 const sameMoment = 1e-3; // s: shorter than any tick

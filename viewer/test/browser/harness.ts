@@ -6,8 +6,8 @@ import { mkdtempSync, rmSync, existsSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { chromium, type Browser, type Page } from 'playwright-core';
-import { afterAll, beforeAll } from 'vitest';
+import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll } from 'vitest';
 import { waitForRun } from './visitor';
 
 export const root = fileURLToPath(new URL('../../..', import.meta.url));
@@ -68,9 +68,22 @@ export async function launch(): Promise<Browser> {
   });
 }
 
+const contexts = new Set<BrowserContext>();
+
+/** As long as the test: a run that goes on in a page nobody looks at slows down the tests after it. */
+export async function newContext(browser: Browser, options: Parameters<Browser['newContext']>[0] = {}): Promise<BrowserContext> {
+  const context = await browser.newContext(options);
+  contexts.add(context);
+  return context;
+}
+afterEach(async () => {
+  await Promise.all([...contexts].map((context) => context.close()));
+  contexts.clear();
+});
+
 /** A page on which any error that nobody caught fails the test that asks for `errors`. */
 export async function open(browser: Browser, url: string, size = { width: 1280, height: 720 }): Promise<{ tab: Page; errors: string[] }> {
-  const context = await browser.newContext({ viewport: size });
+  const context = await newContext(browser, { viewport: size });
   const tab = await context.newPage();
   const errors: string[] = [];
   tab.on('pageerror', (error) => errors.push(String(error)));

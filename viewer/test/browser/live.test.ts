@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A live run in the page: the simulation in WebAssembly, and what a visitor can do to it.
 import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
-import { banyan, scenario, served } from './harness';
-import { clickRobot, expectEvent, factsShown, placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
+import { banyan, scenario, served, Server } from './harness';
+import { clickRobot, expectEvent, factsShown, placeOf, saved, seekTo, settle, timeShown, waitForRun } from './visitor';
 
 const { folder, visit } = served(() => scenario('three-targets'));
 
 /** Plays on to a moment, and stands there. */
 async function playTo(tab: Page, timeS: number): Promise<void> {
   if (await tab.$('button.play[aria-label^="Play"]')) await tab.click('button.play');
-  await tab.selectOption('select[aria-label=Speed]', '16');
+  await tab.selectOption('select[aria-label=Speed]', '64');
   await tab.waitForFunction((t) => Number(document.querySelector<HTMLInputElement>('.timeline input')!.value) >= t, timeS);
   await seekTo(tab, timeS);
 }
@@ -39,14 +40,9 @@ function nativeHash(file: string, ticks: number, out: string): string {
 const lossShown = (tab: Page) => tab.$eval('#live-loss', (e) => Number((e as HTMLInputElement).value));
 const isPlaying = (tab: Page) => tab.$('button.play[aria-label^="Pause"]').then((button) => button !== null);
 
-async function saved(tab: Page, button: string): Promise<string> {
+async function savedOfLive(tab: Page, button: string): Promise<string> {
   await tab.click('#tab-live');
-  const download = tab.waitForEvent('download');
-  await tab.click(`text=${button}`);
-  const file = await download;
-  const path = join(folder.path, `${Math.random().toString(36).slice(2)}-${file.suggestedFilename()}`);
-  await file.saveAs(path);
-  return path;
+  return await saved(tab, `text=${button}`, folder.path);
 }
 
 async function dragTo(tab: Page, from: { x: number; y: number }, to: { x: number; y: number }): Promise<void> {
@@ -122,7 +118,7 @@ describe('a live run', () => {
     await expect.poll(() => tab.textContent('.caption')).toMatch(/[1-9]\d* dead/);
     await expectEvent(tab, 'robot 4 died');
     const shown = await hashShown(tab);
-    const file = await saved(tab, 'Save .toml');
+    const file = await savedOfLive(tab, 'Save .toml');
     const text = readFileSync(file, 'utf8');
     expect(text).toContain('kind = "die"');
     expect(text).toContain('kind = "set_loss"');
@@ -152,7 +148,7 @@ describe('a live run', () => {
     for (const words of ['obstacle 0', 'line of sight', 'T3']) await expectEvent(tab, words);
     expect(moved).not.toBeNull();
     const shown = await hashShown(tab);
-    const file = await saved(tab, 'Save .toml');
+    const file = await savedOfLive(tab, 'Save .toml');
     expect(readFileSync(file, 'utf8')).toContain('kind = "move_obstacle"');
     expect(shown).toBe(`${nativeHash(file, 90, 'obstacles')} at tick 90`);
     expect(errors).toEqual([]);
@@ -189,6 +185,130 @@ describe('a live run', () => {
     expect(errors).toEqual([]);
   });
 
+  it('does again what was undone, by keys and by buttons, until something else is done', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 5);
+    await killByKeys(tab, 5);
+    await playTo(tab, 8);
+    await killByKeys(tab, 6);
+    await playTo(tab, 20);
+    const shown = await hashShown(tab);
+    await tab.keyboard.press('u');
+    await tab.click('#tab-live');
+    await tab.click('button:text-is("Undo")');
+    await seekTo(tab, 5);
+    await expect.poll(() => tab.textContent('.caption')).not.toContain('dead');
+    await tab.keyboard.press('Control+Shift+z');
+    await expect.poll(() => tab.textContent('.caption')).toContain('1 dead');
+    await tab.click('button:text-is("Redo")');
+    await expect.poll(() => tab.textContent('.caption')).toContain('2 dead'); // at 8 s, to which it went on
+    expect(await timeShown(tab)).toBeCloseTo(8.1);
+    await playTo(tab, 20);
+    expect(await hashShown(tab)).toBe(shown);
+    await tab.keyboard.press('u');
+    await seekTo(tab, 7);
+    await killByKeys(tab, 1);
+    await tab.keyboard.press('y');
+    await expect.poll(() => tab.textContent('.notice')).toContain('Nothing has been undone');
+    expect(errors).toEqual([]);
+  });
+
+  it('gets obstacles by pointer and by keys, and loses them: in link, list, timeline, undo', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 4);
+    const obstacles = () => tab.evaluate(() => {
+      const { stages } = (window as unknown as { banyan: { stages: { source: { settingAt(timeS: number): { obstacles: { center_m: number[]; radius_m: number }[] } }; shown: { timeS: number } }[] } }).banyan;
+      return stages[0].source.settingAt(stages[0].shown.timeS).obstacles;
+    });
+    const place = await placeOf(tab, 'target', 0);
+    await tab.click('#tab-live');
+    await tab.click('text=Add obstacle');
+    await dragTo(tab, { x: place.x - 60, y: place.y + 90 }, { x: place.x - 60, y: place.y + 60 }); // from its middle to its edge
+    await expect.poll(async () => (await obstacles()).length).toBe(1);
+    const metresPerPx = await tab.evaluate(() => (window as unknown as { banyan: { stages: { metresPerPx: number }[] } }).banyan.stages[0].metresPerPx);
+    expect((await obstacles())[0].radius_m).toBeCloseTo(30 * metresPerPx, 2);
+    await tab.click('text=Add obstacle');
+    await tab.mouse.click(place.x - 60, place.y - 90); // of the usual size
+    await expect.poll(async () => (await obstacles()).map((o) => o.radius_m)).toContain(0.25);
+    const keys = async (...names: string[]) => { for (const name of names) await tab.keyboard.press(name); };
+    await keys('x', 'ArrowUp', 'Shift+ArrowUp', 'Enter', 'Shift+ArrowRight', 'Enter');
+    await expect.poll(async () => (await obstacles()).length).toBe(3);
+    expect((await obstacles())[2].radius_m).toBeCloseTo(48 * metresPerPx, 2);
+    await keys('Shift+n', 'Shift+p', 'g', 'Shift+ArrowUp', 'Enter'); // the last of targets and obstacles
+    await expect.poll(async () => (await obstacles())[2].center_m[1]).toBeGreaterThan(80 * metresPerPx);
+    await tab.mouse.click(place.x - 60, place.y + 90);
+    await keys('Delete');
+    await expect.poll(async () => (await obstacles()).length).toBe(2);
+    await playTo(tab, 20);
+    const shown = await hashShown(tab);
+    for (const words of ['obstacle 0 is new', 'obstacle 2 is new', 'obstacle 2 has moved', 'obstacle 0 is gone']) await expectEvent(tab, words);
+    const line = (await (await tab.$('.timeline'))!.boundingBox())!;
+    await expect.poll(async () => { // along the timeline until its hint tells of it
+      for (let x = 0; x < line.width; x += 3) {
+        await tab.mouse.move(line.x + x, line.y + line.height / 2);
+        if ((await tab.textContent('.timeline-hint'))!.includes('obstacle 0 is new')) return true;
+      }
+      return false;
+    }).toBe(true);
+    await tab.click('text=Copy link');
+    await expect.poll(() => new URL(tab.url()).hash).toContain('remove_obstacle');
+    expect(shown).toBe(`${nativeHash(tab.url().replace('?start', ''), 200, 'obstacles-linked')} at tick 200`);
+    await keys('u', 'u', 'u', 'u', 'u');
+    await playTo(tab, 20);
+    expect(await hashShown(tab)).toBe(`${nativeHash(scenario('three-targets'), 200, 'no-obstacles')} at tick 200`);
+    expect(errors).toEqual([]);
+  });
+
+  it('says why an edge broke: who stood between, what both ends believed, what was said and not heard', async () => {
+    const { tab, errors } = await visit();
+    await playTo(tab, 7);
+    await tab.click('#tab-live');
+    await tab.click('#live-sight');
+    await playTo(tab, 8);
+    const [from, to] = await tab.evaluate(() => { // the longest edge
+      interface Stage { facts(): { edges: { from: number; to: number; link: string }[] }; worldPlaceOf(item: { kind: string; index: number }): { x: number; y: number } }
+      const [stage] = (window as unknown as { banyan: { stages: Stage[] } }).banyan.stages;
+      const long = ({ from: a, to: b }: { from: number; to: number }) => {
+        const [p, q] = [a, b].map((index) => stage.worldPlaceOf({ kind: 'robot', index }));
+        return Math.hypot(p.x - q.x, p.y - q.y);
+      };
+      const [edge] = stage.facts().edges.filter((e) => e.link === 'open').sort((a, b) => long(b) - long(a));
+      return [edge.from, edge.to];
+    });
+    const [a, b] = [await placeOf(tab, 'robot', from), await placeOf(tab, 'robot', to)];
+    const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
+    await tab.click('text=Add obstacle');
+    await dragTo(tab, middle, { x: middle.x + 8, y: middle.y });
+    await playTo(tab, 9);
+    await tab.click('#tab-events');
+    await tab.fill('.events input', 'hidden by obstacle 0');
+    await tab.click('.event button');
+    await settle(tab);
+    await tab.click('.events button:text-is("Why?")');
+    await tab.waitForSelector('dialog.why[open]');
+    const text = (await tab.textContent('dialog.why'))!;
+    for (const words of ['Why did it break?', 'hidden by obstacle 0', `Robot ${from}`, `Robot ${to}`, `Robot ${to} to robot ${from}`]) expect(text).toContain(words);
+    expect(text).toMatch(/\d+ messages each way up to \d+\.\d s/);
+    const rows = await tab.$$eval('.why .moments tbody tr', (all) => all.map((row) => [...(row as HTMLTableRowElement).cells].map((cell) => cell.textContent)));
+    expect(rows.filter(([, , , heard]) => heard === 'yes').length).toBeGreaterThan(5);
+    expect(rows.filter(([, , , heard]) => heard === 'no').length).toBeGreaterThan(0);
+    await tab.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
+    expect(await tab.evaluate(async () => {
+      const { axe } = window as unknown as { axe: { run(where: string): Promise<{ violations: { id: string; impact: string }[] }> } };
+      return (await axe.run('dialog.why')).violations.filter(({ impact }) => impact === 'serious' || impact === 'critical').map(({ id }) => id);
+    })).toEqual([]);
+    // What was not heard last is what the robot says then.
+    const [name, , said] = await tab.$eval('.why .unheard tbody tr', (row) => [...(row as HTMLTableRowElement).cells].map((cell) => cell.textContent ?? ''));
+    const timeS = Number.parseFloat(/each way up to (\d+\.\d) s/.exec(text)![1]);
+    const speaker = Number(await tab.$eval('.why .unheard', (table) => /Robot (\d+)/.exec(table.previousElementSibling!.textContent!)![1]));
+    await tab.keyboard.press('Escape');
+    await seekTo(tab, timeS);
+    await tab.keyboard.type(String(speaker));
+    await tab.keyboard.press('Enter');
+    await expect.poll(async () => (await factsShown(tab, '.message'))[name]).toBe(said);
+    expect(errors).toEqual([]);
+  });
+
   it('is an address, from which the page and the program come to the same hash', async () => {
     const { tab, errors } = await visit();
     await playTo(tab, 5);
@@ -210,6 +330,18 @@ describe('a live run', () => {
     await expect.poll(() => again.textContent('.robot-head h2')).toBe('Robot 3');
     expect(await hashShown(again)).toBe(shown);
     for (const words of ['robot 5 died', 'blackout']) await expectEvent(again, words);
+    await again.close();
+    // Elsewhere, by `banyan view LINK`: on another port, and from another server's address.
+    const server = await Server.start(link.replace(/^http:\/\/[^/]*/, 'https://example.org/elsewhere'));
+    try {
+      await tab.goto(server.url);
+      await waitForRun(tab);
+      await expect.poll(() => timeShown(tab)).toBeCloseTo(20);
+      expect(await hashShown(tab)).toBe(shown);
+      expect(await tab.textContent('.robot-head h2')).toBe('Robot 3');
+    } finally {
+      await server.stop();
+    }
     expect(errors).toEqual([]);
   });
 
@@ -316,7 +448,7 @@ describe('a live run', () => {
     await tab.keyboard.press(' ');
     await settle(tab);
     expect(await isPlaying(tab)).toBe(true);
-    const text = readFileSync(await saved(tab, 'Save .toml'), 'utf8');
+    const text = readFileSync(await savedOfLive(tab, 'Save .toml'), 'utf8');
     expect(text.split('kind = "blackout"')).toHaveLength(2); // one of it
   });
 
@@ -340,7 +472,7 @@ describe('a live run', () => {
   it('is saved as a recording that the program reads', async () => {
     const { tab } = await visit();
     await playTo(tab, 6);
-    const file = await saved(tab, 'Save .mcap');
+    const file = await savedOfLive(tab, 'Save .mcap');
     const csv = banyan('export', file, '--csv');
     expect(csv.includes('\n50,5.0000,')).toBe(true);
   });
@@ -357,6 +489,19 @@ describe('a live run', () => {
     const captions = () => tab.$$eval('.caption', (all) => all.map((e) => e.textContent ?? '').join(' | '));
     await expect.poll(captions).toMatch(/outwards.*\|.*inwards/);
     expect(await timeShown(tab)).toBeCloseTo(3);
+    // One robot in both runs: what the page says of each is what its inspector says where it is clicked.
+    await tab.keyboard.type('3');
+    await tab.keyboard.press('Enter');
+    await expect.poll(() => tab.$$eval('.in-all thead th', (all) => all.map((e) => e.textContent))).toEqual(['outwards', 'inwards']);
+    const inAll = await tab.$$eval('.in-all tbody tr', (all) => all.map((row) => [...(row as HTMLTableRowElement).cells].map((cell) => cell.textContent ?? '')));
+    for (const run of [0, 1]) {
+      const at = await placeOf(tab, 'robot', 3, run);
+      await tab.mouse.click(at.x, at.y);
+      await expect.poll(() => tab.textContent('.of-run')).toContain(['outwards', 'inwards'][run]);
+      await settle(tab);
+      const facts = await factsShown(tab);
+      expect(Object.fromEntries(inAll.map((row) => [row[0], row[1 + run]]))).toEqual(facts);
+    }
     await tab.click('#tab-live');
     const names: string[] = [];
     tab.on('download', (download) => names.push(download.suggestedFilename()));

@@ -6,16 +6,10 @@ import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { describe, expect, it } from 'vitest';
 import { banyan, scenario, served } from './harness';
-import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, settle, timeShown } from './visitor';
+import { canvasPixels, clickRobot, factsShown, plotValues, seekTo, settle, table, timeShown } from './visitor';
 
 let recording: string;
 let rows: Record<string, string>[]; // of the exported table
-
-function table(csv: string): Record<string, string>[] {
-  const [head, ...lines] = csv.trim().split('\n');
-  const names = head.split(',');
-  return lines.map((line) => Object.fromEntries(line.split(',').map((cell, k) => [names[k], cell])));
-}
 
 const { folder, visit: open } = served((home) => {
   recording = home.record('run', scenario('three-targets'), '--series');
@@ -74,6 +68,33 @@ describe('a recording', () => {
       expect(Number.parseFloat(farthest)).toBeCloseTo(Number(row.worst_target_distance_m), 2);
       expect(Number(committed)).toBe(Number(row.committed));
     }
+  });
+
+  it('has the numbers of the selected robot as plots, and values under the pointer in step', async () => {
+    const { tab, errors } = await visit();
+    await seekTo(tab, 8);
+    for (const key of ['1', '1', 'Enter']) await tab.keyboard.press(key);
+    const choose = (plot: number, curve: string) => tab.selectOption(`.plot:nth-child(${plot + 1}) .plot-choice`, curve);
+    await choose(0, 'robot: x_m');
+    await choose(1, 'robot: parent');
+    await choose(3, 'robot: target');
+    const exported = (robot: number, timeS: number) => rows.find((row) => Number(row.robot) === robot && Math.abs(Number(row.time_s) - timeS) < 1e-6)!;
+    const expectRow = async (row: Record<string, string>) => {
+      await expect.poll(async () => Number.parseFloat((await plotValues(tab))[0])).toBeCloseTo(Number(row.x_m), 1);
+      const [, parent, , target] = await plotValues(tab);
+      expect([parent, target]).toEqual([row.parent, row.target].map((cell) => (cell === '' ? '–' : cell)));
+    };
+    await expectRow(exported(11, 8));
+    await seekTo(tab, 3);
+    await expectRow(exported(11, 3));
+    for (const key of ['4', 'Enter']) await tab.keyboard.press(key); // the curves are another robot's then
+    await expectRow(exported(4, 3));
+    const over = (await (await tab.$('.plot:nth-child(1) .u-over'))!.boundingBox())!;
+    await tab.mouse.move(over.x + over.width / 2, over.y + over.height / 2);
+    await expect.poll(() => tab.$$eval('.plot-value.hovered', (all) => all.length)).toBe(4);
+    const middleS = Number(rows[rows.length - 1].time_s) / 2;
+    expect(Math.abs(Number.parseFloat((await plotValues(tab))[0]) - Number(exported(4, Math.round(10 * middleS) / 10).x_m))).toBeLessThan(0.05);
+    expect(errors).toEqual([]);
   });
 
   it('plays, pauses at the end, and changes speed', async () => {
@@ -147,7 +168,7 @@ describe('a recording', () => {
 
 /** The page's own parts, for what no visitor can bring about at will. */
 interface Inside {
-  plots: { setRuns(runs: unknown[]): void };
+  plots: { setRuns(runs: unknown[], robots: unknown[]): void };
   events: { setEvents(events: unknown[]): void };
   notice: { warn(warnings: string[], run: object): void; bad(text: string): void };
   shownEvents(): unknown[];
@@ -158,7 +179,7 @@ describe('panels', () => {
     const { tab, errors } = await visit();
     await tab.waitForSelector('.plot .u-over');
     expect(await tab.$eval('.plot .u-over', (e) => getComputedStyle(e).touchAction)).toBe('pan-y');
-    await tab.evaluate(() => (window as unknown as { banyan: Inside }).banyan.plots.setRuns([]));
+    await tab.evaluate(() => (window as unknown as { banyan: Inside }).banyan.plots.setRuns([], []));
     await tab.keyboard.press('m');
     await settle(tab);
     expect(await tab.$$('.plot .u-over')).toHaveLength(0);

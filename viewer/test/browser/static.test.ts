@@ -7,7 +7,7 @@ import type { AddressInfo } from 'node:net';
 import { extname, join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { Folder, launch, open, page, scenario } from './harness';
+import { Folder, launch, newContext, open, page, scenario } from './harness';
 import { placeOf, seekTo, settle, timeShown, waitForRun } from './visitor';
 
 const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml' };
@@ -66,7 +66,7 @@ describe('the page without banyan view', () => {
   });
 
   it('stands still for a visitor who wants no motion', async () => {
-    const context = await browser.newContext({ reducedMotion: 'reduce' });
+    const context = await newContext(browser, { reducedMotion: 'reduce' });
     const tab = await context.newPage();
     await tab.goto(address);
     await waitForRun(tab);
@@ -74,7 +74,6 @@ describe('the page without banyan view', () => {
     const then = await timeShown(tab);
     await tab.waitForTimeout(300);
     expect(await timeShown(tab)).toBe(then);
-    await context.close();
   });
 
   it('loads nothing from elsewhere', async () => {
@@ -103,13 +102,12 @@ describe('the page without banyan view', () => {
   });
 
   it('says what it waits for, also where it cannot run at all', async () => {
-    const context = await browser.newContext({ javaScriptEnabled: false });
+    const context = await newContext(browser, { javaScriptEnabled: false });
     const tab = await context.newPage();
     await tab.goto(address);
     expect(await tab.isVisible('text=loading …')).toBe(true);
     await expect.poll(() => tab.$eval('.late', (e) => getComputedStyle(e).opacity), { timeout: 10_000 }).toBe('1');
     expect(await tab.textContent('.late')).toContain('banyan view');
-    await context.close();
   });
 
   it.each([['light', 1280, 720], ['dark', 1280, 720], ['light', 390, 844]] as const)('has nothing serious for axe to find: %s, %d px', async (theme, width, height) => {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a visitor does and sees, in words of the page: used by the tests that play it.
+import { mkdtempSync } from 'node:fs';
+import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { expect } from 'vitest';
 
@@ -14,11 +16,19 @@ interface PageInside {
   place(kind: string, index: number, stage: number): { x: number; y: number };
 }
 
+const calmFrames = 3; // what was done has been drawn, and what that led to
+
 /** Until the page shows what it was told: on a busy machine that takes a while. */
 export async function settle(tab: Page): Promise<void> {
-  await tab.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
-  await tab.waitForFunction(() => !(window as unknown as { banyan: PageInside }).banyan.player.waiting);
-  await tab.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
+  await tab.evaluate((enough) => new Promise<void>((done) => {
+    let calm = 0;
+    const look = () => {
+      calm = (window as unknown as { banyan: PageInside }).banyan.player.waiting ? 0 : calm + 1;
+      if (calm >= enough) done();
+      else requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+  }), calmFrames);
 }
 
 /** Of the next picture. */
@@ -59,7 +69,7 @@ export async function clickRobot(tab: Page, robot: number): Promise<void> {
 }
 
 /** The rows of a table of facts, by name. */
-export async function factsShown(tab: Page, table = '.facts:not(.message)'): Promise<Record<string, string>> {
+export async function factsShown(tab: Page, table = '.facts:not(.message):not(.beside)'): Promise<Record<string, string>> {
   return await tab.$eval(`.inspector ${table}`, (element) =>
     Object.fromEntries([...(element as HTMLTableElement).rows].map((row) => [row.cells[0].textContent ?? '', row.cells[1].textContent ?? ''])));
 }
@@ -71,6 +81,23 @@ export async function expectEvent(tab: Page, words: string): Promise<void> {
   await tab.click('#tab-events');
   await tab.fill('.events input', words);
   await expect.poll(() => tab.textContent('.events-rows')).toContain(words);
+}
+
+/** The rows of a CSV file, by column. */
+export function table(csv: string): Record<string, string>[] {
+  const [head, ...lines] = csv.trim().split('\n');
+  const names = head.split(',');
+  return lines.map((line) => Object.fromEntries(line.split(',').map((cell, k) => [names[k], cell])));
+}
+
+/** Presses what hands out a file, and returns where it lies. */
+export async function saved(tab: Page, selector: string, folder: string): Promise<string> {
+  const download = tab.waitForEvent('download');
+  await tab.click(selector);
+  const file = await download;
+  const path = join(mkdtempSync(join(folder, 'saved-')), file.suggestedFilename());
+  await file.saveAs(path);
+  return path;
 }
 
 /** How many pixels of each colour ("r,g,b") the picture has. */

@@ -3,6 +3,7 @@
 // in the simulation has to report anything.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "banyan/measure/metrics.hpp"
@@ -19,6 +20,7 @@ class EventWatcher {
 
  private:
   void watch_setting(const Setting& setting);
+  void watch_obstacles(std::span<const world::Obstacle> before, std::span<const world::Obstacle> now);
   void watch_robots(const Frame& frame);
   void watch_death(const Frame& frame, std::size_t i);
   void watch_root(const Frame& frame, std::size_t i);

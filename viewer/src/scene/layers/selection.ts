@@ -75,6 +75,7 @@ export function drawOverSelection(shot: Shot): void {
   if (view.selection) ring(shot, view.selection, 2.5, 1);
   if (view.dragged) drawDragged(shot);
   if (view.area) drawArea(shot);
+  if (view.disc) drawNewDisc(shot, view.disc);
   if (view.cursor) drawCursor(shot);
 }
 
@@ -141,6 +142,18 @@ function drawDragged(shot: Shot): void {
   pen.globalAlpha = 0.45;
   pen.fill();
   pen.globalAlpha = 1;
+  pen.lineWidth = 2;
+  pen.stroke();
+}
+
+function drawNewDisc({ pen, theme, view: { camera } }: Shot, { at, radiusM }: { at: { x: number; y: number }; radiusM: number }): void {
+  pen.beginPath();
+  traceTarget(pen, toPxX(camera, at.x), toPxY(camera, at.y), radiusM * camera.scale);
+  pen.fillStyle = theme.obstacle;
+  pen.globalAlpha = 0.45;
+  pen.fill();
+  pen.globalAlpha = 1;
+  pen.strokeStyle = theme.accent;
   pen.lineWidth = 2;
   pen.stroke();
 }

@@ -33,4 +33,7 @@ namespace banyan::world {
 // The same obstacle with its centre, of a wall the middle, at `center`; it is not turned.
 [[nodiscard]] Obstacle moved(const Obstacle& obstacle, Vec2 center) noexcept;
 
+// What an event makes of the obstacles there are. False: it is none of theirs, or refers to one that is not there.
+bool change(std::vector<Obstacle>& obstacles, const Action& action);
+
 }  // namespace banyan::world

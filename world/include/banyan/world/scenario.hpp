@@ -178,8 +178,17 @@ struct MoveObstacle {
   std::size_t obstacle = 0;
   Vec2 position{};                      // of its centre, or of a wall's middle
 };
+struct AddObstacle {                     // a disc; it becomes the last obstacle
+  static constexpr std::string_view kind = "add_obstacle";
+  Vec2 position{};
+  double radius_m = 0.0;                // above 0
+};
+struct RemoveObstacle {                  // those after it move up
+  static constexpr std::string_view kind = "remove_obstacle";
+  std::size_t obstacle = 0;
+};
 using Action = std::variant<Die, Freeze, SetLoss, MoveTarget, AddTarget, Kill, Blackout, RemoveTarget, SetLineOfSight,
-                            MoveObstacle>;
+                            MoveObstacle, AddObstacle, RemoveObstacle>;
 
 struct Event {
   // What time_s counts from: the start, the moment at which the workers' remaining distances have
