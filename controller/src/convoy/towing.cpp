@@ -10,6 +10,7 @@
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/convoy/plan.hpp"
 #include "banyan/controller/convoy/shortcut.hpp"
+#include "banyan/controller/redundancy/companions.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
 
@@ -293,6 +294,8 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
+  if (const int of = self.accompanies == nobody ? -1 : robot.table().find(self.accompanies); of >= 0)
+    return past(robot, companion_motion(robot, of), p.line_of_sight && robot.table().range(of) > 2.0F * p.companion_distance_m ? 2.0F * p.clearance_m : 0.0F);
   // No robot near has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m) return bypass(robot, self.corners.seen_from) + repulsion(robot);
   // The root is about to go round a corner, and waits for spares.

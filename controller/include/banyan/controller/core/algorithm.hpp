@@ -30,6 +30,7 @@ struct Setup {
   double scale = 1.0;                                       // on the lengths of Table I (paper Sec. IV-C, "rescaled")
   Platform platform;
   double arrival_distance_m = 0.2;                          // the mission's tolerance
+  int link_redundancy = 1;                                  // paths between any two targets that share no other robot
   std::vector<std::pair<std::string, double>> parameters;   // by key, in the units of the table
   std::size_t history = 1;                                  // longest time from sending to hearing, ticks
 };

@@ -138,6 +138,7 @@ class AlgorithmOf : public Algorithm {
     static_cast<Platform&>(params) = setup.platform;
     if constexpr (requires { params.arrival_distance_m; })
       params.arrival_distance_m = static_cast<float>(setup.arrival_distance_m);
+    if constexpr (requires { params.link_redundancy; }) params.link_redundancy = setup.link_redundancy;
     return params;
   }
 
