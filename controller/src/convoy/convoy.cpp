@@ -113,6 +113,7 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
 // Not while the workers make progress: the tree is repaired meanwhile, and a new one has its cost. And later while
 // spares are on their way to an edge, which they would lose.
 bool may_reconstruct(const ConvoyRobot& robot) noexcept {
+  if (has_companions(robot.params) && has_arrived(robot)) return false;  // they would have to change places
   constexpr float patience_s = 5.0F;
   constexpr float called_patience_s = 15.0F;
   const bool called = robot.self.call_hops != nobody_calls;

@@ -280,7 +280,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   // before the target is out of tolerance.
   constexpr float fading = 0.1F;
   const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
-  if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + repulsion(robot);
+  if (robot.self.is_worker) return pull_past_obstacles(robot) * worker_pace(p) + clamped(shared_slack(robot), give) + repulsion(robot);
   if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
   if (holds_still(robot)) return {};
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);

@@ -13,6 +13,7 @@ namespace banyan {
 namespace {
 
 constexpr float short_for_s = 10.0F;   // an edge in need has called for so long: its tree comes before companions
+constexpr int call_reach_hops_each = 40;
 constexpr int places = 12;             // around the robot of the tree
 constexpr float bridged = 0.75F;      // of C: two tree neighbours of a robot so near to each other do without it,
 constexpr float bridged_on_way = 0.6F; // and for some time to come while a worker below still has to travel
@@ -241,6 +242,9 @@ int count_companions(const ConvoyRobot& robot, RobotId of) noexcept {
 
 void keep_company(ConvoyRobot& robot) noexcept {
   if (!has_companions(robot.params)) return;
+  // The hops of a call that is over count up. It is to die out before it hides others, or looks like one of them.
+  const std::uint8_t hops = robot.self.call_hops;
+  if ((hops < companion_call ? hops : hops - companion_call) > call_reach_hops_each) robot.self.call_hops = nobody_calls;
   if (robot.self.role == Role::spare) return choose_whom(robot);
   robot.self.accompanies = nobody;
   call(robot);

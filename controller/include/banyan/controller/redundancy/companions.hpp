@@ -17,6 +17,12 @@ inline constexpr std::uint8_t companion_call = 128;
 // With k = 1 none of these rules does anything.
 [[nodiscard]] inline bool has_companions(const ConvoyParams& params) noexcept { return params.link_redundancy > 1; }
 
+// Workers drive a little slower than they could, so that companions keep up with the chains.
+[[nodiscard]] inline float worker_pace(const ConvoyParams& params) noexcept {
+  constexpr float with_companions = 0.85F;
+  return has_companions(params) ? with_companions : 1.0F;
+}
+
 // Neighbour k is a robot of the tree whose death would cut some of its tree neighbours off from others.
 [[nodiscard]] bool needs_companion(const ConvoyRobot& robot, int k) noexcept;
 // Spares that I hear which say that they stand beside that robot.
