@@ -71,7 +71,7 @@ TEST(DisjointPaths, OfKnownGraphs) {
 TEST(DisjointPaths, AreAsManyAsTheSmallestCutOfRandomGraphs) {
   std::mt19937_64 random(7);
   DisjointPaths paths;
-  for (int round = 0; round < 400; ++round) {
+  for (int round = 0; round < 150; ++round) {
     const std::size_t n = 3 + static_cast<std::size_t>(round) % 7;
     const Links links = random_links(n, 0.2 + 0.1 * (round % 5), random);
     const Graph graph = graph_of(links);
@@ -84,7 +84,7 @@ TEST(DisjointPaths, AmongTerminalsAreTheLeastOfAllPairs) {
   std::mt19937_64 random(11);
   DisjointPaths paths;
   int joined_twice = 0;
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 100; ++round) {
     const Links links = random_links(9, 0.35 + 0.05 * (round % 6), random);
     const Graph graph = graph_of(links);
     const std::vector<std::uint32_t> terminals{0, 3, 4, 7, 8};
@@ -95,7 +95,7 @@ TEST(DisjointPaths, AmongTerminalsAreTheLeastOfAllPairs) {
     ASSERT_EQ(paths.among(graph, terminals, 3), least) << "graph " << round;
     joined_twice += least == 2 ? 1 : 0;
   }
-  EXPECT_GT(joined_twice, 20);  // the test has met the case that matters
+  EXPECT_GT(joined_twice, 8);  // the test has met the case that matters
 }
 
 }  // namespace

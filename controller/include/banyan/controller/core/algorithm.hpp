@@ -49,6 +49,8 @@ class Algorithm {
   [[nodiscard]] virtual std::vector<float> values(const Setup& setup) const = 0;
   // The first fault in words ("recruitment_distance_m (E) must be below safe_range_m (S)"), or nothing.
   [[nodiscard]] virtual std::string fault(const Setup& setup) const = 0;
+  // Whether it has rules for Setup::link_redundancy above 1.
+  [[nodiscard]] virtual bool knows_redundancy() const noexcept { return false; }
   // The setup must have no fault.
   [[nodiscard]] virtual std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const = 0;
 

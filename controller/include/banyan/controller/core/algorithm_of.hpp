@@ -119,6 +119,9 @@ class AlgorithmOf : public Algorithm {
     algorithm_detail::resolve(values, bound, params);
     return std::string(of_.fault(params));
   }
+  [[nodiscard]] bool knows_redundancy() const noexcept override {
+    return requires(Params params) { params.link_redundancy; };
+  }
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
     return std::make_unique<SwarmOf<A>>(params(setup), members, setup.history);
   }
