@@ -13,11 +13,11 @@ namespace banyan {
 namespace {
 
 constexpr float short_for_s = 10.0F;   // an edge in need has called for so long: its tree comes before companions
-constexpr int call_reach_hops_each = 40;
+constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for companions
 constexpr int places = 12;             // around the robot of the tree
 constexpr float bridged = 0.75F;      // of C: two tree neighbours of a robot so near to each other do without it,
 constexpr float bridged_on_way = 0.4F; // and for some time to come while a worker below still has to travel
-constexpr float reach = 0.97F;         // of C: links longer than this do not count on
+constexpr float reach = 0.97F;         // of C: a companion relies on no longer link
 constexpr float unheard_at = 0.9F;     // of C: so far away a tree neighbour that is not heard is supposed to be
 constexpr float hides = 0.6F;          // of `clearance`: a robot so near to a link hides it
 constexpr float near_place = 0.05F;    // of C: within it the companion slows down
