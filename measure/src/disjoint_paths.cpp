@@ -46,8 +46,9 @@ bool DisjointPaths::augment(const Graph& graph) {
   std::fill(came_from_.begin(), came_from_.end(), no_node);
   queue_.clear();
   visit(left(source_), left(source_));
-  for (std::size_t head = 0; head < queue_.size(); ++head) {
-    const std::uint32_t state = queue_[head];
+  std::size_t head = 0;
+  while (head < queue_.size()) {  // which grows
+    const std::uint32_t state = queue_[head++];
     const std::uint32_t node = node_of(state);
     const bool used = previous_[node] != no_node;
     if (!is_left(state)) {

@@ -70,6 +70,7 @@ TEST_F(SpareByAChain, OfTwoThatChooseAtOnceTheSmallerIdStays) {
   put_spare(7, {0.3F, 1.0F}, 2);
   EXPECT_EQ(chosen(), 2);
   bench.silence(7);
+  for (int k = 0; k < 10; ++k) chosen();  // until it is forgotten
   put_spare(0, {0.3F, 1.0F}, 2);
   EXPECT_EQ(chosen(), nobody);
   bench.params.link_redundancy = 3;  // there is room for both
