@@ -68,6 +68,18 @@ TEST(DisjointPaths, OfKnownGraphs) {
   EXPECT_EQ(paths.among(graph_of(ring), std::vector<std::uint32_t>{5}, 3), 3U);
 }
 
+// The shortest path, 0 1 2 3 4, takes a robot from each of the two disjoint ones: two of its links have to be undone.
+TEST(DisjointPaths, UndoAPathThatIsInTheWay) {
+  Links links(11, std::vector<bool>(11, false));
+  const auto join = [&](const std::vector<std::size_t>& path) {
+    for (std::size_t k = 1; k < path.size(); ++k) links[path[k - 1]][path[k]] = links[path[k]][path[k - 1]] = true;
+  };
+  join({0, 1, 2, 3, 4});
+  join({0, 5, 6, 7, 3});
+  join({1, 8, 9, 10, 4});
+  EXPECT_EQ(DisjointPaths().between(graph_of(links), 0, 4, 3), 2U);
+}
+
 TEST(DisjointPaths, AreAsManyAsTheSmallestCutOfRandomGraphs) {
   std::mt19937_64 random(7);
   DisjointPaths paths;
