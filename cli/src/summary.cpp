@@ -58,6 +58,15 @@ std::string robots_text(const measure::Run& run) {
   return text;
 }
 
+std::string paths_text(const measure::Run& run) {
+  const std::string wanted = plural(run.link_redundancy, "disjoint path");
+  std::string text = run.redundant_time_ratio < 0.0 ? wanted + " asked for"
+                     : format("%s between targets and root for %.2f %% of the time from 10 s after completion on", wanted.c_str(), 100.0 * run.redundant_time_ratio);
+  text += format("; %u companions, with them %.2f times the bound of %u", run.companions, run.redundancy_ratio, run.redundancy_bound);
+  if (!run.single_targets.empty()) text += "; in the end fewer to targets " + run.single_targets;
+  return text;
+}
+
 std::string deaths_text(const measure::Run& run) {
   std::string text = format("%u of %s died, the last at %.1f s; ", run.deaths, plural(run.robots, "robot").c_str(),
                             run.last_death_s);
@@ -95,6 +104,7 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   text += summary_line("tree", tree_text(run));
   text += summary_line("network", network_text(run, scenario.radio.line_of_sight));
   text += summary_line("robots", robots_text(run));
+  if (run.link_redundancy > 1) text += summary_line("paths", paths_text(run));
   if (run.deaths > 0) text += summary_line("deaths", deaths_text(run));
   text += summary_line("work", work_text(run));
   text += summary_line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));

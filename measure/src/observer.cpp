@@ -13,6 +13,8 @@
 #include "banyan/measure/effort.hpp"
 #include "banyan/measure/fiedler.hpp"
 #include "banyan/measure/recovery.hpp"
+#include "banyan/measure/redundancy.hpp"
+#include "banyan/measure/redundancy_bound.hpp"
 #include "banyan/measure/relays.hpp"
 #include "banyan/measure/silence.hpp"
 #include "banyan/measure/steiner.hpp"
@@ -180,6 +182,7 @@ struct Observer::Impl {
   [[nodiscard]] bool finished() const noexcept;
   [[nodiscard]] bool survivors_suffice(const world::World& world) const;
   void ask_oracle();
+  void sum_up_redundancy(const world::World& world, Run& result);
 
   Tick tick;
   Run run;
@@ -205,6 +208,7 @@ struct Observer::Impl {
   Effort effort;
   Recovery recovery;
   Silence silence;
+  Redundancy redundancy;
   bool pending_kills;
 };
 
@@ -275,6 +279,7 @@ Observer::Impl::Impl(const world::World& world)
       effort(world),
       recovery(world.scenario().tick_s, stop_when_complete ? settle_s : 0.0),
       silence(liveness_period_s(world), world.scenario().tick_s),
+      redundancy(world),
       pending_kills(world.pending_kills()) {
   run.liveness_period_s = liveness_period_s(world);
   run.robots = static_cast<std::uint32_t>(world.size());
@@ -286,6 +291,10 @@ Observer::Impl::Impl(const world::World& world)
   run.steiner_length_m = steiner_length(first_targets).lower_m;
   run.star_length_m = star_length(first_targets);
   run.robots_bound = robots_bound(first_targets, tolerance_m, range_m);
+  run.link_redundancy = redundancy.wanted();
+  const RedundancyBound bound = redundancy_bound(first_targets, tolerance_m, range_m, redundancy.wanted());
+  run.redundancy_bound = bound.robots;
+  run.redundancy_exact = bound.exact;
 }
 
 void Observer::Impl::count_robots(const world::World& world) {
@@ -477,6 +486,23 @@ void Observer::Impl::ask_oracle() {
   run.oracle_time_s = std::max(run.time_bound_s, bottleneck_m(first_others, tree.relays) / speed_m_s);
 }
 
+void Observer::Impl::sum_up_redundancy(const world::World& world, Run& result) {
+  result.companions = count_companions(world);
+  result.redundancy_ratio = static_cast<double>(result.committed + result.companions) / static_cast<double>(result.redundancy_bound);
+  if (redundancy.wanted() <= 1) return;
+  result.redundant_time_ratio = redundancy.time_ratio();
+  result.severed_ticks = redundancy.severed_ticks();
+  result.restored_s = redundancy.restored_s();
+  const auto targets = world.targets();
+  const std::vector<std::uint32_t> paths = redundancy.paths_of_targets(world);
+  auto of_target = paths.begin();
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].active) continue;
+    if (*of_target++ >= redundancy.wanted()) ++result.redundant_targets;
+    else result.single_targets += (result.single_targets.empty() ? "" : " ") + std::to_string(t);
+  }
+}
+
 Observer::Observer(const world::World& world) : impl_(std::make_unique<Impl>(world)) {}
 Observer::Observer(Observer&&) noexcept = default;
 Observer& Observer::operator=(Observer&&) noexcept = default;
@@ -493,6 +519,8 @@ const Tick& Observer::observe(const world::World& world, bool exact_fiedler) {
   impl_->effort.observe(world);
   impl_->add_up();
   impl_->watch_recovery(world);
+  impl_->redundancy.observe(world, impl_->run.completion_time_s);
+  impl_->tick.disjoint_paths = impl_->redundancy.paths();
   return impl_->tick;
 }
 
@@ -537,6 +565,7 @@ Run Observer::result(const world::World& world) const {
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
   run.oracle_ratio = static_cast<double>(run.committed) / static_cast<double>(run.oracle_robots);
+  impl_->sum_up_redundancy(world, run);
   run.network_length_m = network_length_m(world);
   run.longest_two_roots_s = static_cast<double>(impl_->longest_two_roots) * world.scenario().tick_s;
   run.survivors_suffice = impl_->survivors_suffice(world);

@@ -32,7 +32,8 @@ std::string hexadecimal(std::uint64_t value) {
 // 2: a worker for each target in robots_bound; the oracle's columns.
 // 3: sight_leak; edges broken after a silence; held_ratio.
 // 4: messages, decisions, driven_m.
-constexpr int format_version = 4;
+// 5: link_redundancy and what was achieved of it.
+constexpr int format_version = 5;
 
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
@@ -91,6 +92,22 @@ constexpr Column<Row> result_table[] = {
     {"mean_committed", "mean over ticks", 4, [](const Row& r) -> Cell { return r.run.mean_committed; }},
     {"committed_ratio", "committed / robots_bound", 6, [](const Row& r) -> Cell { return r.run.committed_ratio; }},
     {"oracle_ratio", "committed / oracle_robots", 6, [](const Row& r) -> Cell { return r.run.oracle_ratio; }, 2},
+    {"link_redundancy", "mission.link_redundancy, k", 0, [](const Row& r) { return natural(r.run.link_redundancy); }, 5},
+    {"redundancy_bound", "no fewer robots, a worker for each target among them, join the targets by k disjoint paths", 0,
+     [](const Row& r) { return natural(r.run.redundancy_bound); }, 5},
+    {"redundancy_exact", "a network with as few exists", 0, [](const Row& r) -> Cell { return r.run.redundancy_exact; }, 5},
+    {"companions", "spares that stand beside a robot of the tree at the end", 0,
+     [](const Row& r) { return natural(r.run.companions); }, 5},
+    {"redundancy_ratio", "(committed + companions) / redundancy_bound", 6,
+     [](const Row& r) -> Cell { return r.run.redundancy_ratio; }, 5},
+    {"redundant_time_ratio", "from 10 s after completion on, share of ticks with k disjoint paths; empty if k is 1", 6,
+     [](const Row& r) { return if_known(r.run.redundant_time_ratio); }, 5},
+    {"severed_ticks", "of these, with living workers or the root cut off from each other", 0,
+     [](const Row& r) { return natural(r.run.severed_ticks); }, 5},
+    {"restored_s", "from the last death until there were k disjoint paths; empty if there never were", 4,
+     [](const Row& r) { return if_known(r.run.restored_s); }, 5},
+    {"redundant_targets", "active targets with k disjoint paths to the root at the end; 0 if k is 1", 0,
+     [](const Row& r) { return natural(r.run.redundant_targets); }, 5},
     {"network_length_m", "edges from living robots of the tree to their living parents, at the end", 4,
      [](const Row& r) -> Cell { return r.run.network_length_m; }},
     {"broken_ticks", "ticks with a broken tree edge", 0, [](const Row& r) { return natural(r.run.broken_ticks); }},

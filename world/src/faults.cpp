@@ -158,6 +158,9 @@ void check_platform(FaultList& list, const Scenario& scenario) {
     check_obstacle_body(list, scenario, element("obstacles", i) + ".size_m", scenario.obstacles[i]);
   if (const std::string text = algorithm_of(scenario).fault(setup_of(scenario)); !text.empty())
     list.fail("mission.parameters", text);
+  if (scenario.mission.link_redundancy > 1 && !algorithm_of(scenario).knows_redundancy())
+    list.fail("mission.link_redundancy", "is " + std::to_string(scenario.mission.link_redundancy) + ", but " + scenario.mission.algorithm +
+                                             " keeps one path; convoy keeps more");
 }
 
 // Visits every pair nearer than `reach` once, by a sweep along x.

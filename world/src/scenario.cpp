@@ -119,6 +119,7 @@ Setup setup_of(const Scenario& scenario) {
   setup.platform.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
   setup.platform.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
   setup.arrival_distance_m = scenario.mission.target_tolerance_m;
+  setup.link_redundancy = static_cast<int>(scenario.mission.link_redundancy);
   setup.parameters = scenario.mission.parameters;
   setup.history = longest_way(scenario);
   return setup;

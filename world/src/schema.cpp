@@ -149,6 +149,9 @@ constexpr Key<Scenario> scenario_rows[] = {
      "end the run as soon as all targets are held at once by a tree in one piece"},
     {"mission.settle_s", of<&Mission::settle_s>, "s", any_time,
      "with stop_when_complete: go on this long after completion, so that the tree can settle"},
+    {"mission.link_redundancy", of<&Mission::link_redundancy>, "", {1.0, 3.0},
+     "k: paths between any two targets that share no other robot, so that any k - 1 robots may die at once; above 1 by "
+     "convoy alone"},
 
     {"swarm.robots", of<&SwarmModel::robots>, "", {2.0, most_ids}, "number of robots",
      {.otherwise = "from redundancy, or the length of start.positions_m"}},

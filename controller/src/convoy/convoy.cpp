@@ -11,6 +11,7 @@
 #include "banyan/controller/healing/hold.hpp"
 #include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/inwards.hpp"
+#include "banyan/controller/redundancy/companions.hpp"
 #include "banyan/controller/tree/census.hpp"
 #include "banyan/controller/tree/label.hpp"
 #include "banyan/controller/tree/motion.hpp"
@@ -112,6 +113,7 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
 // Not while the workers make progress: the tree is repaired meanwhile, and a new one has its cost. And later while
 // spares are on their way to an edge, which they would lose.
 bool may_reconstruct(const ConvoyRobot& robot) noexcept {
+  if (has_companions(robot.params) && has_arrived(robot)) return false;  // they would have to change places
   constexpr float patience_s = 5.0F;
   constexpr float called_patience_s = 15.0F;
   const bool called = robot.self.call_hops != nobody_calls;
@@ -138,7 +140,7 @@ void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
   m.warned = self.warned;
   m.child_count = robot.useful_children;
   m.above = self.above;
-  m.below = self.below;
+  m.below = self.role == Role::spare ? self.accompanies : self.below;
   if (robot.up() < 0) return;
   const Vec2 parent = robot.table().position(robot.up());
   if (Vec2 pull; passes_pull_on(robot, pull)) {
@@ -227,6 +229,7 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
                         .may_call = [&] { return may_call(robot); },
                         .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, is_left_waiting(robot)); },
                         .may_insert = [&](int owner, int parent) { return may_insert(robot, owner, parent); }});
+  keep_company(robot);                                 // mission.link_redundancy
   const bool regroups = is_left_waiting(robot);
   const bool retreats = is_retreating(robot, regroups);
   const Vec2 u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
@@ -242,6 +245,12 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   watch_progress(robot, retreats, v);                  // does the worker make progress?
   output.velocity = drive(v, guard, params);
   return output;
+}
+
+Report convoy_report(const ConvoyState& s) noexcept {
+  Report report = healing_report(s);
+  if (s.role == Role::spare) report.kept[0] = s.accompanies;
+  return report;
 }
 
 void add_to(Digest& digest, const ConvoyState& state) noexcept {

@@ -24,7 +24,7 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const float c = p.communication_range_m;
   if (k == robot.parent || table.age(k) > 0 || table.range(k) > robot.parent_range_m()) return impossible;
   const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == robot.self.epoch &&
-                     m.tree_hops != unreachable;
+                     m.tree_hops != unreachable && (robot.convoy_of(k).below == nobody || robot.table().age(robot.parent) > 1);
   if (!spare && !is_rooted(robot, k)) return impossible;
   const bool clear = sees_clearly(robot, k, p.clearance_m);
   if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance_m))) return impossible;

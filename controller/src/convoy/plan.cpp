@@ -7,6 +7,7 @@
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/redundancy/companions.hpp"
 
 namespace banyan {
 namespace {
@@ -87,7 +88,7 @@ void command(ConvoyRobot& robot) noexcept {
   // Not before I know of all targets.
   const auto known = tasks(self);
   const bool knows_all = self.subtree_workers <= std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; });
-  const bool due = knows_all && !self.forgets && p.plan_after_s > 0.0F && since >= 0 && since % period < robot.elapsed_ticks && self.settled_ticks < UINT16_MAX;
+  const bool due = knows_all && !has_companions(robot.params) && !self.forgets && p.plan_after_s > 0.0F && since >= 0 && since % period < robot.elapsed_ticks && self.settled_ticks < UINT16_MAX;
   if (due && plan_tree(robot, 1 + since / period) >= self.subtree) withdraw(self);
 }
 

@@ -10,6 +10,7 @@
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/convoy/plan.hpp"
 #include "banyan/controller/convoy/shortcut.hpp"
+#include "banyan/controller/redundancy/companions.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
 
@@ -279,7 +280,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   // before the target is out of tolerance.
   constexpr float fading = 0.1F;
   const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
-  if (robot.self.is_worker) return pull_past_obstacles(robot) + clamped(shared_slack(robot), give) + repulsion(robot);
+  if (robot.self.is_worker) return pull_past_obstacles(robot) * worker_pace(p) + clamped(shared_slack(robot), give) + repulsion(robot);
   if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
   if (holds_still(robot)) return {};
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
@@ -293,6 +294,8 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
+  if (const int of = self.accompanies == nobody ? -1 : robot.table().find(self.accompanies); of >= 0)
+    return past(robot, companion_motion(robot, of), p.line_of_sight && robot.table().range(of) > 2.0F * p.companion_distance_m ? 2.0F * p.clearance_m : 0.0F);
   // No robot near has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m) return bypass(robot, self.corners.seen_from) + repulsion(robot);
   // The root is about to go round a corner, and waits for spares.

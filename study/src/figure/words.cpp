@@ -26,6 +26,8 @@ constexpr std::pair<std::string_view, std::string_view> metric_words[] = {
     {"held_time_ratio", "share of targets held once complete"},
     {"robots_bound", "lower bound of the robots in the tree"},
     {"oracle_robots", "robots of the oracle"},
+    {"redundancy_ratio", "robots with companions / bound for k paths"},
+    {"redundant_time_ratio", "time with k disjoint paths (share)"},
     {"oracle_exact", "oracle known to be best (share)"},
     {"oracle_time_s", "time of the oracle (s)"},
     {"steiner_length_m", "shortest network (m)"},

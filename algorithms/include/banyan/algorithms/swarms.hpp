@@ -41,7 +41,7 @@ struct ConvoySwarm {
   using Heard = banyan::Heard;
   static State initial(RobotId id, bool worker, bool root) { return initial_convoy_state(id, worker, root); }
   static auto step(const Params& p, State& s, std::span<Heard> heard, const Senses& senses) { return convoy_step(p, s, heard, senses); }
-  static Report report(const State& s) { return healing_report(s); }
+  static Report report(const State& s) { return convoy_report(s); }
   static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
 };
 

@@ -27,6 +27,7 @@ struct Tick {
   bool fiedler_low = false;                // lambda_2 < 1e-3, with occlusion as simulated
   bool fiedler_low_by_distance = false;
   double fiedler = -1.0;                   // lambda_2; -1: not computed this tick
+  std::uint32_t disjoint_paths = 0;        // the least number between two of targets and root (redundancy.hpp); 0 for k = 1
   std::uint32_t active_targets = 0;        // not given up
   std::uint32_t targets_reached = 0;       // of these, held: a living worker that serves it is within tolerance
   double worst_target_distance_m = 0.0;    // of these, the largest distance to the nearest living worker that
@@ -61,6 +62,16 @@ struct Run {
   double mean_committed = 0.0;
   double committed_ratio = 0.0;            // committed / robots_bound
   double oracle_ratio = 0.0;               // committed / oracle_robots
+  std::uint32_t link_redundancy = 1;       // k
+  std::uint32_t redundancy_bound = 0;      // no fewer robots give k disjoint paths between targets (redundancy_bound.hpp)
+  bool redundancy_exact = false;           // so many are enough
+  std::uint32_t companions = 0;            // living spares that keep links, at the end
+  double redundancy_ratio = 0.0;           // (committed + companions) / redundancy_bound
+  double redundant_time_ratio = -1.0;      // from 10 s after completion on, share of ticks with k paths; -1: k = 1, or none
+  std::uint64_t severed_ticks = 0;         // of these, in which living workers or the root were cut off from each other
+  double restored_s = -1.0;                // from the last death until there were k paths; -1: not, or k = 1
+  std::uint32_t redundant_targets = 0;     // at the end, active targets with k disjoint paths to the root; 0 for k = 1
+  std::string single_targets;              // the others, by index, "0 3"
   double network_length_m = 0.0;           // edges to the parents and kept links, at the end; both ends alive, the child no spare
   std::uint64_t broken_ticks = 0;          // at least one broken tree edge
   std::uint64_t broken_ticks_by_distance = 0;

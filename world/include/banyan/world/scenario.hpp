@@ -28,6 +28,7 @@ struct Mission {
   double time_limit_s = 0.0;            // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
   double settle_s = 0.0;                // with stop_when_complete: how long to go on after completion
+  std::size_t link_redundancy = 1;      // k: paths between any two targets that share no other robot
   std::vector<std::pair<std::string, double>> parameters;  // overrides, by their keys
 };
 

@@ -24,6 +24,7 @@ namespace banyan {
 // The beginning of a tick (tree/tick.hpp): memory is carried, the table brought up to date, orders followed.
 void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept;
 
+[[nodiscard]] Report convoy_report(const ConvoyState& state) noexcept;
 void add_to(Digest& digest, const ConvoyState& state) noexcept;
 void add_to(Digest& digest, const ConvoyMessage& message) noexcept;
 

@@ -9,7 +9,8 @@ namespace banyan {
 
 struct ConvoyStanding {
   std::uint8_t child_count = 0;       // living children that are not spares
-  RobotId below = nobody;             // the only worker below me, by its target; nobody: there are branches
+  RobotId below = nobody;             // the only worker below me, by its target; nobody: there are branches.
+                                      // Of a spare: the robot that it accompanies (redundancy/companions.hpp)
 
   friend bool operator==(const ConvoyStanding&, const ConvoyStanding&) = default;
 };

@@ -25,6 +25,8 @@ struct ConvoyParams : HealingParams {
   float merge_distance_m = 1.89F;    // longest edge made to save a robot, once all below have arrived
   float compact_distance_m = 1.87F;  // a chain that has arrived stretches its edges to this
   float plan_after_s = 15.0F;        // all have arrived: the root plans chains from target to target; 0: never
+  float companion_distance_m = 0.3F; // how far beside its robot a companion stands
+  int link_redundancy = 1;           // the mission's k: each robot that the tree depends on has k - 1 companions
 };
 
 [[nodiscard]] std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept;

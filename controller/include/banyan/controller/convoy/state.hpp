@@ -25,6 +25,10 @@ struct ConvoyState : HealingState {
   std::uint16_t plan_ticks = 0;          // of the plan that is being carried out
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 
+  // A second path (redundancy/companions.hpp)
+  RobotId accompanies = nobody;          // a spare: the robot of the tree that it stands beside
+  std::uint16_t alone_ticks = 0;         // for so long a companion has been missed here, or more urgently elsewhere
+
   Corners corners;                       // obstacles: lines of sight past them
   std::array<ConvoyStanding, neighbor_capacity> convoy_standings{};  // beside the neighbour table
 
@@ -47,6 +51,8 @@ constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
   visit(s.pending_ticks), visit(s.warned), visit(s.above), visit(s.below), visit(s.lead_to), visit(s.led_from), visit(s.lead_ticks);
   visit(s.settled_ticks), visit(s.unsettled_ticks), visit(s.plan_ticks);
   for (int k = 0; k < s.task_count; ++k) visit(s.hosts[static_cast<std::size_t>(k)]);
+  if (s.accompanies != nobody) visit(s.accompanies);
+  if (s.alone_ticks != 0) visit(s.alone_ticks);
   visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
   for (int k = 0; k < s.corners.landmarks.size; ++k) visit(s.corners.landmarks.points[static_cast<std::size_t>(k)]);
   for (int k = 0; k < s.neighbors.size(); ++k) {

@@ -30,6 +30,7 @@ struct Setup {
   double scale = 1.0;                                       // on the lengths of Table I (paper Sec. IV-C, "rescaled")
   Platform platform;
   double arrival_distance_m = 0.2;                          // the mission's tolerance
+  int link_redundancy = 1;                                  // paths between any two targets that share no other robot
   std::vector<std::pair<std::string, double>> parameters;   // by key, in the units of the table
   std::size_t history = 1;                                  // longest time from sending to hearing, ticks
 };
@@ -48,6 +49,8 @@ class Algorithm {
   [[nodiscard]] virtual std::vector<float> values(const Setup& setup) const = 0;
   // The first fault in words ("recruitment_distance_m (E) must be below safe_range_m (S)"), or nothing.
   [[nodiscard]] virtual std::string fault(const Setup& setup) const = 0;
+  // Whether it has rules for Setup::link_redundancy above 1.
+  [[nodiscard]] virtual bool knows_redundancy() const noexcept { return false; }
   // The setup must have no fault.
   [[nodiscard]] virtual std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const = 0;
 

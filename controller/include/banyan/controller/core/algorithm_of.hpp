@@ -119,6 +119,9 @@ class AlgorithmOf : public Algorithm {
     algorithm_detail::resolve(values, bound, params);
     return std::string(of_.fault(params));
   }
+  [[nodiscard]] bool knows_redundancy() const noexcept override {
+    return requires(Params params) { params.link_redundancy; };
+  }
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
     return std::make_unique<SwarmOf<A>>(params(setup), members, setup.history);
   }
@@ -138,6 +141,7 @@ class AlgorithmOf : public Algorithm {
     static_cast<Platform&>(params) = setup.platform;
     if constexpr (requires { params.arrival_distance_m; })
       params.arrival_distance_m = static_cast<float>(setup.arrival_distance_m);
+    if constexpr (requires { params.link_redundancy; }) params.link_redundancy = setup.link_redundancy;
     return params;
   }
 

@@ -47,7 +47,7 @@ struct Report {
   Role role = Role::spare;
   RobotId parent = nobody;         // the edges that it promises to keep
   RobotId old_parent = nobody;
-  KeptLinks kept = no_links();     // an algorithm without a tree: the links that it promises to keep, then nobody
+  KeptLinks kept = no_links();     // the links that it promises to keep besides, then nobody: without a tree, or of a spare
   RobotId serves = nobody;         // a worker: its target, by the robot first sent there
   RobotId root = nobody;           // the robot that it believes to be root,
   Serial root_sequence = 0;        // by a token with this number: the newest names the root

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A second path (docs/lasting.md): beside each robot that the tree depends on stands a spare, its companion, which hears
+// the same tree neighbours. If either dies, what was below it is still joined to what was above, by physical links that
+// are there already; the tree takes the companion as the new parent within two ticks (link repair, docs/convoy.md, rule
+// 6). A companion stays a spare: it answers edges in need as others do. With mission.link_redundancy = k each such robot
+// has k - 1 companions, so any k - 1 robots may die at once. Messages do not grow: a spare says beside whom it stands in
+// the field `below`, which means nothing of spares otherwise, and calls for companions share `call_hops`.
+#pragma once
+
+#include "banyan/controller/convoy/robot.hpp"
+
+namespace banyan {
+
+// Call hops from this on are those of calls for companions; smaller ones are of edges in need, and come first.
+inline constexpr std::uint8_t companion_call = 128;
+
+// Otherwise, with k = 1 or companion_distance 0, none of these rules does anything.
+[[nodiscard]] inline bool has_companions(const ConvoyParams& params) noexcept {
+  return params.link_redundancy > 1 && params.companion_distance_m > 0.0F;
+}
+
+// Workers drive a little slower than they could, so that companions keep up with the chains.
+[[nodiscard]] inline float worker_pace(const ConvoyParams& params) noexcept {
+  constexpr float with_companions = 0.85F;
+  return has_companions(params) ? with_companions : 1.0F;
+}
+
+// Neighbour k is a robot of the tree whose death would cut some of its tree neighbours off from others.
+[[nodiscard]] bool needs_companion(const ConvoyRobot& robot, int k) noexcept;
+// Spares that I hear which say that they stand beside that robot.
+[[nodiscard]] int count_companions(const ConvoyRobot& robot, RobotId of) noexcept;
+
+// Once a tick, after the spares: a spare decides beside whom it stands; a robot of the tree that has stood alone for
+// long calls.
+void keep_company(ConvoyRobot& robot) noexcept;
+
+// How a companion moves, in units of speed_gain: to the place beside its robot from which it hears that robot's tree
+// neighbours best and is in nobody's line of sight. The robot must be in the table.
+[[nodiscard]] Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept;
+
+}  // namespace banyan

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/redundancy/companions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "banyan/controller/core/trig.hpp"
+#include "banyan/controller/obstacles/bypass.hpp"
+#include "banyan/controller/tree/label.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float short_for_s = 10.0F;   // an edge in need has called for so long: its tree comes before companions
+constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for companions
+constexpr int places = 12;             // around the robot of the tree
+constexpr float bridged = 0.75F;      // of C: two tree neighbours of a robot so near to each other do without it,
+constexpr float bridged_on_way = 0.4F; // and for some time to come while a worker below still has to travel
+constexpr float reach = 0.97F;         // of C: a companion relies on no longer link
+constexpr float unheard_at = 0.9F;     // of C: so far away a tree neighbour that is not heard is supposed to be
+constexpr float hides = 0.6F;          // of `clearance`: a robot so near to a link hides it
+constexpr float near_place = 0.05F;    // of C: within it the companion slows down
+constexpr float costs_way = 0.15F;     // of a metre by which a place is better: the way there, so that it does not change its mind
+constexpr float costs_hidden = 0.5F;   // of C: what a hidden neighbour weighs against the distance of others
+constexpr float costs_crowd = 0.25F;   // of C: likewise a robot at that place, or an edge through it
+
+// The tree neighbours of neighbour `of` that I know.
+IndexList neighbors_of(const ConvoyRobot& robot, int of) noexcept {
+  const TreeTable& table = robot.table();
+  const RobotId id = table.id(of);
+  const RobotId up = up_of(table.message(of));
+  IndexList list;
+  for (int k = 0; k < table.size(); ++k) {
+    if (k == of || !table.alive(k)) continue;
+    const TreeStanding& m = table.message(k);
+    if (table.id(k) == up || (m.role != Role::spare && up_of(m) == id)) list.push(k);
+  }
+  return list;
+}
+
+float distance_to_segment(Vec2 p, Vec2 a, Vec2 b) noexcept { return norm(nearest_on_segment(a - p, b - p)); }
+
+// Two robots at a and b will hear each other when the one at `without` is gone; its body may stay.
+bool hear_each_other(const ConvoyRobot& robot, Vec2 a, Vec2 b, bool travels) noexcept {
+  return distance(a, b) <= (travels ? bridged_on_way : bridged) * robot.params.communication_range_m;
+}
+
+// Some of these are joined to others of them by the robot at `middle` alone. A tree of links that do without it is
+// grown from the first.
+bool holds_together(const ConvoyRobot& robot, std::span<const Vec2> ends, bool travels) noexcept {
+  std::array<bool, neighbor_capacity + 1> joined{};
+  if (!ends.empty()) joined[0] = true;
+  for (std::size_t round = 1; round < ends.size(); ++round) {
+    bool grown = false;
+    for (std::size_t i = 0; i < ends.size() && !grown; ++i)
+      for (std::size_t j = 0; joined[i] && j < ends.size() && !grown; ++j)
+        if (!joined[j] && hear_each_other(robot, ends[i], ends[j], travels)) joined[j] = grown = true;
+    if (!grown) return true;
+  }
+  return false;
+}
+
+bool is_free(const TreeStanding& m) noexcept { return m.role == Role::spare && m.parent == nobody; }
+
+// Of the companions of that robot, those that have precedence over me.
+int before_me(const ConvoyRobot& robot, RobotId of) noexcept {
+  const TreeTable& table = robot.table();
+  int count = 0;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k) && table.message(k).role == Role::spare && robot.convoy_of(k).below == of && table.id(k) < robot.self.id) ++count;
+  return count;
+}
+
+// No other spare that is free and that I hear is nearer to neighbour k; it will go there, or take another one soon.
+bool is_nearest_spare(const ConvoyRobot& robot, int k) noexcept {
+  const TreeTable& table = robot.table();
+  const float mine_m = table.range(k);
+  for (int j = 0; j < table.size(); ++j) {
+    if (!table.alive(j) || !is_free(table.message(j)) || robot.convoy_of(j).below != nobody) continue;
+    if (distance(table.position(j), table.position(k)) < mine_m) return false;
+  }
+  return true;
+}
+
+// The nearest robot that lacks companions; those that have called for long take anybody.
+RobotId nearest_alone(const ConvoyRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  const int wanted = robot.params.link_redundancy - 1;
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (best >= 0 && table.range(k) >= table.range(best)) continue;
+    if (!table.alive(k) || !needs_companion(robot, k) || count_companions(robot, table.id(k)) >= wanted) continue;
+    if (table.message(k).call_hops == companion_call || is_nearest_spare(robot, k)) best = k;
+  }
+  return best < 0 ? nobody : table.id(best);
+}
+
+// An edge in need calls, and no spare has come: what follows is about the ticks of that.
+void follow_call(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  if (robot.call_hops >= companion_call || !self.called) self.alone_ticks = 0;
+  else robot.add_elapsed(self.alone_ticks);
+}
+
+// A companion joins an edge in need only if no other spare does: the edge has begun to call.
+void leave_edge_to_others(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  if (self.accompanies == nobody || self.request == nobody) return;
+  const int owner = robot.table().find(self.request);
+  if (owner >= 0 && robot.table().message(owner).call_hops == 0) return;
+  self.request = nobody;
+  self.spare_state = SpareState::wait;
+}
+
+void choose_whom(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  const TreeTable& table = robot.table();
+  follow_call(robot);
+  const bool busy = self.parent != nobody || self.spare_state == SpareState::extend_edge;
+  if (busy || self.alone_ticks > robot.params.ticks(short_for_s)) {
+    self.accompanies = nobody;
+    return;
+  }
+  if (self.accompanies != nobody) {
+    const int k = table.find(self.accompanies);
+    const bool stays = k >= 0 && table.alive(k) && needs_companion(robot, k) && before_me(robot, self.accompanies) < robot.params.link_redundancy - 1;
+    if (!stays) self.accompanies = nobody;
+  }
+  if (self.accompanies == nobody && self.request == nobody) self.accompanies = nearest_alone(robot);
+  leave_edge_to_others(robot);
+  // One spare goes where a companion is missed far away; a crowd would be in the way there.
+  const int way = robot.call_hops < companion_call ? -1 : table.find(self.reference);
+  if (self.called && way >= 0 && !is_nearest_spare(robot, way)) self.called = false;
+}
+
+bool depends_on_me(const ConvoyRobot& robot) noexcept {
+  std::array<Vec2, neighbor_capacity + 1> ends;
+  std::size_t size = 0;
+  const TreeTable& table = robot.table();
+  const int up = robot.is_root() ? -1 : robot.up();
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k)) continue;
+    const TreeStanding& m = table.message(k);
+    if (k == up || (m.role != Role::spare && up_of(m) == robot.self.id)) ends[size++] = table.position(k);
+  }
+  return holds_together(robot, std::span(ends).first(size), robot.self.want_m > 0.0F);
+}
+
+void call(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  const bool alone = depends_on_me(robot) && count_companions(robot, self.id) < robot.params.link_redundancy - 1;
+  if (!alone) self.alone_ticks = 0;
+  else robot.add_elapsed(self.alone_ticks);
+  if (alone && self.phase == Phase::grow_tree && self.alone_ticks > robot.params.ticks(robot.params.call_after_s))
+    self.call_hops = std::min(self.call_hops, companion_call);
+}
+
+// Where robots are that a companion has to hear.
+struct Ends {
+  std::array<Vec2, neighbor_capacity + 1> at;
+  std::size_t size = 0;
+  void add(Vec2 end) noexcept { at[size++] = end; }
+  [[nodiscard]] std::span<const Vec2> all() const noexcept { return std::span(at).first(size); }
+};
+
+int degree_of(const ConvoyRobot& robot, int k) noexcept {
+  return robot.convoy_of(k).child_count + (up_of(robot.table().message(k)) != nobody ? 1 : 0);
+}
+
+// The tree neighbours of neighbour `of`. One that I do not hear is probably opposite to the others.
+Ends ends_around(const ConvoyRobot& robot, int of) noexcept {
+  const TreeTable& table = robot.table();
+  const Vec2 center = table.position(of);
+  Ends ends;
+  Vec2 sum;
+  for (const int n : neighbors_of(robot, of)) {
+    ends.add(table.position(n));
+    sum += unit(table.position(n) - center);
+  }
+  if (static_cast<int>(ends.size) < degree_of(robot, of) && sum != Vec2{})
+    ends.add(center - unit(sum) * (unheard_at * robot.params.communication_range_m));
+  return ends;
+}
+
+// The way there crosses the line between a and b.
+bool crosses(Vec2 place, Vec2 a, Vec2 b) noexcept {
+  return cross(place, a) * cross(place, b) < 0.0F && cross(b - a, -a) * cross(b - a, place - a) < 0.0F;
+}
+
+// What is in the way at that place, and of links from it to the ends. m.
+float obstruction_of(const ConvoyRobot& robot, const Ends& ends, int of, Vec2 place) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  float count = 0.0F;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k)) continue;
+    const Vec2 at = table.position(k);
+    if (k != of && distance(place, at) < p.spare_avoidance_m) count += costs_crowd;
+    // It is to hide no edge.
+    const TreeStanding& m = table.message(k);
+    const int up = m.role == Role::spare || up_of(m) == nobody ? -1 : table.find(up_of(m));
+    if (up >= 0 && distance_to_segment(place, at, table.position(up)) < p.clearance_m) count += costs_crowd;
+    if (up >= 0 && p.line_of_sight && crosses(place, at, table.position(up))) count += costs_crowd;
+    if (!p.line_of_sight) continue;
+    for (const Vec2 end : ends.all())
+      if (at != end && distance_to_segment(at, place, end) < hides * p.clearance_m) count += costs_hidden;
+  }
+  return count * p.communication_range_m;
+}
+
+// How bad that place is. m.
+float cost_of(const ConvoyRobot& robot, const Ends& ends, int of, Vec2 place) noexcept {
+  const float c = robot.params.communication_range_m;
+  float longest_m = 0.0F;
+  for (const Vec2 end : ends.all()) longest_m = std::max(longest_m, distance(place, end));
+  return longest_m + (longest_m > reach * c ? c : 0.0F) + costs_way * norm(place) + obstruction_of(robot, ends, of, place);
+}
+
+}  // namespace
+
+bool needs_companion(const ConvoyRobot& robot, int k) noexcept {
+  const TreeTable& table = robot.table();
+  const TreeStanding& m = table.message(k);
+  if (m.role == Role::spare) return false;
+  const int degree = degree_of(robot, k);
+  if (degree < 2) return false;
+  std::array<Vec2, neighbor_capacity + 1> ends;
+  std::size_t size = 0;
+  for (const int n : neighbors_of(robot, k)) ends[size++] = table.position(n);
+  const bool knows_all = static_cast<int>(size) + (up_of(m) == robot.self.id ? 1 : 0) >= degree;
+  return !knows_all || holds_together(robot, std::span(ends).first(size), m.want_cm > 0);
+}
+
+int count_companions(const ConvoyRobot& robot, RobotId of) noexcept {
+  const TreeTable& table = robot.table();
+  int count = 0;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.alive(k) && table.message(k).role == Role::spare && robot.convoy_of(k).below == of) ++count;
+  return count;
+}
+
+void keep_company(ConvoyRobot& robot) noexcept {
+  if (!has_companions(robot.params)) return;
+  // The hops of a call that is over count up. It is to die out before it hides others, or looks like one of them.
+  const std::uint8_t hops = robot.self.call_hops;
+  if ((hops < companion_call ? hops : hops - companion_call) > call_reach_hops_each) robot.self.call_hops = nobody_calls;
+  if (robot.self.role == Role::spare) return choose_whom(robot);
+  robot.self.accompanies = nobody;
+  call(robot);
+}
+
+Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  const Vec2 center = table.position(of);
+  const Ends ends = ends_around(robot, of);
+  const Vec2 axis = ends.size > 0 ? unit(ends.at[0] - center) : unit(-center);
+  Vec2 best;
+  float least = 1e9F;
+  constexpr float turn = 2.0F * pi<float> / static_cast<float>(places);
+  const Vec2 step = unit_vector(turn);
+  Vec2 direction = left_of(axis);
+  for (int k = 0; k < places; ++k, direction = rotate(step, direction)) {
+    const Vec2 place = center + direction * p.companion_distance_m;
+    const float cost = cost_of(robot, ends, of, place);
+    if (cost >= least) continue;
+    least = cost;
+    best = place;
+  }
+  const float d = norm(best);
+  const float slow = std::min(1.0F, d / (near_place * p.communication_range_m));
+  // Not through the robot itself.
+  const float room_m = 0.8F * p.companion_distance_m;
+  const Vec2 off = table.range(of) < room_m ? -unit(center) * (room_m / std::max(table.range(of), 0.05F) - 1.0F) : Vec2{};
+  return bypass(robot, best) * slow + off;
+}
+
+}  // namespace banyan
