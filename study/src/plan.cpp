@@ -34,6 +34,9 @@ class Identity {
     constexpr std::string_view exact = "\"sight_leak\":0.0,";
     if (const auto at = text_.find(disc); at != std::string::npos) text_.replace(at, disc.size(), radio);
     if (const auto at = text_.find(exact); at != std::string::npos) text_.erase(at, exact.size());
+    // And no battery.
+    constexpr std::string_view none = "\"battery\":{\"model\":\"none\"},";
+    if (const auto at = text_.find(none); at != std::string::npos) text_.erase(at, none.size());
     seed_at_ = text_.find(seed) + seed.size();
   }
   [[nodiscard]] std::string id(std::uint64_t seed) const {
