@@ -120,6 +120,11 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   if (!view.endangered && self.pending_parent == nobody) self.pending_ticks = 0;
   if (view.endangered) return keep_in_sight(robot, view.urgent);
   if (self.grant != nobody) return;  // this edge is about to change already
+  if (robot.power != nullptr) {
+    const int k = successor_of_parent(*robot.power, [&](int n) { return may_be_parent(robot, n, robot.params.ideal_distance_m); });
+    if (k >= 0) return take_parent(robot, k);
+    if (is_leaving(robot) || robot.power->power.said.relieves != nobody) return;  // no robot is saved meanwhile
+  }
   if (step_before_parent(robot)) return;
   if (is_left_waiting(robot)) take_inner(robot);
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);

@@ -266,6 +266,15 @@ bool is_relay(const ConvoyRobot& robot, int k) noexcept {
   return prunes(robot.params) && m.role == Role::worker && m.want_cm == 0 && robot.self.want_m == 0.0F;
 }
 
+// Beside the robot that is relieved, or as it makes room; slower over the last decimetre.
+static bool relief_motion(const ConvoyRobot& robot, Vec2& u) noexcept {
+  constexpr float last_bit_m = 0.1F;
+  Vec2 spot;
+  if (robot.power == nullptr || !find_relief_spot(*robot.power, spot)) return false;
+  u = clamped(spot / last_bit_m, 1.0F);
+  return true;
+}
+
 Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
@@ -275,6 +284,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   // The first tree takes time to build, and a target may be added in mid-mission: a worker does not go without a tree.
   if (up < 0 && !robot.is_root()) return before_tree(robot);
+  if (Vec2 u; relief_motion(robot, u)) return u;
   // At its target a worker may give way a little, if that lets another one reach its own; this fades out
   // before the target is out of tolerance.
   constexpr float fading = 0.1F;
@@ -290,6 +300,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const float c = p.communication_range_m;
   const ConvoyState& self = robot.self;
+  if (Vec2 u; relief_motion(robot, u)) return past(robot, u, 0.0F);
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
@@ -300,6 +311,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
     return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   if (holds_still(robot)) return {};
+  if (robot.power != nullptr && is_at_place(*robot.power)) return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   // In a crowd, a called spare might wait for others to move while the tree goes away.
   if (const int home = self.called && robot.hold >= 0 ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {

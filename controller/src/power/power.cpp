@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/power/power.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/healing/healing.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float full_charge = 0.98F;
+constexpr float level_unit = 254.0F;
+constexpr float charge_smoothing = 0.1F;      // per step, of a measured charge
+constexpr std::uint8_t farthest_place = 250;
+constexpr float at_place = 0.2F;       // of C, from the robot that keeps the place
+constexpr float beside = 0.12F;        // of C: how far from the robot that it relieves a spare takes its place
+constexpr float relief_reach = 0.2F;    // of C: from there it may
+constexpr float longest_taken = 0.925F;        // of C: longest edge that a reliever takes on
+constexpr float side_by_side = 0.8F;   // of the distance between the wheels: two robots at one target
+constexpr float surely_there = 0.9F;   // of the tolerance
+
+bool is_spare(const PowerRobot& me, int k) noexcept { return me.robot.table().message(k).role == Role::spare; }
+
+// A neighbour that leaves and has me as parent, in whose place I am or will be.
+int relieved(const PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  const int k = me.power.said.relieves == nobody ? -1 : table.find(me.power.said.relieves);
+  return k >= 0 && table.alive(k) && me.standing(k).leaving ? k : -1;
+}
+
+// My parent takes my place.
+bool has_reliever(const PowerRobot& me) noexcept {
+  return me.robot.parent_alive() && me.standing(me.robot.parent).relieves == me.robot.self.id;
+}
+
+void measure_charge(PowerRobot& me, const Senses& senses) noexcept {
+  PowerState& power = me.power;
+  power.charging = senses.charge && senses.charge->charging;
+  if (senses.charge) {
+    const float level = senses.charge->level;
+    power.level = power.level < 0.0F ? level : power.level + (level - power.level) * charge_smoothing;
+    power.said.level = static_cast<std::uint8_t>(power.level * level_unit + 0.5F);
+  }
+  // A successor is not told that its target is a charging place: it notices.
+  const HealingState& self = me.robot.self;
+  power.keeps_place = self.is_worker && (power.keeps_place || power.charging || (senses.orders.charging_place && self.serves == self.id));
+}
+
+// Hops from robot to robot, as for calls (protocol 7): the keeper of a place counts 0.
+void follow_places(PowerRobot& me) noexcept {
+  const HealingRobot& robot = me.robot;
+  const TreeTable& table = robot.table();
+  const bool there = me.power.keeps_place && robot.target != nullptr && norm(*robot.target) <= robot.params.arrival_distance_m;
+  std::uint8_t hops = no_place;
+  for (int k = 0; k < table.size() && !there; ++k)
+    if (table.alive(k)) hops = std::min(hops, me.standing(k).place_hops);
+  me.power.said.place_hops = there ? std::uint8_t{0} : hops < farthest_place ? static_cast<std::uint8_t>(hops + 1) : no_place;
+}
+
+// It stays decided until the robot is a spare, or has been charged where it is.
+void decide_to_leave(PowerRobot& me) noexcept {
+  PowerState& power = me.power;
+  const bool in_tree = me.robot.self.role != Role::spare;
+  const bool low = power.level >= 0.0F && power.level < me.params.relieve_below && !power.charging && !power.keeps_place;
+  power.said.leaving = in_tree && (power.said.leaving ? power.level < full_charge && !power.keeps_place : low);
+  const bool wants = power.level >= 0.0F && power.level < (power.seeks ? full_charge : me.params.charge_below);
+  power.seeks = !in_tree && wants;
+}
+
+void choose_relieved(PowerRobot& me) noexcept {
+  const TreeState& self = me.robot.self;
+  const TreeTable& table = me.robot.table();
+  const int inserted = self.inserted_child == nobody ? -1 : table.find(self.inserted_child);
+  if (inserted >= 0 && me.standing(inserted).leaving) me.power.said.relieves = self.inserted_child;
+  const int k = relieved(me);
+  const bool mine = k >= 0 && (table.message(k).parent == self.id || self.inserted_child == table.id(k));
+  if (self.role == Role::spare || !mine) me.power.said.relieves = nobody;
+}
+
+// A worker names its heir once that robot stands at the target, too.
+void choose_heir(PowerRobot& me) noexcept {
+  const HealingRobot& robot = me.robot;
+  PowerStanding& said = me.power.said;
+  said.heir = nobody;
+  if (!said.leaving || !robot.self.is_worker || robot.target == nullptr || !has_reliever(me) || robot.table().age(robot.parent) > 0) return;
+  const float off_m = distance(robot.table().position(robot.parent), *robot.target);
+  if (off_m <= surely_there * robot.params.arrival_distance_m) said.heir = robot.self.parent;
+}
+
+// Of robots next to each other that have to leave, the emptier one goes first: a place that two robots of an edge
+// leave at once would be empty.
+bool is_first(const PowerRobot& me, int k) noexcept {
+  const PowerStanding& other = me.standing(k);
+  if (!other.leaving || !me.robot.table().alive(k)) return true;
+  return me.power.said.level != other.level ? me.power.said.level < other.level : me.robot.self.id < me.robot.table().id(k);
+}
+
+// Of the spots round the robot that leaves, the one from which the farthest of its tree neighbours is nearest.
+Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
+  const TreeTable& table = me.robot.table();
+  const Vec2 at = table.position(leaver);
+  const RobotId id = table.id(leaver);
+  // While it is mine already, its former parent is my parent.
+  const RobotId above = table.message(leaver).parent == me.robot.self.id ? me.robot.self.parent : table.message(leaver).parent;
+  const int parent = above == nobody ? -1 : table.find(above);
+  const Vec2 axis = parent >= 0 && distance(table.position(parent), at) > 0.0F ? unit(table.position(parent) - at) : Vec2{1.0F, 0.0F};
+  constexpr float diagonal = 0.70710678F;
+  const Vec2 directions[] = {{0.0F, 1.0F}, {0.0F, -1.0F}, {diagonal, diagonal}, {diagonal, -diagonal}, {-diagonal, diagonal}, {-diagonal, -diagonal}, {1.0F, 0.0F}, {-1.0F, 0.0F}};
+  Vec2 best = at;
+  float best_cost = 1e9F;
+  for (const Vec2 d : directions) {
+    const Vec2 spot = at + (axis * d.x + left_of(axis) * d.y) * (beside * me.robot.params.communication_range_m);
+    float farthest = parent >= 0 ? distance(spot, table.position(parent)) : 0.0F;
+    for (int k = 0; k < table.size(); ++k)
+      if (table.message(k).parent == id && !is_spare(me, k)) farthest = std::max(farthest, distance(spot, table.position(k)));
+    const float cost = farthest + 0.1F * norm(spot);
+    if (cost < best_cost) best = spot, best_cost = cost;
+  }
+  return best;
+}
+
+// The nearest of the neighbours through which a charging place is nearest; -1: no way known.
+int way_to_place(const PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || me.standing(k).place_hops > farthest_place) continue;
+    const auto key = [&](int n) { return std::pair(me.standing(n).place_hops, table.range(n)); };
+    if (best < 0 || key(k) < key(best)) best = k;
+  }
+  return best;
+}
+
+}  // namespace
+
+void hand_over_target(PowerRobot& me) noexcept {
+  HealingRobot& robot = me.robot;
+  const TreeTable& table = robot.table();
+  const auto served_target = [&](int k) { return robot.self.healing_standings[static_cast<std::size_t>(k)].serves; };
+  if (robot.self.is_worker) {
+    const int k = me.power.said.heir == nobody ? -1 : table.find(me.power.said.heir);
+    if (k >= 0 && table.age(k) == 0 && table.message(k).role == Role::worker && served_target(k) == robot.self.serves) yield_task(robot, table.id(k));
+    return;
+  }
+  const int k = me.power.said.relieves == nobody ? -1 : table.find(me.power.said.relieves);
+  if (k >= 0 && table.age(k) == 0 && me.standing(k).heir == robot.self.id && table.message(k).role == Role::worker) inherit_task(robot, served_target(k));
+}
+
+void watch_charge(PowerRobot& me, const Senses& senses) noexcept {
+  measure_charge(me, senses);
+  follow_places(me);
+  decide_to_leave(me);
+  choose_relieved(me);
+  choose_heir(me);
+}
+
+bool wants_relief(const PowerRobot& me) noexcept {
+  const HealingRobot& robot = me.robot;
+  if (!me.power.said.leaving || robot.parent < 0 || has_reliever(me)) return false;
+  return is_first(me, robot.parent) && std::all_of(robot.children.begin(), robot.children.end(), [&](int k) { return is_first(me, k); });
+}
+
+bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(int)> in_sight) noexcept {
+  const TreeTable& table = me.robot.table();
+  const float c = me.robot.params.communication_range_m;
+  if (table.range(leaver) > relief_reach * c || table.range(parent) > longest_taken * c || !in_sight(parent)) return false;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.message(k).parent == table.id(leaver) && !is_spare(me, k) && (table.range(k) > longest_taken * c || !in_sight(k))) return false;
+  return true;
+}
+
+int successor_of_parent(const PowerRobot& me, FunctionRef<bool(int)> may_be_parent) noexcept {
+  const HealingRobot& robot = me.robot;
+  if (robot.parent < 0 || !me.standing(robot.parent).leaving) return -1;
+  const TreeTable& table = robot.table();
+  const Vec2 at = table.position(robot.parent);
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (k == robot.parent || me.standing(k).leaving || !may_be_parent(k)) continue;
+    if (best < 0 || distance(table.position(k), at) < distance(table.position(best), at)) best = k;
+  }
+  return best;
+}
+
+bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept {
+  HealingRobot& robot = me.robot;
+  const TreeTable& table = robot.table();
+  const float apart_m = side_by_side * robot.params.wheel_distance_m;
+  if (has_reliever(me) && me.power.said.leaving) {
+    if (!robot.self.is_worker || robot.target == nullptr) return spot = {}, true;
+    return spot = *robot.target - unit(table.position(robot.parent)) * apart_m, true;
+  }
+  int k = relieved(me);
+  if (k < 0 && robot.self.role == Role::spare && robot.self.spare_state == SpareState::extend_edge && robot.self.request != nobody)
+    k = table.find(robot.self.request);
+  if (k < 0 || !me.standing(k).leaving) return false;
+  const Task* task = find_task(robot.self, robot.self.healing_standings[static_cast<std::size_t>(k)].serves);
+  const bool at_target = table.message(k).role == Role::worker && task != nullptr && !task->unlocated;
+  spot = at_target && robot.self.role != Role::spare ? task->target - unit(table.position(k)) * apart_m : spot_beside(me, k);
+  return true;
+}
+
+void tend_battery(PowerRobot& me) noexcept {
+  TreeState& self = me.robot.self;
+  if (self.role != Role::spare || self.parent != nobody || me.power.level < 0.0F) return;
+  if (me.power.level < me.params.ready_above) {
+    self.request = nobody;
+    self.called = false;
+    self.spare_state = SpareState::adjust_position;
+  }
+  if (self.request != nobody || self.called || !me.power.seeks) return;
+  const int k = way_to_place(me);
+  if (k < 0) return;
+  self.reference = me.robot.table().id(k);
+  self.called = !is_at_place(me);
+}
+
+bool is_charged(const PowerRobot& me, int k) noexcept {
+  const std::uint8_t level = me.standing(k).level;
+  return level != 0xFF && !me.standing(k).leaving && static_cast<float>(level) >= me.params.ready_above * level_unit;
+}
+
+bool is_at_place(const PowerRobot& me) noexcept {
+  const int k = me.robot.table().find(me.robot.self.reference);
+  return me.power.seeks && k >= 0 && me.standing(k).place_hops == 0 && me.robot.table().range(k) <= at_place * me.robot.params.communication_range_m;
+}
+
+}  // namespace banyan
