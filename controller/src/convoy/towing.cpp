@@ -300,7 +300,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const float c = p.communication_range_m;
   const ConvoyState& self = robot.self;
-  if (Vec2 u; relief_motion(robot, u)) return past(robot, u, 0.0F);
+  if (Vec2 u; relief_motion(robot, u)) return past(robot, u, 2.0F * p.clearance_m);
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
