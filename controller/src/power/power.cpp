@@ -2,6 +2,7 @@
 #include "banyan/controller/power/power.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "banyan/controller/healing/healing.hpp"
 
@@ -67,14 +68,27 @@ void decide_to_leave(PowerRobot& me) noexcept {
   power.seeks = !in_tree && wants;
 }
 
+// Whoever stands right above a robot that leaves, and has more charge, takes its place, however it came there: a spare
+// that joined for it, or the robot that happens to be there. Nothing has to be remembered over a reconstruction.
 void choose_relieved(PowerRobot& me) noexcept {
-  const TreeState& self = me.robot.self;
-  const TreeTable& table = me.robot.table();
-  const int inserted = self.inserted_child == nobody ? -1 : table.find(self.inserted_child);
-  if (inserted >= 0 && me.standing(inserted).leaving) me.power.said.relieves = self.inserted_child;
-  const int k = relieved(me);
-  const bool mine = k >= 0 && (table.message(k).parent == self.id || self.inserted_child == table.id(k));
-  if (self.role == Role::spare || !mine) me.power.said.relieves = nobody;
+  constexpr float kept_within = 1.5F;  // times relief_reach
+  const HealingRobot& robot = me.robot;
+  const TreeTable& table = robot.table();
+  PowerStanding& said = me.power.said;
+  const RobotId before = std::exchange(said.relieves, nobody);
+  if (robot.self.role == Role::spare || robot.self.is_worker || said.leaving || said.level == 0xFF) return;
+  float best_m = relief_reach * robot.params.communication_range_m;
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    const PowerStanding& other = me.standing(k);
+    const bool child = up_of(m) == robot.self.id || table.id(k) == robot.self.inserted_child;
+    if (!table.alive(k) || !child || !other.leaving || m.role == Role::spare || said.level <= other.level) continue;
+    if (m.role == Role::worker && robot.is_root()) continue;
+    const float range_m = table.id(k) == before ? table.range(k) / kept_within : table.range(k);
+    if (range_m > best_m) continue;
+    best_m = range_m;
+    said.relieves = table.id(k);
+  }
 }
 
 // A worker names its heir once that robot stands at the target, too.
