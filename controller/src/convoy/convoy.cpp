@@ -41,14 +41,14 @@ struct Preference {
   Preference(const ConvoyRobot& robot, int k) noexcept {
     const ConvoyParams& p = robot.params;
     const float c = p.communication_range_m;
-    if (prunes(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k)) {
+    if (prunes(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k) && !is_leaving(robot, k)) {
       rank = -1;
       key = static_cast<float>(robot.table().message(k).label_cm);
       return;
     }
     float range_m = robot.table().range(k);
     if (!sees_clearly(robot, k, p.clearance_m)) range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? 5.0F * c : 10.0F * c;
-    if (is_leaving(robot, k)) range_m += c;
+    if (is_leaving(robot, k)) range_m += 4.0F * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather a robot that is not leaving
     rank = range_m <= p.first_edge_m ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;

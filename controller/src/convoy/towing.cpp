@@ -312,6 +312,8 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
     return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   if (holds_still(robot)) return {};
   if (robot.power != nullptr && is_at_place(*robot.power)) return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+  // Whoever is charged makes room at the place, and whoever needs it drives through the crowd: the others step aside.
+  if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away)) return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   // In a crowd, a called spare might wait for others to move while the tree goes away.
   if (const int home = self.called && robot.hold >= 0 ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
@@ -325,6 +327,8 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const float reach_m = (led ? follow_spare : follow_tree) * c;
   // A spare under way along a chain may come nearer to lines of sight than one that waits.
   const float way_m = p.line_of_sight ? 2.0F * p.clearance_m : 0.0F;  // none where robots hide no edges
+  if (robot.power != nullptr && robot.power->power.travels && d > p.avoidance_range_m)
+    return bypass(robot, reference) + repulsion(robot) * 0.3F + make_way(robot, way_m);
   if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
   if (d > reach_m)
     return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);

@@ -14,6 +14,7 @@ constexpr float level_unit = 254.0F;
 constexpr float charge_smoothing = 0.1F;      // per step, of a measured charge
 constexpr std::uint8_t farthest_place = 250;
 constexpr float at_place = 0.2F;       // of C, from the robot that keeps the place
+constexpr float place_room = 0.4F;     // of C: kept free round it by those that are charged
 constexpr float beside = 0.12F;        // of C: how far from the robot that it relieves a spare takes its place
 constexpr float relief_reach = 0.2F;    // of C: from there it may
 constexpr float longest_taken = 0.925F;        // of C: longest edge that a reliever takes on
@@ -109,7 +110,8 @@ bool is_first(const PowerRobot& me, int k) noexcept {
   return me.power.said.level != other.level ? me.power.said.level < other.level : me.robot.self.id < me.robot.table().id(k);
 }
 
-// Of the spots round the robot that leaves, the one from which the farthest of its tree neighbours is nearest.
+// Of the spots round the robot that leaves, the one from which the farthest of its tree neighbours is nearest, among those
+// from where it hides none of them.
 Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const TreeTable& table = me.robot.table();
   const Vec2 at = table.position(leaver);
@@ -118,17 +120,26 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const RobotId above = table.message(leaver).parent == me.robot.self.id ? me.robot.self.parent : table.message(leaver).parent;
   const int parent = above == nobody ? -1 : table.find(above);
   const Vec2 axis = parent >= 0 && distance(table.position(parent), at) > 0.0F ? unit(table.position(parent) - at) : Vec2{1.0F, 0.0F};
+  const float apart_m = beside * me.robot.params.communication_range_m;
   constexpr float diagonal = 0.70710678F;
-  const Vec2 directions[] = {{0.0F, 1.0F}, {0.0F, -1.0F}, {diagonal, diagonal}, {diagonal, -diagonal}, {-diagonal, diagonal}, {-diagonal, -diagonal}, {1.0F, 0.0F}, {-1.0F, 0.0F}};
+  constexpr float hidden_behind = 0.6F;  // of the distance to it: its body is so near to the line of sight
+  constexpr Vec2 directions[] = {{0.0F, 1.0F}, {0.0F, -1.0F}, {diagonal, diagonal}, {diagonal, -diagonal}, {-diagonal, diagonal}, {-diagonal, -diagonal}, {1.0F, 0.0F}, {-1.0F, 0.0F}};
   Vec2 best = at;
   float best_cost = 1e9F;
   for (const Vec2 d : directions) {
-    const Vec2 spot = at + (axis * d.x + left_of(axis) * d.y) * (beside * me.robot.params.communication_range_m);
-    float farthest = parent >= 0 ? distance(spot, table.position(parent)) : 0.0F;
-    for (int k = 0; k < table.size(); ++k)
-      if (table.message(k).parent == id && !is_spare(me, k)) farthest = std::max(farthest, distance(spot, table.position(k)));
-    const float cost = farthest + 0.1F * norm(spot);
-    if (cost < best_cost) best = spot, best_cost = cost;
+    const Vec2 off = (axis * d.x + left_of(axis) * d.y) * apart_m;
+    float farthest_m = 0.0F;
+    float hidden_m = 0.0F;
+    const auto look_at = [&](int k) {
+      const Vec2 other = table.position(k) - at;
+      farthest_m = std::max(farthest_m, distance(off, other));
+      if (norm(nearest_on_segment(off, other)) < hidden_behind * apart_m) hidden_m += me.robot.params.communication_range_m;
+    };
+    if (parent >= 0) look_at(parent);
+    for (int k = 0; k < table.size(); ++k)  // its children, and those that have changed to me already
+      if (k != leaver && !is_spare(me, k) && (table.message(k).parent == id || up_of(table.message(k)) == me.robot.self.id)) look_at(k);
+    const float cost = farthest_m + hidden_m + 0.1F * norm(at + off);
+    if (cost < best_cost) best = at + off, best_cost = cost;
   }
   return best;
 }
@@ -159,6 +170,8 @@ void hand_over_target(PowerRobot& me) noexcept {
   const int k = me.power.said.relieves == nobody ? -1 : table.find(me.power.said.relieves);
   if (k >= 0 && table.age(k) == 0 && me.standing(k).heir == robot.self.id && table.message(k).role == Role::worker) inherit_task(robot, served_target(k));
 }
+
+bool is_relieved(const PowerRobot& me) noexcept { return me.power.said.leaving && has_reliever(me) && me.robot.table().age(me.robot.parent) <= 1; }
 
 void watch_charge(PowerRobot& me, const Senses& senses) noexcept {
   measure_charge(me, senses);
@@ -216,6 +229,7 @@ bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept {
 
 void tend_battery(PowerRobot& me) noexcept {
   TreeState& self = me.robot.self;
+  me.power.travels = false;
   if (self.role != Role::spare || self.parent != nobody || me.power.level < 0.0F) return;
   if (me.power.level < me.params.ready_above) {
     self.request = nobody;
@@ -226,7 +240,19 @@ void tend_battery(PowerRobot& me) noexcept {
   const int k = way_to_place(me);
   if (k < 0) return;
   self.reference = me.robot.table().id(k);
-  self.called = !is_at_place(me);
+  me.power.travels = self.called = !is_at_place(me);
+}
+
+bool leaves_place(const PowerRobot& me, Vec2& away) noexcept {
+  const TreeTable& table = me.robot.table();
+  const float room_m = place_room * me.robot.params.communication_range_m;
+  if (me.power.seeks || me.robot.self.called || me.robot.self.request != nobody) return false;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || me.standing(k).place_hops != 0 || table.range(k) >= room_m) continue;
+    away = unit(table.position(k)) * -1.0F;
+    return true;
+  }
+  return false;
 }
 
 bool is_charged(const PowerRobot& me, int k) noexcept {

@@ -25,6 +25,9 @@ void hand_over_target(PowerRobot& me) noexcept;
 // Once parent and children are known: my charge, the way to a charging place, whether I have to leave, whom I relieve.
 void watch_charge(PowerRobot& me, const Senses& senses) noexcept;
 
+// My parent takes my place, and I hear it.
+[[nodiscard]] bool is_relieved(const PowerRobot& me) noexcept;
+
 // The edge to my parent wants a spare that takes my place.
 [[nodiscard]] bool wants_relief(const PowerRobot& me) noexcept;
 
@@ -39,6 +42,9 @@ void watch_charge(PowerRobot& me, const Senses& senses) noexcept;
 
 // After spares have looked for edges: one with too little charge joins none, one that nobody needs goes to be charged.
 void tend_battery(PowerRobot& me) noexcept;
+
+// It is charged, and too near to a charging place: which way it goes.
+[[nodiscard]] bool leaves_place(const PowerRobot& me, Vec2& away) noexcept;
 
 // Neighbour k has said that it has charge enough to join the tree.
 [[nodiscard]] bool is_charged(const PowerRobot& me, int k) noexcept;
