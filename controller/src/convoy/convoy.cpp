@@ -80,7 +80,7 @@ bool is_held_by_junction(const ConvoyRobot& robot) noexcept {
 // The need is not passed up the tree: a chain that is towed brings its slack to where the spares are by itself.
 bool needs_spare(const ConvoyRobot& robot) noexcept {
   if (robot.parent < 0) return false;
-  if (robot.power != nullptr && wants_relief(*robot.power)) return true;
+  if (robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power))) return true;
   const float d = robot.table().range(robot.parent);
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
@@ -92,7 +92,7 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
 
 // Only when the edge is about to hold the workers back; among obstacles sooner, since spares are slow there.
 bool may_call(const ConvoyRobot& robot) noexcept {
-  if (robot.power != nullptr && wants_relief(*robot.power)) return true;
+  if (robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power))) return true;
   if (is_planned(robot.self)) return false;  // spares would come along the chains and be in the way
   const ConvoyParams& p = robot.params;
   const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;

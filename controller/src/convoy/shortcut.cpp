@@ -124,9 +124,8 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   if (robot.power != nullptr) {
     // The leaver stands beside its successor: less room to it will do.
     const int k = successor_of_parent(*robot.power, [&](int n) {
-      const bool beside = robot.power->standing(n).relieves == robot.self.parent;
       return robot.table().range(n) <= robot.parent_range_m() && is_ahead(robot, n) && is_rooted(robot, n) &&
-             sees_clearly(robot, n, (beside ? 0.6F : 1.0F) * robot.params.clearance_m);
+             sees_clearly(robot, n, 0.6F * robot.params.clearance_m);
     });
     if (k >= 0) return take_parent(robot, k);
     if (is_leaving(robot) || robot.power->power.said.relieves != nobody) return;  // no robot is saved meanwhile

@@ -14,6 +14,8 @@ constexpr float level_unit = 254.0F;
 constexpr float charge_smoothing = 0.1F;      // per step, of a measured charge
 constexpr std::uint8_t farthest_place = 250;
 constexpr float at_place = 0.2F;       // of C, from the robot that keeps the place
+constexpr float in_place = 0.05F;      // of C: near enough to its spot
+constexpr float slack_below = 0.6F;    // of C: an edge this short has slack
 constexpr float place_room = 0.4F;     // of C: kept free round it by those that are charged
 constexpr float beside = 0.12F;        // of C: how far from the robot that it relieves a spare takes its place
 constexpr float relief_reach = 0.2F;    // of C: from there it may
@@ -33,6 +35,14 @@ int relieved(const PowerRobot& me) noexcept {
 // My parent takes my place.
 bool has_reliever(const PowerRobot& me) noexcept {
   return me.robot.parent_alive() && me.standing(me.robot.parent).relieves == me.robot.self.id;
+}
+
+// Another robot takes my parent's place.
+bool is_parent_relieved(const PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  const RobotId above = table.message(me.robot.parent).parent;
+  const int k = above == nobody ? -1 : table.find(above);
+  return k >= 0 && me.standing(k).relieves == me.robot.self.parent;
 }
 
 void measure_charge(PowerRobot& me, const Senses& senses) noexcept {
@@ -173,11 +183,23 @@ void hand_over_target(PowerRobot& me) noexcept {
 
 bool is_relieved(const PowerRobot& me) noexcept { return me.power.said.leaving && has_reliever(me) && me.robot.table().age(me.robot.parent) <= 1; }
 
+// Its children may change to me only once I stand still.
+void settle_in(PowerRobot& me) noexcept {
+  PowerStanding& said = me.power.said;
+  Vec2 spot;
+  const bool there = said.relieves != nobody && find_relief_spot(me, spot) && norm(spot) <= in_place * me.robot.params.communication_range_m;
+  said.in_place = said.relieves != nobody && (said.in_place || there);
+  const bool waits = me.robot.parent >= 0 && me.standing(me.robot.parent).leaving && is_parent_relieved(me);
+  if (said.relieves != nobody || waits) me.robot.add_elapsed(me.power.stuck_ticks);
+  else me.power.stuck_ticks = 0;
+}
+
 void watch_charge(PowerRobot& me, const Senses& senses) noexcept {
   measure_charge(me, senses);
   follow_places(me);
   decide_to_leave(me);
   choose_relieved(me);
+  settle_in(me);
   choose_heir(me);
 }
 
@@ -196,17 +218,17 @@ bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(
   return true;
 }
 
+bool is_stuck(const PowerRobot& me) noexcept {
+  constexpr float patience_s = 6.0F;
+  const HealingRobot& robot = me.robot;
+  return me.power.stuck_ticks > robot.params.ticks(patience_s) && robot.parent >= 0 && robot.table().range(robot.parent) > slack_below * robot.params.communication_range_m;
+}
+
 int successor_of_parent(const PowerRobot& me, FunctionRef<bool(int)> may_be_parent) noexcept {
   const HealingRobot& robot = me.robot;
-  if (robot.parent < 0 || !me.standing(robot.parent).leaving) return -1;
-  const TreeTable& table = robot.table();
-  const Vec2 at = table.position(robot.parent);
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
-    if (k == robot.parent || me.standing(k).leaving || !may_be_parent(k)) continue;
-    if (best < 0 || distance(table.position(k), at) < distance(table.position(best), at)) best = k;
-  }
-  return best;
+  if (robot.parent < 0 || !me.standing(robot.parent).leaving || !is_parent_relieved(me)) return -1;
+  const int k = robot.table().find(robot.table().message(robot.parent).parent);
+  return me.standing(k).in_place && may_be_parent(k) ? k : -1;
 }
 
 bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept {

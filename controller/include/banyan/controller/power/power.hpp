@@ -34,8 +34,11 @@ void watch_charge(PowerRobot& me, const Senses& senses) noexcept;
 // A spare beside a robot that leaves may take its place above it, from where it is: it reaches the parent and all children.
 [[nodiscard]] bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(int k)> in_sight) noexcept;
 
-// My parent leaves: the neighbour to take in its stead, the nearest to it of those that `may_be_parent`; -1: none yet.
+// My parent leaves: the robot that takes its place, once that stands beside it and `may_be_parent`; -1: not yet.
 [[nodiscard]] int successor_of_parent(const PowerRobot& me, FunctionRef<bool(int k)> may_be_parent) noexcept;
+
+// A relief that I am part of does not come to an end: my edge is too long, and a robot in it would give it slack.
+[[nodiscard]] bool is_stuck(const PowerRobot& me) noexcept;
 
 // I take part in a relief, and move for it: where to, own frame, m.
 [[nodiscard]] bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept;
