@@ -311,9 +311,9 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
     return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   if (holds_still(robot)) return {};
-  if (robot.power != nullptr && is_at_place(*robot.power)) return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   // Whoever is charged makes room at the place, and whoever needs it drives through the crowd: the others step aside.
   if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away)) return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
+  if (robot.power != nullptr && is_at_place(*robot.power)) return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   // In a crowd, a called spare might wait for others to move while the tree goes away.
   if (const int home = self.called && robot.hold >= 0 ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {

@@ -16,6 +16,8 @@ constexpr std::uint8_t farthest_place = 250;
 constexpr float at_place = 0.2F;       // of C, from the robot that keeps the place
 constexpr float in_place = 0.05F;      // of C: near enough to its spot
 constexpr float slack_below = 0.6F;    // of C: an edge this short has slack
+constexpr float way_to_edge = 0.15F;   // of a full battery: so much a spare may spend on its way
+constexpr float urgent_level = 0.5F;   // whoever has less is let through to the place
 constexpr float place_room = 0.4F;     // of C: kept free round it by those that are charged
 constexpr float beside = 0.12F;        // of C: how far from the robot that it relieves a spare takes its place
 constexpr float relief_reach = 0.2F;    // of C: from there it may
@@ -77,6 +79,7 @@ void decide_to_leave(PowerRobot& me) noexcept {
   power.said.leaving = in_tree && (power.said.leaving ? power.level < full_charge && !power.keeps_place : low);
   const bool wants = power.level >= 0.0F && power.level < (power.seeks ? full_charge : me.params.charge_below);
   power.seeks = !in_tree && wants;
+  power.ready = power.level >= me.params.ready_above - (power.ready ? way_to_edge : 0.0F);
 }
 
 // Whoever stands right above a robot that leaves, and has more charge, takes its place, however it came there: a spare
@@ -166,6 +169,15 @@ int way_to_place(const PowerRobot& me) noexcept {
   return best;
 }
 
+// I wait for a slot, and a spare near me needs one more.
+bool lets_through(const PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  if (me.power.charging || me.power.level < urgent_level) return false;
+  for (int k = 0; k < table.size(); ++k)
+    if (is_spare(me, k) && table.alive(k) && static_cast<float>(me.standing(k).level) < urgent_level * level_unit && table.range(k) < place_room * me.robot.params.communication_range_m) return true;
+  return false;
+}
+
 }  // namespace
 
 void hand_over_target(PowerRobot& me) noexcept {
@@ -253,7 +265,7 @@ void tend_battery(PowerRobot& me) noexcept {
   TreeState& self = me.robot.self;
   me.power.travels = false;
   if (self.role != Role::spare || self.parent != nobody || me.power.level < 0.0F) return;
-  if (me.power.level < me.params.ready_above) {
+  if (!me.power.ready) {
     self.request = nobody;
     self.called = false;
     self.spare_state = SpareState::adjust_position;
@@ -268,7 +280,7 @@ void tend_battery(PowerRobot& me) noexcept {
 bool leaves_place(const PowerRobot& me, Vec2& away) noexcept {
   const TreeTable& table = me.robot.table();
   const float room_m = place_room * me.robot.params.communication_range_m;
-  if (me.power.seeks || me.robot.self.called || me.robot.self.request != nobody) return false;
+  if ((me.power.seeks && !lets_through(me)) || (me.robot.self.called && !me.power.travels) || me.robot.self.request != nobody) return false;
   for (int k = 0; k < table.size(); ++k) {
     if (!table.alive(k) || me.standing(k).place_hops != 0 || table.range(k) >= room_m) continue;
     away = unit(table.position(k)) * -1.0F;
