@@ -273,7 +273,8 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
 Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, std::span<Heard> heard, const Senses& senses) noexcept {
   const Admitted admitted(senses, heard, params, state.tally);
   ConvoyRobot robot(params, state, admitted);
-  PowerRobot power{robot, state.power, params};
+  const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
+  PowerRobot power{robot, state.power, params, child_count};
   robot.power = &power;
   Output<PoweredConvoyMessage> output;
   output.velocity = tick(robot, admitted, output.message);

@@ -123,6 +123,18 @@ bool is_first(const PowerRobot& me, int k) noexcept {
   return me.power.said.level != other.level ? me.power.said.level < other.level : me.robot.self.id < me.robot.table().id(k);
 }
 
+// It has a child that I do not hear: it hides it from me.
+bool hides_child(const PowerRobot& me, int leaver) noexcept {
+  const TreeTable& table = me.robot.table();
+  const RobotId id = table.id(leaver);
+  int heard = 0;
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (table.age(k) <= 1 && m.role != Role::spare && (m.parent == id || m.old_parent == id)) ++heard;
+  }
+  return heard < me.child_count(leaver);
+}
+
 // Of the spots round the robot that leaves, the one from which the farthest of its tree neighbours is nearest, among those
 // from where it hides none of them.
 Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
@@ -133,7 +145,9 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const RobotId above = table.message(leaver).parent == me.robot.self.id ? me.robot.self.parent : table.message(leaver).parent;
   const int parent = above == nobody ? -1 : table.find(above);
   const Vec2 axis = parent >= 0 && distance(table.position(parent), at) > 0.0F ? unit(table.position(parent) - at) : Vec2{1.0F, 0.0F};
-  const float apart_m = beside * me.robot.params.communication_range_m;
+  const float range_m = me.robot.params.communication_range_m;
+  const float apart_m = beside * range_m;
+  const bool hides = hides_child(me, leaver);
   constexpr float diagonal = 0.70710678F;
   constexpr float hidden_behind = 0.6F;  // of the distance to it: its body is so near to the line of sight
   constexpr Vec2 directions[] = {{0.0F, 1.0F}, {0.0F, -1.0F}, {diagonal, diagonal}, {diagonal, -diagonal}, {-diagonal, diagonal}, {-diagonal, -diagonal}, {1.0F, 0.0F}, {-1.0F, 0.0F}};
@@ -146,9 +160,11 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
     const auto look_at = [&](int k) {
       const Vec2 other = table.position(k) - at;
       farthest_m = std::max(farthest_m, distance(off, other));
-      if (norm(nearest_on_segment(off, other)) < hidden_behind * apart_m) hidden_m += me.robot.params.communication_range_m;
+      if (norm(nearest_on_segment(off, other)) < hidden_behind * apart_m) hidden_m += range_m;
     };
     if (parent >= 0) look_at(parent);
+    // A child that I do not hear is right behind it, seen from here.
+    if (hides && norm(nearest_on_segment(off, unit(at) * range_m)) < hidden_behind * apart_m) hidden_m += range_m;
     for (int k = 0; k < table.size(); ++k)  // its children, and those that have changed to me already
       if (k != leaver && !is_spare(me, k) && (table.message(k).parent == id || up_of(table.message(k)) == me.robot.self.id)) look_at(k);
     const float cost = farthest_m + hidden_m + 0.1F * norm(at + off);
@@ -199,7 +215,8 @@ bool is_relieved(const PowerRobot& me) noexcept { return me.power.said.leaving &
 void settle_in(PowerRobot& me) noexcept {
   PowerStanding& said = me.power.said;
   Vec2 spot;
-  const bool there = said.relieves != nobody && find_relief_spot(me, spot) && norm(spot) <= in_place * me.robot.params.communication_range_m;
+  const bool there = said.relieves != nobody && find_relief_spot(me, spot) && norm(spot) <= in_place * me.robot.params.communication_range_m &&
+                     !hides_child(me, me.robot.table().find(said.relieves));
   said.in_place = said.relieves != nobody && (said.in_place || there);
   const bool waits = me.robot.parent >= 0 && me.standing(me.robot.parent).leaving && is_parent_relieved(me);
   if (said.relieves != nobody || waits) me.robot.add_elapsed(me.power.stuck_ticks);
@@ -224,7 +241,7 @@ bool wants_relief(const PowerRobot& me) noexcept {
 bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(int)> in_sight) noexcept {
   const TreeTable& table = me.robot.table();
   const float c = me.robot.params.communication_range_m;
-  if (table.range(leaver) > relief_reach * c || table.range(parent) > longest_taken * c || !in_sight(parent)) return false;
+  if (hides_child(me, leaver) || table.range(leaver) > relief_reach * c || table.range(parent) > longest_taken * c || !in_sight(parent)) return false;
   for (int k = 0; k < table.size(); ++k)
     if (table.message(k).parent == table.id(leaver) && !is_spare(me, k) && (table.range(k) > longest_taken * c || !in_sight(k))) return false;
   return true;

@@ -15,6 +15,7 @@ struct PowerRobot {
   HealingRobot& robot;
   PowerState& power;
   const PowerParams& params;
+  FunctionRef<int(int k)> child_count;  // that neighbour k has, as it says
 
   [[nodiscard]] const PowerStanding& standing(int k) const noexcept { return power.standings[static_cast<std::size_t>(k)]; }
 };
