@@ -16,6 +16,10 @@ constexpr std::uint8_t farthest_place = 250;
 constexpr float at_place = 0.2F;       // of C, from the robot that keeps the place
 constexpr float in_place = 0.05F;      // of C: near enough to its spot
 constexpr float slack_below = 0.6F;    // of C: an edge this short has slack
+constexpr float per_hop = 0.05F;       // of a full battery
+constexpr int near_hops = 2;
+constexpr int most_hops_counted = 6;
+constexpr int inner_depth = 3;         // of the tree: from there a spare is soon at every branch
 constexpr float way_to_edge = 0.15F;   // of a full battery: so much a spare may spend on its way
 constexpr float urgent_level = 0.5F;   // whoever has less is let through to the place
 constexpr float place_room = 0.4F;     // of C: kept free round it by those that are charged
@@ -77,7 +81,10 @@ void decide_to_leave(PowerRobot& me) noexcept {
   const bool in_tree = me.robot.self.role != Role::spare;
   const bool low = power.level >= 0.0F && power.level < me.params.relieve_below && !power.charging && !power.keeps_place;
   power.said.leaving = in_tree && (power.said.leaving ? power.level < full_charge && !power.keeps_place : low);
-  const bool wants = power.level >= 0.0F && power.level < (power.seeks ? full_charge : me.params.charge_below);
+  // The farther the place, the less often: the way itself takes charge.
+  const float hops = static_cast<float>(std::clamp<int>(power.said.place_hops - near_hops, 0, most_hops_counted));
+  const float below = std::max(me.params.charge_below - per_hop * hops, me.params.relieve_below);
+  const bool wants = power.level >= 0.0F && power.level < (power.seeks ? full_charge : below);
   power.seeks = !in_tree && wants;
   power.ready = power.level >= me.params.ready_above - (power.ready ? way_to_edge : 0.0F);
 }
@@ -185,6 +192,20 @@ int way_to_place(const PowerRobot& me) noexcept {
   return best;
 }
 
+// Where it is useful: where the branches meet.
+void wait_near_root(PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (!table.alive(k) || m.role == Role::spare || m.depth == invalid_depth) continue;
+    if (best < 0 || m.depth < table.message(best).depth) best = k;
+  }
+  if (best < 0 || table.message(best).depth <= inner_depth) return;
+  me.robot.self.reference = table.id(best);
+  me.robot.self.called = true;
+}
+
 // I wait for a slot, and a spare near me needs one more.
 bool lets_through(const PowerRobot& me) noexcept {
   const TreeTable& table = me.robot.table();
@@ -287,7 +308,8 @@ void tend_battery(PowerRobot& me) noexcept {
     self.called = false;
     self.spare_state = SpareState::adjust_position;
   }
-  if (self.request != nobody || self.called || !me.power.seeks) return;
+  if (self.request != nobody || self.called) return;
+  if (!me.power.seeks) return wait_near_root(me);
   const int k = way_to_place(me);
   if (k < 0) return;
   self.reference = me.robot.table().id(k);
