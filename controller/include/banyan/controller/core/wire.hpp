@@ -38,7 +38,8 @@ inline constexpr std::uint8_t power = 1U << 0;
 inline constexpr std::uint8_t wire_version = 6;         // the low four bits
 inline constexpr std::uint8_t further_wire_version = 7; // of messages with a second byte
 
-inline constexpr std::size_t largest_wire = 112;   // bytes; 96 without further blocks
+inline constexpr std::size_t largest_wire = 112;        // bytes, with further blocks
+inline constexpr std::size_t largest_plain_wire = 96;   // without
 
 // The second byte of messages of this type; 0: they have none.
 template <class Message>
