@@ -20,7 +20,7 @@ Scenario standing(Battery::Model model, std::size_t robots = 6) {
   return s;
 }
 
-// The mission of scenarios/battery.toml.
+// The mission of studies/battery.toml, one place at the start.
 Scenario lasting(std::uint64_t seed) {
   Scenario s = ring("convoy", 36, 3, 6.0, seed);
   s.radio.line_of_sight = true;
