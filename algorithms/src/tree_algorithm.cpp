@@ -12,7 +12,7 @@ std::vector<BoundParameter> bind(HealingParams& params) {
 }
 
 std::vector<BoundParameter> bind(ConvoyParams& params) {
-  return bind_all(params, tree_parameters(), convoy_parameters(), healing_parameters(),
+  return bind_all(params, tree_parameters(), convoy_parameters(), healing_parameters(), power_parameters(),
                   platform_parameters<ConvoyParams>);
 }
 
@@ -34,6 +34,16 @@ class OfPaper final : public TreeAlgorithmOf<CorrectedSwarm<corrected_step>> {
   static constexpr std::string_view literal_reading_name = "literal";
 };
 
+// Robots with batteries say more and remember more.
+class Convoy final : public TreeAlgorithmOf<ConvoySwarm> {
+ public:
+  using TreeAlgorithmOf::TreeAlgorithmOf;
+  [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
+    if (!setup.platform.battery) return TreeAlgorithmOf::make(setup, members);
+    return std::make_unique<SwarmOf<PoweredConvoySwarm>>(with_room_for_relief(params(setup)), members, setup.history);
+  }
+};
+
 }  // namespace
 
 const Algorithm& outwards() noexcept {
@@ -51,7 +61,7 @@ const Algorithm& inwards() noexcept {
 }
 
 const Algorithm& convoy() noexcept {
-  static constexpr TreeAlgorithmOf<ConvoySwarm> algorithm(
+  static constexpr Convoy algorithm(
       "convoy", "a sparse tree that its workers tow; spares join near the root, without travelling", convoy_defaults, true);
   return algorithm;
 }

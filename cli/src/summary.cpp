@@ -76,6 +76,15 @@ std::string deaths_text(const measure::Run& run) {
   return run.survivors_suffice ? text : text + format("; the %u left are too few for the targets", run.survivors);
 }
 
+std::string power_text(const measure::Run& run) {
+  std::string text = format("at least %.0f %% in every living robot, %.0f %% on average at the end; %s, %s with a broken edge; %s of %s to a charging place arrived",
+                            100.0 * run.least_charge, 100.0 * run.mean_charge, plural(run.swaps, "swap").c_str(), grouped(static_cast<double>(run.broken_swaps)).c_str(),
+                            grouped(static_cast<double>(run.trips_arrived)).c_str(), plural(run.trips, "trip").c_str());
+  if (run.emptied > 0) text += "; " + plural(run.emptied, "robot") + " ran down";
+  if (run.lasts_s >= 0.0) text += format("; too few are free to be charged: the swarm lasts for another %.0f s", run.lasts_s);
+  return text;
+}
+
 std::string work_text(const measure::Run& run) {
   std::string text = plural(run.insertions, "insertion") + ", " + plural(run.handovers, "hand-over") + " of the root, " +
                      plural(run.repairs, "repair") + ", " + plural(run.epochs, "tree") + " grown";
@@ -105,6 +114,7 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   text += summary_line("network", network_text(run, scenario.radio.line_of_sight));
   text += summary_line("robots", robots_text(run));
   if (run.link_redundancy > 1) text += summary_line("paths", paths_text(run));
+  if (scenario.battery.on()) text += summary_line("charge", power_text(run));
   if (run.deaths > 0) text += summary_line("deaths", deaths_text(run));
   text += summary_line("work", work_text(run));
   text += summary_line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));

@@ -12,6 +12,7 @@
 #include "banyan/measure/bottleneck.hpp"
 #include "banyan/measure/effort.hpp"
 #include "banyan/measure/fiedler.hpp"
+#include "banyan/measure/lasting.hpp"
 #include "banyan/measure/recovery.hpp"
 #include "banyan/measure/redundancy.hpp"
 #include "banyan/measure/redundancy_bound.hpp"
@@ -206,6 +207,7 @@ struct Observer::Impl {
   double speed_m_s;
   bool oracle_asked = false;
   Effort effort;
+  Lasting lasting;
   Recovery recovery;
   Silence silence;
   Redundancy redundancy;
@@ -277,6 +279,7 @@ Observer::Impl::Impl(const world::World& world)
       first_others(unsent_positions(world)),
       speed_m_s(world.scenario().robot.wheel_limit_m_s),
       effort(world),
+      lasting(world),
       recovery(world.scenario().tick_s, stop_when_complete ? settle_s : 0.0),
       silence(liveness_period_s(world), world.scenario().tick_s),
       redundancy(world),
@@ -423,6 +426,8 @@ void Observer::Impl::time_phases(const world::World& world) {
 void Observer::Impl::add_up() {
   ++run.ticks;
   run.time_s = tick.time_s;
+  if (tick.least_charge >= 0.0) run.least_charge = run.least_charge < 0.0 ? tick.least_charge : std::min(run.least_charge, tick.least_charge);
+  run.mean_charge = tick.mean_charge;
   run.committed = tick.committed;
   committed_sum += tick.committed;
   const bool broken = tick.broken_by_distance + tick.broken_by_occlusion + tick.broken_by_death > 0;
@@ -517,6 +522,9 @@ const Tick& Observer::observe(const world::World& world, bool exact_fiedler) {
   impl_->measure_targets(world);
   impl_->time_phases(world);
   impl_->effort.observe(world);
+  impl_->lasting.observe(world);
+  impl_->tick.least_charge = impl_->lasting.least_charge();
+  impl_->tick.mean_charge = impl_->lasting.mean_charge();
   impl_->add_up();
   impl_->watch_recovery(world);
   impl_->redundancy.observe(world, impl_->run.completion_time_s);
@@ -560,6 +568,12 @@ Run Observer::result(const world::World& world) const {
   if (run.time_s > 0.0)
     run.bytes_per_robot_s = static_cast<double>(run.messages * world.swarm().message_bytes()) / (static_cast<double>(world.size()) * run.time_s);
   run.decisions = impl_->effort.decisions();
+  run.swaps = impl_->lasting.swaps();
+  run.broken_swaps = impl_->lasting.broken_swaps();
+  run.trips = impl_->lasting.trips();
+  run.trips_arrived = impl_->lasting.trips_arrived();
+  run.emptied = static_cast<std::uint32_t>(world.emptied());
+  run.lasts_s = impl_->lasting.lasts_s(world, run.mean_committed);
   run.driven_m = impl_->effort.driven_m() / static_cast<double>(world.size());
   if (impl_->ticks_since_complete > 0) run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;

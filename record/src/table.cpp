@@ -32,7 +32,7 @@ std::string hexadecimal(std::uint64_t value) {
 // 2: a worker for each target in robots_bound; the oracle's columns.
 // 3: sight_leak; edges broken after a silence; held_ratio.
 // 4: messages, decisions, driven_m.
-// 5: link_redundancy and what was achieved of it.
+// 5: link_redundancy and what was achieved of it; batteries.
 constexpr int format_version = 5;
 
 constexpr Column<Row> identifying_table[] = {
@@ -158,6 +158,19 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) { return natural(r.run.decisions); }, 4},
     {"driven_m", "the way of a robot, mean over the robots at the start", 4,
      [](const Row& r) -> Cell { return r.run.driven_m; }, 4},
+    {"least_charge", "of any living robot at any time, as a share of a full battery; empty without batteries", 4,
+     [](const Row& r) { return if_known(r.run.least_charge); }, 5},
+    {"mean_charge", "of the living at the end; empty without batteries", 4,
+     [](const Row& r) { return if_known(r.run.mean_charge); }, 5},
+    {"swaps", "robots of the tree with little charge that were relieved", 0, [](const Row& r) { return natural(r.run.swaps); }, 5},
+    {"broken_swaps", "of these, with a broken edge to either robot meanwhile", 0,
+     [](const Row& r) { return natural(r.run.broken_swaps); }, 5},
+    {"trips", "of spares to charging places, until they were charged or died", 0,
+     [](const Row& r) { return natural(r.run.trips); }, 5},
+    {"trips_arrived", "of these, those that ended in a slot", 0, [](const Row& r) { return natural(r.run.trips_arrived); }, 5},
+    {"emptied", "robots that died for want of charge", 0, [](const Row& r) { return natural(r.run.emptied); }, 5},
+    {"lasts_s", "the charge is used up so long after the end; empty if it is not, or without batteries", 4,
+     [](const Row& r) { return if_known(r.run.lasts_s); }, 5},
     {"deaths", "robots that died", 0, [](const Row& r) { return natural(r.run.deaths); }},
     {"survivors", "robots alive at the end", 0, [](const Row& r) { return natural(r.run.survivors); }},
     {"last_death_s", "when the last of them died; empty if none did", 4,
@@ -209,6 +222,9 @@ constexpr Column<Tick> series_table[] = {
      [](const Tick& t) -> Cell { return t.worst_target_distance_m; }},
     {"targets_reached", "active targets held by a living worker", 0,
      [](const Tick& t) { return natural(t.targets_reached); }},
+    {"least_charge", "of the living, as a share of a full battery; empty without batteries", 4,
+     [](const Tick& t) { return if_known(t.least_charge); }},
+    {"mean_charge", "of the living; empty without batteries", 4, [](const Tick& t) { return if_known(t.mean_charge); }},
 };
 
 void write_csv_field(Text& out, std::string_view field) {

@@ -37,6 +37,9 @@ class Identity {
     // Likewise the mission: one path needs no word.
     constexpr std::string_view one_path = ",\"link_redundancy\":1";
     if (const auto at = text_.find(one_path); at != std::string::npos) text_.erase(at, one_path.size());
+    // And no battery.
+    constexpr std::string_view none = "\"battery\":{\"model\":\"none\"},";
+    if (const auto at = text_.find(none); at != std::string::npos) text_.erase(at, none.size());
     seed_at_ = text_.find(seed) + seed.size();
   }
   [[nodiscard]] std::string id(std::uint64_t seed) const {

@@ -122,6 +122,9 @@ void check_values(FaultList& list, const Scenario& scenario) {
   check_layout(list, scenario.swarm);
   if (const auto* listed = std::get_if<std::vector<Vec2>>(&scenario.targets))
     list.check_length("targets.positions_m", listed->size(), most("targets.count"));
+  if (scenario.battery.places.size() > 100) list.fail("battery.places_m", "has " + std::to_string(scenario.battery.places.size()) + " places; at most 100 are possible");
+  if (scenario.battery.start_spread >= scenario.battery.start_charge)
+    list.fail("battery.start_spread", "must be below battery.start_charge, else robots would start empty");
   if (scenario.robot.body == BodyModel::box2d && !has_box2d())
     list.fail("robot.body", "the body model box2d is not in the browser's build; use disks or linear");
   if (!scenario.clocks.asynchronous && scenario.clocks.drift != 0.0)
@@ -140,6 +143,7 @@ void check_values(FaultList& list, const Scenario& scenario) {
 // ---- Round two: how they fit ----
 
 std::string target_key(const Scenario& scenario, std::size_t i) {
+  if (const std::size_t targets = mission_targets(scenario).size(); i >= targets) return element("battery.places_m", i - targets);
   return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions_m", i) : "targets";
 }
 

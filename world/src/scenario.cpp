@@ -69,8 +69,12 @@ std::size_t robots_for(double x) noexcept { return static_cast<std::size_t>(std:
 
 }  // namespace
 
+std::vector<Vec2> mission_targets(const Scenario& scenario) { return std::visit(TargetPositions{scenario}, scenario.targets); }
+
 std::vector<Vec2> target_positions(const Scenario& scenario) {
-  return std::visit(TargetPositions{scenario}, scenario.targets);
+  std::vector<Vec2> positions = mission_targets(scenario);
+  if (scenario.battery.on()) positions.insert(positions.end(), scenario.battery.places.begin(), scenario.battery.places.end());
+  return positions;
 }
 
 std::size_t robot_count(const Scenario& scenario) {
@@ -78,9 +82,10 @@ std::size_t robot_count(const Scenario& scenario) {
   if (swarm.start.layout == Layout::list) return swarm.start.positions.size();
   if (swarm.robots) return *swarm.robots;
   double length = 0.0;
-  const std::vector<Vec2> targets = target_positions(scenario);
+  const std::vector<Vec2> targets = mission_targets(scenario);
   for (const Vec2 p : targets) length += distance(swarm.start.center, p);
-  return std::max(robots_for(swarm.redundancy * length / delta_inwards), targets.size() + 1);
+  const std::size_t places = scenario.battery.on() ? scenario.battery.places.size() : 0;
+  return std::max(robots_for(swarm.redundancy * length / delta_inwards), targets.size() + places + 1);
 }
 
 double start_pitch_m(const Scenario& scenario) {
@@ -118,6 +123,7 @@ Setup setup_of(const Scenario& scenario) {
   setup.platform.wheel_limit_m_s = static_cast<float>(scenario.robot.wheel_limit_m_s);
   setup.platform.wheel_distance_m = static_cast<float>(scenario.robot.wheel_distance_m);
   setup.platform.drive = scenario.robot.body == BodyModel::linear ? Drive::holonomic : Drive::differential;
+  setup.platform.battery = scenario.battery.on();
   setup.arrival_distance_m = scenario.mission.target_tolerance_m;
   setup.link_redundancy = static_cast<int>(scenario.mission.link_redundancy);
   setup.parameters = scenario.mission.parameters;

@@ -15,6 +15,9 @@ template <> struct NamesOf<BodyModel> { static constexpr std::string_view list[]
 template <> struct NamesOf<RadioModel::Model> {
   static constexpr std::string_view list[] = {"disc", "bursts", "path_loss", "one_way"};
 };
+template <> struct NamesOf<Battery::Model> {
+  static constexpr std::string_view list[] = {"none", "power", "time", "motion", "time_motion"};
+};
 template <> struct NamesOf<Event::When> {
   static constexpr std::string_view list[] = {"time", "half-way", "complete"};
 };
@@ -46,6 +49,8 @@ template <> struct Parts<Scenario> {
       return &s.radio;
     else if constexpr (std::is_same_v<Part, Clocks>)
       return &s.clocks;
+    else if constexpr (std::is_same_v<Part, Battery>)
+      return &s.battery;
     else
       return std::get_if<Part>(&s.targets);
   }
@@ -87,6 +92,11 @@ template <auto member, RadioModel::Model model> double* radio_of(Scenario& s) no
   return s.radio.model == model ? &(s.radio.*member) : nullptr;
 }
 using Radios = RadioModel::Model;
+template <auto member, Battery::Model... models> auto* battery_of(Scenario& s) noexcept {
+  const bool counts = sizeof...(models) == 0 ? s.battery.on() : ((s.battery.model == models) || ...);
+  return counts ? &(s.battery.*member) : nullptr;
+}
+using Draws = Battery::Model;
 std::vector<Vec2>* positions_of(Scenario& s) noexcept { return is_listed(s) ? &s.swarm.start.positions : nullptr; }
 std::vector<double>* headings_of(Scenario& s) noexcept { return is_listed(s) ? &s.swarm.start.headings_rad : nullptr; }
 std::vector<Vec2>* listed_targets_of(Scenario& s) noexcept { return std::get_if<std::vector<Vec2>>(&s.targets); }
@@ -116,6 +126,7 @@ constexpr Section section_list[] = {
     {"robot", "One robot's body and wheels. The defaults are a Khepera IV."},
     {"radio", "Which robots hear each other, and how well.", "model"},
     {"clocks", "When robots step: all together, or each by its own clock."},
+    {"battery", "What robots run on, and where they are charged. Without it they never run down.", "model"},
     {"targets", "Where the workers have to go.", "layout"},
     {"obstacles",
      "One obstacle each: repeat `[[obstacles]]` as often as needed. They block motion and, with "
@@ -242,6 +253,33 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"clocks.drift", of<&Clocks::drift>, "", {0.0, 0.5}, "each clock's rate is 1 + uniform(-drift, drift), drawn once"},
     {"clocks.substeps", of<&Clocks::substeps>, "", {2.0, 100.0},
      "parts of a tick, after each of which bodies move and packets travel (asynchronous)"},
+
+    {"battery.model", of<&Battery::model>, "", any_value,
+     "how the charge sinks: none, not at all; power, by what each part draws; time, motion and time_motion, as in "
+     "ARGoS, by shares of the charge"},
+    {"battery.capacity_j", by<battery_of<&Battery::capacity_j>>, "J", {0.0, 1e9, true}, "energy of a full battery"},
+    {"battery.start_charge", by<battery_of<&Battery::start_charge>>, "", any_part, "charge at the start, as a share"},
+    {"battery.start_spread", by<battery_of<&Battery::start_spread>>, "", any_share,
+     "each robot starts with up to this share less, drawn from the seed"},
+    {"battery.idle_w", by<battery_of<&Battery::idle_w, Draws::power>>, "W", {0.0, 1e6},
+     "drawn at all times by sensors and all that has no key of its own"},
+    {"battery.computing_w", by<battery_of<&Battery::computing_w, Draws::power>>, "W", {0.0, 1e6}, "drawn by the computer"},
+    {"battery.radio_w", by<battery_of<&Battery::radio_w, Draws::power>>, "W", {0.0, 1e6}, "drawn by the radio"},
+    {"battery.drive_w_per_m_s", by<battery_of<&Battery::drive_w_per_m_s, Draws::power>>, "W s/m", {0.0, 1e6},
+     "drawn by each wheel, times its speed"},
+    {"battery.charge_per_s", by<battery_of<&Battery::charge_per_s, Draws::time, Draws::time_motion>>, "1/s", {0.0, 1.0},
+     "share of a full battery that each second takes"},
+    {"battery.charge_per_m", by<battery_of<&Battery::charge_per_m, Draws::motion, Draws::time_motion>>, "1/m", {0.0, 1.0},
+     "share that each metre takes"},
+    {"battery.charge_per_rad", by<battery_of<&Battery::charge_per_rad, Draws::motion, Draws::time_motion>>, "1/rad",
+     {0.0, 1.0}, "share that each radian of turning takes"},
+    {"battery.noise", by<battery_of<&Battery::noise>>, "", any_share, "sigma of the measured charge"},
+    {"battery.places_m", by<battery_of<&Battery::places>>, "m", anywhere,
+     "charging places, one [x, y] each; the swarm holds them like targets"},
+    {"battery.slots", by<battery_of<&Battery::slots>>, "", {1.0, 1000.0}, "robots that a place charges at the same time"},
+    {"battery.reach_m", by<battery_of<&Battery::reach_m>>, "m", {0.0, 100.0, true},
+     "a place charges robots no farther from it than this"},
+    {"battery.charge_w", by<battery_of<&Battery::charge_w>>, "W", {0.0, 1e6, true}, "power into each robot that is charged"},
 
     {"targets.layout", of<&Scenario::targets>, "", any_value,
      "a list of positions, equal angles on a circle, or random in an annulus"},

@@ -75,10 +75,12 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
       bodies(make_bodies(s, poses)),
       radio(s, poses.position.size()),
       proximity(s),
+      batteries(s, poses.position.size()),
       tree_parts(poses.position.size()),
       event_queue(s.events) {
   const std::size_t n = poses.position.size();
   const std::vector<Vec2> positions = target_positions(s);
+  mission_target_count = mission_targets(s).size();
   const Assignment assignment = assign(s, poses, positions);
   alive.assign(n, 1);
   if (s.radio.sight_leak > 0.0) raised.assign(n, 0);
@@ -104,9 +106,9 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
 World::Impl::Impl(const Impl& o)
     : scenario(o.scenario), algorithm(o.algorithm), losses(o.losses), loss(o.loss),
       line_of_sight(o.line_of_sight), obstacles(o.obstacles), obstacles_changed(o.obstacles_changed), tick(o.tick), poses(o.poses),
-      bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), targets(o.targets), courses(o.courses), alive(o.alive), raised(o.raised), frozen_until(o.frozen_until),
+      bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), batteries(o.batteries), targets(o.targets), courses(o.courses), alive(o.alive), raised(o.raised), frozen_until(o.frozen_until),
       target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), tree_parts(o.tree_parts), commands(o.commands),
-      moving(o.moving), odometry(o.odometry), event_queue(o.event_queue), silent_until(o.silent_until), deaths(o.deaths),
+      moving(o.moving), odometry(o.odometry), event_queue(o.event_queue), silent_until(o.silent_until), deaths(o.deaths), emptied(o.emptied), mission_target_count(o.mission_target_count),
       last_death(o.last_death), flights(o.flights), arriving(o.arriving), clocked(o.clocked),
       received(o.received), sent(o.sent) {}
 
@@ -129,6 +131,26 @@ void World::Impl::act() {
   for (std::size_t i = 0; i < commands.size(); ++i)
     moving[i] = alive[i] != 0 && frozen_until[i] <= tick ? commands[i] : Velocity{};
   bodies->step(moving, radio.near(), tick, poses, odometry);
+  if (batteries.on()) run_down(scenario.clocks.asynchronous ? scenario.tick_s / scenario.clocks.substeps : scenario.tick_s);
+}
+
+// A robot without charge is dead where it stands.
+void World::Impl::run_down(double seconds) {
+  if (batteries.pass(seconds, moving, poses.position, alive) == 0) return;
+  for (std::size_t i = 0; i < alive.size(); ++i) {
+    if (alive[i] == 0 || batteries.levels()[i] > 0.0) continue;
+    die(i);
+    ++emptied;
+  }
+}
+
+// As its sensor measures it.
+std::optional<Charge> World::Impl::charge_of(std::size_t i) const noexcept {
+  if (!batteries.on()) return std::nullopt;
+  double level = batteries.levels()[i];
+  if (const double noise = scenario.battery.noise; noise > 0.0)
+    level = std::clamp(level + noise * to_normal(bits(scenario.seed, Purpose::charge_noise, i, moment)), 0.0, 1.0);
+  return Charge{static_cast<float>(level), batteries.places()[i] >= 0};
 }
 
 void World::Impl::broadcast(Executor& executor) {
@@ -235,7 +257,10 @@ void World::Impl::step_batch(std::size_t first, std::size_t count, Inbox& inbox)
 void World::Impl::sense(std::size_t i, const Odometry& moved, Proximity::Seen& seen, Senses& senses) noexcept {
   senses.odometry = moved;
   senses.orders = {.sent = target_of[i] >= 0, .target = {}, .given_up = std::exchange(given_up[i], nobody)};
+  senses.charge = charge_of(i);
   if (target_of[i] >= 0) {
+    const auto place = static_cast<std::size_t>(target_of[i]) - mission_target_count;  // wraps for the mission's targets
+    senses.orders.charging_place = scenario.battery.on() && place < scenario.battery.places.size();
     const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
     senses.orders.target = {static_cast<float>(d.x), static_cast<float>(d.y)};
   }
@@ -341,6 +366,9 @@ std::span<const Obstacle> World::obstacles() const noexcept { return impl_->obst
 bool World::line_of_sight() const noexcept { return impl_->line_of_sight; }
 std::optional<std::size_t> World::holder(std::size_t target) const noexcept { return impl_->holder(target); }
 std::size_t World::deaths() const noexcept { return impl_->deaths; }
+std::span<const double> World::charge() const noexcept { return impl_->batteries.levels(); }
+std::span<const std::int32_t> World::charged_at() const noexcept { return impl_->batteries.places(); }
+std::size_t World::emptied() const noexcept { return impl_->emptied; }
 std::optional<std::uint64_t> World::last_death_tick() const noexcept { return impl_->last_death; }
 bool World::pending_kills() const noexcept { return impl_->event_queue.deaths_to_come(); }
 std::span<const std::uint32_t> World::links(std::size_t i) const noexcept { return impl_->radio.links(i); }
@@ -378,6 +406,7 @@ std::uint64_t World::hash() const noexcept {
         d.add(flight.packets[flight.offsets[i] + k].position);
       }
   w.add_clocks(d);
+  w.batteries.add_to(d);
   return w.bodies->hash(d.value());
 }
 

@@ -17,6 +17,7 @@
 #include "banyan/world/tree_parts.hpp"
 #include "losses.hpp"
 #include "banyan/world/world.hpp"
+#include "batteries.hpp"
 #include "event_queue.hpp"
 #include "proximity.hpp"
 
@@ -58,6 +59,7 @@ struct World::Impl {
   // The phases of a tick, in order.
   void happen();                               // events.cpp
   void act();
+  void run_down(double seconds);
   void broadcast(Executor& executor);
   void find_links(Executor& executor);
   void think(Executor& executor);
@@ -105,6 +107,7 @@ struct World::Impl {
 
   void add_events(Digest& digest) const noexcept;   // what is hashed of all this
 
+  [[nodiscard]] std::optional<Charge> charge_of(std::size_t i) const noexcept;
   [[nodiscard]] bool is_worker(std::size_t i) const noexcept { return reports[i].serves != nobody && given_up[i] == nobody; }
   [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
 
@@ -122,6 +125,7 @@ struct World::Impl {
   std::unique_ptr<Bodies> bodies;
   Radio radio;
   Proximity proximity;
+  Batteries batteries;
   std::vector<Target> targets;
   std::vector<Course> courses;                 // one per target
   std::vector<std::uint8_t> alive;
@@ -137,6 +141,8 @@ struct World::Impl {
   EventQueue event_queue;
   std::uint64_t silent_until = 0;              // tick; no packet is heard before
   std::size_t deaths = 0;
+  std::size_t emptied = 0;                     // of these, for want of charge
+  std::size_t mission_target_count = 0;        // of the start; the charging places come after them
   std::optional<std::uint64_t> last_death;     // tick
   std::vector<Flight> flights;                 // ring of latency_ticks - 1
   Flight arriving;                             // taken out of the ring: heard this tick

@@ -42,13 +42,14 @@ struct Preference {
   Preference(const ConvoyRobot& robot, int k) noexcept {
     const ConvoyParams& p = robot.params;
     const float c = p.communication_range_m;
-    if (prunes(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k)) {
+    if (prunes(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k) && !is_leaving(robot, k)) {
       rank = -1;
       key = static_cast<float>(robot.table().message(k).label_cm);
       return;
     }
     float range_m = robot.table().range(k);
     if (!sees_clearly(robot, k, p.clearance_m)) range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? 5.0F * c : 10.0F * c;
+    if (is_leaving(robot, k)) range_m += 4.0F * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather a robot that is not leaving
     rank = range_m <= p.first_edge_m ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
@@ -80,6 +81,7 @@ bool is_held_by_junction(const ConvoyRobot& robot) noexcept {
 // The need is not passed up the tree: a chain that is towed brings its slack to where the spares are by itself.
 bool needs_spare(const ConvoyRobot& robot) noexcept {
   if (robot.parent < 0) return false;
+  if (robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power))) return true;
   const float d = robot.table().range(robot.parent);
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
@@ -91,6 +93,7 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
 
 // Only when the edge is about to hold the workers back; among obstacles sooner, since spares are slow there.
 bool may_call(const ConvoyRobot& robot) noexcept {
+  if (robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power))) return true;
   if (is_planned(robot.self)) return false;  // spares would come along the chains and be in the way
   const ConvoyParams& p = robot.params;
   const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;
@@ -104,6 +107,7 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const TreeTable& table = robot.table();
   const float reach_m = p.ideal_distance_m - p.join_margin_m;
   const float clearance_m = p.clearance_m;
+  if (is_leaving(robot, owner)) return may_relieve(*robot.power, owner, parent, [&](int k) { return sees_clearly(robot, k, tight * clearance_m); });
   if (table.range(owner) >= reach_m || table.range(parent) >= reach_m) return false;
   const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
   const float room_m = in_the_way ? tight * clearance_m : clearance_m;
@@ -117,11 +121,14 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   constexpr float patience_s = 5.0F;
   constexpr float called_patience_s = 15.0F;
   const bool called = robot.self.call_hops != nobody_calls;
+  if (is_leaving(robot) && !is_planned(robot.self)) return true;
   return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !is_planned(robot.self);
 }
 
 // Once all workers have arrived, a spare that became root would be one more robot in the tree.
 bool may_inherit(const ConvoyRobot& robot, int k) noexcept {
+  if (robot.power != nullptr && !is_charged(*robot.power, k)) return false;
+  if (is_leaving(robot)) return true;
   return !prunes(robot.params) || robot.self.want_m > 0.0F || robot.table().message(k).role != Role::spare;
 }
 
@@ -170,6 +177,13 @@ ConvoyParams convoy_defaults() noexcept {
   return p;
 }
 
+// A robot beside another reaches as far as that one only if edges have some slack.
+ConvoyParams with_room_for_relief(ConvoyParams params) noexcept {
+  params.merge_distance_m = std::min(params.merge_distance_m, params.relief_edge_m);
+  params.compact_distance_m = std::min(params.compact_distance_m, params.relief_edge_m);
+  return params;
+}
+
 ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept {
   ConvoyState state;
   static_cast<HealingState&>(state) = initial_healing_state(id, worker, root);
@@ -189,19 +203,23 @@ void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
     self.healing_standings[k] = static_cast<const HealingStanding&>(m);
     self.corners.standings[k] = static_cast<const CornerStanding&>(m);
     self.convoy_standings[k] = static_cast<const ConvoyStanding&>(m);
+    if (robot.power != nullptr) robot.power->power.standings[k] = static_cast<const PowerStanding&>(powered_message(m));
   }
   forget_silent(robot, [&](int k, int size) {
     close_gap(self.healing_standings, k, size);
     close_gap(self.corners.standings, k, size);
     close_gap(self.convoy_standings, k, size);
+    if (robot.power != nullptr) close_gap(robot.power->power.standings, k, size);
   });
   follow_orders(robot, admitted.senses().orders);
 }
 
-Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard, const Senses& senses) noexcept {
-  const Admitted admitted(senses, heard, params, state.tally);
-  ConvoyRobot robot(params, state, admitted);
+// One tick of one robot, with a battery or without. Returns what the motors are to do.
+static Velocity tick(ConvoyRobot& robot, const Admitted& admitted, ConvoyMessage& message) noexcept {
+  const ConvoyParams& params = robot.params;
+  ConvoyState& state = robot.self;
   begin_tick(robot, admitted);
+  if (robot.power != nullptr) hand_over_target(*robot.power);
   estimate_loss(robot);                                // how long neighbours may be silent
   listen_among_fragments(robot);                       // the largest epoch, phase and root token heard
   accept_offered_root(robot);                          // Select Root, the heir's side
@@ -218,18 +236,20 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
                         .workers_relay = true,
                         .accepts = [](int) { return true; },
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
+  if (robot.power != nullptr) watch_charge(*robot.power, admitted.senses());                        // must I be relieved?
   take_part_in_plan(robot);                            // chains from target to target
   take_shortcuts(robot);                               // what changes between reconstructions
   state.corners.pinned = is_pinned(robot, state.corners, params.pull_start_m);
   // A worker lags behind a moving target: the tree must follow before the worker is out of tolerance.
   take_census(robot, 0.4F * params.arrival_distance_m, own_want_m(robot));                          // Alg. 1 and 2
-  select_root(robot, [&](int k) { return may_inherit(robot, k); });                                 // Select Root, the root's side
+  select_root(robot, [&](int k) { return may_inherit(robot, k); }, is_leaving(robot));              // Select Root, the root's side
   find_hold(robot);                                    // what ties me to the others while I have no parent
   manage_spares(robot, {.needs_spare = [&] { return needs_spare(robot); },                          // Grow Tree
                         .may_call = [&] { return may_call(robot); },
                         .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, is_left_waiting(robot)); },
                         .may_insert = [&](int owner, int parent) { return may_insert(robot, owner, parent); }});
   keep_company(robot);                                 // mission.link_redundancy
+  if (robot.power != nullptr) tend_battery(*robot.power);
   const bool regroups = is_left_waiting(robot);
   const bool retreats = is_retreating(robot, regroups);
   const Vec2 u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
@@ -239,11 +259,17 @@ Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state
   keep_off(robot, guard);                              // obstacles
   keep_sight(robot, state.corners, guard);
 
-  Output<ConvoyMessage> output;
-  write_convoy(robot, output.message);
+  write_convoy(robot, message);
   const Vec2 v = allowed(u, guard, params);
   watch_progress(robot, retreats, v);                  // does the worker make progress?
-  output.velocity = drive(v, guard, params);
+  return drive(v, guard, params);
+}
+
+Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard, const Senses& senses) noexcept {
+  const Admitted admitted(senses, heard, params, state.tally);
+  ConvoyRobot robot(params, state, admitted);
+  Output<ConvoyMessage> output;
+  output.velocity = tick(robot, admitted, output.message);
   return output;
 }
 
@@ -253,10 +279,36 @@ Report convoy_report(const ConvoyState& s) noexcept {
   return report;
 }
 
+Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, std::span<Heard> heard, const Senses& senses) noexcept {
+  const Admitted admitted(senses, heard, params, state.tally);
+  ConvoyRobot robot(params, state, admitted);
+  const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
+  PowerRobot power{robot, state.power, params, child_count};
+  robot.power = &power;
+  Output<PoweredConvoyMessage> output;
+  output.velocity = tick(robot, admitted, output.message);
+  static_cast<PowerStanding&>(output.message) = state.power.said;
+  return output;
+}
+
+Report powered_report(const PoweredConvoyState& state) noexcept {
+  Report report = convoy_report(state);
+  report.leaves = state.power.said.leaving;
+  report.seeks_charge = state.power.seeks;
+  report.relieves = state.power.said.relieves;
+  return report;
+}
+
 void add_to(Digest& digest, const ConvoyState& state) noexcept {
   add_to(digest, static_cast<const HealingState&>(state));
   const auto add = [&](const auto& field) { digest.add(field); };
   visit_convoy_state(add, state);
+}
+
+void add_to(Digest& digest, const PoweredConvoyState& state) noexcept {
+  add_to(digest, static_cast<const ConvoyState&>(state));
+  const auto add = [&](const auto& field) { digest.add(field); };
+  visit_power_state(add, state.power, state.neighbors.size());
 }
 
 void add_to(Digest& digest, const ConvoyMessage& message) noexcept {

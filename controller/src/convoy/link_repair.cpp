@@ -26,6 +26,7 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == robot.self.epoch &&
                      m.tree_hops != unreachable && (robot.convoy_of(k).below == nobody || robot.table().age(robot.parent) > 1);
   if (!spare && !is_rooted(robot, k)) return impossible;
+  if (robot.power != nullptr && (is_leaving(robot, k) || (spare && !is_charged(*robot.power, k)))) return impossible;
   const bool clear = sees_clearly(robot, k, p.clearance_m);
   if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance_m))) return impossible;
   const Vec2 at = table.position(k);

@@ -50,6 +50,7 @@ std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept { return o
 std::string_view convoy_fault(const ConvoyParams& params) noexcept {
   if (!(params.pull_start_m < params.ideal_distance_m)) return "pull_start must be below ideal_distance_m (delta) / C";
   if (!(params.communication_range_m >= smallest_range * params.wheel_distance_m)) return "the radio range C must be at least 4.5 times the distance between the wheels: wider bodies block each other's way";
+  if (const std::string_view text = power_fault(params); !text.empty()) return text;
   if (!(params.join_margin_m < params.ideal_distance_m)) return "join_margin must be below ideal_distance_m (delta) / C";
   return {};
 }

@@ -17,7 +17,7 @@ constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is wor
 // Whether neighbour k may carry a branch that has arrived: at rest itself, and not about to leave the tree.
 bool can_carry(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
-  return k != robot.parent && m.want_cm == 0 && m.epoch == robot.self.epoch &&
+  return k != robot.parent && !is_leaving(robot, k) && m.want_cm == 0 && m.epoch == robot.self.epoch &&
          (m.role != Role::connector || robot.convoy_of(k).child_count > 0) && is_rooted_in_sight(robot, k);
 }
 

@@ -104,7 +104,7 @@ bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept {
 }
 
 bool may_be_parent(const ConvoyRobot& robot, int k, float range_m) noexcept {
-  return robot.table().range(k) <= range_m && is_ahead(robot, k) && is_rooted_in_sight(robot, k);
+  return robot.table().range(k) <= range_m && !is_leaving(robot, k) && is_ahead(robot, k) && is_rooted_in_sight(robot, k);
 }
 
 void take_shortcuts(ConvoyRobot& robot) noexcept {
@@ -114,12 +114,22 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
     self.pending_parent = nobody;
     return;
   }
+  if (robot.power != nullptr && is_relieved(*robot.power)) return;  // the robot beside me keeps its edge
   const Outlook view = outlook(robot);
   const bool may_save = !view.endangered && self.grant == nobody && has_arrived(robot);
   if (!view.endangered && !may_save) self.pending_parent = nobody;
   if (!view.endangered && self.pending_parent == nobody) self.pending_ticks = 0;
   if (view.endangered) return keep_in_sight(robot, view.urgent);
   if (self.grant != nobody) return;  // this edge is about to change already
+  if (robot.power != nullptr) {
+    // The leaver stands beside its successor: less room to it will do.
+    const int k = successor_of_parent(*robot.power, [&](int n) {
+      return robot.table().range(n) <= robot.parent_range_m() && is_ahead(robot, n) && is_rooted(robot, n) &&
+             sees_clearly(robot, n, 0.6F * robot.params.clearance_m);
+    });
+    if (k >= 0) return take_parent(robot, k);
+    if (is_leaving(robot) || robot.power->power.said.relieves != nobody) return;  // no robot is saved meanwhile
+  }
   if (step_before_parent(robot)) return;
   if (is_left_waiting(robot)) take_inner(robot);
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);

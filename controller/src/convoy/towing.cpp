@@ -267,6 +267,15 @@ bool is_relay(const ConvoyRobot& robot, int k) noexcept {
   return prunes(robot.params) && m.role == Role::worker && m.want_cm == 0 && robot.self.want_m == 0.0F;
 }
 
+// Beside the robot that is relieved, or as it makes room; slower over the last decimetre.
+static bool relief_motion(const ConvoyRobot& robot, Vec2& u) noexcept {
+  constexpr float last_bit_m = 0.1F;
+  Vec2 spot;
+  if (robot.power == nullptr || !find_relief_spot(*robot.power, spot)) return false;
+  u = clamped(spot / last_bit_m, 1.0F);
+  return true;
+}
+
 Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
@@ -276,6 +285,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   // The first tree takes time to build, and a target may be added in mid-mission: a worker does not go without a tree.
   if (up < 0 && !robot.is_root()) return before_tree(robot);
+  if (Vec2 u; relief_motion(robot, u)) return u;
   // At its target a worker may give way a little, if that lets another one reach its own; this fades out
   // before the target is out of tolerance.
   constexpr float fading = 0.1F;
@@ -291,6 +301,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const float c = p.communication_range_m;
   const ConvoyState& self = robot.self;
+  if (Vec2 u; relief_motion(robot, u)) return past(robot, u, 2.0F * p.clearance_m);
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
@@ -303,6 +314,9 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
     return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   if (holds_still(robot)) return {};
+  // Whoever is charged makes room at the place, and whoever needs it drives through the crowd: the others step aside.
+  if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away)) return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
+  if (robot.power != nullptr && is_at_place(*robot.power)) return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
   // In a crowd, a called spare might wait for others to move while the tree goes away.
   if (const int home = self.called && robot.hold >= 0 ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
@@ -316,6 +330,8 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const float reach_m = (led ? follow_spare : follow_tree) * c;
   // A spare under way along a chain may come nearer to lines of sight than one that waits.
   const float way_m = p.line_of_sight ? 2.0F * p.clearance_m : 0.0F;  // none where robots hide no edges
+  if (robot.power != nullptr && robot.power->power.travels && d > p.avoidance_range_m)
+    return bypass(robot, reference) + repulsion(robot) * 0.3F + make_way(robot, way_m);
   if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
   if (d > reach_m)
     return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);

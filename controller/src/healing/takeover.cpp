@@ -265,6 +265,23 @@ void resign(HealingRobot& robot) noexcept {
   robot.target = nullptr;
 }
 
+void yield_task(HealingRobot& robot, RobotId heir) noexcept {
+  Task* task = find_task(robot.self, robot.self.serves);
+  resign(robot);
+  if (task == nullptr) return;
+  task->holder = heir;
+  task->beat = static_cast<std::uint16_t>(task->beat + takeover_beats);
+  task->urgent_ticks = pass_on_ticks;
+}
+
+void inherit_task(HealingRobot& robot, RobotId serves) noexcept {
+  Task* task = find_task(robot.self, serves);
+  if (task == nullptr || task->unlocated || robot.is_root()) return;
+  take_over(robot, *task);
+  --robot.self.tally.replacements;  // nobody has died
+  ++robot.self.tally.insertions;
+}
+
 void watch_tasks(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (!robot.params.heals()) return;

@@ -10,17 +10,18 @@ namespace banyan {
 namespace {
 
 // A neighbour heard in this tick, not a worker, nearer to the centroid than the root by a margin. The two will have
-// an edge (hand_over), so it must not be about to leave.
-int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept {
+// an edge (hand_over), so it must not be about to leave. A root that has to go takes the nearest.
+int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leaves) noexcept {
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();
   const float reach_m = robot.params.communication_range_m * (robot.reading.keeps_links ? longest_link : 1.0F);
-  float best_m = norm(self.centroid) - robot.params.centroid_margin_m;
+  const Vec2 place = leaves ? Vec2{} : self.centroid;
+  float best_m = leaves ? reach_m : norm(place) - robot.params.centroid_margin_m;
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
     if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || table.range(k) > reach_m || !may_inherit(k)) continue;
-    const float d = distance(table.position(k), self.centroid);
+    const float d = distance(table.position(k), place);
     if (d < best_m) {
       best_m = d;
       best = k;
@@ -71,7 +72,7 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
   return accepted;
 }
 
-void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept {
+void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leaves) noexcept {
   TreeState& self = robot.self;
   if (!robot.is_root()) {
     self.new_root = nobody;
@@ -89,7 +90,7 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit) noexcept 
     self.new_root = nobody;
     return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
   }
-  const int k = better_root(robot, may_inherit);
+  const int k = better_root(robot, may_inherit, leaves);
   if (k < 0) return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
   self.new_root = robot.table().id(k);
   self.offer_ticks = 0;

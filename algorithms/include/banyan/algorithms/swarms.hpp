@@ -45,4 +45,19 @@ struct ConvoySwarm {
   static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
 };
 
+struct PoweredConvoySwarm {
+  using Params = ConvoyParams;
+  using State = PoweredConvoyState;
+  using Message = PoweredConvoyMessage;
+  using Heard = banyan::Heard;
+  static State initial(RobotId id, bool worker, bool root) {
+    State state;
+    static_cast<ConvoyState&>(state) = initial_convoy_state(id, worker, root);
+    return state;
+  }
+  static auto step(const Params& p, State& s, std::span<Heard> heard, const Senses& senses) { return powered_convoy_step(p, s, heard, senses); }
+  static Report report(const State& s) { return powered_report(s); }
+  static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
+};
+
 }  // namespace banyan

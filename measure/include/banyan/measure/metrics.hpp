@@ -33,6 +33,8 @@ struct Tick {
   double worst_target_distance_m = 0.0;    // of these, the largest distance to the nearest living worker that
                                            // serves it; if none does, to the body of the one first sent there
 
+  double least_charge = -1.0, mean_charge = -1.0;  // of the living (lasting.hpp); -1: no batteries
+
   [[nodiscard]] bool all_held() const noexcept { return active_targets > 0 && targets_reached == active_targets; }
   // Held and connected.
   [[nodiscard]] bool complete() const noexcept { return all_held() && tree_parts == 1; }
@@ -98,6 +100,12 @@ struct Run {
   std::uint64_t messages = 0;              // broadcast, by all robots
   std::uint64_t decisions = 0;             // changes of role, parent or served target, of all robots (effort.hpp)
   double driven_m = 0.0;                   // mean over the robots at the start (effort.hpp)
+  double least_charge = -1.0;              // of all living robots and ticks (lasting.hpp); -1: no batteries
+  double mean_charge = -1.0;               // of the living at the end
+  std::uint64_t swaps = 0, broken_swaps = 0;  // robots of the tree relieved, and those with a broken edge meanwhile
+  std::uint64_t trips = 0, trips_arrived = 0; // of spares to charging places
+  std::uint32_t emptied = 0;               // robots that died for want of charge
+  double lasts_s = -1.0;                   // the charge is used up so long after the end; -1: it is not, or no batteries
   std::uint32_t deaths = 0;
   std::uint32_t survivors = 0;             // alive at the end
   double last_death_s = -1.0;              // -1: none died

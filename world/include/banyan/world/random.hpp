@@ -14,7 +14,8 @@ namespace banyan::world {
 enum class Purpose : std::uint64_t {
   placement = 1, heading, root, targets, loss, range_noise, bearing_noise, wheel_noise, wheel_bias,
   odometry_noise, slots, kill, clock_phase, clock_rate, start,
-  burst_end, path_loss, shadowing, one_way, antenna
+  burst_end, path_loss, shadowing, one_way, antenna,
+  start_charge, charge_noise
 };
 
 // SplitMix64's finaliser (Steele, Lea & Flood 2014): a bijection with full avalanche.

@@ -91,6 +91,31 @@ struct RadioModel {
   int slots = 0;                        // packets a robot can receive in one tick; 0: no limit
 };
 
+// What a robot runs on (docs/model.md). The defaults are a Khepera IV: 7.4 V times 3400 mAh; standing it lasts 8 h,
+// driving at full speed 5 h.
+struct Battery {
+  // none: robots never run down; power: what each part draws; time, motion and both: as in ARGoS, shares of the charge.
+  enum class Model : std::uint8_t { none, power, time, motion, time_motion };
+  Model model = Model::none;
+  double capacity_j = 90576.0;
+  double start_charge = 1.0;            // share of the capacity
+  double start_spread = 0.0;            // so much less at most, uniform
+  double idle_w = 1.4;                  // power: sensors, motor controllers and all that is not below
+  double computing_w = 1.25;            // its computer
+  double radio_w = 0.5;
+  double drive_w_per_m_s = 4.72;        // by each wheel
+  double charge_per_s = 1e-4;           // time: share of the capacity
+  double charge_per_m = 1e-3;           // motion
+  double charge_per_rad = 1e-3;
+  double noise = 0.0;                   // sigma of the measured charge, as a share of the capacity
+  std::vector<Vec2> places;             // where robots are charged; each is held like a target
+  std::size_t slots = 4;                // robots charged at one place at the same time
+  double reach_m = 0.6;                 // from a place to the robots that it charges
+  double charge_w = 25.0;               // into each of them
+
+  [[nodiscard]] bool on() const noexcept { return model != Model::none; }
+};
+
 // The alternatives of a variant carry the name by which a file chooses them.
 struct RingTargets {
   static constexpr std::string_view kind = "ring";
@@ -221,6 +246,7 @@ struct Scenario {
   RobotModel robot;
   RadioModel radio;
   Clocks clocks;
+  Battery battery;
   Targets targets = RingTargets{};
   std::vector<Obstacle> obstacles;
   std::vector<Event> events;            // any order; equal times act in file order
@@ -228,11 +254,14 @@ struct Scenario {
 
 // The functions below need a scenario without faults (faults.hpp; warnings do not matter).
 
-// The target positions that `scenario` and its seed stand for. Random ones keep clear of obstacles.
+// The target positions that `scenario` and its seed stand for, random ones clear of obstacles, and after them the
+// charging places, which are held like targets.
 [[nodiscard]] std::vector<Vec2> target_positions(const Scenario& scenario);
+// Without the charging places.
+[[nodiscard]] std::vector<Vec2> mission_targets(const Scenario& scenario);
 
-// Number of robots: swarm.robots, or the paper's redundancy factor (protocol 2, row 10).
-// At least one more than targets.
+// Number of robots: swarm.robots, or the paper's redundancy factor (protocol 2, row 10) of the mission's targets.
+// At least one more than targets and charging places.
 [[nodiscard]] std::size_t robot_count(const Scenario& scenario);
 
 // Between neighbours of the start; in a random one the least between any two robots.

@@ -79,6 +79,11 @@ class World {
   // target was given up or if there is no such target. O(N).
   [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
   [[nodiscard]] std::size_t deaths() const noexcept;               // since the start
+  [[nodiscard]] std::size_t emptied() const noexcept;              // of these, robots whose battery was empty
+  // Per robot the charge as a share of a full battery, and the charging place in whose slot it is, -1: none. Empty if
+  // robots do not run on batteries.
+  [[nodiscard]] std::span<const double> charge() const noexcept;
+  [[nodiscard]] std::span<const std::int32_t> charged_at() const noexcept;
   // tick() at the beginning of the step in which the last of them died; none if all live.
   [[nodiscard]] std::optional<std::uint64_t> last_death_tick() const noexcept;
   // Whether events are still to come that make robots die (Die, Kill), those that

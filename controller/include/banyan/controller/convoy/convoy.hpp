@@ -21,6 +21,13 @@ namespace banyan {
 [[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard,
                                                 const Senses& senses) noexcept;
 
+// The same for robots that run on batteries (docs/lasting.md): their messages have one block more.
+[[nodiscard]] ConvoyParams with_room_for_relief(ConvoyParams params) noexcept;
+[[nodiscard]] Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, std::span<Heard> heard,
+                                                               const Senses& senses) noexcept;
+[[nodiscard]] Report powered_report(const PoweredConvoyState& state) noexcept;
+void add_to(Digest& digest, const PoweredConvoyState& state) noexcept;
+
 // The beginning of a tick (tree/tick.hpp): memory is carried, the table brought up to date, orders followed.
 void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept;
 

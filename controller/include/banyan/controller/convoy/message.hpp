@@ -4,6 +4,7 @@
 
 #include "banyan/controller/healing/message.hpp"
 #include "banyan/controller/obstacles/corners.hpp"
+#include "banyan/controller/power/message.hpp"
 
 namespace banyan {
 
@@ -28,6 +29,12 @@ struct ConvoyMessage : HealingMessage, CornerStanding, ConvoyStanding, ConvoyNew
   friend bool operator==(const ConvoyMessage&, const ConvoyMessage&) = default;
 };
 
+// Of robots with batteries.
+struct PoweredConvoyMessage : ConvoyMessage, PowerStanding {
+  static constexpr std::uint8_t further_blocks = block::power;
+  friend bool operator==(const PoweredConvoyMessage&, const PoweredConvoyMessage&) = default;
+};
+
 // The convoy block, field by field (wire.hpp).
 template <class Visitor, class M>
 constexpr void visit_convoy_block(Visitor& visit, M& m) noexcept {
@@ -46,5 +53,9 @@ template <class Visitor>
 constexpr void visit_fields(Visitor& visit, const ConvoyMessage& m) noexcept {
   visit_fields(visit, static_cast<const HealingMessage&>(m)), visit_corner_block(visit, m), visit_convoy_block(visit, m);
 }
+template <class Visitor>
+constexpr void visit_fields(Visitor& visit, PoweredConvoyMessage& m) noexcept { visit_fields(visit, static_cast<ConvoyMessage&>(m)), visit_power_block(visit, m); }
+template <class Visitor>
+constexpr void visit_fields(Visitor& visit, const PoweredConvoyMessage& m) noexcept { visit_fields(visit, static_cast<const ConvoyMessage&>(m)), visit_power_block(visit, m); }
 
 }  // namespace banyan

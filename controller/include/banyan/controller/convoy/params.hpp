@@ -2,11 +2,11 @@
 // What only convoy reads (docs/convoy.md). The table has every length in units of C; here they are metres, those of C = 2 m.
 #pragma once
 
-#include "banyan/controller/healing/params.hpp"
+#include "banyan/controller/power/params.hpp"
 
 namespace banyan {
 
-struct ConvoyParams : HealingParams {
+struct ConvoyParams : PowerParams {
   float pull_start_m = 1.35F;        // a child farther than this pulls its parent along
   float pull_width_m = 0.3F;         // and with full strength this much farther away
   float tension_gain = 0.4F;         // edges are taut strings: straight chains, junctions of 120 degrees

@@ -8,6 +8,7 @@
 #include "banyan/controller/convoy/state.hpp"
 #include "banyan/controller/healing/robot.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
+#include "banyan/controller/power/power.hpp"
 
 namespace banyan {
 
@@ -16,12 +17,18 @@ inline const ConvoyMessage& convoy_message(const TreeMessage& m) noexcept {
   return static_cast<const ConvoyMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
 }
 
+// And in a swarm on batteries, what such robots say.
+inline const PoweredConvoyMessage& powered_message(const ConvoyMessage& m) noexcept {
+  return static_cast<const PoweredConvoyMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+}
+
 struct ConvoyRobot : HealingRobot {
   ConvoyRobot(const ConvoyParams& params_, ConvoyState& self_, const Admitted& admitted) noexcept
       : HealingRobot(params_, self_, admitted), params(params_), self(self_) {}
 
   const ConvoyParams& params;   // the same objects as the tree's
   ConvoyState& self;
+  PowerRobot* power = nullptr;  // null: it does not run on a battery
 
   [[nodiscard]] const ConvoyStanding& convoy_of(int k) const noexcept { return self.convoy_standings[static_cast<std::size_t>(k)]; }
   [[nodiscard]] const CornerStanding& corner_of(int k) const noexcept { return self.corners.of(k); }
@@ -34,6 +41,10 @@ struct ConvoyRobot : HealingRobot {
     return it == heard.end() ? nullptr : &convoy_message(*it->message);
   }
 };
+
+// I have to be relieved; so has neighbour k.
+[[nodiscard]] inline bool is_leaving(const ConvoyRobot& robot) noexcept { return robot.power != nullptr && robot.power->power.said.leaving; }
+[[nodiscard]] inline bool is_leaving(const ConvoyRobot& robot, int k) noexcept { return robot.power != nullptr && robot.power->standing(k).leaving; }
 
 [[nodiscard]] inline bool sees_clearly(const ConvoyRobot& robot, int k, float clearance_m) noexcept {
   return sees_clearly(robot, robot.self.corners, k, clearance_m);

@@ -7,6 +7,7 @@
 
 #include "banyan/controller/convoy/message.hpp"
 #include "banyan/controller/healing/state.hpp"
+#include "banyan/controller/power/state.hpp"
 
 namespace banyan {
 
@@ -44,6 +45,11 @@ struct ConvoyState : HealingState {
     hosts.fill(nobody);
     return hosts;
   }
+};
+
+// Of robots with batteries.
+struct PoweredConvoyState : ConvoyState {
+  PowerState power;
 };
 
 template <class Visitor, class State>

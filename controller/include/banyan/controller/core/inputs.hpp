@@ -34,6 +34,14 @@ struct Orders {
   // A target that has been given up, named by the robot first sent there: the robot that serves it stops.
   // Announced once.
   RobotId given_up = nobody;
+  // The target that it is sent to is a charging place: the robot there keeps the place in the network.
+  bool charging_place = false;
+};
+
+// What a robot knows of its battery.
+struct Charge {
+  float level = 1.0F;      // share of a full one
+  bool charging = false;   // it is being charged
 };
 
 struct Senses {
@@ -41,6 +49,8 @@ struct Senses {
   Orders orders{};
   // The nearest point of each obstacle within reach of the proximity sensor, m. No robots.
   std::span<const Vec2> obstacles{};
+  // None: it does not run on a battery, or not measured in this step.
+  std::optional<Charge> charge{};
   // Since the last step; a host without ticks may step when it likes. Counted in whole ticks, at least one. What the
   // paper gives in seconds, and every age and silence, grows by that time. What follows from how news travels, a hop
   // a message (a barrier that holds, an orphan without a parent, a question without an answer), counts steps, and

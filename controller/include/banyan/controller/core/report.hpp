@@ -63,6 +63,11 @@ struct Report {
   RobotId request = nobody;        // the owner of the edge that it wants to join
   float want_m = 0.0F;             // largest remaining way of a worker below
 
+  // Algorithms for robots with batteries
+  bool leaves = false;             // it has to be relieved
+  bool seeks_charge = false;       // it is free, and on its way to a charging place or waits there to be full
+  RobotId relieves = nobody;       // the robot whose place it takes
+
   Tally tally;
 };
 

@@ -32,10 +32,21 @@ inline constexpr std::uint8_t healing = 1U << 4;
 inline constexpr std::uint8_t obstacles = 1U << 5;
 inline constexpr std::uint8_t convoy = 1U << 6;
 inline constexpr std::uint8_t wide_ids = 1U << 7;  // ids of 32 bits; no robot sends them yet
+// A message with blocks beyond these has a second byte, which names them.
+inline constexpr std::uint8_t power = 1U << 0;
 }  // namespace block
-inline constexpr std::uint8_t wire_version = 6;    // the low four bits
+inline constexpr std::uint8_t wire_version = 6;         // the low four bits
+inline constexpr std::uint8_t further_wire_version = 7; // of messages with a second byte
 
-inline constexpr std::size_t largest_wire = 96;    // bytes
+inline constexpr std::size_t largest_wire = 112;        // bytes, with further blocks
+inline constexpr std::size_t largest_plain_wire = 96;   // without
+
+// The second byte of messages of this type; 0: they have none.
+template <class Message>
+constexpr std::uint8_t further_blocks_of() noexcept {
+  if constexpr (requires { Message::further_blocks; }) return Message::further_blocks;
+  else return 0;
+}
 
 namespace wire {
 
@@ -176,14 +187,22 @@ constexpr std::size_t wire_size() noexcept {
   wire::Counter counter;
   const Message message{};
   visit_fields(counter, message);
-  return counter.bytes();
+  return counter.bytes() + (further_blocks_of<Message>() != 0 ? 1 : 0);
+}
+
+// Its first byte.
+template <class Message>
+constexpr std::uint8_t header_of() noexcept {
+  return static_cast<std::uint8_t>(Message::blocks | (further_blocks_of<Message>() != 0 ? further_wire_version : wire_version));
 }
 
 // Writes wire_size<Message>() bytes. `out` must have room for them.
 template <class Message>
 std::size_t encode_fields(const Message& message, std::span<std::uint8_t> out) noexcept {
-  out[0] = static_cast<std::uint8_t>(Message::blocks | wire_version);
-  wire::BitWriter bits(out.data() + 1);
+  constexpr std::uint8_t further = further_blocks_of<Message>();
+  out[0] = header_of<Message>();
+  if constexpr (further != 0) out[1] = further;
+  wire::BitWriter bits(out.data() + (further != 0 ? 2 : 1));
   visit_fields(bits, message);
   wire::ByteWriter bytes(bits.end());
   visit_fields(bytes, message);
@@ -194,9 +213,12 @@ std::size_t encode_fields(const Message& message, std::span<std::uint8_t> out) n
 // encode_fields() writes; never reads outside `bytes`.
 template <class Message>
 std::optional<Message> decode_fields(std::span<const std::uint8_t> bytes) noexcept {
-  if (bytes.size() != wire_size<Message>() || bytes[0] != (Message::blocks | wire_version)) return std::nullopt;
+  constexpr std::uint8_t further = further_blocks_of<Message>();
+  if (bytes.size() != wire_size<Message>() || bytes[0] != header_of<Message>()) return std::nullopt;
+  if constexpr (further != 0)
+    if (bytes[1] != further) return std::nullopt;
   Message message;
-  wire::BitReader bits(bytes.data() + 1);
+  wire::BitReader bits(bytes.data() + (further != 0 ? 2 : 1));
   visit_fields(bits, message);
   wire::ByteReader rest(bits.end());
   visit_fields(rest, message);

@@ -68,6 +68,11 @@ void watch_tasks(HealingRobot& robot) noexcept;
 // Serves no target any more; does not say which robot does.
 void resign(HealingRobot& robot) noexcept;
 
+// The holder of my target is robot `heir` from now on, and I am free.
+void yield_task(HealingRobot& robot, RobotId heir) noexcept;
+// I serve that target from now on, as after its worker's death; it knows. Nothing if I do not know where it is.
+void inherit_task(HealingRobot& robot, RobotId serves) noexcept;
+
 // ---- progress.cpp: a worker that gets no nearer ----
 
 // At the end of a step, with the velocity that it is to have, m/s. A worker that has driven in vain for long (its motors or wheels do not do

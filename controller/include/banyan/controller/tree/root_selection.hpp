@@ -16,7 +16,8 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept;
 void hand_over(TreeRobot& robot, Serial held) noexcept;
 
 // The root in SELECT ROOT: offer the token to a better neighbour, wait for the acknowledgement, take
-// the token back if none comes, or open the next epoch. `may_inherit(k)`: neighbour k may become root.
-void select_root(TreeRobot& robot, FunctionRef<bool(int k)> may_inherit) noexcept;
+// the token back if none comes, or open the next epoch. `may_inherit(k)`: neighbour k may become root. `leaves`: it
+// offers the token to the nearest of them, wherever the centroid is.
+void select_root(TreeRobot& robot, FunctionRef<bool(int k)> may_inherit, bool leaves = false) noexcept;
 
 }  // namespace banyan

@@ -17,7 +17,7 @@
 namespace banyan::python {
 
 inline constexpr std::size_t id_bytes = 2;                                // of the sender, in every message
-inline constexpr std::size_t largest_payload = largest_wire - id_bytes;   // what is left of a message, bytes
+inline constexpr std::size_t largest_payload = largest_plain_wire - id_bytes;   // what is left of a message, bytes
 inline constexpr std::size_t most_seen = 8;                               // obstacles that a robot senses at once
 
 struct Shape {

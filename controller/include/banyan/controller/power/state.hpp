@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// What a robot with a battery remembers in addition.
+#pragma once
+
+#include <array>
+
+#include "banyan/controller/core/neighbors.hpp"
+#include "banyan/controller/power/message.hpp"
+
+namespace banyan {
+
+struct PowerState {
+  PowerStanding said;               // what I broadcast: my part in all of it
+  float level = -1.0F;              // my charge, smoothed; negative: never measured
+  bool charging = false;
+  bool keeps_place = false;         // I stand at a charging place and keep it in the network
+  bool seeks = false;               // a spare that is to be charged
+  bool ready = false;               // enough charge to join an edge
+  bool travels = false;             // and on its way
+  std::uint16_t stuck_ticks = 0;    // since a relief that I am part of has begun
+  std::array<PowerStanding, neighbor_capacity> standings{};  // beside the neighbour table
+};
+
+template <class Visitor, class State>
+constexpr void visit_power_state(Visitor& visit, State& s, int neighbors) noexcept {
+  const auto visit_standing = [&](auto& p) { visit(p.leaving), visit(p.in_place), visit(p.level), visit(p.place_hops), visit(p.relieves), visit(p.heir); };
+  visit(s.level), visit(s.charging), visit(s.keeps_place), visit(s.seeks), visit(s.ready), visit(s.travels), visit(s.stuck_ticks);
+  visit_standing(s.said);
+  for (int k = 0; k < neighbors; ++k) visit_standing(s.standings[static_cast<std::size_t>(k)]);
+}
+
+}  // namespace banyan
