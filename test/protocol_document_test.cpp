@@ -268,7 +268,7 @@ TEST(ProtocolDocument, EveryChoiceOfTheReadingHasItsRow) {
 // docs/architecture.md names the calls of convoy_step in their order.
 TEST(ProtocolDocument, ATickIsWhatArchitectureSays) {
   const std::string code = text_of("controller/src/convoy/convoy.cpp");
-  const std::size_t begin = code.find("> convoy_step(");
+  const std::size_t begin = code.find("Velocity tick(");
   ASSERT_NE(begin, std::string::npos);
   const std::string body = code.substr(begin, code.find("\n}\n", begin) - begin);
   const auto calls = all(body, R"(\n  (?:[\w.: ]+ = )?(\w+)\(robot[,)])");

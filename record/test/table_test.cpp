@@ -132,7 +132,8 @@ TEST(Table, ARowOfTheFirstVersionIsReadWithEmptyFieldsForLaterColumns) {
 
 TEST(Table, ARowOfAnEarlierVersionLacksWhatLaterOnesHave) {
   const std::set<std::string_view> since_5{"link_redundancy", "redundancy_bound", "redundancy_exact", "companions", "redundancy_ratio",
-                                           "redundant_time_ratio", "severed_ticks", "restored_s", "redundant_targets"};
+                                           "redundant_time_ratio", "severed_ticks", "restored_s", "redundant_targets",
+                                           "least_charge", "mean_charge", "swaps", "broken_swaps", "trips", "trips_arrived", "emptied", "lasts_s"};
   std::set<std::string_view> since_4{"messages", "decisions", "driven_m"};
   since_4.insert(since_5.begin(), since_5.end());
   std::set<std::string_view> since_3{"sight_leak", "liveness_period_s", "broken_ticks_after_silence",
