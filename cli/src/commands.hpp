@@ -37,6 +37,7 @@ struct HubOptions {
   double dead_after_s = 5.0;  // a robot that is silent for so long counts as dead
   double speed = 1.0;
   std::size_t bundle = 1;     // packets heard per datagram
+  bool view = false;          // the page beside it
   bool print_robots = false;  // their command lines, instead
   std::string new_key;        // make this file, instead
   std::string stop;           // ADDRESS:PORT[,...] of robots without a hub: stop them, instead
@@ -52,6 +53,7 @@ struct FleetOptions {
   RunOptions run;
   bool loopback = false;      // no network namespaces
   bool restart = true;        // robots that end unasked
+  bool view = false;          // the page beside it
   double speed = 1.0;
   std::size_t bundle = 1;
   double loss = 0.0;          // from here on: of the way from robot to robot
@@ -130,6 +132,7 @@ struct ViewOptions {
   std::string scenarios;                    // folder; "": where they were when this was built, or were installed
   int port = 0;                             // 0: any that is free
   bool open = true;                         // in a browser
+  bool wait = false;                        // until the recording has begun
 };
 int view_command(const ViewOptions& options);
 

@@ -79,9 +79,11 @@ constexpr const char* film_footer =
 
 constexpr const char* view_footer =
     "Serves the page at an address of this machine, prints it and opens the browser if there is a\n"
-    "desktop. Only users of this machine can reach it. Ctrl-C ends it.\n\n"
+    "desktop. Only users of this machine can reach it. Ctrl-C ends it.\n"
+    "A recording that is still being written is shown live.\n\n"
     "Examples:\n"
     "  banyan view out/three-targets-convoy-1/run.mcap\n"
+    "  banyan view --wait out/lab/run.mcap          (live, while it is written)\n"
     "  banyan view scenarios/three-targets.toml --set radio.loss=0.3\n"
     "  banyan view";
 
@@ -97,7 +99,7 @@ constexpr const char* fleet_footer =
     "A hub and a process per robot on this machine, over real UDP; each robot in a network namespace of its own where\n"
     "the machine allows it. Robots that end unasked are started again, and so is the hub. Results as of `banyan run`.\n\n"
     "Examples:\n"
-    "  banyan fleet scenarios/khepera-three-targets.toml\n"
+    "  banyan fleet scenarios/khepera-three-targets.toml --view\n"
     "  banyan fleet scenarios/khepera-two-targets.toml --loss 0.1 --delay-ms 20 --jitter-ms 10\n"
     "  banyan fleet scenarios/khepera-three-targets.toml --set mission.algorithm=convoy --speed 5";
 
@@ -388,6 +390,7 @@ void add_view(CLI::App& app, std::function<int()>& action) {
       ->type_name("N")
       ->check(CLI::Range(0, 65535).description(""));
   command->add_flag("!--no-open", options->open, "only print the address");
+  command->add_flag("--wait", options->wait, "for a recording that has not begun yet");
   command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or as it was installed")
       ->type_name("DIR");
   command->add_option("--scenarios", options->scenarios, "what the page offers to run; default Banyan's own")
@@ -543,6 +546,10 @@ void add_results(CLI::App& command, RunOptions& options) {
   add_outputs(command, options.overrides);
 }
 
+template <class Options> void add_page_beside(CLI::App& command, Options& options) {
+  command.add_flag("--view", options.view, "show it live in the browser; the page stays until Ctrl-C");
+}
+
 template <class Options> void add_pace(CLI::App& command, Options& options) {
   command.add_option("--speed", options.speed, "of all clocks, default 1; for tests")
       ->type_name("X")
@@ -574,6 +581,7 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
   command->add_flag("--resume", options->resume, "go on where the tape ends");
   add_results(*command, options->run);
   add_pace(*command, *options);
+  add_page_beside(*command, *options);
   command->callback([options, &action] { action = [options] { return hub_command(*options); }; });
 }
 
@@ -607,6 +615,7 @@ void add_fleet(CLI::App& app, std::function<int()>& action) {
   way("--duplicate", options->duplicate, 0.99, "share of the packets that come twice");
   way("--reorder", options->reorder, 1.0, "share of the packets that are not delayed and so overtake");
   way("--rate-kbit", options->rate_kbit_s, 1e9, "kbit/s of each robot, either way; default 0: no limit");
+  add_page_beside(*command, *options);
   command->add_flag("--loopback", options->loopback, "no network namespaces: all share the loopback device");
   command->add_flag("!--no-restart", options->restart, "do not start robots again that have ended");
   command->callback([options, &action] { action = [options] { return fleet_command(*options); }; });

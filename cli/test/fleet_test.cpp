@@ -220,6 +220,25 @@ TEST_F(FleetProgram, CtrlCStopsAllAndLeavesValidFiles) {
   EXPECT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
 }
 
+// The page's own tests look at what it shows.
+TEST_F(FleetProgram, ThePageBesideItStaysUntilCtrlC) {
+  write("page/index.html", "<!doctype html>");
+  const pid_t fleet = start({"fleet", three_targets, "--speed", "10", "--out", "result", "--json", "--view"},
+                            {.environment = {{"BANYAN_PAGE", (home_ / "page").string()}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
+  EXPECT_TRUE(becomes([&] { return has(read("stderr.txt"), "http://127.0.0.1:"); })) << read("stderr.txt");
+  EXPECT_TRUE(exists("result/run.mcap.part"));
+  const auto over = [&] { return exists("result/run.mcap") && hub(fleet) == 0 && robot(fleet, 0) == 0; };
+  EXPECT_TRUE(becomes(over)) << read("stderr.txt");
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const pid_t page = child_with(fleet, " view ");
+  EXPECT_GT(page, 0);
+  EXPECT_TRUE(nlohmann::json::accept(read("stdout.txt"))) << read("stdout.txt");
+  ::kill(fleet, SIGINT);
+  EXPECT_EQ(finish(fleet).code, 0);
+  EXPECT_FALSE(runs(page));
+  EXPECT_TRUE(has(run({"fleet", three_targets, "--view", "--set", "output.record=false"}).err, "none is to be written"));
+}
+
 TEST_F(FleetProgram, AllEndWithAFleetThatIsKilled) {
   const pid_t fleet = start_fleet({"--set", "mission.stop_when_complete=false"});
   const auto children = children_of(fleet);
