@@ -44,6 +44,18 @@ struct HubOptions {
 };
 int hub_command(const HubOptions& options);
 
+// Of a scenario whose robots are processes without a hub.
+struct ListenOptions {
+  RunOptions run;
+  std::string listen = "0.0.0.0:4700";
+  std::string key_file;
+  double wait_s = 10.0;       // for robots, before the recording begins
+  double dead_after_s = 5.0;
+  double speed = 1.0;
+  bool view = false;          // the page beside it
+};
+int listen_command(const ListenOptions& options);
+
 // Becomes banyan-robot.
 int robot_command(const std::vector<std::string>& arguments);
 // Becomes banyan-ros2.

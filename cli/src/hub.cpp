@@ -161,7 +161,7 @@ std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, std::si
 
 // The scenario with the robots where they are; refused if no mission can begin there.
 world::Scenario seen_by(const udp::PoseStream& tracker, const world::Scenario& scenario) {
-  world::Scenario seen = started_where_seen(scenario, tracker);
+  world::Scenario seen = started_where_seen(scenario, tracker.poses());
   std::string text;
   for (const world::Fault& fault : world::faults(seen))
     if (!fault.warning) text += "\n  " + fault.key + ": " + fault.text;
@@ -171,7 +171,7 @@ world::Scenario seen_by(const udp::PoseStream& tracker, const world::Scenario& s
 
 world::World make_world(const world::Scenario& scenario, const Algorithm& remote, const udp::PoseStream* tracker) {
   if (tracker == nullptr) return {scenario, remote};
-  return {scenario, remote, tracked_bodies(*tracker)};
+  return {scenario, remote, tracked_bodies(tracker->poses())};
 }
 
 udp::KeyFile keys_of(const HubOptions& options) {

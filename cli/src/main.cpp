@@ -95,6 +95,12 @@ constexpr const char* hub_footer =
     "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600 --print-robots\n"
     "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600";
 
+constexpr const char* listen_footer =
+    "Robots say by --tell what they do, whom they measure and where their target is. From that their places follow, in a\n"
+    "frame of their own; robots, their number, radio and bodies are as in the scenario. Results as of `banyan run`.\n\n"
+    "Examples:\n"
+    "  banyan listen scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4700 --view";
+
 constexpr const char* fleet_footer =
     "A hub and a process per robot on this machine, over real UDP; each robot in a network namespace of its own where\n"
     "the machine allows it. Robots that end unasked are started again, and so is the hub. Results as of `banyan run`.\n\n"
@@ -585,6 +591,23 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
   command->callback([options, &action] { action = [options] { return hub_command(*options); }; });
 }
 
+void add_listen(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<ListenOptions>();
+  auto* command = app.add_subcommand("listen", "record robots that have no hub, by what they tell")->group(command_group);
+  command->footer(listen_footer);
+  command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
+  command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->required()->type_name("FILE");
+  command->add_option("--listen", options->listen, "where robots tell it, their --tell; default 0.0.0.0:4700")->type_name("ADDRESS:PORT");
+  command->add_option("--wait", options->wait_s, "for robots before it begins, s; default 10")->type_name("S")->check(moment);
+  command->add_option("--dead-after", options->dead_after_s, "a robot that is silent for so long counts as dead, s; default 5")
+      ->type_name("S")
+      ->check(number_within(0.5, 1e6));
+  command->add_option("--speed", options->speed, "of its clock, default 1; for tests")->type_name("X")->check(number_within(0.01, 100.0));
+  add_results(*command, options->run);
+  add_page_beside(*command, *options);
+  command->callback([options, &action] { action = [options] { return listen_command(*options); }; });
+}
+
 void add_robot(CLI::App& app, std::function<int()>& action) {
   auto* command = app.add_subcommand("robot", "be one robot; see banyan robot --help")->group(command_group);
   command->prefix_command();
@@ -702,6 +725,7 @@ int run_program(int argc, char** argv) {
   add_collect(app, action);
   add_bench(app, action);
   add_hub(app, action);
+  add_listen(app, action);
   add_robot(app, action);
   add_ros2(app, action);
   add_fleet(app, action);

@@ -446,7 +446,7 @@ class WithoutAHub : public FleetProgram {
   }
   void start_robot(int i, bool root) {
     Arguments arguments{"robot", "--id", std::to_string(i), "--listen", address(i), "--peers", others_than(i), "--key", "fleet.key", "--speed", "5",
-                        "--base", "tcp:127.0.0.1:" + std::to_string(port_ + count + i)};
+                        "--base", "tcp:127.0.0.1:" + std::to_string(port_ + count + i), "--tell", address(3 * count)};
     if (root) arguments.emplace_back("--root");
     if (i >= 1 && i <= 3) arguments.emplace_back("--worker");
     robots_[static_cast<std::size_t>(i)] = start(arguments);
@@ -513,6 +513,29 @@ TEST_F(WithoutAHub, TheyCompleteInOnePieceAndStopAtAWord) {
     robot = 0;
   }
   EXPECT_EQ(run({"hub", "--stop", all, "--key", "fleet.key"}).code, 1);  // nobody is there any more
+}
+
+// Somebody listens: what is recorded is what they did, but for where on the floor they did it.
+TEST_F(WithoutAHub, TheirMissionIsRecordedByWhatTheyTell) {
+  const Outcome outcome = run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count), "--speed", "5", "--out", "result"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Places truth = seen().back();
+  EXPECT_TRUE(is_complete());
+  for (const char* words : {"COMPLETE after", "network    in one piece at every tick", "the recording", "places are the robots' own", " 0 datagrams dropped"})
+    EXPECT_TRUE(has(outcome.out, words)) << words << "\n" << outcome.out << outcome.err;
+  EXPECT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
+  std::istringstream rows(read("robots.csv"));
+  Places last{};
+  for (std::string row; std::getline(rows, row);) {
+    double time_s = 0.0, x = 0.0, y = 0.0;
+    std::size_t tick = 0, i = 0;
+    char comma = 0;
+    if (std::istringstream(row) >> tick >> comma >> time_s >> comma >> i >> comma >> x >> comma >> y) last.at(i) = {x, y};
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NEAR(distance(last.at(i), last.at(j)), distance(truth.at(i), truth.at(j)), 0.1) << i << " " << j;
+  EXPECT_TRUE(has(run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count + 1), "--wait", "0.3"}).err,
+                  "there was no place for robot 0, 1, 2"));
 }
 
 TEST_F(FleetProgram, RefusesWhatCannotBe) {
