@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Thousands of small squares of one colour, drawn pixel by pixel into a bitmap: without a GPU that takes half of what as
-// many calls of fillRect() do, and a third of what WebGL does there (docs/viewer.md). Their edges are as smooth.
+// many calls of fillRect() do, and a quarter of what WebGL does (docs/viewer.md). Their edges are as smooth.
 
 /** Pixels, 0xAABBGGRR. */
 export class DotBitmap {
