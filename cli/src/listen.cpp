@@ -33,6 +33,7 @@ world::Scenario told_by(const udp::Listener& listener, const std::vector<std::si
   scenario.mission.time_limit_s = world::time_limit_s(scenario);  // by the scenario's own targets
   scenario = started_where_seen(std::move(scenario), listener.chart().poses());
   std::vector<world::Vec2> targets;
+  targets.reserve(workers.size());
   for (const std::size_t worker : workers) targets.push_back(listener.chart().poses()[worker]->position);
   scenario.targets = targets;
   scenario.swarm.root.reset();
@@ -69,9 +70,9 @@ class Ears {
     const auto alive = world.alive();
     return static_cast<std::size_t>(std::count_if(alive.begin(), alive.end(), [](auto a) { return a != 0; }));
   }
-  static void happen(record::Simulation& simulation, world::Action action) {
+  static void happen(record::Simulation& simulation, const world::Action& action) {
     world::Event event;
-    event.action = std::move(action);
+    event.action = action;
     simulation.intervene(event);
   }
   void look_at_target(record::Simulation& simulation, std::size_t k) const {

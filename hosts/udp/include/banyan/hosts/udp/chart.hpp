@@ -39,7 +39,7 @@ class Chart {
   [[nodiscard]] bool is_fresh(std::size_t robot) const noexcept;
   [[nodiscard]] const Sighting* sighting(std::size_t from, std::size_t of) const noexcept;
   [[nodiscard]] std::optional<std::size_t> anchor() const noexcept;
-  void reckon(std::size_t robot);
+  void reckon(std::size_t i);
   [[nodiscard]] std::optional<TrackedPose> seen_from(std::size_t from, std::size_t of) const;
 
   std::vector<Robot> robots_;
