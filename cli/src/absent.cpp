@@ -23,6 +23,7 @@ int hub_command(const HubOptions& /*options*/) { absent("hub"); }
 int robot_command(const std::vector<std::string>& /*arguments*/) { absent("robot"); }
 int argos_command(const ArgosOptions& /*options*/) { absent("argos"); }
 int ros2_command(const std::vector<std::string>& /*arguments*/) { absent("ros2"); }
+int listen_command(const ListenOptions& /*options*/) { absent("listen"); }
 int fleet_command(const FleetOptions& /*options*/) { absent("fleet"); }
 int collect_command(const CollectOptions& /*options*/) { absent("collect"); }
 

@@ -37,11 +37,24 @@ struct HubOptions {
   double dead_after_s = 5.0;  // a robot that is silent for so long counts as dead
   double speed = 1.0;
   std::size_t bundle = 1;     // packets heard per datagram
+  bool view = false;          // the page beside it
   bool print_robots = false;  // their command lines, instead
   std::string new_key;        // make this file, instead
   std::string stop;           // ADDRESS:PORT[,...] of robots without a hub: stop them, instead
 };
 int hub_command(const HubOptions& options);
+
+// Of a scenario whose robots are processes without a hub.
+struct ListenOptions {
+  RunOptions run;
+  std::string listen = "0.0.0.0:4700";
+  std::string key_file;
+  double wait_s = 10.0;       // for robots, before the recording begins
+  double dead_after_s = 5.0;
+  double speed = 1.0;
+  bool view = false;          // the page beside it
+};
+int listen_command(const ListenOptions& options);
 
 // Becomes banyan-robot.
 int robot_command(const std::vector<std::string>& arguments);
@@ -52,6 +65,7 @@ struct FleetOptions {
   RunOptions run;
   bool loopback = false;      // no network namespaces
   bool restart = true;        // robots that end unasked
+  bool view = false;          // the page beside it
   double speed = 1.0;
   std::size_t bundle = 1;
   double loss = 0.0;          // from here on: of the way from robot to robot
@@ -130,6 +144,7 @@ struct ViewOptions {
   std::string scenarios;                    // folder; "": where they were when this was built, or were installed
   int port = 0;                             // 0: any that is free
   bool open = true;                         // in a browser
+  bool wait = false;                        // until the recording has begun
 };
 int view_command(const ViewOptions& options);
 

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "fleet_members.hpp"
 #include "outputs.hpp"
+#include "page_beside.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli {
@@ -72,10 +73,11 @@ int run_fleet(udp::Fleet::Plan plan) {
 int start_fleet(const FleetOptions& options) {
   if (options.run.scenario == "-") throw CommandError(exit_usage, "the scenario of a fleet must be a file: its hub reads it, too");
   const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
+  const RunOutputs outputs(configuration, options.run.out, options.run.force);
+  PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();  // in the network of the browser
   const bool namespaces = !options.loopback && udp::enter_network();
   if (!namespaces && !options.loopback && !options.run.quiet)
     complain("this machine does not allow network namespaces; all robots share its loopback device");
-  const RunOutputs outputs(configuration, options.run.out, options.run.force);
   const std::string tape = outputs.directory() + "/fleet.tape";
   const MemoryKey key;
   udp::Fleet::Plan plan;
@@ -91,6 +93,7 @@ int start_fleet(const FleetOptions& options) {
   std::error_code ignored;
   std::filesystem::remove(tape, ignored);
   outputs.abandon();  // if the hub has written nothing
+  page.stay();
   return code;
 }
 

@@ -22,6 +22,7 @@
 #include "commands.hpp"
 #include "fleet_members.hpp"
 #include "keep_run.hpp"
+#include "page_beside.hpp"
 #include "terminal.hpp"
 #include "tracked_bodies.hpp"
 
@@ -160,7 +161,7 @@ std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, std::si
 
 // The scenario with the robots where they are; refused if no mission can begin there.
 world::Scenario seen_by(const udp::PoseStream& tracker, const world::Scenario& scenario) {
-  world::Scenario seen = started_where_seen(scenario, tracker);
+  world::Scenario seen = started_where_seen(scenario, tracker.poses());
   std::string text;
   for (const world::Fault& fault : world::faults(seen))
     if (!fault.warning) text += "\n  " + fault.key + ": " + fault.text;
@@ -170,7 +171,7 @@ world::Scenario seen_by(const udp::PoseStream& tracker, const world::Scenario& s
 
 world::World make_world(const world::Scenario& scenario, const Algorithm& remote, const udp::PoseStream* tracker) {
   if (tracker == nullptr) return {scenario, remote};
-  return {scenario, remote, tracked_bodies(*tracker)};
+  return {scenario, remote, tracked_bodies(tracker->poses())};
 }
 
 udp::KeyFile keys_of(const HubOptions& options) {
@@ -186,7 +187,9 @@ int play_scenario(const HubOptions& options) {
   const auto tracker = open_tracker(options, robots);
   const auto tape = open_tape(options, configuration, tracker.get());
   if (tracker) scenario = seen_by(*tracker, scenario);
+  configuration.output.live = true;  // it takes as long as it takes, and somebody may want to watch
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
+  PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
   try {
     const udp::HubOptions hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s, options.bundle};
     udp::Hub hub(hub_options, robots, keys.keys(), tape.get());
@@ -194,8 +197,10 @@ int play_scenario(const HubOptions& options) {
     const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
     run.threads = 1;
-    return keep_run(configuration, outputs, run, make_world(scenario, remote, tracker.get()), Conductor(hub, tracker.get(), keys, options),
-                    [&hub] { return remarks_on(hub.counts()); });
+    const int code = keep_run(configuration, outputs, run, make_world(scenario, remote, tracker.get()),
+                              Conductor(hub, tracker.get(), keys, options), [&hub] { return remarks_on(hub.counts()); });
+    page.stay();
+    return code;
   } catch (...) {
     outputs.abandon();
     throw;

@@ -79,9 +79,11 @@ constexpr const char* film_footer =
 
 constexpr const char* view_footer =
     "Serves the page at an address of this machine, prints it and opens the browser if there is a\n"
-    "desktop. Only users of this machine can reach it. Ctrl-C ends it.\n\n"
+    "desktop. Only users of this machine can reach it. Ctrl-C ends it.\n"
+    "A recording that is still being written is shown live.\n\n"
     "Examples:\n"
     "  banyan view out/three-targets-convoy-1/run.mcap\n"
+    "  banyan view --wait out/lab/run.mcap          (live, while it is written)\n"
     "  banyan view scenarios/three-targets.toml --set radio.loss=0.3\n"
     "  banyan view";
 
@@ -93,11 +95,17 @@ constexpr const char* hub_footer =
     "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600 --print-robots\n"
     "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600";
 
+constexpr const char* listen_footer =
+    "Robots say by --tell what they do, whom they measure and where their target is. From that their places follow, in a\n"
+    "frame of their own; robots, their number, radio and bodies are as in the scenario. Results as of `banyan run`.\n\n"
+    "Examples:\n"
+    "  banyan listen scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4700 --view";
+
 constexpr const char* fleet_footer =
     "A hub and a process per robot on this machine, over real UDP; each robot in a network namespace of its own where\n"
     "the machine allows it. Robots that end unasked are started again, and so is the hub. Results as of `banyan run`.\n\n"
     "Examples:\n"
-    "  banyan fleet scenarios/khepera-three-targets.toml\n"
+    "  banyan fleet scenarios/khepera-three-targets.toml --view\n"
     "  banyan fleet scenarios/khepera-two-targets.toml --loss 0.1 --delay-ms 20 --jitter-ms 10\n"
     "  banyan fleet scenarios/khepera-three-targets.toml --set mission.algorithm=convoy --speed 5";
 
@@ -388,6 +396,7 @@ void add_view(CLI::App& app, std::function<int()>& action) {
       ->type_name("N")
       ->check(CLI::Range(0, 65535).description(""));
   command->add_flag("!--no-open", options->open, "only print the address");
+  command->add_flag("--wait", options->wait, "for a recording that has not begun yet");
   command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or as it was installed")
       ->type_name("DIR");
   command->add_option("--scenarios", options->scenarios, "what the page offers to run; default Banyan's own")
@@ -543,6 +552,10 @@ void add_results(CLI::App& command, RunOptions& options) {
   add_outputs(command, options.overrides);
 }
 
+template <class Options> void add_page_beside(CLI::App& command, Options& options) {
+  command.add_flag("--view", options.view, "show it live in the browser; the page stays until Ctrl-C");
+}
+
 template <class Options> void add_pace(CLI::App& command, Options& options) {
   command.add_option("--speed", options.speed, "of all clocks, default 1; for tests")
       ->type_name("X")
@@ -574,7 +587,25 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
   command->add_flag("--resume", options->resume, "go on where the tape ends");
   add_results(*command, options->run);
   add_pace(*command, *options);
+  add_page_beside(*command, *options);
   command->callback([options, &action] { action = [options] { return hub_command(*options); }; });
+}
+
+void add_listen(CLI::App& app, std::function<int()>& action) {
+  auto options = std::make_shared<ListenOptions>();
+  auto* command = app.add_subcommand("listen", "record robots that have no hub, by what they tell")->group(command_group);
+  command->footer(listen_footer);
+  command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
+  command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->required()->type_name("FILE");
+  command->add_option("--listen", options->listen, "where robots tell it, their --tell; default 0.0.0.0:4700")->type_name("ADDRESS:PORT");
+  command->add_option("--wait", options->wait_s, "for robots before it begins, s; default 10")->type_name("S")->check(moment);
+  command->add_option("--dead-after", options->dead_after_s, "a robot that is silent for so long counts as dead, s; default 5")
+      ->type_name("S")
+      ->check(number_within(0.5, 1e6));
+  command->add_option("--speed", options->speed, "of its clock, default 1; for tests")->type_name("X")->check(number_within(0.01, 100.0));
+  add_results(*command, options->run);
+  add_page_beside(*command, *options);
+  command->callback([options, &action] { action = [options] { return listen_command(*options); }; });
 }
 
 void add_robot(CLI::App& app, std::function<int()>& action) {
@@ -607,6 +638,7 @@ void add_fleet(CLI::App& app, std::function<int()>& action) {
   way("--duplicate", options->duplicate, 0.99, "share of the packets that come twice");
   way("--reorder", options->reorder, 1.0, "share of the packets that are not delayed and so overtake");
   way("--rate-kbit", options->rate_kbit_s, 1e9, "kbit/s of each robot, either way; default 0: no limit");
+  add_page_beside(*command, *options);
   command->add_flag("--loopback", options->loopback, "no network namespaces: all share the loopback device");
   command->add_flag("!--no-restart", options->restart, "do not start robots again that have ended");
   command->callback([options, &action] { action = [options] { return fleet_command(*options); }; });
@@ -693,6 +725,7 @@ int run_program(int argc, char** argv) {
   add_collect(app, action);
   add_bench(app, action);
   add_hub(app, action);
+  add_listen(app, action);
   add_robot(app, action);
   add_ros2(app, action);
   add_fleet(app, action);

@@ -124,7 +124,34 @@ Ranges ranges_of(const httplib::Ranges& asked, std::uint64_t size) {
   return {Ranges::Kind::part, first, last < 0 ? end - 1 : std::min<std::int64_t>(last, end - 1)};
 }
 
+// A recording that is not finished, and that somebody still writes. One that was not made by us has no lock.
+bool is_growing(const record::InputFile& file) {
+  constexpr std::string_view magic = "\x89MCAP0\r\n";
+  constexpr double lately_s = 5.0;
+  std::string end;
+  const bool finished = file.size() >= 2 * magic.size() && file.read(file.size() - magic.size(), magic.size(), end) && end == magic;
+  return !finished && (file.is_being_written() || file.unchanged_s() < lately_s);
+}
+
+constexpr std::string_view part = ".part";
+
+// A recording that is being written has another name than when it is finished.
+std::shared_ptr<record::InputFile> open_either(const std::string& recording) {
+  try {
+    return std::make_shared<record::InputFile>(recording);
+  } catch (const record::FileError& error) {
+    std::error_code ignored;
+    if (error.error_number() != ENOENT || !fs::exists(other_name(recording), ignored)) throw;
+  }
+  return std::make_shared<record::InputFile>(other_name(recording));
+}
+
 }  // namespace
+
+std::string other_name(const std::string& recording) {
+  if (recording.ends_with(part)) return recording.substr(0, recording.size() - part.size());
+  return recording + std::string(part);
+}
 
 struct PageServer::Impl {
   Impl(PageContent what, std::chrono::milliseconds patience) : content(std::move(what)), server(patience) {}
@@ -204,24 +231,16 @@ void PageServer::Impl::page(const Request& request, Response& response) const {
   response.set_content(*text, type_of(*path));
 }
 
-// Opened again for every request: it may have grown, been replaced or removed.
+// Opened again for every request: it may have grown, been finished, replaced or removed.
 std::shared_ptr<record::InputFile> PageServer::Impl::open_recording(Response& response) const {
   if (content.recording.empty()) {
     say(response, 404, "No recording was given.");
     return nullptr;
   }
   try {
-    return std::make_shared<record::InputFile>(content.recording);
+    return open_either(content.recording);
   } catch (const record::FileError& error) {
-    std::string text = error.what();
-    constexpr std::string_view part = ".part";
-    const std::string whole =
-        content.recording.substr(0, content.recording.size() - std::min(part.size(), content.recording.size()));
-    std::error_code ignored;
-    if (content.recording.ends_with(part) && fs::exists(whole, ignored)) {
-      text += ". The run has ended and its recording is complete: banyan view " + whole;
-    }
-    say(response, error.error_number() == ENOENT ? 404 : 500, text);
+    say(response, error.error_number() == ENOENT ? 404 : 500, error.what());
     return nullptr;
   }
 }
@@ -229,6 +248,7 @@ std::shared_ptr<record::InputFile> PageServer::Impl::open_recording(Response& re
 void PageServer::Impl::file(const Request& request, Response& response) const {
   const auto input = open_recording(response);
   if (!input) return;
+  if (is_growing(*input)) response.set_header("Banyan-Growing", "1");  // the page asks again for what comes
   const Ranges ranges = ranges_of(request.ranges, input->size());
   // httplib cuts the ranges out by itself, but believes that they lie within the file.
   auto& asked = const_cast<Request&>(request).ranges;
@@ -260,7 +280,7 @@ void PageServer::Impl::start(Response& response) const {
   if (!input) return;
   const json start = {
       {"recording",
-       {{"name", fs::path(content.recording).filename().string()}, {"size", input->size()}, {"url", "file"}}}};
+       {{"name", fs::path(input->path()).filename().string()}, {"size", input->size()}, {"url", "file"}}}};
   response.set_content(start.dump(-1, ' ', false, json::error_handler_t::replace), json_type);
 }
 

@@ -9,9 +9,12 @@
 
 namespace banyan::cli {
 
+// What a recording is called as well: "run.mcap.part" while it is written, "run.mcap" from then on.
+[[nodiscard]] std::string other_name(const std::string& recording);
+
 struct PageContent {
   std::string page;       // folder with index.html: /
-  std::string recording;  // file: /file, by ranges; "": none
+  std::string recording;  // file: /file, by ranges, under either of its names; "": none
   std::string scenario;   // JSON object for /start.json if there is no recording; "": nothing to start with
   std::string scenarios;  // folder with *.toml: /scenarios.json
 };

@@ -8,12 +8,12 @@ namespace {
 
 class TrackedBodies final : public world::Bodies {
  public:
-  explicit TrackedBodies(const udp::PoseStream& stream) noexcept : stream_(stream) {}
-  [[nodiscard]] std::unique_ptr<world::Bodies> clone() const override { return std::make_unique<TrackedBodies>(stream_); }
+  explicit TrackedBodies(SeenPoses seen) noexcept : seen_(seen) {}
+  [[nodiscard]] std::unique_ptr<world::Bodies> clone() const override { return std::make_unique<TrackedBodies>(seen_); }
 
   void step(std::span<const Velocity> /*command*/, world::NearPairs /*near*/, std::uint64_t /*tick*/, world::Poses& poses,
             std::span<Odometry> odometry) override {
-    const auto seen = stream_.poses();
+    const SeenPoses seen = seen_;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (!seen[i]) continue;
       const world::Vec2 heading = unit_vector(seen[i]->heading_rad);
@@ -28,19 +28,19 @@ class TrackedBodies final : public world::Bodies {
   [[nodiscard]] std::uint64_t hash(std::uint64_t h) const noexcept override { return h; }
 
  private:
-  const udp::PoseStream& stream_;
+  SeenPoses seen_;
 };
 
 }  // namespace
 
-std::unique_ptr<world::Bodies> tracked_bodies(const udp::PoseStream& stream) { return std::make_unique<TrackedBodies>(stream); }
+std::unique_ptr<world::Bodies> tracked_bodies(SeenPoses seen) { return std::make_unique<TrackedBodies>(seen); }
 
-world::Scenario started_where_seen(world::Scenario scenario, const udp::PoseStream& stream) {
+world::Scenario started_where_seen(world::Scenario scenario, SeenPoses seen) {
   world::Start& start = scenario.swarm.start;
   start = {};
   start.layout = world::Layout::list;
   start.jitter_m = 0.0;
-  for (const auto& pose : stream.poses()) {
+  for (const auto& pose : seen) {
     start.positions.push_back(pose->position);
     start.headings_rad.push_back(angle_of(unit_vector(pose->heading_rad)));  // trackers may count whole turns
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bodies of real robots in a world: where they are, a tracker says.
+// Bodies of real robots in a world: where they are, a tracker says, or they themselves.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,13 @@
 
 namespace banyan::cli {
 
-// In each tick robots are where they were seen last; commands move them outside. `stream` must outlive them.
-[[nodiscard]] std::unique_ptr<world::Bodies> tracked_bodies(const udp::PoseStream& stream);
+// Of a tracker or a chart, which renews them in place.
+using SeenPoses = std::span<const std::optional<udp::TrackedPose>>;
+
+// In each tick robots are where they were seen last; commands move them outside. What `seen` refers to must outlive them.
+[[nodiscard]] std::unique_ptr<world::Bodies> tracked_bodies(SeenPoses seen);
 
 // The scenario with robots that start where they are. Each of them must have been seen.
-[[nodiscard]] world::Scenario started_where_seen(world::Scenario scenario, const udp::PoseStream& stream);
+[[nodiscard]] world::Scenario started_where_seen(world::Scenario scenario, SeenPoses seen);
 
 }  // namespace banyan::cli

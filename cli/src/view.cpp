@@ -61,8 +61,22 @@ bool is_recording(const std::string& file) {
          file.ends_with(".mcap.part");
 }
 
+// Under the name that it has now: it may be finished meanwhile, or only being written.
+std::string present_name(const std::string& file) {
+  std::error_code ignored;
+  return !fs::exists(file, ignored) && fs::exists(other_name(file), ignored) ? other_name(file) : file;
+}
+
+// Who waits for a part does not mean the finished one of an earlier run.
+bool has_begun(const std::string& recording) {
+  std::error_code none;
+  const auto bytes = fs::file_size(recording.ends_with(".part") ? recording : present_name(recording), none);
+  return !none && bytes >= 5;
+}
+
 // Reports now what would fail later. A part is still being written and may be large: its start must do.
-void check_recording(const std::string& file) {
+void check_recording(const std::string& given) {
+  const std::string file = present_name(given);
   const record::InputFile input(file);
   std::string start;
   if (!input.read(0, 5, start) || start != "\x89MCAP") throw record::FileError(file, "is not an MCAP file");
@@ -102,6 +116,16 @@ std::optional<json> checked_start(const ViewOptions& options) {
   print_problems(loaded.problems);
   if (!loaded.ok()) return std::nullopt;
   return scenario_start(options, std::move(text), loaded.configuration);
+}
+
+// False: stopped by a signal before.
+bool wait_for(const std::string& recording) {
+  catch_stop_signals();
+  while (!has_begun(recording)) {
+    if (stop_signal() != 0) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return true;
 }
 
 void open_browser(const std::string& address) {
@@ -148,6 +172,7 @@ int view_command(const ViewOptions& options) {
   } else if (!options.file.empty() && is_recording(options.file)) {
     if (!options.overrides.empty())
       throw CommandError(exit_usage, "a recording cannot be changed: --set, --seed and --with are for scenarios");
+    if (options.wait && !wait_for(options.file)) return exit_signal + stop_signal();
     check_recording(options.file);
     content.recording = options.file;
   } else if (!options.file.empty()) {

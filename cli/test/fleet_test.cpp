@@ -220,6 +220,25 @@ TEST_F(FleetProgram, CtrlCStopsAllAndLeavesValidFiles) {
   EXPECT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
 }
 
+// The page's own tests look at what it shows.
+TEST_F(FleetProgram, ThePageBesideItStaysUntilCtrlC) {
+  write("page/index.html", "<!doctype html>");
+  const pid_t fleet = start({"fleet", three_targets, "--speed", "10", "--out", "result", "--json", "--view"},
+                            {.environment = {{"BANYAN_PAGE", (home_ / "page").string()}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
+  EXPECT_TRUE(becomes([&] { return has(read("stderr.txt"), "http://127.0.0.1:"); })) << read("stderr.txt");
+  EXPECT_TRUE(exists("result/run.mcap.part"));
+  const auto over = [&] { return exists("result/run.mcap") && hub(fleet) == 0 && robot(fleet, 0) == 0; };
+  EXPECT_TRUE(becomes(over)) << read("stderr.txt");
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const pid_t page = child_with(fleet, " view ");
+  EXPECT_GT(page, 0);
+  EXPECT_TRUE(nlohmann::json::accept(read("stdout.txt"))) << read("stdout.txt");
+  ::kill(fleet, SIGINT);
+  EXPECT_EQ(finish(fleet).code, 0);
+  EXPECT_FALSE(runs(page));
+  EXPECT_TRUE(has(run({"fleet", three_targets, "--view", "--set", "output.record=false"}).err, "none is to be written"));
+}
+
 TEST_F(FleetProgram, AllEndWithAFleetThatIsKilled) {
   const pid_t fleet = start_fleet({"--set", "mission.stop_when_complete=false"});
   const auto children = children_of(fleet);
@@ -427,7 +446,7 @@ class WithoutAHub : public FleetProgram {
   }
   void start_robot(int i, bool root) {
     Arguments arguments{"robot", "--id", std::to_string(i), "--listen", address(i), "--peers", others_than(i), "--key", "fleet.key", "--speed", "5",
-                        "--base", "tcp:127.0.0.1:" + std::to_string(port_ + count + i)};
+                        "--base", "tcp:127.0.0.1:" + std::to_string(port_ + count + i), "--tell", address(3 * count)};
     if (root) arguments.emplace_back("--root");
     if (i >= 1 && i <= 3) arguments.emplace_back("--worker");
     robots_[static_cast<std::size_t>(i)] = start(arguments);
@@ -494,6 +513,33 @@ TEST_F(WithoutAHub, TheyCompleteInOnePieceAndStopAtAWord) {
     robot = 0;
   }
   EXPECT_EQ(run({"hub", "--stop", all, "--key", "fleet.key"}).code, 1);  // nobody is there any more
+}
+
+// Somebody listens: what is recorded is what they did, but for where on the floor they did it.
+TEST_F(WithoutAHub, TheirMissionIsRecordedByWhatTheyTell) {
+  const Outcome outcome = run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count), "--speed", "5", "--out", "result"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* words : {"COMPLETE after", "network    in one piece at every tick", "the recording", "places are the robots' own", " 0 datagrams dropped"})
+    EXPECT_TRUE(has(outcome.out, words)) << words << "\n" << outcome.out << outcome.err;
+  EXPECT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
+  std::istringstream rows(read("robots.csv"));
+  Places last{};
+  for (std::string row; std::getline(rows, row);) {
+    double time_s = 0.0, x = 0.0, y = 0.0;
+    std::size_t tick = 0, i = 0;
+    char comma = 0;
+    if (std::istringstream(row) >> tick >> comma >> time_s >> comma >> i >> comma >> x >> comma >> y) last.at(i) = {x, y};
+  }
+  double best_m = 1e9;  // the moment of the last tick is one of those that were seen
+  for (const Places& truth : seen()) {
+    double worst_m = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < i; ++j) worst_m = std::max(worst_m, std::fabs(distance(last.at(i), last.at(j)) - distance(truth.at(i), truth.at(j))));
+    best_m = std::min(best_m, worst_m);
+  }
+  EXPECT_LT(best_m, 0.1);
+  EXPECT_TRUE(has(run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count + 1), "--wait", "0.3"}).err,
+                  "there was no place for robot 0, 1, 2"));
 }
 
 TEST_F(FleetProgram, RefusesWhatCannotBe) {

@@ -19,6 +19,7 @@
 #include <optional>
 #include <thread>
 
+#include "banyan/record/file.hpp"
 #include "started_program.hpp"
 #include "terminal.hpp"
 
@@ -209,11 +210,41 @@ TEST_F(View, ARecordingMayGrowAndVanish) {
     EXPECT_EQ(answer->status, 404) << what;
     EXPECT_TRUE(has(answer->body, "run.mcap: cannot open: No such file or directory")) << answer->body;
   }
-  // One that was being written has got its name.
-  write("run.mcap", "x");
-  server_.emplace(PageContent{path("page"), path("run.mcap.part"), "", path("scenarios")}, 0);
-  EXPECT_TRUE(
-      has(get("/file")->body, "The run has ended and its recording is complete: banyan view " + path("run.mcap")));
+}
+
+TEST_F(View, ARecordingIsServedWhileItIsWrittenAndUnderItsNameOnceItIsFinished) {
+  serve();
+  for (const char* given : {"new.mcap", "new.mcap.part"}) {
+    fs::remove(home_ / "new.mcap");
+    server_.emplace(PageContent{path("page"), path(given), "", path("scenarios")}, 0);
+    EXPECT_EQ(get("/file")->status, 404);
+    record::OutputFile file(path("new.mcap"));
+    file.write("\x89MCAP0\r\n");
+    file.flush();
+    EXPECT_EQ(range("0-")->get_header_value("Banyan-Growing"), "1") << given;
+    EXPECT_EQ(json::parse(get("/start.json")->body)["recording"]["name"], "new.mcap.part");
+    file.write("and the rest, \x89MCAP0\r\n");
+    file.commit();
+    EXPECT_FALSE(range("0-")->has_header("Banyan-Growing")) << given;
+    EXPECT_EQ(range("8-")->body, "and the rest, \x89MCAP0\r\n");
+    EXPECT_EQ(json::parse(get("/start.json")->body)["recording"]["name"], "new.mcap");
+  }
+}
+
+TEST_F(View, NobodyWritesARecordingThatWasLeft) {
+  server_.emplace(PageContent{path("page"), path("left.mcap"), "", path("scenarios")}, 0);
+  {
+    record::OutputFile file(path("left.mcap"));
+    file.keep_part();
+    file.write("\x89MCAP0\r\n and no more");
+    file.flush();
+    fs::last_write_time(path("left.mcap.part"), fs::file_time_type::clock::now() - 1min);
+    EXPECT_TRUE(get("/file")->has_header("Banyan-Growing"));  // it pauses
+  }
+  fs::last_write_time(path("left.mcap.part"), fs::file_time_type::clock::now() - 1min);
+  EXPECT_FALSE(get("/file")->has_header("Banyan-Growing"));
+  fs::last_write_time(path("left.mcap.part"), fs::file_time_type::clock::now());
+  EXPECT_TRUE(get("/file")->has_header("Banyan-Growing"));  // somebody who knows nothing of our locks
 }
 
 TEST_F(View, OnlyItsOwnAddressIsAnswered) {
@@ -371,6 +402,7 @@ TEST_F(ViewCommand, TakesARecordingAScenarioOrNothing) {
   ASSERT_EQ(run({"run", "small.toml", "-q", "--out", "o"}).code, 0);
   EXPECT_EQ(started({"o/run.mcap"})["recording"]["size"], fs::file_size(home_ / "o/run.mcap"));
   write("cut.mcap.part", read("o/run.mcap").substr(0, 5000));
+  EXPECT_EQ(started({"cut.mcap", "--wait"})["recording"]["name"], "cut.mcap.part");
   EXPECT_EQ(started({"cut.mcap.part"}, SIGINT)["recording"]["name"], "cut.mcap.part");
   EXPECT_EQ(
       started({"small.toml", "--set", "radio.loss=0.25", "--seed", "7"}),

@@ -18,6 +18,8 @@ constexpr OutputKey recording_rows[] = {
      "record the robots only every this many ticks; metrics at every tick"},
     {"output.messages", world::of<&record::Output::messages>, "", {},
      "record what each robot broadcast, besides where it was"},
+    {"output.live", world::of<&record::Output::live>, "", {},
+     "end a chunk of the recording every second, so that it can be watched while it is written"},
 };
 
 template <std::size_t format> bool* wanted(record::Output& output) noexcept { return &output.wanted[format]; }

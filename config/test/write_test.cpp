@@ -308,7 +308,7 @@ constexpr const char* as_written =
     R"({"time_s":9.0,"when":"time","kind":"remove_target","target":0},)"
     R"({"time_s":10.0,"when":"time","kind":"set_line_of_sight","line_of_sight":true},)"
     R"({"time_s":11.0,"when":"time","kind":"move_obstacle","obstacle":2,"position_m":[7.0,7.0]}],)"
-    R"("output":{"record":true,"record_every":1,"messages":true,"series":false}})";
+    R"("output":{"record":true,"record_every":1,"messages":true,"live":false,"series":false}})";
 
 TEST(Write, TheTextStaysAsItIs) {
   const auto loaded = parse(everything);

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,6 +18,19 @@ namespace banyan::record {
 namespace {
 
 constexpr std::size_t buffer_bytes = std::size_t{1} << 16;
+
+// Somebody who only looks whether a file is locked (InputFile) has it for less than that.
+constexpr int lock_attempts = 5;
+constexpr useconds_t between_attempts_us = 2000;
+
+bool lock(int descriptor) {
+  for (int attempt = 1; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0; ++attempt) {
+    if (errno != EWOULDBLOCK) return true;  // a file system without locks
+    if (attempt == lock_attempts) return false;
+    ::usleep(between_attempts_us);
+  }
+  return true;
+}
 
 std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
@@ -72,7 +86,7 @@ int open_locked(const std::string& path, int flags) {
   for (;;) {
     const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
     if (descriptor < 0) throw FileError(path, "cannot open", errno);
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (!lock(descriptor)) {
       ::close(descriptor);
       throw FileBusy(path, "is in use by another process");
     }
@@ -199,6 +213,16 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
     throw FileError(path_, "cannot open", error);
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
+  struct timespec now {};
+  ::clock_gettime(CLOCK_REALTIME, &now);
+  const struct timespec& changed = status.st_mtim;
+  unchanged_s_ = static_cast<double>(now.tv_sec - changed.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - changed.tv_nsec);
+}
+
+bool InputFile::is_being_written() const noexcept {
+  if (::flock(descriptor_, LOCK_SH | LOCK_NB) != 0) return errno == EWOULDBLOCK;
+  ::flock(descriptor_, LOCK_UN);
+  return false;
 }
 
 InputFile::~InputFile() { ::close(descriptor_); }

@@ -2,6 +2,7 @@
 // Writing a recording (recording.hpp).
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <utility>
 
 #include "banyan/record/events.hpp"
@@ -17,6 +18,7 @@ namespace banyan::record {
 namespace {
 
 constexpr double chunk_span_s = 10.0;      // what a crash may cost at most
+constexpr std::chrono::milliseconds live_every{1000};
 // Plots and lists are to be read without unpacking what every robot did at every tick.
 constexpr mcap::ChunkGroup large = 0, small = 1;
 constexpr double scene_full_rate = 1000;   // robots; above, scenes come in proportion less often
@@ -44,6 +46,7 @@ struct Recorder::Impl {
   Frame now;
   bool started = false, frame_written = false, finished = false;
   double last_chunk_s = 0.0, next_scene_s = 0.0;
+  std::chrono::steady_clock::time_point next_live;  // long ago: the start is seen at once
   MessageNumbers last_messages;  // of now's world; empty: none
   std::vector<TargetFrame> last_targets;
 
@@ -55,6 +58,7 @@ struct Recorder::Impl {
     text.clear();
   }
   void record(const Setting& current, const measure::Tick& tick);
+  void show_live();
   void put_frame();
   void put_event(const RecordedEvent& event);
   void put_scene();
@@ -135,6 +139,16 @@ void Recorder::Impl::record(const Setting& current, const measure::Tick& tick) {
   put(metrics);
   for (const RecordedEvent& event : watcher.watch(setting, now, tick)) put_event(event);
   if (options.scene_period_s > 0.0 && now.time_s >= next_scene_s) put_scene();
+  if (options.live) show_live();
+}
+
+// By the wall's clock, since it is for people; so the same run may have other chunks, and says the same in them.
+void Recorder::Impl::show_live() {
+  const auto moment = std::chrono::steady_clock::now();
+  if (moment < next_live) return;
+  mcap.end_chunks();
+  last_chunk_s = now.time_s;
+  next_live = moment + live_every;
 }
 
 void Recorder::Impl::put_result(const measure::Run& run, bool interrupted) {

@@ -209,6 +209,22 @@ TEST(Recorder, AFullDiskIsReportedAndWhatWasWrittenIsReadable) {
   EXPECT_EQ(recording.frame_at(0.3).robots.size(), 30U);
 }
 
+TEST(InputFile, LooksWhetherSomebodyWritesWithoutKeepingAnybodyFromIt) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a");
+  std::atomic<bool> over{false};
+  write_file(path + ".part", "left by somebody who died");
+  EXPECT_FALSE(InputFile(path + ".part").is_being_written());
+  EXPECT_LT(InputFile(path + ".part").unchanged_s(), 60.0);
+  std::thread looks([&] {
+    const InputFile file(path + ".part");
+    while (!over) (void)file.is_being_written();
+  });
+  for (int k = 0; k < 200; ++k) EXPECT_NO_THROW(OutputFile(path).keep_part()) << k;
+  over = true;
+  looks.join();
+}
+
 TEST(InputFile, RefusesWhatCannotBeRead) {
   const test::TemporaryDirectory directory;
   EXPECT_EQ(error_of([&] { InputFile(directory.file("missing")); }), ENOENT);

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "banyan/measure/observer.hpp"
 #include "banyan/record/draw.hpp"
@@ -668,6 +670,39 @@ TEST(Recording, AnExistingRecordingStays) {
   options.existing = Existing::replace;
   test::record_sample(path, 9, 6, options);
   EXPECT_EQ(Recording(path).frames(), 6U);
+}
+
+// What a page that watches would find.
+std::size_t frames_so_far(const std::string& path) { return Recording(path + ".part").frames(); }
+
+TEST(Recording, ALiveOneCanBeReadWhileItIsWritten) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.file("a.mcap");
+  for (const bool live : {false, true}) {
+    RecorderOptions options;
+    options.live = live;
+    Recorder recorder(path, test::sample_provenance(), options);
+    const auto add = [&](std::uint64_t tick) {
+      const Frame frame = test::sample_frame(9, 3.0, tick);
+      recorder.frame(test::sample_setting(), frame, test::sample_tick(frame));
+    };
+    add(0);
+    add(1);
+    if (!live) {
+      EXPECT_LT(frames_so_far(path), 2U);  // the rest is still with the writer
+      continue;
+    }
+    EXPECT_EQ(frames_so_far(path), 1U);  // the start is there at once
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    add(2);
+    EXPECT_EQ(frames_so_far(path), 3U);  // then all, every second
+    Recording watched(path + ".part");
+    EXPECT_EQ(watched.metrics().size(), 3U);
+    EXPECT_TRUE(InputFile(path + ".part").is_being_written());
+    recorder.finish(test::sample_run(3));
+    EXPECT_FALSE(InputFile(path).is_being_written());
+    EXPECT_EQ(Recording(path).frames(), 3U);
+  }
 }
 
 TEST(Recording, SameRunSameBytes) {

@@ -66,7 +66,7 @@ export class App {
   private readonly plots = new Plots((timeS) => this.seek(timeS), () => this.tables.want());
   private readonly transport = new Transport({
     toggle: () => this.toggle(), seek: (timeS) => this.seek(timeS), step: (ticks) => this.step(ticks),
-    loop: () => this.loopOn(), setSpeed: (speed) => this.setSpeed(speed), jump: (direction) => this.jump(direction),
+    loop: () => this.loopOn(), follow: () => this.toEnd(), setSpeed: (speed) => this.setSpeed(speed), jump: (direction) => this.jump(direction),
   });
   private readonly inspector = new Inspector({
     select: (robot) => this.select(robot === null ? null : { kind: 'robot', index: robot }),
@@ -335,6 +335,7 @@ export class App {
     this.player.attach(sources);
     this.player.home();
     this.player.play();
+    this.player.follow(); // what is being written
     this.showHeaders();
     this.showSeries();
     this.showEvents();
@@ -394,8 +395,8 @@ export class App {
   }
 
   private clock(): Clock {
-    const { playing, waiting, speed, timeS, startS, growing, loop } = this.player;
-    return { playing, waiting, speed, timeS, startS, growing, loop, endS: Math.min(this.horizon.timeS, this.player.endS) };
+    const { playing, waiting, speed, timeS, startS, growing, following, newest, loop } = this.player;
+    return { playing, waiting, speed, timeS, startS, growing, following, newest, loop, endS: Math.min(this.horizon.timeS, this.player.endS) };
   }
 
   private shared(): Shared {

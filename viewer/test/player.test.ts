@@ -11,7 +11,7 @@ class Fake implements Playable {
   /** Frames are here up to there. */
   loadedS = Infinity;
   asked: [number, number, number][] = [];
-  constructor(public endS = 20, public growing = false) {}
+  constructor(public endS = 20, public growing = false, public following = false) {}
   limit(fromS: number, toS: number): number {
     if (!this.growing && fromS >= this.endS) return toS;
     return Math.max(Math.min(toS, this.loadedS), Math.min(fromS, toS));
@@ -35,6 +35,67 @@ describe('the tick of the clock', () => {
     const source = { tickS: 0.1, endS: 12.8 };
     expect([0, 0.05, 3 * 0.1, 9.99, 10.04, 12.8, 50].map((timeS) => tickAt(timeS, source))).toEqual([0, 0, 3, 99, 100, 128, 128]);
     expect(tickAt(3, { tickS: 0.1, endS: 0 })).toBe(0);
+  });
+});
+
+describe('the newest moment', () => {
+  /** A recording that gets a piece of `pieceS` every `everyMs`. */
+  function growing(pieceS: number, everyMs: number) {
+    const source = new Fake(0, false, true);
+    const { player, run } = playing(source);
+    const play = (ms: number, see = () => {}) => {
+      for (let t = 0; t < ms; t += everyMs) {
+        source.endS += pieceS;
+        for (let k = 0; k < everyMs; k += 16) { run(16); see(); }
+      }
+    };
+    return { source, player, run, play };
+  }
+
+  it.each([[1, 1000], [5, 1000], [0.3, 400]])('that moves on by %s s every %s ms is followed without a stop', (pieceS, everyMs) => {
+    const { source, player, play } = growing(pieceS, everyMs);
+    player.follow();
+    play(8 * everyMs);
+    let last = player.timeS;
+    play(20 * everyMs, () => {
+      expect(player.timeS).toBeGreaterThan(last); // it never stands, nor goes back
+      last = player.timeS;
+      expect(source.endS - player.timeS).toBeLessThan(4 * pieceS);
+    });
+    expect(player.newest).toBe(true);
+  });
+
+  it('is let go of by going back, and found again at the end', () => {
+    const { source, player, run, play } = growing(1, 1000);
+    player.follow();
+    play(10_000);
+    player.seek(2);
+    expect(player.newest).toBe(false);
+    run(500);
+    expect(player.timeS).toBeCloseTo(2.5, 1);
+    player.end();
+    expect(player.newest && player.playing).toBe(true);
+    player.pause();
+    expect(player.newest).toBe(false);
+    player.seek(source.endS - 0.2);
+    player.play();
+    run(1000);
+    expect(player.newest).toBe(true); // it has caught up
+    source.following = false; // the run is over
+    run(1000);
+    expect(player.newest || player.playing).toBe(false);
+    expect(player.timeS).toBe(source.endS);
+  });
+
+  it('is caught up with at once after a long absence', () => {
+    const { source, player, run, play } = growing(1, 1000);
+    player.follow();
+    play(5000);
+    source.endS += 300;
+    run(100);
+    expect(source.endS - player.timeS).toBeLessThan(200);
+    play(3000);
+    expect(source.endS - player.timeS).toBeLessThan(source.endS / 3);
   });
 });
 

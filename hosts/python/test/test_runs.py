@@ -47,6 +47,33 @@ def test_a_seed_more_is_another_run():
     assert len(hashes) == 3
 
 
+def test_a_live_recording_is_read_while_a_controller_in_python_runs(tmp_path):
+    seen = {}
+
+    class Slow(banyan.Policy):
+        """stands still, and pauses once"""
+
+        def reset(self, swarm):
+            self.robots, self.steps = swarm.robots, 0
+
+        def step(self, _):
+            self.steps += 1
+            if self.steps == 10:
+                time.sleep(1.1)
+            if self.steps == 12:
+                with pytest.warns(UserWarning, match="cut short"):
+                    watched = banyan.read(tmp_path / "run.mcap.part")
+                seen.update(frames=len(watched), robots=watched.positions.shape[1], config=watched.config_json)
+            return banyan.Actions(np.zeros((self.robots, 2)))
+
+    keys = {"mission.time_limit_s": 2, "output.live": True}
+    banyan.run("scenarios/three-targets.toml", controller=Slow, set=keys, out=tmp_path, replace=True)
+    assert 10 <= seen["frames"] <= 12
+    assert seen["robots"] == 18
+    assert '"live":true' in seen["config"].replace(" ", "")
+    assert len(banyan.read(tmp_path / "run.mcap")) == 21
+
+
 def test_files_are_those_of_the_program(command, tmp_path):
     command("run", "scenarios/three-targets.toml", "--set", "output.series=true", "--out", tmp_path / "program")
     result = banyan.run("scenarios/three-targets.toml", set={"output.series": True}, out=tmp_path / "python")

@@ -209,4 +209,44 @@ std::optional<Status> decode_status(ByteView bytes) {
   return status;
 }
 
+Bytes encode(const Account& account) {
+  Bytes bytes;
+  ByteWriter out(bytes);
+  put(out, OdometricPose{account.odometry.position, within_half_turn(account.odometry.turn_rad)});
+  out.put(static_cast<std::uint8_t>(account.target ? 1 : 0));
+  put(out, account.target.value_or(Vec2{}));
+  const std::size_t count = std::min(account.seen.size(), most_sightings);
+  out.put(static_cast<std::uint8_t>(count));
+  for (const Sighting& sighting : std::span(account.seen).first(count)) {
+    out.put(sighting.robot);
+    put(out, sighting.position);
+  }
+  const Bytes status = encode(account.status);
+  out.put(ByteView(status));
+  return bytes;
+}
+
+std::optional<Account> decode_account(ByteView bytes) {
+  ByteReader in(bytes);
+  Account account;
+  account.odometry = take_pose(in);
+  const auto has_target = in.take<std::uint8_t>();
+  const Vec2 target = take_point(in);
+  if (has_target > 1) return std::nullopt;
+  if (has_target == 1) account.target = target;
+  const auto count = in.take<std::uint8_t>();
+  if (count > most_sightings) return std::nullopt;
+  for (int k = 0; k < count && in.ok(); ++k) {
+    const auto robot = in.take<RobotId>();
+    account.seen.push_back({robot, take_point(in)});
+  }
+  if (!in.ok() || !is_sound(account.odometry)) return std::nullopt;
+  const auto finite = [](Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+  const auto status = decode_status(in.take(in.left()));
+  if (!status || !finite(target) || !std::all_of(account.seen.begin(), account.seen.end(), [&](const Sighting& s) { return finite(s.position); }))
+    return std::nullopt;
+  account.status = *status;
+  return account;
+}
+
 }  // namespace banyan::udp

@@ -2,6 +2,7 @@
 // Situated communication without anybody's help: the radio brings a message, the base's sensor says where its sender is.
 // A message counts only with a measurement that is young enough, and within C, as in the world.
 #include <cmath>
+#include <set>
 
 #include "banyan/controller/core/wire.hpp"
 #include "banyan/hosts/udp/contact.hpp"
@@ -15,7 +16,9 @@ constexpr double measured_lately_s = 0.3;  // older ones, and their senders, may
 class PeerContact final : public Contact {
  public:
   explicit PeerContact(const ContactEnds& ends)
-      : ends_(ends), addresses_(parse_addresses(ends.options.peers)), peers_(ends.options.id, new_boot()) {}
+      : ends_(ends), addresses_(parse_addresses(ends.options.peers)), peers_(ends.options.id, new_boot()) {
+    if (!ends.options.tell.empty()) listener_ = parse_address(ends.options.tell);
+  }
 
   bool take(const Envelope& envelope, const Address& from, double now_s) override {
     const Peers::Taken taken = peers_.take(envelope, now_s, ends_.keys);
@@ -30,6 +33,7 @@ class PeerContact final : public Contact {
     const auto pose_s = ends_.driver.last_pose_s();
     if (!pose_s || now_s - *pose_s > ends_.options.stop_after_s) return;
     const auto target = ends_.driver.target();
+    now_s_ = now_s;
     Frame frame;
     frame.tick = static_cast<std::uint32_t>(std::lround(now_s / static_cast<double>(ends_.options.setup.platform.tick_s))) + 1;
     frame.root = ends_.options.root;
@@ -43,12 +47,14 @@ class PeerContact final : public Contact {
   void tell(const Status& status) override {
     const Bytes datagram = peers_.speak(status.message, ends_.keys);
     for (const Address& address : addresses_) ends_.socket.send(datagram, address);
+    if (listener_) ends_.socket.send(peers_.tell(encode(account_of(status)), ends_.keys), *listener_);
   }
   void greet(double /*now_s*/) override {}
 
  private:
   bool hear(const Envelope& envelope, double now_s) {
     if (envelope.payload.size() > largest_wire) return false;
+    others_.insert(envelope.sender);
     const auto measured = ends_.driver.neighbour(envelope.sender);
     const bool is_near = measured && now_s - measured->s <= measured_lately_s &&
                          norm(measured->position) <= ends_.options.setup.platform.communication_range_m;
@@ -60,7 +66,23 @@ class PeerContact final : public Contact {
     return true;
   }
 
+  // As of now: what was measured a moment ago is moved on by the wheels.
+  [[nodiscard]] Account account_of(const Status& status) const {
+    Account account{status, ends_.driver.pose_at(now_s_).value_or(OdometricPose{}), std::nullopt, {}};
+    const auto here = [&](const Measured& measured) {
+      return account.odometry.inside(ends_.driver.pose_at(measured.s).value_or(account.odometry).outside(measured.position));
+    };
+    if (const auto target = ends_.driver.target(); target && ends_.options.worker) account.target = here(*target);
+    for (const Node other : others_)
+      if (const auto measured = ends_.driver.neighbour(other); measured && now_s_ - measured->s <= measured_lately_s)
+        account.seen.push_back({other, here(*measured)});
+    return account;
+  }
+
   ContactEnds ends_;
+  std::optional<Address> listener_;
+  std::set<Node> others_;      // that have been heard
+  double now_s_ = 0.0;         // of the last step
   std::vector<Address> addresses_;
   Peers peers_;
   std::uint32_t heard_ = 0;  // messages, so that the newest of each sender is known

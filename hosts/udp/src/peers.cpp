@@ -16,6 +16,10 @@ Bytes Peers::speak(ByteView message, const KeyRing& keys) {
   return seal({Kind::spoken, self_, everybody, boot_, 0, ++spoken_, message}, keys.signing());
 }
 
+Bytes Peers::tell(ByteView account, const KeyRing& keys) {
+  return seal({Kind::account, self_, hub_node, boot_, 0, ++spoken_, account}, keys.signing());
+}
+
 Peers::Taken Peers::take_spoken(Peer& from, const Envelope& envelope, double now_s, const KeyRing& keys) {
   Taken taken;
   if (envelope.boot == from.running) {
@@ -36,6 +40,12 @@ Peers::Taken Peers::take(const Envelope& envelope, double now_s, const KeyRing& 
   if (envelope.kind == Kind::spoken) {
     if (envelope.receiver != everybody || envelope.sender == hub_node) return {.drop = Drop::misaddressed};
     return take_spoken(from, envelope, now_s, keys);
+  }
+  if (envelope.kind == Kind::account) {
+    if (self_ != hub_node || envelope.receiver != hub_node) return {.drop = Drop::misaddressed};
+    Taken told = take_spoken(from, envelope, now_s, keys);
+    if (told.what == Taken::What::message) told.what = Taken::What::account;
+    return told;
   }
   Envelope direct = envelope;
   const bool calls_all = envelope.kind == Kind::hello && envelope.sender == hub_node && envelope.receiver == everybody;

@@ -37,6 +37,8 @@ const std::vector<Option>& options() {
       text("--peers", "ADDRESSES", "without a hub: ADDRESS:PORT of each other robot with commas between, or of a broadcast; needs --base",
            [](RobotOptions& o) -> std::string& { return o.peers; }),
       text("--listen", "ADDRESS:PORT", "where its peers find it; required with --peers", [](RobotOptions& o) -> std::string& { return o.listen; }),
+      text("--tell", "ADDRESS:PORT", "with --peers: tell banyan listen there what it does and sees, to be recorded",
+           [](RobotOptions& o) -> std::string& { return o.tell; }),
       flag("--root", "with --peers: it is the first root; exactly one is", [](const RobotOptions& o) { return o.root; },
            [](RobotOptions& o) { o.root = true; }),
       flag("--worker", "with --peers: it will be sent to a target", [](const RobotOptions& o) { return o.worker; },
@@ -84,6 +86,7 @@ void check_who_guides(const RobotOptions& options) {
   if (!options.hub.empty() && !options.peers.empty()) throw OptionError("--hub and --peers exclude each other");
   if (options.peers.empty()) {
     if (!options.listen.empty() || options.root || options.worker) throw OptionError("--listen, --root and --worker need --peers: the hub says how robots begin");
+    if (!options.tell.empty()) throw OptionError("--tell needs --peers: the hub records by itself");
     return;
   }
   if (options.base.empty()) throw OptionError("--peers needs --base, which measures where other robots are");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -134,6 +135,27 @@ TEST(OdometricPose, MotionBetweenTwoIsWhatWasMoved) {
     EXPECT_NEAR(distance(pose.inside(pose.outside(point)), point), 0.0F, 1e-5F);
     pose = next;
   }
+}
+
+TEST(Messages, AnAccountComesBackAsItWas) {
+  for (const bool has_target : {true, false}) {
+    Account account{some_status(), {{1.5F, -2.0F}, 3.0F}, std::nullopt, {{4, {0.5F, 1.0F}}, {65000, {-1.0F, 0.0F}}}};
+    if (has_target) account.target = {7.0F, -8.0F};
+    const Bytes bytes = encode(account);
+    const auto again = decode_account(bytes);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->odometry, account.odometry);
+    EXPECT_EQ(again->target, account.target);
+    EXPECT_EQ(again->seen, account.seen);
+    EXPECT_EQ(encode(again->status), encode(account.status));
+    expect_no_cut(bytes, decode_account);
+  }
+  Account account{some_status(), {}, std::nullopt, std::vector<Sighting>(100)};
+  EXPECT_EQ(decode_account(encode(account))->seen.size(), most_sightings);
+  account.odometry.turn_rad = 30.0F;  // whole turns are left out
+  EXPECT_NEAR(decode_account(encode(account))->odometry.turn_rad, std::remainder(30.0, 2.0 * M_PI), 1e-4);
+  account.seen = {{1, {std::numeric_limits<float>::quiet_NaN(), 0.0F}}};
+  EXPECT_FALSE(decode_account(encode(account)));
 }
 
 }  // namespace

@@ -104,5 +104,20 @@ TEST_F(PeersTest, WhatIsForOthersIsMisaddressed) {
   EXPECT_EQ(give(b_, seal({Kind::hello, 1, everybody, 1000, 0, 1, {}}, keys_.signing())).drop, Drop::misaddressed);
 }
 
+TEST_F(PeersTest, OnlyWhoListensTakesAccountsAndOnlyOfWhoIsRunning) {
+  Peers listener(hub_node, 5000);
+  const Bytes first = a_.tell(word_, keys_);
+  EXPECT_EQ(give(b_, first).drop, Drop::misaddressed);
+  const auto asked = give(listener, first);
+  EXPECT_EQ(asked.what, What::nothing);
+  const auto answered = give(a_, asked.reply);
+  EXPECT_EQ(answered.what, What::nothing);  // and nobody stops
+  EXPECT_FALSE(give(listener, answered.reply).drop);
+  const Bytes told = a_.tell(word_, keys_);
+  EXPECT_EQ(give(listener, told).what, What::account);
+  EXPECT_EQ(give(listener, told).drop, Drop::replayed);
+  EXPECT_EQ(give(listener, a_.speak(word_, keys_)).what, What::message);
+}
+
 }  // namespace
 }  // namespace banyan::udp

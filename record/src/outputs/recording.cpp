@@ -11,6 +11,7 @@ RecorderOptions recorder_options(const SinkOptions& options) {
   RecorderOptions chosen;
   chosen.every_ticks = options.output.record_every;
   chosen.messages = options.output.messages;
+  chosen.live = options.output.live;
   chosen.existing = options.existing;
   return chosen;
 }

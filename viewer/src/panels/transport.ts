@@ -14,6 +14,8 @@ export interface Clock {
   startS: number;
   endS: number;
   growing: boolean; // a live run: the end moves
+  following: boolean; // a recording that is being written: there is a newest moment,
+  newest: boolean; // and it is shown
   loop: { fromS: number; toS: number | null } | null;
 }
 
@@ -23,6 +25,7 @@ export interface TransportActions {
   step(ticks: number): void;
   setSpeed(speed: number): void;
   loop(): void; // begin, end, let go
+  follow(): void; // the newest moment
   jump(direction: 1 | -1): void; // to the next or the last notable event
 }
 
@@ -82,6 +85,7 @@ export class Transport {
   private readonly loop: HTMLButtonElement;
   private readonly range = h('div', { class: 'timeline-loop', 'aria-hidden': 'true', hidden: true });
   private readonly end = h('span', { class: 'time end' });
+  private readonly live: HTMLButtonElement;
   private readonly speed: HTMLSelectElement;
   private events: RunEvent[] = [];
   private clock: Clock | null = null;
@@ -100,6 +104,7 @@ export class Transport {
       { title: 'Speed: simulated seconds per second (- and +)', 'aria-label': 'Speed', onchange: () => actions.setSpeed(Number(this.speed.value)) },
       ...speeds.map((s) => h('option', { value: s }, `${s}×`)),
     );
+    this.live = button('live', 'Follow the newest moment (End)', actions.follow, { class: 'newest', hidden: true });
     this.loop = button(icon('loop'), loopTitles.none, actions.loop, { class: 'loop' });
     this.element = h(
       'section',
@@ -112,6 +117,7 @@ export class Transport {
       this.time,
       this.timelineBox(),
       this.end,
+      this.live,
       this.loop,
       this.speed,
     );
@@ -153,6 +159,8 @@ export class Transport {
     }
     this.play.classList.toggle('waiting', clock.playing && clock.waiting);
     setText(this.time, clockText(clock.timeS));
+    this.live.hidden = !clock.following;
+    this.live.setAttribute('aria-pressed', String(clock.newest));
     setText(this.end, clock.growing ? 'live' : clockText(clock.endS));
     this.timeline.min = String(clock.startS);
     this.timeline.max = String(Math.max(clock.endS, clock.startS + 1e-3));

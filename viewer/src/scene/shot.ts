@@ -3,6 +3,7 @@
 // One object lives as long as the scene; its arrays are refilled for each picture.
 import { column, roles } from '../frame';
 import { toPxX, toPxY } from './camera';
+import { Dots } from './dots';
 import type { Facts } from './facts';
 import type { LabelSprites } from './label_sprites';
 import type { Theme } from './themes';
@@ -38,6 +39,7 @@ export class Shot {
   readonly radiusPx = [0, 0, 0, 0];
   /** Radio links that may be drawn. */
   linkBudget = Infinity;
+  readonly dotted = new Dots();
   /** So many and so small that robots are dots: no outline, no heading. */
   dots = false;
 

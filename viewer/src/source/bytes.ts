@@ -7,6 +7,10 @@ export interface Bytes {
   readonly size: number;
   /** Bytes that were really read so far. */
   readonly taken: number;
+  /** Somebody still writes it, as far as is known. */
+  readonly growing: boolean;
+  /** How large it is now, and whether it will grow. Throws a Problem. */
+  look(): Promise<void>;
   /** Exactly `length` bytes. Throws a Problem if they cannot be had. */
   read(offset: number, length: number): Promise<Uint8Array>;
 }
@@ -18,11 +22,13 @@ function checkInside(offset: number, length: number, size: number): void {
 
 export class BlobBytes implements Bytes {
   taken = 0;
+  readonly growing = false; // a file in the page's hands is as it was when it was chosen
   constructor(private readonly blob: Blob) {}
 
   get size(): number {
     return this.blob.size;
   }
+  async look(): Promise<void> {}
 
   async read(offset: number, length: number): Promise<Uint8Array> {
     checkInside(offset, length, this.size);
@@ -50,6 +56,7 @@ export class UrlBytes implements Bytes {
   static readonly mostBlocks = 16;
   taken = 0;
   size = 0; // known once open
+  growing = false; // `banyan view` says so with every answer; no other server does
   private whole: BlobBytes | null = null;
   private readonly blocks = new Map<number, Uint8Array>();
 
@@ -61,6 +68,13 @@ export class UrlBytes implements Bytes {
     if (size > 0) bytes.size = size;
     else await bytes.askSize();
     return bytes;
+  }
+
+  async look(): Promise<void> {
+    if (this.whole !== null) return;
+    const before = this.size;
+    await this.askSize();
+    if (this.size !== before) this.blocks.clear(); // the last one was cut off, or it is another file
   }
 
   async read(offset: number, length: number): Promise<Uint8Array> {
@@ -117,7 +131,8 @@ export class UrlBytes implements Bytes {
     const total = /\/(\d+)$/.exec(response.headers.get('Content-Range') ?? '');
     if (response.status === 206 && total !== null) this.size = Number(total[1]);
     else if (response.status === 206) throw new Problem('the server does not say how large the file is');
-    else if (response.status !== 416) await this.keepWhole(response); // 416: nothing there, an empty file
+    else if (response.status === 416) this.size = 0; // nothing there, an empty file
+    else await this.keepWhole(response);
   }
 
   private async keepWhole(response: Response): Promise<void> {
@@ -137,6 +152,7 @@ export class UrlBytes implements Bytes {
     if (!response.ok && response.status !== 416) {
       throw new Problem(`cannot be loaded: the server answers ${response.status} ${response.statusText}`.trimEnd());
     }
+    this.growing = response.headers.has('Banyan-Growing');
     return response;
   }
 

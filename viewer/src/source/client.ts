@@ -67,6 +67,8 @@ export class Source {
   get startS(): number { return this.header.value?.startS ?? 0; }
   /** Of the last frame; a live run can go beyond it. */
   get endS(): number { return this.lastS; }
+  /** A recording that is still being written. */
+  get following(): boolean { return this.header.value?.following ?? false; }
   get growing(): boolean { return this.header.value?.growing ?? false; }
   get tickS(): number { return this.header.value?.settings[0].setting.tick_s ?? 0.1; }
 
@@ -119,7 +121,7 @@ export class Source {
       const span = { stride, index: now.index + (speed < 0 ? -k : k) };
       if (span.index < 0 || !this.reaches(span, cache)) continue;
       if (this.growing) this.fetchLive(span, cache, timeS, Math.abs(speed));
-      else this.fetch(span, cache, cache.endOf(span));
+      else if (!this.following || (cache.missingFrom(span) ?? Infinity) < this.endS - 1e-9) this.fetch(span, cache, cache.endOf(span));
     }
   }
 
@@ -265,6 +267,11 @@ export class Source {
   }
 
   private takeHeader(header: Header): void {
+    const before = this.header.value;
+    if (before !== null && before.take !== header.take) {
+      this.cache = null;
+      this.forgetAfter(-1); // all of it
+    }
     // A reply under way when the past was changed reports an end that no longer exists.
     this.lastS = this.undoing > 0 ? Math.min(this.lastS, header.endS) : header.endS;
     this.cache ??= new FrameCache(header.settings[0].setting.tick_s, header.robots, this.cacheBytes);

@@ -17,6 +17,10 @@ export interface Mcap {
   indexed: boolean;
   channels: Map<number, Channel>;
   metadata: Map<string, Map<string, string>>;
-  /** By start. */
   stretches: Stretch[];
+}
+
+/** By start. */
+export function inOrder(stretches: readonly Stretch[]): Stretch[] {
+  return [...stretches].sort((a, b) => a.start - b.start || a.offset - b.offset);
 }

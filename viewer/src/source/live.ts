@@ -270,7 +270,7 @@ export class LiveRun {
     const { live } = this;
     return {
       kind: 'live', name: this.request.name, settings: this.settings, robots: live.robots(), startS: 0,
-      endS: this.head * this.tickS, growing: true, version: this.module.version(), git: this.module.git(),
+      endS: this.head * this.tickS, growing: true, following: false, take: 0, version: this.module.version(), git: this.module.git(),
       seed: live.seed(), config: live.configJson(), result: this.result, warnings: this.warnings,
       acts: [...this.done, ...this.due].map(({ tick, json }) => ({ tick, json })),
     };

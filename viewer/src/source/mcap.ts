@@ -6,17 +6,33 @@ import type { Bytes } from './bytes';
 import type { Mcap, Stretch } from './contents';
 import { Problem, Warnings } from './problem';
 import { magic, startsWithMagic } from './records';
-import { scan } from './scan';
+import { Scanner } from './scan';
 import type { Decompress } from './zstd';
 
+export interface OpenMcap {
+  mcap: Mcap;
+  /** Of a file that is being written, which has no index yet: goes on where the file ended. */
+  scanner: Scanner | null;
+}
+
+/** How often a file that is being written is looked at. */
+export const lookEveryMs = 400;
+export const until = (ms: number) => new Promise<void>((resolve) => { setTimeout(resolve, ms); });
+
 /** Throws a Problem for what is no MCAP file; damage that can be read around is a warning. */
-export async function openMcap(bytes: Bytes, decompress: Decompress, warnings: Warnings): Promise<Mcap> {
+export async function openMcap(bytes: Bytes, decompress: Decompress, warnings: Warnings): Promise<OpenMcap> {
+  while (bytes.growing && bytes.size < magic.length) {
+    await until(lookEveryMs);
+    await bytes.look();
+  }
   if (bytes.size === 0) throw new Problem('is empty');
   const start = await bytes.read(0, Math.min(magic.length, bytes.size));
   if (!startsWithMagic(start)) throw new Problem('is not an MCAP file');
-  const mcap = (await readIndex(bytes, warnings)) ?? (await scan(bytes, decompress, warnings));
-  mcap.stretches.sort((a, b) => a.start - b.start || a.offset - b.offset);
-  return mcap;
+  const indexed = bytes.growing ? null : await readIndex(bytes, warnings);
+  if (indexed !== null) return { mcap: indexed, scanner: null };
+  const scanner = new Scanner(bytes, decompress, warnings);
+  await scanner.goOn();
+  return { mcap: scanner.mcap, scanner: bytes.growing ? scanner : null };
 }
 
 async function readIndex(bytes: Bytes, warnings: Warnings): Promise<Mcap | null> {

@@ -16,6 +16,10 @@ export interface Header {
   endS: number;
   /** Live: there is more to come. A recording ends where it ends. */
   growing: boolean;
+  /** A recording that is still being written: its end moves by itself. */
+  following: boolean;
+  /** How often it has begun anew while it was followed; each time everything is another. */
+  take: number;
   version: string; // of the program that made it
   git: string;
   seed: number;
@@ -94,8 +98,8 @@ export type Request =
 
 export type Reply =
   | { type: 'header'; header: Header }
-  /** All of it for a recording (once, as soon as it is read); for a live run what is new, or all
-   *  of it (`whole`) after a rewind. */
+  /** All of it for a recording (as soon as it is read), or all (`whole`) or what is new of one that grows; for a
+   *  live run what is new, or all of it after a rewind. */
   | { type: 'series'; series: Series; events: RunEvent[]; whole: boolean }
   | ({ type: 'frames'; id: number } & FramesReply)
   /** null: not kept. */

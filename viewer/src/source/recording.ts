@@ -4,14 +4,15 @@
 import type { Frame, RunEvent, Series } from '../frame';
 import type { Bytes } from './bytes';
 import { Chunks, type Loaded } from './chunks';
-import type { Mcap, Stretch } from './contents';
+import { inOrder, type Mcap, type Stretch } from './contents';
 import { Malformed } from './json';
-import { openMcap } from './mcap';
+import { lookEveryMs, openMcap, until } from './mcap';
 import { messageOf } from './message';
 import { noTargets, parseEvent, parseFrame, parseTargets, peekTick } from './parse';
 import { Problem, Warnings } from './problem';
 import type { FramesReply, Header, MessageFields } from './protocol';
 import { readProvenance, readResult, readSettings } from './provenance';
+import type { Scanner } from './scan';
 import { SeriesBuilder } from './series';
 import { type Entry, nanoseconds, Track } from './track';
 import type { Decompress } from './zstd';
@@ -21,6 +22,35 @@ const mostReplyBytes = 32 << 20; // of frames in one answer
 export interface Table {
   series: Series;
   events: RunEvent[];
+  whole: boolean; // from the start
+}
+
+/** What has become of a file that is being written. */
+export type Growth = 'none' | 'more' | 'over' | 'another';
+
+/** Of the channels, over the stretches that there were at one time. */
+class Tracks {
+  readonly stretches: readonly Stretch[];
+  readonly frames: Track | null;
+  readonly targets: Track | null;
+  readonly messages: Track | null;
+  readonly metrics: Track | null;
+  readonly events: Track | null;
+  readonly settings: Track | null;
+
+  constructor(mcap: Mcap, chunks: Chunks) {
+    this.stretches = inOrder(mcap.stretches);
+    const of = (topic: string) => {
+      const channel = [...mcap.channels.values()].find((c) => c.topic === topic && c.encoding === 'json');
+      return channel === undefined ? null : new Track(chunks, channel.id, this.stretches);
+    };
+    this.frames = of('/banyan/frame');
+    this.targets = of('/banyan/targets');
+    this.messages = of('/banyan/messages');
+    this.metrics = of('/banyan/metrics');
+    this.events = of('/banyan/events');
+    this.settings = of('/banyan/setting');
+  }
 }
 
 export class Recording {
@@ -33,31 +63,66 @@ export class Recording {
   get bytesRead(): number { return this.bytes.taken; }
   get chunksUnpacked(): number { return this.chunks.unpacked; }
 
-  private readonly targets: Track | null;
-  private readonly messages: Track | null;
+  private readonly builder = new SeriesBuilder(); // what the table has told
+  private readonly tabled = new Set<Stretch>();
 
   private constructor(private readonly bytes: Bytes, private readonly mcap: Mcap, private readonly chunks: Chunks,
-                      private readonly frameTrack: Track, private readonly warnings: Warnings) {
-    this.targets = trackOf('/banyan/targets', mcap, chunks);
-    this.messages = trackOf('/banyan/messages', mcap, chunks);
-  }
+                      private tracks: Tracks, private readonly warnings: Warnings, private scanner: Scanner | null) {}
 
   /** Throws a Problem for what cannot be read as a recording. */
   static async open(bytes: Bytes, name: string, decompress: Decompress, cacheBytes?: number): Promise<Recording> {
     const warnings = new Warnings();
-    const mcap = await openMcap(bytes, decompress, warnings);
+    const { mcap, scanner } = await openMcap(bytes, decompress, warnings);
     const chunks = new Chunks(bytes, decompress, warnings, cacheBytes);
-    const frames = trackOf('/banyan/frame', mcap, chunks);
-    if (frames === null) throw new Problem(because('is not a recording of Banyan: no channel /banyan/frame', warnings));
-    const recording = new Recording(bytes, mcap, chunks, frames, warnings);
+    let tracks = new Tracks(mcap, chunks);
+    for (; scanner !== null && bytes.growing && (tracks.frames?.stretches.length ?? 0) === 0; tracks = new Tracks(mcap, chunks)) {
+      await until(lookEveryMs); // the first moment is still to come
+      await bytes.look();
+      await scanner.goOn();
+    }
+    if (tracks.frames === null) throw new Problem(because('is not a recording of Banyan: no channel /banyan/frame', warnings));
+    const recording = new Recording(bytes, mcap, chunks, tracks, warnings, scanner);
     await recording.readEnds();
     await recording.readHeader(name);
     return recording;
   }
 
+  /** It is still being written. */
+  get following(): boolean { return this.scanner !== null; }
+
+  /** Looks for what has been written since. Throws a Problem if the file cannot be had just now. */
+  async grow(): Promise<Growth> {
+    const { scanner } = this;
+    if (scanner === null) return 'none';
+    await this.bytes.look();
+    if (!(await scanner.isSame())) return 'another';
+    await scanner.goOn();
+    const more = this.mcap.stretches.length > this.tracks.stretches.length;
+    if (more) await this.takeIn();
+    if (this.bytes.growing && !scanner.finished) return more ? 'more' : 'none';
+    this.letGo(scanner.finished ? '' : 'whoever wrote this recording has ended without finishing it');
+    return 'over';
+  }
+
+  /** Nothing more will be read of it; why, if that is no good end. */
+  letGo(why: string): void {
+    if (why !== '') this.warnings.add(why);
+    this.scanner = null;
+    this.header.result = readResult(this.mcap.metadata);
+  }
+
+  private async takeIn(): Promise<void> {
+    this.tracks = new Tracks(this.mcap, this.chunks);
+    this.last = (await this.nearest(this.frameTrack.backwards(Infinity), 1)) ?? this.last;
+    this.header.endS = this.last.timeS;
+    this.header.settings = await readSettings(this.tracks.settings, this.mcap.metadata, this.warnings);
+  }
+
+  private get frameTrack(): Track { return this.tracks.frames!; } // checked when it was opened
+
   /** As it is now: reading on may have found more damage. */
   headerNow(): Header {
-    return { ...this.header, warnings: this.warnings.list() };
+    return { ...this.header, following: this.following, warnings: this.warnings.list() };
   }
   get warningCount(): number {
     return this.warnings.count;
@@ -84,14 +149,16 @@ export class Recording {
       }
     }
     await this.addTargets(found);
-    return { frames: found, untilS, endS: this.header.endS };
+    const { endS } = this.header;
+    return { frames: found, untilS: this.following ? Math.min(untilS, endS) : untilS, endS };
   }
 
   /** What the robot broadcast last, at that tick; null if that is not recorded. */
   async message(robot: number, tick: number): Promise<MessageFields | null> {
-    if (this.messages === null) return null;
+    const { messages } = this.tracks;
+    if (messages === null) return null;
     const time = nanoseconds((tick + 0.5) * this.header.settings[0].setting.tick_s);
-    for await (const entry of this.messages.backwards(time)) {
+    for await (const entry of messages.backwards(time)) {
       if ((peekTick(entry.head()) ?? 0) > tick) continue;
       const frame = await this.nearest(this.frameTrack.backwards(entry.time), 1);
       return this.attempt('messages', () => messageOf(entry.text(), robot, frame));
@@ -99,22 +166,23 @@ export class Recording {
     return null;
   }
 
-  /** Reads the whole table, chunk by chunk; between two, `pause` lets others work. */
+  /** Reads what it has not told yet of the table, chunk by chunk; between two, `pause` lets others work. */
   async table(pause: () => Promise<void>): Promise<Table> {
-    const metrics = trackOf('/banyan/metrics', this.mcap, this.chunks);
-    const events = trackOf('/banyan/events', this.mcap, this.chunks);
-    const builder = new SeriesBuilder();
+    const { metrics, events, stretches } = this.tracks;
+    const whole = this.tabled.size === 0;
+    const { rows } = this.builder;
     const list: RunEvent[] = [];
-    for (const stretch of this.mcap.stretches) {
+    for (const stretch of stretches) {
       const tracks = [metrics, events].filter((track) => track?.mayHold(stretch));
-      if (tracks.length === 0) continue;
+      if (tracks.length === 0 || this.tabled.has(stretch)) continue;
+      this.tabled.add(stretch);
       await pause();
       const loaded = await this.chunks.load(stretch, false);
       if (loaded === null) continue;
-      this.each(metrics, loaded, 'metrics', (text) => builder.add(text));
+      this.each(metrics, loaded, 'metrics', (text) => this.builder.add(text));
       this.each(events, loaded, 'events', (text) => list.push(parseEvent(text)));
     }
-    return { series: builder.take(), events: list };
+    return { series: this.builder.take(rows), events: list, whole };
   }
 
   private each(track: Track | null, loaded: Loaded, name: string, take: (text: string) => void): void {
@@ -150,13 +218,14 @@ export class Recording {
   private async readHeader(name: string): Promise<void> {
     const { metadata } = this.mcap;
     const provenance = readProvenance(metadata, this.warnings);
-    const settings = await readSettings(trackOf('/banyan/setting', this.mcap, this.chunks), metadata, this.warnings);
-    if (this.targets === null) this.warnings.add('it has no /banyan/targets channel');
+    const settings = await readSettings(this.tracks.settings, metadata, this.warnings);
+    if (this.tracks.targets === null) this.warnings.add('it has no /banyan/targets channel');
     const tickS = settings[0].setting.tick_s;
     const regular = [this.first, this.last].every((f) => Math.abs(f.tick * tickS - f.timeS) < 0.1 * tickS);
     this.tickNs = regular ? tickS * 1e9 : 0;
     this.header = {
       kind: 'recording', name, settings, robots: this.first.robots, startS: this.first.timeS, endS: this.last.timeS, growing: false,
+      following: this.following, take: 0,
       ...provenance, result: readResult(metadata), warnings: [],
     };
   }
@@ -190,8 +259,9 @@ export class Recording {
 
   /** The targets are those of the last message at or before a frame. */
   private async addTargets(frames: Frame[]): Promise<void> {
-    if (this.targets === null || frames.length === 0) return;
-    const changes = await between(this.targets, nanoseconds(frames[0].timeS), nanoseconds(frames.at(-1)!.timeS));
+    const { targets } = this.tracks;
+    if (targets === null || frames.length === 0) return;
+    const changes = await between(targets, nanoseconds(frames[0].timeS), nanoseconds(frames.at(-1)!.timeS));
     let next = 0;
     let now = noTargets;
     for (const frame of frames) {
@@ -215,11 +285,6 @@ async function between(track: Track, from: number, to: number): Promise<Entry[]>
     if (entry.time <= to) found.push(entry);
   }
   return found;
-}
-
-function trackOf(topic: string, mcap: Mcap, chunks: Chunks): Track | null {
-  const channel = [...mcap.channels.values()].find((c) => c.topic === topic && c.encoding === 'json');
-  return channel === undefined ? null : new Track(chunks, channel.id, mcap.stretches);
 }
 
 function because(text: string, warnings: Warnings): string {

@@ -12,11 +12,8 @@ import type { Decompress } from './zstd';
 const windowBytes = 1 << 18; // records are many and small; a file is read in larger pieces
 const mostLooseBytes = 1 << 20; // messages outside of chunks are taken together up to here
 const mostRecordBytes = 1 << 26; // of those that are read whole here
+const headBytes = 64; // of a record: enough to know it again
 const chunkHeadBytes = 64; // enough for a chunk record's fields before its data
-
-export async function scan(bytes: Bytes, decompress: Decompress, warnings: Warnings): Promise<Mcap> {
-  return await new Scanner(bytes, decompress, warnings).run();
-}
 
 /** A chunk whose message indices are still being read. */
 interface Pending {
@@ -27,25 +24,37 @@ interface Pending {
   end: number;
 }
 
-class Scanner {
-  private readonly mcap: Mcap = { indexed: false, channels: new Map(), metadata: new Map(), stretches: [] };
+export class Scanner {
+  readonly mcap: Mcap = { indexed: false, channels: new Map(), metadata: new Map(), stretches: [] };
+  /** The end of the messages has been read: whoever wrote the file has finished it. */
+  finished = false;
   private readonly window: Window;
   private pending: Pending | null = null;
+  private offset = magic.length; // everything before has been read
+  private last = { offset: 0, head: new Uint8Array(0) }; // record, by which the file is known again
 
   constructor(private readonly bytes: Bytes, private readonly decompress: Decompress,
               private readonly warnings: Warnings) {
     this.window = new Window(bytes);
   }
 
-  async run(): Promise<Mcap> {
-    let offset = magic.length;
-    while (offset < this.bytes.size) {
-      const next = await this.step(offset);
+  /** To the end of what is there now. */
+  async goOn(): Promise<void> {
+    this.window.forget();
+    while (this.offset < this.bytes.size && !this.finished) {
+      const next = await this.step(this.offset);
       if (next === null) break;
-      offset = next;
+      this.offset = next;
     }
     await this.settle(true); // message indices behind it may be missing
-    return this.mcap;
+  }
+
+  /** Whether it still is the file whose beginning was read: a run that begins anew writes from the start. */
+  async isSame(): Promise<boolean> {
+    const { offset, head } = this.last;
+    if (this.bytes.size < this.offset) return false;
+    const now = await this.bytes.read(offset, head.length);
+    return head.every((byte, k) => byte === now[k]);
   }
 
   /** Where the next record is; null at the end. */
@@ -58,10 +67,13 @@ class Scanner {
     if (kind === 0) return this.stop(offset, 'what follows is not MCAP');
     if (length > left - recordHeaderBytes) return this.stop(offset, 'the file ends in the middle of a record');
     await this.record(kind, offset, length);
-    return kind === op.dataEnd ? null : offset + recordHeaderBytes + length;
+    this.last = { offset, head: (await this.window.read(offset, Math.min(recordHeaderBytes + length, headBytes))).slice() };
+    this.finished = kind === op.dataEnd;
+    return offset + recordHeaderBytes + length;
   }
 
   private stop(offset: number, text: string): null {
+    if (this.bytes.growing) return null; // the rest is on its way
     this.warnings.add(`${text} (at byte ${offset})`);
     return null;
   }
@@ -161,6 +173,10 @@ class Window {
   private start = 0;
   private data: Uint8Array = new Uint8Array(0);
   constructor(private readonly bytes: Bytes) {}
+
+  forget(): void {
+    this.data = new Uint8Array(0);
+  }
 
   async read(offset: number, length: number): Promise<Uint8Array> {
     if (offset < this.start || offset + length > this.start + this.data.length) {

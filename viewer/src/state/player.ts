@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The clock of what is shown. It is driven by requestAnimationFrame's time, handed in, and never runs ahead
 // of frames that are not there yet. Several sources side by side share one.
+import { Chase } from './chase';
 
 /** What the clock needs of a source (source/client.ts). */
 export interface Playable {
@@ -8,6 +9,7 @@ export interface Playable {
   readonly startS: number;
   readonly endS: number;
   readonly growing: boolean;
+  readonly following: boolean;
   readonly tickS: number;
   limit(fromS: number, toS: number, stride: number): number;
   prefetch(timeS: number, speed: number, stride: number): void;
@@ -32,10 +34,13 @@ export class Player {
   speed = 1;
   /** The frames for `timeS`, or for going on, are not there yet. */
   waiting = false;
+  /** Shows the newest moment of a recording that is being written, as fast as it comes. */
+  newest = false;
   /** Played again and again; `toS` null: its end has not been chosen yet. */
   loop: { fromS: number; toS: number | null } | null = null;
   private lastMs: number | null = null;
   private backwards = false; // the last jump: what is fetched ahead lies there
+  private readonly chase = new Chase();
   private sources: readonly Playable[] = [];
 
   /** The first call sets the clock to the start. */
@@ -55,14 +60,22 @@ export class Player {
   get growing(): boolean {
     return this.open.some((s) => s.growing);
   }
+  /** There is a newest moment that moves by itself. */
+  get following(): boolean {
+    return this.open.some((s) => s.following);
+  }
   get tickS(): number {
     return this.open.length === 0 ? 0.1 : Math.min(...this.open.map((s) => s.tickS));
   }
   /** The stride of the ticks shown at this speed: a power of two. */
   get stride(): number {
     if (!this.playing) return 1;
-    const most = this.speed / (shownPerS * this.tickS);
+    const most = this.pace / (shownPerS * this.tickS);
     return most < 2 ? 1 : 2 ** Math.floor(Math.log2(most));
+  }
+  /** Seconds of the run per second. */
+  private get pace(): number {
+    return this.newest ? this.chase.speed : this.speed;
   }
   get atEnd(): boolean {
     return !this.growing && this.timeS >= this.endS - slack;
@@ -70,11 +83,12 @@ export class Player {
 
   /** At the end it starts again. */
   play(): void {
+    if (this.atEnd && this.following) return this.follow();
     if (this.atEnd) this.jump(this.startS);
     this.playing = true;
   }
   pause(): void {
-    this.playing = false;
+    this.playing = this.newest = false;
   }
   toggle(): void {
     if (this.playing) this.pause();
@@ -84,6 +98,7 @@ export class Player {
   /** To the nearest power of two there is. */
   setSpeed(speed: number): void {
     if (!(speed > 0)) return;
+    this.newest = false;
     this.speed = Math.min(fastest, Math.max(slowest, 2 ** Math.round(Math.log2(speed))));
   }
   faster(): void {
@@ -95,24 +110,35 @@ export class Player {
 
   /** From here; then to here; then no more. */
   nextLoop(): void {
+    this.newest = false;
     if (this.loop === null) this.loop = { fromS: this.timeS, toS: null };
     else if (this.loop.toS === null && this.timeS > this.loop.fromS + this.tickS) this.loop.toS = this.timeS;
     else this.loop = null;
   }
 
   seek(timeS: number): void {
+    this.newest = false;
     if (Number.isFinite(timeS)) this.jump(this.clamped(timeS));
   }
   home(): void {
+    this.newest = false;
     this.jump(this.startS);
   }
   end(): void {
+    if (this.following) return this.follow();
     this.jump(this.endS);
     if (!this.growing) this.playing = false;
   }
+  /** To the newest moment, and on with it. */
+  follow(): void {
+    if (!this.following) return;
+    this.jump(this.endS);
+    this.playing = this.newest = true;
+    this.loop = null;
+  }
   /** To another tick, and stand still. A live run is simulated for it. */
   step(ticks: number): void {
-    this.playing = false;
+    this.playing = this.newest = false;
     const tick = ticks > 0 ? Math.floor(this.timeS / this.tickS + 1e-6) : Math.ceil(this.timeS / this.tickS - 1e-6);
     const timeS = (tick + Math.round(ticks)) * this.tickS;
     this.jump(this.growing ? Math.max(this.startS, timeS) : this.clamped(timeS));
@@ -128,6 +154,8 @@ export class Player {
     const before = { timeS: this.timeS, playing: this.playing, waiting: this.waiting };
     const elapsedMs = this.lastMs === null ? 0 : Math.min(Math.max(nowMs - this.lastMs, 0), longestStepMs);
     this.lastMs = nowMs;
+    if (this.following) this.chase.note(nowMs, this.endS);
+    else this.newest = false;
     if (this.open.length > 0) this.advance(elapsedMs / 1000);
     return this.timeS !== before.timeS || this.playing !== before.playing || this.waiting !== before.waiting;
   }
@@ -138,7 +166,7 @@ export class Player {
 
   private advance(elapsedS: number): void {
     const { stride } = this;
-    let goal = this.timeS + (this.playing ? elapsedS * this.speed : 0);
+    let goal = this.playing ? this.goal(elapsedS) : this.timeS;
     if (!this.growing) goal = Math.min(goal, Math.max(this.endS, this.timeS));
     const here = this.reach(this.timeS, this.timeS + slack, stride) >= this.timeS + slack / 2;
     const reached = here && goal > this.timeS ? this.reach(this.timeS, goal, stride) : this.timeS;
@@ -147,9 +175,13 @@ export class Player {
     this.timeS = reached;
     const { loop } = this;
     if (this.playing && loop !== null && loop.toS !== null && (reached >= loop.toS || this.atEnd)) return this.jump(loop.fromS);
-    if (this.playing && this.atEnd) this.playing = false;
-    const speed = this.playing ? this.speed : 0;
+    if (this.playing && this.atEnd) this.newest = this.playing = this.following;
+    const speed = this.playing ? this.pace : 0;
     for (const source of this.open) source.prefetch(this.timeS, this.backwards ? -1 : speed, stride);
+  }
+
+  private goal(elapsedS: number): number {
+    return this.newest ? this.chase.next(this.timeS, this.endS, elapsedS) : this.timeS + elapsedS * this.speed;
   }
 
   /** How far all sources can be shown. */

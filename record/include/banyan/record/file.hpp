@@ -87,10 +87,14 @@ class InputFile {
   [[nodiscard]] bool read(std::uint64_t offset, std::uint64_t size, std::string& into) const;
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  // Whether an OutputFile has it; and for how long nobody has changed it.
+  [[nodiscard]] bool is_being_written() const noexcept;
+  [[nodiscard]] double unchanged_s() const noexcept { return unchanged_s_; }
 
  private:
   std::string path_;
   std::uint64_t size_ = 0;
+  double unchanged_s_ = 0.0;
   int descriptor_ = -1;
 };
 

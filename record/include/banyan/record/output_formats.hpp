@@ -43,6 +43,7 @@ struct Output {
   bool results = true;             // those without one
   std::uint32_t record_every = 1;  // ticks, of the recording
   bool messages = true;            // in it: what each robot broadcast
+  bool live = false;               // can be watched while it is written
 
   // By key; throws std::out_of_range for what is none.
   [[nodiscard]] bool& operator[](std::string_view key);

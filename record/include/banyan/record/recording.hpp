@@ -33,6 +33,7 @@ struct RecorderOptions {
   double scene_period_s = 0.5;      // 0: no /scene; stretched in proportion above 1000 robots
   int compression_level = 1;        // zstd
   std::size_t chunk_bytes = 1 << 20;
+  bool live = false;                // chunks end with every second of the wall clock: for those who read it while it grows
   Existing existing = Existing::keep;
 };
 

@@ -30,15 +30,25 @@ function discs(shot: Shot, which: Which, radius: number, color: string, inner?: 
   }
 }
 
-/** Squares look like discs at two pixels and are filled much faster; one by one, since a path of ten thousand takes
- *  half as long again. */
+/** Squares look like discs at two pixels and are filled much faster. */
 function fillDots(shot: Shot, which: Which, radius: number, color: string): void {
-  const { pen, x, y } = shot;
-  const side = 1.8 * radius;
-  pen.fillStyle = color;
+  const { pen, x, y, ratio, dotted, view: { camera } } = shot;
+  const seen: number[] = [];
+  let left = Infinity, top = Infinity, right = -Infinity, bottom = -Infinity;
   for (let i = 0; i < shot.robots; ++i) {
-    if (which(i) && shot.inSight(x[i]!, y[i]!, radius)) pen.fillRect(x[i]! - side / 2, y[i]! - side / 2, side, side);
+    if (!which(i) || !shot.inSight(x[i]!, y[i]!, radius)) continue;
+    seen.push(i);
+    left = Math.min(left, x[i]!);
+    right = Math.max(right, x[i]!);
+    top = Math.min(top, y[i]!);
+    bottom = Math.max(bottom, y[i]!);
   }
+  if (seen.length === 0) return;
+  const fromX = Math.floor(Math.max(0, left - radius) * ratio), fromY = Math.floor(Math.max(0, top - radius) * ratio);
+  dotted.begin(Math.min(camera.widthPx, right + radius) * ratio - fromX, Math.min(camera.heightPx, bottom + radius) * ratio - fromY, color);
+  const side = 1.8 * radius * ratio;
+  for (const i of seen) dotted.bitmap.add(x[i]! * ratio - fromX, y[i]! * ratio - fromY, side);
+  dotted.draw(pen, fromX, fromY, ratio);
 }
 
 /** Where they are going; below the bodies, so that only what sticks out is seen. */

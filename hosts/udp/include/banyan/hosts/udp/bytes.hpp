@@ -49,6 +49,7 @@ class ByteReader {
     in_ = in_.subspan(count);
     return taken;
   }
+  [[nodiscard]] std::size_t left() const noexcept { return in_.size(); }
   [[nodiscard]] bool ok() const noexcept { return ok_; }
   [[nodiscard]] bool at_end() const noexcept { return ok_ && in_.empty(); }
 

@@ -34,8 +34,8 @@ using Node = std::uint16_t;  // who sends and receives
 inline constexpr Node hub_node = 0xFFFE;
 inline constexpr Node everybody = 0xFFFF;
 
-enum class Kind : std::uint8_t { hello, status, frame, heard, stop, stopped, answer, spoken };
-inline constexpr Kind last_kind = Kind::spoken;
+enum class Kind : std::uint8_t { hello, status, frame, heard, stop, stopped, answer, spoken, account };
+inline constexpr Kind last_kind = Kind::account;
 
 inline constexpr std::size_t header_bytes = 28;
 inline constexpr std::size_t mac_bytes = 16;

@@ -71,11 +71,27 @@ struct Status {
   Bytes message;
 };
 
+// Kind::account, robot to whoever listens to robots without a hub, once a step: its status, and what it has measured.
+struct Sighting {
+  RobotId robot = nobody;
+  Vec2 position;  // in the body frame of the teller
+  friend bool operator==(const Sighting&, const Sighting&) = default;
+};
+inline constexpr std::size_t most_sightings = 64;
+struct Account {
+  Status status;
+  OdometricPose odometry;      // its turn within half a turn: whole turns are not told
+  std::optional<Vec2> target;  // in its body frame, as are sightings
+  std::vector<Sighting> seen;
+};
+
 [[nodiscard]] Bytes encode(const Frame& frame);
 [[nodiscard]] Bytes encode(const Heard& heard);
 [[nodiscard]] Bytes encode(const Status& status);
+[[nodiscard]] Bytes encode(const Account& account);  // the first most_sightings
 [[nodiscard]] std::optional<Frame> decode_frame(ByteView bytes);
 [[nodiscard]] std::optional<Heard> decode_heard(ByteView bytes);
 [[nodiscard]] std::optional<Status> decode_status(ByteView bytes);
+[[nodiscard]] std::optional<Account> decode_account(ByteView bytes);
 
 }  // namespace banyan::udp

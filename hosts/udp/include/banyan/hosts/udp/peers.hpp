@@ -19,13 +19,15 @@ class Peers {
 
   // A datagram for everybody.
   [[nodiscard]] Bytes speak(ByteView message, const KeyRing& keys);
+  // One for whoever listens (listener.hpp), who is asked and believed likewise.
+  [[nodiscard]] Bytes tell(ByteView account, const KeyRing& keys);
 
   struct Taken {
-    enum class What : std::uint8_t { nothing, message, stop } what = What::nothing;
+    enum class What : std::uint8_t { nothing, message, account, stop } what = What::nothing;
     std::optional<Drop> drop{};  // why it was not accepted
     Bytes reply{};               // a datagram for whoever has sent it; empty: none
   };
-  // An authentic packet. A message is its payload.
+  // An authentic packet. A message or an account is its payload.
   [[nodiscard]] Taken take(const Envelope& envelope, double now_s, const KeyRing& keys);
 
  private:

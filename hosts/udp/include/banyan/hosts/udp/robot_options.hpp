@@ -16,6 +16,7 @@ struct RobotOptions {
   std::string hub;               // ADDRESS:PORT; "": there is none, it has peers
   std::string peers;             // ADDRESS:PORT[,ADDRESS:PORT...] of the other robots, or a broadcast address
   std::string listen;            // ADDRESS:PORT where its peers find it
+  std::string tell;              // ADDRESS:PORT of who listens (banyan listen); "": nobody
   bool root = false;             // without a hub: how it begins
   bool worker = false;
   std::string key_file;

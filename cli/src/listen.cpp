@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// `banyan listen`: records a mission of robots that have no hub, by what they tell. What they cannot know, where they
+// are on the floor, it does not know either (chart.hpp).
+#include <signal.h>
+
+#include "banyan/hosts/udp/listener.hpp"
+#include "banyan/world/faults.hpp"
+#include "commands.hpp"
+#include "fleet_members.hpp"
+#include "keep_run.hpp"
+#include "page_beside.hpp"
+#include "terminal.hpp"
+#include "tracked_bodies.hpp"
+
+namespace banyan::cli {
+namespace {
+
+constexpr double moved_m = 0.05;       // by less a target has not moved: it is measured
+constexpr double told_lately_s = 0.5;
+
+// Which robots have a target, in their order: target k is that of the k-th.
+std::vector<std::size_t> workers_of(const udp::Chart& chart) {
+  std::vector<std::size_t> workers;
+  for (std::size_t i = 0; i < chart.poses().size(); ++i)
+    if (chart.target_of(i)) workers.push_back(i);
+  if (workers.empty()) throw CommandError(exit_lost, "no robot says that it has a target");
+  return workers;
+}
+
+// The scenario with the robots where they place each other. Each target lies where its worker stands, since a world
+// sends whoever is nearest; from the first tick on it is where that robot says.
+world::Scenario told_by(const udp::Listener& listener, const std::vector<std::size_t>& workers, world::Scenario scenario) {
+  scenario.mission.time_limit_s = world::time_limit_s(scenario);  // by the scenario's own targets
+  scenario = started_where_seen(std::move(scenario), listener.chart().poses());
+  std::vector<world::Vec2> targets;
+  targets.reserve(workers.size());
+  for (const std::size_t worker : workers) targets.push_back(listener.chart().poses()[worker]->position);
+  scenario.targets = targets;
+  scenario.swarm.root.reset();
+  for (std::size_t i = 0; i < listener.chart().poses().size(); ++i)
+    if (listener.last(i)->report.role == Role::root) scenario.swarm.root = i;
+  std::string text;
+  for (const world::Fault& fault : world::faults(scenario))
+    if (!fault.warning) text += "\n  " + fault.key + ": " + fault.text;
+  if (!text.empty()) throw CommandError(exit_lost, "what the robots tell cannot be:" + text);
+  return scenario;
+}
+
+// Makes the ticks of a world of what has been told by then.
+class Ears {
+ public:
+  Ears(udp::Listener& listener, std::vector<std::size_t> workers) : listener_(listener), workers_(std::move(workers)) {}
+
+  record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor, const record::GoOn& go_on) {
+    record::Simulation simulation(std::move(world), sink);
+    const auto stopped = [&] { return !go_on(simulation); };
+    simulation.stop_when(stopped);
+    while (!simulation.finished() && living(simulation.world()) > 0) {
+      const auto silent = listener_.wait_for(static_cast<std::uint32_t>(simulation.world().tick()), stopped);
+      if (stopped()) return simulation.finish(true);
+      for (const std::size_t robot : silent) happen(simulation, world::Die{robot});
+      for (std::size_t k = 0; k < workers_.size(); ++k) look_at_target(simulation, k);
+      simulation.step(executor);
+    }
+    return simulation.finish(false);
+  }
+
+ private:
+  static std::size_t living(const world::World& world) {
+    const auto alive = world.alive();
+    return static_cast<std::size_t>(std::count_if(alive.begin(), alive.end(), [](auto a) { return a != 0; }));
+  }
+  static void happen(record::Simulation& simulation, const world::Action& action) {
+    world::Event event;
+    event.action = action;
+    simulation.intervene(event);
+  }
+  void look_at_target(record::Simulation& simulation, std::size_t k) const {
+    const auto told = listener_.chart().target_of(workers_[k]);
+    if (!told || norm(*told - simulation.world().targets()[k].position) < moved_m) return;
+    happen(simulation, world::MoveTarget{.target = k, .position = *told});
+  }
+
+  udp::Listener& listener_;
+  std::vector<std::size_t> workers_;
+};
+
+std::string remarks_on(const udp::Listener& listener) {
+  return summary_line("listening", format("%s accounts of robots, %s datagrams dropped; places are the robots' own",
+                                          grouped(static_cast<double>(listener.received())).c_str(),
+                                          grouped(static_cast<double>(listener.dropped())).c_str()));
+}
+
+void gather(udp::Listener& listener, double wait_s) {
+  const auto missing = listener.gather(wait_s, [] { return stop_signal() != 0; });
+  if (missing.empty() || stop_signal() != 0) return;
+  std::string list;
+  for (const std::size_t robot : missing) list += (list.empty() ? "" : ", ") + std::to_string(robot);
+  throw CommandError(exit_lost, format("within %g s there was no place for robot ", wait_s) + list +
+                                    ": it was not heard, or measured nobody who measured it");
+}
+
+int record_mission(const ListenOptions& options) {
+  config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
+  configuration.output.live = true;
+  world::Scenario& scenario = configuration.scenario;
+  const udp::ListenerOptions ends{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s};
+  udp::Listener listener(ends, world::robot_count(scenario), udp::KeyFile(options.key_file).keys());
+  gather(listener, options.wait_s);
+  if (stop_signal() != 0) return exit_signal + stop_signal();
+  const auto workers = workers_of(listener.chart());
+  scenario = told_by(listener, workers, scenario);
+  const RunOutputs outputs(configuration, options.run.out, options.run.force);
+  PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
+  try {
+    const auto silence = static_cast<std::uint32_t>(told_lately_s / scenario.tick_s);
+    const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), listener, silence);
+    RunOptions run = options.run;
+    run.threads = 1;
+    const int code = keep_run(configuration, outputs, run, world::World(scenario, remote, tracked_bodies(listener.chart().poses())),
+                              Ears(listener, workers), [&] { return remarks_on(listener); });
+    page.stay();
+    return code;
+  } catch (...) {
+    outputs.abandon();
+    throw;
+  }
+}
+
+}  // namespace
+
+int listen_command(const ListenOptions& options) {
+  ::signal(SIGPIPE, SIG_IGN);
+  catch_stop_signals();
+  return with_fleet_errors([&] { return record_mission(options); });
+}
+
+}  // namespace banyan::cli
