@@ -91,8 +91,8 @@ std::string remarks_on(const udp::Listener& listener) {
                                           grouped(static_cast<double>(listener.dropped())).c_str()));
 }
 
-void gather(udp::Listener& listener, double wait_s) {
-  const auto missing = listener.gather(wait_s, [] { return stop_signal() != 0; });
+void gather(udp::Listener& listener, std::size_t targets, double wait_s) {
+  const auto missing = listener.gather(wait_s, targets, [] { return stop_signal() != 0; });
   if (missing.empty() || stop_signal() != 0) return;
   std::string list;
   for (const std::size_t robot : missing) list += (list.empty() ? "" : ", ") + std::to_string(robot);
@@ -106,7 +106,7 @@ int record_mission(const ListenOptions& options) {
   world::Scenario& scenario = configuration.scenario;
   const udp::ListenerOptions ends{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s};
   udp::Listener listener(ends, world::robot_count(scenario), udp::KeyFile(options.key_file).keys());
-  gather(listener, options.wait_s);
+  gather(listener, world::mission_targets(scenario).size(), options.wait_s);
   if (stop_signal() != 0) return exit_signal + stop_signal();
   const auto workers = workers_of(listener.chart());
   scenario = told_by(listener, workers, scenario);

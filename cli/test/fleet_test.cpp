@@ -517,7 +517,7 @@ TEST_F(WithoutAHub, TheyCompleteInOnePieceAndStopAtAWord) {
 
 // Somebody listens: what is recorded is what they did, but for where on the floor they did it.
 TEST_F(WithoutAHub, TheirMissionIsRecordedByWhatTheyTell) {
-  const Outcome outcome = run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count), "--speed", "5", "--out", "result"});
+  const Outcome outcome = run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count), "--speed", "5", "--wait", "60", "--out", "result"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   for (const char* words : {"COMPLETE after", "network    in one piece at every tick", "the recording", "places are the robots' own", " 0 datagrams dropped"})
     EXPECT_TRUE(has(outcome.out, words)) << words << "\n" << outcome.out << outcome.err;

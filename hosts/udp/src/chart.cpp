@@ -103,4 +103,10 @@ std::optional<BasicVec2<double>> Chart::target_of(std::size_t robot) const {
   return outside(*poses_[robot], *account->target);
 }
 
+std::size_t Chart::targets() const {
+  std::size_t count = 0;
+  for (std::size_t robot = 0; robot < robots_.size(); ++robot) count += target_of(robot) ? 1U : 0U;
+  return count;
+}
+
 }  // namespace banyan::udp

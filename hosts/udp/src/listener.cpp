@@ -53,9 +53,9 @@ void Listener::wait_until(double moment_s, const Stopped& stopped) {
   } while (!stopped() && clock_.now_s() < moment_s);
 }
 
-std::vector<std::size_t> Listener::gather(double seconds, const Stopped& stopped) {
+std::vector<std::size_t> Listener::gather(double seconds, std::size_t targets, const Stopped& stopped) {
   const double end_s = clock_.now_s() + seconds * options_.speed;
-  while (!stopped() && clock_.now_s() < end_s && !chart_.missing().empty()) {
+  while (!stopped() && clock_.now_s() < end_s && (!chart_.missing().empty() || chart_.targets() < targets)) {
     wait_until(clock_.now_s() + options_.tick_s, stopped);
     chart_.update();
   }

@@ -29,6 +29,7 @@ class Chart {
   [[nodiscard]] std::vector<std::size_t> missing() const;
   // Where the target of that robot is, if it says that it has one.
   [[nodiscard]] std::optional<BasicVec2<double>> target_of(std::size_t robot) const;
+  [[nodiscard]] std::size_t targets() const;  // how many robots say so
 
  private:
   struct Robot {

@@ -25,8 +25,9 @@ class Listener final : public Link {
   Listener(const ListenerOptions& options, std::size_t robots, KeyRing keys);
 
   using Stopped = std::function<bool()>;
-  // Until every robot has told something and has a place on the chart, at most so long. Those without.
-  [[nodiscard]] std::vector<std::size_t> gather(double seconds, const Stopped& stopped);
+  // Until every robot has told something and has a place on the chart, and so many say that they have a target; at
+  // most so long. The robots without a place.
+  [[nodiscard]] std::vector<std::size_t> gather(double seconds, std::size_t targets, const Stopped& stopped);
   // Waits for the moment of that tick; the robots that count as dead from now on. Ends early if it is stopped.
   [[nodiscard]] std::vector<std::size_t> wait_for(std::uint32_t tick, const Stopped& stopped);
 
