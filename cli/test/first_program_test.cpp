@@ -44,6 +44,7 @@ TEST_F(FirstProgram, ThoseThatTheScriptKeepsFromItAreThoseItLacks) {
   for (const auto& command : all) {
     Arguments arguments{command, "file"};
     if (command == "film") arguments.insert(arguments.end(), {"-o", "film.mp4"});
+    if (command == "listen") arguments.insert(arguments.end(), {"--key", "file"});
     if (command == "argos") arguments.insert(arguments.end(), {"-o", "file.argos"});
     const Outcome outcome = run(arguments, first);
     EXPECT_EQ(has(outcome.err, "built without the command " + command), !given.contains(command)) << outcome.err;

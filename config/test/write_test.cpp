@@ -291,6 +291,7 @@ constexpr const char* as_written =
     R"("bearing_noise_deg":1.7,)"
     R"("latency_ticks":1,"slots":0},)"
     R"("clocks":{"asynchronous":false,"drift":0.0,"substeps":5},)"
+    R"("battery":{"model":"none"},)"
     R"("targets":{"layout":"random","count":2,"radius_m":3.0,"center_m":[0.1,0.2]},)"
     R"("obstacles":[{"kind":"disc","center_m":[9.0,9.0],"radius_m":0.5},)"
     R"({"kind":"box","center_m":[-9.0,9.0],"size_m":[1.0,2.0],"angle_deg":45.0},)"

@@ -78,9 +78,9 @@ std::vector<std::string> rows_of_document() {
 
 TEST(MessageFields, StandInTheDocumentInTheirOrderWithTheirSizes) {
   Rows rows;
-  const ConvoyMessage message;  // has all blocks
+  const PoweredConvoyMessage message;  // has all blocks
   visit_fields(rows, message);
-  EXPECT_EQ(rows.list.size(), 58U);
+  EXPECT_EQ(rows.list.size(), 64U);
   EXPECT_EQ(rows_of_document(), rows.list);
 }
 

@@ -78,7 +78,7 @@ TEST_F(Arrived, DoesNotMergeWithABranchThatStillTravels) {
 }
 
 TEST_F(Arrived, DoesNotMergeBeyondMergeDistance) {
-  member(21, {0, -1.9F}, 300, 55);
+  member(21, {0, -1.87F}, 300, 55);
   count({5, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
 }

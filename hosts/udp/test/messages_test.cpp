@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "banyan/controller/core/wire.hpp"
+
 namespace banyan::udp {
 namespace {
 
@@ -98,7 +100,7 @@ TEST(Messages, ImpossibleValuesAreRefused) {
   heard.odometry.position.x = std::numeric_limits<float>::infinity();
   EXPECT_FALSE(decode_heard(encode(heard)));
   heard = some_heard();
-  heard.packets[0].message.resize(97);
+  heard.packets[0].message.resize(largest_wire + 1);
   EXPECT_FALSE(decode_heard(encode(heard)));
   Status status = some_status();
   status.velocity.forward_m_s = std::numeric_limits<float>::quiet_NaN();

@@ -22,8 +22,8 @@ struct ConvoyParams : PowerParams {
   float call_distance_m = 1.8F;      // a longer edge in need calls spares from afar
   float release_distance_m = 1.5F;   // a grandparent nearer than this becomes the parent
   float spare_avoidance_m = 0.28F;   // repulsion from spares begins here
-  float merge_distance_m = 1.89F;    // longest edge made to save a robot, once all below have arrived
-  float compact_distance_m = 1.87F;  // a chain that has arrived stretches its edges to this
+  float merge_distance_m = 1.86F;    // longest edge made to save a robot, once all below have arrived
+  float compact_distance_m = 1.82F;  // a chain that has arrived stretches its edges to this
   float plan_after_s = 15.0F;        // all have arrived: the root plans chains from target to target; 0: never
   float companion_distance_m = 0.3F; // how far beside its robot a companion stands
   int link_redundancy = 1;           // the mission's k: each robot that the tree depends on has k - 1 companions
