@@ -105,7 +105,7 @@ record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, C
     if (progress.due()) show(progress, simulation);
     return stop_signal() == 0;
   };
-  const record::RunEnd end = play(std::move(world), sinks, executor, go_on);
+  record::RunEnd end = play(std::move(world), sinks, executor, go_on);
   progress.clear();
   complaints.tell();
   return end;

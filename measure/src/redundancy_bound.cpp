@@ -21,7 +21,7 @@ using world::Vec2;
 using Table = std::vector<std::vector<int>>;  // symmetric; the diagonal is not looked at
 
 constexpr int far = std::numeric_limits<int>::max() / 4;
-constexpr int most_looks = 100'000;          // while packing: the best so far is certain, too
+constexpr int most_packings = 100'000;          // while packing: the best so far is certain, too
 constexpr std::size_t most_toured = 9;       // targets
 
 // Relays that any path between two workers has at least; exactly, for workers at rest on targets that far apart.
@@ -54,7 +54,7 @@ class Packing {
     return least;
   }
   void search(std::size_t at, int sum) {
-    if (++looks_ > most_looks) return;
+    if (++looks_ > most_packings) return;
     if (at == order_.size()) {
       if (sum > best_sum_) {
         best_sum_ = sum;

@@ -16,7 +16,7 @@ void Simulation::step(world::Executor& executor) {
 }
 
 RunEnd Simulation::finish(bool interrupted) {
-  const RunEnd end{result(), last(), interrupted};
+  RunEnd end{result(), last(), interrupted};
   sink_.finish(world_, end);
   return end;
 }

@@ -242,6 +242,27 @@ Vec2 before_tree(const ConvoyRobot& robot) noexcept {
   return on * (1.0F - back) + unit(robot.table().position(robot.hold)) * back;
 }
 
+// The neighbour that a spare stays near.
+int followed_by(const ConvoyRobot& robot) noexcept {
+  const ConvoyState& self = robot.self;
+  const TreeTable& table = robot.table();
+  // In a crowd, a called spare might wait for others to move while the tree goes away.
+  if (const int home = self.called && robot.hold >= 0 ? table.find(nearest_reference(robot)) : -1; home >= 0) {
+    const float home_c = table.message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
+    if (table.range(home) > home_c * robot.params.communication_range_m) return home;
+  }
+  return table.find(self.parent != nobody ? self.parent : self.reference);
+}
+
+// Round neighbour k, away from that robot's own parent, if that is known: there the edge that calls begins.
+Vec2 way_round(const ConvoyRobot& robot, int k) noexcept {
+  const TreeTable& table = robot.table();
+  const Vec2 reference = table.position(k);
+  const Vec2 round = left_of(reference);
+  const int up = robot.self.corners.landmarks.size > 0 ? -1 : table.find(up_of(table.message(k)));
+  return up >= 0 && dot(round, reference - table.position(up)) < 0.0F ? -round : round;
+}
+
 }  // namespace
 
 bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
@@ -317,12 +338,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   // Whoever is charged makes room at the place, and whoever needs it drives through the crowd: the others step aside.
   if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away)) return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
   if (robot.power != nullptr && is_at_place(*robot.power)) return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
-  int k = robot.table().find(self.parent != nobody ? self.parent : self.reference);
-  // In a crowd, a called spare might wait for others to move while the tree goes away.
-  if (const int home = self.called && robot.hold >= 0 ? robot.table().find(nearest_reference(robot)) : -1; home >= 0) {
-    const float home_c = robot.table().message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
-    if (robot.table().range(home) > home_c * c) k = home;
-  }
+  const int k = followed_by(robot);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
   // Sight can be lost at any distance: the spare follows in good time, and earlier still if a spare leads it.
@@ -338,13 +354,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   // It is there, but cannot hear the edge that calls, hidden or too far: it goes round the robot that passed on the
   // call. Not where many edges meet: spares wait on the far side, too, and it would only cross lines of sight.
   const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= 3);
-  if (self.called && roomy && d > 0.0F) {
-    // Away from that robot's own parent, if that is known: there the edge that calls begins.
-    Vec2 round = left_of(reference);
-    const int up = self.corners.landmarks.size > 0 ? -1 : robot.table().find(up_of(robot.table().message(k)));
-    if (up >= 0 && dot(round, reference - robot.table().position(up)) < 0.0F) round = -round;
-    return bypass(robot, round) + repulsion(robot) + make_way(robot, way_m);
-  }
+  if (self.called && roomy && d > 0.0F) return bypass(robot, way_round(robot, k)) + repulsion(robot) + make_way(robot, way_m);
   return repulsion(robot) + make_way(robot, p.corridor_width_m);
 }
 
