@@ -87,6 +87,7 @@ void capture(const world::World& world, Frame& frame) {
     robot.position = world.positions()[i];
     robot.heading_rad = angle_of(world.headings()[i]);
     robot.alive = world.alive()[i] != 0;
+    robot.spent = world.charge().empty() ? 0.0 : 1.0 - world.charge()[i];
     robot.raised = i < world.raised().size() && world.raised()[i] != 0;
     capture_robot(world.reports()[i], robot);
   }

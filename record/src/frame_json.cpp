@@ -56,7 +56,7 @@ constexpr Field if_any(Field field) {
 }
 
 using R = RobotFrame;
-constexpr std::array<Field, 19> of_robot{{
+constexpr std::array<Field, 20> of_robot{{
     {"x_m", "position", 4, -far, far, [](const R& r) { return r.position.x; },
      [](R& r, double v) { r.position.x = v; }},
     {"y_m", "position", 4, -far, far, [](const R& r) { return r.position.y; },
@@ -79,6 +79,7 @@ constexpr std::array<Field, 19> of_robot{{
     whole<&R::target>("target", -1, 65535, "index of the target the robot serves, -1: none"),
     if_any(whole<&R::raised>("raised", 0, 1,
                              "where sight leaks, 1: the antenna looks over bodies; left out if none does")),
+    if_any(real<&R::spent>("spent", 3, 0, 1, "share of the battery that is used up; left out where all are full, or without batteries")),
 }};
 
 void key(Text& out, std::string_view name) {

@@ -24,7 +24,7 @@ TEST(Pack, HasTheNumbersOfARecordedFrameColumnByColumn) {
   Frame frame;
   frame.robots.resize(3);
   frame.robots[1] = {.position = {1.25, -2.5}, .role = Role::worker, .label_cm = 17, .parent = 2, .want_m = 0.75,
-                     .target = 1, .raised = true};
+                     .target = 1, .spent = 0.125, .raised = true};
   Text text;
   write_frame(text, frame);
   const Json recorded = Json::parse(text.view());
@@ -53,6 +53,22 @@ TEST(Frames, HaveNoArrayOfAntennasWhereNoneIsRaised) {
   read_frame(written(), read);
   EXPECT_EQ(read, frame);
   frame.robots[1].raised = false;
+  read_frame(written(), read);
+  EXPECT_EQ(read, frame);
+}
+
+TEST(Frames, HaveNoArrayOfChargesWithoutBatteries) {
+  Frame frame;
+  frame.robots.resize(2);
+  const auto written = [&] {
+    Text text;
+    write_frame(text, frame);
+    return std::string(text.view());
+  };
+  EXPECT_EQ(written().find("spent"), std::string::npos);
+  frame.robots[1].spent = 0.25;
+  EXPECT_NE(written().find("\"spent\":[0.000,0.250]"), std::string::npos) << written();
+  Frame read;
   read_frame(written(), read);
   EXPECT_EQ(read, frame);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A pen that writes SVG, with the part of a canvas's pen that the layers use. So an SVG shows what the picture shows,
-// whatever is added to it. Whole circles become circles, everything else paths; nothing is measured or clipped.
+// whatever is added to it. Whole circles become circles, everything else paths, arcs clockwise and never part of a filled outline; nothing is measured or clipped.
 
 const digits = (px: number) => String(Math.round(px * 100) / 100);
 export const escaped = (text: string) => text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
@@ -48,11 +48,11 @@ export class SvgPen {
   lineTo(x: number, y: number): void { this.path.push(`${this.path.length === 0 ? 'M' : 'L'}${digits(x)} ${digits(y)}`); }
   closePath(): void { this.path.push('Z'); }
 
-  /** Whole circles only: the layers draw no others. */
   arc(x: number, y: number, radius: number, from: number, to: number): void {
-    if (Math.abs(to - from) < wholeCircle) throw new Error('a part of a circle cannot be written yet');
-    if (this.path.at(-1) === `M${digits(x + radius)} ${digits(y)}`) this.path.pop(); // to where the circle begins
-    this.circles.push({ x, y, radius });
+    const at = (angle: number) => `${digits(x + radius * Math.cos(angle))} ${digits(y + radius * Math.sin(angle))}`;
+    if (this.path.at(-1) === `M${at(from)}`) this.path.pop(); // to where it begins
+    if (to - from >= wholeCircle) this.circles.push({ x, y, radius });
+    else this.path.push(`M${at(from)}A${digits(radius)} ${digits(radius)} 0 ${to - from > Math.PI ? 1 : 0} 1 ${at(to)}`);
   }
 
   setLineDash(dashes: number[]): void { this.dashes = dashes; }

@@ -6,7 +6,7 @@ import { type Column, columns, type Frame, type Targets } from '../frame';
 type Kind = 'real' | 'small' | 'count' | 'index'; // index: -1 is stored as 0, 0 as 1, ...
 
 const kinds: Record<Column, Kind> = {
-  x_m: 'real', y_m: 'real', heading_rad: 'real', want_m: 'real',
+  x_m: 'real', y_m: 'real', heading_rad: 'real', want_m: 'real', spent: 'real',
   role: 'small', phase: 'small', need: 'small', spare_state: 'small', alive: 'small', connected: 'small',
   raised: 'small',
   epoch: 'count', depth: 'count',

@@ -26,7 +26,7 @@ const ranges: Record<Column, Range> = {
   role: whole(0, 3), phase: whole(0, 4), need: whole(0, 2), spare_state: whole(0, 2),
   alive: whole(0, 1), connected: whole(0, 1), epoch: whole(0, 65535), label_cm: whole(-1, 65535),
   depth: whole(0, 65535), parent: robot, old_parent: robot, grant: robot, request: robot,
-  want_m: real(0, far), target: whole(-1, mostId), raised: whole(0, 1),
+  want_m: real(0, far), target: whole(-1, mostId), raised: whole(0, 1), spent: real(0, 1),
 };
 
 export const noTargets: Targets = { x: new Float64Array(0), y: new Float64Array(0), worker: new Int32Array(0) };
@@ -45,7 +45,7 @@ export function parseFrame(text: string): Frame {
 }
 
 // Left out where it is 0 for all robots.
-const optional: readonly Column[] = ['raised'];
+const optional: readonly Column[] = ['raised', 'spent'];
 
 function fill(out: Float64Array, object: JsonObject, name: Column): void {
   if (optional.includes(name) && member(object, name) === undefined) return;

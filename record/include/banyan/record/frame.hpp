@@ -36,6 +36,7 @@ struct RobotFrame {
   std::int32_t request = -1;
   double want_m = 0.0;           // largest remaining worker distance below
   std::int32_t target = -1;      // index of the target that it serves, sent there or in place of another; -1: none
+  double spent = 0.0;            // share of its battery that is used up; 0 without batteries
   bool raised = false;           // where sight leaks: its antenna looks over the bodies near it
   friend bool operator==(const RobotFrame&, const RobotFrame&) = default;
 };

@@ -2,6 +2,7 @@
 // Everything above ground, obstacles and radio links, in the order in which it is drawn. One list, so that whatever
 // makes a picture (a canvas, an SVG) has the same in it.
 import type { Shot } from '../shot';
+import { drawCharge } from './charge';
 import { drawJoining } from './joining';
 import { drawCommitted, drawHeadings, drawSparesAndDead } from './robots';
 import { drawOverSelection, drawUnderSelection } from './selection';
@@ -21,5 +22,6 @@ export const layers: readonly Layer[] = [
   { name: 'tree', draw: drawTree },
   { name: 'joining', draw: drawJoining },
   { name: 'committed', draw: drawCommitted },
+  { name: 'charge', draw: drawCharge },
   { name: 'selection', draw: drawOverSelection },
 ];
