@@ -63,7 +63,7 @@ TEST(Frame, ThePageNamesTheColumnsThatTheSimulationPacks) {
   std::vector<std::string> names;
   for (std::sregex_iterator at(list.begin(), list.end(), name), end; at != end; ++at) names.push_back((*at)[1]);
   EXPECT_EQ(names, Live::columns());
-  EXPECT_EQ(names.size(), 19U);
+  EXPECT_EQ(names.size(), 20U);
 }
 
 TEST_F(LiveTest, ItsFrameIsTheWorld) {
@@ -75,7 +75,7 @@ TEST_F(LiveTest, ItsFrameIsTheWorld) {
   capture(world, frame);
   const auto data = live.frame();
   ASSERT_EQ(live.robots(), world.size());
-  ASSERT_EQ(data.size(), 19 * world.size());
+  ASSERT_EQ(data.size(), 20 * world.size());
   for (std::size_t i = 0; i < world.size(); ++i) {
     EXPECT_EQ(data[i], world.positions()[i].x);
     EXPECT_EQ(data[world.size() + i], world.positions()[i].y);
