@@ -38,7 +38,9 @@ TEST(Pack, HasTheNumbersOfARecordedFrameColumnByColumn) {
   EXPECT_EQ(recorded.size(), frame_columns().size() + 2) << "tick and time_s are no columns";
 }
 
-TEST(Frames, HaveNoArrayOfAntennasWhereNoneIsRaised) {
+// An array that is left out where it would hold nothing but zeros.
+template <class Member, class Value>
+void expect_only_if_any(std::string_view name, Member member, Value value, std::string_view array) {
   Frame frame;
   frame.robots.resize(2);
   const auto written = [&] {
@@ -46,32 +48,20 @@ TEST(Frames, HaveNoArrayOfAntennasWhereNoneIsRaised) {
     write_frame(text, frame);
     return std::string(text.view());
   };
-  EXPECT_EQ(written().find("raised"), std::string::npos);
-  frame.robots[1].raised = true;
-  EXPECT_NE(written().find("\"raised\":[0,1]"), std::string::npos);
+  EXPECT_EQ(written().find(name), std::string::npos);
+  frame.robots[1].*member = value;
+  EXPECT_NE(written().find(array), std::string::npos) << written();
   Frame read;
   read_frame(written(), read);
   EXPECT_EQ(read, frame);
-  frame.robots[1].raised = false;
+  frame.robots[1].*member = Value{};
   read_frame(written(), read);
   EXPECT_EQ(read, frame);
 }
 
-TEST(Frames, HaveNoArrayOfChargesWithoutBatteries) {
-  Frame frame;
-  frame.robots.resize(2);
-  const auto written = [&] {
-    Text text;
-    write_frame(text, frame);
-    return std::string(text.view());
-  };
-  EXPECT_EQ(written().find("spent"), std::string::npos);
-  frame.robots[1].spent = 0.25;
-  EXPECT_NE(written().find("\"spent\":[0.000,0.250]"), std::string::npos) << written();
-  Frame read;
-  read_frame(written(), read);
-  EXPECT_EQ(read, frame);
-}
+TEST(Frames, HaveNoArrayOfAntennasWhereNoneIsRaised) { expect_only_if_any("raised", &RobotFrame::raised, true, "\"raised\":[0,1]"); }
+
+TEST(Frames, HaveNoArrayOfChargesWithoutBatteries) { expect_only_if_any("spent", &RobotFrame::spent, 0.25, "\"spent\":[0.000,0.250]"); }
 
 TEST(Older, FieldsThatWereNotThereHaveTheirDefaults) {
   const auto targets = read_targets(R"({"tick":0,"time_s":0,"x_m":[1,2],"y_m":[3,4],"worker":[0,-1]})");

@@ -78,10 +78,15 @@ bool is_held_by_junction(const ConvoyRobot& robot) noexcept {
   return junction && robot.table().range(robot.parent) > p.recruitment_distance_m && robot.self.unserved_ticks > p.ticks(2.0F * p.call_after_s);
 }
 
+// On batteries: my edge wants a spare that takes my place, or one that gives slack to a relief.
+bool asks_for_relief(const ConvoyRobot& robot) noexcept {
+  return robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power));
+}
+
 // The need is not passed up the tree: a chain that is towed brings its slack to where the spares are by itself.
 bool needs_spare(const ConvoyRobot& robot) noexcept {
   if (robot.parent < 0) return false;
-  if (robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power))) return true;
+  if (asks_for_relief(robot)) return true;
   const float d = robot.table().range(robot.parent);
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
@@ -93,7 +98,7 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
 
 // Only when the edge is about to hold the workers back; among obstacles sooner, since spares are slow there.
 bool may_call(const ConvoyRobot& robot) noexcept {
-  if (robot.power != nullptr && (wants_relief(*robot.power) || is_stuck(*robot.power))) return true;
+  if (asks_for_relief(robot)) return true;
   if (is_planned(robot.self)) return false;  // spares would come along the chains and be in the way
   const ConvoyParams& p = robot.params;
   const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;

@@ -46,6 +46,14 @@ bool hear_each_other(const ConvoyRobot& robot, Vec2 a, Vec2 b, bool travels) noe
   return distance(a, b) <= (travels ? bridged_on_way : bridged) * robot.params.communication_range_m;
 }
 
+// Where the tree neighbours of a robot are.
+struct Ends {
+  std::array<Vec2, neighbor_capacity + 1> at;
+  std::size_t size = 0;
+  void add(Vec2 end) noexcept { at[size++] = end; }
+  [[nodiscard]] std::span<const Vec2> all() const noexcept { return std::span(at).first(size); }
+};
+
 // Some of these are joined to others of them by the robot at `middle` alone. A tree of links that do without it is
 // grown from the first.
 bool holds_together(const ConvoyRobot& robot, std::span<const Vec2> ends, bool travels) noexcept {
@@ -63,14 +71,16 @@ bool holds_together(const ConvoyRobot& robot, std::span<const Vec2> ends, bool t
 
 bool is_free(const TreeStanding& m) noexcept { return m.role == Role::spare && m.parent == nobody; }
 
-// Of the companions of that robot, those that have precedence over me.
-int before_me(const ConvoyRobot& robot, RobotId of) noexcept {
+// Spares that I hear which say that they stand beside that robot, those with smaller ids than `below` only.
+int count_companions(const ConvoyRobot& robot, RobotId of, int below) noexcept {
   const TreeTable& table = robot.table();
   int count = 0;
   for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && table.message(k).role == Role::spare && robot.convoy_of(k).below == of && table.id(k) < robot.self.id) ++count;
+    if (table.alive(k) && table.message(k).role == Role::spare && robot.convoy_of(k).below == of && table.id(k) < below) ++count;
   return count;
 }
+
+int wanted_companions(const ConvoyRobot& robot) noexcept { return robot.params.link_redundancy - 1; }
 
 // No other spare that is free and that I hear is nearer to neighbour k; it will go there, or take another one soon.
 bool is_nearest_spare(const ConvoyRobot& robot, int k) noexcept {
@@ -86,11 +96,10 @@ bool is_nearest_spare(const ConvoyRobot& robot, int k) noexcept {
 // The nearest robot that lacks companions; those that have called for long take anybody.
 RobotId nearest_alone(const ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  const int wanted = robot.params.link_redundancy - 1;
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     if (best >= 0 && table.range(k) >= table.range(best)) continue;
-    if (!table.alive(k) || !needs_companion(robot, k) || count_companions(robot, table.id(k)) >= wanted) continue;
+    if (!table.alive(k) || !needs_companion(robot, k) || count_companions(robot, table.id(k)) >= wanted_companions(robot)) continue;
     if (table.message(k).call_hops == companion_call || is_nearest_spare(robot, k)) best = k;
   }
   return best < 0 ? nobody : table.id(best);
@@ -124,7 +133,7 @@ void choose_whom(ConvoyRobot& robot) noexcept {
   }
   if (self.accompanies != nobody) {
     const int k = table.find(self.accompanies);
-    const bool stays = k >= 0 && table.alive(k) && needs_companion(robot, k) && before_me(robot, self.accompanies) < robot.params.link_redundancy - 1;
+    const bool stays = k >= 0 && table.alive(k) && needs_companion(robot, k) && count_companions(robot, self.accompanies, self.id) < wanted_companions(robot);
     if (!stays) self.accompanies = nobody;
   }
   if (self.accompanies == nobody && self.request == nobody) self.accompanies = nearest_alone(robot);
@@ -135,34 +144,25 @@ void choose_whom(ConvoyRobot& robot) noexcept {
 }
 
 bool depends_on_me(const ConvoyRobot& robot) noexcept {
-  std::array<Vec2, neighbor_capacity + 1> ends;
-  std::size_t size = 0;
+  Ends ends;
   const TreeTable& table = robot.table();
   const int up = robot.is_root() ? -1 : robot.up();
   for (int k = 0; k < table.size(); ++k) {
     if (!table.alive(k)) continue;
     const TreeStanding& m = table.message(k);
-    if (k == up || (m.role != Role::spare && up_of(m) == robot.self.id)) ends[size++] = table.position(k);
+    if (k == up || (m.role != Role::spare && up_of(m) == robot.self.id)) ends.add(table.position(k));
   }
-  return holds_together(robot, std::span(ends).first(size), robot.self.want_m > 0.0F);
+  return holds_together(robot, ends.all(), robot.self.want_m > 0.0F);
 }
 
 void call(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
-  const bool alone = depends_on_me(robot) && count_companions(robot, self.id) < robot.params.link_redundancy - 1;
+  const bool alone = depends_on_me(robot) && count_companions(robot, self.id) < wanted_companions(robot);
   if (!alone) self.alone_ticks = 0;
   else robot.add_elapsed(self.alone_ticks);
   if (alone && self.phase == Phase::grow_tree && self.alone_ticks > robot.params.ticks(robot.params.call_after_s))
     self.call_hops = std::min(self.call_hops, companion_call);
 }
-
-// Where robots are that a companion has to hear.
-struct Ends {
-  std::array<Vec2, neighbor_capacity + 1> at;
-  std::size_t size = 0;
-  void add(Vec2 end) noexcept { at[size++] = end; }
-  [[nodiscard]] std::span<const Vec2> all() const noexcept { return std::span(at).first(size); }
-};
 
 int degree_of(const ConvoyRobot& robot, int k) noexcept {
   return robot.convoy_of(k).child_count + (up_of(robot.table().message(k)) != nobody ? 1 : 0);
@@ -225,20 +225,13 @@ bool needs_companion(const ConvoyRobot& robot, int k) noexcept {
   if (m.role == Role::spare) return false;
   const int degree = degree_of(robot, k);
   if (degree < 2) return false;
-  std::array<Vec2, neighbor_capacity + 1> ends;
-  std::size_t size = 0;
-  for (const int n : neighbors_of(robot, k)) ends[size++] = table.position(n);
-  const bool knows_all = static_cast<int>(size) + (up_of(m) == robot.self.id ? 1 : 0) >= degree;
-  return !knows_all || holds_together(robot, std::span(ends).first(size), m.want_cm > 0);
+  Ends ends;
+  for (const int n : neighbors_of(robot, k)) ends.add(table.position(n));
+  const bool knows_all = static_cast<int>(ends.size) + (up_of(m) == robot.self.id ? 1 : 0) >= degree;
+  return !knows_all || holds_together(robot, ends.all(), m.want_cm > 0);
 }
 
-int count_companions(const ConvoyRobot& robot, RobotId of) noexcept {
-  const TreeTable& table = robot.table();
-  int count = 0;
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && table.message(k).role == Role::spare && robot.convoy_of(k).below == of) ++count;
-  return count;
-}
+int count_companions(const ConvoyRobot& robot, RobotId of) noexcept { return count_companions(robot, of, nobody); }
 
 void keep_company(ConvoyRobot& robot) noexcept {
   if (!has_companions(robot.params)) return;

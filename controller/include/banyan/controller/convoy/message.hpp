@@ -42,7 +42,7 @@ constexpr void visit_convoy_block(Visitor& visit, M& m) noexcept {
   visit.robot("task_host", "at which target the branch of `task` is to begin, -1: no plan", m.task_host);
   visit.number("child_count", "living children that are not spares", m.child_count);
   visit.robot("above", "next worker above in the tree, by its target, -1: none", m.above);
-  visit.robot("below", "the only worker below, by its target, -1: none or branches", m.below);
+  visit.robot("below", "the only worker below, by its target, -1: none or branches; of a spare, the robot that it accompanies", m.below);
 }
 
 template <class Visitor>

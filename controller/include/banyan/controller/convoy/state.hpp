@@ -57,6 +57,7 @@ constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
   visit(s.pending_ticks), visit(s.warned), visit(s.above), visit(s.below), visit(s.lead_to), visit(s.led_from), visit(s.lead_ticks);
   visit(s.settled_ticks), visit(s.unsettled_ticks), visit(s.plan_ticks);
   for (int k = 0; k < s.task_count; ++k) visit(s.hosts[static_cast<std::size_t>(k)]);
+  // Left out where they are not in use, so that hashes of runs without companions are those of before.
   if (s.accompanies != nobody) visit(s.accompanies);
   if (s.alone_ticks != 0) visit(s.alone_ticks);
   visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
