@@ -57,6 +57,15 @@ TEST(Gate, AnImpossibleTargetCountsAsNotSensed) {
   EXPECT_TRUE(Gate({.orders = {true, Vec2{0.9e6F, 0}}}, platform).senses().orders.target.has_value());
 }
 
+TEST(Gate, AnImpossibleChargeCountsAsNotMeasured) {
+  for (const float bad : {nan_m, infinite_m, -0.01F, 1.01F}) {
+    const Gate gate({.charge = Charge{bad, true}}, platform);
+    EXPECT_EQ(gate.rejected(), 1U) << bad;
+    EXPECT_FALSE(gate.senses().charge.has_value()) << bad;
+  }
+  for (const float good : {0.0F, 0.5F, 1.0F}) EXPECT_TRUE(Gate({.charge = Charge{good, true}}, platform).senses().charge.has_value()) << good;
+}
+
 TEST(Gate, CountsWholeTicksAndAtLeastOne) {
   const auto ticks = [](float elapsed_s) { return Gate({.elapsed_s = elapsed_s}, platform).elapsed_ticks(); };
   EXPECT_EQ(ticks(0.0F), 1);
