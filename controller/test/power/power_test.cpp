@@ -4,11 +4,11 @@
 #include <rapidcheck.h>
 
 #include <array>
-#include <limits>
 #include <vector>
 
 #include "banyan/controller/convoy/convoy.hpp"
 #include "banyan/controller/power/power.hpp"
+#include "bench.hpp"
 
 namespace banyan {
 namespace {
@@ -52,21 +52,6 @@ TEST(Power, RobotsWithAndWithoutBatteriesDoNotTakeEachOthersMessages) {
   EXPECT_FALSE(decode_fields<PoweredConvoyMessage>(powered).has_value());
 }
 
-TEST(Power, AChargeThatCannotBeDoesNotPassTheGate) {
-  for (const float level : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -0.01F, 1.01F}) {
-    Senses senses;
-    senses.charge = Charge{level, true};
-    const Gate gate(senses, Platform{});
-    EXPECT_FALSE(gate.senses().charge.has_value()) << level;
-    EXPECT_EQ(gate.rejected(), 1U);
-  }
-  Senses senses;
-  senses.charge = Charge{0.5F, true};
-  const Gate gate(senses, Platform{});
-  EXPECT_EQ(gate.senses().charge->level, 0.5F);
-  EXPECT_EQ(gate.rejected(), 0U);
-}
-
 // A lone robot of that role with this much charge.
 struct LoneRobot {
   ConvoyParams params = convoy_defaults();
@@ -103,6 +88,82 @@ TEST(Power, WithoutAMeasuredChargeNothingIsDecided) {
   for (int t = 0; t < 50; ++t) said = powered_convoy_step(root.params, root.state, heard, Senses{}).message;
   EXPECT_FALSE(said.leaving);
   EXPECT_EQ(said.level, 0xFF);
+}
+
+// A connector (id 1) below robot 9, with a child 2 that has to leave and a robot 3 beneath that.
+class AboveALeaver : public ::testing::Test {
+ protected:
+  AboveALeaver() {
+    bench.state.role = Role::connector;
+    bench.state.parent = 9;
+    bench.put(9, {-1.5F, 0.0F}).role = Role::root;
+    auto& child = bench.put(2, {0.2F, 0.0F});
+    child.role = Role::connector;
+    child.parent = 1;
+    child.child_count = 1;
+    auto& below = bench.put(3, {1.7F, 0.0F});
+    below.role = Role::connector;
+    below.parent = 2;
+    leaver.leaving = true;
+    leaver.level = 50;
+  }
+  // Whom it says that it relieves, with so much charge.
+  RobotId relieved(float level) {
+    auto robot = bench.tick();
+    power.standings[static_cast<std::size_t>(robot.table().find(2))] = leaver;
+    const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
+    PowerRobot me{robot, power, bench.params, child_count};
+    Senses senses;
+    senses.charge = Charge{level, false};
+    watch_charge(me, senses);
+    return power.said.relieves;
+  }
+  ConvoyBench bench = grown<Convoy>();
+  PowerStanding leaver;
+  PowerState power;
+};
+
+TEST_F(AboveALeaver, TakesItsPlaceIfItHasMoreCharge) {
+  EXPECT_EQ(relieved(0.9F), 2);
+  power.said.in_place = false;
+  leaver.level = 250;
+  EXPECT_EQ(relieved(0.9F), nobody);
+}
+
+TEST_F(AboveALeaver, NotWhereItIsNotBesideIt) {
+  bench.move(2, {0.7F, 0.0F});
+  EXPECT_EQ(relieved(0.9F), nobody);
+}
+
+TEST_F(AboveALeaver, NotAChildThatStays) {
+  leaver.leaving = false;
+  EXPECT_EQ(relieved(0.9F), nobody);
+}
+
+TEST_F(AboveALeaver, NotIfItHasToLeaveItself) {
+  EXPECT_EQ(relieved(0.3F), nobody);
+  EXPECT_TRUE(power.said.leaving);
+}
+
+TEST_F(AboveALeaver, StandsThereOnceItHearsAllOfItsChildren) {
+  // In the best spot: beside the leaver, hiding nobody.
+  Vec2 spot;
+  ASSERT_EQ(relieved(0.9F), 2);
+  {
+    auto robot = bench.tick();
+    const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
+    PowerRobot me{robot, power, bench.params, child_count};
+    ASSERT_TRUE(find_relief_spot(me, spot));
+  }
+  bench.move(9, Vec2{-1.5F, 0.0F} - spot);
+  bench.move(2, Vec2{0.2F, 0.0F} - spot);
+  bench.move(3, Vec2{1.7F, 0.0F} - spot);
+  bench.say(2).child_count = 2;  // one that is hidden
+  relieved(0.9F);
+  EXPECT_FALSE(power.said.in_place);
+  bench.say(2).child_count = 1;
+  relieved(0.9F);
+  EXPECT_TRUE(power.said.in_place);
 }
 
 TEST(Power, ThresholdsThatContradictEachOtherAreFaults) {

@@ -56,6 +56,13 @@ TEST_F(SpareByAChain, IsNotNeededWhereTheNeighboursHearEachOther) {
   EXPECT_EQ(chosen(), nobody);
 }
 
+TEST_F(SpareByAChain, ALeafNeedsNoneEvenIfItsParentIsNotHeard) {
+  bench.silence(9);
+  bench.silence(2);
+  bench.move(3, {1.0F, 0.5F});
+  EXPECT_EQ(chosen(), nobody);
+}
+
 TEST_F(SpareByAChain, LeavesItToTheOneThatIsThereOrNearer) {
   put_spare(7, {0.3F, 1.0F}, 2);
   EXPECT_EQ(chosen(), nobody);
