@@ -34,9 +34,9 @@ struct Cost {
   std::uint32_t longest = 0;     // of both, in one robot-step
 };
 
-class Mission {
+class ChipMission {
  public:
-  Mission(const Algorithm& algorithm, std::size_t robots) {
+  ChipMission(const Algorithm& algorithm, std::size_t robots) {
     Setup setup;
     setup.platform.line_of_sight = false;
     for (std::size_t i = 0; i < robots; ++i) {

@@ -16,7 +16,7 @@ struct Result {
 
 inline void run(std::size_t robots, Clock clock, void (*report)(const Result&)) {
   for (const Algorithm* const algorithm : algorithms()) {
-    Mission mission(*algorithm, robots);
+    ChipMission mission(*algorithm, robots);
     Cost cost;
     for (int tick = 0; tick < ticks; ++tick) mission.tick(clock, cost);
     Digest digest;

@@ -93,20 +93,20 @@ void read_frames(record::Recording& recording, const Cut& cut, const std::functi
 }
 
 // Everything that is shown at any time, so that the picture stands still.
-record::View whole_view(record::Recording& recording, const Cut& cut) {
-  std::optional<record::View> view;
+record::Viewport whole_view(record::Recording& recording, const Cut& cut) {
+  std::optional<record::Viewport> view;
   read_frames(recording, cut, [&](const record::Frame& frame) {
-    const record::View here = record::view_of(recording.setting_at(frame.time_s), frame);
+    const record::Viewport here = record::view_of(recording.setting_at(frame.time_s), frame);
     view = view ? record::joined(*view, here) : here;
     return stop_signal() == 0;
   });
-  return view.value_or(record::View{});
+  return view.value_or(record::Viewport{});
 }
 
 // Frames are drawn by several threads and reach ffmpeg in their order.
 class Studio {
  public:
-  Studio(Ffmpeg& ffmpeg, const record::DrawOptions& look) : ffmpeg_(ffmpeg), look_(look) {}
+  Studio(Ffmpeg& ffmpeg, const record::PictureOptions& look) : ffmpeg_(ffmpeg), look_(look) {}
 
   // Waits for the oldest while enough are being drawn.
   void draw(const record::Setting& setting, record::Frame frame, record::Trails trails) {
@@ -131,15 +131,15 @@ class Studio {
   }
 
   Ffmpeg& ffmpeg_;
-  const record::DrawOptions& look_;
+  const record::PictureOptions& look_;
   Pixels last_;
   std::deque<std::future<Pixels>> drawing_;
   // ffmpeg needs one too, but never for long.
   std::size_t threads_ = std::clamp(std::thread::hardware_concurrency(), 1U, 16U);
 };
 
-record::DrawOptions look_of(const FilmOptions& options, bool gif) {
-  record::DrawOptions look;
+record::PictureOptions look_of(const FilmOptions& options, bool gif) {
+  record::PictureOptions look;
   look.width_px = options.width > 0 ? options.width : gif ? 720 : 1280;
   look.height_px = options.height > 0 ? options.height : gif ? 450 : 720;
   look.trail_s = options.trail_s;
@@ -200,7 +200,7 @@ int film_command(const FilmOptions& options) {
   auto recording = open_recording(options.recording);
   const auto told = recording.warnings();
   const Cut cut = make_cut(recording, options, gif);
-  record::DrawOptions look = look_of(options, gif);
+  record::PictureOptions look = look_of(options, gif);
   catch_stop_signals();
   Progress progress(!options.quiet);
   Ffmpeg ffmpeg(options.output, static_cast<int>(look.width_px), static_cast<int>(look.height_px), cut.fps,

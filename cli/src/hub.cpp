@@ -191,7 +191,7 @@ int play_scenario(const HubOptions& options) {
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
   PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
   try {
-    const udp::HubOptions hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s, options.bundle};
+    const udp::HubSettings hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s, options.bundle};
     udp::Hub hub(hub_options, robots, keys.keys(), tape.get());
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
     const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);

@@ -332,7 +332,7 @@ void add_draw(CLI::App& app, std::function<int()>& action) {
       ->check(moment);
   command->add_option("--width", options->width_px, "width in pixels, default 1000")
       ->type_name("PX")
-      ->check(number_within(200.0, 20000.0));  // as record::DrawOptions has it
+      ->check(number_within(200.0, 20000.0));  // as record::PictureOptions has it
   add_look(*command, *options);
   command->add_flag("-f,--force", options->force, "replace the file if it exists");
   command->callback([options, &action] { action = [options] { return draw_command(*options); }; });

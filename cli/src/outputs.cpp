@@ -64,7 +64,7 @@ std::string RunOutputs::path(const record::OutputFormat& format) const {
   return directory_ + "/" + std::string(format.file);
 }
 
-void RunOutputs::remove_leftovers(const record::Output& wanted) const {
+void RunOutputs::remove_leftovers(const record::OutputSettings& wanted) const {
   std::error_code ignored;
   for (const auto& format : record::output_formats) {
     if (!wanted.wants(format)) fs::remove(path(format), ignored);

@@ -26,7 +26,7 @@ class RunOutputs {
 
   // With force: removes files of the earlier run that this one was not to write, so that what lies
   // together belongs together.
-  void remove_leftovers(const record::Output& wanted) const;
+  void remove_leftovers(const record::OutputSettings& wanted) const;
   // Removes the directory if it was made for this run and is still empty.
   void abandon() const noexcept;
 

@@ -25,7 +25,7 @@ static_assert(record::output_formats[recording_format].key == "record");
 
 }  // namespace
 
-PageBeside::PageBeside(const RunOutputs& outputs, const record::Output& output)
+PageBeside::PageBeside(const RunOutputs& outputs, const record::OutputSettings& output)
     : recording_(outputs.path(record::output_formats[recording_format])) {
   if (!output["record"]) throw CommandError(exit_usage, "--view shows the recording, and none is to be written");
   // The part: under the other name there may be the recording of an earlier run.

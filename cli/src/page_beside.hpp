@@ -13,7 +13,7 @@ class PageBeside {
  public:
   PageBeside() = default;  // none
   // Throws CommandError, also where nothing will be recorded.
-  PageBeside(const RunOutputs& outputs, const record::Output& output);
+  PageBeside(const RunOutputs& outputs, const record::OutputSettings& output);
   PageBeside(const PageBeside&) = delete;
   PageBeside& operator=(const PageBeside&) = delete;
   PageBeside(PageBeside&& other) noexcept;

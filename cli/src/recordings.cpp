@@ -53,8 +53,8 @@ std::string picture_format(const DrawOptions& options) {
                                      "\" is no picture that banyan draws; use .svg or .png, or --format");
 }
 
-record::DrawOptions chosen_look(const DrawOptions& options, bool png) {
-  record::DrawOptions chosen;
+record::PictureOptions chosen_look(const DrawOptions& options, bool png) {
+  record::PictureOptions chosen;
   chosen.width_px = options.width_px;
   chosen.trail_s = options.trail_s;
   chosen.links = options.links;
@@ -73,7 +73,7 @@ int export_command(const ExportOptions& options) {
   if (options.from_s > options.to_s) throw CommandError(exit_usage, "--from is later than --to: nothing to export");
   auto recording = open_recording(options.recording);
   const auto told = recording.warnings();
-  const record::ExportOptions chosen{options.from_s, options.to_s, options.every};
+  const record::TableOptions chosen{options.from_s, options.to_s, options.every};
   if (options.output == "-") {
     record::export_csv(
         recording, [](std::string_view piece) { record::write_all(STDOUT_FILENO, piece, "standard output"); }, chosen);

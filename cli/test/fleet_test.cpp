@@ -43,13 +43,13 @@ class NearbyRobots final : public udp::Link {
       robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5, static_cast<float>(scenario.robot.radius_m));
   }
   [[nodiscard]] std::optional<udp::Status> take(std::size_t i) override { return std::exchange(answers_[i], std::nullopt); }
-  void deliver(std::size_t i, udp::Frame frame, std::span<const udp::Hearing> heard) override {
+  void deliver(std::size_t i, udp::SensorFrame frame, std::span<const udp::Hearing> heard) override {
     const double now_s = 1.0 + 0.1 * frame.tick;
     frame.mission = 1;
     const auto travelled = udp::decode_frame(udp::encode(frame));
     ASSERT_TRUE(travelled);
     robots_[i].take(*travelled, now_s);
-    robots_[i].take(udp::Heard{frame.tick, frame.odometry, {heard.begin(), heard.end()}});
+    robots_[i].take(udp::HeardBundle{frame.tick, frame.odometry, {heard.begin(), heard.end()}});
     answers_[i] = udp::decode_status(udp::encode(robots_[i].step(now_s)));
   }
   void dismiss(std::size_t i) override { dismissed.insert(i); }

@@ -63,7 +63,7 @@ TEST(Raster, WhatIsNoPictureIsSaidInWords) {
 
 // The picture of a frame, text included, is the same from any thread at any time.
 TEST(Raster, ThreadsGiveTheSamePixels) {
-  record::DrawOptions look;
+  record::PictureOptions look;
   look.font = raster_font;
   look.width_px = 400.0;
   look.height_px = 300.0;

@@ -82,7 +82,7 @@ TEST(SoakSight, AgreesWithTheWorldOnLinks) {
     if (world::robot_count(s) > 120) continue;
     world::World world(s);
     for (int t = 0; t < 20; ++t) world.step();
-    const Sight sight(world);
+    const SightCheck sight(world);
     for (std::size_t i = 0; i < world.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const auto links = world.links(i);
@@ -106,7 +106,7 @@ Scenario literal(std::uint64_t seed) {
   return s;
 }
 
-bool found(const Outcome& outcome, const std::string& kind) {
+bool found(const Verdict& outcome, const std::string& kind) {
   const auto same = [&](const Finding& f) { return f.kind == kind; };
   return std::any_of(outcome.findings.begin(), outcome.findings.end(), same);
 }
@@ -141,7 +141,7 @@ TEST(SoakWatch, ASplitWithoutADeathIsFound) {
   s.mission.time_limit_s = 5.0;
   EXPECT_FALSE(found(watch(s, false), "split"));
   s.events.push_back({.time_s = 2.0, .action = world::MoveObstacle{0, {0.95, 0.0}}});  // which pushes both aside
-  const Outcome outcome = watch(s, true);
+  const Verdict outcome = watch(s, true);
   ASSERT_TRUE(found(outcome, "split"));
   EXPECT_NEAR(outcome.findings.front().time_s, 2.1, 0.11);
   EXPECT_FALSE(found(outcome, "not-reproducible"));
@@ -228,8 +228,8 @@ TEST(SoakShrink, LeavesNothingThatIsNotNeeded) {
 
 TEST(SoakIsolated, SaysTheSameFromAProcessOfItsOwnAndOutlivesACrash) {
   const Scenario s = literal(2);
-  const Outcome here = watch(s, false);
-  const Outcome there = Isolated(s, false).wait();
+  const Verdict here = watch(s, false);
+  const Verdict there = Isolated(s, false).wait();
   EXPECT_EQ(here.hash, there.hash);
   ASSERT_EQ(here.findings.size(), there.findings.size());
   for (std::size_t i = 0; i < here.findings.size(); ++i) {
@@ -278,15 +278,15 @@ TEST(SoakCommand, KeepsAJournalThatDoesNotDependOnProcessesAndGoesOn) {
 TEST(SoakCommand, NamesALineOfItsJournalThatIsNone) {
   const record::test::TemporaryDirectory directory;
   const std::string path = directory.file("soak.csv");
-  { Journal(path, 9, false).add({.index = 3, .kind = "plain", .robots = 7, .targets = 2}); }
-  EXPECT_EQ(Journal(path, 9, false).rows().at(3).robots, 7U);
-  EXPECT_FALSE(Journal(path, 8, false).has(3)) << "another seed's";
+  { SoakJournal(path, 9, false).add({.index = 3, .kind = "plain", .robots = 7, .targets = 2}); }
+  EXPECT_EQ(SoakJournal(path, 9, false).rows().at(3).robots, 7U);
+  EXPECT_FALSE(SoakJournal(path, 8, false).has(3)) << "another seed's";
   std::ofstream(path, std::ios::app) << "9,4,\"plain\",many,2,false,0.0,0.000,0.0,0000000000000000,\n";
   try {
-    const Journal damaged(path, 9, false);
+    const SoakJournal damaged(path, 9, false);
     FAIL() << "a number of robots that is none";
   } catch (const CommandError& e) { EXPECT_NE(std::string(e.what()).find("soak.csv:3"), std::string::npos) << e.what(); }
-  EXPECT_FALSE(Journal(path, 9, true).has(3)) << "begun anew";
+  EXPECT_FALSE(SoakJournal(path, 9, true).has(3)) << "begun anew";
 }
 
 TEST(SoakJournal, CountsAMissionInEachOfItsKinds) {

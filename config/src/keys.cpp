@@ -10,24 +10,24 @@
 namespace banyan::config {
 namespace {
 
-using OutputKey = world::Key<record::Output>;
+using OutputKey = world::Key<record::OutputSettings>;
 
 // Of the recording; they follow its switch.
 constexpr OutputKey recording_rows[] = {
-    {"output.record_every", world::of<&record::Output::record_every>, "ticks", {1.0, 1e6},
+    {"output.record_every", world::of<&record::OutputSettings::record_every>, "ticks", {1.0, 1e6},
      "record the robots only every this many ticks; metrics at every tick"},
-    {"output.messages", world::of<&record::Output::messages>, "", {},
+    {"output.messages", world::of<&record::OutputSettings::messages>, "", {},
      "record what each robot broadcast, besides where it was"},
-    {"output.live", world::of<&record::Output::live>, "", {},
+    {"output.live", world::of<&record::OutputSettings::live>, "", {},
      "end a chunk of the recording every second, so that it can be watched while it is written"},
 };
 
-template <std::size_t format> bool* wanted(record::Output& output) noexcept { return &output.wanted[format]; }
+template <std::size_t format> bool* wanted(record::OutputSettings& output) noexcept { return &output.wanted[format]; }
 
 // A switch for each format of record/'s table that has a key. Keys refer to texts: both are made once.
 template <std::size_t... format> std::vector<OutputKey> output_rows(std::index_sequence<format...>) {
   static std::array<std::pair<std::string, std::string>, sizeof...(format)> texts;
-  const world::Access<record::Output> switches[] = {world::by<wanted<format>>...};
+  const world::Access<record::OutputSettings> switches[] = {world::by<wanted<format>>...};
   std::vector<OutputKey> rows;
   for (std::size_t k = 0; k < texts.size(); ++k) {
     const record::OutputFormat& of = record::output_formats[k];

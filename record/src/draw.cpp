@@ -123,7 +123,7 @@ Extent extent_of(const Setting& setting, const Frame& frame, const Trails& trail
 
 class Picture {
  public:
-  Picture(const Setting& setting, const Frame& frame, const Trails& trails, const DrawOptions& options)
+  Picture(const Setting& setting, const Frame& frame, const Trails& trails, const PictureOptions& options)
       : setting_(setting),
         frame_(frame),
         trails_(trails),
@@ -247,7 +247,7 @@ class Picture {
   const Setting& setting_;
   const Frame& frame_;
   const Trails& trails_;
-  const DrawOptions& options_;
+  const PictureOptions& options_;
   Extent extent_;
   const Theme& theme_;
   Layout layout_;
@@ -750,12 +750,12 @@ std::string Picture::svg() {
 
 }  // namespace
 
-View view_of(const Setting& setting, const Frame& frame) {
+Viewport view_of(const Setting& setting, const Frame& frame) {
   const Extent extent = extent_of(setting, frame, {});
   return {extent.low, extent.high};
 }
 
-View joined(const View& a, const View& b) noexcept {
+Viewport joined(const Viewport& a, const Viewport& b) noexcept {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
@@ -794,11 +794,11 @@ Trails TrailLog::trails(const Frame& end) const {
   return trails;
 }
 
-std::string draw_svg(const Setting& setting, const Frame& frame, const Trails& trails, const DrawOptions& options) {
+std::string draw_svg(const Setting& setting, const Frame& frame, const Trails& trails, const PictureOptions& options) {
   return Picture(setting, frame, trails, options).svg();
 }
 
-std::string draw_svg(Recording& recording, double time_s, const DrawOptions& options) {
+std::string draw_svg(Recording& recording, double time_s, const PictureOptions& options) {
   const Frame frame = recording.frame_at(time_s);
   TrailLog log(options.trail_s);
   if (options.trail_s > 0.0) {

@@ -42,7 +42,7 @@ void put_robot(Text& out, const Frame& frame, std::size_t i) {
 
 }  // namespace
 
-std::uint64_t export_csv(Recording& recording, const WritePiece& write, const ExportOptions& options) {
+std::uint64_t export_csv(Recording& recording, const WritePiece& write, const TableOptions& options) {
   Text out;
   out.put(header);
   std::uint64_t rows = 0;
@@ -63,7 +63,7 @@ std::uint64_t export_csv(Recording& recording, const WritePiece& write, const Ex
 }
 
 std::uint64_t export_csv(Recording& recording, const std::string& path, Existing existing,
-                         const ExportOptions& options) {
+                         const TableOptions& options) {
   OutputFile file(path, existing);
   const std::uint64_t rows = export_csv(recording, [&](std::string_view piece) { file.write(piece); }, options);
   file.commit();

@@ -46,7 +46,7 @@ std::size_t count(std::string_view text, std::string_view what) {
 TEST(Draw, ShowsEveryRobotTargetAndTheProvenance) {
   Setting setting = test::sample_setting();
   for (const std::size_t n : {9U, 94U, 1000U}) {
-    DrawOptions options;
+    PictureOptions options;
     options.legend = false;
     const Frame frame = test::sample_frame(n, 0.3 * std::sqrt(static_cast<double>(n)), 300);
     const std::string svg = draw_svg(setting, frame, {}, options);
@@ -85,7 +85,7 @@ double attribute(std::string_view svg, const std::string& name) {
 TEST(Draw, APictureOfGivenSizeIsThatSizeWhateverItsShape) {
   const Setting setting = test::sample_setting();
   const Frame frame = test::sample_frame(94, 3.0, 300);
-  DrawOptions options;
+  PictureOptions options;
   options.steady = true;
   for (const auto& [width, height] : {std::pair{1280.0, 720.0}, {640.0, 400.0}, {300.0, 900.0}, {200.0, 150.0}}) {
     options.width_px = width;
@@ -101,10 +101,10 @@ TEST(Draw, APictureOfGivenSizeIsThatSizeWhateverItsShape) {
 TEST(Draw, AGivenViewStandsStill) {
   const Setting setting = test::sample_setting();
   Frame frame = test::sample_frame(30, 3.0, 300);
-  DrawOptions options;
+  PictureOptions options;
   options.height_px = 720.0;
   options.steady = true;
-  options.view = View{{-6.0, -6.0}, {6.0, 6.0}};
+  options.view = Viewport{{-6.0, -6.0}, {6.0, 6.0}};
   const auto place = [](const std::string& svg, const std::string& what) {
     const std::size_t end = svg.find(what);
     return svg.substr(svg.rfind("<text", end), end - svg.rfind("<text", end));
@@ -125,20 +125,20 @@ TEST(Draw, ViewsHoldEverythingAndJoin) {
   Setting setting = test::sample_setting();
   setting.obstacles.clear();
   Frame frame;
-  const View nothing = view_of(setting, frame);
+  const Viewport nothing = view_of(setting, frame);
   EXPECT_EQ(nothing.high - nothing.low, (Vec2{2.0, 2.0}));
   frame.robots.resize(2);
   frame.robots[1].position = {5.0, -3.0};
-  const View two = view_of(setting, frame);
+  const Viewport two = view_of(setting, frame);
   EXPECT_DOUBLE_EQ(two.high.x, 5.0 + setting.radius_m);
   EXPECT_DOUBLE_EQ(two.low.y, -3.0 - setting.radius_m);
-  const View all = joined({{0.0, 0.0}, {1.0, 1.0}}, {{-1.0, 0.5}, {0.5, 4.0}});
+  const Viewport all = joined({{0.0, 0.0}, {1.0, 1.0}}, {{-1.0, 0.5}, {0.5, 4.0}});
   EXPECT_EQ(all.low, (Vec2{-1.0, 0.0}));
   EXPECT_EQ(all.high, (Vec2{1.0, 4.0}));
 }
 
 TEST(Draw, DarkHasNoWhitePaperAndNoBlackInk) {
-  DrawOptions options;
+  PictureOptions options;
   options.dark = true;
   const std::string svg = draw_svg(test::sample_setting(), test::sample_frame(30, 3.0, 300), {}, options);
   EXPECT_TRUE(well_formed(svg));
@@ -170,7 +170,7 @@ TEST(TrailLog, EndsAtTheRobotAndIsAsLongAsWanted) {
 
 TEST(Draw, ATargetGivenUpIsFaint) {
   Frame frame = test::sample_frame(9, 1.0, 3);
-  DrawOptions options;
+  PictureOptions options;
   options.legend = false;
   const auto filled = [&] { return count(draw_svg(test::sample_setting(), frame, {}, options), "fill-opacity=\"0.18\""); };
   EXPECT_EQ(filled(), 2U);
@@ -237,7 +237,7 @@ TEST(Draw, FromARecordingWithTrails) {
   const test::TemporaryDirectory directory;
   test::record_sample(directory.file("a.mcap"), 20, 100);
   Recording recording(directory.file("a.mcap"));
-  DrawOptions options;
+  PictureOptions options;
   options.trail_s = 3.0;
   const std::string svg = draw_svg(recording, 5.0, options);
   EXPECT_TRUE(well_formed(svg));

@@ -43,19 +43,19 @@ TEST(Outputs, KeysAndFilesAreThereOnce) {
     if (!format.key.empty()) {
       EXPECT_TRUE(keys.insert(format.key).second) << format.key;
       EXPECT_EQ(format.key.find_first_not_of("abcdefghijklmnopqrstuvwxyz"), std::string_view::npos) << format.key;
-      EXPECT_EQ(Output{}[format.key], format.by_default) << format.key;
+      EXPECT_EQ(OutputSettings{}[format.key], format.by_default) << format.key;
     }
     EXPECT_TRUE(files.insert(format.file).second) << format.file;
     EXPECT_FALSE(format.what.empty());
   }
-  EXPECT_TRUE(Output{}["record"]);
-  EXPECT_FALSE(Output{}["series"]);
-  EXPECT_THROW(static_cast<void>(Output{}["sieres"]), std::out_of_range);
-  EXPECT_THROW(static_cast<void>(Output{}[""]), std::out_of_range);
+  EXPECT_TRUE(OutputSettings{}["record"]);
+  EXPECT_FALSE(OutputSettings{}["series"]);
+  EXPECT_THROW(static_cast<void>(OutputSettings{}["sieres"]), std::out_of_range);
+  EXPECT_THROW(static_cast<void>(OutputSettings{}[""]), std::out_of_range);
 }
 
 TEST(Outputs, OnlyWhatIsWantedIsWritten) {
-  const auto written = [](Output output) {
+  const auto written = [](OutputSettings output) {
     const test::TemporaryDirectory directory;
     Sinks sinks = open_outputs(directory.file(""), {{}, output, Existing::keep});
     run_into(sinks);
@@ -63,7 +63,7 @@ TEST(Outputs, OnlyWhatIsWantedIsWritten) {
     return files_in(directory.file(""));
   };
   using Names = std::set<std::string>;
-  Output output;
+  OutputSettings output;
   EXPECT_TRUE(output.any());
   EXPECT_EQ(written(output), (Names{"run.mcap", "run.csv", "run.json"}));
   output["series"] = true;

@@ -585,7 +585,7 @@ TEST(Recording, ASettingThatChangesIsKept) {
   EXPECT_TRUE(recording.setting_at(0.55) == first);
   EXPECT_TRUE(recording.setting_at(0.6) == second);
   EXPECT_TRUE(recording.setting_at(1e9) == second);
-  DrawOptions options;
+  PictureOptions options;
   options.legend = false;
   EXPECT_NE(draw_svg(recording, 0.5, options).find("line of sight"), std::string::npos);
   EXPECT_EQ(draw_svg(recording, 0.6, options).find("line of sight"), std::string::npos);

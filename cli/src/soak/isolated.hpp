@@ -24,9 +24,9 @@ class Isolated {
   [[nodiscard]] int descriptor() const noexcept { return pipe_; }
   // Reads its output; returns the outcome once it has ended. A process that dies has found a "crash", and so
   // has one that takes longer than `most_s`.
-  [[nodiscard]] std::optional<Outcome> take();
+  [[nodiscard]] std::optional<Verdict> take();
   // Nothing if this program is told to stop meanwhile.
-  [[nodiscard]] Outcome wait();
+  [[nodiscard]] Verdict wait();
 
   // Whether it is a mission that took longer than `most_s`.
   [[nodiscard]] static bool has_no_end(const Finding& finding) { return finding.kind == "crash" && finding.text.starts_with("no end"); }
@@ -34,7 +34,7 @@ class Isolated {
   static constexpr double most_s = 1800.0;
 
  private:
-  [[nodiscard]] Outcome read_outcome(int status) const;
+  [[nodiscard]] Verdict read_outcome(int status) const;
   void end() noexcept;
 
   pid_t process_ = -1;

@@ -84,14 +84,14 @@ std::string line_of_kind(const std::string& kind, const std::vector<const Row*>&
 
 }  // namespace
 
-Row row_of(std::uint64_t index, const world::Scenario& scenario, const Outcome& outcome) {
+Row row_of(std::uint64_t index, const world::Scenario& scenario, const Verdict& outcome) {
   std::string findings;
   for (const Finding& f : outcome.findings) findings += (findings.empty() ? "" : " ") + format("%s@%.1f", f.kind.c_str(), f.time_s);
   return {index, text_of(traits_of(scenario)), world::robot_count(scenario), world::target_positions(scenario).size(),
           outcome.complete, outcome.complete_s, outcome.bound_s, outcome.time_s, outcome.hash, findings};
 }
 
-Journal::Journal(const std::string& path, std::uint64_t seed, bool force) : path_(path), seed_{seed}, lock_(path) {
+SoakJournal::SoakJournal(const std::string& path, std::uint64_t seed, bool force) : path_(path), seed_{seed}, lock_(path) {
   std::error_code error;
   if (force) std::filesystem::resize_file(path, 0, error);
   std::ifstream in(path);
@@ -113,15 +113,15 @@ Journal::Journal(const std::string& path, std::uint64_t seed, bool force) : path
   if (text.empty()) write(header);
 }
 
-Journal::Lock::Lock(const std::string& path) : descriptor{lock_of(path)} {}
-Journal::Lock::~Lock() { static_cast<void>(::close(descriptor)); }
+SoakJournal::Lock::Lock(const std::string& path) : descriptor{lock_of(path)} {}
+SoakJournal::Lock::~Lock() { static_cast<void>(::close(descriptor)); }
 
-void Journal::add(const Row& row) {
+void SoakJournal::add(const Row& row) {
   write(line_of(seed_, row));
   rows_[row.index] = row;
 }
 
-void Journal::write(const std::string& text) {
+void SoakJournal::write(const std::string& text) {
   out_ << text << std::flush;
   if (!out_) throw CommandError(exit_lost, "cannot write " + path_);
 }

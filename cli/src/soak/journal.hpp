@@ -17,20 +17,20 @@ struct Row {
   std::string kind{};  // text_of(Traits)
   std::size_t robots = 0, targets = 0;
   bool complete = false;
-  double complete_s = 0.0, bound_s = 0.0, time_s = 0.0;  // as in Outcome
+  double complete_s = 0.0, bound_s = 0.0, time_s = 0.0;  // as in Verdict
   std::uint64_t hash = 0;
   std::string findings{};  // "split@2.7 incomplete@60.0"
 };
-[[nodiscard]] Row row_of(std::uint64_t index, const world::Scenario& scenario, const Outcome& outcome);
+[[nodiscard]] Row row_of(std::uint64_t index, const world::Scenario& scenario, const Verdict& outcome);
 
 // No other process writes to the file meanwhile. An incomplete last line is ignored.
-class Journal {
+class SoakJournal {
  public:
   // Throws CommandError for a file that is in use, of another version, damaged, or not to be written.
-  Journal(const std::string& path, std::uint64_t seed, bool force);
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
-  ~Journal() = default;
+  SoakJournal(const std::string& path, std::uint64_t seed, bool force);
+  SoakJournal(const SoakJournal&) = delete;
+  SoakJournal& operator=(const SoakJournal&) = delete;
+  ~SoakJournal() = default;
 
   void add(const Row& row);
   [[nodiscard]] bool has(std::uint64_t index) const { return rows_.contains(index); }

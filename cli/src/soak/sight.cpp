@@ -57,11 +57,11 @@ class Union {
 
 }  // namespace
 
-bool Sight::in_range(std::size_t i, std::size_t j) const noexcept {
+bool SightCheck::in_range(std::size_t i, std::size_t j) const noexcept {
   return distance(world_.positions()[i], world_.positions()[j]) < range_m() + rounding_m;
 }
 
-bool Sight::hidden(std::size_t i, std::size_t j) const noexcept {
+bool SightCheck::hidden(std::size_t i, std::size_t j) const noexcept {
   const Vec2 a = world_.positions()[i];
   const Vec2 b = world_.positions()[j];
   const RobotModel& robot = world_.scenario().robot;
@@ -76,7 +76,7 @@ bool Sight::hidden(std::size_t i, std::size_t j) const noexcept {
 
 // Robots in order of x, so that only those within range in x are looked at; sight is asked for only
 // where it could join two components.
-std::size_t Sight::components(const std::vector<bool>& counts, bool with_sight) const {
+std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_sight) const {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < counts.size(); ++i)
     if (counts[i]) order.push_back(i);

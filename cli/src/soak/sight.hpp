@@ -11,9 +11,9 @@
 
 namespace banyan::cli::soak {
 
-class Sight {
+class SightCheck {
  public:
-  explicit Sight(const world::World& world) : world_{world} {}
+  explicit SightCheck(const world::World& world) : world_{world} {}
 
   [[nodiscard]] bool in_range(std::size_t i, std::size_t j) const noexcept;
   // Clearly hidden: a body or an obstacle is in the way.

@@ -34,7 +34,7 @@ class Watch {
     }
   }
 
-  Outcome run() {
+  Verdict run() {
     while (!finished()) {
       const std::vector<std::uint8_t> alive(world_.alive().begin(), world_.alive().end());
       world_.step();
@@ -182,20 +182,20 @@ class Watch {
   }
 
   World world_;
-  Sight sight_;
+  SightCheck sight_;
   Traits traits_;
   double limit_s_;
   bool excused_ = false;
   std::uint64_t hidden_split_ = 0, two_roots_ = 0;
   std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint64_t, std::uint64_t>> hidden_since_;  // first, last
-  Outcome outcome_;
+  Verdict outcome_;
 };
 
 }  // namespace
 
-Outcome watch(const Scenario& scenario, bool twice) {
+Verdict watch(const Scenario& scenario, bool twice) {
   Watch first(scenario);
-  Outcome outcome = first.run();
+  Verdict outcome = first.run();
   if (!twice) return outcome;
   Executor executor(2);
   World again(scenario);

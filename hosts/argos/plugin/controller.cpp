@@ -49,7 +49,7 @@ void Controller::begin_by_settings() {
     THROW_ARGOSEXCEPTION(
         "The id \"" << GetId()
                     << "\" does not end with a number up to 65534, which says who a robot is, such as \"kh12\"");
-  member_ = {.id = *id, .worker = settings_.part == Part::worker, .root = settings_.part == Part::root};
+  member_ = {.id = *id, .worker = settings_.part == StartRole::worker, .root = settings_.part == StartRole::root};
   told_ = {};
   told_.sent = member_.worker;
   told_.target = settings_.target.value_or(BasicVec2<double>{});

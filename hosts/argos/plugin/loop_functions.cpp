@@ -137,7 +137,7 @@ std::vector<std::string> LoopFunctions::assignments() const {
 
 void LoopFunctions::make_mission(const std::string& out) {
   try {
-    mission_ = std::make_unique<Mission>(load_mission(options_.scenario, assignments(), algorithms()), out,
+    mission_ = std::make_unique<MissionRun>(load_mission(options_.scenario, assignments(), algorithms()), out,
                                          options_.force, placed_, *this);
   } catch (const MissionError& error) { THROW_ARGOSEXCEPTION(error.what()); }
 }

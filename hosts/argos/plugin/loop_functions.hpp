@@ -37,7 +37,7 @@ class LoopFunctions final : public ::argos::CLoopFunctions, public Robots {
   void Destroy() override;
 
   // For the view. Null before Init().
-  [[nodiscard]] const Mission* mission() const noexcept { return mission_.get(); }
+  [[nodiscard]] const MissionRun* mission() const noexcept { return mission_.get(); }
 
  private:
   struct Options {
@@ -70,7 +70,7 @@ class LoopFunctions final : public ::argos::CLoopFunctions, public Robots {
   Options options_;
   std::vector<Inhabitant> inhabitants_;  // by index in the world
   std::vector<Pose> placed_;             // by the arena
-  std::unique_ptr<Mission> mission_;
+  std::unique_ptr<MissionRun> mission_;
   int resets_ = 0;
   bool done_ = false;
   bool lost_ = false;  // a robot was about to leave the arena

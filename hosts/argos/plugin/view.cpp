@@ -18,7 +18,7 @@ CVector3 at(world::Vec2 p, double z_m) { return CVector3(p.x, p.y, z_m); }
 
 }  // namespace
 
-void View::Init(TConfigurationNode& /*node*/) {
+void TreeView::Init(TConfigurationNode& /*node*/) {
   loop_functions_ = dynamic_cast<const LoopFunctions*>(&CSimulator::GetInstance().GetLoopFunctions());
   if (loop_functions_ == nullptr)
     THROW_ARGOSEXCEPTION(
@@ -26,12 +26,12 @@ void View::Init(TConfigurationNode& /*node*/) {
         "functions");
 }
 
-void View::draw_edge(const world::World& world, std::size_t from, RobotId to, const CColor& edge) {
+void TreeView::draw_edge(const world::World& world, std::size_t from, RobotId to, const CColor& edge) {
   if (to >= world.size()) return;
   DrawRay(CRay3(at(world.positions()[from], roof_m), at(world.positions()[to], roof_m)), edge, 3.0F);
 }
 
-void View::DrawInWorld() {
+void TreeView::DrawInWorld() {
   const world::World& world = loop_functions_->mission()->world();
   const double radius_m = world.scenario().robot.radius_m;
   for (std::size_t i = 0; i < world.size(); ++i) {
@@ -52,5 +52,5 @@ void View::DrawInWorld() {
 
 }  // namespace banyan::argos
 
-using BanyanQtUserFunctions = banyan::argos::View;
+using BanyanQtUserFunctions = banyan::argos::TreeView;
 REGISTER_QTOPENGL_USER_FUNCTIONS(BanyanQtUserFunctions, "banyan_qt_user_functions")

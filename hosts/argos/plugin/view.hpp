@@ -10,7 +10,7 @@
 
 namespace banyan::argos {
 
-class View final : public ::argos::CQTOpenGLUserFunctions {
+class TreeView final : public ::argos::CQTOpenGLUserFunctions {
  public:
   void Init(::argos::TConfigurationNode& node) override;
   void DrawInWorld() override;

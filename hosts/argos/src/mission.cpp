@@ -104,7 +104,7 @@ config::Configuration load_mission(const std::string& file, const std::vector<st
   return std::move(loaded.configuration);
 }
 
-Mission::Mission(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed,
+MissionRun::MissionRun(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed,
                  Robots& robots)
     : configuration_(std::move(configuration)),
       out_(std::move(out)),
@@ -127,15 +127,15 @@ Mission::Mission(config::Configuration configuration, std::string out, bool forc
   } catch (const record::FileError& error) { throw MissionError(error.what()); }
 }
 
-Pose Mission::start(std::size_t i) const { return {world().positions()[i], angle_of(world().headings()[i])}; }
+Pose MissionRun::start(std::size_t i) const { return {world().positions()[i], angle_of(world().headings()[i])}; }
 
-std::optional<BasicVec2<double>> Mission::target_of(std::size_t i) const {
+std::optional<BasicVec2<double>> MissionRun::target_of(std::size_t i) const {
   for (const world::Target& target : world().targets())
     if (target.worker == i && target.active) return target.position;
   return std::nullopt;
 }
 
-void Mission::begin() {
+void MissionRun::begin() {
   for (std::size_t i = 0; i < world().size(); ++i) {
     Told told;
     told.sent = target_of(i).has_value();
@@ -143,9 +143,9 @@ void Mission::begin() {
   }
 }
 
-void Mission::tick() { simulation_->step(executor_); }
+void MissionRun::tick() { simulation_->step(executor_); }
 
-std::string Mission::finish(bool interrupted) {
+std::string MissionRun::finish(bool interrupted) {
   const record::RunEnd end = simulation_->finish(interrupted);
   std::array<char, 200> text{};
   if (end.run.complete)

@@ -86,7 +86,7 @@ class Reader {
     if (attribute.name == "role") {
       if (const auto fault = world::name_fault(attribute.value, parts)) return fail("role", *fault);
       settings_.part =
-          static_cast<Part>(std::find(std::begin(parts), std::end(parts), attribute.value) - std::begin(parts));
+          static_cast<StartRole>(std::find(std::begin(parts), std::end(parts), attribute.value) - std::begin(parts));
     } else if (attribute.name == "target_m") {
       const std::size_t comma = std::min(attribute.value.find(','), attribute.value.size());
       const auto x = number_of(attribute.value.substr(0, comma));

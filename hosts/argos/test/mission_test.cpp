@@ -29,7 +29,7 @@ class MissionTest : public ::testing::Test {
   measure::Run play(const config::Configuration& configuration, const std::string& out,
                     const std::vector<Pose>& placed = {}) {
     ToySimulator simulator(configuration.scenario);
-    Mission mission(configuration, out, false, placed, simulator);
+    MissionRun mission(configuration, out, false, placed, simulator);
     simulator.enter(mission);
     mission.begin();
     while (!mission.finished()) {
@@ -104,12 +104,12 @@ TEST_F(MissionTest, RobotsMayBeWhereTheSimulatorHasThem) {
   placed.reserve(13);
   for (int k = 0; k < 12; ++k) placed.push_back({{0.3 * k, 0.1}, 6.0 * k});
   ToySimulator simulator(configuration.scenario);
-  const Mission mission(configuration, "", false, placed, simulator);
+  const MissionRun mission(configuration, "", false, placed, simulator);
   ASSERT_EQ(mission.world().size(), 12U);
   EXPECT_EQ(mission.start(5).position, placed[5].position);
   EXPECT_NEAR(std::remainder(mission.start(5).heading_rad - placed[5].heading_rad, 2.0 * pi<double>), 0.0, 1e-9);
   placed.push_back(placed.back());  // two in one place
-  EXPECT_THROW(Mission(configuration, "", false, placed, simulator), MissionError);
+  EXPECT_THROW(MissionRun(configuration, "", false, placed, simulator), MissionError);
 }
 
 TEST_F(MissionTest, ResultsAreNotReplacedUnasked) {
@@ -118,8 +118,8 @@ TEST_F(MissionTest, ResultsAreNotReplacedUnasked) {
   const std::string out = (folder_ / "once").string();
   (void)play(configuration, out);
   ToySimulator simulator(configuration.scenario);
-  EXPECT_THROW(Mission(configuration, out, false, {}, simulator), MissionError);
-  EXPECT_NO_THROW(Mission(configuration, out, true, {}, simulator));
+  EXPECT_THROW(MissionRun(configuration, out, false, {}, simulator), MissionError);
+  EXPECT_NO_THROW(MissionRun(configuration, out, true, {}, simulator));
 }
 
 TEST_F(MissionTest, SaysWhatArgosDoesNotDo) {

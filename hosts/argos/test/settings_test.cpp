@@ -48,7 +48,7 @@ TEST(Settings, ParametersAreThoseOfTheTable) {
 TEST(Settings, RobotsMayBeToldHowTheyBegin) {
   const Settings settings =
       read_settings(std::vector<Attribute>{{"role", "worker"}, {"target_m", "3,-1.5"}}, algorithms(), 0.1);
-  EXPECT_EQ(settings.part, Part::worker);
+  EXPECT_EQ(settings.part, StartRole::worker);
   ASSERT_TRUE(settings.target);
   EXPECT_EQ(settings.target->y, -1.5);
 }

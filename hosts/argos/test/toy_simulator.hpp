@@ -15,7 +15,7 @@ class ToySimulator final : public Robots {
  public:
   explicit ToySimulator(const world::Scenario& scenario) : scenario_(scenario) {}
 
-  void enter(const Mission& mission) {
+  void enter(const MissionRun& mission) {
     mission_ = &mission;
     const Settings settings = read_settings(attributes_of(scenario_), *scenario_.algorithms, scenario_.tick_s);
     for (std::size_t i = 0; i < mission.world().size(); ++i) {
@@ -89,7 +89,7 @@ class ToySimulator final : public Robots {
   }
 
   const world::Scenario& scenario_;
-  const Mission* mission_ = nullptr;
+  const MissionRun* mission_ = nullptr;
   Platform platform_;
   std::vector<Inhabitant> robots_;
 };

@@ -66,8 +66,8 @@ py::dict arrays_of(const std::shared_ptr<Block>& block, bool always) {
     std::vector<py::ssize_t> lengths;
     if (always || block->swarms() > 1) lengths.push_back(static_cast<py::ssize_t>(block->swarms()));
     lengths.push_back(static_cast<py::ssize_t>(shape.robots));
-    for (const Axis axis : info.axes)
-      if (axis != Axis::none) lengths.push_back(static_cast<py::ssize_t>(length(axis, shape)));
+    for (const FieldAxis axis : info.axes)
+      if (axis != FieldAxis::none) lengths.push_back(static_cast<py::ssize_t>(length(axis, shape)));
     std::vector<py::ssize_t> strides(lengths.size());
     auto step = static_cast<py::ssize_t>(size_of(info.item));
     for (std::size_t k = lengths.size(); k-- > 0; step *= lengths[k]) strides[k] = step;

@@ -15,39 +15,39 @@ constexpr std::array<FieldInfoOf, fields_count> table{{
     {Field::steps, "steps", "it lives, and its clock says that it steps now", Item::flag, {}, false},
     {Field::sent, "sent", "it has been sent to a target", Item::flag, {}, false},
     {Field::has_target, "has_target", "that target is sensed now", Item::flag, {}, false},
-    {Field::target, "target", "from the robot to its target, m, own frame", Item::real, {Axis::two, Axis::none}, false},
+    {Field::target, "target", "from the robot to its target, m, own frame", Item::real, {FieldAxis::two, FieldAxis::none}, false},
     {Field::given_up, "given_up", "a target that has been given up, by the robot first sent there; -1: none", Item::whole, {}, false, -1},
-    {Field::odometry, "odometry", "own motion since the last step: forward m, left m, turn rad", Item::real, {Axis::three, Axis::none}, false},
+    {Field::odometry, "odometry", "own motion since the last step: forward m, left m, turn rad", Item::real, {FieldAxis::three, FieldAxis::none}, false},
     {Field::obstacles, "obstacles", "how many obstacles are within reach of its sensor", Item::whole, {}, false},
-    {Field::obstacle_position, "obstacle_position", "their nearest points, m, own frame", Item::real, {Axis::obstacles, Axis::two}, false},
+    {Field::obstacle_position, "obstacle_position", "their nearest points, m, own frame", Item::real, {FieldAxis::obstacles, FieldAxis::two}, false},
     {Field::heard, "heard", "how many neighbours are heard", Item::whole, {}, false},
-    {Field::sender, "sender", "their ids; -1 behind the last", Item::whole, {Axis::neighbours, Axis::none}, false, -1},
-    {Field::position, "position", "where they are, m, own frame", Item::real, {Axis::neighbours, Axis::two}, false},
-    {Field::age, "age", "ticks since they composed the message", Item::whole, {Axis::neighbours, Axis::none}, false},
-    {Field::message, "message", "what they broadcast", Item::byte, {Axis::neighbours, Axis::payload}, false},
+    {Field::sender, "sender", "their ids; -1 behind the last", Item::whole, {FieldAxis::neighbours, FieldAxis::none}, false, -1},
+    {Field::position, "position", "where they are, m, own frame", Item::real, {FieldAxis::neighbours, FieldAxis::two}, false},
+    {Field::age, "age", "ticks since they composed the message", Item::whole, {FieldAxis::neighbours, FieldAxis::none}, false},
+    {Field::message, "message", "what they broadcast", Item::byte, {FieldAxis::neighbours, FieldAxis::payload}, false},
     {Field::own_role, "own_role", "the role that it reported last", Item::small, {}, false},
     {Field::own_parent, "own_parent", "the parent that it reported last; -1: nobody", Item::whole, {}, false, -1},
-    {Field::suggested, "suggested", "velocity of the algorithm beneath, if there is one", Item::real, {Axis::three, Axis::none}, false},
-    {Field::velocity, "velocity", "forward m/s, left m/s, turn rad/s", Item::real, {Axis::three, Axis::none}, true},
-    {Field::broadcast, "broadcast", "what its neighbours hear", Item::byte, {Axis::payload, Axis::none}, true},
+    {Field::suggested, "suggested", "velocity of the algorithm beneath, if there is one", Item::real, {FieldAxis::three, FieldAxis::none}, false},
+    {Field::velocity, "velocity", "forward m/s, left m/s, turn rad/s", Item::real, {FieldAxis::three, FieldAxis::none}, true},
+    {Field::broadcast, "broadcast", "what its neighbours hear", Item::byte, {FieldAxis::payload, FieldAxis::none}, true},
     {Field::role, "role", "spare 0, connector 1, worker 2, root 3; -1: as it was sent", Item::small, {}, true, -1},
     {Field::parent, "parent", "the robot whose link it promises to keep; -1: nobody", Item::whole, {}, true, -1},
     {Field::serves, "serves", "a worker's target, by the robot first sent there; -1: none, -2: its own", Item::whole, {}, true, -2},
-    {Field::kept, "kept", "further links that it promises to keep; -1: nobody", Item::whole, {Axis::kept, Axis::none}, true, -1},
+    {Field::kept, "kept", "further links that it promises to keep; -1: nobody", Item::whole, {FieldAxis::kept, FieldAxis::none}, true, -1},
 }};
 
 }  // namespace
 
 std::span<const FieldInfoOf> fields() noexcept { return table; }
 
-std::size_t length(Axis axis, const Shape& shape) noexcept {
+std::size_t length(FieldAxis axis, const Shape& shape) noexcept {
   switch (axis) {
-    case Axis::two: return 2;
-    case Axis::three: return 3;
-    case Axis::neighbours: return shape.neighbours;
-    case Axis::payload: return shape.payload;
-    case Axis::obstacles: return most_seen;
-    case Axis::kept: return most_kept_links;
+    case FieldAxis::two: return 2;
+    case FieldAxis::three: return 3;
+    case FieldAxis::neighbours: return shape.neighbours;
+    case FieldAxis::payload: return shape.payload;
+    case FieldAxis::obstacles: return most_seen;
+    case FieldAxis::kept: return most_kept_links;
     default: return 1;
   }
 }

@@ -10,8 +10,8 @@ namespace banyan::python {
 namespace {
 
 // Options of a picture by the names that they have in DrawOptions.
-record::DrawOptions look_of(const py::kwargs& told) {
-  record::DrawOptions look;
+record::PictureOptions look_of(const py::kwargs& told) {
+  record::PictureOptions look;
   look.width_px = 640.0;
   for (const auto& [name, value] : told) {
     const auto key = name.cast<std::string>();

@@ -146,7 +146,7 @@ TEST(Block, FieldsLieApartAndAreBlank) {
   EXPECT_EQ(block.exchange(0).of<std::int32_t>(Field::sender)[5], -1);
   EXPECT_EQ(block.exchange(0).of<std::int32_t>(Field::serves)[2], -2);
   EXPECT_EQ(block.exchange(0).of<std::int32_t>(Field::heard)[2], 0);
-  EXPECT_EQ(length(Axis::payload, block.shape()), 5U);
+  EXPECT_EQ(length(FieldAxis::payload, block.shape()), 5U);
 }
 
 }  // namespace

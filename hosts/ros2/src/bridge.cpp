@@ -53,7 +53,7 @@ class Bridge {
         std::to_string(options_.domain));
     while (caught_by_bridge == 0) {
       clock_.wait(descriptors(), next_look_s_);
-      node_.listen([&](Source source, std::size_t place, const Sighting& sighting) { take(source, place, sighting); });
+      node_.listen([&](Source source, std::size_t place, const StampedPose& sighting) { take(source, place, sighting); });
       hand_on();
       if (bases_)
         bases_->listen(clock_.now_s(),
@@ -91,7 +91,7 @@ class Bridge {
     return source == tracker() ? tracked_ : odometry_;
   }
 
-  void take(Source source, std::size_t place, const Sighting& sighting) {
+  void take(Source source, std::size_t place, const StampedPose& sighting) {
     Refusal why{};
     const auto pose = (source == tracker() ? tracked_ : odometry_).take(place, sighting, now_ns(), why);
     if (!pose) return refuse(source, place, sighting, why);
@@ -105,7 +105,7 @@ class Bridge {
   }
 
   // The first of each kind is told at once; the account at the end has them all.
-  void refuse(Source source, std::size_t place, const Sighting& sighting, Refusal why) {
+  void refuse(Source source, std::size_t place, const StampedPose& sighting, Refusal why) {
     if (!told_.insert({source, why}).second) return;
     std::string text = "robot " + std::to_string(id(place)) + ": a pose is dropped because it is " + name_of(why);
     if (why == Refusal::other_frame) text += ": \"" + sighting.frame + "\", not \"" + judge(source).frame(place) + "\"";
@@ -170,7 +170,7 @@ class Bridge {
   }
 
   Options options_;
-  Node node_;
+  RosNode node_;
   Sightings tracked_, odometry_;
   std::vector<std::optional<BodyFrame>> poses_;  // that have not been handed on
   std::optional<Bases> bases_;

@@ -85,7 +85,7 @@ builtin_interfaces_msg_dds__Time_ time_of(std::int64_t ns) noexcept {
   return {static_cast<std::int32_t>(ns / in_a_second), static_cast<std::uint32_t>(ns % in_a_second)};
 }
 
-Sighting sighting_of(const std_msgs_msg_dds__Header_& header, const geometry_msgs_msg_dds__Pose_& pose) {
+StampedPose sighting_of(const std_msgs_msg_dds__Header_& header, const geometry_msgs_msg_dds__Pose_& pose) {
   const auto& q = pose.orientation;
   return {nanoseconds_of(header.stamp),
           header.frame_id == nullptr ? "" : header.frame_id,
@@ -93,8 +93,8 @@ Sighting sighting_of(const std_msgs_msg_dds__Header_& header, const geometry_msg
           pose.position.y,
           {q.x, q.y, q.z, q.w}};
 }
-Sighting sighting_of(const PoseMessage& message) { return sighting_of(message.header, message.pose); }
-Sighting sighting_of(const OdometryMessage& message) { return sighting_of(message.header, message.pose.pose); }
+StampedPose sighting_of(const PoseMessage& message) { return sighting_of(message.header, message.pose); }
+StampedPose sighting_of(const OdometryMessage& message) { return sighting_of(message.header, message.pose.pose); }
 
 TwistMessage twist_of(const Velocity& v) noexcept {
   return {{v.forward_m_s, v.sideways_m_s, 0.0}, {0.0, 0.0, v.turn_rad_s}};
@@ -167,7 +167,7 @@ void introduce(dds_entity_t writer, dds_entity_t participant, const std::string&
 
 }  // namespace
 
-struct Node::Parts {
+struct RosNode::Parts {
   explicit Parts(const Options& options) : stamped(options.stamped), frame(options.frame) {
     if (wake < 0) throw NodeError(std::string("eventfd: ") + std::strerror(errno));
     domain = join(options);
@@ -244,12 +244,12 @@ struct Node::Parts {
   std::uint64_t unsent = 0;
 };
 
-Node::Node(const Options& options) : parts_(std::make_unique<Parts>(options)) {}
-Node::~Node() = default;
+RosNode::RosNode(const Options& options) : parts_(std::make_unique<Parts>(options)) {}
+RosNode::~RosNode() = default;
 
-int Node::descriptor() const noexcept { return parts_->wake; }
+int RosNode::descriptor() const noexcept { return parts_->wake; }
 
-void Node::listen(const Take& take) {
+void RosNode::listen(const Take& take) {
   std::uint64_t calls = 0;
   static_cast<void>(::read(parts_->wake, &calls, sizeof calls));
   for (std::size_t k = 0; k < parts_->odometry.size(); ++k)
@@ -259,7 +259,7 @@ void Node::listen(const Take& take) {
     take_all<PoseMessage>(parts_->poses[k], [&](const auto& message) { take(Source::pose, k, sighting_of(message)); });
 }
 
-void Node::drive(std::size_t place, const Velocity& velocity, std::int64_t now_ns) {
+void RosNode::drive(std::size_t place, const Velocity& velocity, std::int64_t now_ns) {
   const TwistMessage twist = twist_of(velocity);
   if (!parts_->stamped) return parts_->count(dds_write(parts_->commands[place], &twist));
   TwistStampedMessage stamped{};
@@ -269,7 +269,7 @@ void Node::drive(std::size_t place, const Velocity& velocity, std::int64_t now_n
   parts_->count(dds_write(parts_->commands[place], &stamped));
 }
 
-void Node::publish(std::vector<BodyFrame>& bodies) {
+void RosNode::publish(std::vector<BodyFrame>& bodies) {
   if (parts_->transforms == DDS_ENTITY_NIL || bodies.empty()) return;
   std::vector<TransformMessage> list(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -285,16 +285,16 @@ void Node::publish(std::vector<BodyFrame>& bodies) {
   parts_->count(dds_write(parts_->transforms, &message));
 }
 
-std::size_t Node::publishers(Source source, std::size_t place) const {
+std::size_t RosNode::publishers(Source source, std::size_t place) const {
   dds_subscription_matched_status_t status{};
   const auto& readers = source == Source::pose ? parts_->poses : parts_->odometry;
   static_cast<void>(dds_get_subscription_matched_status(readers[place], &status));
   return status.current_count;
 }
 
-std::uint64_t Node::unsent() const noexcept { return parts_->unsent; }
+std::uint64_t RosNode::unsent() const noexcept { return parts_->unsent; }
 
-void Node::settle(double at_most_s) const {
+void RosNode::settle(double at_most_s) const {
   const auto until = dds_time() + static_cast<dds_duration_t>(1e9 * at_most_s);
   for (const dds_entity_t writer : parts_->commands)
     static_cast<void>(dds_wait_for_acks(writer, std::max<dds_duration_t>(0, until - dds_time())));

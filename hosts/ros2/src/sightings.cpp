@@ -40,7 +40,7 @@ double heading_of(const Quaternion& q) noexcept {
   return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
 }
 
-std::optional<Refusal> Sightings::fault(std::size_t place, const Sighting& sighting, std::int64_t now_ns) const {
+std::optional<Refusal> Sightings::fault(std::size_t place, const StampedPose& sighting, std::int64_t now_ns) const {
   const Quaternion& q = sighting.rotation;
   const double norm = norm_of(q);
   if (!std::isfinite(sighting.x_m) || !std::isfinite(sighting.y_m) || !std::isfinite(norm)) return Refusal::not_finite;
@@ -56,7 +56,7 @@ std::optional<Refusal> Sightings::fault(std::size_t place, const Sighting& sight
   return Refusal::overtaken;
 }
 
-std::optional<udp::TrackedPose> Sightings::take(std::size_t place, const Sighting& sighting, std::int64_t now_ns,
+std::optional<udp::TrackedPose> Sightings::take(std::size_t place, const StampedPose& sighting, std::int64_t now_ns,
                                                 Refusal& why) {
   if (const auto refusal = fault(place, sighting, now_ns)) {
     why = *refusal;

@@ -13,15 +13,15 @@ constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t now = 1'700'000'000 * second;
 constexpr double pi = 3.14159265358979323846;
 
-Sighting sighting(double heading_rad = 0.0) {
+StampedPose sighting(double heading_rad = 0.0) {
   return {now, "map", 1.0, -2.0, {0.0, 0.0, std::sin(heading_rad / 2.0), std::cos(heading_rad / 2.0)}};
 }
 
-std::string verdict(Sightings& judge, const Sighting& sighting, std::int64_t at = now) {
+std::string verdict(Sightings& judge, const StampedPose& sighting, std::int64_t at = now) {
   Refusal why{};
   return judge.take(0, sighting, at, why) ? "taken" : name_of(why);
 }
-std::string verdict(const Sighting& sighting) {
+std::string verdict(const StampedPose& sighting) {
   Sightings judge(1, "map", 0.3);
   return verdict(judge, sighting);
 }
@@ -48,7 +48,7 @@ TEST(Sightings, TheHeadingIsTheTurnAboutTheVertical) {
 TEST(Sightings, WhatCannotBeBelieved) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   const auto changed = [](const auto& change) {
-    Sighting s = sighting();
+    StampedPose s = sighting();
     change(s);
     return verdict(s);
   };
@@ -77,7 +77,7 @@ TEST(Sightings, WhatCannotBeBelieved) {
 
 TEST(Sightings, AreCountedAndTheLastOneStays) {
   Sightings judge(2, "map", 0.3);
-  Sighting s = sighting();
+  StampedPose s = sighting();
   EXPECT_EQ(verdict(judge, s), "taken");
   EXPECT_EQ(verdict(judge, s), "not newer than the last");
   s.stamp_ns -= 1;
@@ -94,7 +94,7 @@ TEST(Sightings, AreCountedAndTheLastOneStays) {
 
 TEST(Sightings, WithoutTheClockASimulationMayBeginAnew) {
   Sightings judge(1, "map", 0.0);
-  Sighting s = sighting();
+  StampedPose s = sighting();
   s.stamp_ns = 100 * second;
   EXPECT_EQ(verdict(judge, s), "taken");
   s.stamp_ns = 100 * second - second / 2;
@@ -105,7 +105,7 @@ TEST(Sightings, WithoutTheClockASimulationMayBeginAnew) {
 
 TEST(Sightings, OdometryKeepsTheFrameOfItsBeginning) {
   Sightings judge(1, "", 0.3);
-  Sighting s = sighting();
+  StampedPose s = sighting();
   s.frame = "robot_0/odom";
   EXPECT_EQ(verdict(judge, s), "taken");
   s.stamp_ns += 1;

@@ -41,7 +41,7 @@ std::optional<Envelope> authenticate(ByteView datagram, const KeyRing& keys, Dro
   reason = Drop::foreign;
   if (datagram.size() < header_bytes + mac_bytes) return std::nullopt;
   const ByteView sealed = datagram.first(datagram.size() - mac_bytes);
-  ByteReader in(sealed);
+  DatagramReader in(sealed);
   if (in.take<std::uint8_t>() != magic || in.take<std::uint8_t>() != version) return std::nullopt;
   const auto kind = in.take<std::uint8_t>();
   const Key* key = keys.find(in.take<std::uint8_t>());
@@ -65,7 +65,7 @@ std::optional<Envelope> authenticate(ByteView datagram, const KeyRing& keys, Dro
 Bytes seal(const Envelope& envelope, const Key& key) {
   Bytes datagram;
   datagram.reserve(header_bytes + envelope.payload.size() + mac_bytes);
-  ByteWriter out(datagram);
+  DatagramWriter out(datagram);
   out.put(magic);
   out.put(version);
   out.put(static_cast<std::uint8_t>(envelope.kind));
@@ -101,12 +101,12 @@ std::optional<Drop> ReplayWindow::admit(std::uint64_t boot, std::uint32_t counte
   return std::nullopt;
 }
 
-Bytes Channel::seal(Kind kind, ByteView payload, const KeyRing& keys) {
+Bytes SecureChannel::seal(Kind kind, ByteView payload, const KeyRing& keys) {
   const std::uint64_t echo = kind == Kind::hello ? 0 : window_.boot();
   return udp::seal({kind, self_, peer_, boot_, echo, ++counter_, payload}, keys.signing());
 }
 
-std::optional<Drop> Channel::admit(const Envelope& envelope) noexcept {
+std::optional<Drop> SecureChannel::admit(const Envelope& envelope) noexcept {
   if (envelope.sender != peer_ || envelope.receiver != self_) return Drop::misaddressed;
   const bool answers_me = envelope.kind == Kind::hello ? envelope.echo == 0 : envelope.echo == boot_;
   if (!answers_me) return Drop::stale;

@@ -13,7 +13,7 @@ constexpr double insist_s = 1.0;
 
 }  // namespace
 
-Hub::Hub(const HubOptions& options, std::size_t robots, KeyRing keys, Tape* tape)
+Hub::Hub(const HubSettings& options, std::size_t robots, KeyRing keys, Tape* tape)
     : options_(options),
       keys_(std::move(keys)),
       tape_(tape),
@@ -21,7 +21,7 @@ Hub::Hub(const HubOptions& options, std::size_t robots, KeyRing keys, Tape* tape
       clock_(options.speed),
       mission_(tape != nullptr ? tape->mission() : static_cast<std::uint32_t>(new_boot())) {
   const std::uint64_t boot = new_boot();
-  for (std::size_t i = 0; i < robots; ++i) robots_.emplace_back(Channel(hub_node, static_cast<Node>(i), boot));
+  for (std::size_t i = 0; i < robots; ++i) robots_.emplace_back(SecureChannel(hub_node, static_cast<Node>(i), boot));
 }
 
 // ---- What arrives ----
@@ -74,7 +74,7 @@ void Hub::send(Robot& robot, Kind kind, const Bytes& payload) {
   ++counts_.sent;
 }
 
-void Hub::deliver(std::size_t i, Frame frame, std::span<const Hearing> heard) {
+void Hub::deliver(std::size_t i, SensorFrame frame, std::span<const Hearing> heard) {
   Robot& robot = robots_[i];
   if (muted_) return;
   frame.mission = mission_;
@@ -83,10 +83,10 @@ void Hub::deliver(std::size_t i, Frame frame, std::span<const Hearing> heard) {
   send_heard(robot, frame, heard);
 }
 
-void Hub::send_heard(Robot& robot, const Frame& frame, std::span<const Hearing> heard) {
+void Hub::send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hearing> heard) {
   constexpr std::size_t room = largest_datagram - header_bytes - mac_bytes;
   constexpr std::size_t fixed = 17, per_packet = 11;
-  Heard bundle{frame.tick, frame.odometry, {}};
+  HeardBundle bundle{frame.tick, frame.odometry, {}};
   std::size_t size = fixed;
   const auto flush = [&] {
     if (!bundle.packets.empty()) send(robot, Kind::heard, encode(bundle));

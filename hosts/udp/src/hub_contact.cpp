@@ -40,7 +40,7 @@ class HubContact final : public Contact {
 
   ContactEnds ends_;
   Address hub_;
-  Channel channel_;
+  SecureChannel channel_;
   double next_hello_s_ = 0.0;
 };
 

@@ -11,20 +11,20 @@ float within_half_turn(float turn_rad) noexcept {
   return angle_of(direction);
 }
 
-void put(ByteWriter& out, Vec2 v) {
+void put(DatagramWriter& out, Vec2 v) {
   out.put(v.x);
   out.put(v.y);
 }
-Vec2 take_point(ByteReader& in) noexcept {
+Vec2 take_point(DatagramReader& in) noexcept {
   const float x = in.take_float();
   return {x, in.take_float()};
 }
 
-void put(ByteWriter& out, const OdometricPose& pose) {
+void put(DatagramWriter& out, const OdometricPose& pose) {
   put(out, pose.position);
   out.put(pose.turn_rad);
 }
-OdometricPose take_pose(ByteReader& in) noexcept {
+OdometricPose take_pose(DatagramReader& in) noexcept {
   const Vec2 position = take_point(in);
   return {position, in.take_float()};
 }
@@ -33,18 +33,18 @@ bool is_sound(const OdometricPose& pose) noexcept {
   return std::isfinite(pose.position.x) && std::isfinite(pose.position.y) && std::fabs(pose.turn_rad) <= 4.0F;
 }
 
-void put_message(ByteWriter& out, const Bytes& message) {
+void put_message(DatagramWriter& out, const Bytes& message) {
   out.put(static_cast<std::uint8_t>(message.size()));
   out.put(ByteView(message));
 }
-std::optional<Bytes> take_message(ByteReader& in) {
+std::optional<Bytes> take_message(DatagramReader& in) {
   const auto size = in.take<std::uint8_t>();
   if (size > largest_wire) return std::nullopt;
   const ByteView bytes = in.take(size);
   return Bytes(bytes.begin(), bytes.end());
 }
 
-void put(ByteWriter& out, const Report& r) {
+void put(DatagramWriter& out, const Report& r) {
   out.put(static_cast<std::uint8_t>(r.role));
   out.put(static_cast<std::uint8_t>(r.phase));
   out.put(static_cast<std::uint8_t>(r.need));
@@ -58,13 +58,13 @@ void put(ByteWriter& out, const Report& r) {
   for (const std::uint32_t n : {t.insertions, t.handovers, t.repairs, t.elections, t.replacements, t.rejected}) out.put(n);
 }
 
-template <class E> bool take_choice(ByteReader& in, E& choice, E last) noexcept {
+template <class E> bool take_choice(DatagramReader& in, E& choice, E last) noexcept {
   const auto number = in.take<std::uint8_t>();
   choice = static_cast<E>(number);
   return number <= static_cast<std::uint8_t>(last);
 }
 
-std::optional<Report> take_report(ByteReader& in) noexcept {
+std::optional<Report> take_report(DatagramReader& in) noexcept {
   Report r;
   bool sound = take_choice(in, r.role, Role::root);
   sound = take_choice(in, r.phase, Phase::select_root) && sound;
@@ -84,7 +84,7 @@ std::optional<Report> take_report(ByteReader& in) noexcept {
 
 constexpr std::uint8_t all_flags = 0x3F;
 
-std::uint8_t flags_of(const Frame& frame) noexcept {
+std::uint8_t flags_of(const SensorFrame& frame) noexcept {
   unsigned flags = 0, bit = 1;
   for (const bool flag : {frame.root, frame.worker, frame.begun, frame.sent, frame.has_target, frame.line_of_sight}) {
     flags |= flag ? bit : 0U;
@@ -104,9 +104,9 @@ Odometry motion_between(const OdometricPose& before, const OdometricPose& now) n
   return {shift.x, shift.y, within_half_turn(now.turn_rad - before.turn_rad)};
 }
 
-Bytes encode(const Frame& frame) {
+Bytes encode(const SensorFrame& frame) {
   Bytes bytes;
-  ByteWriter out(bytes);
+  DatagramWriter out(bytes);
   out.put(frame.mission);
   out.put(frame.tick);
   out.put(flags_of(frame));
@@ -119,9 +119,9 @@ Bytes encode(const Frame& frame) {
   return bytes;
 }
 
-std::optional<Frame> decode_frame(ByteView bytes) {
-  ByteReader in(bytes);
-  Frame frame;
+std::optional<SensorFrame> decode_frame(ByteView bytes) {
+  DatagramReader in(bytes);
+  SensorFrame frame;
   frame.mission = in.take<std::uint32_t>();
   frame.tick = in.take<std::uint32_t>();
   unsigned flags = in.take<std::uint8_t>();
@@ -141,9 +141,9 @@ std::optional<Frame> decode_frame(ByteView bytes) {
   return frame;
 }
 
-Bytes encode(const Heard& heard) {
+Bytes encode(const HeardBundle& heard) {
   Bytes bytes;
-  ByteWriter out(bytes);
+  DatagramWriter out(bytes);
   out.put(heard.tick);
   put(out, heard.odometry);
   out.put(static_cast<std::uint8_t>(heard.packets.size()));
@@ -155,9 +155,9 @@ Bytes encode(const Heard& heard) {
   return bytes;
 }
 
-std::optional<Heard> decode_heard(ByteView bytes) {
-  ByteReader in(bytes);
-  Heard heard;
+std::optional<HeardBundle> decode_heard(ByteView bytes) {
+  DatagramReader in(bytes);
+  HeardBundle heard;
   heard.tick = in.take<std::uint32_t>();
   heard.odometry = take_pose(in);
   const auto count = in.take<std::uint8_t>();
@@ -176,7 +176,7 @@ std::optional<Heard> decode_heard(ByteView bytes) {
 
 Bytes encode(const Status& status) {
   Bytes bytes;
-  ByteWriter out(bytes);
+  DatagramWriter out(bytes);
   out.put(status.frame_tick);
   out.put(status.period_us);
   out.put(status.dropped);
@@ -190,7 +190,7 @@ Bytes encode(const Status& status) {
 }
 
 std::optional<Status> decode_status(ByteView bytes) {
-  ByteReader in(bytes);
+  DatagramReader in(bytes);
   Status status;
   status.frame_tick = in.take<std::uint32_t>();
   status.period_us = in.take<std::uint32_t>();
@@ -211,7 +211,7 @@ std::optional<Status> decode_status(ByteView bytes) {
 
 Bytes encode(const Account& account) {
   Bytes bytes;
-  ByteWriter out(bytes);
+  DatagramWriter out(bytes);
   put(out, OdometricPose{account.odometry.position, within_half_turn(account.odometry.turn_rad)});
   out.put(static_cast<std::uint8_t>(account.target ? 1 : 0));
   put(out, account.target.value_or(Vec2{}));
@@ -227,7 +227,7 @@ Bytes encode(const Account& account) {
 }
 
 std::optional<Account> decode_account(ByteView bytes) {
-  ByteReader in(bytes);
+  DatagramReader in(bytes);
   Account account;
   account.odometry = take_pose(in);
   const auto has_target = in.take<std::uint8_t>();

@@ -34,7 +34,7 @@ class PeerContact final : public Contact {
     if (!pose_s || now_s - *pose_s > ends_.options.stop_after_s) return;
     const auto target = ends_.driver.target();
     now_s_ = now_s;
-    Frame frame;
+    SensorFrame frame;
     frame.tick = static_cast<std::uint32_t>(std::lround(now_s / static_cast<double>(ends_.options.setup.platform.tick_s))) + 1;
     frame.root = ends_.options.root;
     frame.worker = ends_.options.worker;
@@ -59,7 +59,7 @@ class PeerContact final : public Contact {
     const bool is_near = measured && now_s - measured->s <= measured_lately_s &&
                          norm(measured->position) <= ends_.options.setup.platform.communication_range_m;
     if (!is_near) return true;  // it is there, and not a neighbour
-    Heard heard;
+    HeardBundle heard;
     heard.tick = ++heard_;
     heard.packets.push_back({envelope.sender, measured->position, {envelope.payload.begin(), envelope.payload.end()}});
     ends_.robot.take(heard, ends_.driver.pose_at(measured->s));

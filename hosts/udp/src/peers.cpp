@@ -9,7 +9,7 @@ constexpr double ask_every_s = 0.2;
 }  // namespace
 
 Peers::Peer& Peers::peer(Node node) {
-  return peers_.try_emplace(node, Peer{Channel(self_, node, boot_), {}, 0, 0.0}).first->second;
+  return peers_.try_emplace(node, Peer{SecureChannel(self_, node, boot_), {}, 0, 0.0}).first->second;
 }
 
 Bytes Peers::speak(ByteView message, const KeyRing& keys) {

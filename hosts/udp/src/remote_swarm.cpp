@@ -66,8 +66,8 @@ void RemoteSwarm::collect() {
   local_->advance();  // forgets the messages that take() has looked into
 }
 
-Frame RemoteSwarm::frame_of(Robot& robot, const Senses& senses) const {
-  Frame frame;
+SensorFrame RemoteSwarm::frame_of(Robot& robot, const Senses& senses) const {
+  SensorFrame frame;
   frame.tick = tick_;
   frame.root = robot.member.root;
   frame.worker = robot.member.worker;

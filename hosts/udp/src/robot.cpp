@@ -22,7 +22,7 @@ Robot::Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_af
     : algorithm_(algorithm), setup_(std::move(setup)), id_(id), stop_after_s_(stop_after_s), radius_m_(radius_m) {}
 
 // A robot that has started again in the middle of a mission is not its first root.
-void Robot::begin(const Frame& frame) {
+void Robot::begin(const SensorFrame& frame) {
   const std::array<Member, 1> self{Member{id_, frame.worker, frame.root && !frame.begun}};
   swarm_ = algorithm_.make(setup_, self);
   known_.clear();
@@ -31,7 +31,7 @@ void Robot::begin(const Frame& frame) {
   interrupted_ = true;
 }
 
-void Robot::take(const Frame& frame, double now_s, const std::optional<OdometricPose>& at) {
+void Robot::take(const SensorFrame& frame, double now_s, const std::optional<OdometricPose>& at) {
   const bool another_mission = swarm_ && frame.mission != frame_.mission;
   if (swarm_ && frame.tick <= frame_.tick && !another_mission) return;  // overtaken by a later one
   if (!is_guided(now_s)) interrupted_ = true;
@@ -42,7 +42,7 @@ void Robot::take(const Frame& frame, double now_s, const std::optional<Odometric
   swarm_->set_line_of_sight(frame.line_of_sight);
 }
 
-void Robot::take(const Heard& heard, const std::optional<OdometricPose>& at) {
+void Robot::take(const HeardBundle& heard, const std::optional<OdometricPose>& at) {
   if (!swarm_) return;
   const OdometricPose& pose = at ? *at : heard.odometry;
   for (const Hearing& packet : heard.packets) {

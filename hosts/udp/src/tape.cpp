@@ -28,7 +28,7 @@ Tape::Tape(const std::string& path, std::uint64_t configuration, std::uint32_t m
     : path_(path), file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)), mission_(mission), start_(start) {
   if (file_ < 0) throw TapeError(path + ": " + std::strerror(errno));
   Bytes begin(mark.begin(), mark.end());
-  ByteWriter out(begin);
+  DatagramWriter out(begin);
   out.put(configuration);
   out.put(mission);
   out.put(static_cast<std::uint32_t>(start.size()));
@@ -53,7 +53,7 @@ Tape::~Tape() {
 // Returns how many bytes of it make sense.
 std::size_t Tape::read(const std::string& path, std::uint64_t configuration) {
   const Bytes all = bytes_of(path);
-  ByteReader in(all);
+  DatagramReader in(all);
   const ByteView begin = in.take(mark.size());
   if (!std::equal(begin.begin(), begin.end(), mark.begin(), mark.end())) throw TapeError(path + ": is no tape of a hub");
   if (in.take<std::uint64_t>() != configuration) throw TapeError(path + ": is the tape of another configuration");
@@ -84,7 +84,7 @@ std::size_t Tape::read(const std::string& path, std::uint64_t configuration) {
 
 void Tape::append(std::uint32_t tick, const TapeTick& entries) {
   Bytes bytes;
-  ByteWriter out(bytes);
+  DatagramWriter out(bytes);
   out.put(tick);
   out.put(static_cast<std::uint16_t>(entries.size()));
   for (const TapeEntry& entry : entries) {

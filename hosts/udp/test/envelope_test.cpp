@@ -23,7 +23,7 @@ KeyRing ring(std::initializer_list<std::uint8_t> numbers) {
 
 const Bytes payload = {1, 2, 3};
 
-std::optional<Drop> dropped(Channel& channel, const Bytes& datagram, const KeyRing& keys) {
+std::optional<Drop> dropped(SecureChannel& channel, const Bytes& datagram, const KeyRing& keys) {
   Drop reason{};
   const auto envelope = authenticate(datagram, keys, reason);
   return envelope ? channel.admit(*envelope) : reason;
@@ -32,8 +32,8 @@ std::optional<Drop> dropped(Channel& channel, const Bytes& datagram, const KeyRi
 // Two that have greeted each other.
 struct Pair {
   KeyRing keys = ring({1});
-  Channel robot{3, hub_node, 100};
-  Channel hub{hub_node, 3, 200};
+  SecureChannel robot{3, hub_node, 100};
+  SecureChannel hub{hub_node, 3, 200};
   Pair() {
     EXPECT_EQ(dropped(hub, robot.seal(Kind::hello, {}, keys), keys), std::nullopt);
     EXPECT_EQ(dropped(robot, hub.seal(Kind::frame, payload, keys), keys), std::nullopt);
@@ -99,7 +99,7 @@ TEST(Envelope, APacketCountsOnceAndForItsReceiverOnly) {
   EXPECT_EQ(dropped(pair.hub, status, pair.keys), std::nullopt);
   EXPECT_EQ(dropped(pair.hub, status, pair.keys), Drop::replayed);
   EXPECT_EQ(dropped(pair.robot, status, pair.keys), Drop::misaddressed);  // reflected
-  Channel another(4, hub_node, 100);
+  SecureChannel another(4, hub_node, 100);
   EXPECT_EQ(dropped(another, pair.hub.seal(Kind::frame, payload, pair.keys), pair.keys), Drop::misaddressed);
 }
 
@@ -107,7 +107,7 @@ TEST(Envelope, ARobotThatHasStartedAgainIsAcceptedAndItsOldPacketsAreNot) {
   Pair pair;
   const Bytes held_back = pair.robot.seal(Kind::status, payload, pair.keys);
   const Bytes old_hello = pair.robot.seal(Kind::hello, {}, pair.keys);
-  Channel again(3, hub_node, 101);
+  SecureChannel again(3, hub_node, 101);
   EXPECT_EQ(dropped(pair.hub, again.seal(Kind::hello, {}, pair.keys), pair.keys), std::nullopt);
   EXPECT_EQ(dropped(again, pair.hub.seal(Kind::frame, payload, pair.keys), pair.keys), std::nullopt);
   EXPECT_EQ(dropped(pair.hub, again.seal(Kind::status, payload, pair.keys), pair.keys), std::nullopt);
@@ -119,7 +119,7 @@ TEST(Envelope, AHubThatHasStartedAgainTakesNothingFromBefore) {
   Pair pair;
   const Bytes recorded = pair.robot.seal(Kind::status, payload, pair.keys);
   const Bytes frame = pair.hub.seal(Kind::frame, payload, pair.keys);
-  Channel hub(hub_node, 3, 201);
+  SecureChannel hub(hub_node, 3, 201);
   EXPECT_EQ(dropped(hub, recorded, pair.keys), Drop::stale);
   EXPECT_EQ(dropped(hub, pair.robot.seal(Kind::hello, {}, pair.keys), pair.keys), std::nullopt);
   EXPECT_EQ(dropped(pair.robot, hub.seal(Kind::frame, payload, pair.keys), pair.keys), std::nullopt);

@@ -48,13 +48,13 @@ struct FakeRobot {
   }
   KeyRing keys = fleet_keys();
   Socket socket{anywhere};
-  Channel channel;
+  SecureChannel channel;
   Address to;
 };
 
 class HubAndRobots : public ::testing::Test {
  protected:
-  static HubOptions options() { return {.listen = anywhere, .tick_s = 0.1, .speed = 20.0, .dead_after_s = 1.0, .bundle = 1}; }
+  static HubSettings options() { return {.listen = anywhere, .tick_s = 0.1, .speed = 20.0, .dead_after_s = 1.0, .bundle = 1}; }
   [[nodiscard]] std::uint64_t dropped(Drop reason) const { return hub_.counts().dropped[static_cast<std::size_t>(reason)]; }
   // Both have been greeted and have answered; the next tick is 1.
   void greet() {
@@ -107,9 +107,9 @@ TEST_F(HubAndRobots, ForgedReplayedTruncatedAndForeignPacketsAreDroppedAndCounte
   attacker.send(ByteView(good).first(20), hub_.local());                                  // truncated: foreign
   attacker.send(Bytes(100, 0x55), hub_.local());                                          // foreign
   attacker.send(Bytes(5000, 0x55), hub_.local());                                         // longer than any
-  Channel unknown(7, hub_node, 5000);
+  SecureChannel unknown(7, hub_node, 5000);
   attacker.send(unknown.seal(Kind::hello, {}, fleet_keys()), hub_.local());               // no robot of this mission
-  attacker.send(Channel(0, hub_node, 999).seal(Kind::hello, {}, fleet_keys()), hub_.local());  // from before its start
+  attacker.send(SecureChannel(0, hub_node, 999).seal(Kind::hello, {}, fleet_keys()), hub_.local());  // from before its start
   a_.say(Kind::status, {1, 2, 3});                                                        // authentic nonsense
   static_cast<void>(hub_.wait_for(2, never));
   EXPECT_EQ(velocity(0), std::nullopt);
@@ -151,7 +151,7 @@ TEST_F(HubAndRobots, WhatIsHeardTravelsInAsManyDatagramsAsWanted) {
   const std::vector<Hearing> heard(20, Hearing{1, {1.0F, 0.0F}, Bytes(96, 1)});
   hub_.deliver(0, {}, heard);
   EXPECT_EQ(a_.hear().size(), 21U);
-  HubOptions bundled = options();
+  HubSettings bundled = options();
   bundled.bundle = 64;
   Hub hub(bundled, 1, fleet_keys(), nullptr);
   FakeRobot robot(0, hub);

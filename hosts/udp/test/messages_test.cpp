@@ -12,8 +12,8 @@
 namespace banyan::udp {
 namespace {
 
-Frame some_frame() {
-  Frame frame;
+SensorFrame some_frame() {
+  SensorFrame frame;
   frame.mission = 77;
   frame.tick = 1234;
   frame.root = frame.begun = frame.has_target = true;
@@ -26,7 +26,7 @@ Frame some_frame() {
   return frame;
 }
 
-Heard some_heard() { return {99, {{0.5F, 1.0F}, -1.0F}, {{3, {1.0F, 2.0F}, {9, 8, 7}}, {8, {-1.0F, 0.0F}, Bytes(96, 5)}}}; }
+HeardBundle some_heard() { return {99, {{0.5F, 1.0F}, -1.0F}, {{3, {1.0F, 2.0F}, {9, 8, 7}}, {8, {-1.0F, 0.0F}, Bytes(96, 5)}}}; }
 
 Status some_status() {
   Status status;
@@ -59,7 +59,7 @@ template <class Decode> void expect_no_cut(const Bytes& bytes, Decode decode) {
 
 TEST(Messages, ComeBackAsTheyWere) {
   EXPECT_EQ(decode_frame(encode(some_frame())), some_frame());
-  EXPECT_EQ(decode_frame(encode(Frame{})), Frame{});
+  EXPECT_EQ(decode_frame(encode(SensorFrame{})), SensorFrame{});
   EXPECT_EQ(decode_heard(encode(some_heard())), some_heard());
   const auto status = decode_status(encode(some_status()));
   ASSERT_TRUE(status);
@@ -90,13 +90,13 @@ TEST(Messages, NeitherCutNorLonger) {
 }
 
 TEST(Messages, ImpossibleValuesAreRefused) {
-  Frame frame = some_frame();
+  SensorFrame frame = some_frame();
   frame.odometry.turn_rad = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(decode_frame(encode(frame)));
   frame = some_frame();
   frame.obstacles.resize(most_seen + 1);
   EXPECT_FALSE(decode_frame(encode(frame)));
-  Heard heard = some_heard();
+  HeardBundle heard = some_heard();
   heard.odometry.position.x = std::numeric_limits<float>::infinity();
   EXPECT_FALSE(decode_heard(encode(heard)));
   heard = some_heard();

@@ -28,13 +28,13 @@ std::vector<Arrival> sent_through(const Impairment& hop, std::size_t count, doub
     std::array<std::uint8_t, 2000> room;
     Address from;
     while (const auto datagram = hub.receive(room, from)) {
-      const std::size_t number = ByteReader(*datagram).take<std::uint32_t>();
+      const std::size_t number = DatagramReader(*datagram).take<std::uint32_t>();
       arrivals.push_back({number, clock.now_s() - sent_s[number]});
     }
   };
   for (std::size_t k = 0; k < count; ++k) {
     Bytes datagram;
-    ByteWriter(datagram).put(static_cast<std::uint32_t>(k));
+    DatagramWriter(datagram).put(static_cast<std::uint32_t>(k));
     datagram.resize(bytes);
     sent_s.push_back(clock.now_s());
     robot.send(datagram, relay.local());

@@ -75,8 +75,8 @@ class Listening final : public Algorithm {
 
 class RobotAlone : public ::testing::Test {
  protected:
-  static Frame frame(std::uint32_t tick, const OdometricPose& odometry = {}) {
-    Frame f;
+  static SensorFrame frame(std::uint32_t tick, const OdometricPose& odometry = {}) {
+    SensorFrame f;
     f.mission = 1;
     f.tick = tick;
     f.odometry = odometry;
@@ -89,7 +89,7 @@ class RobotAlone : public ::testing::Test {
 
 TEST_F(RobotAlone, BeginsAsTheHubSays) {
   EXPECT_FALSE(robot_.is_guided(0.0));
-  Frame first = frame(0);
+  SensorFrame first = frame(0);
   first.root = first.worker = true;
   first.line_of_sight = false;
   robot_.take(first, 10.0);
@@ -104,7 +104,7 @@ TEST_F(RobotAlone, BeginsAsTheHubSays) {
 }
 
 TEST_F(RobotAlone, ThatHasStartedAgainIsNotTheFirstRoot) {
-  Frame first = frame(500);
+  SensorFrame first = frame(500);
   first.root = first.begun = true;
   robot_.take(first, 10.0);
   EXPECT_FALSE(given_.member.root);
@@ -124,7 +124,7 @@ TEST_F(RobotAlone, PositionsAreAsOfNowWhateverTheOrder) {
   const OdometricPose before{{1.0F, 0.0F}, 0.0F}, now{{1.0F, 1.0F}, 1.5707963F};
   robot_.take(frame(4, before), 10.0);
   // A neighbour was 2 m ahead at tick 4; since then the robot has moved 1 m to its left and turned left.
-  robot_.take(Heard{4, before, {{3, {2.0F, 0.0F}, {1}}}});
+  robot_.take(HeardBundle{4, before, {{3, {2.0F, 0.0F}, {1}}}});
   robot_.take(frame(5, now), 10.1);
   const Status ignored = robot_.step(10.15);
   ASSERT_EQ(given_.packets.size(), 1U);
@@ -135,13 +135,13 @@ TEST_F(RobotAlone, PositionsAreAsOfNowWhateverTheOrder) {
 
 TEST_F(RobotAlone, OfEachSenderTheNewestPacketIsHeardOnce) {
   robot_.take(frame(4), 10.0);
-  robot_.take(Heard{4, {}, {{3, {1.0F, 0.0F}, {4}}, {5, {0.0F, 1.0F}, {9}}}});
-  robot_.take(Heard{3, {}, {{3, {2.0F, 0.0F}, {3}}}});
+  robot_.take(HeardBundle{4, {}, {{3, {1.0F, 0.0F}, {4}}, {5, {0.0F, 1.0F}, {9}}}});
+  robot_.take(HeardBundle{3, {}, {{3, {2.0F, 0.0F}, {3}}}});
   static_cast<void>(robot_.step(10.0));
   EXPECT_EQ(given_.messages, (std::vector<Bytes>{{4}, {9}}));
-  robot_.take(Heard{4, {}, {{3, {1.0F, 0.0F}, {4}}}});  // twice
-  robot_.take(Heard{2, {}, {{3, {1.0F, 0.0F}, {2}}}});  // late
-  robot_.take(Heard{5, {}, {{5, {1.0F, 0.0F}, {0}}}});  // not the algorithm's
+  robot_.take(HeardBundle{4, {}, {{3, {1.0F, 0.0F}, {4}}}});  // twice
+  robot_.take(HeardBundle{2, {}, {{3, {1.0F, 0.0F}, {2}}}});  // late
+  robot_.take(HeardBundle{5, {}, {{5, {1.0F, 0.0F}, {0}}}});  // not the algorithm's
   static_cast<void>(robot_.step(10.1));
   EXPECT_TRUE(given_.packets.empty());
 }
@@ -171,7 +171,7 @@ TEST_F(RobotAlone, APauseOfTheHubIsNoTimeOfTheMissionButAPauseOfTheRobotIs) {
 }
 
 TEST_F(RobotAlone, TargetsStayWhereTheyAreAndNewsOfThemCountsOnce) {
-  Frame f = frame(1);
+  SensorFrame f = frame(1);
   f.sent = f.has_target = true;
   f.target = {3.0F, 0.0F};
   f.given_up = 5;
@@ -193,7 +193,7 @@ TEST_F(RobotAlone, TargetsStayWhereTheyAreAndNewsOfThemCountsOnce) {
 
 TEST_F(RobotAlone, AnotherMissionBeginsAnew) {
   robot_.take(frame(100), 10.0);
-  Frame next = frame(0);
+  SensorFrame next = frame(0);
   next.mission = 2;
   robot_.take(next, 11.0);
   EXPECT_EQ(given_.made, 2);
@@ -203,11 +203,11 @@ TEST_F(RobotAlone, AnotherMissionBeginsAnew) {
 
 TEST_F(RobotAlone, ABaseOfItsOwnMeasuresItself) {
   const OdometricPose then{{10.0F, 0.0F}, 0.0F}, now{{11.0F, 0.0F}, 0.0F};
-  Frame f = frame(1, {{-5.0F, -5.0F}, 1.0F});
+  SensorFrame f = frame(1, {{-5.0F, -5.0F}, 1.0F});
   f.sent = f.has_target = true;
   f.target = {3.0F, 0.0F};
   robot_.take(f, 10.0, then);
-  robot_.take(Heard{1, {}, {{3, {2.0F, 1.0F}, {1}}}}, then);
+  robot_.take(HeardBundle{1, {}, {{3, {2.0F, 1.0F}, {1}}}}, then);
   const std::vector<Vec2> seen{{0.3F, 0.0F}};
   static_cast<void>(robot_.step(10.1, now, seen));
   EXPECT_NEAR(given_.senses.orders.target->x, 2.0F, 1e-5F);
@@ -220,7 +220,7 @@ TEST_F(RobotAlone, WhatItsBaseSeesWhereARobotWasHeardIsNoObstacle) {
   const OdometricPose here{};
   const std::vector<Vec2> seen{{0.93F, 0.0F}, {0.0F, 0.5F}};
   robot_.take(frame(1), 10.0, here);
-  robot_.take(Heard{1, {}, {{3, {1.0F, 0.0F}, {1}}}}, here);
+  robot_.take(HeardBundle{1, {}, {{3, {1.0F, 0.0F}, {1}}}}, here);
   static_cast<void>(robot_.step(10.1, here, seen));
   EXPECT_EQ(given_.obstacles, (std::vector<Vec2>{{0.0F, 0.5F}}));
   robot_.take(frame(2), 10.5, here);  // a packet of it was lost

@@ -23,7 +23,7 @@ void check_panel(const BoxFigure& figure, const Panel& panel) {
   require(panel.boxes.size() == figure.groups.size(), "every panel needs boxes for every group");
   for (const auto& group : panel.boxes) {
     require(group.size() == figure.series.size(), "every group needs a box for every series");
-    for (const Box& box : group) {
+    for (const BoxRuns& box : group) {
       const bool finite = std::all_of(box.values.begin(), box.values.end(), [](double v) { return std::isfinite(v); });
       require(finite, "values must be finite");
       const bool share = figure.measures[panel.measure].share_confidence.has_value();
@@ -76,7 +76,7 @@ double jitter(std::size_t index) {
   return turn - std::floor(turn) - 0.5;
 }
 
-BoxNumbers numbers_shown(const Box& box, const Measure& measure) {
+BoxNumbers numbers_shown(const BoxRuns& box, const Measure& measure) {
   if (!measure.share_confidence) return numbers_of(box.values, box.missed);
   const auto hits =
       static_cast<std::size_t>(std::count_if(box.values.begin(), box.values.end(), [](double v) { return v > 0.0; }));
@@ -91,7 +91,7 @@ Blocks write_data(Script& script, const BoxFigure& figure, const BoxLayout& layo
   std::string points;
   const double width = layout.box_width() / layout.pitch;
   for (std::size_t g = 0; g < figure.groups.size(); ++g) {
-    const Box& box = figure.panels[panel].boxes[g][series];
+    const BoxRuns& box = figure.panels[panel].boxes[g][series];
     if (box.values.empty() && box.missed == 0) continue;
     const double x = 0.5 + layout.center(g, series, figure.series.size()) / layout.pitch;
     const BoxNumbers numbers = numbers_shown(box, figure.measures[figure.panels[panel].measure]);
@@ -117,7 +117,7 @@ Blocks write_data(Script& script, const BoxFigure& figure, const BoxLayout& layo
 
 // -------------------------------------------------------------------------------------- texts --
 
-void draw_sample(Script& script, const Style& style, bool thin, Place at) {
+void draw_sample(Script& script, const Style& style, bool thin, PanelPoint at) {
   if (thin) {
     script.stroke({at.x + 1.0, at.y}, {at.x + swatch_pt - 1.0, at.y}, "front lw 1.6 lc " + rgb(style.color));
     script.point({at.x + swatch_pt / 2.0, at.y}, 4.5, "pt " + std::to_string(style.point) + " lc " + rgb(style.color));
@@ -133,7 +133,7 @@ void draw_sheet(Script& script, const BoxFigure& figure, const BoxLayout& layout
   const double left = layout.lefts.front(), right = layout.lefts.back() + layout.panel_width;
   script.labels(layout.title, {layout.width / 2.0, edge_pt + line_pt / 2.0}, Align::center);
   box_legend(figure, layout)
-      .draw(script, layout.width / 2.0, layout.legend_top, [&](Script& to, std::size_t series, Place at) {
+      .draw(script, layout.width / 2.0, layout.legend_top, [&](Script& to, std::size_t series, PanelPoint at) {
         draw_sample(to, look_of(figure, series), layout.thin, at);
       });
   if (figure.measures.size() == 1) {
@@ -202,7 +202,7 @@ void draw_texts(Script& script, const BoxFigure& figure, const BoxLayout& layout
 
 // ------------------------------------------------------------------------------------- misses --
 
-void draw_miss_bar(Script& script, const Box& box, const Style& style, double x, double bottom, double width) {
+void draw_miss_bar(Script& script, const BoxRuns& box, const Style& style, double x, double bottom, double width) {
   const double share = static_cast<double>(box.missed) / static_cast<double>(box.missed + box.values.size());
   const double height = std::max(0.5, share * miss_bar_pt);
   script.rectangle({x - width / 2.0, bottom - height}, width, height,
@@ -225,7 +225,7 @@ void draw_misses(Script& script, const BoxFigure& figure, const BoxLayout& layou
   }
   for (std::size_t g = 0; g < figure.groups.size(); ++g) {
     for (std::size_t s = 0; s < figure.series.size(); ++s) {
-      const Box& box = figure.panels[panel].boxes[g][s];
+      const BoxRuns& box = figure.panels[panel].boxes[g][s];
       if (box.missed == 0) continue;
       const double x = area.left + layout.center(g, s, figure.series.size());
       if (bars)

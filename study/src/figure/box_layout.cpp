@@ -21,7 +21,7 @@ constexpr double row_gap_pt = 8.0;
 constexpr double longest_label_pt = 110.0;
 constexpr double sine_45 = 0.70710678;
 
-bool there(const Box& box) { return !box.values.empty() || box.missed > 0; }
+bool there(const BoxRuns& box) { return !box.values.empty() || box.missed > 0; }
 
 // Every box of the figure: visit(panel, group, series, box).
 template <typename Visit> void visit_boxes(const BoxFigure& figure, Visit visit) {
@@ -37,7 +37,7 @@ FigureAxis axis_of(const BoxFigure& figure, std::size_t m, int most_ticks) {
   const bool logarithmic = measure.scale == Scale::log;
   Extent extent;
   bool zeros = false;
-  visit_boxes(figure, [&](std::size_t p, std::size_t, std::size_t, const Box& box) {
+  visit_boxes(figure, [&](std::size_t p, std::size_t, std::size_t, const BoxRuns& box) {
     if (figure.panels[p].measure != m) return;
     for (const double v : box.values) {
       zeros = zeros || v <= 0.0;
@@ -53,7 +53,7 @@ FigureAxis axis_of(const BoxFigure& figure, std::size_t m, int most_ticks) {
 bool is_spread(const BoxFigure& figure) {
   std::vector<std::size_t> only(figure.groups.size(), figure.series.size());
   bool spread = false;
-  visit_boxes(figure, [&](std::size_t, std::size_t g, std::size_t s, const Box& box) {
+  visit_boxes(figure, [&](std::size_t, std::size_t g, std::size_t s, const BoxRuns& box) {
     if (!there(box)) return;
     spread = spread || (only[g] != figure.series.size() && only[g] != s);
     only[g] = s;
@@ -231,7 +231,7 @@ void label_outer(const BoxFigure& figure, BoxLayout& layout, std::string& x_labe
 
 std::string note_of(const BoxFigure& figure) {
   std::size_t fewest = 0, most = 0;
-  visit_boxes(figure, [&](std::size_t, std::size_t, std::size_t, const Box& box) {
+  visit_boxes(figure, [&](std::size_t, std::size_t, std::size_t, const BoxRuns& box) {
     const std::size_t n = box.values.size() + box.missed;
     if (n == 0) return;
     fewest = fewest == 0 ? n : std::min(fewest, n);
@@ -268,7 +268,7 @@ void place_texts(const BoxFigure& figure, BoxLayout& layout) {
 
 std::string widest_miss(const BoxFigure& figure) {
   std::string widest;
-  visit_boxes(figure, [&](std::size_t, std::size_t, std::size_t, const Box& box) {
+  visit_boxes(figure, [&](std::size_t, std::size_t, std::size_t, const BoxRuns& box) {
     if (box.missed == 0) return;
     const std::string text = miss_text(box);
     if (text_width(text, text_pt) > text_width(widest, text_pt)) widest = text;
@@ -281,7 +281,7 @@ bool fit_level(const BoxFigure& figure, const BoxLayout& layout) {
   bool fit = true;
   std::size_t last = figure.panels.size();
   double taken = 0.0;
-  visit_boxes(figure, [&](std::size_t p, std::size_t g, std::size_t s, const Box& box) {
+  visit_boxes(figure, [&](std::size_t p, std::size_t g, std::size_t s, const BoxRuns& box) {
     if (p != last) taken = -3.0;
     last = p;
     if (box.missed == 0) return;
@@ -304,7 +304,7 @@ MissStrip strip_of(const BoxFigure& figure, const BoxLayout& layout) {
 void place_misses(const BoxFigure& figure, BoxLayout& layout) {
   layout.misses = strip_of(figure, layout);
   layout.row_misses.assign(layout.rows, 0);
-  visit_boxes(figure, [&](std::size_t p, std::size_t, std::size_t, const Box& box) {
+  visit_boxes(figure, [&](std::size_t p, std::size_t, std::size_t, const BoxRuns& box) {
     if (box.missed > 0) layout.row_misses[p / layout.columns] = 1;
   });
 }
@@ -333,7 +333,7 @@ void place_rows(const BoxFigure& figure, const Legend& legend, BoxLayout& layout
 
 }  // namespace
 
-std::string miss_text(const Box& box) {
+std::string miss_text(const BoxRuns& box) {
   return std::to_string(box.missed) + "/" + std::to_string(box.values.size() + box.missed);
 }
 

@@ -74,7 +74,7 @@ struct BoxLayout {
 };
 
 // "12/50": of how many runs how many missed.
-[[nodiscard]] std::string miss_text(const Box& box);
+[[nodiscard]] std::string miss_text(const BoxRuns& box);
 
 [[nodiscard]] BoxLayout box_layout(const BoxFigure& figure);
 [[nodiscard]] Legend box_legend(const BoxFigure& figure, const BoxLayout& layout);

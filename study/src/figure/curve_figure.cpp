@@ -105,7 +105,7 @@ const std::string band_fill = "fs transparent solid 0.18 noborder";
 
 void draw_sheet(Script& script, const CurveFigure& figure, const Layout& layout, const Legend& legend) {
   script.labels(layout.title, {layout.width / 2.0, edge_pt + line_pt / 2.0}, Align::center);
-  legend.draw(script, layout.width / 2.0, layout.legend_top, [&](Script& to, std::size_t i, Place at) {
+  legend.draw(script, layout.width / 2.0, layout.legend_top, [&](Script& to, std::size_t i, PanelPoint at) {
     if (visible(figure.curves[i].low)) {
       to.rectangle({at.x, at.y - 3.5}, sample_pt, 7.0, "fc " + rgb(style_of(i).color) + " " + band_fill);
     }

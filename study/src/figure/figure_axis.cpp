@@ -41,10 +41,10 @@ std::string general(double value) {
 }
 
 // Multiples of a round step within the axis.
-std::vector<Tick> even_ticks(double low, double high, int most_ticks) {
+std::vector<AxisTick> even_ticks(double low, double high, int most_ticks) {
   const double step = round_step(high - low, most_ticks);
   const int decimals = decimals_of(step, std::max(std::fabs(low), std::fabs(high)));
-  std::vector<Tick> ticks;
+  std::vector<AxisTick> ticks;
   const double first = std::ceil(low / step - 1e-9);
   for (double n = 0.0; (first + n) * step <= high + 1e-9 * step; n += 1.0) {
     const double at = first + n == 0.0 ? 0.0 : (first + n) * step;  // not -0
@@ -54,8 +54,8 @@ std::vector<Tick> even_ticks(double low, double high, int most_ticks) {
 }
 
 // `digits` times every `stride`-th power of ten within the axis.
-std::vector<Tick> power_ticks(double low, double high, std::initializer_list<double> digits, int stride) {
-  std::vector<Tick> ticks;
+std::vector<AxisTick> power_ticks(double low, double high, std::initializer_list<double> digits, int stride) {
+  std::vector<AxisTick> ticks;
   const int first = static_cast<int>(std::floor(std::log10(low))), last = static_cast<int>(std::ceil(std::log10(high)));
   for (int power = first; power <= last; ++power) {
     if (power % stride != 0) continue;
@@ -67,7 +67,7 @@ std::vector<Tick> power_ticks(double low, double high, std::initializer_list<dou
   return ticks;
 }
 
-std::vector<Tick> log_ticks(double low, double high, int most_ticks) {
+std::vector<AxisTick> log_ticks(double low, double high, int most_ticks) {
   const auto most = static_cast<std::size_t>(std::max(most_ticks, 2));
   if (auto fine = power_ticks(low, high, {1.0, 2.0, 5.0}, 1); fine.size() >= 3 && fine.size() <= most) return fine;
   for (int stride = 1; stride < 700; ++stride) {
@@ -89,14 +89,14 @@ void Extent::add(double value) noexcept {
 
 std::string FigureAxis::tick_list(bool labels) const {
   std::string text = "(";
-  for (const Tick& tick : ticks)
+  for (const AxisTick& tick : ticks)
     text += (text.size() > 1 ? ", " : "") + in_quotes(labels ? tick.label : "") + " " + number(tick.at);
   return text + ")";
 }
 
 double FigureAxis::label_width(double size) const {
   double widest = 0.0;
-  for (const Tick& tick : ticks) widest = std::max(widest, text_width(tick.label, size));
+  for (const AxisTick& tick : ticks) widest = std::max(widest, text_width(tick.label, size));
   return widest;
 }
 
@@ -134,7 +134,7 @@ FigureAxis log_axis_over(const Extent& extent, std::optional<double> minimum, st
   const double least = axis.low;
   if (zeros && !minimum) axis.low = least / zero_distance;
   axis.ticks = log_ticks(least, axis.high, most_ticks);
-  if (zeros && !minimum) axis.ticks.insert(axis.ticks.begin(), Tick{axis.low, "0"});
+  if (zeros && !minimum) axis.ticks.insert(axis.ticks.begin(), AxisTick{axis.low, "0"});
   return axis;
 }
 

@@ -17,14 +17,14 @@ struct Extent {
   void add(double value) noexcept;  // what is not finite does not count
 };
 
-struct Tick {
+struct AxisTick {
   double at = 0.0;
   std::string label;
 };
 
 struct FigureAxis {
   double low = 0.0, high = 1.0;  // low < high
-  std::vector<Tick> ticks;       // ascending, from low to high
+  std::vector<AxisTick> ticks;       // ascending, from low to high
   Scale scale = Scale::linear;   // logarithmic: low > 0
 
   [[nodiscard]] std::string tick_list(bool labels = true) const;  // for gnuplot, ("0" 0, "0.5" 0.5)

@@ -119,11 +119,11 @@ void Script::end_drawing() {
   line("}");
 }
 
-std::string Script::screen(Place at) const {
+std::string Script::screen(PanelPoint at) const {
   return "screen " + fixed(at.x / width_, 5) + ", screen " + fixed(1.0 - at.y / height_, 5);
 }
 
-void Script::label(std::string_view text, Place at, Align align, int degrees, double size) {
+void Script::label(std::string_view text, PanelPoint at, Align align, int degrees, double size) {
   static constexpr std::array<std::string_view, 3> names{"left", "center", "right"};
   std::string command = "set label " + in_quotes(text) + " at " + screen(at) + " " +
                         std::string(names.at(static_cast<std::size_t>(align)));
@@ -132,23 +132,23 @@ void Script::label(std::string_view text, Place at, Align align, int degrees, do
   line(command);
 }
 
-void Script::labels(const std::vector<std::string>& lines, Place at, Align align, int degrees) {
+void Script::labels(const std::vector<std::string>& lines, PanelPoint at, Align align, int degrees) {
   for (const std::string& text : lines) {
     if (!text.empty()) label(text, at, align, degrees);
     (degrees == 90 ? at.x : at.y) += line_pt;
   }
 }
 
-void Script::rectangle(Place corner, double width, double height, const std::string& style) {
+void Script::rectangle(PanelPoint corner, double width, double height, const std::string& style) {
   line("set object rectangle from " + screen(corner) + " to " + screen({corner.x + width, corner.y + height}) +
        " front " + style);
 }
 
-void Script::stroke(Place from, Place to, const std::string& style) {
+void Script::stroke(PanelPoint from, PanelPoint to, const std::string& style) {
   line("set arrow from " + screen(from) + " to " + screen(to) + " nohead " + style);
 }
 
-void Script::point(Place at, double size, const std::string& style) {
+void Script::point(PanelPoint at, double size, const std::string& style) {
   line("set label '' at " + screen(at) + " front point " + point_size(size) + " " + style);
 }
 

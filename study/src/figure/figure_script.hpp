@@ -31,7 +31,7 @@ struct Style {
 
 enum class Align { left, center, right };
 
-struct Place {
+struct PanelPoint {
   double x = 0.0, y = 0.0;
 };
 struct Area {  // of a panel, within its axes
@@ -51,12 +51,12 @@ class Script {
 
   void line(std::string_view text);
   // Text on one line, its middle at `at`; `degrees` against the clock. `size` in points.
-  void label(std::string_view text, Place at, Align align, int degrees = 0, double size = text_pt);
+  void label(std::string_view text, PanelPoint at, Align align, int degrees = 0, double size = text_pt);
   // Lines one below the other (or, turned by 90 degrees, one right of the other), the first at `at`.
-  void labels(const std::vector<std::string>& lines, Place at, Align align, int degrees = 0);
-  void rectangle(Place corner, double width, double height, const std::string& style);
-  void stroke(Place from, Place to, const std::string& style);
-  void point(Place at, double size, const std::string& style);  // size: see point_size()
+  void labels(const std::vector<std::string>& lines, PanelPoint at, Align align, int degrees = 0);
+  void rectangle(PanelPoint corner, double width, double height, const std::string& style);
+  void stroke(PanelPoint from, PanelPoint to, const std::string& style);
+  void point(PanelPoint at, double size, const std::string& style);  // size: see point_size()
   void forget_labels();  // those so far are drawn; the next panel does not repeat them
   void area(const Area& area);
   void frame(bool shown);  // the lines of the axes
@@ -65,7 +65,7 @@ class Script {
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
  private:
-  [[nodiscard]] std::string screen(Place at) const;
+  [[nodiscard]] std::string screen(PanelPoint at) const;
 
   std::string text_, indent_;
   double width_, height_;
@@ -86,7 +86,7 @@ class Legend {
   template <typename Sample> void draw(Script& script, double center_x, double top, Sample draw_sample) const {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const std::size_t row = i / columns_;
-      const Place at{center_x - (lefts_.back() - gap_pt) / 2.0 + lefts_[i % columns_],
+      const PanelPoint at{center_x - (lefts_.back() - gap_pt) / 2.0 + lefts_[i % columns_],
                      top + (static_cast<double>(row) + 0.5) * row_pt};
       draw_sample(script, i, at);
       script.label(names_[i], {at.x + sample_ + space_pt, at.y}, Align::left);

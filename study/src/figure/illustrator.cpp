@@ -171,13 +171,13 @@ class Illustrator {
     const Axis* axis = axis_of(*axes_, plan_.panels);
     for (const auto& label : places_.panels) {
       Panel panel{axis ? with_value(axis->title, label) : "", m, {}};
-      panel.boxes.assign(places_.groups.size(), std::vector<Box>(places_.series.size()));
+      panel.boxes.assign(places_.groups.size(), std::vector<BoxRuns>(places_.series.size()));
       figure.panels.push_back(std::move(panel));
     }
     fill(figure, m);
   }
 
-  [[nodiscard]] Box& box_of(BoxFigure& figure, std::size_t m, std::size_t row) const {
+  [[nodiscard]] BoxRuns& box_of(BoxFigure& figure, std::size_t m, std::size_t row) const {
     Labels group;
     for (const auto& axis : x_) group.push_back(results_.label(row, axis));
     const std::size_t panel = plan_.panels.empty() ? 0 : index_in(places_.panels, results_.label(row, plan_.panels));
@@ -244,7 +244,7 @@ class Illustrator {
     figure.counted = ratio ? "pairs" : "runs";
   }
 
-  static bool has_runs(const Box& box) { return !box.values.empty() || box.missed > 0; }
+  static bool has_runs(const BoxRuns& box) { return !box.values.empty() || box.missed > 0; }
 
   template <typename Visit> static bool any_box(const BoxFigure& figure, Visit visit) {
     for (std::size_t p = 0; p < figure.panels.size(); ++p) {

@@ -31,7 +31,7 @@ bool Sending::sent() {
 
 void Sending::finish() { MPI_Waitall(static_cast<int>(pieces_.size()), pieces_.data(), MPI_STATUSES_IGNORE); }
 
-std::optional<Message> receive() {
+std::optional<MpiMessage> receive() {
   int come = 0;
   MPI_Status status;
   // Open MPI looks first and then fetches what has come: the second look sees it.
@@ -39,7 +39,7 @@ std::optional<Message> receive() {
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &come, &status);
   }
   if (come == 0) return std::nullopt;
-  Message message{status.MPI_SOURCE, status.MPI_TAG, {}};
+  MpiMessage message{status.MPI_SOURCE, status.MPI_TAG, {}};
   for (;;) {
     int count = 0;
     MPI_Get_count(&status, MPI_BYTE, &count);

@@ -27,12 +27,12 @@ class Sending {
   std::vector<MPI_Request> pieces_;
 };
 
-struct Message {
+struct MpiMessage {
   int from = 0, tag = 0;
   std::string bytes;
 };
 
 // The next message if one has come.
-[[nodiscard]] std::optional<Message> receive();
+[[nodiscard]] std::optional<MpiMessage> receive();
 
 }  // namespace banyan::study

@@ -60,7 +60,7 @@ class Other {
     --free_;
   }
 
-  void deliver(Message message) {
+  void deliver(MpiMessage message) {
     Slot& slot = slots_.at(static_cast<std::size_t>(message.tag) - 1);
     slot.sending->finish();
     slot.sending.reset();
@@ -104,7 +104,7 @@ class MpiTeam final : public Team {
   bool take_in(std::vector<Other>& others);
   bool hand_out(std::vector<Other>& others);
   void follow();
-  void accept(Message task);
+  void accept(MpiMessage task);
   bool send_results(std::list<Sending>& sending);
 
   std::promise<void> joined_;
@@ -122,7 +122,7 @@ class MpiTeam final : public Team {
   TaskQueue* served_ = nullptr;
   std::size_t threads_ = 0;
   bool let_go_ = false;
-  std::vector<Message> results_;
+  std::vector<MpiMessage> results_;
 
   std::jthread thread_;  // last: it uses all the others
 };
@@ -251,7 +251,7 @@ void MpiTeam::follow() {
   changed_.notify_all();
 }
 
-void MpiTeam::accept(Message task) {
+void MpiTeam::accept(MpiMessage task) {
   // A lost result would be waited for without end: better to end here.
   served_->post({std::move(task.bytes), [this, tag = task.tag](std::string result) noexcept {
                    const std::lock_guard lock(mutex_);
@@ -260,13 +260,13 @@ void MpiTeam::accept(Message task) {
 }
 
 bool MpiTeam::send_results(std::list<Sending>& sending) {
-  std::vector<Message> results;
+  std::vector<MpiMessage> results;
   {
     const std::lock_guard lock(mutex_);
     results.swap(results_);
   }
   sending.remove_if([](Sending& earlier) { return earlier.sent(); });
-  for (Message& result : results) sending.emplace_back(std::move(result.bytes), 0, result.tag);
+  for (MpiMessage& result : results) sending.emplace_back(std::move(result.bytes), 0, result.tag);
   return !results.empty();
 }
 

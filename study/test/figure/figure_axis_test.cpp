@@ -71,7 +71,7 @@ TEST(FigureAxis, HasRoundTicksAndASizeForAnyValues) {
 TEST(FigureAxis, ALogarithmicOneHasTicksAtPowers) {
   const auto labels = [](const FigureAxis& axis) {
     std::string text;
-    for (const Tick& tick : axis.ticks) text += tick.label + " ";
+    for (const AxisTick& tick : axis.ticks) text += tick.label + " ";
     return text;
   };
   EXPECT_EQ(labels(log_axis_over(of({0.3, 12.0}), {}, {}, false, 6)), "0.5 1 2 5 10 ");

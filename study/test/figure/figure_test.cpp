@@ -73,7 +73,7 @@ std::vector<double> runs(std::uint64_t seed, std::size_t count, double from, dou
   return values;
 }
 
-Box box_of(std::vector<double> values, std::size_t missed = 0) { return {std::move(values), missed}; }
+BoxRuns box_of(std::vector<double> values, std::size_t missed = 0) { return {std::move(values), missed}; }
 
 BoxFigure small_figure() {
   BoxFigure figure;
@@ -517,7 +517,7 @@ TEST_F(FigureDraw, AnEmptyPlaceInAGridHasNoAxes) {
   BoxFigure figure = nested(true);
   draw(figure, at("full"));
   EXPECT_FALSE(shows(contents(at("full.svg")), "no runs"));
-  for (auto& group : figure.panels[3].boxes) std::fill(group.begin(), group.end(), Box{});
+  for (auto& group : figure.panels[3].boxes) std::fill(group.begin(), group.end(), BoxRuns{});
   draw(figure, at("grid"));
   EXPECT_TRUE(shows(contents(at("grid.svg")), "no runs"));
   const std::string script = contents(at("grid.gp"));

@@ -20,10 +20,10 @@ using world::range_text;
 // What a file and the command line together stand for.
 struct Configuration {
   world::Scenario scenario;
-  record::Output output;
+  record::OutputSettings output;
 };
 
-[[nodiscard]] std::span<const world::Key<record::Output>> output_keys() noexcept;
+[[nodiscard]] std::span<const world::Key<record::OutputSettings>> output_keys() noexcept;
 
 // In the order of a file, those that are lists of tables included.
 [[nodiscard]] std::span<const world::Section> sections() noexcept;

@@ -17,18 +17,18 @@ namespace banyan::record {
 class Recording;
 
 // A part of the plane, m.
-struct View {
+struct Viewport {
   Vec2 low, high;
 };
 // Everything that a picture of this would show, at least 2 m wide and high.
-[[nodiscard]] View view_of(const Setting& setting, const Frame& frame);
+[[nodiscard]] Viewport view_of(const Setting& setting, const Frame& frame);
 // What holds both.
-[[nodiscard]] View joined(const View& a, const View& b) noexcept;
+[[nodiscard]] Viewport joined(const Viewport& a, const Viewport& b) noexcept;
 
-struct DrawOptions {
+struct PictureOptions {
   double width_px = 1000.0;    // 200 to 20000
   double height_px = 0.0;      // 0: as high as the map needs; else exactly that, 150 to 20000
-  std::optional<View> view;    // what is shown; default view_of(), with the trails
+  std::optional<Viewport> view;    // what is shown; default view_of(), with the trails
   double trail_s = 10.0;       // how far back trails go; 0: none. Recordings only
   bool links = true;
   bool blocked_links = false;  // in range, but no line of sight
@@ -59,9 +59,9 @@ class TrailLog {
 };
 
 [[nodiscard]] std::string draw_svg(const Setting& setting, const Frame& frame, const Trails& trails = {},
-                                   const DrawOptions& options = {});
+                                   const PictureOptions& options = {});
 // The last frame at or before `time_s`.
-[[nodiscard]] std::string draw_svg(Recording& recording, double time_s, const DrawOptions& options = {});
+[[nodiscard]] std::string draw_svg(Recording& recording, double time_s, const PictureOptions& options = {});
 
 // Pairs i < j that are in range, both alive, and have or lack a line of sight.
 struct Links {

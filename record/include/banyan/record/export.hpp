@@ -14,7 +14,7 @@
 
 namespace banyan::record {
 
-struct ExportOptions {
+struct TableOptions {
   double from_s = 0.0;
   double to_s = std::numeric_limits<double>::infinity();
   std::size_t every = 1;       // every nth recorded frame
@@ -25,8 +25,8 @@ using WritePiece = std::function<void(std::string_view)>;
 
 // Columns: tick,time_s,robot,x_m,y_m,heading_rad,role,phase,parent,old_parent,alive,connected,target.
 // Roles and phases by name, alive and connected as 0 or 1, nobody as an empty field. Returns rows.
-std::uint64_t export_csv(Recording& recording, const WritePiece& write, const ExportOptions& options = {});
+std::uint64_t export_csv(Recording& recording, const WritePiece& write, const TableOptions& options = {});
 std::uint64_t export_csv(Recording& recording, const std::string& path, Existing existing = Existing::keep,
-                         const ExportOptions& options = {});
+                         const TableOptions& options = {});
 
 }  // namespace banyan::record

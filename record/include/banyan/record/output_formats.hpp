@@ -38,7 +38,7 @@ inline constexpr OutputFormat output_formats[] = {
 };
 
 // [output] of a scenario. Never changes what happens in a run.
-struct Output {
+struct OutputSettings {
   std::array<bool, std::size(output_formats)> wanted = defaults();  // the formats with a key, by position
   bool results = true;             // those without one
   std::uint32_t record_every = 1;  // ticks, of the recording

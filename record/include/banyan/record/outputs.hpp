@@ -15,7 +15,7 @@ namespace banyan::record {
 // What a format may need to know.
 struct SinkOptions {
   Provenance provenance;
-  Output output;
+  OutputSettings output;
   Existing existing = Existing::keep;
 };
 

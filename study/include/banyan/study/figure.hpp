@@ -27,7 +27,7 @@ struct Series {  // one colour, named in the legend
   std::size_t variant = 0;           // of others of that colour, < most_variants: told apart by their fill
 };
 // The runs behind one box.
-struct Box {
+struct BoxRuns {
   std::vector<double> values;  // finite, in any order
   std::size_t missed = 0;      // further runs: each later than every value
 };
@@ -42,7 +42,7 @@ struct Measure {
 struct Panel {
   std::string title;                    // "r = 3 m"
   std::size_t measure = 0;              // of the figure's
-  std::vector<std::vector<Box>> boxes;  // [group][series]; no run: no box
+  std::vector<std::vector<BoxRuns>> boxes;  // [group][series]; no run: no box
 };
 // What several groups have in common, written below their labels: a label per group.
 struct OuterLabels {

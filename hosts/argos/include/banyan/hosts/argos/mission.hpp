@@ -28,14 +28,14 @@ struct MissionError : std::runtime_error {
 [[nodiscard]] config::Configuration load_mission(const std::string& file, const std::vector<std::string>& assignments,
                                                  const AlgorithmList& algorithms);
 
-class Mission {
+class MissionRun {
  public:
   // `out`: the directory of the results; "": none. Refuses to replace results unless `force`. With `placed`, robots
   // begin there instead of where the scenario has them. `robots` are not called before begin(). Throws MissionError.
-  Mission(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed,
+  MissionRun(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed,
           Robots& robots);
-  Mission(const Mission&) = delete;
-  Mission& operator=(const Mission&) = delete;
+  MissionRun(const MissionRun&) = delete;
+  MissionRun& operator=(const MissionRun&) = delete;
 
   [[nodiscard]] const world::World& world() const noexcept { return simulation_->world(); }
   [[nodiscard]] Pose start(std::size_t i) const;

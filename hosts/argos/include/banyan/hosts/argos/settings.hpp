@@ -25,7 +25,7 @@ class SettingsError : public std::runtime_error {
 };
 
 // How a robot begins if there are no loop functions that say it.
-enum class Part : unsigned char { spare, worker, root };
+enum class StartRole : unsigned char { spare, worker, root };
 
 struct Settings {
   const Algorithm* algorithm = nullptr;
@@ -33,7 +33,7 @@ struct Settings {
   // The same as options of `banyan run --set`: "mission.algorithm=convoy". Only what was written.
   std::vector<std::string> assignments;
   bool knows_wheels = false;  // wheel_distance_m was written
-  Part part = Part::spare;
+  StartRole part = StartRole::spare;
   std::optional<BasicVec2<double>> target;  // m, in the arena's frame
   double light_intensity_m = 2.0;           // of the light that is the target
 };

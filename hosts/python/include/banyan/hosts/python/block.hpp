@@ -39,20 +39,20 @@ enum class Item : std::uint8_t { flag, byte, small, whole, real };  // bool, uin
 }
 
 // Axes of a field behind that of the robots.
-enum class Axis : std::uint8_t { none, two, three, neighbours, payload, obstacles, kept };
+enum class FieldAxis : std::uint8_t { none, two, three, neighbours, payload, obstacles, kept };
 
 struct FieldInfoOf {
   Field field;
   const char* name;
   const char* meaning;
   Item item;
-  std::array<Axis, 2> axes;
+  std::array<FieldAxis, 2> axes;
   bool decided;              // written by who decides, not sensed
   std::int8_t blank = 0;     // while nothing else is known
 };
 // In the order of Field.
 [[nodiscard]] std::span<const FieldInfoOf> fields() noexcept;
-[[nodiscard]] std::size_t length(Axis axis, const Shape& shape) noexcept;  // 1 for none
+[[nodiscard]] std::size_t length(FieldAxis axis, const Shape& shape) noexcept;  // 1 for none
 
 // The arrays of one swarm.
 class Exchange {

@@ -29,15 +29,15 @@ struct BodyFrame {
   double x_m = 0.0, y_m = 0.0, heading_rad = 0.0;
 };
 
-class Node {
+class RosNode {
  public:
-  using Take = std::function<void(Source, std::size_t place, const Sighting&)>;
+  using Take = std::function<void(Source, std::size_t place, const StampedPose&)>;
 
   // Throws NodeError.
-  explicit Node(const Options& options);
-  ~Node();
-  Node(const Node&) = delete;
-  Node& operator=(const Node&) = delete;
+  explicit RosNode(const Options& options);
+  ~RosNode();
+  RosNode(const RosNode&) = delete;
+  RosNode& operator=(const RosNode&) = delete;
 
   // Can be read when something has arrived.
   [[nodiscard]] int descriptor() const noexcept;

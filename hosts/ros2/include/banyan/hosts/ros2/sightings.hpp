@@ -16,7 +16,7 @@ namespace banyan::ros2 {
 struct Quaternion {
   double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
 };
-struct Sighting {
+struct StampedPose {
   std::int64_t stamp_ns = 0;  // since 1970, or since a simulation began
   std::string frame;
   double x_m = 0.0, y_m = 0.0;
@@ -37,7 +37,7 @@ class Sightings {
       : frames_(robots, frame), last_ns_(robots), max_age_s_(max_age_s) {}
 
   // Of the robot at that place of the list. Nothing: it was refused, by the reason in `why`.
-  [[nodiscard]] std::optional<udp::TrackedPose> take(std::size_t place, const Sighting& sighting, std::int64_t now_ns,
+  [[nodiscard]] std::optional<udp::TrackedPose> take(std::size_t place, const StampedPose& sighting, std::int64_t now_ns,
                                                      Refusal& why);
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
   [[nodiscard]] const std::array<std::uint64_t, refusals>& refused() const noexcept { return refused_; }
@@ -45,7 +45,7 @@ class Sightings {
   [[nodiscard]] const std::string& frame(std::size_t place) const noexcept { return frames_[place]; }
 
  private:
-  [[nodiscard]] std::optional<Refusal> fault(std::size_t place, const Sighting& sighting, std::int64_t now_ns) const;
+  [[nodiscard]] std::optional<Refusal> fault(std::size_t place, const StampedPose& sighting, std::int64_t now_ns) const;
 
   std::vector<std::string> frames_;
   std::vector<std::optional<std::int64_t>> last_ns_;

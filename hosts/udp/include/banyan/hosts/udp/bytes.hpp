@@ -14,9 +14,9 @@ namespace banyan::udp {
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
 
-class ByteWriter {
+class DatagramWriter {
  public:
-  explicit ByteWriter(Bytes& out) noexcept : out_(out) {}
+  explicit DatagramWriter(Bytes& out) noexcept : out_(out) {}
   template <std::integral T> void put(T value) {
     const auto bits = static_cast<std::uint64_t>(static_cast<std::make_unsigned_t<T>>(value));
     for (std::size_t k = 0; k < sizeof(T); ++k) out_.push_back(static_cast<std::uint8_t>(bits >> (8 * k) & 0xFFU));
@@ -29,9 +29,9 @@ class ByteWriter {
 };
 
 // Beyond the end everything reads as zero and ok() is false.
-class ByteReader {
+class DatagramReader {
  public:
-  explicit ByteReader(ByteView in) noexcept : in_(in) {}
+  explicit DatagramReader(ByteView in) noexcept : in_(in) {}
   template <std::integral T> [[nodiscard]] T take() noexcept {
     std::uint64_t bits = 0;
     const ByteView bytes = take(sizeof(T));

@@ -77,10 +77,10 @@ class ReplayWindow {
 };
 
 // One end of the way between two nodes.
-class Channel {
+class SecureChannel {
  public:
   // `boot`: the own one, above 0.
-  Channel(Node self, Node peer, std::uint64_t boot) noexcept : self_(self), peer_(peer), boot_(boot) {}
+  SecureChannel(Node self, Node peer, std::uint64_t boot) noexcept : self_(self), peer_(peer), boot_(boot) {}
 
   [[nodiscard]] Bytes seal(Kind kind, ByteView payload, const KeyRing& keys);
   // Whether an authentic packet is from the peer, for this node, and new.

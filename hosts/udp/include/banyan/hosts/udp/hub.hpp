@@ -19,7 +19,7 @@
 
 namespace banyan::udp {
 
-struct HubOptions {
+struct HubSettings {
   Address listen{};
   double tick_s = 0.1;
   double speed = 1.0;               // of its clock
@@ -40,7 +40,7 @@ struct HubCounts {
 class Hub final : public Link {
  public:
   // `tape`: none, or one to write and, if it has recorded ticks, to play first; it must outlive the hub.
-  Hub(const HubOptions& options, std::size_t robots, KeyRing keys, Tape* tape);
+  Hub(const HubSettings& options, std::size_t robots, KeyRing keys, Tape* tape);
 
   using Stopped = std::function<bool()>;
   // Waits until every robot has said something, at most so long. Those that have not.
@@ -65,13 +65,13 @@ class Hub final : public Link {
   [[nodiscard]] Address local() const noexcept { return socket_.local(); }
 
   [[nodiscard]] std::optional<Status> take(std::size_t i) override;
-  void deliver(std::size_t i, Frame frame, std::span<const Hearing> heard) override;
+  void deliver(std::size_t i, SensorFrame frame, std::span<const Hearing> heard) override;
   void dismiss(std::size_t i) override;
 
  private:
   struct Robot {
-    explicit Robot(const Channel& to) noexcept : channel(to) {}
-    Channel channel;
+    explicit Robot(const SecureChannel& to) noexcept : channel(to) {}
+    SecureChannel channel;
     std::optional<Address> address;   // where it was heard from last
     std::uint64_t boot = 0;           // of the newest status
     std::uint32_t counter = 0;        // likewise
@@ -86,13 +86,13 @@ class Hub final : public Link {
   void listen();
   void take(const Envelope& envelope, const Address& from);
   void send(Robot& robot, Kind kind, const Bytes& payload);
-  void send_heard(Robot& robot, const Frame& frame, std::span<const Hearing> heard);
+  void send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hearing> heard);
   void keep_time(std::uint32_t tick, const Stopped& stopped);
   [[nodiscard]] TapeTick arrivals(std::uint32_t tick);
   void play(std::uint32_t tick);
   void add_sight(TapeTick& entries) const;
 
-  HubOptions options_;
+  HubSettings options_;
   KeyRing keys_;
   Tape* tape_;
   PoseStream* tracker_ = nullptr;     // none: bodies are simulated

@@ -38,7 +38,7 @@ class Listener final : public Link {
   [[nodiscard]] Address local() const noexcept { return socket_.local(); }
 
   [[nodiscard]] std::optional<Status> take(std::size_t i) override;
-  void deliver(std::size_t /*i*/, Frame /*frame*/, std::span<const Hearing> /*heard*/) override {}
+  void deliver(std::size_t /*i*/, SensorFrame /*frame*/, std::span<const Hearing> /*heard*/) override {}
   void dismiss(std::size_t /*i*/) override {}
 
  private:

@@ -29,7 +29,7 @@ struct OdometricPose {
 inline constexpr std::size_t most_seen = 64;  // obstacle points in a frame
 
 // Kind::frame, hub to robot, once a tick: the mission's orders and what the robot senses.
-struct Frame {
+struct SensorFrame {
   std::uint32_t mission = 0;   // a hub that goes on with a mission after a restart keeps its number
   std::uint32_t tick = 0;
   bool root = false;           // how a robot begins: the first root,
@@ -43,7 +43,7 @@ struct Frame {
   RobotId given_up = nobody;   // repeated until the robot's status has its serial
   std::uint8_t given_up_serial = 0;
   std::vector<Vec2> obstacles;
-  friend bool operator==(const Frame&, const Frame&) = default;
+  friend bool operator==(const SensorFrame&, const SensorFrame&) = default;
 };
 
 // Kind::heard, hub to robot: a message of another robot and where that was measured to be.
@@ -53,11 +53,11 @@ struct Hearing {
   Bytes message;
   friend bool operator==(const Hearing&, const Hearing&) = default;
 };
-struct Heard {
+struct HeardBundle {
   std::uint32_t tick = 0;
   OdometricPose odometry;  // of the receiver at `tick`
   std::vector<Hearing> packets;
-  friend bool operator==(const Heard&, const Heard&) = default;
+  friend bool operator==(const HeardBundle&, const HeardBundle&) = default;
 };
 
 // Kind::status, robot to hub, once a step: what it broadcasts, how it wants to move, what it reports.
@@ -85,12 +85,12 @@ struct Account {
   std::vector<Sighting> seen;
 };
 
-[[nodiscard]] Bytes encode(const Frame& frame);
-[[nodiscard]] Bytes encode(const Heard& heard);
+[[nodiscard]] Bytes encode(const SensorFrame& frame);
+[[nodiscard]] Bytes encode(const HeardBundle& heard);
 [[nodiscard]] Bytes encode(const Status& status);
 [[nodiscard]] Bytes encode(const Account& account);  // the first most_sightings
-[[nodiscard]] std::optional<Frame> decode_frame(ByteView bytes);
-[[nodiscard]] std::optional<Heard> decode_heard(ByteView bytes);
+[[nodiscard]] std::optional<SensorFrame> decode_frame(ByteView bytes);
+[[nodiscard]] std::optional<HeardBundle> decode_heard(ByteView bytes);
 [[nodiscard]] std::optional<Status> decode_status(ByteView bytes);
 [[nodiscard]] std::optional<Account> decode_account(ByteView bytes);
 

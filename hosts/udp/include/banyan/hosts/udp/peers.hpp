@@ -32,7 +32,7 @@ class Peers {
 
  private:
   struct Peer {
-    Channel channel;
+    SecureChannel channel;
     ReplayWindow spoken;
     std::uint64_t running = 0;  // the boot that has answered; 0: none
     double ask_again_s = 0.0;   // when it may be sent the next hello

@@ -22,7 +22,7 @@ class Link {
   // The newest status of robot i that has come since the last call; nothing if none has.
   [[nodiscard]] virtual std::optional<Status> take(std::size_t i) = 0;
   // `frame.mission` and `frame.begun` are the link's to fill in. Positions in `heard` are as of the frame.
-  virtual void deliver(std::size_t i, Frame frame, std::span<const Hearing> heard) = 0;
+  virtual void deliver(std::size_t i, SensorFrame frame, std::span<const Hearing> heard) = 0;
   // Robot i is dead in the world: its process is to end.
   virtual void dismiss(std::size_t i) = 0;
 
@@ -69,7 +69,7 @@ class RemoteSwarm final : public Swarm {
   RemoteSwarm(const RemoteSwarm& other);
   void collect();
   void take(Robot& robot, const Status& status);
-  [[nodiscard]] Frame frame_of(Robot& robot, const Senses& senses) const;
+  [[nodiscard]] SensorFrame frame_of(Robot& robot, const Senses& senses) const;
   [[nodiscard]] std::size_t slot(std::uint32_t age) const noexcept { return (tick_ + history_ - age) % history_; }
 
   std::unique_ptr<Swarm> local_;

@@ -23,8 +23,8 @@ class Robot {
   Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m);
 
   // What the hub has said. `at`: where the own odometry was when it was measured; nothing: the hub knows that itself.
-  void take(const Frame& frame, double now_s, const std::optional<OdometricPose>& at = {});
-  void take(const Heard& heard, const std::optional<OdometricPose>& at = {});
+  void take(const SensorFrame& frame, double now_s, const std::optional<OdometricPose>& at = {});
+  void take(const HeardBundle& heard, const std::optional<OdometricPose>& at = {});
 
   // Whether a step makes sense: it has been told how to begin, and lately.
   [[nodiscard]] bool is_guided(double now_s) const noexcept;
@@ -40,7 +40,7 @@ class Robot {
     double given_s = 0.0;  // when that was
   };
 
-  void begin(const Frame& frame);
+  void begin(const SensorFrame& frame);
   [[nodiscard]] float elapsed_s(double now_s) const noexcept;
   [[nodiscard]] Senses sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s);
   void collect(const OdometricPose& pose, double now_s);
@@ -53,7 +53,7 @@ class Robot {
   float radius_m_;
   std::unique_ptr<Swarm> swarm_;  // of this robot alone; none before the first frame
 
-  Frame frame_;                   // the newest
+  SensorFrame frame_;                   // the newest
   double frame_s_ = 0.0;          // when it came
   Vec2 target_;                   // in the frame of the odometry
   std::map<RobotId, Known> known_;
