@@ -7,7 +7,8 @@
     studies/processes.py run --seeds 40 --algorithm outwards     more of a kind
     studies/processes.py tables out/processes/rows.csv
 
-Processes have 20 ± 10 ms from robot to robot. The world's robots step at their own moments, and a packet arrives within 20 to 40 ms.
+Processes have 20 ± 10 ms from robot to robot, and the hub hands packets on once a tick. The world's robots either step together, so
+that a packet is heard exactly a tick after it was sent, or at their own moments, and then a packet arrives within 20 to 40 ms.
 """
 import argparse
 import itertools
@@ -21,6 +22,7 @@ from tables import rows_of, table
 KEY = ['scenario', 'algorithm', 'loss', 'seed', 'where']
 RESULTS = ['git', 'complete', 'completion_time_s', 'split_ticks', 'broken_ticks', 'committed', 'robots', 'ticks', 'deaths']
 REPETITIONS = {'khepera-two-targets': 15, 'khepera-three-targets': 10}  # as in the paper, Sec. IV-D
+WORLDS = {'together': 'false', 'world': 'true'}  # `where`: clocks.asynchronous
 WORLD_SEEDS = 100  # a mission takes milliseconds there, and its median is the one that both are compared with
 ALGORITHMS = ('outwards', 'inwards', 'convoy')
 LOSSES = ('0', '0.1', '0.3')
@@ -30,7 +32,7 @@ def plan(args):
     algorithms = [args.algorithm] if args.algorithm else ALGORITHMS
     scenarios = [args.scenario] if args.scenario else REPETITIONS
     for scenario, algorithm, loss in itertools.product(scenarios, algorithms, LOSSES):
-        for where, seeds in (('processes', args.seeds or REPETITIONS[scenario]), ('world', WORLD_SEEDS)):
+        for where, seeds in (('processes', args.seeds or REPETITIONS[scenario]), *((world, WORLD_SEEDS) for world in WORLDS)):
             for seed in range(1, seeds + 1):
                 yield dict(zip(KEY, (scenario, algorithm, loss, str(seed), where)))
 
@@ -42,7 +44,7 @@ def play(m, args, folder):
     if m['where'] == 'processes':
         command = [args.banyan, 'fleet', scenario, *common, '--speed', args.speed, '--loss', m['loss'], '--delay-ms', '20', '--jitter-ms', '10']
     else:
-        command = [args.banyan, 'run', scenario, *common, '--threads', '1', '--set', f'radio.loss={m["loss"]}', '--set', 'clocks.asynchronous=true']
+        command = [args.banyan, 'run', scenario, *common, '--threads', '1', '--set', f'radio.loss={m["loss"]}', '--set', f'clocks.asynchronous={WORLDS[m["where"]]}']
     return result(command, out, RESULTS)
 
 
@@ -54,19 +56,27 @@ def ratio(processes, world):
     return statistics.median(processes) / statistics.median(world), ratios[250], ratios[-251]
 
 
+def completion_times(rows):
+    return [float(row['completion_time_s']) for row in rows if row['complete'] in ('1', 'true')]
+
+
 def tables(args):
     groups = {}
     for row in itertools.chain.from_iterable(map(rows_of, args.files)):
         groups.setdefault((row['scenario'], row['algorithm'], row['loss']), {}).setdefault(row['where'], []).append(row)
     lines = []
     for (scenario, algorithm, loss), by_place in sorted(groups.items(), key=lambda item: (item[0][0] != 'khepera-two-targets', item[0][1:])):
-        rows, world = by_place['processes'], by_place['world']
-        times = [[float(row['completion_time_s']) for row in some if row['complete'] in ('1', 'true')] for some in (rows, world)]
-        middle, low, high = ratio(*times)
-        lines.append([scenario.removeprefix('khepera-').replace('-', ' '), algorithm, f'{100 * float(loss):.0f} %',
-                      f'{len(times[0])} of {len(rows)}', str(sum(int(row['split_ticks']) > 0 for row in rows)),
-                      f'{statistics.median(times[0]):.1f}', f'{statistics.median(times[1]):.1f}', f'{middle:.2f} ({low:.2f}–{high:.2f})'])
-    print(table(['set-up', 'algorithm', 'loss', 'complete', 'split', 'median, s', 'in the world, s', 'ratio (95 %)'], lines), end='')
+        rows = by_place['processes']
+        times = completion_times(rows)
+        cells = [scenario.removeprefix('khepera-').replace('-', ' '), algorithm, f'{100 * float(loss):.0f} %', f'{len(times)} of {len(rows)}',
+                 str(sum(int(row['split_ticks']) > 0 for row in rows)), f'{statistics.median(times):.1f}']
+        for world in WORLDS:
+            there = completion_times(by_place[world])
+            middle, low, high = ratio(times, there)
+            cells += [f'{statistics.median(there):.1f}', f'{middle:.2f} ({low:.2f}–{high:.2f})']
+        lines.append(cells)
+    print(table(['set-up', 'algorithm', 'loss', 'complete', 'split', 'median, s', 'together, s', 'ratio (95 %)', 'own moments, s', 'ratio (95 %)'],
+                lines), end='')
 
 
 def main():

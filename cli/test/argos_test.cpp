@@ -75,11 +75,14 @@ class InArgos : public ArgosCommand {
     ArgosCommand::SetUp();
     if (*BANYAN_ARGOS_PROGRAM == '\0') GTEST_SKIP() << "ARGoS 3 was not found when this was built";
   }
+  pid_t start_argos(const std::string& experiment, const std::string& directory = "") {
+    return start({"-z", "-n", "-c", experiment},
+                 {.directory = directory,
+                  .program = BANYAN_ARGOS_PROGRAM,
+                  .environment = {{"LD_LIBRARY_PATH", fs::path(BANYAN_ARGOS_CORE).parent_path().string()}}});
+  }
   Outcome argos(const std::string& experiment, const std::string& directory = "") {
-    return finish(start({"-z", "-n", "-c", experiment},
-                        {.directory = directory,
-                         .program = BANYAN_ARGOS_PROGRAM,
-                         .environment = {{"LD_LIBRARY_PATH", fs::path(BANYAN_ARGOS_CORE).parent_path().string()}}}));
+    return finish(start_argos(experiment, directory));
   }
   nlohmann::json result(const std::string& folder) {
     return nlohmann::json::parse(read(folder + "/run.json"), nullptr, false);
@@ -119,6 +122,29 @@ TEST_F(InArgos, AMissionLeavesItsResultsInOneFolderFromWhereverItIsStarted) {
   ASSERT_EQ(run({"run", scenario("three-targets"), "--out", "ours", "-q"}).code, 0);
   const double ours = std::stod(column("ours", "completion_time_s"));
   EXPECT_NEAR(std::stod(column("there/three", "completion_time_s")), ours, 0.05 * ours);
+}
+
+// The page follows a recording that grows; here it is read while ARGoS computes an hour.
+TEST_F(InArgos, AMissionCanBeWatchedWhileItRuns) {
+  write_experiment("a.argos", "three-targets",
+                   {"--set", "output.live=true", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=3600"});
+  const pid_t there = start_argos("a.argos");
+  const auto seconds_recorded = [&] {
+    if (!exists("a/run.mcap.part") || run({"export", "a/run.mcap.part", "-o", "table.csv", "--every", "10", "--force"}).code != 0) return 0L;
+    const std::string table = read("table.csv");
+    return std::count(table.begin(), table.end(), '\n') / 18;  // a line for each robot
+  };
+  long first = 0, later = 0;
+  for (int look = 0; look < 100 && later <= first; ++look) {
+    ::usleep(100'000);
+    (first == 0 ? first : later) = seconds_recorded();
+  }
+  EXPECT_GT(first, 0);
+  EXPECT_GT(later, first);
+  EXPECT_EQ(::waitpid(there, nullptr, WNOHANG), 0) << "it had ended";
+  ::kill(there, SIGINT);
+  EXPECT_EQ(finish(there).code, 0);
+  EXPECT_TRUE(exists("a/run.mcap"));
 }
 
 // What is written in the .argos file counts, and is what the results say.

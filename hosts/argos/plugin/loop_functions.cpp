@@ -7,8 +7,11 @@
 #include <argos3/core/simulator/space/space.h>
 #include <argos3/core/utility/logging/argos_log.h>
 
+#include <signal.h>
+
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 #include "banyan/algorithms/algorithms.hpp"
@@ -49,6 +52,22 @@ bool truth(const Attribute& attribute, const std::string& where) {
     THROW_ARGOSEXCEPTION(where << ": " << attribute.name << " must be true or false, not "
                                << world::the_text(attribute.value));
   return false;
+}
+
+// ARGoS dies of a signal where it is, and what was recorded would stay a .part. The first one ends the experiment
+// after its tick instead; the second kills as usual. Not where somebody else handles it.
+volatile std::sig_atomic_t stop_signal = 0;
+
+void catch_stop_signals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    if (::sigaction(number, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) continue;
+    struct sigaction action {};
+    action.sa_handler = [](int caught) { stop_signal = caught; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigemptyset(&action.sa_mask);
+    ::sigaction(number, &action, nullptr);
+  }
 }
 
 // All controllers of ours in the arena, by the number in their id.
@@ -229,6 +248,7 @@ void LoopFunctions::begin() {
 }
 
 void LoopFunctions::Init(TConfigurationNode& node) {
+  catch_stop_signals();
   read_options(node);
   find_robots();
   for (const Inhabitant& robot : inhabitants_) placed_.push_back(pose_of(*robot.body));
@@ -299,7 +319,7 @@ void LoopFunctions::PostStep() {
   }
 }
 
-bool LoopFunctions::IsExperimentFinished() { return lost_ || mission_->finished(); }
+bool LoopFunctions::IsExperimentFinished() { return lost_ || stop_signal != 0 || mission_->finished(); }
 
 void LoopFunctions::finish(bool interrupted) {
   if (done_ || mission_ == nullptr) return;
