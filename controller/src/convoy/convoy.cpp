@@ -195,6 +195,12 @@ ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept {
   return state;
 }
 
+PoweredConvoyState initial_powered_state(RobotId id, bool worker, bool root) noexcept {
+  PoweredConvoyState state;
+  static_cast<ConvoyState&>(state) = initial_convoy_state(id, worker, root);
+  return state;
+}
+
 void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
   carry_memory(robot.self, robot.carry);
   ConvoyState& self = robot.self;
@@ -241,7 +247,10 @@ static Velocity tick(ConvoyRobot& robot, const Admitted& admitted, ConvoyMessage
                         .workers_relay = true,
                         .accepts = [](int) { return true; },
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
-  if (robot.power != nullptr) watch_charge(*robot.power, admitted.senses());                        // must I be relieved?
+  if (robot.power != nullptr) {
+    watch_charge(*robot.power, admitted.senses());     // must I be relieved?
+    watch_relief(*robot.power);                        // whom do I relieve?
+  }
   take_part_in_plan(robot);                            // chains from target to target
   take_shortcuts(robot);                               // what changes between reconstructions
   state.corners.pinned = is_pinned(robot, state.corners, params.pull_start_m);

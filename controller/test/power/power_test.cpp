@@ -56,7 +56,7 @@ TEST(Power, RobotsWithAndWithoutBatteriesDoNotTakeEachOthersMessages) {
 struct LoneRobot {
   ConvoyParams params = convoy_defaults();
   PoweredConvoyState state;
-  explicit LoneRobot(bool worker, bool root) { static_cast<ConvoyState&>(state) = initial_convoy_state(1, worker, root); }
+  explicit LoneRobot(bool worker, bool root) : state(initial_powered_state(1, worker, root)) {}
   PoweredConvoyMessage step(float level, bool charging = false) {
     Senses senses;
     senses.charge = Charge{level, charging};
@@ -116,6 +116,7 @@ class AboveALeaver : public ::testing::Test {
     Senses senses;
     senses.charge = Charge{level, false};
     watch_charge(me, senses);
+    watch_relief(me);
     return power.said.relieves;
   }
   ConvoyBench bench = grown<Convoy>();

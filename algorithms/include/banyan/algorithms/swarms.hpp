@@ -10,54 +10,25 @@
 
 namespace banyan {
 
-template <auto step_function>
-struct LiteralSwarm {
-  using Params = TreeParams;
-  using State = TreeState;
-  using Message = TreeMessage;
+// How SwarmOf finds the functions of an algorithm of the tree.
+template <class Params_, class State_, class Message_, auto initial_state, auto step_function, auto report_of>
+struct TreeSwarm {
+  using Params = Params_;
+  using State = State_;
+  using Message = Message_;
   using Heard = banyan::Heard;
-  static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
+  static State initial(RobotId id, bool worker, bool root) { return initial_state(id, worker, root); }
   static auto step(const Params& p, State& s, std::span<Heard> heard, const Senses& senses) { return step_function(p, s, heard, senses); }
-  static Report report(const State& s) { return tree_report(s); }
+  static Report report(const State& s) { return report_of(s); }
   static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
 };
 
 template <auto step_function>
-struct CorrectedSwarm {
-  using Params = HealingParams;
-  using State = HealingState;
-  using Message = HealingMessage;
-  using Heard = banyan::Heard;
-  static State initial(RobotId id, bool worker, bool root) { return initial_healing_state(id, worker, root); }
-  static auto step(const Params& p, State& s, std::span<Heard> heard, const Senses& senses) { return step_function(p, s, heard, senses); }
-  static Report report(const State& s) { return healing_report(s); }
-  static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
-};
-
-struct ConvoySwarm {
-  using Params = ConvoyParams;
-  using State = ConvoyState;
-  using Message = ConvoyMessage;
-  using Heard = banyan::Heard;
-  static State initial(RobotId id, bool worker, bool root) { return initial_convoy_state(id, worker, root); }
-  static auto step(const Params& p, State& s, std::span<Heard> heard, const Senses& senses) { return convoy_step(p, s, heard, senses); }
-  static Report report(const State& s) { return convoy_report(s); }
-  static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
-};
-
-struct PoweredConvoySwarm {
-  using Params = ConvoyParams;
-  using State = PoweredConvoyState;
-  using Message = PoweredConvoyMessage;
-  using Heard = banyan::Heard;
-  static State initial(RobotId id, bool worker, bool root) {
-    State state;
-    static_cast<ConvoyState&>(state) = initial_convoy_state(id, worker, root);
-    return state;
-  }
-  static auto step(const Params& p, State& s, std::span<Heard> heard, const Senses& senses) { return powered_convoy_step(p, s, heard, senses); }
-  static Report report(const State& s) { return powered_report(s); }
-  static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
-};
+using LiteralSwarm = TreeSwarm<TreeParams, TreeState, TreeMessage, initial_tree_state, step_function, tree_report>;
+template <auto step_function>
+using CorrectedSwarm = TreeSwarm<HealingParams, HealingState, HealingMessage, initial_healing_state, step_function, healing_report>;
+using ConvoySwarm = TreeSwarm<ConvoyParams, ConvoyState, ConvoyMessage, initial_convoy_state, convoy_step, convoy_report>;
+using PoweredConvoySwarm =
+    TreeSwarm<ConvoyParams, PoweredConvoyState, PoweredConvoyMessage, initial_powered_state, powered_convoy_step, powered_report>;
 
 }  // namespace banyan

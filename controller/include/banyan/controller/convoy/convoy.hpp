@@ -23,6 +23,7 @@ namespace banyan {
 
 // The same for robots that run on batteries (docs/lasting.md): their messages have one block more.
 [[nodiscard]] ConvoyParams with_room_for_relief(ConvoyParams params) noexcept;
+[[nodiscard]] PoweredConvoyState initial_powered_state(RobotId id, bool worker, bool root) noexcept;
 [[nodiscard]] Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, std::span<Heard> heard,
                                                                const Senses& senses) noexcept;
 [[nodiscard]] Report powered_report(const PoweredConvoyState& state) noexcept;

@@ -18,13 +18,17 @@ struct PowerRobot {
   FunctionRef<int(int k)> child_count;  // that neighbour k has, as it says
 
   [[nodiscard]] const PowerStanding& standing(int k) const noexcept { return power.standings[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] bool is_spare(int k) const noexcept { return robot.table().message(k).role == Role::spare; }
 };
 
 // Before the targets are looked after: a worker hands its target over to the robot beside it, which takes it.
 void hand_over_target(PowerRobot& me) noexcept;
 
-// Once parent and children are known: my charge, the way to a charging place, whether I have to leave, whom I relieve.
+// Once parent and children are known: my charge, the way to a charging place, whether I have to leave;
 void watch_charge(PowerRobot& me, const Senses& senses) noexcept;
+
+// then whom I relieve, and who is to serve my target.
+void watch_relief(PowerRobot& me) noexcept;
 
 // My parent takes my place, and I hear it.
 [[nodiscard]] bool is_relieved(const PowerRobot& me) noexcept;

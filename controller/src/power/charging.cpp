@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// My charge, whether I have to leave the tree, and, for spares, the way to a charging place.
+#include <algorithm>
+#include <utility>
+
+#include "banyan/controller/power/power.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float full_charge = 0.98F;
+constexpr float level_unit = 254.0F;
+constexpr float charge_smoothing = 0.1F;      // per step, of a measured charge
+constexpr std::uint8_t farthest_place = 250;
+constexpr float at_place = 0.2F;       // of C, from the robot that keeps the place
+constexpr float per_hop = 0.05F;       // of a full battery
+constexpr int near_hops = 2;
+constexpr int most_hops_counted = 6;
+constexpr int inner_depth = 3;         // of the tree: from there a spare is soon at every branch
+constexpr float way_to_edge = 0.15F;   // of a full battery: so much a spare may spend on its way
+constexpr float urgent_level = 0.5F;   // whoever has less is let through to the place
+constexpr float place_room = 0.4F;     // of C: kept free round it by those that are charged
+
+void measure_charge(PowerRobot& me, const Senses& senses) noexcept {
+  PowerState& power = me.power;
+  power.charging = senses.charge && senses.charge->charging;
+  if (senses.charge) {
+    const float level = senses.charge->level;
+    power.level = power.level < 0.0F ? level : power.level + (level - power.level) * charge_smoothing;
+    power.said.level = static_cast<std::uint8_t>(power.level * level_unit + 0.5F);
+  }
+  // A successor is not told that its target is a charging place: it notices.
+  const HealingState& self = me.robot.self;
+  power.keeps_place = self.is_worker && (power.keeps_place || power.charging || (senses.orders.charging_place && self.serves == self.id));
+}
+
+// Hops from robot to robot, as for calls (protocol 7): the keeper of a place counts 0.
+void follow_places(PowerRobot& me) noexcept {
+  const HealingRobot& robot = me.robot;
+  const TreeTable& table = robot.table();
+  const bool there = me.power.keeps_place && robot.target != nullptr && norm(*robot.target) <= robot.params.arrival_distance_m;
+  std::uint8_t hops = no_place;
+  for (int k = 0; k < table.size() && !there; ++k)
+    if (table.alive(k)) hops = std::min(hops, me.standing(k).place_hops);
+  me.power.said.place_hops = there ? std::uint8_t{0} : hops < farthest_place ? static_cast<std::uint8_t>(hops + 1) : no_place;
+}
+
+// It stays decided until the robot is a spare, or has been charged where it is.
+void decide_to_leave(PowerRobot& me) noexcept {
+  PowerState& power = me.power;
+  const bool in_tree = me.robot.self.role != Role::spare;
+  const bool low = power.level >= 0.0F && power.level < me.params.relieve_below && !power.charging && !power.keeps_place;
+  power.said.leaving = in_tree && (power.said.leaving ? power.level < full_charge && !power.keeps_place : low);
+  // The farther the place, the less often: the way itself takes charge.
+  const float hops = static_cast<float>(std::clamp<int>(power.said.place_hops - near_hops, 0, most_hops_counted));
+  const float below = std::max(me.params.charge_below - per_hop * hops, me.params.relieve_below);
+  const bool wants = power.level >= 0.0F && power.level < (power.seeks ? full_charge : below);
+  power.seeks = !in_tree && wants;
+  power.ready = power.level >= me.params.ready_above - (power.ready ? way_to_edge : 0.0F);
+}
+
+// The nearest of the neighbours through which a charging place is nearest; -1: no way known.
+int way_to_place(const PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || me.standing(k).place_hops > farthest_place) continue;
+    const auto key = [&](int n) { return std::pair(me.standing(n).place_hops, table.range(n)); };
+    if (best < 0 || key(k) < key(best)) best = k;
+  }
+  return best;
+}
+
+// Where it is useful: where the branches meet.
+void wait_near_root(PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    const TreeStanding& m = table.message(k);
+    if (!table.alive(k) || m.role == Role::spare || m.depth == invalid_depth) continue;
+    if (best < 0 || m.depth < table.message(best).depth) best = k;
+  }
+  if (best < 0 || table.message(best).depth <= inner_depth) return;
+  me.robot.self.reference = table.id(best);
+  me.robot.self.called = true;
+}
+
+// I wait for a slot, and a spare near me needs one more.
+bool lets_through(const PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  if (me.power.charging || me.power.level < urgent_level) return false;
+  for (int k = 0; k < table.size(); ++k)
+    if (me.is_spare(k) && table.alive(k) && static_cast<float>(me.standing(k).level) < urgent_level * level_unit && table.range(k) < place_room * me.robot.params.communication_range_m) return true;
+  return false;
+}
+
+}  // namespace
+
+void watch_charge(PowerRobot& me, const Senses& senses) noexcept {
+  measure_charge(me, senses);
+  follow_places(me);
+  decide_to_leave(me);
+}
+
+void tend_battery(PowerRobot& me) noexcept {
+  TreeState& self = me.robot.self;
+  me.power.travels = false;
+  if (self.role != Role::spare || self.parent != nobody || me.power.level < 0.0F) return;
+  if (!me.power.ready) {
+    self.request = nobody;
+    self.called = false;
+    self.spare_state = SpareState::adjust_position;
+  }
+  if (self.request != nobody || self.called) return;
+  if (!me.power.seeks) return wait_near_root(me);
+  const int k = way_to_place(me);
+  if (k < 0) return;
+  self.reference = me.robot.table().id(k);
+  me.power.travels = self.called = !is_at_place(me);
+}
+
+bool leaves_place(const PowerRobot& me, Vec2& away) noexcept {
+  const TreeTable& table = me.robot.table();
+  const float room_m = place_room * me.robot.params.communication_range_m;
+  if ((me.power.seeks && !lets_through(me)) || (me.robot.self.called && !me.power.travels) || me.robot.self.request != nobody) return false;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || me.standing(k).place_hops != 0 || table.range(k) >= room_m) continue;
+    away = unit(table.position(k)) * -1.0F;
+    return true;
+  }
+  return false;
+}
+
+bool is_charged(const PowerRobot& me, int k) noexcept {
+  const std::uint8_t level = me.standing(k).level;
+  return level != 0xFF && !me.standing(k).leaving && static_cast<float>(level) >= me.params.ready_above * level_unit;
+}
+
+bool is_at_place(const PowerRobot& me) noexcept {
+  const int k = me.robot.table().find(me.robot.self.reference);
+  return me.power.seeks && k >= 0 && me.standing(k).place_hops == 0 && me.robot.table().range(k) <= at_place * me.robot.params.communication_range_m;
+}
+
+}  // namespace banyan
