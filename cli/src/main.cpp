@@ -37,7 +37,7 @@ constexpr const char* main_footer =
     "  banyan COMMAND --help\n\n"
     "Exit codes: 0 done, whether or not the mission completed; 1 failed: a file cannot be read or\n"
     "written, or an internal error; 2 bad options or a bad scenario, nothing was started; 129,\n"
-    "130 or 143 stopped by SIGHUP, Ctrl-C or SIGTERM, with valid files of what was done.";
+    "130 or 143 stopped by SIGHUP, Ctrl-C or SIGTERM, with valid files of what was done so far.";
 
 constexpr const char* run_footer =
     "Writes run.mcap (the recording), run.csv (one row) and run.json (the same with the whole\n"
@@ -88,30 +88,33 @@ constexpr const char* view_footer =
     "  banyan view";
 
 constexpr const char* hub_footer =
-    "Hands each robot what it could hear: packets of robots in range and in sight, with range and bearing.\n"
-    "Bodies move in a simulated world as the robots command. Results as of `banyan run`; docs/robots.md has the rest.\n\n"
+    "Hands each robot what it can hear: packets of robots in range and in sight, with range and bearing.\n"
+    "Bodies move in a simulated world as the robots command. Results are as from `banyan run`;\n"
+    "docs/robots.md has the rest.\n\n"
     "Examples:\n"
     "  banyan hub --new-key fleet.key\n"
     "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600 --print-robots\n"
     "  banyan hub scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4600";
 
 constexpr const char* listen_footer =
-    "Robots say by --tell what they do, whom they measure and where their target is. From that their places follow, in a\n"
-    "frame of their own; robots, their number, radio and bodies are as in the scenario. Results as of `banyan run`.\n\n"
+    "Robots report by --tell what they do, whom they measure and where their targets are. Their places follow from\n"
+    "that, in a frame of their own. The number of robots, radio and bodies are as in the scenario.\n"
+    "Results are as from `banyan run`.\n\n"
     "Examples:\n"
     "  banyan listen scenarios/khepera-three-targets.toml --key fleet.key --listen 192.168.1.10:4700 --view";
 
 constexpr const char* fleet_footer =
-    "A hub and a process per robot on this machine, over real UDP; each robot in a network namespace of its own where\n"
-    "the machine allows it. Robots that end unasked are started again, and so is the hub. Results as of `banyan run`.\n\n"
+    "Runs a hub and a process per robot on this machine, over real UDP, each robot in a network namespace of its own\n"
+    "where the machine allows it. Robots that end by themselves are started again, and so is the hub.\n"
+    "Results are as from `banyan run`.\n\n"
     "Examples:\n"
     "  banyan fleet scenarios/khepera-three-targets.toml --view\n"
     "  banyan fleet scenarios/khepera-two-targets.toml --loss 0.1 --delay-ms 20 --jitter-ms 10\n"
     "  banyan fleet scenarios/khepera-three-targets.toml --set mission.algorithm=convoy --speed 5";
 
 constexpr const char* argos_footer =
-    "Writes FILE.argos, which `argos3 -c` runs from any directory, and FILE.world.toml, the scenario with all that was\n"
-    "changed. Robots, targets and obstacles come from the scenario, the results are those of `banyan run`.\n"
+    "Writes FILE.argos, which `argos3 -c` runs from any directory, and FILE.world.toml, the scenario with all\n"
+    "changes. Robots, targets and obstacles come from the scenario; the results are those of `banyan run`.\n"
     "docs/argos.md has the rest.\n\n"
     "Examples:\n"
     "  banyan argos scenarios/paper-medium.toml -o medium.argos\n"
@@ -141,7 +144,7 @@ constexpr const char* study_footer =
     "  banyan study studies/paper.toml --sbatch paper.sbatch --shards 50";
 
 constexpr const char* collect_footer =
-    "A folder in which only runs.csv was kept will do as well: new statistics need no new runs.\n\n"
+    "A folder in which only runs.csv was kept works, too: new statistics need no new runs.\n\n"
     "Examples:\n"
     "  banyan collect studies/paper.toml\n"
     "  banyan collect studies/paper.toml --out all shards-of-a shards-of-b";
@@ -296,7 +299,7 @@ void add_export(CLI::App& app, std::function<int()>& action) {
       app.add_subcommand("export", "turn a recording into a table: a row per tick and robot")->group(command_group);
   command->footer(export_footer);
   command->add_option("recording", options->recording, "a run.mcap")->required()->type_name("FILE");
-  command->add_flag("--csv", options->csv, "as comma-separated values (the only format, and the default)");
+  command->add_flag("--csv", options->csv, "write comma-separated values (the only format, and the default)");
   command->add_option("-o,--output", options->output, "file to write, default standard output")->type_name("FILE");
   command->add_option("--from", options->from_s, "first moment, s")->type_name("S")->check(moment);
   command->add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment);
@@ -324,7 +327,7 @@ void add_draw(CLI::App& app, std::function<int()>& action) {
   command->add_option("--at", options->at_s, "the moment, s; default the end")->type_name("S")->check(moment);
   command->add_option("-o,--output", options->output, "file to write (.svg or .png), default standard output")
       ->type_name("FILE");
-  command->add_option("--format", options->format, "instead of the file's extension; default svg")
+  command->add_option("--format", options->format, "format, whatever the file's extension; default svg")
       ->type_name("svg|png")
       ->check(CLI::IsMember({"svg", "png"}).description(""));
   command->add_option("--trail", options->trail_s, "how far back trails go, s; default 10")
@@ -367,10 +370,10 @@ void add_film(CLI::App& app, std::function<int()>& action) {
       ->check(number_within(0.1, 64.0));
   command->add_option("--from", options->from_s, "first moment, s")->type_name("S")->check(moment);
   command->add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment);
-  command->add_option("--width", options->width, "in pixels; default 1280, for a GIF 720")
+  command->add_option("--width", options->width, "width in pixels; default 1280, for a GIF 720")
       ->type_name("PX")
       ->check(even_size(200, 7680));
-  command->add_option("--height", options->height, "in pixels; default 720, for a GIF 450")
+  command->add_option("--height", options->height, "height in pixels; default 720, for a GIF 450")
       ->type_name("PX")
       ->check(even_size(150, 4320));
   command->add_option("--trail", options->trail_s, "how far back trails go, s; default 5")
@@ -392,12 +395,12 @@ void add_view(CLI::App& app, std::function<int()>& action) {
       ->type_name("FILE");
   add_overrides(*command, options->overrides);
   add_seed(*command, options->overrides);
-  command->add_option("--port", options->port, "of this machine; default any that is free")
+  command->add_option("--port", options->port, "port on this machine; default any that is free")
       ->type_name("N")
       ->check(CLI::Range(0, 65535).description(""));
   command->add_flag("!--no-open", options->open, "only print the address");
-  command->add_flag("--wait", options->wait, "for a recording that has not begun yet");
-  command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or as it was installed")
+  command->add_flag("--wait", options->wait, "wait for a recording that has not begun yet");
+  command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or where it was installed")
       ->type_name("DIR");
   command->add_option("--scenarios", options->scenarios, "what the page offers to run; default Banyan's own")
       ->type_name("DIR");
@@ -431,7 +434,8 @@ void add_keys(CLI::App& app, std::function<int()>& action) {
 
 void add_tune(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<TuneOptions>();
-  auto* command = app.add_subcommand("tune", "search parameters of the controller by evolution")->group(command_group);
+  auto* command =
+      app.add_subcommand("tune", "search for better controller parameters by evolution")->group(command_group);
   command->footer(tune_footer);
   command->add_option("file", options->file, "a tune file (.toml or .json)")->required()->type_name("FILE");
   command->add_option("-o,--out", options->out, "directory for the results, default out/<name>")->type_name("DIR");
@@ -490,7 +494,7 @@ void add_collect(CLI::App& app, std::function<int()>& action) {
   command->footer(collect_footer);
   add_study_options(*command, options->study);
   command->add_option("folders", options->from, "more folders with results of this study")->type_name("DIR");
-  command->add_flag("--partial", options->partial, "make the tables although runs are missing");
+  command->add_flag("--partial", options->partial, "make the tables even if runs are missing");
   command->callback([options, &action] { action = [options] { return collect_command(*options); }; });
 }
 
@@ -502,13 +506,13 @@ void add_soak(CLI::App& app, std::function<int()>& action) {
       app.add_subcommand("soak", "run random missions and look for faults")->group(command_group);
   command->footer(soak_footer);
   command->add_option("file", options->file, "a scenario to watch, instead of random missions")->type_name("FILE");
-  command->add_option("-s,--seed", options->seed, "of the missions, default 1")
+  command->add_option("-s,--seed", options->seed, "seed of the missions, default 1")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9007199254740992}).description(""));
   command->add_option("--from", options->from, "first mission, default 0")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{0}, most_missions).description(""));
-  command->add_option("--missions", options->missions, "how many; default as many as fit into the time")
+  command->add_option("--missions", options->missions, "how many; default as many as there is time for")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, most_missions).description(""));
   command->add_option("--seconds", options->seconds, "how long; default until Ctrl-C")->type_name("S")->check(moment);
@@ -517,7 +521,7 @@ void add_soak(CLI::App& app, std::function<int()>& action) {
   command->add_option("-t,--threads", options->threads, "missions at once, default all cores")
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
-  command->add_flag("-f,--force", options->force, "begin the journal anew");
+  command->add_flag("-f,--force", options->force, "start a new journal");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; findings only");
   command->callback([options, &action] { action = [options] { return soak_command(*options); }; });
 }
@@ -528,7 +532,7 @@ void add_bench(CLI::App& app, std::function<int()>& action) {
       app.add_subcommand("bench", "measure the speed of the simulation on this machine")->group(command_group);
   command->footer(bench_footer);
   command->add_option("layouts", options->only, "only these layouts")->type_name("LAYOUT");
-  command->add_option("--algorithm", options->algorithm, "run every layout with it instead of the layout's own")
+  command->add_option("--algorithm", options->algorithm, "run every layout with this one instead of the layout's own")
       ->type_name("NAME");
   command->add_flag("--json", options->json, "print the figures as JSON");
   command->add_option("--windows", options->windows, "measured windows per layout, default 7")
@@ -557,11 +561,11 @@ template <class Options> void add_page_beside(CLI::App& command, Options& option
 }
 
 template <class Options> void add_pace(CLI::App& command, Options& options) {
-  command.add_option("--speed", options.speed, "of all clocks, default 1; for tests")
+  command.add_option("--speed", options.speed, "speed of all clocks, default 1; for tests")
       ->type_name("X")
       ->check(number_within(0.01, 100.0));
   command
-      .add_option("--bundle", options.bundle, "packets in a datagram to a robot, at most; default 1, as on a radio")
+      .add_option("--bundle", options.bundle, "most packets in one datagram to a robot; default 1, as on a radio")
       ->type_name("N")
       ->check(CLI::Range(1, 64).description(""));
 }
@@ -569,7 +573,7 @@ template <class Options> void add_pace(CLI::App& command, Options& options) {
 void add_hub(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<HubOptions>();
   auto* command =
-      app.add_subcommand("hub", "hand each robot that is a process what it could hear")->group(command_group);
+      app.add_subcommand("hub", "hand each robot process what its robot can hear")->group(command_group);
   command->footer(hub_footer);
   command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->type_name("FILE");
   command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->type_name("FILE");
@@ -578,12 +582,17 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
       ->type_name("ADDRESSES");
   command->add_option("--listen", options->listen, "where robots find it, default 0.0.0.0:4600")->type_name("ADDRESS:PORT");
   command->add_flag("--print-robots", options->print_robots, "print the command line of each robot and exit");
-  command->add_option("--wait", options->wait_s, "for robots before it begins, s; default 10")->type_name("S")->check(moment);
-  command->add_option("--dead-after", options->dead_after_s, "a robot that is silent for so long counts as dead, s; default 5")
+  command->add_option("--wait", options->wait_s, "how long to wait for robots at first, s; default 10")
+      ->type_name("S")
+      ->check(moment);
+  command
+      ->add_option("--dead-after", options->dead_after_s,
+                   "a robot that is silent for this long counts as dead, s; default 5")
       ->type_name("S")
       ->check(number_within(0.5, 1e6));
   command->add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")->type_name("ADDRESS:PORT");
-  command->add_option("--tape", options->tape, "note there what robots say and what the tracker sees, to resume from")->type_name("FILE");
+  command->add_option("--tape", options->tape, "keep here what robots say and the tracker sees, to resume from")
+      ->type_name("FILE");
   command->add_flag("--resume", options->resume, "go on where the tape ends");
   add_results(*command, options->run);
   add_pace(*command, *options);
@@ -593,16 +602,24 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
 
 void add_listen(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<ListenOptions>();
-  auto* command = app.add_subcommand("listen", "record robots that have no hub, by what they tell")->group(command_group);
+  auto* command =
+      app.add_subcommand("listen", "record robots that have no hub, from what they report")->group(command_group);
   command->footer(listen_footer);
   command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
   command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->required()->type_name("FILE");
-  command->add_option("--listen", options->listen, "where robots tell it, their --tell; default 0.0.0.0:4700")->type_name("ADDRESS:PORT");
-  command->add_option("--wait", options->wait_s, "for robots before it begins, s; default 10")->type_name("S")->check(moment);
-  command->add_option("--dead-after", options->dead_after_s, "a robot that is silent for so long counts as dead, s; default 5")
+  command->add_option("--listen", options->listen, "where robots report to, their --tell; default 0.0.0.0:4700")
+      ->type_name("ADDRESS:PORT");
+  command->add_option("--wait", options->wait_s, "how long to wait for robots at first, s; default 10")
+      ->type_name("S")
+      ->check(moment);
+  command
+      ->add_option("--dead-after", options->dead_after_s,
+                   "a robot that is silent for this long counts as dead, s; default 5")
       ->type_name("S")
       ->check(number_within(0.5, 1e6));
-  command->add_option("--speed", options->speed, "of its clock, default 1; for tests")->type_name("X")->check(number_within(0.01, 100.0));
+  command->add_option("--speed", options->speed, "speed of its clock, default 1; for tests")
+      ->type_name("X")
+      ->check(number_within(0.01, 100.0));
   add_results(*command, options->run);
   add_page_beside(*command, *options);
   command->callback([options, &action] { action = [options] { return listen_command(*options); }; });
@@ -633,14 +650,14 @@ void add_fleet(CLI::App& app, std::function<int()>& action) {
     command->add_option(name, value, meaning)->type_name("X")->check(number_within(0.0, most));
   };
   way("--loss", options->loss, 0.99, "share of the packets lost from robot to robot");
-  way("--delay-ms", options->delay_ms, 10000.0, "of a packet from robot to robot");
-  way("--jitter-ms", options->jitter_ms, 10000.0, "of that delay, uniform, either way");
-  way("--duplicate", options->duplicate, 0.99, "share of the packets that come twice");
-  way("--reorder", options->reorder, 1.0, "share of the packets that are not delayed and so overtake");
-  way("--rate-kbit", options->rate_kbit_s, 1e9, "kbit/s of each robot, either way; default 0: no limit");
+  way("--delay-ms", options->delay_ms, 10000.0, "delay of a packet from robot to robot");
+  way("--jitter-ms", options->jitter_ms, 10000.0, "how much that delay varies, uniformly, either way");
+  way("--duplicate", options->duplicate, 0.99, "share of the packets that arrive twice");
+  way("--reorder", options->reorder, 1.0, "share of the packets that are not delayed and so overtake others");
+  way("--rate-kbit", options->rate_kbit_s, 1e9, "kbit/s for each robot, in each direction; default 0: no limit");
   add_page_beside(*command, *options);
   command->add_flag("--loopback", options->loopback, "no network namespaces: all share the loopback device");
-  command->add_flag("!--no-restart", options->restart, "do not start robots again that have ended");
+  command->add_flag("!--no-restart", options->restart, "do not restart robots that have ended");
   command->callback([options, &action] { action = [options] { return fleet_command(*options); }; });
 }
 
@@ -657,7 +674,7 @@ void add_argos(CLI::App& app, std::function<int()>& action) {
   choice("--robot", options->robot, {"kheperaiv", "foot-bot"}, "kheperaiv, the default, or foot-bot");
   choice("--sight", options->sight, {"stock", "exact"}, "stock: lines of sight as ARGoS has them, the default; or exact");
   choice("--obstacles", options->obstacles, {"sensors", "world"},
-         "who sees them: the robots' proximity sensors, the default, or the world for them");
+         "how robots see them: by sensors of their own, the default, or told by the world");
   command->add_option("--library", options->library, "libbanyan_argos, default the one built with this program")->type_name("FILE");
   command->add_flag("-f,--force", options->force, "replace the files, and later the results, that are there");
   add_overrides(*command, options->overrides);

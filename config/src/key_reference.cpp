@@ -127,7 +127,7 @@ std::vector<KeyRow> key_rows(const AlgorithmList& algorithms) {
 std::string key_reference_markdown(const AlgorithmList& algorithms) {
   std::string text =
       "# The keys of a scenario\n\n"
-      "Written by `banyan keys --markdown`; a test keeps it so. A scenario is TOML, or JSON with the same tree. Every "
+      "Written by `banyan keys --markdown`; a test checks it. A scenario is TOML, or JSON with the same tree. Every "
       "key "
       "but those of `[targets]` may be left out. Angles are in degrees, counter-clockwise from the x axis; indices "
       "count "

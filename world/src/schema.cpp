@@ -161,8 +161,8 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"mission.settle_s", of<&Mission::settle_s>, "s", any_time,
      "with stop_when_complete: go on this long after completion, so that the tree can settle"},
     {"mission.link_redundancy", of<&Mission::link_redundancy>, "", {1.0, 3.0},
-     "k: paths between any two targets that share no other robot, so that any k - 1 robots may die at once; above 1 by "
-     "convoy alone"},
+     "k: paths between any two targets that share no other robot, so that any k - 1 robots can die at once; above 1 "
+     "with convoy only"},
 
     {"swarm.robots", of<&SwarmModel::robots>, "", {2.0, most_ids}, "number of robots",
      {.otherwise = "from redundancy, or the length of start.positions_m"}},
@@ -177,9 +177,10 @@ constexpr Key<Scenario> scenario_rows[] = {
      "a compact cluster on a hexagonal or square lattice, a line along the x axis, a ring, a cross, two clusters with "
      "a bridge, a random connected graph, or a list of positions"},
     {"swarm.start.center_m", of<&Start::center>, "m", anywhere,
-     "centre of the start; of a random one the robot from which it grows"},
+     "centre of the start; in a random one, the robot from which it grows"},
     {"swarm.start.pitch_m", by<pitch_of>, "m", {0.0, 1000.0, true},
-     "distance between neighbours, within the clusters of a bridge; in a random start the least between any two",
+     "distance between neighbours, within the clusters of a bridge; in a random start the least distance between "
+     "any two",
      {.not_beside = "pitch_share"}},
     {"swarm.start.pitch_share", by<pitch_share_of>, "", any_part,
      "the same as a share of radio.range_m; not beside pitch_m", {.otherwise = "pitch_m counts"}},
@@ -219,22 +220,22 @@ constexpr Key<Scenario> scenario_rows[] = {
 
     {"radio.model", of<&RadioModel::model>, "", any_value,
      "which packets are lost within range and sight: disc, each with the same probability; bursts, many in a row; "
-     "path_loss, more the farther away the sender is; one_way, between some pairs all in one direction"},
+     "path_loss, more the farther away the sender is; one_way, between some pairs all those in one direction"},
     {"radio.range_m", of<&RadioModel::range_m>, "m", {0.05, 100.0},
      "C: two robots nearer than this hear each other", {.parameter = "communication_range_m"}},
     {"radio.line_of_sight", of<&RadioModel::line_of_sight>, "", any_value,
      "robots and obstacles in between block a packet"},
     {"radio.sight_leak", of<&RadioModel::sight_leak>, "", any_share,
-     "share of the lines of sight past one robot's body over which packets get through nevertheless, by the headings; "
+     "share of the lines of sight past one robot's body that let packets through nevertheless; headings decide which; "
      "0: sight is exact; 0.18 as in ARGoS 3"},
     {"radio.loss", of<&RadioModel::loss>, "", any_share,
      "probability that a packet does not arrive, per packet and receiver"},
     {"radio.burst_s", by<radio_of<&RadioModel::burst_s, Radios::bursts>>, "s", {0.0, 60.0, true},
-     "mean length of a time in which nothing arrives over a link; radio.loss is the share of such times"},
+     "mean length of a burst, in which nothing arrives over a link; radio.loss is the share of time in bursts"},
     {"radio.path_loss_exponent", by<radio_of<&RadioModel::path_loss_exponent, Radios::path_loss>>, "", {1.0, 10.0},
      "n: the signal falls with the n-th power of the distance; 2 in free space, 3 indoors"},
     {"radio.edge_loss", by<radio_of<&RadioModel::edge_loss, Radios::path_loss>>, "", {0.001, 0.999},
-     "share of the packets that is lost at distance range_m"},
+     "share of the packets that are lost at distance range_m"},
     {"radio.shadowing_db", by<radio_of<&RadioModel::shadowing_db, Radios::path_loss>>, "dB", {0.0, 20.0},
      "sigma of the difference between a pair's signal and what its distance predicts"},
     {"radio.shadowing_s", by<radio_of<&RadioModel::shadowing_s, Radios::path_loss>>, "s", {0.0, 1e6},
@@ -262,7 +263,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"battery.start_spread", by<battery_of<&Battery::start_spread>>, "", any_share,
      "each robot starts with up to this share less, drawn from the seed"},
     {"battery.idle_w", by<battery_of<&Battery::idle_w, Draws::power>>, "W", {0.0, 1e6},
-     "drawn at all times by sensors and all that has no key of its own"},
+     "drawn at all times by sensors and everything without a key of its own"},
     {"battery.computing_w", by<battery_of<&Battery::computing_w, Draws::power>>, "W", {0.0, 1e6}, "drawn by the computer"},
     {"battery.radio_w", by<battery_of<&Battery::radio_w, Draws::power>>, "W", {0.0, 1e6}, "drawn by the radio"},
     {"battery.drive_w_per_m_s", by<battery_of<&Battery::drive_w_per_m_s, Draws::power>>, "W s/m", {0.0, 1e6},
@@ -321,9 +322,9 @@ constexpr Key<Event> event_rows[] = {
     {"events.target", of<&MoveTarget::target, &RemoveTarget::target>, "", {0.0, 1e5},
      "index of the target, counted from 0", {.required = true}},
     {"events.obstacle", of<&MoveObstacle::obstacle, &RemoveObstacle::obstacle>, "", {0.0, 1e6},
-     "index of the obstacle, counted from 0 among those that are there", {.required = true}},
+     "index of the obstacle, counted from 0 among those there at that time", {.required = true}},
     {"events.position_m", of<&MoveTarget::position, &AddTarget::position, &MoveObstacle::position, &AddObstacle::position>, "m", anywhere,
-     "where the target is from then on, or drives to; where the centre of the obstacle is, of a wall its middle",
+     "where the target is from then on, or drives to; where the centre of the obstacle is (of a wall, its middle)",
      {.required = true}},
     {"events.radius_m", of<&AddObstacle::radius_m>, "m", any_length, "radius of the disc", {.required = true}},
     {"events.speed_m_s", of<&MoveTarget::speed_m_s>, "m/s", {0.0, 100.0},

@@ -7,7 +7,7 @@ namespace {
 constexpr Parameter<TreeParams> of_tree[] = {
     {{"safe_range_m", "S", "m", "beyond it a robot no longer moves away from its parent",
       "Lower it for a radio that loses links early; targets are then reached later.", "Table I", 0.05F, 100.0F, Scaling::mission}, &TreeParams::safe_range_m},
-    {{"avoidance_range_m", "A", "m", "robots that are no tree neighbours repel each other within it",
+    {{"avoidance_range_m", "A", "m", "robots that are not tree neighbours repel each other within it",
       "About three body diameters. Larger keeps lines of sight open and takes more room.", "Table I", 0.0F, 100.0F, Scaling::mission}, &TreeParams::avoidance_range_m},
     {{"ideal_distance_m", "delta", "m", "ideal length of a tree edge, and the emergency range",
       "As near to C as the radio is reliable: longer edges take fewer robots and break sooner.", "Table I", 0.05F, 100.0F, Scaling::mission}, &TreeParams::ideal_distance_m},
@@ -17,7 +17,7 @@ constexpr Parameter<TreeParams> of_tree[] = {
       "Larger is faster; the springs must still hold. The largest single effect on the time to deploy.", "Table I", 0.0F, 1.9F}, &TreeParams::target_gain},
     {{"reconfiguration_period_s", "R", "s", "time between two reconstructions of the tree",
       "Shorter adapts sooner to targets that move; each reconstruction costs about two seconds of progress.", "Table I", 1.0F, 3600.0F}, &TreeParams::reconfiguration_period_s},
-    {{"liveness_period_s", "I", "s", "a neighbour not heard for longer is taken as gone",
+    {{"liveness_period_s", "I", "s", "a neighbour not heard for longer counts as gone",
       "At least five ticks. Packet loss is allowed for on top of it where robots heal.", "Table I", 0.1F, 60.0F}, &TreeParams::liveness_period_s},
     {{"recruitment_distance_m", "E", "m", "a tree edge longer than this asks for a spare",
       "Shorter asks sooner and ends with more robots.", "Table I", 0.01F, 100.0F, Scaling::mission}, &TreeParams::recruitment_distance_m},

@@ -32,9 +32,9 @@ Row flag(const char* name, const char* meaning, bool Options::*member, bool valu
 
 const std::vector<Row>& rows() {
   static const std::vector<Row> list = {
-      whole("--robots", "how many, with ids from 0; this or --id is required", 1, most_robots,
+      whole("--robots", "number of robots, with ids from 0; this or --id is required", 1, most_robots,
             [](Options& o, double n) { o.robots = static_cast<std::size_t>(n); }),
-      whole("--id", "one robot alone, of this id", 0, largest_id,
+      whole("--id", "one robot alone, with this id", 0, largest_id,
             [](Options& o, double n) {
               o.first = static_cast<std::size_t>(n);
               o.robots = 1;
@@ -52,16 +52,18 @@ const std::vector<Row>& rows() {
       text("--cmd-vel", "TOPIC", "geometry_msgs/Twist; default /robot_{}/cmd_vel",
            [](Options& o) -> std::string& { return o.command_topic; }),
       flag("--stamped", "commands are geometry_msgs/TwistStamped", &Options::stamped),
-      text("--frame", "NAME", "in which the scenario has its targets; default map",
+      text("--frame", "NAME", "frame in which the scenario has its targets; default map",
            [](Options& o) -> std::string& { return o.frame; }),
-      text("--body-frame", "NAME", "of a robot in /tf; default robot_{}/base_link",
+      text("--body-frame", "NAME", "a robot's frame in /tf; default robot_{}/base_link",
            [](Options& o) -> std::string& { return o.body_frame; }),
       flag("--no-tf", "publish no tf2_msgs/TFMessage on /tf", &Options::tf, false),
       udp::real_option<Options>("--max-age",
-                                "of a pose, s; default 0.3; 0: stamps are not compared with this computer's clock", 0.0,
-                                3600.0, [](Options& o) -> double& { return o.max_age_s; }),
-      text("--node", "NAME", "of this node; default banyan_ros2", [](Options& o) -> std::string& { return o.node; }),
-      whole("--domain", "default ROS_DOMAIN_ID, else 0", 0, largest_domain,
+                                "largest age of a pose, s; default 0.3; 0: stamps are not compared with this "
+                                "computer's clock",
+                                0.0, 3600.0, [](Options& o) -> double& { return o.max_age_s; }),
+      text("--node", "NAME", "name of this node; default banyan_ros2",
+           [](Options& o) -> std::string& { return o.node; }),
+      whole("--domain", "DDS domain; default ROS_DOMAIN_ID, otherwise 0", 0, largest_domain,
             [](Options& o, double n) { o.domain = static_cast<std::uint32_t>(n); }),
       flag("--localhost",
            "talk to this computer alone, as with ROS_LOCALHOST_ONLY=1 or ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST",

@@ -24,7 +24,7 @@ struct RivalParams : Platform {
 // The same table for each: Params is RivalParams or derived from it.
 template <class Params>
 inline constexpr Parameter<Params> common_parameters[] = {
-    {{"liveness_period_s", "I", "s", "a neighbour not heard for longer is taken as gone",
+    {{"liveness_period_s", "I", "s", "a neighbour not heard for longer counts as gone",
       "At least five ticks. Longer where packets are lost.", "rivals", 0.1F, 60.0F}, &Params::liveness_period_s},
     {{"avoidance_range_m", "A", "m", "robots repel each other within it",
       "About three body diameters.", "rivals", 0.0F, 100.0F, Scaling::mission}, &Params::avoidance_range_m},
