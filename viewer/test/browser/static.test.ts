@@ -35,7 +35,6 @@ beforeAll(async () => {
   browser = await launch();
 }, 60_000);
 afterAll(async () => {
-  await browser?.close();
   server?.close();
   folder.remove();
 });
