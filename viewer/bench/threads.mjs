@@ -9,15 +9,15 @@ import { chromium } from 'playwright-core';
 
 const [address, ...names] = process.argv.slice(2);
 if (!address) throw new Error('usage: node viewer/bench/threads.mjs ADDRESS [SCENARIO…]');
-const rounds = 3; // all numbers of threads in turn, since other work of the machine changes
-const toS = 6;
+const rounds = 2; // all numbers of threads in turn, since other work of the machine changes
+const toS = 3;
 
 /** In the page: seconds for the ticks up to `toS`, after the first one, which reads and places. */
 function simulate([worker, name, text, threads, endS]) {
   return new Promise((done, fail) => {
     const live = new Worker(worker, { type: 'module' });
     let begun = 0;
-    const ask = () => live.postMessage({ type: 'frames', id: 1, fromS: 0, toS: begun === 0 ? 0 : endS, stride: 64 });
+    const ask = () => live.postMessage({ type: 'frames', id: 1, fromS: 0, toS: begun === 0 ? 0 : endS, stride: 1 });
     live.onmessage = ({ data }) => {
       if (data.type === 'failed') fail(new Error(data.text));
       if (data.type === 'header' && data.header.endS === 0) ask();
@@ -42,7 +42,7 @@ await page.goto(address);
 await page.waitForFunction(() => document.title.includes('– Banyan'));
 await page.evaluate(() => window.banyan.player.pause());
 const worker = page.workers().map((w) => w.url()).find((url) => url.includes('live.worker'));
-for (const name of names.length > 0 ? names : ['swarm-500', 'benchmark-1000', 'swarm-10000']) {
+for (const name of names.length > 0 ? names : ['swarm-1000', 'swarm-10000']) {
   const text = readFileSync(fileURLToPath(new URL(`../../scenarios/${name}.toml`, import.meta.url)), 'utf8');
   const best = { 1: Infinity, 2: Infinity, 4: Infinity };
   for (let k = 0; k < rounds; ++k) {

@@ -62,7 +62,7 @@ export class App {
     select: (robot) => this.select(robot === null ? null : { kind: 'robot', index: robot }),
     follow: (robot) => this.selecting.follow(robot),
     kill: (robot) => this.interference.intervene([{ kind: 'die', robot }]),
-  });
+  }, () => this.draw());
   private readonly events = new EventsList((event) => {
     this.seek(event.time_s);
     if (event.robot >= 0) this.selecting.select({ kind: 'robot', index: event.robot }, false); // the list stays: Why? is in it

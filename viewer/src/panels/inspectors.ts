@@ -20,11 +20,11 @@ class One {
   readonly watch: RobotWatch;
   readonly details: HTMLDetailsElement;
 
-  constructor(k: number, actions: InspectorActions) {
+  constructor(k: number, actions: InspectorActions, opened: () => void) {
     this.inspector = new Inspector(actions);
     this.watch = new RobotWatch(this.inspector);
     this.line.dataset.run = String(k + 1);
-    this.details = h('details', { class: 'run-inspector' }, h('summary', {}, this.line, this.name));
+    this.details = h('details', { class: 'run-inspector', ontoggle: opened }, h('summary', {}, this.line, this.name));
   }
 
   call(name: string): void { setText(this.name, name); }
@@ -37,7 +37,8 @@ export class Inspectors {
   private laidOut = ''; // for how many runs
   private open = -1; // the one that was opened last for the visitor
 
-  constructor(private readonly actions: InspectorActions) {}
+  /** `opened`: one is to be filled. */
+  constructor(private readonly actions: InspectorActions, private readonly opened: () => void) {}
 
   /** `chosen`: the run in which the robot was clicked. */
   update(runs: readonly InspectedRun[], robot: number | null, followed: number | null, chosen: number): void {
@@ -64,7 +65,7 @@ export class Inspectors {
     if (wanted === this.laidOut) return;
     this.laidOut = wanted;
     this.open = -1;
-    while (this.each.length < Math.max(1, count)) this.each.push(new One(this.each.length, this.actions));
+    while (this.each.length < Math.max(1, count)) this.each.push(new One(this.each.length, this.actions, this.opened));
     const shown = this.each.slice(0, Math.max(1, count));
     if (!anybody) for (const { watch } of shown) watch.show(null, null, null, false);
     if (!anybody || count < 2) return this.element.replaceChildren(this.inAll, shown[0].inspector.element);

@@ -10,7 +10,7 @@ const sliceMs = 25; // other requests wait no longer than that, and one tick
 const mostMs = 200; // then what there is goes out, so that the page sees progress
 const mostReplyBytes = 32 << 20;
 const mostThreads = 4; // as many as the module has ready (viewer/CMakeLists.txt), and the worker itself
-const leastRobots = 400; // fewer have nothing to share: waiting for each other takes as long as what they do
+const leastRobots = 1000; // fewer have nothing to share: waiting for each other takes as long as what they do
 
 type Of<Type extends Request['type']> = Extract<Request, { type: Type }>;
 
