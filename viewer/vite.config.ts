@@ -3,16 +3,29 @@
 // serve them. BANYAN_LIVE is the folder with the compiled simulation, BANYAN_PAGE where to build.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { defineConfig } from 'vite';
+import { defineConfig, type Plugin } from 'vite';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const live = process.env.BANYAN_LIVE ?? here('../build/wasm/viewer');
+const liveThreads = process.env.BANYAN_LIVE_THREADS ?? here('../build/wasm-threads/viewer');
 
 // The page offers the algorithms that the simulation it is built with knows.
 const { default: createLive } = await import(pathToFileURL(`${live}/banyan_live.mjs`).href);
 const algorithms: string[] = (await createLive({ wasmBinary: readFileSync(`${live}/banyan_live.wasm`) })).algorithms();
 
+/** The simulation with threads, beside the bundle and as it is. */
+const threads: Plugin = {
+  name: 'threads',
+  generateBundle() {
+    for (const ending of ['mjs', 'wasm', 'worker.js']) {
+      const file = `banyan_live_threads.${ending}`;
+      this.emitFile({ type: 'asset', fileName: `threads/${file}`, source: readFileSync(`${liveThreads}/${file}`) });
+    }
+  },
+};
+
 export default defineConfig({
+  plugins: [threads],
   define: { builtInAlgorithms: JSON.stringify(algorithms) },
   base: './',
   root: here('.'),

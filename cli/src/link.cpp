@@ -106,6 +106,7 @@ class Reader {
   void wrong(const std::string& key, const std::string& text) { problems.push_back({{origin_, 0}, key, text, false}); }
 
   Parts parts;
+  std::size_t beside = 0;  // further runs, with scenarios of their own
   std::vector<Problem> problems;
 
  private:
@@ -120,6 +121,7 @@ class Reader {
     else if (key == "algorithm") parts.algorithms.push_back(value);
     else if (key == "seed") parts.seeds.push_back(value);
     else if (key == "do") take_act(value);
+    else if (key == "beside") ++beside;
     else if (key == "recording") wrong(key, "the link shows a recording, which cannot be computed or fetched");
     else if (!std::ranges::count(views, std::string_view(key))) wrong(key, "is unknown; allowed: " + known(key));
   }
@@ -133,7 +135,7 @@ class Reader {
     else wrong("do", "is \"" + value + "\"; it is a tick, a colon and an event as JSON");
   }
   static std::string known(const std::string& key) {
-    const std::vector<std::string_view> all{"scenario", "name", "text", "set", "algorithm", "seed", "do", "t", "view", "robot", "target"};
+    const std::vector<std::string_view> all{"scenario", "name", "text", "set", "algorithm", "seed", "do", "t", "view", "robot", "target", "beside"};
     const auto near = nearest(key, all);
     std::string text;
     for (const std::string_view one : all) text += (text.empty() ? "" : ", ") + std::string(one);
@@ -209,7 +211,7 @@ LoadedLink load_link(const std::string& link, const std::vector<Override>& more)
       return result;
     }
     const Parts& parts = reader.parts;
-    result.runs = std::max<std::size_t>(1, parts.algorithms.size()) * std::max<std::size_t>(1, parts.seeds.size());
+    result.runs = std::max<std::size_t>(1, parts.algorithms.size()) * std::max<std::size_t>(1, parts.seeds.size()) + reader.beside;
     const std::string path = parts.text.empty() ? parts.scenario + ".toml" : parts.name.empty() ? "link.toml" : parts.name;
     result.loaded = parse_configuration(path, text, algorithms(), overrides_of(parts, more));
     if (result.loaded.ok() && !parts.acts.empty()) result.loaded = with_acts(result.loaded, parts.acts, path);

@@ -201,8 +201,11 @@ bool PageServer::Impl::is_ours(const Request& request) const {
 }
 
 void PageServer::Impl::add_routes() {
+  // Opener and embedder policy isolate the page from all others: only then do browsers let it have threads.
   server.set_default_headers({{"X-Content-Type-Options", "nosniff"},
                               {"Cross-Origin-Resource-Policy", "same-origin"},
+                              {"Cross-Origin-Opener-Policy", "same-origin"},
+                              {"Cross-Origin-Embedder-Policy", "require-corp"},
                               {"Cache-Control", "no-cache"}});
   server.set_pre_routing_handler([this](const Request& request, Response& response) {
     using Result = httplib::Server::HandlerResponse;

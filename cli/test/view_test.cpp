@@ -127,6 +127,9 @@ TEST_F(View, ThePageIsServedWithTheTypesThatBrowsersInsistOn) {
     EXPECT_EQ(answer->body, body) << what;
     EXPECT_EQ(answer->get_header_value("Content-Type"), type) << what;
     EXPECT_EQ(answer->get_header_value("X-Content-Type-Options"), "nosniff");
+    // Isolated, or browsers would let the page have no threads.
+    EXPECT_EQ(answer->get_header_value("Cross-Origin-Opener-Policy"), "same-origin");
+    EXPECT_EQ(answer->get_header_value("Cross-Origin-Embedder-Policy"), "require-corp");
   }
   const auto head = httplib::Client("127.0.0.1", server_->port()).Head("/assets/live.wasm");
   ASSERT_TRUE(head);

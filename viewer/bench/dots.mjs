@@ -36,4 +36,4 @@ async function measure(way, code) {
 const entry = fileURLToPath(new URL('dots.ts', import.meta.url));
 const built = await build({ entryPoints: [entry], bundle: true, write: false, format: 'iife', target: 'es2022' });
 console.log(`load ${loadavg()[0].toFixed(1)}`);
-for (const way of ['nothing', 'fillRect', 'own pixels', 'WebGL, in the picture', 'WebGL alone']) await measure(way, built.outputFiles[0].text);
+for (const way of ['nothing', 'fillRect', 'own pixels', 'off-screen, in a worker', 'WebGL, in the picture', 'WebGL alone']) await measure(way, built.outputFiles[0].text);

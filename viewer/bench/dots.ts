@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs in the browser for dots.mjs: draws 10,000 squares that move, in one of several ways.
-import { Dots } from '../src/scene/dots';
+import { DotBitmap, Dots } from '../src/scene/dots';
 import { dice } from './swarm';
 
 const count = 10_000, width = 1280, height = 720, sidePx = 2.88;
@@ -49,8 +49,38 @@ function webgl(canvas: HTMLCanvasElement, clear: number): (timeS: number) => voi
   };
 }
 
+/** The same pixels in a worker, which owns the canvas: the page's thread only says where the dots are. */
+function offscreen(canvas: HTMLCanvasElement): (timeS: number) => void {
+  const code = [...document.scripts].at(-1)!.textContent ?? '';
+  const worker = new Worker(URL.createObjectURL(new Blob([code])));
+  const handed = canvas.transferControlToOffscreen();
+  worker.postMessage(handed, [handed]);
+  return (timeS) => {
+    const at = new Float32Array(2 * count);
+    for (let i = 0; i < count; ++i) {
+      at[2 * i] = xAt(i, timeS);
+      at[2 * i + 1] = places[i]![1];
+    }
+    worker.postMessage(at, [at.buffer]);
+  };
+}
+
+function inWorker(): void {
+  let pen: OffscreenCanvasRenderingContext2D | null = null;
+  const bitmap = new DotBitmap();
+  const image = new ImageData(width, height);
+  const words = new Uint32Array(image.data.buffer);
+  self.onmessage = ({ data }: MessageEvent<OffscreenCanvas | Float32Array>) => {
+    if (data instanceof OffscreenCanvas) return void (pen = data.getContext('2d'));
+    bitmap.clear(width, height, '#888855', words);
+    for (let i = 0; i < count; ++i) bitmap.add(data[2 * i]!, data[2 * i + 1]!, sidePx);
+    pen?.putImageData(image, 0, 0);
+  };
+}
+
 function drawing(way: string, canvas: HTMLCanvasElement): (timeS: number) => void {
   if (way === 'WebGL alone') return webgl(canvas, 1);
+  if (way === 'off-screen, in a worker') return offscreen(canvas);
   const pen = canvas.getContext('2d', { alpha: false })!;
   const clear = () => { pen.fillStyle = '#ffffff'; pen.fillRect(0, 0, width, height); };
   if (way === 'nothing') return clear;
@@ -85,4 +115,5 @@ async function draw(way: string, pictures: number): Promise<number> {
   return (1000 * pictures) / (performance.now() - begin);
 }
 
-Object.assign(window, { draw });
+if (typeof document === 'undefined') inWorker();
+else Object.assign(window, { draw });

@@ -9,19 +9,26 @@ if (!address) throw new Error('usage: node viewer/bench/live.mjs ADDRESS [SCENAR
 const settleMs = 4000;
 const measureMs = 5000;
 
-/** In the page: how often it draws, and how long all but the slowest twentieth of the pictures take. */
+/** In the page: how often it could draw and how long all but the slowest twentieth of the pictures take; how many of
+ *  them show another moment than the last; and how much is simulated in a second. */
 function measure(forMs) {
+  const { player } = window.banyan;
   return new Promise((done) => {
     const begin = performance.now();
+    const fromS = player.timeS;
     const lengths = [];
-    let last = begin;
+    let last = begin, shownS = fromS, moved = 0;
     requestAnimationFrame(function next(now) {
       lengths.push(now - last);
       last = now;
+      if (player.timeS !== shownS) ++moved;
+      shownS = player.timeS;
       const elapsed = performance.now() - begin;
       if (elapsed < forMs) return requestAnimationFrame(next);
       lengths.sort((a, b) => a - b);
-      done({ fps: (1000 * lengths.length) / elapsed, pictures: lengths.length, p95Ms: lengths[Math.floor(0.95 * lengths.length)] });
+      const perS = 1000 / elapsed;
+      done({ fps: lengths.length * perS, moving: moved * perS, pace: (player.timeS - fromS) * perS, pictures: lengths.length,
+        p95Ms: lengths[Math.floor(0.95 * lengths.length)] });
     });
   });
 }
@@ -43,9 +50,9 @@ for (const name of names.length > 0 ? names : ['three-targets', 'paper-large', '
   await page.waitForFunction((title) => document.title.startsWith(title), name);
   await page.waitForTimeout(settleMs);
   const before = await busyS();
-  const { fps, p95Ms, pictures } = await page.evaluate(measure, measureMs);
+  const { fps, moving, pace, p95Ms, pictures } = await page.evaluate(measure, measureMs);
   const eachMs = (1000 * ((await busyS()) - before)) / pictures;
   const robots = await page.textContent('.caption');
-  console.log(`${name.padEnd(16)} ${fps.toFixed(1).padStart(5)} frames/s, 95 % within ${p95Ms.toFixed(0)} ms, ${eachMs.toFixed(1)} ms of processor time each   (${robots})`);
+  console.log(`${name.padEnd(16)} ${fps.toFixed(1).padStart(5)} frames/s (${moving.toFixed(1)} of them moved), ${pace.toFixed(2)} s simulated per s, 95 % within ${p95Ms.toFixed(0)} ms, ${eachMs.toFixed(1)} ms of processor time each   (${robots})`);
 }
 await browser.close();

@@ -58,6 +58,9 @@ val load(Live& live, const std::string& name, const std::string& text, const val
 val intervene(Live& live, const std::string& event_json) {
   return in_words([&] { return lines(live.intervene(event_json)); });
 }
+void use_threads(Live& live, int threads) {
+  in_words([&] { live.use_threads(threads); });
+}
 void step(Live& live, double ticks) {
   in_words([&] { live.step(static_cast<std::size_t>(ticks)); });
 }
@@ -100,6 +103,7 @@ EMSCRIPTEN_BINDINGS(banyan_live) {
       .constructor(&make, emscripten::allow_raw_pointers())
       .function("load", &load)
       .function("loaded", &Live::loaded)
+      .function("useThreads", &use_threads)
       .function("step", &step)
       .function("tick", &number<&Live::tick>)
       .function("timeS", &Door<&Live::time_s>::call)

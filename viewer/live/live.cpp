@@ -115,7 +115,7 @@ struct Live::Run {
     simulation.emplace(world::World(configuration.scenario), head);
     note_end();
   }
-  void step() {
+  void step(world::Executor& executor) {
     simulation->step(executor);
     note_end();
   }
@@ -134,11 +134,11 @@ struct Live::Run {
   std::vector<Intervention> interventions;
   Head head;
   std::optional<record::Simulation> simulation;
-  world::Executor executor{1};
   std::optional<std::uint64_t> finished_at;  // tick
 };
 
-Live::Live(const AlgorithmList& algorithms) : algorithms_(algorithms) {}
+Live::Live(const AlgorithmList& algorithms)
+    : algorithms_(algorithms), executor_(std::make_unique<world::Executor>(1)) {}
 Live::~Live() = default;
 
 Live::Run& Live::run() const {
@@ -161,9 +161,14 @@ std::vector<std::string> Live::load(const std::string& name, std::string_view te
   return lines;
 }
 
+void Live::use_threads(int threads) {
+  executor_.reset();  // ends the last team: threads may be few
+  executor_ = std::make_unique<world::Executor>(threads);
+}
+
 void Live::step(std::size_t ticks) {
   Run& r = run();
-  for (; ticks > 0; --ticks) r.step();
+  for (; ticks > 0; --ticks) r.step(*executor_);
 }
 
 std::uint64_t Live::tick() const { return run().world().tick(); }
@@ -177,7 +182,7 @@ void Live::rewind(std::uint64_t tick) {
   if (tick == r.world().tick()) return;
   std::erase_if(r.interventions, [tick](const Intervention& i) { return i.tick >= tick; });
   r.begin();
-  replay(*r.simulation, r.interventions, tick, [&r] { r.step(); });
+  replay(*r.simulation, r.interventions, tick, [&] { r.step(*executor_); });
   r.head.events.clear();
 }
 
@@ -290,8 +295,7 @@ std::string Live::recording() const {
   const auto recording = record::open_recording(
       file.path(), {{config_json(), version(), git(), seed()}, r.configuration.output, record::Existing::replace});
   record::Simulation again(world::World(r.configuration.scenario), *recording);
-  world::Executor executor(1);
-  replay(again, r.interventions, r.world().tick(), [&] { again.step(executor); });
+  replay(again, r.interventions, r.world().tick(), [&] { again.step(*executor_); });
   again.finish(!finished());
   return file.content();
 }

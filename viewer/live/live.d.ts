@@ -12,6 +12,10 @@ export interface Live {
   load(name: string, text: string, overrides: string[]): string[];
   loaded(): boolean;
 
+  /** Steps are computed by so many threads from now on, and come out the same. At most four, and one in the module
+   *  without threads. Needs no scenario. */
+  useThreads(threads: number): void;
+
   /** Also beyond the end of the mission. */
   step(ticks: number): void;
   /** The head, 0 at the start. */

@@ -15,6 +15,9 @@
 namespace banyan {
 class AlgorithmList;  // controller/core/algorithm.hpp
 }
+namespace banyan::world {
+class Executor;  // threads.hpp
+}
 
 namespace banyan::viewer {
 
@@ -33,6 +36,9 @@ class Live {
   [[nodiscard]] std::vector<std::string> load(const std::string& name, std::string_view text,
                                               const std::vector<std::string>& overrides);
   [[nodiscard]] bool loaded() const { return run_ != nullptr; }
+
+  // Steps are computed by so many threads from now on, and come out the same. Where there are none, it stays at one.
+  void use_threads(int threads);
 
   // Everything below needs a run and throws std::logic_error without one.
 
@@ -87,6 +93,7 @@ class Live {
   [[nodiscard]] Run& run() const;
 
   const AlgorithmList& algorithms_;
+  std::unique_ptr<world::Executor> executor_;
   std::unique_ptr<Run> run_;
 };
 

@@ -27,7 +27,8 @@ export function apart(names: string[], algorithms: string[]): string[] {
   });
 }
 
-export function acceptDrops(open: (files: File[]) => void): void {
+/** `beside`: Shift was held. */
+export function acceptDrops(open: (files: File[], beside: boolean) => void): void {
   const root = document.documentElement;
   let inside = 0; // dragenter and dragleave come for every element
   const show = () => root.classList.toggle('dragging', inside > 0);
@@ -40,7 +41,7 @@ export function acceptDrops(open: (files: File[]) => void): void {
     inside = 0;
     show();
     const files = [...(event.dataTransfer?.files ?? [])];
-    if (files.length > 0) open(files);
+    if (files.length > 0) open(files, event.shiftKey);
   });
 }
 

@@ -15,8 +15,8 @@ import { between, type Stage } from './stage';
 
 /** What it needs of the page. */
 export interface Interfered {
-  readonly stages: readonly Stage[];
-  readonly isLive: boolean;
+  /** The live runs; there may be recordings beside them. */
+  readonly liveStages: readonly Stage[];
   readonly selection: Item | null;
   select(item: Item | null): void;
   draw(): void;
@@ -41,10 +41,12 @@ export class Interference {
     private readonly panel: LivePanel, private readonly notice: Notice,
   ) {}
 
+  private get isLive(): boolean { return this.page.liveStages.length > 0; }
+
   setTool(tool: Tool): void {
-    const wanted = this.page.isLive ? tool : 'look';
+    const wanted = this.isLive ? tool : 'look';
     this.panel.setTool(wanted);
-    for (const stage of this.page.stages) stage.setMode(modes[wanted]);
+    for (const stage of this.page.liveStages) stage.setMode(modes[wanted]);
     if (this.hinted) this.notice.hide(); // it has been done, or is not wanted
     this.hinted = wanted !== 'look';
     if (wanted === 'look') return this.places.stop();
@@ -68,7 +70,7 @@ export class Interference {
   addObstacle(atM: Spot, edgeM: Spot): void {
     this.setTool('look');
     const drawnM = Math.hypot(edgeM.x - atM.x, edgeM.y - atM.y);
-    const usualM = usualShare * (this.page.stages[0]?.source.settingAt(this.player.timeS)?.range_m ?? 2);
+    const usualM = usualShare * (this.page.liveStages[0]?.source.settingAt(this.player.timeS)?.range_m ?? 2);
     this.intervene([{ kind: 'add_obstacle', position_m: place(atM), radius_m: rounded(drawnM < leastRadiusM ? usualM : drawnM) }]);
   }
 
@@ -80,7 +82,7 @@ export class Interference {
   /** A robot dies; a target or an obstacle is no more. */
   removeSelected(): void {
     const { selection } = this.page;
-    if (!this.page.isLive) return;
+    if (!this.isLive) return;
     if (selection === null) return this.notice.good('Select a target or an obstacle first: click it, or Shift+N.');
     const { kind, index } = selection;
     if (kind === 'robot') return this.intervene([{ kind: 'die', robot: index }]);
@@ -92,7 +94,7 @@ export class Interference {
   /** The selected target or obstacle is moved by keys. */
   grab(): void {
     const { selection } = this.page;
-    if (!this.page.isLive) return;
+    if (!this.isLive) return;
     if (selection === null || selection.kind === 'robot') return this.notice.good('Select a target or an obstacle first: click it, or Shift+N.');
     this.notice.good(`Move ${selection.kind === 'target' ? `target T${selection.index}` : `obstacle ${selection.index}`} by the arrow keys, then Enter.`);
     this.places.start({ kind: 'move', item: selection });
@@ -103,7 +105,7 @@ export class Interference {
 
   /** The connector that most others hang on. */
   killRelay(): void {
-    const relay = this.page.stages[0]?.busiestRelay() ?? null;
+    const relay = this.page.liveStages[0]?.busiestRelay() ?? null;
     if (relay === null) return this.notice.good('There is no connector yet: let it play for some seconds.');
     this.page.select({ kind: 'robot', index: relay });
     this.intervene([{ kind: 'die', robot: relay }]);
@@ -114,7 +116,7 @@ export class Interference {
   reset(): void {
     this.player.home();
     this.controls.forget();
-    for (const { source } of this.page.stages) this.change(source, source.reset());
+    for (const { source } of this.page.liveStages) this.change(source, source.reset());
     this.page.draw();
   }
 
@@ -131,9 +133,9 @@ export class Interference {
   }
 
   private again(ask: (source: Source) => Promise<number | null>, nothing: string): void {
-    if (!this.page.isLive) return;
+    if (!this.isLive) return;
     this.controls.forget();
-    for (const { source } of this.page.stages) {
+    for (const { source } of this.page.liveStages) {
       this.change(source, ask(source).then((tick) => { if (tick === null) this.notice.good(nothing); }));
     }
     this.page.draw();
@@ -141,9 +143,9 @@ export class Interference {
 
   /** Applies each run's own interventions. If the clock stands still, it moves on until they are seen. */
   private act(eventsFor: (stage: Stage) => Intervention[]): void {
-    if (!this.page.isLive) return;
+    if (!this.isLive) return;
     const { timeS } = this.player;
-    for (const stage of this.page.stages) {
+    for (const stage of this.page.liveStages) {
       const { source } = stage;
       const events = eventsFor(stage);
       if (events.length === 0) continue;
@@ -158,7 +160,7 @@ export class Interference {
   /** Says what went wrong, unless another run is shown by then. */
   private change(source: Source, done: Promise<void>): void {
     done.catch((problem: unknown) => {
-      if (!this.page.stages.some((stage) => stage.source === source)) return;
+      if (!this.page.liveStages.some((stage) => stage.source === source)) return;
       this.controls.forget();
       const text = problem instanceof Error ? problem.message : String(problem);
       this.notice.bad([text, ...(problem instanceof Problem ? problem.problems : [])].join('\n'));
@@ -168,11 +170,11 @@ export class Interference {
 
   private readonly places = new PlaceCursor({
     begin: (task) => {
-      const [stage] = this.page.stages;
+      const [stage] = this.page.liveStages;
       return (task.kind === 'move' ? stage?.worldPlaceOf(task.item) : stage?.middle) ?? null;
     },
-    metresPerPx: () => this.page.stages[0]?.metresPerPx ?? 0,
-    show: (at, task, corner) => { for (const stage of this.page.stages) stage.showCursor(at, task, corner); },
+    metresPerPx: () => this.page.liveStages[0]?.metresPerPx ?? 0,
+    show: (at, task, corner) => { for (const stage of this.page.liveStages) stage.showCursor(at, task, corner); },
     take: (task, at, corner) => this.take(task, at, corner),
   });
 

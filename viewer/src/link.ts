@@ -17,10 +17,13 @@ export interface Experiment {
   timeS: number | null;
   view: { xM: number; yM: number; scale: number } | null;
   robot: number | null;
+  /** Other runs that stand beside these, each as an address of its own. */
+  beside: string[];
 }
 
 export const nothing: Experiment = {
   scenario: '', name: '', text: '', recording: '', algorithms: [], seeds: [], sets: [], acts: [], timeS: null, view: null, robot: null,
+  beside: [],
 };
 
 /** Servers and chats cut longer addresses; what does not fit becomes a file. */
@@ -58,6 +61,7 @@ function take(e: Experiment, key: string, value: string): boolean {
     case 'text': return takeText(e, value);
     case 'view': return takeView(e, value);
     case 'do': return takeAct(e, value);
+    case 'beside': e.beside.push(value); return readLink(value) !== null;
     default: return true;
   }
 }
@@ -95,6 +99,7 @@ export function writeLink(e: Experiment): string {
   for (const seed of e.seeds) parts.push(['seed', String(seed)]);
   for (const set of e.sets) parts.push(['set', set]);
   parts.push(...actParts(e.acts));
+  for (const other of e.beside) parts.push(['beside', other.replace(/^#/, '')]);
   if (e.timeS !== null) parts.push(['t', String(Math.round(e.timeS * 1e4) / 1e4)]);
   if (e.view !== null) parts.push(['view', [e.view.xM, e.view.yM, e.view.scale].map((v) => Number(v.toPrecision(6))).join(',')]);
   if (e.robot !== null) parts.push(['robot', String(e.robot)]);

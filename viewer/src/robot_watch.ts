@@ -14,19 +14,13 @@ export class RobotWatch {
 
   constructor(private readonly inspector: Inspector) {}
 
-  /** `runs`: those side by side, with their names. */
-  show(
-    stage: Stage | null, robot: number | null, followed: number | null, live: boolean, run = 0,
-    runs: readonly { name: string; stage: Pick<Stage, 'recordedFrame'> }[] = [],
-  ): void {
+  show(stage: Stage | null, robot: number | null, followed: number | null, live: boolean): void {
     this.attend(stage?.source ?? null);
     const frame = stage?.recordedFrame ?? null;
     if (stage === null || frame === null || robot === null || robot >= frame.robots) return this.inspector.update(null);
     this.ask(stage, robot, frame.tick);
     this.inspector.update({
-      frame, robot, live, run, followed: followed === robot,
-      runs: runs.flatMap(({ name, stage: { recordedFrame } }) => (recordedFrame === null ? [] : [{ name, frame: recordedFrame }])),
-      algorithm: stage.source.settingAt(frame.timeS)?.algorithm ?? '',
+      frame, robot, live, followed: followed === robot,
       neighbours: stage.facts()?.radio.neighbours(robot) ?? [],
       said: this.answer?.robot === robot ? this.answer : null,
     });
@@ -50,6 +44,7 @@ export class RobotWatch {
       if (stage.source !== this.source) return; // too late
       this.busy = false;
       this.answer = { robot, ...said };
+      if (said.fields !== null) stage.robotSeries.know(said.fields);
       stage.redraw();
     };
     stage.source.message(robot, tick).then(

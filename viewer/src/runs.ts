@@ -5,13 +5,22 @@ import type { Header } from './source/protocol';
 
 export const mostRuns = 4;
 
-/** The changes of each run: every algorithm with every seed, the algorithms of one seed together. */
-export function runsOf(choice: Pick<LiveChoice, 'algorithms' | 'seeds' | 'overrides'>): string[][] {
-  return choice.seeds.flatMap((seed) => choice.algorithms.map((algorithm) => [
-    ...choice.overrides,
-    ...(seed === null ? [] : [`seed=${seed}`]),
-    ...(algorithm === '' ? [] : [`mission.algorithm=${algorithm}`]),
-  ])).slice(0, mostRuns);
+export interface ChosenRun {
+  algorithm: string; // "": the scenario's own
+  seed: number | null; // null: the scenario's own
+  overrides: string[]; // "key=value", all of them
+}
+
+/** Each run that is meant: every algorithm with every seed, the algorithms of one seed together. */
+export function runsOf(choice: Pick<LiveChoice, 'algorithms' | 'seeds' | 'overrides'>, most = mostRuns): ChosenRun[] {
+  return choice.seeds.flatMap((seed) => choice.algorithms.map((algorithm) => ({
+    algorithm, seed,
+    overrides: [
+      ...choice.overrides,
+      ...(seed === null ? [] : [`seed=${seed}`]),
+      ...(algorithm === '' ? [] : [`mission.algorithm=${algorithm}`]),
+    ],
+  }))).slice(0, most);
 }
 
 /** What each differs in from the others: its algorithm, its seed, its name; else its number. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One run in the picture: its source, its camera, and what the pointer does there. Two stages stand side by
+// One run in the picture: its source, its camera, and what the pointer does there. Up to four stages stand side by
 // side when runs are compared; what they share (clock, selection, switches) is the page's.
 import { h, setText } from './dom';
 import { heldTargets } from './scene/held';
@@ -329,7 +329,7 @@ export class Stage {
   get deedEvents(): readonly RunEvent[] { return this.deeds().events; }
   lossAt(timeS: number): number { return this.deeds().lossAt(timeS); }
 
-  private get live(): boolean { return this.source.header.value?.kind === 'live'; }
+  get live(): boolean { return this.source.header.value?.kind === 'live'; }
 
   private world(atPx: Spot): Spot { return this.camera ? toWorld(this.camera, atPx) : { x: 0, y: 0 }; }
 

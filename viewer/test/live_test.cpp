@@ -239,5 +239,17 @@ TEST_F(LiveTest, RefusesInWords) {
   EXPECT_EQ(live.hash(), before);
 }
 
+TEST_F(LiveTest, IsTheSameForAnyNumberOfThreads) {
+  live.step(60);
+  const std::string hash = live.hash();
+  for (const int threads : {2, 3, 4}) {
+    live.use_threads(threads);  // also in the middle of a run
+    live.rewind(30);
+    live.use_threads(1 + threads % 2);
+    live.step(30);
+    EXPECT_EQ(live.hash(), hash) << threads;
+  }
+}
+
 }  // namespace
 }  // namespace banyan::viewer

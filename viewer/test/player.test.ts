@@ -165,6 +165,26 @@ describe('the player', () => {
     expect(player.timeS).toBeCloseTo(2.1);
   });
 
+  it('slows down where a live run does not keep up, instead of stopping again and again', () => {
+    const source = new Fake(0, true);
+    source.prefetch = () => {};
+    source.limit = (fromS, toS) => Math.max(fromS, Math.min(toS, source.endS));
+    const { player, run } = playing(source);
+    player.play();
+    const steps: number[] = [];
+    for (let k = 0; k < 300; ++k) { // a tick each 200 ms: half as fast as it is played
+      if (k % 12 === 0) source.endS += 0.1;
+      const before = player.timeS;
+      run(16);
+      if (k > 60) steps.push(player.timeS - before);
+    }
+    expect(Math.min(...steps)).toBeGreaterThan(0); // it never stands
+    expect(player.timeS).toBeGreaterThan(0.9 * (source.endS - 0.2)); // and shows what there is
+    expect(player.keptSpeed).toBeGreaterThan(0.3);
+    expect(player.keptSpeed).toBeLessThan(0.8);
+    player.pause();
+    expect(player.keptSpeed).toBe(1);
+  });
   it('goes on with a live run, for ever', () => {
     const { player, run } = playing(new Fake(0, true));
     player.play();

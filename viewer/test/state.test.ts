@@ -8,6 +8,7 @@ import { apart } from '../src/files';
 import { fromBase64, nothing, readLink, toBase64, writeLink } from '../src/link';
 import { outcomeOf, percent } from '../src/state/outcome';
 import { eventsNear } from '../src/panels/transport';
+import { experimentOf, type Known } from '../src/origin';
 import { namesOf, runsOf } from '../src/runs';
 import { PlaceCursor, type PlaceTask } from '../src/place_cursor';
 import { kindOf, Warnings } from '../src/source/problem';
@@ -183,6 +184,24 @@ describe('a link', () => {
     expect(read?.problems).toEqual([]);
     expect(read?.experiment).toEqual(experiment);
   });
+  it('has other runs beside it, each a link of its own', () => {
+    const other = writeLink({ ...nothing, scenario: 'rooms', sets: ['a="b & c"'], acts: [[act(5, '{"kind":"die","robot":4}')]], beside: [] });
+    const read = readLink(writeLink({ ...nothing, recording: './x.mcap', beside: [other], timeS: 3 }));
+    expect(read?.problems).toEqual([]);
+    expect(readLink(read!.experiment.beside[0])?.experiment).toEqual(readLink(other)?.experiment);
+    expect(read?.experiment).toMatchObject({ recording: './x.mcap', timeS: 3 });
+  });
+  it('is the shortest that says all of the runs that are shown', () => {
+    const live = (algorithm: string, seed: number | null, scenario = 'rooms'): Known =>
+      ({ origin: { kind: 'live', scenario, name: scenario, text: '', algorithm, seed, sets: [] }, acts: [] });
+    const look = { timeS: null, view: null, robot: null };
+    const linkOf = (...runs: Known[]) => { const e = experimentOf(runs, [], look); return e === null ? null : writeLink(e); };
+    expect(linkOf(live('', null))).toBe('#scenario=rooms');
+    expect(linkOf(live('a', 1), live('b', 1), live('a', 2), live('b', 2))).toBe('#scenario=rooms&algorithm=a&algorithm=b&seed=1&seed=2');
+    expect(linkOf(live('a', 1), live('b', 2))).toBe('#scenario=rooms&algorithm=a&seed=1&beside=scenario=rooms%26algorithm=b%26seed=2');
+    expect(linkOf(live('', null, 'one'), { origin: { kind: 'recording', address: './x.mcap' }, acts: [] })).toBe('#scenario=one&beside=recording=./x.mcap');
+    expect(linkOf(live('', null), { origin: { kind: 'recording', address: '' }, acts: [] })).toBeNull(); // nobody else has that file
+  });
   it('carries a text of any letters', () => {
     const text = 'name = "größer ☃"\n';
     expect(readLink(writeLink({ ...nothing, name: 'a.toml', text }))?.experiment).toEqual({ ...nothing, name: 'a.toml', text });
@@ -217,7 +236,7 @@ describe('what was done to the radio', () => {
 
 describe('runs side by side', () => {
   it('are every algorithm with every seed, at most four', () => {
-    expect(runsOf({ algorithms: ['a', ''], seeds: [1, 2], overrides: ['x=1'] })).toEqual([
+    expect(runsOf({ algorithms: ['a', ''], seeds: [1, 2], overrides: ['x=1'] }).map(({ overrides }) => overrides)).toEqual([
       ['x=1', 'seed=1', 'mission.algorithm=a'], ['x=1', 'seed=1'], ['x=1', 'seed=2', 'mission.algorithm=a'], ['x=1', 'seed=2'],
     ]);
     expect(runsOf({ algorithms: ['a', 'b'], seeds: [1, 2, 3], overrides: [] })).toHaveLength(4);
@@ -310,6 +329,11 @@ describe('the numbers of a robot over time', () => {
     const asked: [number, number][] = [];
     return {
       asked, tickS: 0.1, depthOf: (robot: number, tick: number) => robot + tick,
+      /** Robot i says 10 i + tick at every other tick, and a role by its name. */
+      async messages(robot: number, fromS: number, toS: number) {
+        const ticks = Array.from({ length: 100 }, (_, tick) => tick).filter((tick) => tick % 2 === 0 && tick * 0.1 >= fromS - 1e-6 && tick * 0.1 <= toS + 1e-6);
+        return ticks.map((tick) => ({ timeS: tick * 0.1, fields: { news: 10 * robot + tick, role: 'worker', words: 'none' } }));
+      },
       async frames(fromS: number, toS: number) {
         asked.push([fromS, toS]);
         const first = Math.max(0, Math.ceil(fromS / 0.1 - 1e-6) - 1); // and the one before
@@ -331,6 +355,18 @@ describe('the numbers of a robot over time', () => {
     const before = from.asked.length;
     await gathered(series, 0, 0.2);
     expect(from.asked.length).toBe(before);
+  });
+
+  it('have beside them what it said, if that is wanted', async () => {
+    const series = new RobotSeries(source(4));
+    expect(Object.keys(await gathered(series, 1, 0.5))).not.toContain('says news');
+    while (await series.gather(1, 0.5, true));
+    expect([...series.value['says news']]).toEqual([10, NaN, 12, NaN, 14, NaN]);
+    expect([...series.value['says role']]).toEqual([2, NaN, 2, NaN, 2, NaN]);
+    series.cut(0.2);
+    expect([...series.value['says news']]).toEqual([10, NaN, 12]);
+    series.know({ news: 3, need: 'await', words: 'none', on: true });
+    expect(series.fields).toEqual(['news', 'need', 'on']); // what is no number cannot be plotted
   });
 
   it('are forgotten where the run was changed, also while they are on their way', async () => {

@@ -20,7 +20,7 @@ struct Executor::Team {
   std::size_t n = 0;
   Call call = nullptr;
   void* context = nullptr;
-  std::vector<std::jthread> members;
+  std::vector<std::thread> members;  // no std::jthread: emscripten has none yet
 
   // Also where a thread could not be started: those that were must not wait for ever.
   ~Team() {
@@ -29,7 +29,7 @@ struct Executor::Team {
       stop = true;
     }
     start.notify_all();
-    members.clear();  // joins before the rest of the team goes
+    for (std::thread& member : members) member.join();
   }
 
   void work(int worker, int threads) {

@@ -2,7 +2,7 @@
 // What a plot can show, and its values: curves of the swarm, columns of the series table, numbers of a robot's reports.
 import uPlot from 'uplot';
 import type { Series } from '../frame';
-import { robotColumns } from '../state/robot_series';
+import { robotColumns, saidName } from '../state/robot_series';
 
 export interface Curve {
   title: string;
@@ -16,6 +16,8 @@ export interface Curve {
   whole: boolean;
   /** Of the selected robot's reports instead of the series table. */
   robot?: boolean;
+  /** Of what it broadcasts. */
+  said?: boolean;
 }
 
 export const curves: Curve[] = [ // those shown first
@@ -90,14 +92,16 @@ export function valueAt(curve: Curve, series: Series, timeS: number): number | n
 
 export interface Group { title: string; curves: Curve[] }
 
-/** What can be chosen: the curves above, every column as it is, and the numbers of the selected robot's reports. */
-export function choices(runs: Series[]): Group[] {
+/** What can be chosen: the curves above, every column as it is, the numbers of the selected robot's reports, and the
+ *  `fields` of its messages. */
+export function choices(runs: Series[], fields: readonly string[] = []): Group[] {
   const names = new Set(runs.flatMap((series) => Object.keys(series)));
   for (const name of ['tick', 'time_s']) names.delete(name);
   return [
     { title: 'The swarm', curves },
     ...(names.size === 0 ? [] : [{ title: 'Columns of the series table', curves: [...names].map(columnCurve) }]),
     { title: 'The selected robot', curves: robotColumns.map(robotCurve) },
+    ...(fields.length === 0 ? [] : [{ title: 'What the selected robot says', curves: fields.map(saidCurve) }]),
   ];
 }
 
@@ -105,6 +109,15 @@ function robotCurve({ name, unit, help }: (typeof robotColumns)[number]): Curve 
   const measured = unit !== '';
   return {
     title: `robot: ${name}`, unit, digits: measured ? 2 : 0, whole: !measured, robot: true, help: `${help}. Of the selected robot`,
+    value: (series, k) => series[name]?.[k] ?? NaN,
+  };
+}
+
+function saidCurve(field: string): Curve {
+  const name = saidName(field);
+  return {
+    title: `robot ${name}`, unit: '', digits: 4, tiny: true, whole: false, robot: true, said: true,
+    help: `The field ${field} of the messages that the selected robot broadcasts`,
     value: (series, k) => series[name]?.[k] ?? NaN,
   };
 }

@@ -48,7 +48,7 @@ export class Help {
           h('p', { class: 'hint' },
             'Drag to move the picture, turn the wheel or pinch to zoom, click a robot to look into it. In a live run drag targets and obstacles; ' +
             'double click adds a target; a drag with Shift draws an area in which all robots die; Delete removes the selected ' +
-            'robot, target or obstacle.'))),
+            'robot, target or obstacle. Drop files to open them, with Shift beside what is shown.'))),
       h('details', { class: 'glossary' }, h('summary', {}, 'Glossary'),
         h('dl', {}, ...terms.flatMap(({ name, meaning }) => [h('dt', {}, name), h('dd', {}, meaning)]))),
       h('div', { class: 'buttons' }, button('First look', 'A guided half minute', () => { this.element.close(); tour(); })),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One robot in full: its state, its neighbours, its last message.
 import { button, h, setText } from '../dom';
-import { beside } from './beside';
 import { column, type Column, type Frame, needs, phases, roles, spareStates } from '../frame';
 
 /** A row of the state: its name, and its value in words. */
@@ -100,11 +99,7 @@ export function messageFacts(said: Said, live: boolean): Fact[] {
 
 export interface Inspected {
   frame: Frame;
-  /** All runs side by side, this one among them; fewer than two: it is alone. */
-  runs: { name: string; frame: Frame }[];
   robot: number;
-  algorithm: string; // of the run; shown when several stand side by side
-  run: number; // which of them, from 0
   neighbours: number[]; // robots it can hear
   said: Said | null; // null: not there yet
   followed: boolean;
@@ -114,20 +109,16 @@ export interface Inspected {
 export class Inspector {
   readonly element = h('section', { class: 'inspector', 'aria-label': 'Robot' });
   private readonly title = h('h2');
-  private readonly run = h('span');
-  private readonly line = h('i', { class: 'run-line', 'aria-hidden': 'true' });
   private readonly follow = button('Follow', 'Keep this robot in the middle (F)', () => this.actions.follow(this.shown?.followed ? null : (this.shown?.robot ?? null)));
   private readonly kill = button('Kill', 'This robot dies now (Delete)', () => { if (this.shown) this.actions.kill(this.shown.robot); }, { class: 'danger' });
   private readonly state = h('table', { class: 'facts' });
   private readonly neighbours = h('div', { class: 'neighbours' });
   private readonly message = h('table', { class: 'facts message' });
   private readonly messageTitle = h('h3');
-  private readonly inAll = h('div', { class: 'in-all', tabindex: 0, role: 'region', 'aria-label': 'In all runs', hidden: true });
   private readonly body = h(
     'div', {},
-    h('header', { class: 'robot-head' }, this.title, this.follow, this.kill, button('×', 'Close (Escape)', () => this.actions.select(null)),
-      h('p', { class: 'of-run' }, this.line, this.run)),
-    this.inAll, this.state, h('h3', {}, 'Neighbours in radio contact'), this.neighbours, this.messageTitle, this.message,
+    h('header', { class: 'robot-head' }, this.title, this.follow, this.kill, button('×', 'Close (Escape)', () => this.actions.select(null))),
+    this.state, h('h3', {}, 'Neighbours in radio contact'), this.neighbours, this.messageTitle, this.message,
   );
   private readonly empty = h('p', { class: 'hint' }, 'Click a robot, or type its number and press Enter, to see what it knows, whom it hears and what it says.');
   private shown: Inspected | null = null;
@@ -144,26 +135,12 @@ export class Inspector {
     const roleName = roles[column(shown.frame, 'role')[shown.robot]] ?? '';
     setText(this.title, `Robot ${shown.robot}`);
     this.title.dataset.role = roleName;
-    setText(this.run, `of the run with ${shown.algorithm}`);
-    this.line.dataset.run = String(shown.run + 1);
     setText(this.follow, shown.followed ? 'Unfollow' : 'Follow');
     this.follow.setAttribute('aria-pressed', String(shown.followed));
     this.kill.hidden = !shown.live || column(shown.frame, 'alive')[shown.robot] === 0;
-    this.fillRuns(shown);
     this.fill(this.state, facts(shown.frame, shown.robot));
     this.fillNeighbours(shown.neighbours);
     this.fillMessage(shown);
-  }
-
-  /** The robot of this number in each run. */
-  private fillRuns({ runs, robot }: Inspected): void {
-    const there = runs.filter(({ frame }) => robot < frame.robots);
-    const table = there.length < 2 ? null : beside(there.map(({ name }) => name), there.map(({ frame }) => facts(frame, robot)));
-    const key = table?.textContent ?? '';
-    if (this.inAll.dataset.key === key) return;
-    this.inAll.dataset.key = key;
-    this.inAll.hidden = table === null; // no place for Tab to stop
-    this.inAll.replaceChildren(...(table === null ? [] : [h('h3', {}, 'In all runs'), table, h('h3', {}, 'In this run')]));
   }
 
   private fill(table: HTMLTableElement, rows: Fact[]): void {

@@ -44,7 +44,7 @@ export class Keep {
       h('div', { class: 'buttons' },
         button('Picture', 'This moment as PNG, runs side by side in one', () => this.savePicture()),
         button('Drawing', 'This moment as SVG, to be printed at any size and to be changed', () => this.saveDrawing()),
-        button('Table', 'The series of each run as CSV, as far as it has been seen', () => this.saveTables()),
+        button('Table', 'The series of each run as CSV, as far as it has been seen; of the selected robot, too, if a plot is of it', () => this.saveTables()),
         this.film));
   }
 

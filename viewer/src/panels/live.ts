@@ -12,6 +12,7 @@ import type { Settings } from '../state/controls';
 export type Tool = 'look' | 'add_target' | 'add_obstacle' | 'kill_area';
 
 export interface LiveChoice {
+  picked: string; // of those that come with Banyan; "": it is the visitor's own
   name: string;
   text: string; // of the scenario
   /** One or two algorithms, side by side; "": the scenario's own. */
@@ -23,6 +24,11 @@ export interface LiveChoice {
 
 export interface LiveActions {
   start(choice: LiveChoice): void;
+  /** Beside what is shown. */
+  add(choice: LiveChoice): void;
+  /** Many seeds, small, from this one on. */
+  many(choice: LiveChoice, firstSeed: number): void;
+
   reset(): void;
   undo(): void;
   redo(): void;
@@ -122,13 +128,20 @@ export class LivePanel {
     return true;
   }
 
+  /** One run of those that a choice means. */
+  narrow(algorithm: string, seed: number): void {
+    this.first.value = algorithm;
+    this.second.value = '';
+    this.seed.value = String(seed);
+    this.repeats.value = '1';
+  }
+
   compare(first: string, second: string): void {
     this.first.value = first;
     this.second.value = second;
   }
 
-  /** The name of what is picked, "" if it is the visitor's own. */
-  get picked(): string { return this.scenario.value === ownName ? '' : this.scenario.value; }
+  private get picked(): string { return this.scenario.value === ownName ? '' : this.scenario.value; }
 
   choice(): LiveChoice {
     const picked = this.scenarios.find((s) => s.name === this.scenario.value);
@@ -137,7 +150,7 @@ export class LivePanel {
     const count = Number(this.repeats.value);
     const first = this.seed.value === '' ? (count === 1 ? null : seedIn(text)) : Number(this.seed.value);
     const seeds = first === null ? [null] : Array.from({ length: count }, (_, k) => first + k);
-    return { name, text, algorithms: [this.first.value, ...(this.second.value === '' ? [] : [this.second.value])], seeds, overrides };
+    return { picked: this.picked, name, text, algorithms: [this.first.value, ...(this.second.value === '' ? [] : [this.second.value])], seeds, overrides };
   }
 
   /** Picks one of the built-in scenarios by its name. */
@@ -146,6 +159,11 @@ export class LivePanel {
     this.scenario.value = name;
     this.describe();
     return true;
+  }
+
+  private many(): void {
+    const choice = this.choice();
+    this.actions.many(choice, choice.seeds[0] ?? seedIn(choice.text));
   }
 
   private choose(tool: Tool): void {
@@ -185,6 +203,9 @@ export class LivePanel {
       h('details', {}, h('summary', {}, 'Change other keys'),
         h('label', { for: 'live-keys', class: 'hint', id: 'live-keys-help' }, 'One “key = value” a line, as with banyan run --set.'), this.keys),
       h('button', { type: 'submit', class: 'primary' }, 'Start'),
+      h('div', { class: 'buttons' },
+        button('Add beside', 'Beside the runs and recordings that are shown, up to four', () => this.actions.add(this.choice())),
+        button('Many seeds …', 'Many runs of this, small, and what they come to', () => this.many())),
       this.problems,
     );
     return form;

@@ -12,6 +12,14 @@ const dashes = [undefined, [5, 3], [2, 3], [9, 3, 2, 3]];
 
 interface Range { min: number; max: number }
 
+/** What there is to plot. */
+export interface PlottedRuns {
+  tables: Series[]; // the series of each run
+  robots: Series[]; // of the selected robot in each run; as far as it is there
+  fields: readonly string[]; // of its messages
+  marks: readonly number[]; // which of the runs side by side each table is of
+}
+
 interface PlotActions {
   seek(timeS: number): void;
   hover(timeS: number | null): void;
@@ -39,6 +47,8 @@ class Plot {
   private runs: Series[] = []; // of the curve: from one of these two
   private tables: Series[] = [];
   private robots: Series[] = [];
+  private fields: readonly string[] = []; // of the messages
+  private marks: readonly number[] = []; // which of the runs side by side each is
   private readonly select: HTMLSelectElement;
   private offered = ''; // the titles to choose from
 
@@ -55,7 +65,7 @@ class Plot {
   }
 
   private offer(): void {
-    const groups = choices(this.tables);
+    const groups = choices(this.tables, this.fields);
     const titles = groups.flatMap((group) => group.curves.map(({ title }) => title)).join();
     if (titles === this.offered) return;
     this.offered = titles;
@@ -65,22 +75,28 @@ class Plot {
   }
 
   private choose(): void {
-    this.curve = choices(this.tables).flatMap((group) => group.curves).find(({ title }) => title === this.select.value) ?? this.curve;
+    this.curve = choices(this.tables, this.fields).flatMap((group) => group.curves).find(({ title }) => title === this.select.value) ?? this.curve;
     this.element.title = this.curve.help;
-    this.setRuns(this.tables, this.robots);
+    this.setRuns(this.given());
     this.remake();
     this.to.changed();
   }
 
   get ofRobot(): boolean { return this.curve.robot === true; }
+  get ofMessage(): boolean { return this.curve.said === true; }
 
-  setRuns(tables: Series[], robots: Series[]): void {
+  private given(): PlottedRuns { return { tables: this.tables, robots: this.robots, fields: this.fields, marks: this.marks }; }
+
+  setRuns({ tables, robots, fields, marks }: PlottedRuns): void {
     this.tables = tables;
     this.robots = robots;
+    if (fields.length > 0) this.fields = fields;
+    const marked = marks.join() !== this.marks.join();
+    this.marks = marks;
     this.offer();
     const runs = this.ofRobot ? robots : tables;
     if (runs.every((series) => series.time_s.length === 0)) return this.clear();
-    const remake = this.chart === null || runs.length !== this.runs.length;
+    const remake = this.chart === null || marked || runs.length !== this.runs.length;
     this.runs = runs;
     if (remake) this.make();
     else this.chart?.setData(tabulate(this.curve, runs) as unknown as uPlot.AlignedData);
@@ -141,7 +157,7 @@ class Plot {
         series: [
           {},
           ...this.runs.map((_, k) => ({
-            stroke: color(runColors[k]), width: 1.5, dash: dashes[k], spanGaps: true, points: { show: false },
+            stroke: color(runColors[this.mark(k)]), width: 1.5, dash: dashes[this.mark(k)], spanGaps: true, points: { show: false },
           })),
         ],
       },
@@ -151,6 +167,9 @@ class Plot {
     this.chart.over.append(this.cursor, this.hover);
     this.listen(this.chart);
   }
+
+  /** Of the k-th curve: that of its run in the picture. */
+  private mark(k: number): number { return this.ofRobot ? k : (this.marks[k] ?? k); }
 
   private listen(chart: uPlot): void {
     const timeAt = (event: MouseEvent) => chart.posToVal(event.clientX - chart.over.getBoundingClientRect().left, 'x');
@@ -215,15 +234,17 @@ export class Plots {
     this.setTime(this.timeS);
   }
 
-  /** The series of each run shown, and that of its selected robot; called again whenever one has grown. */
-  setRuns(runs: Series[], robots: Series[]): void {
-    this.runs = runs;
-    this.element.classList.toggle('many', runs.length > 1);
-    for (const plot of this.plots) plot.setRuns(runs, robots);
+  /** Called again whenever something has grown. */
+  setRuns(runs: PlottedRuns): void {
+    this.runs = runs.tables;
+    this.element.classList.toggle('many', runs.tables.length > 1);
+    for (const plot of this.plots) plot.setRuns(runs);
   }
 
-  /** Whether any curve is of the selected robot. */
-  get showRobot(): boolean { return this.plots.some((plot) => plot.ofRobot); }
+  /** Whether any curve is of the selected robot, and any of what it says. */
+  get wanted(): { robot: boolean; said: boolean } {
+    return { robot: this.plots.some((plot) => plot.ofRobot), said: this.plots.some((plot) => plot.ofMessage) };
+  }
 
   setTime(timeS: number): void {
     this.timeS = timeS;

@@ -10,6 +10,7 @@ export interface Clock {
   playing: boolean;
   waiting: boolean; // for frames that are not there yet
   speed: number; // simulated seconds per second
+  keptSpeed: number; // the share of it that a live run keeps up with
   timeS: number;
   startS: number;
   endS: number;
@@ -56,6 +57,13 @@ export function outdated(drawn: Drawn | null, now: Drawn, playing: boolean): boo
   if (drawn === null || drawn.width !== now.width || drawn.height !== now.height || drawn.startS !== now.startS) return true;
   const allowed = playing ? worthDrawing * (now.endS - now.startS) : 0;
   return Math.abs(now.endS - drawn.endS) > allowed;
+}
+
+const keepsUp = 0.9;
+
+/** "live", or "0.5×" where it is slower than was chosen. */
+function liveText({ speed, keptSpeed }: Pick<Clock, 'speed' | 'keptSpeed'>): string {
+  return keptSpeed < keepsUp ? `${Number((speed * keptSpeed).toPrecision(2))}×` : 'live';
 }
 
 const loopTitles = { none: 'Loop from here (A)', begun: 'Loop up to here (A)', whole: 'Loop no more (A)' };
@@ -161,7 +169,8 @@ export class Transport {
     setText(this.time, clockText(clock.timeS));
     this.live.hidden = !clock.following;
     this.live.setAttribute('aria-pressed', String(clock.newest));
-    setText(this.end, clock.growing ? 'live' : clockText(clock.endS));
+    setText(this.end, clock.growing ? liveText(clock) : clockText(clock.endS));
+    this.end.title = clock.keptSpeed < keepsUp ? 'The simulation does not keep up: it is shown slower than chosen' : '';
     this.timeline.min = String(clock.startS);
     this.timeline.max = String(Math.max(clock.endS, clock.startS + 1e-3));
     this.timeline.value = String(clock.timeS);

@@ -53,8 +53,8 @@ export class Scene {
     shot.take(pen, ratio, view, this.facts(view));
     this.count = this.backdrop.draw(shot);
     for (const layer of layers) layer.draw(shot);
-    this.labels.draw(shot);
-    drawScaleBar(shot);
+    if (!view.bare) this.labels.draw(shot);
+    if (!view.bare) drawScaleBar(shot);
     this.drawAgainLater();
   }
 

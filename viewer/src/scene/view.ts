@@ -39,6 +39,8 @@ export interface SceneView {
   area?: Bounds | null;
   /** An obstacle that is being drawn, m. */
   disc?: { at: Spot; radiusM: number } | null;
+  /** So small that there is no room for numbers and scale. */
+  bare?: boolean;
   /** A place that is being chosen by keys, m. */
   cursor?: Spot | null;
 }

@@ -5,7 +5,7 @@ import type { Frame, RunEvent, Series, Setting } from '../frame';
 import { FrameCache, type Pair, type Span } from './cache';
 import { Observable } from './emitter';
 import { Problem } from './problem';
-import type { Header, Intervention, MessageFields, Reply, Request } from './protocol';
+import type { Header, Intervention, MessageFields, Reply, Request, SaidAt } from './protocol';
 import { SeriesTable } from './table';
 
 /** The part of Worker that is used. */
@@ -147,6 +147,12 @@ export class Source {
   async message(robot: number, tick: number): Promise<MessageFields | null> {
     const reply = await this.ask((id) => ({ type: 'message', id, robot, tick }));
     return reply.type === 'message' ? reply.fields : null;
+  }
+
+  /** What a robot said over a stretch of time, as far as it was kept. */
+  async messages(robot: number, fromS: number, toS: number): Promise<SaidAt[]> {
+    const reply = await this.ask((id) => ({ type: 'messages', id, robot, fromS, toS }));
+    return reply.type === 'messages' ? reply.said : [];
   }
 
   /** Acts at the beginning of the step after `tick`; what was simulated beyond is forgotten. */

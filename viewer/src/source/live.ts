@@ -8,7 +8,7 @@ import type { LiveClass, LiveModule } from './live_module';
 import { pack, type Packed, unpack } from './packed';
 import { noTargets, parseEvent, parseTargets } from './parse';
 import { Problem } from './problem';
-import type { Act, FramesReply, Header, Intervention, LiveRequest, MessageFields } from './protocol';
+import type { Act, FramesReply, Header, Intervention, LiveRequest, MessageFields, SaidAt } from './protocol';
 import type { TimedSetting } from './provenance';
 import { SeriesBuilder } from './series';
 import { parseSetting } from './setting';
@@ -50,12 +50,16 @@ export class LiveRun {
   /** What the page knows of the header is no longer true. */
   headerChanged = true;
 
-  private constructor(private readonly live: LiveClass, private readonly module: LiveModule, private readonly request: LiveRequest) {}
+  private constructor(
+    private readonly live: LiveClass, private readonly module: LiveModule, private readonly request: LiveRequest, private readonly threads: number,
+  ) {}
 
-  /** Throws a Problem with a line for each thing that is wrong with the scenario. */
-  static load(module: LiveModule, request: LiveRequest): LiveRun {
-    const run = new LiveRun(new module.Live(), module, request);
+  /** Throws a Problem with a line for each thing that is wrong with the scenario. `threads`: more than one needs the
+   *  module that has them. */
+  static load(module: LiveModule, request: LiveRequest, threads = 1): LiveRun {
+    const run = new LiveRun(new module.Live(), module, request, threads);
     try {
+      if (threads > 1) run.live.useThreads(threads);
       run.begin();
     } catch (problem) {
       run.close();
@@ -143,6 +147,17 @@ export class LiveRun {
     const json = tick >= this.head ? this.live.messageJson(robot) : this.messages.at(tick)?.json.get(robot);
     if (json === undefined || json === 'null') return null;
     return fieldsOf(parseObject(json));
+  }
+
+  /** What it said over a stretch of time, as far as it was kept. */
+  said(robot: number, fromS: number, toS: number): SaidAt[] {
+    this.listened.add(robot);
+    return this.messages.around(Math.ceil(fromS / this.tickS - 1e-6), Math.floor(toS / this.tickS + 1e-6), 1).flatMap(({ tick, json }) => {
+      const timeS = tick * this.tickS;
+      const text = json.get(robot);
+      const outside = timeS < fromS - 1e-6 || timeS > toS + 1e-6;
+      return outside || text === undefined || text === 'null' ? [] : [{ timeS, fields: fieldsOf(parseObject(text)) }];
+    });
   }
 
   /** Acts at the beginning of the step after `tick`, beside what was done there before. What is later is forgotten.
@@ -272,7 +287,7 @@ export class LiveRun {
       kind: 'live', name: this.request.name, settings: this.settings, robots: live.robots(), startS: 0,
       endS: this.head * this.tickS, growing: true, following: false, take: 0, version: this.module.version(), git: this.module.git(),
       seed: live.seed(), config: live.configJson(), result: this.result, warnings: this.warnings,
-      acts: [...this.done, ...this.due].map(({ tick, json }) => ({ tick, json })),
+      acts: [...this.done, ...this.due].map(({ tick, json }) => ({ tick, json })), threads: this.threads,
     };
   }
 

@@ -18,5 +18,19 @@ async function load(): Promise<LiveModule> {
   }
 }
 
-const host = new LiveHost((reply, transfer) => postMessage(reply, { transfer }), () => (module ??= load()));
+/** Where the page is served isolated, as `banyan view` does. It is no part of the bundle: its own workers load it by its
+ *  address (vite.config.ts puts it there). Null: it is not to be had, and one thread does. */
+async function loadThreads(): Promise<LiveModule | null> {
+  if (!self.crossOriginIsolated) return null;
+  try {
+    const address = new URL('../threads/banyan_live_threads.mjs', self.location.href).href;
+    const { default: create } = (await import(/* @vite-ignore */ address)) as typeof import('@live/banyan_live.mjs');
+    return await create();
+  } catch (error) {
+    console.warn('one thread computes the run, because the others could not be loaded:', error);
+    return null;
+  }
+}
+
+const host = new LiveHost((reply, transfer) => postMessage(reply, { transfer }), () => (module ??= load()), loadThreads);
 addEventListener('message', (event: MessageEvent<Request>) => host.receive(event.data));

@@ -4,18 +4,21 @@ import { Host, nextTurn, type Post } from './host';
 import { LiveRun } from './live';
 import type { LiveModule } from './live_module';
 import { Problem } from './problem';
-import type { Request } from './protocol';
+import type { LiveRequest, Request } from './protocol';
 
 const sliceMs = 25; // other requests wait no longer than that, and one tick
 const mostMs = 200; // then what there is goes out, so that the page sees progress
 const mostReplyBytes = 32 << 20;
+const mostThreads = 4; // as many as the module has ready (viewer/CMakeLists.txt), and the worker itself
+const leastRobots = 1000; // fewer have nothing to share: waiting for each other takes as long as what they do
 
 type Of<Type extends Request['type']> = Extract<Request, { type: Type }>;
 
 export class LiveHost extends Host {
   private run: LiveRun | null = null;
 
-  constructor(post: Post, private readonly module: () => Promise<LiveModule>) {
+  /** `threaded`: the same with threads, where the page may have them. */
+  constructor(post: Post, private readonly module: () => Promise<LiveModule>, private readonly threaded?: () => Promise<LiveModule | null>) {
     super(post);
   }
 
@@ -25,6 +28,7 @@ export class LiveHost extends Host {
     if (run === null) throw new Problem('no simulation is running');
     if (request.type === 'frames') await this.frames(run, request);
     else if (request.type === 'message') this.message(run, request);
+    else if (request.type === 'messages') this.send({ type: 'messages', id: request.id, said: run.said(request.robot, request.fromS, request.toS) });
     else if (request.type === 'intervene') this.intervene(run, request);
     else if (request.type === 'reset') this.reset(run, request.id);
     else if (request.type === 'undo') this.undo(run, request.id);
@@ -38,9 +42,19 @@ export class LiveHost extends Host {
   private async open({ run }: Of<'open_live'>): Promise<void> {
     this.run?.close();
     this.run = null;
-    const module = await this.module();
-    this.run = LiveRun.load(module, run);
+    const plain = LiveRun.load(await this.module(), run);
+    this.run = (await this.withThreads(plain, run)) ?? plain;
     this.tell(this.run);
+  }
+
+  /** The same run again, where that pays; null: it does not, or there are no threads. */
+  private async withThreads(plain: LiveRun, request: LiveRequest): Promise<LiveRun | null> {
+    const threads = Math.min(mostThreads, request.threads ?? 1);
+    if (threads < 2 || plain.robots < leastRobots) return null;
+    const module = (await this.threaded?.()) ?? null;
+    if (module === null) return null;
+    plain.close();
+    return LiveRun.load(module, request, threads);
   }
 
   private async frames(run: LiveRun, { id, fromS, toS, stride: wanted }: Of<'frames'>): Promise<void> {

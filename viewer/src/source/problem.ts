@@ -15,6 +15,9 @@ export function wordsOf(error: unknown): string {
   return error instanceof Error ? `an internal error: ${error.message}` : `an internal error: ${String(error)}`;
 }
 
+/** Its own words, whatever it is. */
+export const textOf = (problem: unknown): string => (problem instanceof Error ? problem.message : String(problem));
+
 /** Warnings, each once; of one kind (a damaged frame, and another) the first, and how many there are. */
 export class Warnings {
   static readonly most = 40; // kinds

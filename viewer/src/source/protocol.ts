@@ -28,6 +28,8 @@ export interface Header {
   result: Record<string, string>;
   /** Live: what a visitor did, in order; undefined in a recording. */
   acts?: Act[];
+  /** Live: that compute it. */
+  threads?: number;
   warnings: string[]; // damage that was skipped, in words
 }
 
@@ -51,6 +53,8 @@ export interface LiveRequest {
   overrides: string[];
   /** What was done to it, to be done again: an event's JSON, at the beginning of the step after `tick`. */
   acts?: Act[];
+  /** That may compute it, where the page has threads. The result is the same. */
+  threads?: number;
 }
 
 export interface Act {
@@ -59,6 +63,11 @@ export interface Act {
 }
 
 export type MessageFields = Record<string, number | string | boolean>;
+
+export interface SaidAt {
+  timeS: number;
+  fields: MessageFields;
+}
 
 /** What answers a request for frames; see `frames` below. */
 export interface FramesReply {
@@ -81,6 +90,8 @@ export type Request =
   | { type: 'frames'; id: number; fromS: number; toS: number; stride: number }
   /** What this robot broadcast last, at that tick. */
   | { type: 'message'; id: number; robot: number; tick: number }
+  /** What it broadcast in [fromS, toS], as far as it was kept; as with frames, not more at a time than is good for others. */
+  | { type: 'messages'; id: number; robot: number; fromS: number; toS: number }
   // Live only. An intervention acts at the beginning of the step after `tick`; what was simulated
   // beyond it is forgotten and a new header is sent.
   | { type: 'intervene'; id: number; tick: number; events: Intervention[] }
@@ -104,6 +115,7 @@ export type Reply =
   | ({ type: 'frames'; id: number } & FramesReply)
   /** null: not kept. */
   | { type: 'message'; id: number; fields: MessageFields | null }
+  | { type: 'messages'; id: number; said: SaidAt[] }
   | { type: 'hash'; id: number; hash: string }
   | { type: 'done'; id: number }
   /** Also of a redo. tick null: there was nothing to undo, or to do again. */

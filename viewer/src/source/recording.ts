@@ -10,7 +10,7 @@ import { lookEveryMs, openMcap, until } from './mcap';
 import { messageOf } from './message';
 import { noTargets, parseEvent, parseFrame, parseTargets, peekTick } from './parse';
 import { Problem, Warnings } from './problem';
-import type { FramesReply, Header, MessageFields } from './protocol';
+import type { FramesReply, Header, MessageFields, SaidAt } from './protocol';
 import { readProvenance, readResult, readSettings } from './provenance';
 import type { Scanner } from './scan';
 import { SeriesBuilder } from './series';
@@ -164,6 +164,20 @@ export class Recording {
       return this.attempt('messages', () => messageOf(entry.text(), robot, frame));
     }
     return null;
+  }
+
+  /** What the robot broadcast over a stretch of time; of fields that frames have, too, only the frames know. */
+  async said(robot: number, fromS: number, toS: number): Promise<SaidAt[]> {
+    const { messages } = this.tracks;
+    if (messages === null) return [];
+    const found: SaidAt[] = [];
+    const to = nanoseconds(toS);
+    for await (const entry of messages.forwards(nanoseconds(fromS), ({ start }) => start > to)) {
+      if (entry.time > to) continue;
+      const fields = this.attempt('messages', () => messageOf(entry.text(), robot, null));
+      if (fields !== null) found.push({ timeS: entry.time * 1e-9, fields });
+    }
+    return found;
   }
 
   /** Reads what it has not told yet of the table, chunk by chunk; between two, `pause` lets others work. */

@@ -35,6 +35,9 @@ export class RecordingHost extends Host {
       this.send({ type: 'frames', id: request.id, ...reply });
     } else if (request.type === 'message') {
       this.send({ type: 'message', id: request.id, fields: await recording.message(request.robot, request.tick) });
+    } else if (request.type === 'messages') {
+      const { id, robot, fromS, toS } = request;
+      this.send({ type: 'messages', id, said: await recording.said(robot, fromS, toS) });
     } else {
       this.fail(idOf(request), new Problem('a recording cannot be changed'));
     }

@@ -20,6 +20,10 @@ export const fastest = 64;
 const longestStepMs = 250; // a page in the background gets no frames; it does not leap afterwards
 const shownPerS = 20; // frames of the run that are worth showing, per second
 const slack = 1e-9;
+const comfortWallS = 0.15; // of playing that a live run is ahead of the clock where it keeps up,
+const comfortTicks = 4; // or at high speeds so much
+const slowestEase = 0.05;
+const keptShare = 0.02; // of a new value, per picture: what is read off must not flicker
 
 /** The tick in which the clock of a run stands, or the last one that there is: what the visitor does happens after
  *  it. Not that of the picture, which shows every 32nd tick at high speed. */
@@ -38,6 +42,7 @@ export class Player {
   newest = false;
   /** Played again and again; `toS` null: its end has not been chosen yet. */
   loop: { fromS: number; toS: number | null } | null = null;
+  private kept = 1;
   private lastMs: number | null = null;
   private backwards = false; // the last jump: what is fetched ahead lies there
   private readonly chase = new Chase();
@@ -72,6 +77,10 @@ export class Player {
     if (!this.playing) return 1;
     const most = this.pace / (shownPerS * this.tickS);
     return most < 2 ? 1 : 2 ** Math.floor(Math.log2(most));
+  }
+  /** What is kept of the chosen speed, because a live run does not keep up; 1: all of it. */
+  get keptSpeed(): number {
+    return this.playing && this.growing ? this.kept : 1;
   }
   /** Seconds of the run per second. */
   private get pace(): number {
@@ -181,7 +190,15 @@ export class Player {
   }
 
   private goal(elapsedS: number): number {
-    return this.newest ? this.chase.next(this.timeS, this.endS, elapsedS) : this.timeS + elapsedS * this.speed;
+    return this.newest ? this.chase.next(this.timeS, this.endS, elapsedS) : this.timeS + elapsedS * this.speed * this.ease();
+  }
+
+  /** A live run that cannot keep up is shown slower instead of in jerks: the less is ahead, the slower. */
+  private ease(): number {
+    const aheadS = Math.min(...this.open.filter(({ growing }) => growing).map(({ endS }) => endS - this.timeS));
+    const share = Math.min(1, Math.max(slowestEase, aheadS / Math.min(comfortWallS * this.speed, comfortTicks * this.tickS)));
+    this.kept += keptShare * (share - this.kept);
+    return share;
   }
 
   /** How far all sources can be shown. */

@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: MIT
 // What a robot's reports say over time, for plots: gathered from the frames of its run, as far as it has been seen, and
 // kept until another robot is asked for or the run is changed.
-import { column, columns, type Frame, type Series } from '../frame';
+import { column, columns, needs, phases, roles, type Frame, type Series } from '../frame';
+import type { MessageFields, SaidAt } from '../source/protocol';
 
 /** What it needs of a source (source/client.ts). */
 export interface FramesOf {
   readonly tickS: number;
   frames(fromS: number, toS: number): Promise<Frame[]>;
+  messages(robot: number, fromS: number, toS: number): Promise<SaidAt[]>;
+}
+
+/** What a field of a message is called among the columns. */
+export const saidName = (field: string): string => `says ${field}`;
+
+/** As a plot shows it: enumerators, which live runs have by name, by number. */
+function numberOf(field: string, value: number | string | boolean): number {
+  if (typeof value !== 'string') return Number(value);
+  const names: Record<string, readonly string[]> = { role: roles, phase: phases, need: needs };
+  const index = names[field]?.indexOf(value) ?? -1;
+  return index < 0 ? NaN : index;
 }
 
 /** Numbers of a report that a plot can show, with their units; -1 is "none" in all but the first three. */
@@ -38,9 +51,13 @@ export class RobotSeries {
   private robot: number | null = null;
   private times: number[] = [];
   private values: number[][] = robotColumns.map(() => []);
+  private said = new Map<string, number[]>(); // by field; as long as `times`
+  private withSaid = false; // messages are gathered, too
   private busy = false;
   private generation = 0;
   private made: Series | null = null;
+  /** Of its messages, as far as they are numbers: what there is to choose from. */
+  fields: readonly string[] = [];
 
   constructor(private readonly source: FramesOf) {}
 
@@ -49,45 +66,58 @@ export class RobotSeries {
     return (this.made ??= {
       time_s: Float64Array.from(this.times),
       ...Object.fromEntries(robotColumns.map(({ name }, k) => [name, Float64Array.from(this.values[k])])),
+      ...Object.fromEntries([...this.said].map(([field, values]) => [saidName(field), Float64Array.from(values)])),
     });
+  }
+
+  /** A message of one of its robots: all have the same fields. */
+  know(message: MessageFields): void {
+    this.fields = Object.entries(message).filter(([field, value]) => !Number.isNaN(numberOf(field, value))).map(([field]) => field);
   }
 
   /** What comes after this moment may be different now. */
   cut(timeS: number): void {
     const kept = this.times.findIndex((t) => t > timeS + this.source.tickS / 2);
-    if (kept >= 0) for (const list of [this.times, ...this.values]) list.length = kept;
+    if (kept >= 0) for (const list of [this.times, ...this.values, ...this.said.values()]) list.length = kept;
     this.made = null;
     ++this.generation;
     this.busy = false;
   }
 
-  /** Sees to it that this robot's values up to `toS` come; resolves when some have: then there may be more to ask for.
-   *  False: there is nothing new. */
-  async gather(robot: number, toS: number): Promise<boolean> {
-    if (robot !== this.robot) this.begin(robot);
+  /** Sees to it that this robot's values up to `toS` come, what it said among them if that is wanted; resolves when some
+   *  have: then there may be more to ask for. False: there is nothing new. */
+  async gather(robot: number, toS: number, said = false): Promise<boolean> {
+    if (robot !== this.robot || (said && !this.withSaid)) this.begin(robot, said);
     const fromS = (this.times.at(-1) ?? -this.source.tickS) + this.source.tickS;
     if (this.busy || fromS > toS + this.source.tickS / 2) return false;
     const { generation } = this;
     this.busy = true;
     try {
-      const frames = await this.source.frames(Math.max(0, fromS), Math.min(toS, fromS + chunkS));
-      return generation === this.generation && this.take(robot, frames, fromS, toS);
+      const [from, to] = [Math.max(0, fromS), Math.min(toS, fromS + chunkS)];
+      const frames = await this.source.frames(from, to);
+      const messages = this.withSaid ? await this.source.messages(robot, from, to) : [];
+      return generation === this.generation && this.take(robot, frames, messages, fromS, toS);
     } finally {
       if (generation === this.generation) this.busy = false;
     }
   }
 
-  private begin(robot: number): void {
+  private begin(robot: number, said: boolean): void {
     this.robot = robot;
+    this.withSaid = said;
+    this.said = new Map();
     this.cut(-Infinity);
   }
 
-  private take(robot: number, frames: readonly Frame[], fromS: number, toS: number): boolean {
+  private take(robot: number, frames: readonly Frame[], messages: readonly SaidAt[], fromS: number, toS: number): boolean {
     const slack = this.source.tickS / 2;
+    const tickOf = (timeS: number) => Math.round(timeS / this.source.tickS);
+    const byTick = new Map(messages.map(({ timeS, fields }) => [tickOf(timeS), fields]));
     let any = false;
     for (const frame of frames) {
       if (robot >= frame.robots || frame.timeS < fromS - slack || frame.timeS > toS + slack) continue;
       any = true;
+      this.takeSaid(byTick.get(tickOf(frame.timeS)) ?? {});
       this.times.push(frame.timeS);
       robotColumns.forEach(({ name }, k) => {
         const value = column(frame, name)[robot];
@@ -96,5 +126,11 @@ export class RobotSeries {
     }
     if (any) this.made = null;
     return any;
+  }
+
+  /** A row, before its time is added. */
+  private takeSaid(fields: MessageFields): void {
+    for (const field of Object.keys(fields)) if (!this.said.has(field)) this.said.set(field, this.times.map(() => NaN));
+    for (const [field, values] of this.said) values.push(Object.hasOwn(fields, field) ? numberOf(field, fields[field]) : NaN);
   }
 }

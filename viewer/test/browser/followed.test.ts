@@ -24,7 +24,6 @@ beforeAll(async () => {
   [server, browser] = await Promise.all([Server.start('--wait', join(out, 'run.mcap')), launch()]);
 }, 60_000);
 afterAll(async () => {
-  await browser?.close();
   await server?.stop();
   fleet?.kill('SIGTERM');
   folder.remove();

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
-import { afterAll, afterEach, beforeAll } from 'vitest';
+import { afterAll, beforeAll } from 'vitest';
 import { waitForRun } from './visitor';
 
 export const root = fileURLToPath(new URL('../../..', import.meta.url));
@@ -59,7 +59,14 @@ export class Server {
   }
 }
 
-export async function launch(): Promise<Browser> {
+let shared: Promise<Browser> | null = null;
+
+/** The one of this process, which ends with it. */
+export function launch(): Promise<Browser> {
+  return (shared ??= start());
+}
+
+async function start(): Promise<Browser> {
   const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
   if (!existsSync(executablePath)) throw new Error('the package chromium is not installed');
   return chromium.launch({
@@ -76,10 +83,10 @@ export async function newContext(browser: Browser, options: Parameters<Browser['
   contexts.add(context);
   return context;
 }
-afterEach(async () => {
+export async function closeContexts(): Promise<void> {
   await Promise.all([...contexts].map((context) => context.close()));
   contexts.clear();
-});
+}
 
 /** A page on which any error that nobody caught fails the test that asks for `errors`. */
 export async function open(browser: Browser, url: string, size = { width: 1280, height: 720 }): Promise<{ tab: Page; errors: string[] }> {
@@ -102,7 +109,6 @@ export function served(given: (folder: Folder) => string) {
     browser = await launch();
   }, 120_000);
   afterAll(async () => {
-    await browser?.close();
     await server?.stop();
     folder.remove();
   });

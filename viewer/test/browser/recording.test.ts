@@ -168,10 +168,10 @@ describe('a recording', () => {
 
 /** The page's own parts, for what no visitor can bring about at will. */
 interface Inside {
-  plots: { setRuns(runs: unknown[], robots: unknown[]): void };
+  plots: { setRuns(runs: object): void };
   events: { setEvents(events: unknown[]): void };
   notice: { warn(warnings: string[], run: object): void; bad(text: string): void };
-  shownEvents(): unknown[];
+  told: { events(): unknown[] };
 }
 
 describe('panels', () => {
@@ -179,7 +179,7 @@ describe('panels', () => {
     const { tab, errors } = await visit();
     await tab.waitForSelector('.plot .u-over');
     expect(await tab.$eval('.plot .u-over', (e) => getComputedStyle(e).touchAction)).toBe('pan-y');
-    await tab.evaluate(() => (window as unknown as { banyan: Inside }).banyan.plots.setRuns([], []));
+    await tab.evaluate(() => (window as unknown as { banyan: Inside }).banyan.plots.setRuns({ tables: [], robots: [], fields: [], marks: [] }));
     await tab.keyboard.press('m');
     await settle(tab);
     expect(await tab.$$('.plot .u-over')).toHaveLength(0);
@@ -194,7 +194,7 @@ describe('panels', () => {
   });
   const listed = async () => {
     const visitor = await visit();
-    await visitor.tab.waitForFunction(() => (window as unknown as { banyan: Inside }).banyan.shownEvents().length > 0); // the recording's are there
+    await visitor.tab.waitForFunction(() => (window as unknown as { banyan: Inside }).banyan.told.events().length > 0); // the recording's are there
     await listDeaths(visitor.tab);
     return visitor;
   };
@@ -247,15 +247,6 @@ describe('panels', () => {
     expect(box.y).toBeGreaterThanOrEqual(0);
     await tab.click('.notice button');
     expect(await tab.isVisible('.notice')).toBe(false);
-  });
-
-  it('tell which run the robot is of only when there are two', async () => {
-    const { tab } = await visit();
-    await clickRobot(tab, 3);
-    expect(await tab.isVisible('.of-run')).toBe(false);
-    await tab.evaluate(() => document.querySelector('.stage')!.after(Object.assign(document.createElement('div'), { className: 'stage' })));
-    expect(await tab.isVisible('.of-run')).toBe(true);
-    expect(await tab.textContent('.of-run')).toMatch(/^of the run with \w+$/);
   });
 });
 

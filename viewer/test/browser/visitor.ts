@@ -70,7 +70,7 @@ export async function clickRobot(tab: Page, robot: number): Promise<void> {
 
 /** The rows of a table of facts, by name. */
 export async function factsShown(tab: Page, table = '.facts:not(.message):not(.beside)'): Promise<Record<string, string>> {
-  return await tab.$eval(`.inspector ${table}`, (element) =>
+  return await tab.$eval(`.inspectors ${table}`, (element) =>
     Object.fromEntries([...(element as HTMLTableElement).rows].map((row) => [row.cells[0].textContent ?? '', row.cells[1].textContent ?? ''])));
 }
 
