@@ -85,6 +85,7 @@ class BenchOf {
     Neighbor& n = neighbors_[id];
     n.position = position;
     n.message.id = id;
+    n.message.count = state.id;  // it hears me
     n.message.epoch = state.epoch;
     n.message.phase = state.phase;
     n.message.root = state.root;

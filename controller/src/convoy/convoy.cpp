@@ -212,6 +212,7 @@ void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
     if (h.place < 0) continue;
     const auto k = static_cast<std::size_t>(h.place);
     self.healing_standings[k] = static_cast<const HealingStanding&>(m);
+    note_hears(robot, h);
     self.corners.standings[k] = static_cast<const CornerStanding&>(m);
     self.convoy_standings[k] = static_cast<const ConvoyStanding&>(m);
     if (robot.power != nullptr) robot.power->power.standings[k] = static_cast<const PowerStanding&>(powered_message(m));
@@ -264,9 +265,11 @@ static Velocity tick(ConvoyRobot& robot, const Admitted& admitted, ConvoyMessage
                         .may_insert = [&](int owner, int parent) { return may_insert(robot, owner, parent); }});
   keep_company(robot);                                 // mission.link_redundancy
   if (robot.power != nullptr) tend_battery(*robot.power);
+  find_gap(robot);                                     // is a part of the network there that does not hear me?
   const bool regroups = is_left_waiting(robot);
   const bool retreats = is_retreating(robot, regroups);
-  const Vec2 u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
+  Vec2 u;
+  if (!closes_gap(robot, u)) u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
   Guard guard;
   guard_edges(robot, retreats, guard);
   guard_links(robot, retreats, guard);

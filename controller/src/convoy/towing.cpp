@@ -301,7 +301,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
   if (lost_sight(robot, up)) return norm(robot.self.corners.seen_from) > 0.02F ? unit(robot.self.corners.seen_from) : Vec2{};
-  if (up >= 0 && !robot.table().alive(up)) return bypass(robot, robot.table().position(up));
+  if (up >= 0 && !robot.is_linked(up)) return bypass(robot, robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   // The first tree takes time to build, and a target may be added in mid-mission: a worker does not go without a tree.

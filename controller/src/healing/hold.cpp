@@ -35,7 +35,7 @@ void find_hold(HealingRobot& robot) noexcept {
     float wish_cost = 0.0F;
     for (int k = 0; k < table.size(); ++k) {
       const TreeStanding& m = table.message(k);
-      if (!table.alive(k) || m.epoch != self.epoch || is_untied(m)) continue;
+      if (!robot.is_linked(k) || m.epoch != self.epoch || is_untied(m)) continue;
       const bool ahead = is_ahead(robot, k);
       const int hops = hops_to_tree(m);
       // A robot farther from the tree than I am may depend on me: it would never get ahead.
@@ -49,7 +49,7 @@ void find_hold(HealingRobot& robot) noexcept {
     const bool relied_on = self.phase < Phase::grow_tree && robot.children.size + robot.old_children.size > 0;
     if (const bool unlabelled = self.label_cm == unknown_label; unlabelled || relied_on) {
       const int last = self.hold == nobody ? -1 : table.find(self.hold);
-      if (last >= 0 && table.alive(last)) robot.hold = last;
+      if (last >= 0 && robot.is_linked(last)) robot.hold = last;
       else if (unlabelled) robot.hold = -1;
     }
     // A spare adopts the sequence number of the hold it would like best, which is ahead of it then, like the rest

@@ -61,7 +61,10 @@ void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
   const KnownOfHealing known(robot.self, robot.elapsed_ticks);
   for (Heard& h : robot.heard) {
     if (known.lacks(said(h))) robot.news.push(h);
-    if (h.place >= 0) kept[static_cast<std::size_t>(h.place)] = static_cast<const HealingStanding&>(said(h));
+    if (h.place >= 0) {
+      kept[static_cast<std::size_t>(h.place)] = static_cast<const HealingStanding&>(said(h));
+      note_hears(robot, h);
+    }
   }
   forget_silent(robot, [&](int k, int size) { close_gap(kept, k, size); });
   follow_orders(robot, admitted.senses().orders);
@@ -71,6 +74,7 @@ int write_healing(const HealingRobot& robot, HealingMessage& m) noexcept {
   write_tree(robot, m);
   m.serves = robot.self.serves;
   m.root_size = robot.self.root_size;
+  m.count = name_next(robot);
   return gossip(robot, m);
 }
 

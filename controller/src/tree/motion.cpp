@@ -85,7 +85,7 @@ Vec2 spring_motion(const TreeRobot& robot) noexcept {
   const int up = nearest_up(robot);
   const Vec2 parent = up >= 0 ? robot.table().position(up) : Vec2{};
   const float d = norm(parent);
-  const bool silent = up >= 0 && !robot.table().alive(up);
+  const bool silent = up >= 0 && !robot.is_linked(up);
   if (robot.reading.keeps_links && up < 0 && !robot.is_root() && robot.table().size() == 0) return {};  // none heard
   // Emergency: u = p_parent, at full speed; towards a silent parent's estimated position.
   if (up >= 0 && (d > p.ideal_distance_m || silent)) return unit(parent);
@@ -144,7 +144,7 @@ void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
   const auto holds_me = [&](int k) {
     if (!table.alive(k)) return !lets_go && is_tie(robot, k);
     const TreeStanding& m = table.message(k);
-    const bool tied_to_me = k == robot.hold || hold_of(m) == robot.self.id;
+    const bool tied_to_me = k == robot.hold || k == robot.gap || hold_of(m) == robot.self.id;
     const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || waits_for_all);
     return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
   };

@@ -36,7 +36,7 @@ int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) 
 int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   const TreeState& self = robot.self;
   const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
-  if (k < 0 || !robot.table().alive(k)) return -1;
+  if (k < 0 || !robot.is_linked(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= longest_link * robot.params.communication_range_m;
   return near && may_relay(rule, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
@@ -48,7 +48,7 @@ int nearest_committed(const TreeRobot& robot, const ParentRule& rule) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (!table.alive(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || !m.committed) continue;
+    if (!robot.is_linked(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || !m.committed) continue;
     if (m.label_cm == unknown_label || !is_ahead(robot, k) || table.range(k) > robot.parent_range_m()) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
@@ -88,7 +88,7 @@ int way_to_tree(const TreeRobot& robot, const ParentRule& rule, float range_m) n
   const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (!table.alive(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
+    if (!robot.is_linked(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
     if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
     if (best < 0 || key(k) < key(best)) best = k;
   }
@@ -150,7 +150,7 @@ void update_depth(TreeRobot& robot) noexcept {
   const int up = self.parent != nobody ? robot.parent : self.phase < Phase::grow_tree ? robot.old_parent : -1;
   if (robot.is_root()) {
     self.depth = 1;
-  } else if (up >= 0 && robot.table().alive(up) && robot.table().message(up).depth != invalid_depth) {
+  } else if (up >= 0 && robot.is_linked(up) && robot.table().message(up).depth != invalid_depth) {
     self.depth = static_cast<std::uint16_t>(std::min(robot.table().message(up).depth + 1, UINT16_MAX - 1));
   } else {
     self.depth = invalid_depth;
@@ -168,7 +168,7 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   Serial freshest = 0;
   for (int k = 0, size = table.size(); k < size; ++k) {
     const TreeStanding& m = table.message(k);
-    if (m.tree_hops > hops || !table.alive(k)) continue;
+    if (m.tree_hops > hops || !robot.is_linked(k)) continue;
     if (m.tree_hops == hops && nearest >= 0 && !is_newer(m.seqno, freshest)) continue;
     hops = m.tree_hops;
     freshest = m.seqno;
@@ -186,7 +186,7 @@ bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept {
   // An edge that exists may be as long as the guard lets it grow.
   const float range_m =
       std::max(robot.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
-  return robot.table().alive(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch && m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
+  return robot.is_linked(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch && m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
 }
 
 bool is_ahead(const TreeRobot& robot, int k) noexcept {

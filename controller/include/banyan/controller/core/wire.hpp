@@ -35,8 +35,8 @@ inline constexpr std::uint8_t wide_ids = 1U << 7;  // ids of 32 bits; no robot s
 // A message with blocks beyond these has a second byte, which names them.
 inline constexpr std::uint8_t power = 1U << 0;
 }  // namespace block
-inline constexpr std::uint8_t wire_version = 6;         // the low four bits
-inline constexpr std::uint8_t further_wire_version = 7; // of messages with a second byte
+inline constexpr std::uint8_t wire_version = 8;         // the low four bits
+inline constexpr std::uint8_t further_wire_version = 9; // of messages with a second byte
 
 inline constexpr std::size_t largest_wire = 112;        // bytes, with further blocks
 inline constexpr std::size_t largest_plain_wire = 96;   // without

@@ -14,6 +14,18 @@ namespace banyan {
 // that a living neighbour is silent for it once in 10^5 times.
 void estimate_loss(HealingRobot& robot) noexcept;
 
+// ---- mutual.cpp: which neighbours hear me ----
+
+// The sender, which is in the table, may have named me as one that it hears, or have passed me over.
+void note_hears(HealingRobot& robot, const Heard& h) noexcept;
+// The next neighbour to be named as heard; my own id if I call.
+[[nodiscard]] RobotId name_next(const HealingRobot& robot) noexcept;
+// robot.gap: the neighbour by which a part of the network is near that hears nobody of mine, or that I do not belong to
+// because it does not hear me.
+void find_gap(HealingRobot& robot) noexcept;
+// Whether I come nearer to it, or to a robot that calls, by motion `u`.
+[[nodiscard]] bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept;
+
 // ---- heartbeat.cpp: is there a root, and where? ----
 
 void follow_heartbeat(HealingRobot& robot) noexcept;

@@ -61,8 +61,8 @@ constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
 }
 
 template <class Visitor>
-constexpr void visit_fields(Visitor& visit, HealingMessage& m) noexcept { visit_fields(visit, static_cast<TreeMessage&>(m)), visit_healing_block(visit, m); }
+constexpr void visit_fields(Visitor& visit, HealingMessage& m) noexcept { visit_tree_block(visit, static_cast<TreeMessage&>(m), true), visit_healing_block(visit, m); }
 template <class Visitor>
-constexpr void visit_fields(Visitor& visit, const HealingMessage& m) noexcept { visit_fields(visit, static_cast<const TreeMessage&>(m)), visit_healing_block(visit, m); }
+constexpr void visit_fields(Visitor& visit, const HealingMessage& m) noexcept { visit_tree_block(visit, static_cast<const TreeMessage&>(m), true), visit_healing_block(visit, m); }
 
 }  // namespace banyan

@@ -40,6 +40,7 @@ struct HealingState : TreeState {
   std::uint8_t task_count = 0;
   bool was_sent : 1 = false;             // to a target, at the last step
   bool root_known : 1 = false;
+  bool calls : 1 = false;                // asks its neighbours to come nearer
   bool forgets : 1 = false;              // here or elsewhere a robot has had no room for a target
   std::uint16_t news_gap = first_gap;  // sixteenths of ticks: the longest time without news of a living worker, of late
   float expected_packets = 0.0F;         // packets that were to be heard in the last ticks, fading
@@ -56,6 +57,9 @@ struct HealingState : TreeState {
   RootToken heart;                       // the root whose heartbeat it is
   std::uint16_t turn = 0;                // which neighbour and target come next
   RobotId hold = nobody;                 // the robot that I stay with while I have no parent
+  RobotId named = nobody;                // the neighbour last named as heard
+  RobotId caller = nobody;               // the robot that asks me to come nearer
+  std::uint8_t called_ticks = 0;         // for how long I still do so
   std::uint16_t dangling_ticks = 0;      // the last robot below me has died: how long I still drive to where it was
   Progress progress;
   Vec2 root_at;                          // m, own frame: where that root is or was; the root: where it last heard one
@@ -84,8 +88,10 @@ constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
   if (s.usual_silence != 0) visit(s.usual_silence);
   if (s.missed_in_the_clear != 0) visit(s.missed_in_the_clear);
+  visit(s.named), visit(bool{s.calls});
+  if (s.caller != nobody) visit(s.caller), visit(s.called_ticks);
   if (s.detour.last_side != 0) visit(s.detour.last_side), visit(s.detour.again);
-  for (int k = 0; k < s.neighbors.size(); ++k) visit(s.healing_standings[static_cast<std::size_t>(k)].serves);
+  for (int k = 0; k < s.neighbors.size(); ++k) visit(s.healing_standings[static_cast<std::size_t>(k)].serves), visit(s.neighbors.deaf_ticks[static_cast<std::size_t>(k)]);
 }
 
 }  // namespace banyan

@@ -51,7 +51,9 @@ struct TreeStanding {
   std::uint16_t flood_workers = 0;
   std::uint16_t subtree = 0;          // 1 + sum over children
   std::uint16_t subtree_workers = 0;
-  std::uint16_t count = 0;            // Alg. 2's c_i, beside the sums above; nothing depends on it
+  // Alg. 2's c_i, beside the sums above; nothing depends on it. So a robot that heals says here whom it hears
+  // (healing/mutual.cpp); a field more would be too much for one message, and for the firmware.
+  std::uint16_t count = 0;
   std::uint16_t want_cm = 0;          // largest remaining worker distance below me
   std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
@@ -83,9 +85,9 @@ inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: 
 // robot's wrong values could overflow the sums of all robots above it.
 inline constexpr float q_limit_m = 1.0e9F;
 
-// The tree block, field by field (wire.hpp).
+// The tree block, field by field (wire.hpp). `heals`: `count` is what a healing algorithm says in its place.
 template <class Visitor, class M>
-constexpr void visit_tree_block(Visitor& visit, M& m) noexcept {
+constexpr void visit_tree_block(Visitor& visit, M& m, bool heals = false) noexcept {
   visit.choice("role", "0 spare, 1 connector, 2 worker, 3 root", m.role, 2, Role::root);
   visit.choice("phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", m.phase, 3, Phase::select_root);
   visit.choice("need", "of the edge to the parent: 0 no_need, 1 need, 2 await", m.need, 2, Need::await);
@@ -108,7 +110,8 @@ constexpr void visit_tree_block(Visitor& visit, M& m) noexcept {
   visit.number("flood_workers", "workers among them", m.flood_workers);
   visit.number("subtree", "1 + sum over the children", m.subtree);
   visit.number("subtree_workers", "workers among them", m.subtree_workers);
-  visit.number("count", "c of Alg. 2; no rule uses it", m.count);
+  if (heals) visit.robot("hears", "a neighbour that the sender hears, by ascending ids; its own id: come nearer, -1: none", m.count);
+  else visit.number("count", "c of Alg. 2; no rule uses it", m.count);
   visit.number("want_cm", "largest remaining way of a worker below, 0: all have arrived", m.want_cm);
   visit.real("q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent", m.q.x, q_limit_m);
   visit.real("q_y_m", "the same, to the left of that edge", m.q.y, q_limit_m);
@@ -147,6 +150,7 @@ struct Heard {
   // The step's own notes
   Vec2 before{};            // where the sender was at the last step, in the frame of then; zero: not heard then
   std::int16_t place = -1;  // where it stands in the neighbour table, until an entry is removed; -1: nowhere
+  RobotId named_before = nobody;  // what `count` was in the sender's last message
   Heard* next_news = nullptr;
 };
 

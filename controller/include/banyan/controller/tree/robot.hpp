@@ -86,6 +86,7 @@ struct TreeRobot {
   int elapsed_ticks;                // since the last step
   int loss_ticks = 0;               // how long lost packets may silence a living neighbour; 0: unknown
   RobotId held = nobody;            // the hold of the last step
+  int gap = -1;                     // index of a deaf neighbour that nothing ties me to (healing/mutual.cpp)
   int tie_ticks = 0;                // for so long a silent neighbour may be there and depend on me; 0: no packets get lost
   bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
 
@@ -126,8 +127,12 @@ struct TreeRobot {
   }
   // Index of the robot that vectors of the census go to (up_of); -1 if it is not in the table.
   [[nodiscard]] int up() const noexcept { return self.parent != nobody ? parent : old_parent; }
-  [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && table().alive(parent); }
-  [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && table().alive(old_parent); }
+  // I hear it, but it does not hear me.
+  [[nodiscard]] bool is_deaf(int k) const noexcept { return table().deaf_ticks[static_cast<std::size_t>(k)] > deaf_after_ticks; }
+  // We hear each other, as far as I know: only such a neighbour can be a parent or a hold.
+  [[nodiscard]] bool is_linked(int k) const noexcept { return table().alive(k) && !is_deaf(k); }
+  [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && is_linked(parent); }
+  [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && is_linked(old_parent); }
 };
 
 }  // namespace banyan

@@ -12,9 +12,16 @@
 
 namespace banyan {
 
+// A neighbour deaf for longer does not hear me. One that has heard me may be deaf to me for a while because packets get
+// lost; one that never has counts from the second number.
+inline constexpr std::uint8_t deaf_after_ticks = 120;
+inline constexpr std::uint8_t never_heard_ticks = 100;
+
 // The neighbour table, and what each neighbour said of the tree.
 struct TreeTable : Neighbors {
   std::array<TreeStanding, neighbor_capacity> standings{};
+  // For how long the neighbour has not heard me, although I hear it; 0: it does (healing/mutual.cpp).
+  std::array<std::uint8_t, neighbor_capacity> deaf_ticks{};
 
   [[nodiscard]] const TreeStanding& message(int k) const noexcept { return standings[static_cast<std::size_t>(k)]; }
 };

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Who hears whom: who is passed over in the order of ids is not heard; such a neighbour ties nobody, and whoever it
+// divides comes nearer.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/hold.hpp"
+#include "banyan/controller/tree/motion.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr int never_heard_for = 45;  // ticks, more than it takes until a robot that never named me counts as deaf:
+                                     // one in two messages passes me over
+
+// A spare with a label beside robot 2, which is of the tree and names 3 and 4 in turn, or 1, 3 and 4.
+struct Beside {
+  ConvoyBench bench = grown<Convoy>();
+  std::vector<RobotId> named{3, 4};
+  int turn = 0;
+  Beside() {
+    bench.state.role = Role::spare;
+    bench.state.label_cm = 300;
+    auto& tree = bench.put(2, {1.2F, 0.0F});
+    tree.role = Role::connector;
+    tree.parent = 9;
+    tree.depth = 2;
+    tree.tree_hops = 0;
+    tree.label_cm = 100;
+    tree.seqno = 1;
+  }
+  void speak() { bench.say(2).count = named[static_cast<std::size_t>(turn++) % named.size()]; }
+  Output<ConvoyMessage> steps(int count) {
+    Output<ConvoyMessage> output;
+    for (int k = 0; k < count; ++k) speak(), output = bench.step();
+    return output;
+  }
+  bool is_deaf() {
+    speak();
+    const auto robot = bench.tick();
+    return robot.is_deaf(robot.table().find(2));
+  }
+};
+
+TEST(Mutual, EveryNeighbourIsNamedInItsTurn) {
+  ConvoyBench bench = grown<Convoy>();
+  for (const RobotId id : {RobotId{7}, RobotId{2}, RobotId{40}}) bench.put(id, {0.01F * static_cast<float>(id), 0.5F});
+  bench.steps(1);
+  std::vector<RobotId> named;
+  for (int k = 0; k < 6; ++k) named.push_back(bench.step().message.count);
+  const std::size_t first = static_cast<std::size_t>(std::find(named.begin(), named.end(), 2) - named.begin());
+  ASSERT_LT(first, 3U);
+  EXPECT_EQ(named[(first + 1) % 3], 7);
+  EXPECT_EQ(named[(first + 2) % 3], 40);
+  EXPECT_EQ(named[first + 3 < 6 ? first + 3 : first], 2) << "and again from the smallest";
+}
+
+// Robot 2 hears `others` and, or not, robot 1, which hears a part of what 2 says. Is 2 deaf, for 1, within so many ticks?
+bool takes_for_deaf(const std::vector<RobotId>& others, bool hears_me, float loss, std::uint32_t seed, int ticks) {
+  std::mt19937 random(seed);
+  const auto arrives = [&] { return static_cast<float>(random() % 10000) >= loss * 10000.0F; };
+  ConvoyBench two = grown<Convoy>();
+  two.state.id = 2;
+  ConvoyBench one = grown<Convoy>();
+  for (const RobotId id : others) two.put(id, {0.3F + 0.001F * static_cast<float>(id), 0.4F});
+  for (std::size_t k = 0; k < others.size() && k < 40; ++k) one.put(others[k], {0.9F, 0.4F});  // it has room for 2
+  for (int k = 0; k < ticks; ++k) {
+    two.silence(1);
+    if (hears_me && arrives()) two.put(1, {1.2F, 0.0F});
+    const ConvoyMessage said = two.step().message;
+    one.silence(2);
+    if (arrives()) one.put(2, {1.2F, 0.0F}) = said;
+    const auto robot = one.tick();
+    const int place = robot.table().find(2);
+    if (place >= 0 && robot.is_deaf(place)) return true;
+  }
+  return false;
+}
+
+RC_GTEST_PROP(Mutual, OnlyWhoIsNotHeardIsPassedOver, ()) {
+  const auto ids = *rc::gen::container<std::set<int>>(rc::gen::inRange(3, 400));
+  const std::vector<RobotId> others(ids.begin(), ids.end());
+  RC_PRE(others.size() < 40);
+  const float loss = static_cast<float>(*rc::gen::inRange(0, 50)) * 0.01F;
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  RC_ASSERT(!takes_for_deaf(others, true, loss, seed, 400));
+  RC_ASSERT(takes_for_deaf(others, false, loss, seed, 200 + 20 * static_cast<int>(others.size())));
+}
+
+// It has no room for me: I am farther away than the others that it hears.
+TEST(Mutual, AFullTablePassesNobodyOver) {
+  std::vector<RobotId> others;
+  for (RobotId id = 10; others.size() < 110; ++id) others.push_back(id);
+  EXPECT_FALSE(takes_for_deaf(others, true, 0.0F, 1, 1000));
+  EXPECT_FALSE(takes_for_deaf(others, true, 0.3F, 1, 1000));
+}
+
+TEST(Mutual, WhoIsPassedOverIsNotHeard) {
+  Beside f;
+  f.named = {3, 1, 4};
+  f.steps(2 * never_heard_for);
+  EXPECT_FALSE(f.is_deaf()) << "it names me";
+  Beside g;
+  g.steps(never_heard_for);
+  EXPECT_TRUE(g.is_deaf()) << "3 and 4 in turn: I would be behind 4";
+  g.named = {1};
+  g.steps(1);
+  EXPECT_FALSE(g.is_deaf()) << "it has named me";
+}
+
+// Its packets to me may get lost one after the other: what it named meanwhile is unknown.
+TEST(Mutual, NobodyIsPassedOverBetweenMessagesThatWereNotHeard) {
+  Beside f;
+  for (int k = 0; k < 100; ++k) {
+    f.speak();
+    f.bench.step();
+    const auto kept = f.bench.say(2);
+    f.bench.silence(2);
+    f.bench.step();
+    f.bench.put(2, {1.2F, 0.0F}) = kept;
+  }
+  EXPECT_FALSE(f.is_deaf());
+}
+
+// Where packets get lost many in a row, a robot that has heard me will hear me again.
+TEST(Mutual, WhoHasHeardMeMayBeDeafForLonger) {
+  Beside f;
+  f.named = {1};
+  f.steps(3);
+  f.named = {3, 4};
+  f.steps(200);
+  EXPECT_FALSE(f.is_deaf());
+  f.steps(never_heard_for);
+  EXPECT_TRUE(f.is_deaf());
+}
+
+TEST(Mutual, WhoDoesNotHearMeIsNoHoldAndNoParent) {
+  Beside f;
+  f.named = {1};
+  f.steps(2 * never_heard_for);
+  EXPECT_EQ(f.bench.state.hold, 2);
+  Beside g;
+  g.steps(2 * never_heard_for);
+  EXPECT_EQ(g.bench.state.hold, nobody);
+  Beside h;
+  h.steps(never_heard_for);
+  h.bench.state.is_worker = true;
+  h.speak();
+  auto robot = h.bench.tick();
+  EXPECT_FALSE(is_candidate(robot, robot.table().find(2), true));
+}
+
+// It divides us from the tree: I drive to it and call, and do not lose it meanwhile.
+TEST(Mutual, WhoIsTiedToNobodyComesNearerToWhoDoesNotHearIt) {
+  Beside f;
+  f.steps(never_heard_for);
+  std::set<RobotId> said;
+  for (int k = 0; k < 8; ++k) said.insert(f.steps(1).message.count);
+  EXPECT_TRUE(said.contains(1)) << "my own id: a call";
+  EXPECT_GT(f.steps(1).velocity.forward_m_s, 0.1F);
+  f.bench.move(2, {0.3F, 0.0F});
+  EXPECT_FLOAT_EQ(f.steps(1).velocity.forward_m_s, 0.0F) << "near enough";
+  f.named = {1};
+  f.steps(4);
+  EXPECT_FALSE(f.bench.state.calls);
+}
+
+// A neighbour of an older epoch hears nobody of mine: it has to be fetched, though I am in the tree.
+TEST(Mutual, WhoIsOfAnOlderEpochIsFetched) {
+  for (const bool older : {false, true}) {
+    Beside f;
+    auto& last = f.bench.put(5, {0.0F, 1.2F});
+    last = {};
+    last.id = 5;
+    last.count = nobody;
+    last.root = f.bench.state.root;
+    last.epoch = older ? 0 : 1;
+    last.role = Role::spare;
+    f.named = {1};
+    f.steps(2 * never_heard_for);
+    EXPECT_EQ(f.bench.state.calls, older);
+  }
+}
+
+TEST(Mutual, WhoIsCalledComesNearerUntilTheCallEnds) {
+  Beside f;
+  f.named = {1};
+  f.steps(3);
+  f.named = {2};
+  EXPECT_GT(f.steps(2).velocity.forward_m_s, 0.1F);
+  EXPECT_EQ(f.bench.state.calls, true) << "2 is nearer to the root: it is passed on";
+  f.bench.say(2).label_cm = 500;
+  f.steps(2);
+  EXPECT_EQ(f.bench.state.calls, false) << "two robots would call each other for ever";
+  f.bench.move(2, {0.8F, 0.0F});
+  EXPECT_FLOAT_EQ(f.steps(1).velocity.forward_m_s, 0.0F) << "near enough";
+  f.named = {1};
+  f.steps(15);
+  EXPECT_EQ(f.bench.state.called_ticks, 0);
+}
+
+}  // namespace
+}  // namespace banyan
