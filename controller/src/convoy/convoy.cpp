@@ -122,6 +122,7 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
 // Not while the workers make progress: the tree is repaired meanwhile, and a new one has its cost. And later while
 // spares are on their way to an edge, which they would lose.
 bool may_reconstruct(const ConvoyRobot& robot) noexcept {
+  if (!robot.is_root()) return false;
   if (has_companions(robot.params) && has_arrived(robot)) return false;  // they would have to change places
   constexpr float patience_s = 5.0F;
   constexpr float called_patience_s = 15.0F;
@@ -208,7 +209,7 @@ void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
   const KnownOfHealing known(self, robot.elapsed_ticks);
   for (Heard& h : robot.heard) {
     const ConvoyMessage& m = convoy_message(*h.message);
-    if (known.lacks(m)) robot.news.push(h);
+    push_news(robot, known, h);
     if (h.place < 0) continue;
     const auto k = static_cast<std::size_t>(h.place);
     self.healing_standings[k] = static_cast<const HealingStanding&>(m);

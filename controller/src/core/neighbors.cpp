@@ -14,6 +14,7 @@ void Neighbors::prefetch(std::size_t entries) const noexcept {
   const auto fetch = [&](const auto& array) { prefetch_lines(array.data(), entries * sizeof array[0]); };
   prefetch_lines(this, 1);
   fetch(ids_);
+  fetch(by_id_);
   fetch(measurements_);
   fetch(ages_);
   fetch(ranges_m_);

@@ -27,6 +27,7 @@ bool hear_token(HealingRobot& robot, const HealingMessage& m) noexcept {
 // along the same way, it waits at least as long as the flood took.
 int barrier_patience_ticks(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
+  if (self.phase != Phase::start_tree && !robot.is_root()) return 0;
   const int least = robot.params.ticks(robot.params.barrier_timeout_s);
   if (self.phase == Phase::select_parent) return std::max<int>(least, self.flood_ticks);
   if (self.phase != Phase::start_tree) return least;
@@ -44,7 +45,7 @@ void listen_among_fragments(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const Serial held = self.root.sequence;
   bool contested = false;
-  for (const Heard& h : robot.news)
+  for (const Heard& h : robot.news_of_tree())
     if (newer(h.message->root, self.root)) contested = hear_token(robot, said(h)) || contested;
   if (!robot.is_root()) hand_over(robot, held);
   const EpochPhase newest = newest_phase(robot);

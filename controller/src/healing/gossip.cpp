@@ -7,9 +7,9 @@
 namespace banyan {
 namespace {
 
-// A point in the edge frame of the neighbour at `addressee`.
-void write(Vec2 point, Vec2 addressee, std::int16_t& x_cm, std::int16_t& y_cm) noexcept {
-  const Vec2 v = to_edge_frame(point - addressee, addressee);
+// A point in the edge frame of the neighbour at `addressee`, which is in the direction `along`.
+void write(Vec2 point, Vec2 addressee, Vec2 along, std::int16_t& x_cm, std::int16_t& y_cm) noexcept {
+  const Vec2 v = rotate_back(along, point - addressee);
   x_cm = to_fixed<std::int16_t>(v.x, per_cm);
   y_cm = to_fixed<std::int16_t>(v.y, per_cm);
 }
@@ -86,10 +86,11 @@ int gossip(const HealingRobot& robot, HealingMessage& m) noexcept {
   const int k = task != nullptr && task->unlocated ? -1 : addressee_of(robot, topic);
   if (k < 0) return topic.task;
   const Vec2 addressee = robot.table().position(k);
+  const Vec2 along = unit(addressee);
   m.told = robot.table().id(k);
   m.root_told = self.root_known && self.heart == self.root;
-  if (m.root_told) write(self.root_at, addressee, m.root_x_cm, m.root_y_cm);
-  if (task != nullptr) write(task->target, addressee, m.task_x_cm, m.task_y_cm);
+  if (m.root_told) write(self.root_at, addressee, along, m.root_x_cm, m.root_y_cm);
+  if (task != nullptr) write(task->target, addressee, along, m.task_x_cm, m.task_y_cm);
   return topic.task;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/healing/hold.hpp"
 
+#include <limits>
+
 #include "banyan/controller/tree/parent_selection.hpp"
 
 namespace banyan {
@@ -12,6 +14,8 @@ int hops_to_tree(const TreeStanding& m) noexcept {
   return m.depth != invalid_depth ? -1 : unreachable;
 }
 
+constexpr float hop_cost = 4.0F;
+
 // How bad neighbour k would be as hold: each term outweighs all that follow. A branch that has lost its root is the
 // last choice, however near. The present hold is kept while it is as good as another: a robot that changes its hold
 // every tick gets nowhere. Of links that are too long the shortest is drawn in, however many hops away.
@@ -20,7 +24,7 @@ float cost(const HealingRobot& robot, int k, int hops) noexcept {
   const float range = robot.table().range(k) / robot.params.communication_range_m;
   const bool another = hops >= 0 && robot.table().id(k) != robot.self.hold;
   if (range > longest_link) return 8192.0F + 1024.0F * range + (another ? 10.0F : 0.0F) + static_cast<float>(hops) / unreachable;
-  return (hops == unreachable ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) + 4.0F * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
+  return (hops == unreachable ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) + hop_cost * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
 }
 
 }  // namespace
@@ -31,18 +35,19 @@ void find_hold(HealingRobot& robot) noexcept {
   robot.hold = -1;
   int wish = -1;  // the best one, whether or not it is ahead
   if (!robot.is_root() && robot.up() < 0) {
-    float hold_cost = 0.0F;
-    float wish_cost = 0.0F;
+    float hold_cost = std::numeric_limits<float>::max();
+    float wish_cost = hold_cost;
     for (int k = 0; k < table.size(); ++k) {
       const TreeStanding& m = table.message(k);
       if (!robot.is_linked(k) || m.epoch != self.epoch || is_untied(m)) continue;
-      const bool ahead = is_ahead(robot, k);
       const int hops = hops_to_tree(m);
+      if (hop_cost * static_cast<float>(hops) >= hold_cost) continue;  // nor is it a better wish
+      const bool ahead = is_ahead(robot, k);
       // A robot farther from the tree than I am may depend on me: it would never get ahead.
       if (!ahead && hops >= self.tree_hops) continue;
       const float c = cost(robot, k, hops);
-      if (wish < 0 || c < wish_cost) wish = k, wish_cost = c;
-      if (ahead && (robot.hold < 0 || c < hold_cost)) robot.hold = k, hold_cost = c;
+      if (c < wish_cost) wish = k, wish_cost = c;
+      if (ahead && c < hold_cost) robot.hold = k, hold_cost = c;
     }
     // Until the flood of a new epoch has arrived, the last epoch's hold will do. A robot with children keeps it until
     // that epoch's tree is dropped: by the new labels a robot that depends on me through them may be ahead.

@@ -57,8 +57,12 @@ bool is_left_waiting(const HealingRobot& robot) noexcept {
 // For a worker that still makes progress, however slowly, spares are on their way.
 void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept {
   HealingState& self = robot.self;
+  if (!(unserved || regroups)) {
+    self.unserved_ticks = 0;
+    return;
+  }
   const int after_ticks = robot.params.ticks(robot.params.regroup_after_s);
-  if (!(unserved || regroups) || self.unserved_ticks >= robot.params.ticks(robot.params.regroup_after_s + regroup_for_s)) self.unserved_ticks = 0;
+  if (self.unserved_ticks >= robot.params.ticks(robot.params.regroup_after_s + regroup_for_s)) self.unserved_ticks = 0;
   else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks) robot.add_elapsed(self.unserved_ticks);
 }
 

@@ -60,7 +60,7 @@ void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
   file_heard(robot);
   const KnownOfHealing known(robot.self, robot.elapsed_ticks);
   for (Heard& h : robot.heard) {
-    if (known.lacks(said(h))) robot.news.push(h);
+    push_news(robot, known, h);
     if (h.place >= 0) {
       kept[static_cast<std::size_t>(h.place)] = static_cast<const HealingStanding&>(said(h));
       note_hears(robot, h);

@@ -52,14 +52,14 @@ bool barrier_holds(const TreeRobot& robot, bool tree_complete) noexcept {
 
 void listen(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  for (const Heard& h : robot.news)
+  for (const Heard& h : robot.news_of_tree())
     if (newer(h.message->root, self.root)) self.root = h.message->root;
   follow_phase(robot, newest_phase(robot));
 }
 
 EpochPhase newest_phase(const TreeRobot& robot) noexcept {
   EpochPhase newest{robot.self.epoch, robot.self.phase};
-  for (const Heard& h : robot.news) {
+  for (const Heard& h : robot.news_of_tree()) {
     const TreeMessage& m = *h.message;
     if (m.epoch == newest.epoch ? m.phase > newest.phase : is_newer(m.epoch, newest.epoch)) newest = {m.epoch, m.phase};
   }

@@ -50,7 +50,7 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   const TreeMessage* accepted = nullptr;
   if (self.is_worker) return accepted;
-  for (const Heard& h : robot.news) {
+  for (const Heard& h : robot.news_of_tree()) {
     const TreeMessage& m = *h.message;
     if (m.new_root != self.id || m.root.id != m.id) continue;
     const RootToken offered{static_cast<std::uint16_t>(m.root.sequence + 1), self.id};

@@ -133,8 +133,8 @@ bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
   const bool steady = robot.call_hops < self.call_hops;
   const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
   rule.count_waiting(unserved);
-  const bool in_vain = self.unserved_ticks > robot.params.ticks(robot.params.call_after_s);
-  if (robot.reading.calls_spares && in_vain && rule.may_call()) self.call_hops = 0;
+  const auto in_vain = [&] { return self.unserved_ticks > 0 && self.unserved_ticks > robot.params.ticks(robot.params.call_after_s); };
+  if (robot.reading.calls_spares && in_vain() && rule.may_call()) self.call_hops = 0;
   else self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
   return steady;
 }

@@ -35,7 +35,7 @@ void carry_memory(TreeState& self, const Carry& carry) noexcept {
 
 Admitted::Admitted(const Senses& sensed, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept : Gate(sensed, platform) {
   heard_ = packets(heard, platform);
-  carry_to_now(heard_, senses(), platform);
+  carry_to_now(heard_, platform);
   tally.rejected += rejected();
 }
 
@@ -45,6 +45,7 @@ void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
   const KnownOfTree known(robot.self);
   for (Heard& h : robot.heard)
     if (known.lacks(*h.message)) robot.news.push(h);
+  robot.is_tree_news = true;
   forget_silent(robot, [](int, int) {});
   follow_orders(robot, admitted.senses().orders);
 }

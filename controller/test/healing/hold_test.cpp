@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/tree/motion.hpp"
 #include "bench.hpp"
@@ -74,6 +76,47 @@ TEST(Hold, IsKeptWhileNoOtherIsClearlyBetter) {
 }
 
 // A branch whose root is lost may hang on me in a while, however near it is.
+// The search passes over those whose hops alone cost more than the best so far.
+TEST(Hold, IsTheBestOfAllInWhateverOrderTheyAreHeard) {
+  std::mt19937 random(7);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int world = 0; world < 300; ++world) {
+    ConvoyBench bench = grown<Convoy>();
+    bench.state.role = Role::spare;
+    bench.state.label_cm = 300;
+    bench.state.seqno = 10;
+    const int robots = 2 + below(30);
+    bench.state.hold = static_cast<RobotId>(2 + below(2 * robots));
+    RobotId best = nobody;
+    double least = 1e9;
+    for (int k = 0; k < robots; ++k) {
+      const auto id = static_cast<RobotId>(2 + k);
+      const float range_m = 0.05F + 0.00195F * static_cast<float>(below(1000));
+      auto& m = bench.put(id, {range_m, 0.0F});
+      const bool ahead = below(3) > 0;
+      m.role = below(4) == 0 ? Role::connector : Role::spare;
+      m.parent = m.role == Role::connector ? RobotId{999} : nobody;
+      m.grant = 999;
+      m.depth = static_cast<std::uint16_t>(m.role == Role::connector ? below(2) : 0);
+      m.tree_hops = static_cast<std::uint8_t>(below(5) == 0 ? unreachable : below(9));
+      m.label_cm = 200;
+      m.seqno = ahead ? 11 : 9;
+      if (!ahead) continue;
+      const int hops = m.role == Role::spare ? m.tree_hops : m.depth == 0 ? unreachable : -1;
+      const double range = static_cast<double>(range_m) / 2.0;
+      const bool another = hops >= 0 && id != bench.state.hold;
+      const double cost = range > 0.95 ? 8192 + 1024 * range + (another ? 10 : 0) + hops / 255.0
+                                       : (hops == 255 ? 4096 : 0) + (range > 0.85 ? 2048 : 0) + 4 * hops + (another ? 2 : 0) + range;
+      if (cost >= least) continue;
+      best = id;
+      least = cost;
+    }
+    auto robot = bench.tick();
+    find_hold(robot);
+    ASSERT_EQ(bench.state.hold, best) << "world " << world << " of " << robots;
+  }
+}
+
 TEST(Hold, IsNotOfALostBranchAsLongAsThereIsAnother) {
   Follower f;
   f.bench.move(2, {1.8F, 0.0F});

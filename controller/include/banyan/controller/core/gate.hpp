@@ -35,7 +35,10 @@ class Gate {
     const float limit_m = farthest_ranges * platform.communication_range_m;
     const auto is_possible = [limit_m](const Heard& h) { return is_within(h.position, limit_m) && h.age_s >= 0.0F && h.age_s <= longest_step_s; };
     bool all = true;
-    for (const Heard& h : heard) all &= is_possible(h);
+    for (const Heard& h : heard) {
+      all &= is_possible(h);
+      aged_ |= h.age_s > 0.0F;
+    }
     if (all) return heard;
     std::size_t kept = 0;
     for (const Heard& h : heard) {
@@ -43,6 +46,22 @@ class Gate {
       else ++rejected_;
     }
     return heard.first(kept);
+  }
+
+  // Of those that have passed, positions measured some time ago, in the frame of then, as they are now in the present
+  // frame: what is left of the odometry, which is in the frame at the last step, is turned into the frame of the packet.
+  template <class Heard>
+  void carry_to_now(std::span<Heard> heard, const Platform& platform) const noexcept {
+    if (!aged_) return;
+    const Odometry& odometry = senses_.odometry;
+    const float elapsed_s = senses_.elapsed_s > 0.0F ? senses_.elapsed_s : platform.tick_s;
+    for (Heard& h : heard) {
+      if (!(h.age_s > 0.0F)) continue;
+      const float share = std::min(h.age_s / elapsed_s, 1.0F);
+      const Vec2 shift = rotate_back(unit_vector(odometry.turn_rad * (1.0F - share)), Vec2{odometry.forward_m, odometry.sideways_m} * share);
+      h.position = Carry({shift.x, shift.y, odometry.turn_rad * share}).point(h.position);
+      h.age_s = 0.0F;
+    }
   }
 
   [[nodiscard]] const Senses& senses() const noexcept { return senses_; }
@@ -59,22 +78,8 @@ class Gate {
   Senses senses_;
   int elapsed_ticks_ = 1;
   std::uint32_t rejected_ = 0;
+  bool aged_ = false;  // some packet was measured before now
   std::optional<std::array<Vec2, most_obstacles>> obstacles_;  // those that passed, if some did not
 };
-
-// Positions measured some time ago, in the frame of then, as they are now in the present frame: what is left of the
-// odometry, which is in the frame at the last step, is turned into the frame of the packet.
-template <class Heard>
-void carry_to_now(std::span<Heard> heard, const Senses& senses, const Platform& platform) noexcept {
-  const Odometry& odometry = senses.odometry;
-  const float elapsed_s = senses.elapsed_s > 0.0F ? senses.elapsed_s : platform.tick_s;
-  for (Heard& h : heard) {
-    if (!(h.age_s > 0.0F)) continue;
-    const float share = std::min(h.age_s / elapsed_s, 1.0F);
-    const Vec2 shift = rotate_back(unit_vector(odometry.turn_rad * (1.0F - share)), Vec2{odometry.forward_m, odometry.sideways_m} * share);
-    h.position = Carry({shift.x, shift.y, odometry.turn_rad * share}).point(h.position);
-    h.age_s = 0.0F;
-  }
-}
 
 }  // namespace banyan

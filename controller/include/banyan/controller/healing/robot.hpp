@@ -17,7 +17,7 @@ struct KnownOfHealing : KnownOfTree {
   KnownOfHealing(const HealingState& self, int elapsed_ticks) noexcept
       : KnownOfTree(self), heartbeat(self.heartbeat), silence_ticks(self.silence_ticks + elapsed_ticks), has_heart(self.heart == self.root) {}
   [[nodiscard]] bool lacks(const HealingMessage& m) const noexcept {
-    return KnownOfTree::lacks(m) || m.told == id || m.id == root.id || !has_heart || is_news(m.heartbeat, heartbeat, silence_ticks);
+    return m.told == id || m.id == root.id || !has_heart || is_news(m.heartbeat, heartbeat, silence_ticks);
   }
   Serial heartbeat;
   int silence_ticks;
@@ -53,5 +53,12 @@ inline const HealingMessage& healing_message(const TreeMessage& m) noexcept {
   return static_cast<const HealingMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
 }
 inline const HealingMessage& said(const Heard& h) noexcept { return healing_message(*h.message); }
+
+// A packet is news if something in it is.
+inline void push_news(HealingRobot& robot, const KnownOfHealing& known, Heard& h) noexcept {
+  const bool of_tree = known.KnownOfTree::lacks(said(h));
+  robot.is_tree_news |= of_tree;
+  if (of_tree || known.lacks(said(h))) robot.news.push(h);
+}
 
 }  // namespace banyan

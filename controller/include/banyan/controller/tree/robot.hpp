@@ -81,6 +81,7 @@ struct TreeRobot {
   const Vec2* target = nullptr;     // own frame, m; null unless a worker
   std::span<Heard> heard;
   NewsList news;
+  bool is_tree_news = false;        // some of it is what KnownOfTree lacks
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
   Carry carry;                      // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
@@ -102,6 +103,8 @@ struct TreeRobot {
   // To a count of the ticks since something happened: those since the last step. It stays at its largest value.
   void add_elapsed(std::uint16_t& ticks) const noexcept { ticks = static_cast<std::uint16_t>(std::min(ticks + elapsed_ticks, UINT16_MAX)); }
 
+  // What is new of the tree's own gossip is among it, at most ticks nothing.
+  [[nodiscard]] NewsList news_of_tree() const noexcept { return is_tree_news ? news : NewsList{}; }
   [[nodiscard]] const TreeTable& table() const noexcept { return self.neighbors; }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
   // I, and longer where packets are lost.

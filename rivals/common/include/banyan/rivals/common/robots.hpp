@@ -31,7 +31,7 @@ void begin_step(const RivalParams& params, State& state, std::span<HeardOf<Messa
   const Senses& senses = gate.senses();
   const std::span<HeardOf<Message>> packets = gate.packets(heard, params);
   state.tally.rejected += gate.rejected();
-  carry_to_now(packets, senses, params);
+  gate.carry_to_now(packets, params);
   const Carry carry(senses.odometry);
   state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params, ties);
   state.assignment.follow(senses.orders, carry);
