@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <utility>
 
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/convoy/towing.hpp"
@@ -142,6 +144,53 @@ void command(ConvoyRobot& robot) noexcept {
     self.hosts[k] = self.plan_level[k] > self.plan_levels - self.plan_steps ? self.planned[k] : nobody;
 }
 
+// ---- The root: too few robots (rule 15) ----
+
+// Of the targets not yet reached, the one without which the shortest tree takes fewest robots.
+RobotId least_worth(ConvoyRobot& robot) noexcept {
+  RobotId worst = nobody;
+  int fewest = INT16_MAX;
+  for (Task& task : tasks(robot.self)) {
+    if (task.holder == nobody || task.reached || task.unlocated) continue;
+    const RobotId holder = std::exchange(task.holder, nobody);
+    const int robots = best_tree(robot).robots;
+    task.holder = holder;
+    if (robots >= fewest) continue;
+    fewest = robots;
+    worst = task.serves;
+  }
+  return worst;
+}
+
+// Spares are called in vain, and no worker has come nearer to its target for a while: one is given up. To all robots
+// its host is then that target itself.
+void shed(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  if (self.shed != nobody) {
+    const Task* task = find_active(robot, self.shed);
+    if (task == nullptr) self.shed = nobody;
+    else self.hosts[static_cast<std::size_t>(task - self.tasks.data())] = self.shed;
+    return;
+  }
+  constexpr int hand_cm = 10;
+  const auto all = tasks(self);
+  const auto reached = static_cast<std::uint8_t>(std::count_if(all.begin(), all.end(), [](const Task& t) { return t.holder != nobody && t.reached; }));
+  const int want_cm = static_cast<int>(self.want_m * 100.0F);
+  const bool is_short = robot.params.shed_after_s > 0.0F && !self.forgets && self.want_m > robot.params.arrival_distance_m && self.call_hops != nobody_calls;
+  if (want_cm == 0 || (self.short_ticks == 0 && !is_short)) return void(self.short_ticks = 0);
+  if (self.short_ticks == 0 || want_cm < self.short_want_cm - hand_cm || reached > self.short_reached) {
+    self.short_ticks = 0;
+    self.short_want_cm = static_cast<std::uint16_t>(want_cm);
+    self.short_reached = reached;
+  }
+  robot.add_elapsed(self.short_ticks);
+  constexpr float sooner = 0.45F;  // once it is known that robots are too few
+  const bool known = std::any_of(all.begin(), all.end(), [](const Task& t) { return t.holder == nobody; });
+  if (self.short_ticks <= robot.params.ticks((known ? sooner : 1.0F) * robot.params.shed_after_s) || !is_short) return;
+  self.shed = least_worth(robot);
+  self.short_ticks = 0;
+}
+
 // ---- Every robot ----
 
 void hear_parent(ConvoyRobot& robot) noexcept {
@@ -170,7 +219,7 @@ RobotId lead_of(const ConvoyRobot& robot) noexcept {
   if (robot.convoy_of(robot.parent).below == self.below) return nobody;  // the parent leads
   const Task* served = find_active(robot, self.below);
   const Task* host = served == nullptr ? nullptr : find_active(robot, self.hosts[static_cast<std::size_t>(served - self.tasks.data())]);
-  if (host == nullptr || self.above == host->serves) return nobody;
+  if (host == nullptr || host == served || self.above == host->serves) return nobody;
   return host->serves;
 }
 
@@ -197,13 +246,18 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
   if (robot.is_root()) {
     self.above = nobody;
     command(robot);
+    shed(robot);
   } else {
     hear_parent(robot);
   }
   // With more targets than robots can remember, targets unknown to the root keep branches that no plan would count.
   if (self.forgets) withdraw(self);
-  const auto hosts = std::span(self.hosts).first(self.task_count);
-  const bool planned = std::any_of(hosts.begin(), hosts.end(), [](RobotId host) { return host != nobody; });
+  bool planned = false;
+  for (int k = 0; k < self.task_count; ++k) {
+    const Task& task = self.tasks[k];
+    if (self.hosts[k] != task.serves) planned = planned || self.hosts[k] != nobody;
+    else if (self.is_worker && self.serves == task.serves) yield_task(robot, nobody);
+  }
   robot.add_elapsed(self.plan_ticks);
   if (!planned) self.plan_ticks = 0;
   const RobotId lead_to = lead_of(robot);
