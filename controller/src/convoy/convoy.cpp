@@ -127,7 +127,8 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   constexpr float called_patience_s = 15.0F;
   const bool called = robot.self.call_hops != nobody_calls;
   if (is_leaving(robot) && !is_planned(robot.self)) return true;
-  return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !is_planned(robot.self) && robot.self.plan_steps >= robot.self.plan_levels;
+  const bool begun = is_planned(robot.self) || robot.self.plan_steps < robot.self.plan_levels;
+  return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !begun;
 }
 
 // Once all workers have arrived, a spare that became root would be one more robot in the tree.

@@ -167,9 +167,10 @@ RobotId least_worth(ConvoyRobot& robot) noexcept {
 void shed(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   if (self.shed != nobody) {
-    const Task* task = find_active(robot, self.shed);
-    if (task == nullptr) self.shed = nobody;
-    else self.hosts[static_cast<std::size_t>(task - self.tasks.data())] = self.shed;
+    const Task* task = find_task(self, self.shed);
+    const bool over = task == nullptr || task->holder == nobody;
+    if (task != nullptr) self.hosts[static_cast<std::size_t>(task - self.tasks.data())] = over ? nobody : self.shed;
+    if (over) self.shed = nobody;
     return;
   }
   constexpr int hand_cm = 10;
