@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <limits>
 #include <utility>
@@ -219,7 +220,7 @@ namespace {
 
 std::string metres(double m) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f m", m);
+  static_cast<void>(std::snprintf(text.data(), text.size(), "%.2f m", m));  // always fits
   return text.data();
 }
 

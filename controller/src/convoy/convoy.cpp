@@ -187,6 +187,7 @@ ConvoyParams convoy_defaults() noexcept {
 ConvoyParams with_room_for_relief(ConvoyParams params) noexcept {
   params.merge_distance_m = std::min(params.merge_distance_m, params.relief_edge_m);
   params.compact_distance_m = std::min(params.compact_distance_m, params.relief_edge_m);
+  params.thrift = 0.0F;  // it would stretch them again
   return params;
 }
 
