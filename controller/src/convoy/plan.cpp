@@ -41,7 +41,7 @@ void withdraw(ConvoyState& self) noexcept { self.hosts.fill(nobody); }
 
 // The shortest tree through the targets that are held, seen from one of them.
 struct TargetTree {
-  std::array<std::int8_t, task_capacity> host{};    // the next target on the way to the first; -1: the first, or not held
+  std::array<std::int16_t, task_capacity> host{};   // the next target on the way to the first; -1: the first, or not held
   std::array<std::uint8_t, task_capacity> level{};  // targets on that way
   int deepest = 0;                                  // of the levels
   int robots = 0;                                   // that it takes, with edges as long as compaction makes them
@@ -69,7 +69,7 @@ TargetTree shortest_tree(const ConvoyRobot& robot, int first) noexcept {
       if (done[k]) continue;
       if (const float d = distance(self.tasks[k].target, self.tasks[last].target); d < gap_m[k]) {
         gap_m[k] = d;
-        tree.host[k] = static_cast<std::int8_t>(last);
+        tree.host[k] = static_cast<std::int16_t>(last);
       }
       if (next < 0 || gap_m[k] < gap_m[next]) next = k;
     }
