@@ -58,6 +58,13 @@ std::string robots_text(const measure::Run& run) {
   return text;
 }
 
+std::string targets_text(const measure::Run& run, std::size_t targets) {
+  std::string text = format("%u of %zu held in the end", run.held_targets, targets);
+  if (!run.missed_targets.empty()) text += "; not: " + run.missed_targets;
+  if (run.oracle_targets < targets) text += format("; the %u robots are too few for all, an oracle holds %u", run.robots, run.oracle_targets);
+  return text;
+}
+
 std::string paths_text(const measure::Run& run) {
   const std::string wanted = plural(run.link_redundancy, "disjoint path");
   std::string text = run.redundant_time_ratio < 0.0 ? wanted + " asked for"
@@ -113,6 +120,7 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   text += summary_line("tree", tree_text(run));
   text += summary_line("network", network_text(run, scenario.radio.line_of_sight));
   text += summary_line("robots", robots_text(run));
+  if (!run.complete) text += summary_line("targets", targets_text(run, extras.targets));
   if (run.link_redundancy > 1) text += summary_line("paths", paths_text(run));
   if (scenario.battery.on()) text += summary_line("charge", power_text(run));
   if (run.deaths > 0) text += summary_line("deaths", deaths_text(run));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <limits>
 #include <utility>
@@ -184,6 +185,7 @@ struct Observer::Impl {
   [[nodiscard]] bool survivors_suffice(const world::World& world) const;
   void ask_oracle();
   void sum_up_redundancy(const world::World& world, Run& result);
+  void sum_up_targets(const world::World& world, Run& result) const;
 
   Tick tick;
   Run run;
@@ -215,6 +217,12 @@ struct Observer::Impl {
 };
 
 namespace {
+
+std::string metres(double m) {
+  std::array<char, 32> text{};
+  static_cast<void>(std::snprintf(text.data(), text.size(), "%.2f m", m));  // always fits
+  return text.data();
+}
 
 std::vector<world::Vec2> active_positions(const world::World& world) {
   std::vector<world::Vec2> positions;
@@ -249,6 +257,17 @@ void for_each_kept_link(const world::World& world, std::size_t i, Visit visit) {
     }
     visit(other);
   }
+}
+
+// Whether parents, in a reconstruction old ones, lead from robot i to a living root.
+bool is_joined_to_root(const world::World& world, std::size_t i) {
+  for (std::size_t steps = 0; i < world.size() && steps <= world.size(); ++steps) {
+    if (!is_of_tree(world, i)) return false;
+    const Report& m = world.reports()[i];
+    if (m.role == Role::root) return true;
+    i = up_of(m);
+  }
+  return false;
 }
 
 // Edges from the living robots of the tree to their living parents, in a reconstruction to the old ones, and the
@@ -487,6 +506,8 @@ void Observer::Impl::ask_oracle() {
   const std::size_t relays = std::max<std::size_t>(1, tree.relays.size());
   run.oracle_robots = static_cast<std::uint32_t>(first_targets.size() + relays);
   run.oracle_exact = tree.exact;
+  run.oracle_targets = run.robots >= run.oracle_robots ? static_cast<std::uint32_t>(first_targets.size())
+                                                       : most_targets(first_targets, edge_share * range_m, run.robots);
   if (first_others.size() < relays) return;
   run.oracle_time_s = std::max(run.time_bound_s, bottleneck_m(first_others, tree.relays) / speed_m_s);
 }
@@ -505,6 +526,29 @@ void Observer::Impl::sum_up_redundancy(const world::World& world, Run& result) {
     if (!targets[t].active) continue;
     if (*of_target++ >= redundancy.wanted()) ++result.redundant_targets;
     else result.single_targets += (result.single_targets.empty() ? "" : " ") + std::to_string(t);
+  }
+}
+
+// Which active targets are held, and why the others are not.
+void Observer::Impl::sum_up_targets(const world::World& world, Run& result) const {
+  const auto targets = world.targets();
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    if (!targets[t].active) continue;
+    double nearest_m = std::numeric_limits<double>::infinity();
+    bool held = false;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const Report& m = world.reports()[i];
+      if (m.role != Role::worker || world.alive()[i] == 0 || m.serves != targets[t].worker) continue;
+      const double distance_m = distance(world.positions()[i], targets[t].position);
+      nearest_m = std::min(nearest_m, distance_m);
+      held = held || (distance_m <= tolerance_m && is_joined_to_root(world, i));
+    }
+    if (held) {
+      ++result.held_targets;
+      continue;
+    }
+    const std::string why = std::isinf(nearest_m) ? "given up" : nearest_m <= tolerance_m ? "cut off" : metres(nearest_m) + " short";
+    result.missed_targets += (result.missed_targets.empty() ? "" : ", ") + std::to_string(t) + " " + why;
   }
 }
 
@@ -580,6 +624,7 @@ Run Observer::result(const world::World& world) const {
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
   run.oracle_ratio = static_cast<double>(run.committed) / static_cast<double>(run.oracle_robots);
   impl_->sum_up_redundancy(world, run);
+  impl_->sum_up_targets(world, run);
   run.network_length_m = network_length_m(world);
   run.longest_two_roots_s = static_cast<double>(impl_->longest_two_roots) * world.scenario().tick_s;
   run.survivors_suffice = impl_->survivors_suffice(world);

@@ -79,6 +79,16 @@ class Program {
       if (std::popcount(set) <= most_leaves) try_component(set, choice);
     }
   }
+  // The largest set that its relays, at least one, and a worker for each join.
+  [[nodiscard]] int largest_within(int robots) const {
+    int most = 0;
+    for (TargetSet set = 1; set < best_.size(); ++set) {
+      const int workers = std::popcount(set);
+      const int relays = workers < 2 ? 1 : std::max(1, best_[set].relays);
+      if (workers + relays <= robots) most = std::max(most, workers);
+    }
+    return most;
+  }
   [[nodiscard]] std::vector<Part> parts() const {
     std::vector<Part> list;
     collect(static_cast<TargetSet>(best_.size() - 1), list);
@@ -315,6 +325,31 @@ int fewest_relays_certain(const std::vector<Vec2>& targets, double tolerance_m, 
   return static_cast<int>(std::ceil(length / range_m - 1e-9)) - (static_cast<int>(trees) - 1);
 }
 
+// From each target the next one that takes fewest relays, until the robots are used up.
+int grown_within(const std::vector<Vec2>& targets, int robots) {
+  const std::size_t n = targets.size();
+  int most = 0;
+  for (std::size_t first = 0; first < n; ++first) {
+    std::vector<int> gap(n, std::numeric_limits<int>::max());
+    std::vector<char> done(n, 0);
+    int workers = 0, relays = 0;
+    for (std::size_t next = first; next < n;) {
+      done[next] = 1;
+      ++workers;
+      relays += next == first ? 0 : gap[next];
+      if (workers + std::max(1, relays) <= robots) most = std::max(most, workers);
+      std::size_t best = n;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (done[i]) continue;
+        gap[i] = std::min(gap[i], relays_between(targets[i], targets[next]));
+        if (best == n || gap[i] < gap[best]) best = i;
+      }
+      next = best;
+    }
+  }
+  return most;
+}
+
 }  // namespace
 
 std::uint32_t robots_bound(const std::vector<Vec2>& targets, double tolerance_m, double range_m) {
@@ -335,6 +370,16 @@ RelayTree fewest_relays(const std::vector<Vec2>& targets, double range_m) {
   laid.tree.exact = targets.size() <= static_cast<std::size_t>(most_leaves) || relays == 0 ||
                     (few && relays <= fewest_relays_certain(scaled, 0.0, 1.0));
   return std::move(laid.tree);
+}
+
+std::uint32_t most_targets(const std::vector<Vec2>& targets, double range_m, std::uint32_t robots) {
+  if (targets.empty()) return 0;
+  std::vector<Vec2> scaled;
+  scaled.reserve(targets.size());
+  for (const Vec2 t : targets) scaled.push_back(t / range_m);
+  const int have = static_cast<int>(std::min<std::uint32_t>(robots, std::numeric_limits<int>::max()));
+  const bool few = targets.size() <= most_programmed;
+  return static_cast<std::uint32_t>(few ? Program(scaled).largest_within(have) : grown_within(scaled, have));
 }
 
 }  // namespace banyan::measure

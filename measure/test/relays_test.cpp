@@ -279,6 +279,36 @@ TEST(RobotsBound, NoNetworkBeatsIt) {
   EXPECT_GT(met, 300) << "and often it is met";
 }
 
+// Every set of the targets by itself.
+TEST(MostTargets, IsTheLargestSetThatSoManyRobotsHold) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::vector<Vec2> targets = scattered(700 + seed, 5, 8.0);
+    for (std::uint32_t robots = 0; robots <= 20; robots += 2) {
+      std::uint32_t most = 0;
+      for (unsigned set = 1; set < 32U; ++set) {
+        std::vector<Vec2> some;
+        for (std::size_t k = 0; k < targets.size(); ++k)
+          if ((set >> k & 1U) != 0) some.push_back(targets[k]);
+        const std::size_t relays = std::max<std::size_t>(1, fewest_relays(some, 1.9).relays.size());
+        if (some.size() + relays <= robots) most = std::max(most, static_cast<std::uint32_t>(some.size()));
+      }
+      EXPECT_EQ(most_targets(targets, 1.9, robots), most) << seed << ", " << robots << " robots";
+    }
+  }
+}
+
+TEST(MostTargets, ManyTargetsGrowFromEachOfThem) {
+  std::vector<Vec2> line;
+  for (int k = 0; k < 12; ++k) line.push_back({3.0 * k, 0.0});  // a relay between any two
+  line.push_back({100, 0});
+  EXPECT_EQ(most_targets(line, 1.9, 0), 0U);
+  EXPECT_EQ(most_targets(line, 1.9, 2), 1U);
+  EXPECT_EQ(most_targets(line, 1.9, 11), 6U);
+  EXPECT_EQ(most_targets(line, 1.9, 50), 12U);
+  EXPECT_EQ(most_targets(line, 1.9, 500), 13U);
+  EXPECT_EQ(most_targets({}, 1.9, 5), 0U);
+}
+
 TEST(RobotsBound, CountsAWorkerForEachTargetAndTheRelaysBetween) {
   EXPECT_EQ(robots_bound({}, 0.2, 2.0), 1U) << "a root";
   EXPECT_EQ(robots_bound({{0, 0}}, 0.2, 2.0), 2U) << "a worker and the root";

@@ -33,7 +33,8 @@ std::string hexadecimal(std::uint64_t value) {
 // 3: sight_leak; edges broken after a silence; held_ratio.
 // 4: messages, decisions, driven_m.
 // 5: link_redundancy and what was achieved of it; batteries.
-constexpr int format_version = 5;
+// 6: the targets that are held, and that the oracle can hold.
+constexpr int format_version = 6;
 
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
@@ -82,6 +83,12 @@ constexpr Column<Row> result_table[] = {
     {"oracle_robots", "workers, and the fewest relays found for edges of 0.95 C", 0,
      [](const Row& r) { return natural(r.run.oracle_robots); }, 2},
     {"oracle_exact", "no such tree has fewer relays", 0, [](const Row& r) -> Cell { return r.run.oracle_exact; }, 2},
+    {"oracle_targets", "targets at the start that the oracle holds with the robots there are", 0,
+     [](const Row& r) { return natural(r.run.oracle_targets); }, 6},
+    {"held_targets", "active targets held at the end by a worker that the tree joins to a root", 0,
+     [](const Row& r) { return natural(r.run.held_targets); }, 6},
+    {"missed_targets", "the other active targets, by index, each with the reason", 0,
+     [](const Row& r) -> Cell { return r.run.missed_targets; }, 6},
     {"oracle_time_s", "when straight drives can be over, the oracle's relays placed; empty if robots are too few", 4,
      [](const Row& r) { return if_known(r.run.oracle_time_s); }, 2},
     {"steiner_length_m", "length of a shortest network of the targets, certified from below", 4,

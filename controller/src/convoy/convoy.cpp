@@ -128,7 +128,8 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   constexpr float called_patience_s = 15.0F;
   const bool called = robot.self.call_hops != nobody_calls;
   if (is_leaving(robot) && !is_planned(robot.self)) return true;
-  return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !is_planned(robot.self);
+  const bool begun = is_planned(robot.self) || robot.self.plan_steps < robot.self.plan_levels;
+  return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !begun;
 }
 
 // Once all workers have arrived, a spare that became root would be one more robot in the tree.
@@ -187,6 +188,7 @@ ConvoyParams convoy_defaults() noexcept {
 ConvoyParams with_room_for_relief(ConvoyParams params) noexcept {
   params.merge_distance_m = std::min(params.merge_distance_m, params.relief_edge_m);
   params.compact_distance_m = std::min(params.compact_distance_m, params.relief_edge_m);
+  params.thrift = 0.0F;  // it would stretch them again
   return params;
 }
 

@@ -39,6 +39,10 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
       "Below delta and merge_distance.", "convoy 9", 0.0F, 1.0F, Scaling::range}, &ConvoyParams::compact_distance_m},
     {{"plan_after_s", "", "s", "convoy: time from the arrival of all workers to the planning of chains from target to target; 0: never",
       "0 where targets drive: a plan is for targets that stay.", "convoy 11", 0.0F, 600.0F}, &ConvoyParams::plan_after_s},
+    {{"shed_after_s", "", "s", "convoy: if spares are missed and no worker gets on for so long, the swarm gives a target up; 0: never",
+      "Above the time in which robots come from far away; smaller gives targets up that might be reached.", "convoy 15", 0.0F, 600.0F}, &ConvoyParams::shed_after_s},
+    {{"thrift", "", "", "convoy: how much robots count against time once workers have arrived: longer edges, and above 0 plans from the leaves inwards",
+      "0 while targets change. Larger ends with fewer robots, later, and leaves less margin for noise.", "convoy 14", 0.0F, 1.0F}, &ConvoyParams::thrift},
     {{"companion_distance", "", "C", "convoy: how far beside its robot a companion stands, with mission.link_redundancy above 1",
       "Above spare_avoidance and clearance; larger makes the links past that robot longer. 0: there are no companions.", "convoy 12", 0.0F, 0.5F, Scaling::body}, &ConvoyParams::companion_distance_m},
 };

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <utility>
 
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/convoy/towing.hpp"
@@ -14,8 +16,11 @@ namespace {
 
 constexpr float plan_limit_s = 30.0F;     // what has not been built by then is given up
 constexpr float plan_period_s = 40.0F;
+constexpr float thrifty_limit_s = 26.0F;
+constexpr float thrifty_period_s = 25.0F;
 constexpr float held_back_after_s = 6.0F;
 constexpr float unsettled_after_s = 3.0F;
+constexpr float far_m = 1e9F;
 
 std::span<Task> tasks(ConvoyState& self) noexcept { return {self.tasks.data(), self.task_count}; }
 
@@ -34,62 +39,157 @@ bool all_have_arrived(const ConvoyRobot& robot) noexcept {
 
 void withdraw(ConvoyState& self) noexcept { self.hosts.fill(nobody); }
 
-// Prim (1957): the shortest tree through the targets, from the one nearest to me. Writes the plan and
-// returns how many robots it takes, with edges as long as compaction makes them.
-int plan_tree(ConvoyRobot& robot, int levels) noexcept {
-  ConvoyState& self = robot.self;
-  const float edge_m = robot.params.compact_distance_m;
+// The shortest tree through the targets that are held, seen from one of them.
+struct TargetTree {
+  std::array<std::int16_t, task_capacity> host{};   // the next target on the way to the first; -1: the first, or not held
+  std::array<std::uint8_t, task_capacity> level{};  // targets on that way
+  int deepest = 0;                                  // of the levels
+  int robots = 0;                                   // that it takes, with edges as long as compaction makes them
+};
+
+// Prim (1957).
+TargetTree shortest_tree(const ConvoyRobot& robot, int first) noexcept {
+  const ConvoyState& self = robot.self;
+  const float edge_m = thrifty_m(robot.params, robot.params.compact_distance_m);
+  TargetTree tree;
   std::array<float, task_capacity> gap_m{};  // to the tree so far
-  std::array<int, task_capacity> nearest{};  // the nearest target in the tree; -1: me
   std::array<bool, task_capacity> done{};
-  std::array<int, task_capacity> level{};    // in the tree
-  for (int k = 0; k < self.task_count; ++k) {
-    done[k] = self.tasks[k].holder == nobody;
-    gap_m[k] = norm(self.tasks[k].target);
-    nearest[k] = -1;
-  }
-  int robots = 0;
-  for (;;) {
-    int next = -1;
-    for (int k = 0; k < self.task_count; ++k)
-      if (!done[k] && (next < 0 || gap_m[k] < gap_m[next])) next = k;
-    if (next < 0) return robots;
+  for (int k = 0; k < self.task_count; ++k) done[k] = self.tasks[k].holder == nobody;
+  tree.host.fill(-1);
+  gap_m.fill(far_m);
+  for (int next = first; next >= 0;) {
+    const int host = tree.host[next];
     done[next] = true;
-    const bool first = robots == 0;
-    const Task& task = self.tasks[next];
-    level[next] = first ? 0 : level[nearest[next]] + 1;
-    self.hosts[next] = first || level[next] > levels ? nobody : self.tasks[nearest[next]].serves;
-    robots += first ? 1 : static_cast<int>(gap_m[next] / edge_m) + 1;
+    if (host >= 0) tree.level[next] = tree.level[host] + 1;
+    tree.deepest = std::max<int>(tree.deepest, tree.level[next]);
+    tree.robots += host < 0 ? 1 : static_cast<int>(gap_m[next] / edge_m) + 1;
+    const int last = next;
+    next = -1;
     for (int k = 0; k < self.task_count; ++k) {
-      const float d = distance(self.tasks[k].target, task.target);
-      if (done[k] || (!first && d >= gap_m[k])) continue;
-      gap_m[k] = d;
-      nearest[k] = next;
+      if (done[k]) continue;
+      if (const float d = distance(self.tasks[k].target, self.tasks[last].target); d < gap_m[k]) {
+        gap_m[k] = d;
+        tree.host[k] = static_cast<std::int16_t>(last);
+      }
+      if (next < 0 || gap_m[k] < gap_m[next]) next = k;
     }
   }
+  return tree;
 }
 
-// Once all workers have arrived, the plan covers one more level each period.
+// From the target nearest to me; with thrift from the tree's centre, where it has the fewest levels.
+TargetTree best_tree(const ConvoyRobot& robot) noexcept {
+  const ConvoyState& self = robot.self;
+  const bool thrifty = robot.params.thrift > 0.0F;
+  TargetTree best;
+  float nearest_m = far_m;
+  for (int k = 0; k < self.task_count; ++k) {
+    if (self.tasks[k].holder == nobody) continue;
+    const float d = norm(self.tasks[k].target);
+    if (!thrifty && d >= nearest_m) continue;
+    nearest_m = d;
+    const TargetTree tree = shortest_tree(robot, k);
+    if (!thrifty || best.robots == 0 || tree.deepest < best.deepest) best = tree;
+  }
+  return best;
+}
+
+// Where several trees are as short, as on a ring, what robots measure would decide anew each time: with thrift
+// the plan stays until a target comes or goes.
+void make_plan(ConvoyRobot& robot, int targets) noexcept {
+  ConvoyState& self = robot.self;
+  const TargetTree tree = best_tree(robot);
+  const bool saves = tree.robots < self.subtree;
+  self.plan_targets = static_cast<std::uint8_t>(targets);
+  self.plan_levels = static_cast<std::uint8_t>(saves ? tree.deepest : 0);
+  self.plan_level = tree.level;
+  for (int k = 0; k < self.task_count; ++k) self.planned[k] = saves && tree.host[k] >= 0 ? self.tasks[tree.host[k]].serves : nobody;
+}
+
+// Once all workers have arrived, the plan covers one more level each period. With thrift from its leaves inwards: the
+// branch of a target is led to its host along the host's own, which must not have been led away before.
 void command(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   const ConvoyParams& p = robot.params;
   if (self.phase != Phase::grow_tree) return;
+  const bool thrifty = p.thrift > 0.0F;
   // While a branch changes its parent its workers are not counted.
   robot.add_elapsed(self.unsettled_ticks);
   if (all_have_arrived(robot)) self.unsettled_ticks = 0;
   if (self.unsettled_ticks > p.ticks(unsettled_after_s)) {
     self.settled_ticks = self.unsettled_ticks = 0;
+    self.plan_targets = self.plan_levels = self.plan_steps = 0;
     return withdraw(self);
   }
   robot.add_elapsed(self.settled_ticks);
-  if (self.plan_ticks > p.ticks(plan_limit_s)) return withdraw(self);
+  if (self.plan_ticks > p.ticks(thrifty ? thrifty_limit_s : plan_limit_s)) return withdraw(self);
   const int since = self.settled_ticks - p.ticks(p.plan_after_s);
-  const int period = p.ticks(plan_period_s);
+  const int period = p.ticks(thrifty ? thrifty_period_s : plan_period_s);
   // Not before I know of all targets.
   const auto known = tasks(self);
-  const bool knows_all = self.subtree_workers <= std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; });
-  const bool due = knows_all && !has_companions(robot.params) && !self.forgets && p.plan_after_s > 0.0F && since >= 0 && since % period < robot.elapsed_ticks && self.settled_ticks < UINT16_MAX;
-  if (due && plan_tree(robot, 1 + since / period) >= self.subtree) withdraw(self);
+  const int targets = static_cast<int>(std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; }));
+  const bool may = self.subtree_workers <= targets && !has_companions(p) && !self.forgets && p.plan_after_s > 0.0F && since >= 0 && self.settled_ticks < UINT16_MAX;
+  if (!may || (thrifty ? since < self.plan_steps * period : since % period >= robot.elapsed_ticks)) return;
+  if (!thrifty) {
+    const int levels = 1 + since / period;
+    const TargetTree tree = best_tree(robot);
+    for (int k = 0; k < self.task_count; ++k)
+      self.hosts[k] = tree.host[k] < 0 || tree.level[k] > levels ? nobody : self.tasks[tree.host[k]].serves;
+    if (tree.robots >= self.subtree) withdraw(self);
+    return;
+  }
+  if (self.plan_levels == 0 || targets != self.plan_targets) make_plan(robot, targets);
+  ++self.plan_steps;
+  for (int k = 0; k < self.task_count; ++k)
+    self.hosts[k] = self.plan_level[k] > self.plan_levels - self.plan_steps ? self.planned[k] : nobody;
+}
+
+// ---- The root: too few robots (rule 15) ----
+
+// Of the targets not yet reached, the one without which the shortest tree takes fewest robots.
+RobotId least_worth(ConvoyRobot& robot) noexcept {
+  RobotId worst = nobody;
+  int fewest = INT16_MAX;
+  for (Task& task : tasks(robot.self)) {
+    if (task.holder == nobody || task.reached || task.unlocated) continue;
+    const RobotId holder = std::exchange(task.holder, nobody);
+    const int robots = best_tree(robot).robots;
+    task.holder = holder;
+    if (robots >= fewest) continue;
+    fewest = robots;
+    worst = task.serves;
+  }
+  return worst;
+}
+
+// Spares are called in vain, and no worker has come nearer to its target for a while: one is given up. To all robots
+// its host is then that target itself.
+void shed(ConvoyRobot& robot) noexcept {
+  ConvoyState& self = robot.self;
+  if (self.shed != nobody) {
+    const Task* task = find_task(self, self.shed);
+    const bool over = task == nullptr || task->holder == nobody;
+    if (task != nullptr) self.hosts[static_cast<std::size_t>(task - self.tasks.data())] = over ? nobody : self.shed;
+    if (over) self.shed = nobody;
+    return;
+  }
+  constexpr int hand_cm = 10;
+  const auto all = tasks(self);
+  const auto reached = static_cast<std::uint8_t>(std::count_if(all.begin(), all.end(), [](const Task& t) { return t.holder != nobody && t.reached; }));
+  const int want_cm = static_cast<int>(self.want_m * 100.0F);
+  const bool is_short = robot.params.shed_after_s > 0.0F && !self.forgets && self.want_m > robot.params.arrival_distance_m && self.call_hops != nobody_calls;
+  if (want_cm == 0 || (self.short_ticks == 0 && !is_short)) return void(self.short_ticks = 0);
+  if (self.short_ticks == 0 || want_cm < self.short_want_cm - hand_cm || reached > self.short_reached) {
+    self.short_ticks = 0;
+    self.short_want_cm = static_cast<std::uint16_t>(want_cm);
+    self.short_reached = reached;
+  }
+  robot.add_elapsed(self.short_ticks);
+  constexpr float sooner = 0.45F;  // once it is known that robots are too few
+  const bool known = std::any_of(all.begin(), all.end(), [](const Task& t) { return t.holder == nobody; });
+  if (self.short_ticks <= robot.params.ticks((known ? sooner : 1.0F) * robot.params.shed_after_s) || !is_short) return;
+  self.shed = least_worth(robot);
+  self.short_ticks = 0;
 }
 
 // ---- Every robot ----
@@ -120,7 +220,7 @@ RobotId lead_of(const ConvoyRobot& robot) noexcept {
   if (robot.convoy_of(robot.parent).below == self.below) return nobody;  // the parent leads
   const Task* served = find_active(robot, self.below);
   const Task* host = served == nullptr ? nullptr : find_active(robot, self.hosts[static_cast<std::size_t>(served - self.tasks.data())]);
-  if (host == nullptr || self.above == host->serves) return nobody;
+  if (host == nullptr || host == served || self.above == host->serves) return nobody;
   return host->serves;
 }
 
@@ -147,13 +247,18 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
   if (robot.is_root()) {
     self.above = nobody;
     command(robot);
+    shed(robot);
   } else {
     hear_parent(robot);
   }
   // With more targets than robots can remember, targets unknown to the root keep branches that no plan would count.
   if (self.forgets) withdraw(self);
-  const auto hosts = std::span(self.hosts).first(self.task_count);
-  const bool planned = std::any_of(hosts.begin(), hosts.end(), [](RobotId host) { return host != nobody; });
+  bool planned = false;
+  for (int k = 0; k < self.task_count; ++k) {
+    const Task& task = self.tasks[k];
+    if (self.hosts[k] != task.serves) planned = planned || self.hosts[k] != nobody;
+    else if (self.is_worker && self.serves == task.serves) yield_task(robot, nobody);
+  }
   robot.add_elapsed(self.plan_ticks);
   if (!planned) self.plan_ticks = 0;
   const RobotId lead_to = lead_of(robot);

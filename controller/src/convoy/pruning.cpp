@@ -31,7 +31,7 @@ bool saves_parent(const ConvoyRobot& robot) noexcept {
 // Takes the reachable neighbour nearest to the root as parent, at once.
 bool merge(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  const float reach_m = robot.params.merge_distance_m;
+  const float reach_m = thrifty_m(robot.params, robot.params.merge_distance_m);
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     if (table.range(k) > reach_m || table.message(k).label_cm >= robot.self.label_cm || !is_ahead(robot, k)) continue;
@@ -59,7 +59,7 @@ void want_parent(ConvoyRobot& robot, float reach_m, int turn) noexcept {
 void follow_pending(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   const int k = robot.table().find(self.pending_parent);
-  const float reach_m = robot.params.merge_distance_m;
+  const float reach_m = thrifty_m(robot.params, robot.params.merge_distance_m);
   if (k < 0 || ++self.pending_ticks > pending_limit_ticks || robot.table().range(k) > reach_m || !can_carry(robot, k)) {
     self.pending_parent = nobody;
   } else if (is_ahead(robot, k)) {
@@ -77,7 +77,7 @@ void want_next_step(ConvoyRobot& robot) noexcept {
   float best_m = distance(table.position(robot.parent), goal) - shorter_by * c;
   for (int k = 0; k < table.size(); ++k) {
     const float d = distance(table.position(k), goal);
-    if (d >= best_m || table.range(k) > robot.params.merge_distance_m || !can_carry(robot, k)) continue;
+    if (d >= best_m || table.range(k) > thrifty_m(robot.params, robot.params.merge_distance_m) || !can_carry(robot, k)) continue;
     best = k;
     best_m = d;
   }
@@ -100,7 +100,7 @@ void prune(ConvoyRobot& robot) noexcept {
   const int turn = self.phase_ticks / period;
   const float c = p.communication_range_m;
   if (!saves_parent(robot)) want_parent(robot, robot.table().range(robot.parent) - shorter_by * c, turn);
-  else if (!merge(robot)) want_parent(robot, p.merge_distance_m, turn);
+  else if (!merge(robot)) want_parent(robot, thrifty_m(p, p.merge_distance_m), turn);
 }
 
 }  // namespace banyan

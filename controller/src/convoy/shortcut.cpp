@@ -26,7 +26,8 @@ void release(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   // A worker cannot be towed: a robot released between it and the root is free for the edge to its child.
   const bool helps = robot.self.is_worker && robot.self.call_hops == 1;
-  const float limit_m = has_arrived(robot) || helps ? std::max(p.release_distance_m, p.merge_distance_m) : p.release_distance_m;
+  const float merge_m = has_arrived(robot) ? thrifty_m(p, p.merge_distance_m) : helps ? p.merge_distance_m : 0.0F;
+  const float limit_m = std::max(p.release_distance_m, merge_m);
   const float reach_m = limit_m - releases_later * table.spread_m();
   if (may_be_parent(robot, k, reach_m)) take_parent(robot, k);
 }

@@ -179,6 +179,22 @@ int pruning_way(const ConvoyRobot& robot) noexcept {
   return best;
 }
 
+// With thrift: it goes on along the circles on which its other edges stay stretched, instead of stopping there.
+Vec2 sliding(const ConvoyRobot& robot, int way) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  Vec2 u = unit(table.position(way));
+  // Twice, since drawing nearer to one child may lead away from another.
+  for (int turn = 0; turn < 2; ++turn)
+    for (const int k : robot.children) {
+      if (k == way || table.message(k).role == Role::spare) continue;
+      const float slack = std::clamp((thrifty_m(p, p.compact_distance_m) - table.range(k)) / (compact_width * p.communication_range_m), -1.0F, 1.0F);
+      const Vec2 away = -unit(table.position(k));
+      if (const float too_fast = dot(u, away) - slack; too_fast > 0.0F) u += away * -too_fast;
+    }
+  return u * compact_gain;
+}
+
 // Rule 9: a connector whose workers have arrived moves until its longest other edge is stretched. So the
 // slack of a branch gathers at one end, where a robot becomes superfluous.
 Vec2 compaction(const ConvoyRobot& robot) noexcept {
@@ -191,6 +207,7 @@ Vec2 compaction(const ConvoyRobot& robot) noexcept {
   for (const int k : robot.children)
     if (k != way && table.message(k).role != Role::spare && (longest < 0 || table.range(k) > table.range(longest))) longest = k;
   if (longest < 0) return robot.is_root() ? unit(table.position(way)) * compact_gain : Vec2{};
+  if (p.thrift > 0.0F) return sliding(robot, way);
   const float slack = std::clamp((p.compact_distance_m / c - table.range(longest) / c) / compact_width, -1.0F, 1.0F);
   return (slack > 0.0F ? unit(table.position(way)) : -unit(table.position(longest))) * (slack * compact_gain);
 }

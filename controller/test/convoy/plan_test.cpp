@@ -141,6 +141,97 @@ TEST(Plan, GrowsLevelByLevel) {
   EXPECT_EQ(hosted(), 2);
 }
 
+TEST(Plan, WithThriftGrowsFromItsLeavesInwards) {
+  ConvoyBench bench = commander({{0, 0}, {3, 0}, {6, 0}, {9, 0}, {12, 0}}, 60);
+  bench.params.thrift = 1.0F;
+  run(bench, ticks_until_plan(bench));
+  EXPECT_EQ(bench.state.hosts[0], 101);  // the ends first: the centre is target 102
+  EXPECT_EQ(bench.state.hosts[4], 103);
+  EXPECT_EQ(bench.state.hosts[1], nobody);
+  run(bench, 250);
+  EXPECT_EQ(bench.state.hosts[1], 102);
+  EXPECT_EQ(bench.state.hosts[3], 102);
+  EXPECT_EQ(bench.state.hosts[2], nobody);
+}
+
+TEST(Thrift, StretchesLengthsTowardsTheLongestEdge) {
+  ConvoyParams p = convoy_defaults();
+  EXPECT_EQ(thrifty_m(p, p.merge_distance_m), p.merge_distance_m) << "0: to the bit";
+  float before = p.merge_distance_m;
+  for (const float thrift : {0.25F, 0.5F, 1.0F}) {
+    p.thrift = thrift;
+    EXPECT_GT(thrifty_m(p, p.merge_distance_m), before);
+    EXPECT_LT(thrifty_m(p, p.merge_distance_m), p.ideal_distance_m);
+    before = thrifty_m(p, p.merge_distance_m);
+  }
+}
+
+// Two near targets are held, of two far ones the farther is 2 m from its worker, and spares are called.
+ConvoyBench starving() {
+  ConvoyBench bench = commander({{2, 0}, {3, 0}, {6, 0}, {-12, 0}}, 12);
+  bench.state.tasks[0].reached = bench.state.tasks[1].reached = true;
+  bench.state.call_hops = 3;
+  bench.say(5).want_cm = 200;
+  return bench;
+}
+bool gives_up(const ConvoyBench& bench, int k) { return bench.state.hosts[static_cast<std::size_t>(k)] == 100 + k; }
+int given_up(const ConvoyBench& bench) {
+  int count = 0;
+  for (int k = 0; k < bench.state.task_count; ++k) count += gives_up(bench, k) ? 1 : 0;
+  return count;
+}
+
+TEST(Shed, TheTargetThatCostsMostIsGivenUpOnceNobodyGetsOn) {
+  ConvoyBench bench = starving();
+  const int after = bench.params.ticks(bench.params.shed_after_s);
+  run(bench, after);
+  EXPECT_EQ(given_up(bench), 0);
+  run(bench, 2);
+  EXPECT_TRUE(gives_up(bench, 3));
+  EXPECT_EQ(given_up(bench), 1) << "one at a time";
+  EXPECT_FALSE(is_planned(bench.state)) << "spares are still called";
+  bench.state.tasks[3].holder = nobody;  // its worker has heard of it
+  run(bench, 2);
+  EXPECT_EQ(given_up(bench), 0);
+  run(bench, after / 2);
+  EXPECT_TRUE(gives_up(bench, 2)) << "sooner, now that it is known, and none that is held";
+}
+
+TEST(Shed, NotWhileAnybodyGetsOnOrNoSpareIsMissed) {
+  for (const int what : {0, 1, 2, 3}) {
+    ConvoyBench bench = starving();
+    if (what == 1) bench.state.call_hops = nobody_calls;
+    if (what == 2) bench.params.shed_after_s = 0.0F;
+    if (what == 3) bench.say(5).want_cm = 3000;
+    for (int second = 0; second < 150; ++second) {
+      run(bench, 10);
+      if (what == 3) bench.say(5).want_cm -= 15;
+    }
+    EXPECT_EQ(given_up(bench), what == 0 ? 1 : 0) << what;
+  }
+}
+
+TEST(Shed, TheWorkerThatHearsOfItIsNoWorkerAnyMoreAndNobodyFollows) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.state.role = Role::worker;
+  bench.state.is_worker = true;
+  bench.state.serves = 101;
+  bench.state.parent = 5;
+  know(bench.state, {{6, 0}, {6, 3}});
+  auto& m = bench.put(5, {1.0F, 0.0F});
+  m.role = Role::connector;
+  m.task_serves = m.task_host = 100;
+  auto robot = bench.tick();
+  take_part_in_plan(robot);
+  EXPECT_TRUE(bench.state.is_worker) << "another's target";
+  m.task_serves = m.task_host = 101;
+  auto again = bench.tick();
+  take_part_in_plan(again);
+  EXPECT_FALSE(bench.state.is_worker);
+  EXPECT_EQ(bench.state.tasks[1].holder, nobody);
+  EXPECT_EQ(bench.state.lead_to, nobody);
+}
+
 TEST(Plan, TravelsDownTheTreeFromTheParentOnly) {
   ConvoyBench bench = grown<Convoy>();
   bench.state.role = Role::connector;

@@ -33,4 +33,9 @@ struct RelayTree {
 // `exact` is true where the lower bound is met, with more only if no relay is needed.
 [[nodiscard]] RelayTree fewest_relays(const std::vector<world::Vec2>& targets, double range_m);
 
+// The most targets that so many robots can hold: a worker for each, and relays as above, at least one robot besides
+// the workers. Up to nine targets over all sets of them, each with its fewest relays; more: sets that grow from each
+// target by what is nearest, so the true number may be larger.
+[[nodiscard]] std::uint32_t most_targets(const std::vector<world::Vec2>& targets, double range_m, std::uint32_t robots);
+
 }  // namespace banyan::measure

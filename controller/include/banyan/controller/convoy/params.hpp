@@ -25,9 +25,17 @@ struct ConvoyParams : PowerParams {
   float merge_distance_m = 1.86F;    // longest edge made to save a robot, once all below have arrived
   float compact_distance_m = 1.82F;  // a chain that has arrived stretches its edges to this
   float plan_after_s = 15.0F;        // all have arrived: the root plans chains from target to target; 0: never
+  float shed_after_s = 90.0F;        // spares missed for so long without progress: the root gives a target up; 0: never
+  float thrift = 0.0F;               // 0 to 1: how much robots count against time, once workers have arrived
   float companion_distance_m = 0.3F; // how far beside its robot a companion stands
   int link_redundancy = 1;           // the mission's k: each robot that the tree depends on has k - 1 companions
 };
+
+// A length between robots that have arrived: with thrift nearer to G, which no edge outgrows.
+[[nodiscard]] inline float thrifty_m(const ConvoyParams& params, float length_m) noexcept {
+  constexpr float most = 0.7F;
+  return length_m + most * params.thrift * (params.ideal_distance_m - length_m);
+}
 
 [[nodiscard]] std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept;
 

@@ -24,6 +24,15 @@ struct ConvoyState : HealingState {
   std::uint16_t settled_ticks = 0;       // the root: since all workers arrived
   std::uint16_t unsettled_ticks = 0;     // or since one no longer has
   std::uint16_t plan_ticks = 0;          // of the plan that is being carried out
+  std::uint8_t plan_targets = 0;         // thrift, the root: for so many targets it has planned
+  std::uint8_t plan_levels = 0;          // of its plan; 0: there is none
+  std::uint8_t plan_steps = 0;           // begun so far
+  std::array<std::uint8_t, task_capacity> plan_level{};
+  std::array<RobotId, task_capacity> planned = none();  // hosts of all levels
+  RobotId shed = nobody;                 // the root: the target that it is giving up, since robots are too few
+  std::uint16_t short_ticks = 0;         // spares have been missed for so long without progress:
+  std::uint16_t short_want_cm = 0;       // the least distance that was left since
+  std::uint8_t short_reached = 0;        // so many targets were reached
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 
   // A second path (redundancy/companions.hpp)
@@ -57,7 +66,12 @@ constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
   visit(s.pending_ticks), visit(s.warned), visit(s.above), visit(s.below), visit(s.lead_to), visit(s.led_from), visit(s.lead_ticks);
   visit(s.settled_ticks), visit(s.unsettled_ticks), visit(s.plan_ticks);
   for (int k = 0; k < s.task_count; ++k) visit(s.hosts[static_cast<std::size_t>(k)]);
-  // Left out where they are not in use, so that hashes of runs without companions are those of before.
+  // Left out where they are not in use, so that hashes of runs without them are those of before.
+  if (s.shed != nobody) visit(s.shed), visit(s.short_ticks), visit(s.short_want_cm), visit(s.short_reached);
+  if (s.plan_targets != 0) {
+    visit(s.plan_targets), visit(s.plan_levels), visit(s.plan_steps);
+    for (int k = 0; k < s.task_count; ++k) visit(s.planned[static_cast<std::size_t>(k)]), visit(s.plan_level[static_cast<std::size_t>(k)]);
+  }
   if (s.accompanies != nobody) visit(s.accompanies);
   if (s.alone_ticks != 0) visit(s.alone_ticks);
   visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
