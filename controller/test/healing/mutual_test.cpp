@@ -61,7 +61,7 @@ TEST(Mutual, EveryNeighbourIsNamedInItsTurn) {
   EXPECT_EQ(named[first + 3 < 6 ? first + 3 : first], 2) << "and again from the smallest";
 }
 
-// Robot 2 hears `others`, and robot 1 if `hears_me`; 1 hears a part of what 2 says. Does it take 2 for deaf within `ticks`?
+// Robot 2 hears `others`, and robot 1 if `hears_me`; 1 hears a part of that. Is 2 deaf for 1 within `ticks`?
 bool takes_for_deaf(const std::vector<RobotId>& others, bool hears_me, float loss, std::uint32_t seed, int ticks) {
   std::mt19937 random(seed);
   const auto arrives = [&] { return static_cast<float>(random() % 10000) >= loss * 10000.0F; };
