@@ -560,6 +560,18 @@ template <class Options> void add_page_beside(CLI::App& command, Options& option
   command.add_flag("--view", options.view, "show it live in the browser; the page stays until Ctrl-C");
 }
 
+// How long robots may be silent, at first and later.
+template <class Options> void add_patience(CLI::App& command, Options& options) {
+  command.add_option("--wait", options.wait_s, "how long to wait for robots at first, s; default 10")
+      ->type_name("S")
+      ->check(moment);
+  command
+      .add_option("--dead-after", options.dead_after_s,
+                  "a robot that is silent for this long counts as dead, s; default 5")
+      ->type_name("S")
+      ->check(number_within(0.5, 1e6));
+}
+
 template <class Options> void add_pace(CLI::App& command, Options& options) {
   command.add_option("--speed", options.speed, "speed of all clocks, default 1; for tests")
       ->type_name("X")
@@ -582,14 +594,7 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
       ->type_name("ADDRESSES");
   command->add_option("--listen", options->listen, "where robots find it, default 0.0.0.0:4600")->type_name("ADDRESS:PORT");
   command->add_flag("--print-robots", options->print_robots, "print the command line of each robot and exit");
-  command->add_option("--wait", options->wait_s, "how long to wait for robots at first, s; default 10")
-      ->type_name("S")
-      ->check(moment);
-  command
-      ->add_option("--dead-after", options->dead_after_s,
-                   "a robot that is silent for this long counts as dead, s; default 5")
-      ->type_name("S")
-      ->check(number_within(0.5, 1e6));
+  add_patience(*command, *options);
   command->add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")->type_name("ADDRESS:PORT");
   command->add_option("--tape", options->tape, "keep here what robots say and the tracker sees, to resume from")
       ->type_name("FILE");
@@ -609,14 +614,7 @@ void add_listen(CLI::App& app, std::function<int()>& action) {
   command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->required()->type_name("FILE");
   command->add_option("--listen", options->listen, "where robots report to, their --tell; default 0.0.0.0:4700")
       ->type_name("ADDRESS:PORT");
-  command->add_option("--wait", options->wait_s, "how long to wait for robots at first, s; default 10")
-      ->type_name("S")
-      ->check(moment);
-  command
-      ->add_option("--dead-after", options->dead_after_s,
-                   "a robot that is silent for this long counts as dead, s; default 5")
-      ->type_name("S")
-      ->check(number_within(0.5, 1e6));
+  add_patience(*command, *options);
   command->add_option("--speed", options->speed, "speed of its clock, default 1; for tests")
       ->type_name("X")
       ->check(number_within(0.01, 100.0));

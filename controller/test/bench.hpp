@@ -91,6 +91,17 @@ class BenchOf {
     n.message.root = state.root;
     return n.message;
   }
+  // A connector of the tree, not far from the root, with a label and a sequence number.
+  Message& put_connector(RobotId id, Vec2 position, std::uint16_t label_cm, std::uint16_t seqno) {
+    Message& m = put(id, position);
+    m.role = Role::connector;
+    m.parent = 9;
+    m.depth = 2;
+    m.tree_hops = 0;
+    m.label_cm = label_cm;
+    m.seqno = seqno;
+    return m;
+  }
   Message& say(RobotId id) { return neighbors_.at(id).message; }
   void move(RobotId id, Vec2 position) { neighbors_.at(id).position = position; }
   void silence(RobotId id) { neighbors_.erase(id); }

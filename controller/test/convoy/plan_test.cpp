@@ -197,6 +197,19 @@ TEST(Shed, TheTargetThatCostsMostIsGivenUpOnceNobodyGetsOn) {
   EXPECT_TRUE(gives_up(bench, 2)) << "sooner, now that it is known, and none that is held";
 }
 
+TEST(Shed, HowLongSparesHaveBeenMissedIsInTheHash) {
+  ConvoyBench bench = starving();
+  run(bench, 5);
+  ConvoyState later = bench.state;
+  ++later.short_ticks;
+  ASSERT_EQ(later.shed, nobody);
+  Digest now;
+  Digest then;
+  add_to(now, bench.state);
+  add_to(then, later);
+  EXPECT_NE(now.value(), then.value());
+}
+
 TEST(Shed, NotWhileAnybodyGetsOnOrNoSpareIsMissed) {
   for (const int what : {0, 1, 2, 3}) {
     ConvoyBench bench = starving();

@@ -20,13 +20,7 @@ struct Follower {
     bench.state.role = Role::spare;
     bench.state.label_cm = 300;
     bench.state.seqno = 10;
-    auto& tree = bench.put(2, {1.2F, 0.0F});
-    tree.role = Role::connector;
-    tree.parent = 9;
-    tree.depth = 2;
-    tree.tree_hops = 0;
-    tree.label_cm = 100;
-    tree.seqno = 11;
+    bench.put_connector(2, {1.2F, 0.0F}, 100, 11);
     auto& spare = bench.put(3, {0.4F, 0.0F});
     spare.grant = 2;
     spare.tree_hops = 1;

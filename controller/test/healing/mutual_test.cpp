@@ -27,13 +27,7 @@ struct Beside {
   Beside() {
     bench.state.role = Role::spare;
     bench.state.label_cm = 300;
-    auto& tree = bench.put(2, {1.2F, 0.0F});
-    tree.role = Role::connector;
-    tree.parent = 9;
-    tree.depth = 2;
-    tree.tree_hops = 0;
-    tree.label_cm = 100;
-    tree.seqno = 1;
+    bench.put_connector(2, {1.2F, 0.0F}, 100, 1);
   }
   void speak() { bench.say(2).count = named[static_cast<std::size_t>(turn++) % named.size()]; }
   Output<ConvoyMessage> steps(int count) {

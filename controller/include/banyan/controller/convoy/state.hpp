@@ -67,7 +67,8 @@ constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
   visit(s.settled_ticks), visit(s.unsettled_ticks), visit(s.plan_ticks);
   for (int k = 0; k < s.task_count; ++k) visit(s.hosts[static_cast<std::size_t>(k)]);
   // Left out where they are not in use, so that hashes of runs without them are those of before.
-  if (s.shed != nobody) visit(s.shed), visit(s.short_ticks), visit(s.short_want_cm), visit(s.short_reached);
+  if (s.shed != nobody) visit(s.shed);
+  if (s.short_ticks != 0) visit(s.short_ticks), visit(s.short_want_cm), visit(s.short_reached);
   if (s.plan_targets != 0) {
     visit(s.plan_targets), visit(s.plan_levels), visit(s.plan_steps);
     for (int k = 0; k < s.task_count; ++k) visit(s.planned[static_cast<std::size_t>(k)]), visit(s.plan_level[static_cast<std::size_t>(k)]);
