@@ -26,7 +26,7 @@ int main() {
       senses.odometry = odometry[i];
       senses.orders.sent = i == 1;
       senses.orders.target = rotate_back(heading[i], target - position[i]);
-      output[i] = outwards_step(params, states[i], std::span(heard, tick > 0 ? 1 : 0), senses);
+      output[i] = outwards_step(params, states[i], {std::span(heard, tick > 0 ? 1 : 0), senses, params});
     }
     sent[0] = output[0].message;
     sent[1] = output[1].message;

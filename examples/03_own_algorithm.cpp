@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "banyan/controller/core/algorithm_of.hpp"
-#include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/core/output.hpp"
 #include "banyan/world/world.hpp"
 
@@ -24,9 +23,9 @@ struct Spread {
   struct Heard { const Hello* message; Vec2 position; float age_s; };  // where the sender is: x ahead, y to the left
 
   static State initial(RobotId id, bool, bool) { return {id}; }
-  static Output<Hello> step(const Params& params, State& self, std::span<Heard> heard, const Senses& senses) {
+  static Output<Hello> step(const Params&, State& self, const Inputs<Heard>& inputs) {
     Vec2 away;
-    for (const Heard& h : Gate(senses, params).packets(heard, params))  // drops what is not finite or too far
+    for (const Heard& h : inputs.heard())  // what is not finite or too far has been dropped
       if (const float d = norm(h.position); d < 1.0F && d > 0.0F) away -= h.position * ((1.0F - d) / d);
     return {{self.id}, {std::clamp(away.x, 0.0F, 0.1F), 0.0F, std::clamp(4.0F * away.y, -1.0F, 1.0F)}};
   }

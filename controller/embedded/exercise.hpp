@@ -65,7 +65,7 @@ inline constexpr bool hashes_state = BANYAN_EXERCISE_HASHES_STATE;
 
 // The same for an algorithm. Returns a hash of all velocities, of every byte that travels and of the state at the end.
 template <class Message, class Params, class State>
-std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, std::span<Heard>, const Senses&) noexcept, const Params& params,
+std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, const Inputs<Heard>&) noexcept, const Params& params,
                        State& state) noexcept {
   std::array<std::optional<Message>, neighbors> received;
   Message said{};
@@ -79,7 +79,7 @@ std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, std::span<
     return received[k] ? &*received[k] : nullptr;
   };
   const auto move = [&](std::span<Heard> heard, const Senses& senses) {
-    const Output<Message> output = step(params, state, heard, senses);
+    const Output<Message> output = step(params, state, {heard, senses, params});
     said = output.message;
     return output.velocity;
   };

@@ -31,14 +31,14 @@ bool is_written_back(const Message& message, std::span<const std::uint8_t> bytes
 
 // Three ticks of a robot that hears nothing but this.
 template <class Message, class Params, class State>
-void hear(Output<Message> (*step)(const Params&, State&, std::span<Heard>, const Senses&) noexcept, const Params& params, State state,
+void hear(Output<Message> (*step)(const Params&, State&, const Inputs<Heard>&) noexcept, const Params& params, State state,
           const Message& message, std::uint8_t place) {
   for (int tick = 0; tick < 3; ++tick) {
     Heard heard{&message, {0.01F * static_cast<float>(place), 0.5F}};
     Senses senses;
     senses.orders.sent = state.is_worker;
     senses.orders.target = Vec2{1.0F, 1.0F};
-    const Output<Message> output = step(params, state, {&heard, 1}, senses);
+    const Output<Message> output = step(params, state, {{&heard, 1}, senses, params});
     require(std::isfinite(output.velocity.forward_m_s) && std::isfinite(output.velocity.turn_rad_s));
     std::array<std::uint8_t, wire_size<Message>()> wire;
     encode_fields(output.message, wire);

@@ -34,10 +34,9 @@ void select_nearest_parent(TreeRobot& robot) noexcept {
 
 HealingParams outwards_defaults() noexcept { return {}; }  // the defaults of TreeParams
 
-Output<TreeMessage> outwards_literal_step(const TreeParams& params, TreeState& state, std::span<Heard> heard, const Senses& senses) noexcept {
-  const Admitted admitted(senses, heard, params, state.tally);
-  TreeRobot robot(params, literal_reading, state, admitted);
-  begin_tick(robot, admitted);
+Output<TreeMessage> outwards_literal_step(const TreeParams& params, TreeState& state, const Inputs<Heard>& inputs) noexcept {
+  TreeRobot robot(params, literal_reading, state, inputs);
+  begin_tick(robot, inputs);
   listen(robot);                                       // the largest epoch, phase and root token heard
   accept_offer(robot);                                 // Select Root, the heir's side
   index_neighbors(robot);                              // who are my parent and children
@@ -59,10 +58,9 @@ Output<TreeMessage> outwards_literal_step(const TreeParams& params, TreeState& s
   return output;
 }
 
-Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& state, std::span<Heard> heard, const Senses& senses) noexcept {
-  const Admitted admitted(senses, heard, params, state.tally);
-  HealingRobot robot(params, state, admitted);
-  begin_tick(robot, admitted);
+Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& state, const Inputs<Heard>& inputs) noexcept {
+  HealingRobot robot(params, state, inputs);
+  begin_tick(robot, inputs);
   estimate_loss(robot);                                // how long neighbours may be silent
   listen_among_fragments(robot);
   accept_offered_root(robot);                          // Select Root, the heir's side

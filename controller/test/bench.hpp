@@ -27,8 +27,8 @@ struct LiteralKind {
   using Robot = TreeRobot;
   static Params defaults() { return defaults_function(); }  // NOLINT(cppcoreguidelines-slicing): the tree's share of them
   static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, literal_reading, state, admitted}; }
-  static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_function(params, state, heard, senses); }
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) { return {params, literal_reading, state, inputs}; }
+  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) { return step_function(params, state, inputs); }
 };
 
 template <auto defaults_function, auto step_function>
@@ -39,8 +39,8 @@ struct CorrectedKind {
   using Robot = HealingRobot;
   static Params defaults() { return defaults_function(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_healing_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, state, admitted}; }
-  static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_function(params, state, heard, senses); }
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) { return {params, state, inputs}; }
+  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) { return step_function(params, state, inputs); }
 };
 
 struct Convoy {
@@ -50,8 +50,8 @@ struct Convoy {
   using Robot = ConvoyRobot;
   static Params defaults() { return convoy_defaults(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_convoy_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Admitted& admitted) { return {params, state, admitted}; }
-  static auto step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return convoy_step(params, state, heard, senses); }
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) { return {params, state, inputs}; }
+  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) { return convoy_step(params, state, inputs); }
 };
 
 using Outwards = CorrectedKind<outwards_defaults, outwards_step>;
@@ -117,15 +117,15 @@ class BenchOf {
   // No more obstacles than the gate lets pass: the robot refers to them here.
   Robot tick(const Odometry& odometry = {}) {
     listen();
-    const Admitted admitted(senses(odometry), heard_, params, state.tally);
-    Robot robot = Kind::robot(params, state, admitted);
-    begin_tick(robot, admitted);
+    const Inputs<Heard> inputs(heard_, senses(odometry), params);
+    Robot robot = Kind::robot(params, state, inputs);
+    begin_tick(robot, inputs);
     index_neighbors(robot);
     return robot;
   }
   Output<Message> step(const Odometry& odometry = {}) {
     listen();
-    return Kind::step(params, state, heard_, senses(odometry));
+    return Kind::step(params, state, {heard_, senses(odometry), params});
   }
   Output<Message> steps(int count) {
     Output<Message> output;

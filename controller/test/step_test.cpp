@@ -120,7 +120,7 @@ TEST(Step, StandsNonsenseWithoutTheHeap) {
                           .obstacles = std::span(obstacles).first(noise.word(2))};
       const auto before = state;
       const long start = allocations;
-      const auto output = Kind::step(params, state, heard, senses);
+      const auto output = Kind::step(params, state, {heard, senses, params});
       taken += allocations - start;
       bad_wheels += within_limits(output.velocity, params) ? 0 : 1;
       bad_messages += over_the_wire(output.message) == output.message ? 0 : 1;
@@ -154,8 +154,8 @@ TEST(Step, IsAPureFunctionOfItsArguments) {
     for (int t = 0; t < 300; ++t) {
       const auto heard = crowd.speak(noise, 20, 30);
       auto again = crowd.heard;  // a step may work on what it is given
-      const auto x = Kind::step(params, a, heard, senses);
-      const auto y = Kind::step(params, b, again, senses);
+      const auto x = Kind::step(params, a, {heard, senses, params});
+      const auto y = Kind::step(params, b, {again, senses, params});
       ASSERT_EQ(x.message, y.message);
       ASSERT_EQ(x.velocity.forward_m_s, y.velocity.forward_m_s);
       ASSERT_EQ(x.velocity.turn_rad_s, y.velocity.turn_rad_s);
@@ -251,7 +251,7 @@ struct Sensing {
     }
     Heard heard{&root, r.position, r.age_s};
     r.senses.obstacles = r.obstacles;
-    return Kind::step(params, state, {&heard, 1}, r.senses);
+    return Kind::step(params, state, {{&heard, 1}, r.senses, params});
   }
   Output<typename Kind::Message> steps(int count) {
     Output<typename Kind::Message> output;

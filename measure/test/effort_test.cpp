@@ -40,7 +40,7 @@ struct Scripted {
   };
   struct Heard { const Nod* message; banyan::Vec2 position; float age_s; };
   static State initial(RobotId id, bool, bool) { return {id, 0}; }
-  static Output<Nod> step(const Params&, State& self, std::span<Heard>, const Senses&) {
+  static Output<Nod> step(const Params&, State& self, const Inputs<Heard>&) {
     ++self.steps;
     const float speed_m_s = self.id == 1 ? 0.1F : self.id == 3 ? (self.steps % 4 < 2 ? 0.1F : -0.1F) : 0.0F;
     return {{self.id}, {speed_m_s, 0.0F, self.id == 2 ? 1.0F : 0.0F}};

@@ -32,7 +32,7 @@ struct Standing {
   struct State { RobotId id; };
   struct Heard { const Hello* message; banyan::Vec2 position; float age_s; };
   static State initial(RobotId id, bool, bool) { return {id}; }
-  static Output<Hello> step(const Params&, State& self, std::span<Heard>, const Senses&) { return {{self.id}, {}}; }
+  static Output<Hello> step(const Params&, State& self, const Inputs<Heard>&) { return {{self.id}, {}}; }
   static Report report(const State& self) {
     Report r;
     r.role = self.id == 0 ? Role::root : Role::connector;

@@ -288,8 +288,8 @@ TEST(Observer, HeldTimeCountsFromCompletionOn) {
 
 // outwards, but robot 2 calls itself root now and then, and counts what nobody does here.
 struct Pretending : CorrectedSwarm<outwards_step> {
-  static Output<HealingMessage> step(const HealingParams& params, HealingState& self, std::span<Heard> heard, const Senses& senses) {
-    Output<HealingMessage> output = outwards_step(params, self, heard, senses);
+  static Output<HealingMessage> step(const HealingParams& params, HealingState& self, const Inputs<Heard>& inputs) {
+    Output<HealingMessage> output = outwards_step(params, self, inputs);
     if (self.id != 2 || self.phase_ticks % 16 < 9) return output;
     output.message.role = self.role = Role::root;
     self.tally.elections += 1;

@@ -44,10 +44,10 @@ struct Shy {
   };
   static State initial(RobotId id, bool, bool) { return {id, 0}; }
   // Away from the nearest neighbour.
-  static Output<Message> step(const Params& params, State& self, std::span<Heard> heard, const Senses&) {
+  static Output<Message> step(const Params& params, State& self, const Inputs<Heard>& inputs) {
     Output<Message> output;
     Vec2 nearest{params.communication_range_m, 0.0F};
-    for (const Heard& h : heard)
+    for (const Heard& h : inputs.heard())
       if (squared_norm(h.position) < squared_norm(nearest)) nearest = h.position;
     if (norm(nearest) < 0.9F * params.communication_range_m) {
       ++self.fled_ticks;

@@ -31,7 +31,7 @@ struct Saying {
     bool root = true;
   };
   static State initial(RobotId id, bool, bool) { return {id}; }
-  static Output<Message> step(const Params& params, State&, std::span<Heard>, const Senses&) { return {params.words, {}}; }
+  static Output<Message> step(const Params& params, State&, const Inputs<Heard>&) { return {params.words, {}}; }
   static Report report(const State&) { return {}; }
   static void add_to(Digest& digest, const State& state) { digest.add(state.id); }
 };

@@ -9,7 +9,7 @@ int main() {
   using Message = banyan::HealingMessage;
   const banyan::HealingParams params = banyan::outwards_defaults();
   banyan::HealingState state = banyan::initial_healing_state(7, false, true);
-  const auto output = banyan::outwards_step(params, state, {}, {});
+  const auto output = banyan::outwards_step(params, state, {{}, {}, params});
   std::array<std::uint8_t, banyan::wire_size<Message>()> wire;
   banyan::encode_fields(output.message, wire);
   return output.message.id == 7 && banyan::decode_fields<Message>(wire) == output.message ? 0 : 1;

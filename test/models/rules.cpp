@@ -46,10 +46,9 @@ class Bench {
   // All of them are in the table and have just been heard.
   template <class Call>
   void step(Call call) {
-    const Senses senses;
-    const Admitted admitted(senses, std::span(heard_).first(count_), params(), self().tally);
-    HealingRobot robot(params(), self(), admitted);
-    begin_tick(robot, admitted);
+    const Inputs<Heard> inputs(std::span(heard_).first(count_), {}, params());
+    HealingRobot robot(params(), self(), inputs);
+    begin_tick(robot, inputs);
     index_neighbors(robot);
     call(robot);
   }

@@ -204,7 +204,7 @@ PoweredConvoyState initial_powered_state(RobotId id, bool worker, bool root) noe
   return state;
 }
 
-void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
+void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept {
   carry_memory(robot.self, robot.carry);
   ConvoyState& self = robot.self;
   file_heard(robot);
@@ -226,14 +226,14 @@ void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept {
     close_gap(self.convoy_standings, k, size);
     if (robot.power != nullptr) close_gap(robot.power->power.standings, k, size);
   });
-  follow_orders(robot, admitted.senses().orders);
+  follow_orders(robot, inputs.senses().orders);
 }
 
 // One tick of one robot, with a battery or without. Returns what the motors are to do.
-static Velocity tick(ConvoyRobot& robot, const Admitted& admitted, ConvoyMessage& message) noexcept {
+static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMessage& message) noexcept {
   const ConvoyParams& params = robot.params;
   ConvoyState& state = robot.self;
-  begin_tick(robot, admitted);
+  begin_tick(robot, inputs);
   if (robot.power != nullptr) hand_over_target(*robot.power);
   estimate_loss(robot);                                // how long neighbours may be silent
   listen_among_fragments(robot);                       // the largest epoch, phase and root token heard
@@ -252,7 +252,7 @@ static Velocity tick(ConvoyRobot& robot, const Admitted& admitted, ConvoyMessage
                         .accepts = [](int) { return true; },
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
   if (robot.power != nullptr) {
-    watch_charge(*robot.power, admitted.senses());     // must I be relieved?
+    watch_charge(*robot.power, inputs.senses());     // must I be relieved?
     watch_relief(*robot.power);                        // whom do I relieve?
   }
   take_part_in_plan(robot);                            // chains from target to target
@@ -285,11 +285,10 @@ static Velocity tick(ConvoyRobot& robot, const Admitted& admitted, ConvoyMessage
   return drive(v, guard, params);
 }
 
-Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard, const Senses& senses) noexcept {
-  const Admitted admitted(senses, heard, params, state.tally);
-  ConvoyRobot robot(params, state, admitted);
+Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, const Inputs<Heard>& inputs) noexcept {
+  ConvoyRobot robot(params, state, inputs);
   Output<ConvoyMessage> output;
-  output.velocity = tick(robot, admitted, output.message);
+  output.velocity = tick(robot, inputs, output.message);
   return output;
 }
 
@@ -299,14 +298,13 @@ Report convoy_report(const ConvoyState& s) noexcept {
   return report;
 }
 
-Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, std::span<Heard> heard, const Senses& senses) noexcept {
-  const Admitted admitted(senses, heard, params, state.tally);
-  ConvoyRobot robot(params, state, admitted);
+Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, const Inputs<Heard>& inputs) noexcept {
+  ConvoyRobot robot(params, state, inputs);
   const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
   PowerRobot power{robot, state.power, params, child_count};
   robot.power = &power;
   Output<PoweredConvoyMessage> output;
-  output.velocity = tick(robot, admitted, output.message);
+  output.velocity = tick(robot, inputs, output.message);
   static_cast<PowerStanding&>(output.message) = state.power.said;
   return output;
 }

@@ -54,7 +54,7 @@ void carry_memory(HealingState& self, const Carry& carry) noexcept {
   carry_detour(self.detour, carry);
 }
 
-void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
+void begin_tick(HealingRobot& robot, const Inputs<Heard>& inputs) noexcept {
   carry_memory(robot.self, robot.carry);
   auto& kept = robot.self.healing_standings;
   file_heard(robot);
@@ -67,7 +67,7 @@ void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept {
     }
   }
   forget_silent(robot, [&](int k, int size) { close_gap(kept, k, size); });
-  follow_orders(robot, admitted.senses().orders);
+  follow_orders(robot, inputs.senses().orders);
 }
 
 int write_healing(const HealingRobot& robot, HealingMessage& m) noexcept {

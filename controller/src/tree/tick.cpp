@@ -33,13 +33,7 @@ void carry_memory(TreeState& self, const Carry& carry) noexcept {
   if (self.centroid_known) self.centroid = carry.point(self.centroid);
 }
 
-Admitted::Admitted(const Senses& sensed, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept : Gate(sensed, platform) {
-  heard_ = packets(heard, platform);
-  carry_to_now(heard_, platform);
-  tally.rejected += rejected();
-}
-
-void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
+void begin_tick(TreeRobot& robot, const Inputs<Heard>& inputs) noexcept {
   carry_memory(robot.self, robot.carry);
   file_heard(robot);
   const KnownOfTree known(robot.self);
@@ -47,7 +41,7 @@ void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept {
     if (known.lacks(*h.message)) robot.news.push(h);
   robot.is_tree_news = true;
   forget_silent(robot, [](int, int) {});
-  follow_orders(robot, admitted.senses().orders);
+  follow_orders(robot, inputs.senses().orders);
 }
 
 void file_heard(TreeRobot& robot) noexcept {

@@ -33,7 +33,7 @@ class Network {
       Senses senses;
       senses.orders.sent = is_sent(i);
       if (is_sent(i)) senses.orders.target = targets_[i - first_worker()] - places_[i];
-      next[i] = convoy_step(params, states[i], heard_, senses).message;
+      next[i] = convoy_step(params, states[i], {heard_, senses, params}).message;
     }
     said_ = next;
   }

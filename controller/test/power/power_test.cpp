@@ -61,7 +61,7 @@ struct LoneRobot {
     Senses senses;
     senses.charge = Charge{level, charging};
     std::vector<Heard> heard;
-    return powered_convoy_step(params, state, heard, senses).message;
+    return powered_convoy_step(params, state, {heard, senses, params}).message;
   }
 };
 
@@ -85,7 +85,7 @@ TEST(Power, WithoutAMeasuredChargeNothingIsDecided) {
   LoneRobot root(false, true);
   std::vector<Heard> heard;
   PoweredConvoyMessage said;
-  for (int t = 0; t < 50; ++t) said = powered_convoy_step(root.params, root.state, heard, Senses{}).message;
+  for (int t = 0; t < 50; ++t) said = powered_convoy_step(root.params, root.state, {heard, {}, root.params}).message;
   EXPECT_FALSE(said.leaving);
   EXPECT_EQ(said.level, 0xFF);
 }

@@ -64,8 +64,8 @@ struct Tree {
       std::vector<Heard> heard;
       for (std::size_t k = 0; k < packets.size(); ++k) heard.push_back({&packets[k], from[k]});
       TreeState& s = states[i];
-      const Admitted admitted({}, heard, params, s.tally);
-      TreeRobot robot(params, literal_reading, s, admitted);
+      const Inputs<Heard> inputs(heard, {}, params);
+      TreeRobot robot(params, literal_reading, s, inputs);
       file_heard(robot);
       forget_silent(robot, [](int, int) {});
       index_neighbors(robot);

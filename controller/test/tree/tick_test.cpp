@@ -41,9 +41,8 @@ Vec2 carried(const Path& path, Vec2 measured, float age_s, float elapsed_s) {
   TreeMessage message;
   message.id = 5;
   std::array heard{Heard{&message, measured, age_s}};
-  Tally tally;
-  const Admitted admitted({.odometry = path.odometry(), .elapsed_s = elapsed_s}, heard, Platform{}, tally);
-  return admitted.heard()[0].position;
+  const Inputs<Heard> inputs(heard, {.odometry = path.odometry(), .elapsed_s = elapsed_s}, Platform{});
+  return inputs.heard()[0].position;
 }
 
 Path random_path() {
@@ -83,7 +82,8 @@ TEST(HeardAge, TheTableHasWhatWasCarried) {
     message.id = 5;
     auto state = Kind::initial(1, false, false);
     std::array heard{Heard{&message, path.seen({1.0, 0.5}, 0.05), 0.05F}};
-    Kind::step(Kind::defaults(), state, heard, {.odometry = path.odometry(), .elapsed_s = 0.1F});
+    const auto params = Kind::defaults();
+    Kind::step(params, state, {heard, {.odometry = path.odometry(), .elapsed_s = 0.1F}, params});
     ASSERT_EQ(state.neighbors.size(), 1);
     EXPECT_LT(distance(state.neighbors.position(0), path.seen({1.0, 0.5}, 0.1)), 1e-5F);
   });
@@ -102,7 +102,7 @@ TEST(Table, LongerStepsAgeItFaster) {
   Bench bench;
   bench.put(2, {1.95F, 0});
   bench.step();
-  const auto silent_step = [&] { std::ignore = outwards_step(bench.params, bench.state, {}, {.elapsed_s = 0.5F}); };
+  const auto silent_step = [&] { std::ignore = outwards_step(bench.params, bench.state, {{}, {.elapsed_s = 0.5F}, bench.params}); };
   for (int k = 1; k <= 2; ++k) {
     silent_step();
     ASSERT_EQ(bench.state.neighbors.size(), 1);

@@ -46,21 +46,20 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
   return state;
 }
 
-Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
-  Gate gate(sensed, params);
-  begin_step(params, state, heard, gate, [&](RobotId id) { return is_tied_to(state, id); });
-  state.follow_root(state.id, state.assignment.sent, state.neighbors, gate.elapsed_ticks(), state.tally);
+Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
+  begin_step(params, state, inputs, [&](RobotId id) { return is_tied_to(state, id); });
+  state.follow_root(state.id, state.assignment.sent, state.neighbors, inputs.elapsed_ticks(), state.tally);
 
-  Robot robot{params, state, gate.elapsed_ticks()};
+  Robot robot{params, state, inputs.elapsed_ticks()};
   take_part(robot);
-  watch_links(robot, Carry(gate.senses().odometry));
+  watch_links(robot, Carry(inputs.senses().odometry));
   change_links(robot);
   join(robot);
   follow_team(robot);
 
   Guard guard;
   guard_links(robot, guard);
-  const Vec2 u = spacing_motion(robot) + avoidance(state.neighbors, gate.senses().obstacles, params);
+  const Vec2 u = spacing_motion(robot) + avoidance(state.neighbors, inputs.senses().obstacles, params);
   return {composed(state), move(u, guard, params)};
 }
 

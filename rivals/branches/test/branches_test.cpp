@@ -58,7 +58,7 @@ struct Hub {
     std::vector<Heard> heard;
     heard.reserve(others.size());
     for (std::size_t i = 0; i < others.size(); ++i) heard.push_back({&others[i], at[i]});
-    return Robots::step(params, state, heard, {});
+    return Robots::step(params, state, {heard, {}, params});
   }
   // What it says once it has let them all in.
   Output<Message> settled() {

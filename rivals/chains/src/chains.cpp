@@ -47,19 +47,18 @@ Message composed(const State& s) noexcept {
 
 State initial_state(RobotId id, bool worker, bool root) noexcept { return state_at_start<State>(id, worker, root); }
 
-Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
-  Gate gate(sensed, params);
-  begin_step(params, state, heard, gate, [&](RobotId id) { return is_tied_to(state, id); });
-  state.follow_root(state.id, state.assignment.sent, state.neighbors, gate.elapsed_ticks(), state.tally);
-  remember(state, Carry(gate.senses().odometry));
+Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
+  begin_step(params, state, inputs, [&](RobotId id) { return is_tied_to(state, id); });
+  state.follow_root(state.id, state.assignment.sent, state.neighbors, inputs.elapsed_ticks(), state.tally);
+  remember(state, Carry(inputs.senses().odometry));
 
-  Robot robot{params, state, gate.elapsed_ticks()};
-  follow_chain(robot, gate.senses().orders.given_up);
+  Robot robot{params, state, inputs.elapsed_ticks()};
+  follow_chain(robot, inputs.senses().orders.given_up);
   recruit(robot);
   if (state.is_base()) return {composed(state), {}};
   Guard guard;
   guard_chain(robot, guard);
-  const Vec2 u = spacing_motion(robot) + avoidance(state.neighbors, gate.senses().obstacles, params);
+  const Vec2 u = spacing_motion(robot) + avoidance(state.neighbors, inputs.senses().obstacles, params);
   return {composed(state), move(u, guard, params)};
 }
 

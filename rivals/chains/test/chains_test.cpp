@@ -42,7 +42,7 @@ class OnAxis {
     Senses senses;
     if (state_.is_worker() || state_.assignment.sent) senses.orders = {true, Vec2{target_m, 0.0F}};
     else heard.push_back({&child_, {child_m, 0.0F}});
-    return Robots::step(params_, state_, heard, senses).velocity;
+    return Robots::step(params_, state_, {heard, senses, params_}).velocity;
   }
   [[nodiscard]] const State& state() const { return state_; }
 
@@ -95,9 +95,9 @@ TEST(Chains, TheBaseStaysWhereItIs) {
   const std::array obstacles{Vec2{0.1F, 0.0F}};
   Senses senses;
   senses.obstacles = obstacles;
-  const Velocity v = Robots::step(net.params, net.states[0], heard, senses).velocity;
+  const Velocity v = Robots::step(net.params, net.states[0], {heard, senses, net.params}).velocity;
   EXPECT_TRUE(v.forward_m_s == 0.0F && v.sideways_m_s == 0.0F && v.turn_rad_s == 0.0F);
-  EXPECT_NE(Robots::step(net.params, net.states[1], heard, senses).velocity.forward_m_s, 0.0F) << "another would move";
+  EXPECT_NE(Robots::step(net.params, net.states[1], {heard, senses, net.params}).velocity.forward_m_s, 0.0F) << "another would move";
 }
 
 // Robot 0 is the base, 1 a worker that stands `at`, with its target `target_m` from the base; the rest is free.

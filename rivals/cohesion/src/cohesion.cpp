@@ -11,9 +11,9 @@ namespace {
 constexpr float inertia = 0.8F;  // of a robot's velocity that it keeps
 
 // My own velocity by K, in the frame of now.
-Vec2 velocity_of(const Params& params, const Gate& gate) noexcept {
-  const Odometry& way = gate.senses().odometry;
-  const float elapsed_s = gate.senses().elapsed_s > 0.0F ? gate.senses().elapsed_s : params.tick_s;
+Vec2 velocity_of(const Params& params, const Inputs<Heard>& inputs) noexcept {
+  const Odometry& way = inputs.senses().odometry;
+  const float elapsed_s = inputs.senses().elapsed_s > 0.0F ? inputs.senses().elapsed_s : params.tick_s;
   const Vec2 v = Vec2{way.forward_m, way.sideways_m} / (elapsed_s * params.speed_gain_m_s);
   return clamped(Carry(way).vector(v), 1.0F);
 }
@@ -46,11 +46,10 @@ void say_sectors(Message& m, const Robot& robot, const Boundary& boundary) noexc
 
 State initial_state(RobotId id, bool worker, bool root) noexcept { return state_at_start<State>(id, worker, root); }
 
-Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
-  Gate gate(sensed, params);
-  begin_step(params, state, heard, gate, [](RobotId) { return false; });
-  state.follow_root(state.id, state.assignment.sent, state.neighbors, gate.elapsed_ticks(), state.tally);
-  const Vec2 velocity = velocity_of(params, gate);
+Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
+  begin_step(params, state, inputs, [](RobotId) { return false; });
+  state.follow_root(state.id, state.assignment.sent, state.neighbors, inputs.elapsed_ticks(), state.tally);
+  const Vec2 velocity = velocity_of(params, inputs);
 
   Robot robot{params, state};
   const Boundary boundary = find_boundary(robot);
@@ -66,7 +65,7 @@ Output<Message> step(const Params& params, State& state, std::span<Heard> heard,
     u = velocity * inertia + lattice_force(robot, velocity) + boundary_tension(robot, boundary) + help.pull + drawn_in;
     if (!boundary.is_boundary()) u += leaders_pull(robot, leaders) + density.force;
   }
-  u += avoidance(state.neighbors, gate.senses().obstacles, params);
+  u += avoidance(state.neighbors, inputs.senses().obstacles, params);
 
   Message m{.id = state.id,
             .candidate = boundary.candidate,

@@ -121,7 +121,7 @@ struct Net {
       const Vec2 way = rotate_back(facing[i], driven[i]);
       senses.odometry = {way.x, way.y, 0.0F};
       if (!period.empty()) senses.elapsed_s = static_cast<float>(every) * params.tick_s;
-      said[i] = R::step(params, states[i], heard, senses).message;
+      said[i] = R::step(params, states[i], {heard, senses, params}).message;
       stepped[i] += every;
       driven[i] = {};
       waiting.clear();

@@ -83,7 +83,7 @@ TYPED_TEST_P(Said, AnythingIsSurvived) {
         m.id = *rc::gen::inRange<RobotId>(0, 6);
         heard.push_back({&m, {0.01F * static_cast<float>(byte()), 0.01F * static_cast<float>(byte()) - 1.0F}});
       }
-      const auto output = TypeParam::step(params, state, heard, {});
+      const auto output = TypeParam::step(params, state, {heard, {}, params});
       RC_ASSERT(std::isfinite(output.velocity.forward_m_s) && std::isfinite(output.velocity.turn_rad_s));
       RC_ASSERT(std::abs(output.velocity.forward_m_s) <= params.wheel_limit_m_s);
       RC_ASSERT(over_the_wire(output.message).has_value());

@@ -30,7 +30,7 @@ void expect_finite_motion(const Net<R>& net, typename R::Message wild, int steps
     senses.elapsed_s = bad;
     for (int t = 0; t < steps; ++t) {
       std::vector<typename R::Heard> heard{{&wild, {bad, 0}, bad}, {&net.said[2], {0, 0}}, {&wild, {1, 0}}};
-      const Velocity v = R::step(net.params, s, heard, senses).velocity;
+      const Velocity v = R::step(net.params, s, {heard, senses, net.params}).velocity;
       ASSERT_TRUE(std::isfinite(v.forward_m_s) && std::isfinite(v.turn_rad_s)) << bad;
       if (after) after(s, wild, t);
     }

@@ -46,19 +46,18 @@ Vec2 connectivity_gradient(const Params& params, const State& state) noexcept { 
 
 State initial_state(RobotId id, bool worker, bool root) noexcept { return state_at_start<State>(id, worker, root); }
 
-Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
-  Gate gate(sensed, params);
-  begin_step(params, state, heard, gate, [](RobotId) { return false; });
+Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
+  begin_step(params, state, inputs, [](RobotId) { return false; });
 
-  state.ticks = static_cast<std::uint16_t>(std::min(state.ticks + gate.elapsed_ticks(), 0xFFFF));
+  state.ticks = static_cast<std::uint16_t>(std::min(state.ticks + inputs.elapsed_ticks(), 0xFFFF));
 
-  Robot robot{params, state, gate.elapsed_ticks()};
+  Robot robot{params, state, inputs.elapsed_ticks()};
   spread_news(robot);
   // Neighbours' components are those of the last tick, as mine is until the iteration.
   const Vec2 control = connectivity_control(robot);
   iterate(robot);
   const Vec2 task = state.ticks > params.ticks(params.settling_s) ? target_pull(state.assignment, params) : Vec2{};
-  const Vec2 u = task + control + avoidance(state.neighbors, gate.senses().obstacles, params);
+  const Vec2 u = task + control + avoidance(state.neighbors, inputs.senses().obstacles, params);
   return {composed(state), move(u, Guard{}, params)};
 }
 

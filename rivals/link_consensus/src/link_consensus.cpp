@@ -50,17 +50,16 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
   return state;
 }
 
-Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
-  Gate gate(sensed, params);
-  begin_step(params, state, heard, gate, [&](RobotId id) { return state.links.find(id) >= 0; });
+Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
+  begin_step(params, state, inputs, [&](RobotId id) { return state.links.find(id) >= 0; });
 
-  Robot robot{params, state, state.ticks.advance(gate.senses(), params), gate.elapsed_ticks()};
+  Robot robot{params, state, state.ticks.advance(inputs.senses(), params), inputs.elapsed_ticks()};
   follow_root(robot);
   renew_links(robot);
   agree(robot);
   Guard guard;
   guard_links(robot, guard);
-  return {composed(state), move(desired_motion(robot, gate.senses().obstacles), guard, params)};
+  return {composed(state), move(desired_motion(robot, inputs.senses().obstacles), guard, params)};
 }
 
 Report report(const State& s) noexcept {

@@ -85,7 +85,7 @@ TEST(LinkConsensus, WhoVouchesForABidVouchesForNoOtherBeforeItsLeaseIsOver) {
     net.said[0].bid = from_0;
     net.said[2].bid = from_2;
     std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
-    return step(net.params, middle, heard, {}).message.bid;
+    return step(net.params, middle, {heard, {}, net.params}).message.bid;
   };
   EXPECT_EQ(hears({0, 7, 160, 1, 5, 20}, {}), (Bid{0, 7, 160, 1, 4, 19}));
   for (int t = 18; t > 0; --t) EXPECT_EQ(hears({}, {2, 8, 180, 1, 5, 99}), (Bid{0, 7, 160, 1, 4, static_cast<std::uint8_t>(t)}));
@@ -104,7 +104,7 @@ TEST(LinkConsensus, ALeaseRunsOutByTheClockWhateverAStepLasts) {
       std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
       Senses senses;
       senses.elapsed_s = every * net.params.tick_s;
-      return step(net.params, middle, heard, senses).message.bid;
+      return step(net.params, middle, {heard, senses, net.params}).message.bid;
     };
     ASSERT_EQ(hears({0, 7, 160, 1, 5, 200}).lease_ticks, 199);
     const int steps = static_cast<int>(std::lround(140.0F / every));
@@ -120,7 +120,7 @@ TEST(LinkConsensus, ABidGoesNoFartherThanItsReachAndNotOverItsOwnLink) {
     State middle = net.states[1];
     net.said[0].bid = bid;
     std::vector<Heard> heard{{net.said.data(), {-1, 0}}, {&net.said[2], {1, 0}}};
-    return step(net.params, middle, heard, {}).message;
+    return step(net.params, middle, {heard, {}, net.params}).message;
   };
   EXPECT_EQ(answers({0, 7, 160, 1, 1, 20}).bid.owner, 0);
   EXPECT_EQ(answers({0, 7, 160, 1, 0, 20}).bid.owner, nobody);
@@ -352,7 +352,7 @@ Vec2 velocity_of(Robots_& net, std::size_t i, std::optional<Vec2> target) {
   senses.orders = {target.has_value(), target};
   net.params.drive = Drive::holonomic;
   State s = net.states[i];
-  const Velocity v = step(net.params, s, heard, senses).velocity;
+  const Velocity v = step(net.params, s, {heard, senses, net.params}).velocity;
   return {v.forward_m_s, v.sideways_m_s};
 }
 

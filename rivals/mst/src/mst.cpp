@@ -58,17 +58,16 @@ State initial_state(RobotId id, bool worker, bool root) noexcept {
   return state;
 }
 
-Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept {
-  Gate gate(sensed, params);
-  begin_step(params, state, heard, gate, [&](RobotId id) { return state.holds(id); });
+Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept {
+  begin_step(params, state, inputs, [&](RobotId id) { return state.holds(id); });
 
-  Robot robot{params, state, gate.elapsed_ticks()};
+  Robot robot{params, state, inputs.elapsed_ticks()};
   follow_epoch(robot);
   construct(robot);
   drop_old_edges(robot);
   Guard guard;
   guard_tree(robot, guard);
-  return {composed(state), move(desired_motion(robot, gate.senses().obstacles), guard, params)};
+  return {composed(state), move(desired_motion(robot, inputs.senses().obstacles), guard, params)};
 }
 
 Report report(const State& s) noexcept {

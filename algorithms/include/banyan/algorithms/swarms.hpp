@@ -18,7 +18,7 @@ struct TreeSwarm {
   using Message = Message_;
   using Heard = banyan::Heard;
   static State initial(RobotId id, bool worker, bool root) { return initial_state(id, worker, root); }
-  static auto step(const Params& p, State& s, std::span<Heard> heard, const Senses& senses) { return step_function(p, s, heard, senses); }
+  static auto step(const Params& p, State& s, const Inputs<Heard>& inputs) { return step_function(p, s, inputs); }
   static Report report(const State& s) { return report_of(s); }
   static void add_to(Digest& digest, const State& s) { banyan::add_to(digest, s); }
 };

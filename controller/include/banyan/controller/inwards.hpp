@@ -3,6 +3,7 @@
 // named as a parent join.
 #pragma once
 
+#include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/core/output.hpp"
 #include "banyan/controller/healing/state.hpp"
 #include "banyan/controller/healing/params.hpp"
@@ -12,12 +13,10 @@ namespace banyan {
 // Table I, inwards column.
 [[nodiscard]] HealingParams inwards_defaults() noexcept;
 
-// One tick of one robot. `heard`: every packet received since the last step, in any order, duplicates allowed
-// (the last counts); the span is worked on. Changes `state` only; allocates nothing; same arguments, same
+// One tick of one robot. `inputs`: every packet received since the last step, in any order, duplicates allowed
+// (the last counts); what they are in is worked on. Changes `state` only; allocates nothing; same arguments, same
 // result on every machine. As printed, and as corrected (docs/algorithms.md).
-[[nodiscard]] Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& state, std::span<Heard> heard,
-                                                        const Senses& senses) noexcept;
-[[nodiscard]] Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& state, std::span<Heard> heard,
-                                                   const Senses& senses) noexcept;
+[[nodiscard]] Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& state, const Inputs<Heard>& inputs) noexcept;
+[[nodiscard]] Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& state, const Inputs<Heard>& inputs) noexcept;
 
 }  // namespace banyan

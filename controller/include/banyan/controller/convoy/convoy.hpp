@@ -7,6 +7,7 @@
 #include "banyan/controller/convoy/robot.hpp"
 #include "banyan/controller/convoy/state.hpp"
 #include "banyan/controller/core/digest.hpp"
+#include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/core/output.hpp"
 #include "banyan/controller/healing/tick.hpp"
 
@@ -18,19 +19,17 @@ namespace banyan {
 [[nodiscard]] ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept;
 
 // One tick of one robot, as outwards_step() (outwards.hpp).
-[[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, std::span<Heard> heard,
-                                                const Senses& senses) noexcept;
+[[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, const Inputs<Heard>& inputs) noexcept;
 
 // The same for robots that run on batteries (docs/lasting.md): their messages have one block more.
 [[nodiscard]] ConvoyParams with_room_for_relief(ConvoyParams params) noexcept;
 [[nodiscard]] PoweredConvoyState initial_powered_state(RobotId id, bool worker, bool root) noexcept;
-[[nodiscard]] Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, std::span<Heard> heard,
-                                                               const Senses& senses) noexcept;
+[[nodiscard]] Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, const Inputs<Heard>& inputs) noexcept;
 [[nodiscard]] Report powered_report(const PoweredConvoyState& state) noexcept;
 void add_to(Digest& digest, const PoweredConvoyState& state) noexcept;
 
 // The beginning of a tick (tree/tick.hpp): memory is carried, the table brought up to date, orders followed.
-void begin_tick(ConvoyRobot& robot, const Admitted& admitted) noexcept;
+void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept;
 
 [[nodiscard]] Report convoy_report(const ConvoyState& state) noexcept;
 void add_to(Digest& digest, const ConvoyState& state) noexcept;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The one gate through which everything sensed passes before an algorithm sees it. What is not finite,
-// or beyond wide limits that no working sensor exceeds, counts as not sensed; odometry that is not
-// possible counts as no motion. No later code can meet a NaN.
+// The one gate through which everything sensed passes before an algorithm sees it: a step is given Inputs,
+// and nothing but the gate makes them. What is not finite, or beyond wide limits that no working sensor
+// exceeds, counts as not sensed; odometry that is not possible counts as no motion. No later code can meet
+// a NaN.
 #pragma once
 
 #include <algorithm>
@@ -80,6 +81,25 @@ class Gate {
   std::uint32_t rejected_ = 0;
   bool aged_ = false;  // some packet was measured before now
   std::optional<std::array<Vec2, most_obstacles>> obstacles_;  // those that passed, if some did not
+};
+
+// The argument of every step: the packets that passed, in the present frame, and the rest. Lives as long as the step.
+// `Heard` is an algorithm's own: {const Message* message; Vec2 position; float age_s}. Packets that do not pass are
+// dropped in place.
+template <class Heard>
+class Inputs : private Gate {
+ public:
+  Inputs(std::span<Heard> heard, const Senses& senses, const Platform& platform) noexcept
+      : Gate(senses, platform), heard_(packets(heard, platform)) {
+    carry_to_now(heard_, platform);
+  }
+  [[nodiscard]] std::span<Heard> heard() const noexcept { return heard_; }
+  using Gate::elapsed_ticks;
+  using Gate::rejected;
+  using Gate::senses;
+
+ private:
+  std::span<Heard> heard_;
 };
 
 }  // namespace banyan

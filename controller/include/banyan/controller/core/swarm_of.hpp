@@ -5,8 +5,8 @@
 //   A::Params, A::State, A::Message   values; a message has `blocks` and visit_fields() (wire.hpp)
 //   A::Heard                          {const Message-or-a-base* message; Vec2 position; float age_s}
 //   A::initial(id, worker, root)      a State
-//   A::step(params, state, heard, senses)   an Output<Message>; it begins with a Gate (gate.hpp), because hosts
-//                                     may hand in anything
+//   A::step(params, state, inputs)    an Output<Message>; of what hosts hand in, which may be anything, Inputs<Heard>
+//                                     has what passed the gate (gate.hpp)
 //   A::report(state), A::add_to(digest, state)
 #pragma once
 
@@ -20,6 +20,7 @@
 #include <sys/mman.h>
 #endif
 
+#include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/core/swarm.hpp"
 #include "banyan/controller/core/wire.hpp"
 
@@ -112,7 +113,8 @@ class SwarmOf final : public Swarm {
         now[i] = last[i];
         continue;
       }
-      const auto output = A::step(params_, states_[i], std::span<Heard>(heard[k % 2]).first(sensed[k].packets.size()), sensed[k].senses);
+      const std::span<Heard> packets = std::span<Heard>(heard[k % 2]).first(sensed[k].packets.size());
+      const auto output = A::step(params_, states_[i], Inputs<Heard>(packets, sensed[k].senses, params_));
       now[i] = output.message;
       commands[k] = output.velocity;
       reports[k] = A::report(states_[i]);

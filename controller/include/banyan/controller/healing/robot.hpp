@@ -25,8 +25,8 @@ struct KnownOfHealing : KnownOfTree {
 };
 
 struct HealingRobot : TreeRobot {
-  HealingRobot(const HealingParams& params_, HealingState& self_, const Admitted& admitted) noexcept
-      : TreeRobot(params_, corrected_reading, self_, admitted), params(params_), self(self_) {
+  HealingRobot(const HealingParams& params_, HealingState& self_, const Inputs<Heard>& inputs) noexcept
+      : TreeRobot(params_, corrected_reading, self_, inputs), params(params_), self(self_) {
     held = self.hold;
     take_patience();
   }

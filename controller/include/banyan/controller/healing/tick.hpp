@@ -13,7 +13,7 @@ namespace banyan {
 void follow_orders(HealingRobot& robot, const Orders& orders) noexcept;
 
 void carry_memory(HealingState& self, const Carry& carry) noexcept;
-void begin_tick(HealingRobot& robot, const Admitted& admitted) noexcept;
+void begin_tick(HealingRobot& robot, const Inputs<Heard>& inputs) noexcept;
 
 // The tree's part and healing's. Index of the target that the message speaks of; -1: none.
 int write_healing(const HealingRobot& robot, HealingMessage& message) noexcept;

@@ -57,23 +57,15 @@ struct KnownOfTree {
   Phase phase;
 };
 
-// What passed the gate in this step: packets in the present frame, and the rest.
-class Admitted : public Gate {
- public:
-  Admitted(const Senses& sensed, std::span<Heard> heard, const Platform& platform, Tally& tally) noexcept;
-  [[nodiscard]] std::span<Heard> heard() const noexcept { return heard_; }
-
- private:
-  std::span<Heard> heard_;
-};
-
 // Longest link that may be relied on, of C: the next step might break a longer one.
 inline constexpr float longest_link = 0.95F;
 
 struct TreeRobot {
-  TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Admitted& admitted) noexcept
-      : params(params_), reading(reading_), self(self_), heard(admitted.heard()), obstacles(admitted.senses().obstacles),
-        carry(admitted.senses().odometry), elapsed_ticks(admitted.elapsed_ticks()) {}
+  TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Inputs<Heard>& inputs) noexcept
+      : params(params_), reading(reading_), self(self_), heard(inputs.heard()), obstacles(inputs.senses().obstacles),
+        carry(inputs.senses().odometry), elapsed_ticks(inputs.elapsed_ticks()) {
+    self.tally.rejected += inputs.rejected();
+  }
 
   const TreeParams& params;
   const Reading& reading;

@@ -15,7 +15,7 @@ namespace banyan {
 
 // What is remembered is carried into the robot's present frame, the neighbour table is brought up to date, and
 // the orders are followed.
-void begin_tick(TreeRobot& robot, const Admitted& admitted) noexcept;
+void begin_tick(TreeRobot& robot, const Inputs<Heard>& inputs) noexcept;
 
 // Its parts. A robot that is sent to a target is a worker until it is called back.
 void follow_orders(TreeRobot& robot, const Orders& orders) noexcept;

@@ -24,16 +24,14 @@ struct HeardOf {
   float age_s = 0.0F;
 };
 
-// The beginning of a step: of what passed the gate the packets are carried to now and filed, and orders are followed.
+// The beginning of a step: packets are filed and orders are followed.
 // Those of which `ties(id)` is true stay in a full table.
 template <class State, class Message, class Ties>
-void begin_step(const RivalParams& params, State& state, std::span<HeardOf<Message>> heard, Gate& gate, const Ties& ties) noexcept {
-  const Senses& senses = gate.senses();
-  const std::span<HeardOf<Message>> packets = gate.packets(heard, params);
-  state.tally.rejected += gate.rejected();
-  gate.carry_to_now(packets, params);
+void begin_step(const RivalParams& params, State& state, const Inputs<HeardOf<Message>>& inputs, const Ties& ties) noexcept {
+  const Senses& senses = inputs.senses();
+  state.tally.rejected += inputs.rejected();
   const Carry carry(senses.odometry);
-  state.neighbors.renew(state.id, packets, carry, gate.elapsed_ticks(), params.ticks(params.liveness_period_s), params, ties);
+  state.neighbors.renew(state.id, inputs.heard(), carry, inputs.elapsed_ticks(), params.ticks(params.liveness_period_s), params, ties);
   state.assignment.follow(senses.orders, carry);
 }
 
@@ -65,7 +63,7 @@ struct RobotsOf {
   using Message = M;
   using Heard = HeardOf<M>;
   static State initial(RobotId id, bool worker, bool root) { return initial_state(id, worker, root); }
-  static Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& senses) { return step_of(params, state, heard, senses); }
+  static Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) { return step_of(params, state, inputs); }
   static Report report(const State& state) { return report_of(state); }
   static void add_to(Digest& digest, const State& state) { add(digest, state); }
 };

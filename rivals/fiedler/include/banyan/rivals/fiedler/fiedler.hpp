@@ -15,7 +15,7 @@ namespace banyan::rivals::fiedler {
 using Heard = HeardOf<Message>;
 
 [[nodiscard]] State initial_state(RobotId id, bool worker, bool root) noexcept;
-[[nodiscard]] Output<Message> step(const Params& params, State& state, std::span<Heard> heard, const Senses& sensed) noexcept;
+[[nodiscard]] Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) noexcept;
 [[nodiscard]] Report report(const State& state) noexcept;
 void add_to(Digest& digest, const State& state) noexcept;
 
