@@ -3,6 +3,7 @@
 
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/healing/hold.hpp"
+#include "banyan/controller/healing/link_guard.hpp"
 #include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/tree/census.hpp"
 #include "banyan/controller/tree/epoch.hpp"

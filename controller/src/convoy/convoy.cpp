@@ -9,7 +9,9 @@
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/healing/hold.hpp"
+#include "banyan/controller/healing/link_guard.hpp"
 #include "banyan/controller/healing/tick.hpp"
+#include "banyan/controller/healing/tie.hpp"
 #include "banyan/controller/inwards.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
 #include "banyan/controller/tree/census.hpp"
@@ -220,7 +222,7 @@ void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept {
     self.convoy_standings[k] = static_cast<const ConvoyStanding&>(m);
     if (robot.power != nullptr) robot.power->power.standings[k] = static_cast<const PowerStanding&>(powered_message(m));
   }
-  forget_silent(robot, [&](int k, int size) {
+  forget_silent(robot, [&](int k) { return may_be_tied(robot, k); }, [&](int k, int size) {
     close_gap(self.healing_standings, k, size);
     close_gap(self.corners.standings, k, size);
     close_gap(self.convoy_standings, k, size);

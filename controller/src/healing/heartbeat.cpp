@@ -3,6 +3,7 @@
 
 #include "banyan/controller/tree/epoch.hpp"
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tie.hpp"
 
 namespace banyan {
 namespace {

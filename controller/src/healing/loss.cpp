@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/tree/tie.hpp"
+#include "banyan/controller/healing/tie.hpp"
 
 namespace banyan {
 namespace {

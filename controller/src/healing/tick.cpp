@@ -2,6 +2,7 @@
 #include "banyan/controller/healing/tick.hpp"
 
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tie.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 
 namespace banyan {
@@ -66,7 +67,7 @@ void begin_tick(HealingRobot& robot, const Inputs<Heard>& inputs) noexcept {
       note_hears(robot, h);
     }
   }
-  forget_silent(robot, [&](int k, int size) { close_gap(kept, k, size); });
+  forget_silent(robot, [&](int k) { return may_be_tied(robot, k); }, [&](int k, int size) { close_gap(kept, k, size); });
   follow_orders(robot, inputs.senses().orders);
 }
 

@@ -5,7 +5,6 @@
 
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
-#include "banyan/controller/tree/tie.hpp"
 
 namespace banyan {
 namespace {
@@ -13,16 +12,6 @@ namespace {
 // The neighbour whose distance counts as d^parent: the parent, else the old one, else the hold; -1 if none.
 int nearest_up(const TreeRobot& robot) noexcept {
   return robot.parent >= 0 ? robot.parent : robot.old_parent >= 0 ? robot.old_parent : robot.hold;
-}
-
-template <class Visit>
-void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
-  if (robot.parent >= 0) visit(robot.parent);
-  if (robot.old_parent >= 0 && robot.old_parent != robot.parent) visit(robot.old_parent);
-  for (const int k : robot.children)
-    if (k != robot.parent && k != robot.old_parent) visit(k);
-  for (const int k : robot.old_children)
-    if (k != robot.parent && k != robot.old_parent) visit(k);
 }
 
 // In how many of the two trees an edge joins neighbour k and me.
@@ -114,44 +103,6 @@ Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& rea
   if (!reading.slides_beyond_safe) return {};
   const Vec2 away = -parent / d;
   return u - away * std::max(0.0F, dot(u, away));
-}
-
-namespace {
-
-// No longer than that, less by how far neighbour k may be from where it was measured.
-void guard_link(const TreeRobot& robot, int k, float longest_m, Guard& guard) noexcept {
-  guard.add(robot.table().position(k), longest_m - robot.table().spread_m() - strayed_m(robot, k), robot.params.guard_rate_per_s);
-}
-
-}  // namespace
-
-void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
-  if (!robot.reading.guards_edges) return;
-  for_each_tree_neighbor(robot, [&](int k) {
-    // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard_link(robot, k, robot.params.ideal_distance_m, guard);
-  });
-}
-
-void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept {
-  const TreeTable& table = robot.table();
-  const TreeParams& p = robot.params;
-  const float longest_m = longest_link * p.communication_range_m;
-  const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // below it full speed is allowed
-  const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
-  // In a grown tree only robots of its epoch wait for a hold: those of another are cut off, or of another fragment.
-  const bool waits_for_all = robot.self.phase < Phase::grow_tree;
-  const auto holds_me = [&](int k) {
-    if (!table.alive(k)) return !lets_go && is_tie(robot, k);
-    const TreeStanding& m = table.message(k);
-    const bool tied_to_me = k == robot.hold || k == robot.gap || hold_of(m) == robot.self.id;
-    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || waits_for_all);
-    return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
-  };
-  for (int k = 0; k < table.size(); ++k) {
-    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k)) continue;
-    guard_link(robot, k, longest_m, guard);
-  }
 }
 
 Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "banyan/controller/core/edge_frame.hpp"
-#include "banyan/controller/tree/tie.hpp"
 
 namespace banyan {
 
@@ -40,7 +39,7 @@ void begin_tick(TreeRobot& robot, const Inputs<Heard>& inputs) noexcept {
   for (Heard& h : robot.heard)
     if (known.lacks(*h.message)) robot.news.push(h);
   robot.is_tree_news = true;
-  forget_silent(robot, [](int, int) {});
+  forget_silent(robot, [](int) { return false; }, [](int, int) {});
   follow_orders(robot, inputs.senses().orders);
 }
 
@@ -71,11 +70,9 @@ void file_heard(TreeRobot& robot) noexcept {
   }
 }
 
-void forget_silent(TreeRobot& robot, FunctionRef<void(int, int)> close) noexcept {
+void forget_silent(TreeRobot& robot, FunctionRef<bool(int)> is_tied, FunctionRef<void(int, int)> close) noexcept {
   TreeTable& table = robot.self.neighbors;
-  const auto keeps = [&](int k) {
-    return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || (robot.tie_ticks > 0 && table.age(k) <= longest_silence_ticks && may_depend(robot, k));
-  };
+  const auto keeps = [&](int k) { return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || is_tied(k); };
   const int liveness_ticks = robot.liveness_ticks();
   for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keeps)) >= 0;) {
     close_gap(table.standings, k, table.size() + 1);

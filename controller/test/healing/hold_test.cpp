@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who has no parent has a hold, by the order of the tree, and both ends keep the link.
 #include "banyan/controller/healing/hold.hpp"
+#include "banyan/controller/healing/link_guard.hpp"
 
 #include <gtest/gtest.h>
 

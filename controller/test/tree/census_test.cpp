@@ -67,7 +67,7 @@ struct Tree {
       const Inputs<Heard> inputs(heard, {}, params);
       TreeRobot robot(params, literal_reading, s, inputs);
       file_heard(robot);
-      forget_silent(robot, [](int, int) {});
+      forget_silent(robot, [](int) { return false; }, [](int, int) {});
       index_neighbors(robot);
       take_census(robot, params.arrival_distance_m);
       next[i] = message(i);

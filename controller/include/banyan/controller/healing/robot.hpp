@@ -7,7 +7,6 @@
 #include "banyan/controller/healing/params.hpp"
 #include "banyan/controller/healing/state.hpp"
 #include "banyan/controller/tree/robot.hpp"
-#include "banyan/controller/tree/tie.hpp"
 
 namespace banyan {
 
@@ -26,8 +25,7 @@ struct KnownOfHealing : KnownOfTree {
 
 struct HealingRobot : TreeRobot {
   HealingRobot(const HealingParams& params_, HealingState& self_, const Inputs<Heard>& inputs) noexcept
-      : TreeRobot(params_, corrected_reading, self_, inputs), params(params_), self(self_) {
-    held = self.hold;
+      : TreeRobot(params_, corrected_reading, self_, inputs), params(params_), self(self_), held(self_.hold) {
     take_patience();
   }
 
@@ -35,6 +33,9 @@ struct HealingRobot : TreeRobot {
 
   const HealingParams& params;   // the same objects as the tree's
   HealingState& self;
+  RobotId held;                  // the hold of the last step
+  int gap = -1;                  // index of a deaf neighbour that nothing ties me to (mutual.cpp)
+  int tie_ticks = 0;             // for so long a silent neighbour may be there and depend on me (tie.hpp); 0: no packets get lost
   bool target_strays = false;    // it is not where it would be if it stood still and my wheels had not slipped
 };
 

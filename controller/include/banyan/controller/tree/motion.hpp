@@ -10,6 +10,17 @@ namespace banyan {
 // A robot nearer than this is where I am: it has no direction, and powers of 1 / d would overflow.
 inline constexpr float same_spot_m = 1e-6F;
 
+// Visits the index of every neighbour at the other end of an edge of mine, old or new, once: parents first.
+template <class Visit>
+void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
+  if (robot.parent >= 0) visit(robot.parent);
+  if (robot.old_parent >= 0 && robot.old_parent != robot.parent) visit(robot.old_parent);
+  for (const int k : robot.children)
+    if (k != robot.parent && k != robot.old_parent) visit(k);
+  for (const int k : robot.old_children)
+    if (k != robot.parent && k != robot.old_parent) visit(k);
+}
+
 // The paper's u_i for a robot of the tree: springs along its edges, the target's pull within f.
 [[nodiscard]] Vec2 spring_motion(const TreeRobot& robot) noexcept;
 // A spare's: to the midpoint of the edge it was granted, else ADJUST POSITION.
@@ -24,14 +35,6 @@ inline constexpr float same_spot_m = 1e-6F;
 // Paper's f: what is left of target + avoidance for a robot whose parent is at `parent` (own frame).
 // literal: all up to S, nothing beyond; corrected: beyond S all but the part away from the parent.
 [[nodiscard]] Vec2 safe_part(Vec2 u, Vec2 parent, const TreeParams& params, const Reading& reading) noexcept;
-
-// Corrected: adds the edges of both trees. `lets_go`: except those to neighbours that have fallen silent and
-// may be lost for good.
-void guard_edges(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
-
-// Corrected: adds the links that tie robots without a parent to the others (healing/hold.hpp). `lets_go`: except
-// those to robots that are untied.
-void guard_links(const TreeRobot& robot, bool lets_go, Guard& guard) noexcept;
 
 // The velocity (m/s, own frame) nearest to `u`, in units of speed_gain, within the guard and the wheels' limits.
 [[nodiscard]] Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;

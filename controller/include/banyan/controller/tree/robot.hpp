@@ -78,9 +78,6 @@ struct TreeRobot {
   Carry carry;                      // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
   int loss_ticks = 0;               // how long lost packets may silence a living neighbour; 0: unknown
-  RobotId held = nobody;            // the hold of the last step
-  int gap = -1;                     // index of a deaf neighbour that nothing ties me to (healing/mutual.cpp)
-  int tie_ticks = 0;                // for so long a silent neighbour may be there and depend on me; 0: no packets get lost
   bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
 
   // The index (tree_index.hpp)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/controller/tree/tie.hpp"
+#include "banyan/controller/healing/tie.hpp"
 
 #include <algorithm>
 
 namespace banyan {
 
-bool is_in_the_clear(const TreeRobot& robot, int k) noexcept {
+bool is_in_the_clear(const HealingRobot& robot, int k) noexcept {
   constexpr float bodies = 2.0F;  // of the distance between the wheels: a body that hides it may have moved since
   const TreeParams& p = robot.params;
   const TreeTable& table = robot.table();
@@ -19,7 +19,7 @@ bool is_in_the_clear(const TreeRobot& robot, int k) noexcept {
   return true;
 }
 
-bool may_depend(const TreeRobot& robot, int k) noexcept {
+bool may_depend(const HealingRobot& robot, int k) noexcept {
   const TreeState& self = robot.self;
   const TreeStanding& m = robot.table().message(k);
   if (m.parent == self.id || m.old_parent == self.id) return m.role != Role::spare;
@@ -27,11 +27,15 @@ bool may_depend(const TreeRobot& robot, int k) noexcept {
   return robot.held == nobody && self.parent == nobody && self.old_parent == nobody && !robot.is_root();
 }
 
-bool is_tie(const TreeRobot& robot, int k) noexcept {
+bool may_be_tied(const HealingRobot& robot, int k) noexcept {
+  return robot.tie_ticks > 0 && robot.table().age(k) <= longest_silence_ticks && may_depend(robot, k);
+}
+
+bool is_tie(const HealingRobot& robot, int k) noexcept {
   return robot.table().age(k) <= robot.tie_ticks && may_depend(robot, k) && is_in_the_clear(robot, k);
 }
 
-float strayed_m(const TreeRobot& robot, int k) noexcept {
+float strayed_m(const HealingRobot& robot, int k) noexcept {
   constexpr int usual_ticks = 2;  // for so long a neighbour is silent now and then
   constexpr int at_most_ticks = 30;
   if (robot.tie_ticks == 0 || robot.table().alive(k) || !is_in_the_clear(robot, k)) return 0.0F;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// What a robot must not outgrow: its tree edges and the links that tie others to it (spec row 4, protocol 9 and 12).
+#pragma once
+
+#include "banyan/controller/core/guard.hpp"
+#include "banyan/controller/healing/robot.hpp"
+
+namespace banyan {
+
+// Adds the edges of both trees. `lets_go`: except those to neighbours that have fallen silent and
+// may be lost for good.
+void guard_edges(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept;
+
+// Adds the links that tie robots without a parent to the others (hold.hpp). `lets_go`: except
+// those to robots that are untied.
+void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept;
+
+}  // namespace banyan

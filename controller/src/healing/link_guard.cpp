@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/healing/link_guard.hpp"
+
+#include "banyan/controller/healing/tie.hpp"
+#include "banyan/controller/tree/motion.hpp"
+
+namespace banyan {
+namespace {
+
+// No longer than that, less by how far neighbour k may be from where it was measured.
+void guard_link(const HealingRobot& robot, int k, float longest_m, Guard& guard) noexcept {
+  guard.add(robot.table().position(k), longest_m - robot.table().spread_m() - strayed_m(robot, k), robot.params.guard_rate_per_s);
+}
+
+}  // namespace
+
+void guard_edges(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept {
+  for_each_tree_neighbor(robot, [&](int k) {
+    // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard_link(robot, k, robot.params.ideal_distance_m, guard);
+  });
+}
+
+void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept {
+  const TreeTable& table = robot.table();
+  const TreeParams& p = robot.params;
+  const float longest_m = longest_link * p.communication_range_m;
+  const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // below it full speed is allowed
+  const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
+  // In a grown tree only robots of its epoch wait for a hold: those of another are cut off, or of another fragment.
+  const bool waits_for_all = robot.self.phase < Phase::grow_tree;
+  const auto holds_me = [&](int k) {
+    if (!table.alive(k)) return !lets_go && is_tie(robot, k);
+    const TreeStanding& m = table.message(k);
+    const bool tied_to_me = k == robot.hold || k == robot.gap || hold_of(m) == robot.self.id;
+    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || waits_for_all);
+    return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
+  };
+  for (int k = 0; k < table.size(); ++k) {
+    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k)) continue;
+    guard_link(robot, k, longest_m, guard);
+  }
+}
+
+}  // namespace banyan
