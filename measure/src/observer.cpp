@@ -199,6 +199,7 @@ struct Observer::Impl {
   Spectrum with_occlusion, by_distance;
   HopCount hop_count;
   std::uint64_t ticks_since_complete = 0;
+  std::uint32_t most_deploying = 0;  // robots in the tree, in a tick up to completion
   double held_sum = 0.0;
   std::uint64_t committed_sum = 0, low_ticks = 0, low_ticks_by_distance = 0;
   std::uint64_t start_ticks = 0, select_ticks = 0;
@@ -449,6 +450,7 @@ void Observer::Impl::add_up() {
   run.mean_charge = tick.mean_charge;
   run.committed = tick.committed;
   committed_sum += tick.committed;
+  if (ticks_since_complete == 0) most_deploying = std::max(most_deploying, tick.committed);
   const bool broken = tick.broken_by_distance + tick.broken_by_occlusion + tick.broken_by_death > 0;
   run.broken_ticks += broken ? 1 : 0;
   run.broken_ticks_by_distance += tick.broken_by_distance > 0 ? 1 : 0;
@@ -622,6 +624,7 @@ Run Observer::result(const world::World& world) const {
   if (impl_->ticks_since_complete > 0) run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
+  run.deployment_ratio = static_cast<double>(impl_->most_deploying) / static_cast<double>(run.robots_bound);
   run.oracle_ratio = static_cast<double>(run.committed) / static_cast<double>(run.oracle_robots);
   impl_->sum_up_redundancy(world, run);
   impl_->sum_up_targets(world, run);

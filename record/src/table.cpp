@@ -34,7 +34,7 @@ std::string hexadecimal(std::uint64_t value) {
 // 4: messages, decisions, driven_m.
 // 5: link_redundancy and what was achieved of it; batteries.
 // 6: the targets that are held, and that the oracle can hold.
-constexpr int format_version = 6;
+constexpr int format_version = 7;
 
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
@@ -99,6 +99,8 @@ constexpr Column<Row> result_table[] = {
     {"mean_committed", "mean over ticks", 4, [](const Row& r) -> Cell { return r.run.mean_committed; }},
     {"committed_ratio", "committed / robots_bound", 6, [](const Row& r) -> Cell { return r.run.committed_ratio; }},
     {"oracle_ratio", "committed / oracle_robots", 6, [](const Row& r) -> Cell { return r.run.oracle_ratio; }, 2},
+    {"deployment_ratio", "most robots in the tree in a tick up to completion / robots_bound", 6,
+     [](const Row& r) -> Cell { return r.run.deployment_ratio; }, 7},
     {"link_redundancy", "mission.link_redundancy, k", 0, [](const Row& r) { return natural(r.run.link_redundancy); }, 5},
     {"redundancy_bound", "no fewer robots, a worker for each target among them, join the targets by k disjoint paths", 0,
      [](const Row& r) { return natural(r.run.redundancy_bound); }, 5},

@@ -36,6 +36,7 @@ constexpr std::pair<std::string_view, std::string_view> metric_words[] = {
     {"mean_committed", "robots in the tree, mean over time"},
     {"committed_ratio", "robots in the tree / lower bound"},
     {"oracle_ratio", "robots in the tree / oracle's"},
+    {"deployment_ratio", "most in the tree, deploying / lower bound"},
     {"network_length_m", "length of the tree (m)"},
     {"broken_ticks", "ticks with a broken edge"},
     {"broken_ticks_by_distance", "ticks with an edge too long"},

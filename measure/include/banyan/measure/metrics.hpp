@@ -67,6 +67,7 @@ struct Run {
   double mean_committed = 0.0;
   double committed_ratio = 0.0;            // committed / robots_bound
   double oracle_ratio = 0.0;               // committed / oracle_robots
+  double deployment_ratio = 0.0;           // most robots in the tree in a tick up to completion / robots_bound
   std::uint32_t link_redundancy = 1;       // k
   std::uint32_t redundancy_bound = 0;      // no fewer robots give k disjoint paths between targets (redundancy_bound.hpp)
   bool redundancy_exact = false;           // so many are enough
