@@ -38,6 +38,7 @@ struct HubOptions {
   double speed = 1.0;
   std::size_t bundle = 1;     // packets heard per datagram
   bool view = false;          // the page beside it
+  std::string impairment;     // a line of the summary: what makes the radio bad, and how
   bool print_robots = false;  // their command lines, instead
   std::string new_key;        // make this file, instead
   std::string stop;           // ADDRESS:PORT[,...] of robots without a hub: stop them, instead
@@ -74,6 +75,7 @@ struct FleetOptions {
   double duplicate = 0.0;
   double reorder = 0.0;
   double rate_kbit_s = 0.0;   // of each robot, either way; 0: no limit
+  std::string impairment = "auto";  // who does that: "netem", "relay"; "auto": netem where it can be had
 };
 int fleet_command(const FleetOptions& options);
 

@@ -38,6 +38,31 @@ class MemoryKey {
   int file_;
 };
 
+// What the options say, for the summary.
+std::string text_of(const FleetOptions& options) {
+  std::string text;
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+  if (options.loss > 0.0) add(format("%g %% lost", 100.0 * options.loss));
+  if (options.delay_ms > 0.0 || options.jitter_ms > 0.0) add(format("%g ± %g ms late", options.delay_ms, options.jitter_ms));
+  if (options.duplicate > 0.0) add(format("%g %% twice", 100.0 * options.duplicate));
+  if (options.reorder > 0.0) add(format("%g %% not delayed", 100.0 * options.reorder));
+  if (options.rate_kbit_s > 0.0) add(format("%g kbit/s", options.rate_kbit_s));
+  return text;
+}
+
+// Tells the plan who makes the radio bad: the wires, if that is wanted and can be, or else the relay.
+void choose_impairment(const FleetOptions& options, udp::Fleet::Plan& plan) {
+  const bool demanded = options.impairment == "netem";
+  if (demanded || (options.impairment == "auto" && plan.way.any())) {
+    const std::string fault = plan.namespaces ? udp::netem_fault(udp::per_hop(plan.way), plan.speed) : "robots have no networks of their own";
+    if (demanded && !fault.empty())
+      throw CommandError(exit_usage, "--impairment netem cannot be had here: " + fault + "; --impairment relay does the same");
+    plan.netem = fault.empty();
+  }
+  if (!plan.way.any()) return;
+  plan.hub.insert(plan.hub.end(), {"--impairment", (plan.netem ? "by tc netem: " : "by a relay: ") + text_of(options)});
+}
+
 udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key, const std::string& out, const std::string& tape) {
   udp::Arguments arguments{own_program(), "hub", options.run.scenario, "--key", key, "--out", out, "--force", "--tape", tape,
                            "--speed", format("%g", options.speed), "--bundle", std::to_string(options.bundle)};
@@ -70,31 +95,40 @@ int run_fleet(udp::Fleet::Plan plan) {
   }
 }
 
+udp::Fleet::Plan make_plan(const FleetOptions& options, const world::Scenario& scenario, const std::string& key, const std::string& out,
+                           const std::string& tape) {
+  udp::Fleet::Plan plan;
+  plan.hub = hub_arguments(options, key, out, tape);
+  for (std::size_t i = 0; i < world::robot_count(scenario); ++i) plan.robots.push_back(robot_arguments(options, scenario, i, key));
+  plan.restart = options.restart;
+  plan.way = {options.loss, options.delay_ms / 1e3, options.jitter_ms / 1e3, options.duplicate, options.reorder, options.rate_kbit_s * 125.0};
+  plan.speed = options.speed;
+  plan.seed = scenario.seed;
+  plan.namespaces = !options.loopback && udp::enter_network();
+  if (!plan.namespaces && !options.loopback && !options.run.quiet)
+    complain("this machine does not allow network namespaces; all robots share its loopback device");
+  choose_impairment(options, plan);
+  return plan;
+}
+
 int start_fleet(const FleetOptions& options) {
   if (options.run.scenario == "-") throw CommandError(exit_usage, "the scenario of a fleet must be a file: its hub reads it, too");
   const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
   const RunOutputs outputs(configuration, options.run.out, options.run.force);
-  PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();  // in the network of the browser
-  const bool namespaces = !options.loopback && udp::enter_network();
-  if (!namespaces && !options.loopback && !options.run.quiet)
-    complain("this machine does not allow network namespaces; all robots share its loopback device");
-  const std::string tape = outputs.directory() + "/fleet.tape";
-  const MemoryKey key;
-  udp::Fleet::Plan plan;
-  plan.hub = hub_arguments(options, key.path(), outputs.directory(), tape);
-  for (std::size_t i = 0; i < world::robot_count(configuration.scenario); ++i)
-    plan.robots.push_back(robot_arguments(options, configuration.scenario, i, key.path()));
-  plan.namespaces = namespaces;
-  plan.restart = options.restart;
-  plan.way = {options.loss, options.delay_ms / 1e3, options.jitter_ms / 1e3, options.duplicate, options.reorder, options.rate_kbit_s * 125.0};
-  plan.speed = options.speed;
-  plan.seed = configuration.scenario.seed;
-  const int code = run_fleet(std::move(plan));
-  std::error_code ignored;
-  std::filesystem::remove(tape, ignored);
-  outputs.abandon();  // if the hub has written nothing
-  page.stay();
-  return code;
+  try {
+    PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();  // in the network of the browser
+    const std::string tape = outputs.directory() + "/fleet.tape";
+    const MemoryKey key;
+    const int code = run_fleet(make_plan(options, configuration.scenario, key.path(), outputs.directory(), tape));
+    std::error_code ignored;
+    std::filesystem::remove(tape, ignored);
+    outputs.abandon();  // if the hub has written nothing
+    page.stay();
+    return code;
+  } catch (...) {
+    outputs.abandon();
+    throw;
+  }
 }
 
 }  // namespace

@@ -129,13 +129,14 @@ class Conductor {
   const HubOptions& options_;
 };
 
-std::string remarks_on(const udp::HubCounts& counts) {
+std::string remarks_on(const udp::HubCounts& counts, const std::string& impairment) {
   std::string text = summary_line(
       "processes", format("control period %.1f ms (median), %.1f ms (99th percentile), %.1f ms (longest); %s late",
                           counts.periods.quantile_ms(0.5), counts.periods.quantile_ms(0.99),
                           counts.periods.longest_ms(), plural(counts.late_ticks, "tick").c_str()));
   text += summary_line("datagrams", format("%s to robots, %s from them", grouped(static_cast<double>(counts.sent)).c_str(),
                                            grouped(static_cast<double>(counts.received)).c_str()));
+  if (!impairment.empty()) text += summary_line("impairment", impairment);
   std::string dropped;
   for (std::size_t k = 0; k < udp::drop_kinds; ++k) {
     if (counts.dropped[k] == 0) continue;
@@ -198,7 +199,7 @@ int play_scenario(const HubOptions& options) {
     RunOptions run = options.run;
     run.threads = 1;
     const int code = keep_run(configuration, outputs, run, make_world(scenario, remote, tracker.get()),
-                              Conductor(hub, tracker.get(), keys, options), [&hub] { return remarks_on(hub.counts()); });
+                              Conductor(hub, tracker.get(), keys, options), [&] { return remarks_on(hub.counts(), options.impairment); });
     page.stay();
     return code;
   } catch (...) {

@@ -599,6 +599,7 @@ void add_hub(CLI::App& app, std::function<int()>& action) {
   command->add_option("--tape", options->tape, "keep here what robots say and the tracker sees, to resume from")
       ->type_name("FILE");
   command->add_flag("--resume", options->resume, "go on where the tape ends");
+  command->add_option("--impairment", options->impairment, "for the summary")->group("");  // a fleet says it
   add_results(*command, options->run);
   add_pace(*command, *options);
   add_page_beside(*command, *options);
@@ -653,6 +654,11 @@ void add_fleet(CLI::App& app, std::function<int()>& action) {
   way("--duplicate", options->duplicate, 0.99, "share of the packets that arrive twice");
   way("--reorder", options->reorder, 1.0, "share of the packets that are not delayed and so overtake others");
   way("--rate-kbit", options->rate_kbit_s, 1e9, "kbit/s for each robot, in each direction; default 0: no limit");
+  command
+      ->add_option("--impairment", options->impairment,
+                   "who does that: netem, the kernel, or relay, a process of ours; default auto: netem where it can be had")
+      ->type_name("WHO")
+      ->check(CLI::IsMember({"auto", "netem", "relay"}).description(""));
   add_page_beside(*command, *options);
   command->add_flag("--loopback", options->loopback, "no network namespaces: all share the loopback device");
   command->add_flag("!--no-restart", options->restart, "do not restart robots that have ended");

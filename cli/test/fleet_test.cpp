@@ -181,7 +181,7 @@ TEST_F(FleetProgram, CompletesAndSaysWhatARunSays) {
 }
 
 TEST_F(FleetProgram, GoesOnWhenARobotAndTheHubAreKilled) {
-  const pid_t fleet = start_fleet({"--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40", "--set", "mission.algorithm=convoy"});
+  const pid_t fleet = start_fleet({"--loss", "0.1", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40", "--set", "mission.algorithm=convoy"});
   kill_and_wait(robot(fleet, 4), [&] { return robot(fleet, 4); });
   kill_and_wait(hub(fleet), [&] { return hub(fleet); });
   kill_and_wait(robot(fleet, 2), [&] { return robot(fleet, 2); });
@@ -205,6 +205,30 @@ TEST_F(FleetProgram, StandsLossDelayDuplicatesAndReordering) {
     EXPECT_EQ(result["split_ticks"], 0) << algorithm;
     std::filesystem::remove_all(home_ / "result");
   }
+}
+
+// By tc netem if there is one, which is asked of tc itself; `./check --full` runs this again in a kernel that has it.
+TEST_F(FleetProgram, NetemMakesTheRadioBadWhereItIs) {
+  const bool there = std::system("unshare -n tc qdisc add dev lo root netem 2>/dev/null || unshare -rn tc qdisc add dev lo root netem 2>/dev/null") == 0;
+  const Outcome outcome = run({"fleet", three_targets, "--speed", "5", "--set", "mission.algorithm=convoy", "--loss", "0.3", "--delay-ms", "20", "--jitter-ms", "10",
+                               "--duplicate", "0.1", "--reorder", "0.1", "--rate-kbit", "400", "--impairment", "netem", "--out", "result"});
+  EXPECT_EQ(exists("result"), there);
+  EXPECT_EQ(outcome.code, there ? 0 : 2) << outcome.err;
+  const Arguments expected = there ? Arguments{"COMPLETE after", "in one piece at every tick", "by tc netem: 30 % lost, 20 ± 10 ms late, 10 % twice, 10 % not delayed, 400 kbit/s"}
+                                 : Arguments{"--impairment netem cannot be had here: ", "--impairment relay does the same"};
+  for (const std::string& words : expected) EXPECT_TRUE(has(outcome.out + outcome.err, words)) << words << outcome.out << outcome.err;
+}
+
+TEST_F(FleetProgram, ARelayMakesTheRadioBadWhereNetemIsNot) {
+  const Outcome outcome = run({"fleet", three_targets, "--speed", "5", "--set", "mission.algorithm=convoy", "--loss", "0.1", "--loopback", "--out", "result"});
+  EXPECT_TRUE(has(outcome.out, "by a relay: 10 % lost\n")) << outcome.out << outcome.err;
+  const Outcome without = run({"fleet", three_targets, "--loopback", "--impairment", "netem", "--out", "neither"});
+  EXPECT_EQ(without.code, 2);
+  EXPECT_TRUE(has(without.err, "cannot be had here: robots have no networks of their own")) << without.err;
+  const Outcome unknown = run({"fleet", three_targets, "--impairment", "magic", "--out", "neither"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_TRUE(has(unknown.err, "auto") && has(unknown.err, "netem") && has(unknown.err, "relay")) << unknown.err;
+  EXPECT_FALSE(exists("neither"));
 }
 
 TEST_F(FleetProgram, CtrlCStopsAllAndLeavesValidFiles) {
@@ -240,7 +264,7 @@ TEST_F(FleetProgram, ThePageBesideItStaysUntilCtrlC) {
 }
 
 TEST_F(FleetProgram, AllEndWithAFleetThatIsKilled) {
-  const pid_t fleet = start_fleet({"--set", "mission.stop_when_complete=false"});
+  const pid_t fleet = start_fleet({"--loss", "0.1", "--set", "mission.stop_when_complete=false"});
   const auto children = children_of(fleet);
   EXPECT_EQ(children.size(), 10U);
   ::kill(fleet, SIGKILL);

@@ -3,18 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace banyan::udp {
-
-Impairment per_hop(const Impairment& way) noexcept {
-  Impairment hop = way;
-  hop.loss = 1.0 - std::sqrt(1.0 - way.loss);
-  hop.duplicate = 1.0 - std::sqrt(1.0 - way.duplicate);
-  hop.delay_s = way.delay_s / 2.0;
-  hop.jitter_s = way.jitter_s / 2.0;
-  return hop;
-}
 
 Relay::Relay(const Address& listen, const Address& hub, const Impairment& hop, std::uint64_t seed, double speed)
     : front_(listen), hub_(hub), hop_(hop), clock_(speed), speed_(speed), random_(seed), descriptors_{front_.descriptor()} {}
@@ -40,7 +30,7 @@ void Relay::impair(std::size_t side, bool to_hub, ByteView datagram) {
   ++taken_;
   const int copies = draw() < hop_.duplicate ? 2 : 1;
   for (int copy = 0; copy < copies; ++copy) {
-    if (draw() < hop_.loss) continue;
+    if (draw() < hop_.loss || sides_[side].under_way[to_hub ? 1 : 0] == most_under_way) continue;
     const double now_s = clock_.now_s();
     double sent_s = now_s;
     if (hop_.rate_bytes_s > 0.0) {
@@ -49,6 +39,7 @@ void Relay::impair(std::size_t side, bool to_hub, ByteView datagram) {
     }
     const bool overtakes = draw() < hop_.reorder;
     const double delay_s = std::max(0.0, hop_.delay_s + hop_.jitter_s * (2.0 * draw() - 1.0));
+    ++sides_[side].under_way[to_hub ? 1 : 0];
     flights_.push({overtakes ? sent_s : sent_s + delay_s, taken_, side, to_hub, Bytes(datagram.begin(), datagram.end())});
   }
 }
@@ -65,9 +56,10 @@ void Relay::take_in() {
 void Relay::hand_on() {
   while (!flights_.empty() && flights_.top().due_s <= clock_.now_s()) {
     const Flight& flight = flights_.top();
-    const Side& side = sides_[flight.side];
+    Side& side = sides_[flight.side];
     if (flight.to_hub) side.socket.send(flight.bytes, hub_);
     else front_.send(flight.bytes, side.robot);
+    --side.under_way[flight.to_hub ? 1 : 0];
     ++handed_on_;
     flights_.pop();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The processes of a fleet on one machine: a hub, robots, and the relay between them, in this process. All of them end
-// with it: when it is destroyed, and, because the kernel then ends them, when it is killed.
+// The processes of a fleet on one machine: a hub, robots, and, where wires do not make the radio bad, the relay between
+// them, in this process. All of them end with it: when it is destroyed, and, because the kernel then ends them, when it
+// is killed.
 #pragma once
 
 #include <sys/types.h>
@@ -12,21 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "banyan/hosts/udp/network.hpp"
 #include "banyan/hosts/udp/relay.hpp"
 
 namespace banyan::udp {
-
-class FleetError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-// Namespaces: this process moves into a network of its own, in which a bridge joins one more for each robot. The kernel
-// takes all of it away with the last process. False, and nothing has changed, if the machine does not allow it. Must be
-// called before any thread starts.
-[[nodiscard]] bool enter_network();
-
-using Arguments = std::vector<std::string>;  // the program first
 
 class Fleet {
  public:
@@ -37,6 +27,7 @@ class Fleet {
     bool restart = true;                // robots that end unasked
     double restart_after_s = 1.0;       // of the wall
     Impairment way;                     // from robot to robot
+    bool netem = false;                 // by the wires of namespaces, after netem_fault(); otherwise by a relay
     double speed = 1.0;
     std::uint64_t seed = 1;
   };
@@ -61,7 +52,6 @@ class Fleet {
   };
   void start_hub(bool again);
   void start_robot(std::size_t i);
-  void join_bridge(std::size_t i, pid_t robot) const;
   void ended(pid_t pid, int status);
   void end_all() noexcept;
 

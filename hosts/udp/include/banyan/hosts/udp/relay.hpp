@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bad radio between real sockets, for machines whose kernel has none (tc netem): takes datagrams of robots, loses,
+// A bad radio between real sockets, where the kernel's own cannot be had (network.hpp): takes datagrams of robots, loses,
 // delays, doubles and reorders them, and hands them to the hub; and those of the hub likewise.
 #pragma once
 
@@ -9,24 +9,10 @@
 #include <queue>
 #include <vector>
 
+#include "banyan/hosts/udp/impairment.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 
 namespace banyan::udp {
-
-// Of one hop: from a robot to the hub, or back.
-struct Impairment {
-  double loss = 0.0;            // probability
-  double delay_s = 0.0;
-  double jitter_s = 0.0;        // uniform in +- this
-  double duplicate = 0.0;       // probability
-  double reorder = 0.0;         // probability that a datagram is not delayed
-  double rate_bytes_s = 0.0;    // of each robot, either way; 0: no limit
-  [[nodiscard]] bool any() const noexcept {
-    return loss > 0.0 || delay_s > 0.0 || jitter_s > 0.0 || duplicate > 0.0 || reorder > 0.0 || rate_bytes_s > 0.0;
-  }
-};
-// The same of the way from robot to robot, which is two hops: both together lose, delay and double as much as given.
-[[nodiscard]] Impairment per_hop(const Impairment& way) noexcept;
 
 class Relay {
  public:
@@ -37,12 +23,14 @@ class Relay {
   [[nodiscard]] Address local() const noexcept { return front_.local(); }
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
   [[nodiscard]] std::uint64_t handed_on() const noexcept { return handed_on_; }
+  [[nodiscard]] std::size_t under_way() const noexcept { return flights_.size(); }
 
  private:
   struct Side {               // of one robot
     Address robot;
     Socket socket;            // towards the hub, which so knows robots apart
-    double free_s[2] = {};    // when its line is free again, by direction
+    double free_s[2] = {};    // when its line is free again, by direction: from the hub, to it
+    std::size_t under_way[2] = {};
   };
   struct Flight {
     double due_s = 0.0;
