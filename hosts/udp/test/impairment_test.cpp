@@ -144,7 +144,8 @@ class BadRadio : public testing::TestWithParam<Made> {
     return std::make_unique<ByRelay>(hop, speed);
   }
   // Numbered datagrams, in the order in which they arrive.
-  static std::vector<Arrival> sent_through(const Impairment& hop, std::size_t count, double wait_s, std::size_t bytes = 40, double speed = 1.0) {
+  static std::vector<Arrival> sent_through(const Impairment& hop, std::size_t count, double wait_s, double speed = 1.0) {
+    constexpr std::size_t bytes = 40;
     const auto way = make(hop, speed);
     const Address robot = way->robot_for_hub();
     const Clock clock;
@@ -173,6 +174,13 @@ class BadRadio : public testing::TestWithParam<Made> {
     }
     return arrivals;
   }
+  // A machine that is held up makes everything late: what should be early has to be so in one of three tries.
+  template <class Early> static std::vector<Arrival> sent_early(const Early& early, const Impairment& hop, std::size_t count, double wait_s, double speed = 1.0) {
+    auto arrivals = sent_through(hop, count, wait_s, speed);
+    for (int tries = 1; tries < 3 && !early(arrivals); ++tries) arrivals = sent_through(hop, count, wait_s, speed);
+    EXPECT_TRUE(early(arrivals));
+    return arrivals;
+  }
   static bool in_order(const std::vector<Arrival>& arrivals) { return std::ranges::is_sorted(arrivals, {}, &Arrival::number); }
   static double shortest_s(const std::vector<Arrival>& arrivals) { return std::ranges::min(arrivals, {}, &Arrival::after_s).after_s; }
   static double mean_s(const std::vector<Arrival>& arrivals) {
@@ -191,44 +199,42 @@ TEST_P(BadRadio, LosesAndDoublesAsManyAsItShould) {
 }
 
 TEST_P(BadRadio, DelaysInOrder) {
-  const auto still = sent_through({.delay_s = 0.03}, 100, 0.2);
+  const auto still = sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.05; }, {.delay_s = 0.03}, 100, 0.2);
   ASSERT_EQ(still.size(), 100U);
   EXPECT_TRUE(in_order(still));
   EXPECT_GE(shortest_s(still), 0.03);
-  EXPECT_LT(mean_s(still), 0.05);
   // In a clock that is ten times as fast.
-  const auto fast = sent_through({.delay_s = 0.5}, 10, 0.2, 40, 10.0);
+  const auto fast = sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.08; }, {.delay_s = 0.5}, 10, 0.2, 10.0);
   ASSERT_EQ(fast.size(), 10U);
   EXPECT_GE(shortest_s(fast), 0.05);
-  EXPECT_LT(mean_s(fast), 0.1);
 }
 
 // What is uniform between 10 and 50 ms is 30 ms in the mean of 200, give or take three times 0.8 ms.
 TEST_P(BadRadio, VariesTheDelayAsMuchAsItShould) {
-  const auto jittered = sent_through({.delay_s = 0.03, .jitter_s = 0.02}, 200, 0.2);
+  const auto jittered = sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.04; }, {.delay_s = 0.03, .jitter_s = 0.02}, 200, 0.2);
   ASSERT_EQ(jittered.size(), 200U);
   EXPECT_GE(shortest_s(jittered), 0.01);
   EXPECT_LT(shortest_s(jittered), 0.02);
   EXPECT_GT(mean_s(jittered), 0.027);
-  EXPECT_LT(mean_s(jittered), 0.045);
   EXPECT_FALSE(in_order(jittered));
 }
 
 TEST_P(BadRadio, LetsSomeOvertakeOthers) {
-  const auto overtaken = sent_through({.delay_s = 0.05, .reorder = 0.5}, 200, 0.2);
+  const auto half_at_once = [](const std::vector<Arrival>& arrivals) {
+    const auto at_once = std::ranges::count_if(arrivals, [](const Arrival& arrival) { return arrival.after_s < 0.05; });
+    return std::abs(static_cast<double>(at_once) - 100.0) < 5.0 * std::sqrt(50.0);
+  };
+  const auto overtaken = sent_early(half_at_once, {.delay_s = 0.05, .reorder = 0.5}, 200, 0.2);
   ASSERT_EQ(overtaken.size(), 200U);
   EXPECT_FALSE(in_order(overtaken));
-  const auto at_once = std::ranges::count_if(overtaken, [](const Arrival& arrival) { return arrival.after_s < 0.05; });
-  EXPECT_NEAR(static_cast<double>(at_once), 100.0, 5.0 * std::sqrt(50.0));
 }
 
 // Of what datagrams contain: with their headers, 400 of 40 bytes would take twice as long.
 TEST_P(BadRadio, LimitsTheRate) {
-  const auto arrivals = sent_through({.rate_bytes_s = 4e4}, 400, 0.9);
+  const auto arrivals = sent_early([](const auto& all) { return all.back().at_s < 0.6; }, {.rate_bytes_s = 4e4}, 400, 0.9);
   ASSERT_EQ(arrivals.size(), 400U);
   EXPECT_TRUE(in_order(arrivals));
   EXPECT_GE(arrivals.back().at_s, 0.39);
-  EXPECT_LT(arrivals.back().at_s, 0.6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, BadRadio,
