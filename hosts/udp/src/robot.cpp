@@ -29,6 +29,13 @@ void Robot::begin(const SensorFrame& frame) {
   given_up_serial_ = frame.begun ? frame.given_up_serial : 0;
   step_tick_ = frame.tick;
   interrupted_ = true;
+  odometry_tick_ = 0;
+}
+
+void Robot::follow(std::uint32_t tick, const OdometricPose& odometry) {
+  if (tick < odometry_tick_) return;
+  odometry_tick_ = tick;
+  odometry_ = odometry;
 }
 
 void Robot::take(const SensorFrame& frame, double now_s, const std::optional<OdometricPose>& at) {
@@ -38,12 +45,14 @@ void Robot::take(const SensorFrame& frame, double now_s, const std::optional<Odo
   if (!swarm_ || another_mission) begin(frame);
   frame_ = frame;
   frame_s_ = now_s;
+  follow(frame.tick, frame.odometry);
   if (frame.has_target) target_ = at.value_or(frame.odometry).outside(frame.target);
   swarm_->set_line_of_sight(frame.line_of_sight);
 }
 
 void Robot::take(const HeardBundle& heard, const std::optional<OdometricPose>& at) {
   if (!swarm_) return;
+  follow(heard.tick, heard.odometry);
   const OdometricPose& pose = at ? *at : heard.odometry;
   for (const Hearing& packet : heard.packets) {
     const auto [place, is_new] = known_.try_emplace(packet.sender);
@@ -95,7 +104,7 @@ Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, doubl
 }
 
 Status Robot::step(double now_s, const std::optional<OdometricPose>& pose, std::span<const Vec2> seen) {
-  const OdometricPose here = pose ? *pose : frame_.odometry;
+  const OdometricPose here = pose ? *pose : odometry_;
   if (step_s_ <= 0.0) pose_ = here;  // the first one: there is no motion before
   collect(here, now_s);
   std::array<Sensed, 1> sensed;

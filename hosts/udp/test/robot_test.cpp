@@ -159,6 +159,23 @@ TEST_F(RobotAlone, OdometryAndTimeSinceTheLastStep) {
   EXPECT_NEAR(given_.senses.odometry.turn_rad, 0.1F, 1e-6F);
 }
 
+// Its sensor frame may be lost, but each datagram of packets says where it is, too.
+TEST_F(RobotAlone, OdometryComesWithPacketsAndNeverGoesBack) {
+  robot_.take(frame(1), 10.0);
+  static_cast<void>(robot_.step(10.0));
+  robot_.take(HeardBundle{3, {{0.03F, 0.0F}, 0.0F}, {{3, {1.0F, 0.0F}, {4}}}});
+  robot_.take(HeardBundle{2, {{0.01F, 0.0F}, 0.0F}, {{5, {1.0F, 0.0F}, {4}}}});  // overtaken
+  robot_.take(frame(2, {{0.01F, 0.0F}, 0.0F}), 10.08);                        // likewise
+  static_cast<void>(robot_.step(10.1));
+  EXPECT_NEAR(given_.senses.odometry.forward_m, 0.03F, 1e-6F);
+  ASSERT_EQ(given_.packets.size(), 2U);
+  EXPECT_NEAR(given_.packets[0].position.x, 1.0F, 1e-6F);
+  EXPECT_NEAR(given_.packets[1].position.x, 0.98F, 1e-6F);
+  robot_.take(frame(4, {{0.03F, 0.0F}, 0.0F}), 10.2);
+  static_cast<void>(robot_.step(10.2));
+  EXPECT_NEAR(given_.senses.odometry.forward_m, 0.0F, 1e-6F);
+}
+
 TEST_F(RobotAlone, APauseOfTheHubIsNoTimeOfTheMissionButAPauseOfTheRobotIs) {
   robot_.take(frame(10), 10.0);
   static_cast<void>(robot_.step(10.0));

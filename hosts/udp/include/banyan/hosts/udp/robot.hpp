@@ -41,6 +41,7 @@ class Robot {
   };
 
   void begin(const SensorFrame& frame);
+  void follow(std::uint32_t tick, const OdometricPose& odometry);  // if it is newer than what is known
   [[nodiscard]] float elapsed_s(double now_s) const noexcept;
   [[nodiscard]] Senses sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s);
   void collect(const OdometricPose& pose, double now_s);
@@ -55,6 +56,8 @@ class Robot {
 
   SensorFrame frame_;                   // the newest
   double frame_s_ = 0.0;          // when it came
+  OdometricPose odometry_;        // the newest that the hub has said, with whatever
+  std::uint32_t odometry_tick_ = 0;
   Vec2 target_;                   // in the frame of the odometry
   std::map<RobotId, Known> known_;
 
