@@ -16,8 +16,8 @@
 namespace banyan::udp {
 namespace {
 
-// "10.77.X.Y" of a robot, and the hardware address of the same numbers, so that nobody has to ask for it: a question that
-// gets lost would hold up all datagrams, not one.
+// "10.77.X.Y" of a robot, and the hardware address of the same numbers, so that nobody has to ask for it: a question
+// that gets lost would hold up all datagrams, not one.
 struct Place {
   std::string address, hardware;
 };
@@ -72,8 +72,9 @@ bool unshare_network() {
 // sending to the one that they know.
 constexpr const char* bridge_hardware = "02:00:0a:4d:00:01";
 bool make_bridge() {
-  return batch("ip", std::string("link set lo up\nlink add br0 address ") + bridge_hardware + " type bridge\naddr add " +
-                         bridge_address + "/16 dev br0\nlink set br0 up\n");
+  const std::string link = std::string("link add br0 address ") + bridge_hardware + " type bridge\n";
+  const std::string address = std::string("addr add ") + bridge_address + "/16 dev br0\n";
+  return batch("ip", "link set lo up\n" + link + address + "link set br0 up\n");
 }
 
 constexpr const char* trial_wire = "link add w0 type veth peer name w1\n";
@@ -82,7 +83,8 @@ constexpr const char* trial_wire = "link add w0 type veth peer name w1\n";
 bool network_works() {
   const pid_t trial = ::fork();
   if (trial == 0) {
-    const bool works = unshare_network() && make_bridge() && batch("ip", std::string(trial_wire) + "link set w0 master br0 up\n") &&
+    const bool works = unshare_network() && make_bridge() &&
+                       batch("ip", std::string(trial_wire) + "link set w0 master br0 up\n") &&
                        ::unshare(CLONE_NEWNET) == 0;
     ::_exit(works ? 0 : 1);
   }
@@ -93,7 +95,8 @@ std::string contents_of(int file) {
   std::string text;
   std::array<char, 512> room{};
   ::lseek(file, 0, SEEK_SET);
-  for (ssize_t n = 0; (n = ::read(file, room.data(), room.size())) > 0;) text.append(room.data(), static_cast<std::size_t>(n));
+  for (ssize_t n = 0; (n = ::read(file, room.data(), room.size())) > 0;)
+    text.append(room.data(), static_cast<std::size_t>(n));
   return text;
 }
 
@@ -177,15 +180,18 @@ Wire::Wire(std::size_t robot, const Impairment& hop, double speed)
 }
 
 Wire::~Wire() {
-  for (int* pipe : {&there_[0], &there_[1], &wired_[0], &wired_[1]}) close_end(*pipe);
+  for (auto* pipe : {&there_, &wired_})
+    for (int& end : *pipe) close_end(end);
 }
 
 bool Wire::become_far_end() {
   close_end(wired_[1]);
   if (::unshare(CLONE_NEWNET) != 0 || !say(there_[1]) || !hear(wired_[0])) return false;
   const Place here = place_of(robot_);
-  return batch("ip", "link set lo up\naddr add " + here.address + "/16 dev eth0\nlink set eth0 up\nneigh add " + bridge_address +
-                         " lladdr " + bridge_hardware + " dev eth0 nud permanent\n") &&
+  const std::string address = "addr add " + here.address + "/16 dev eth0\n";
+  const std::string hub =
+      std::string("neigh add ") + bridge_address + " lladdr " + bridge_hardware + " dev eth0 nud permanent\n";
+  return batch("ip", "link set lo up\n" + address + "link set eth0 up\n" + hub) &&
          (netem_.empty() || batch("tc", "qdisc add dev eth0 root " + netem_ + "\n"));
 }
 
@@ -193,11 +199,11 @@ bool Wire::join(pid_t far) {
   close_end(there_[1]);
   close_end(wired_[0]);
   const Place there = place_of(robot_);
-  const std::string wire = "w" + std::to_string(robot_);
-  return hear(there_[0]) &&
-         batch("ip", "link add " + wire + " type veth peer name eth0 address " + there.hardware + " netns " + std::to_string(far) +
-                         "\nlink set " + wire + " master br0 up\nneigh replace " + there.address + " lladdr " + there.hardware +
-                         " dev br0 nud permanent\n") &&
+  const std::string wire = "w" + std::to_string(robot_), process = std::to_string(far);
+  const std::string ends =
+      "link add " + wire + " type veth peer name eth0 address " + there.hardware + " netns " + process + "\n";
+  const std::string robot = "neigh replace " + there.address + " lladdr " + there.hardware + " dev br0 nud permanent\n";
+  return hear(there_[0]) && batch("ip", ends + "link set " + wire + " master br0 up\n" + robot) &&
          (netem_.empty() || batch("tc", "qdisc add dev " + wire + " root " + netem_ + "\n")) && say(wired_[1]);
 }
 

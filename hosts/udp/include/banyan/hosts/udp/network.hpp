@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Networks on one machine: one of the fleet and one of each robot, joined by a wire and a bridge. A wire can lose, delay,
-// double and reorder what it carries, which is the kernel's work (tc netem). All of it is known to these processes alone,
-// and the kernel takes it away with the last of them, however they end.
+// Networks on one machine: one of the fleet and one of each robot, joined by a wire and a bridge. A wire can lose,
+// delay, double and reorder what it carries, which is the kernel's work (tc netem). All of it is known to these
+// processes alone, and the kernel takes it away with the last of them, however they end.
 #pragma once
 
 #include <sys/types.h>
