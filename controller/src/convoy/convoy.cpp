@@ -136,7 +136,7 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
 
 // Once all workers have arrived, a spare that became root would be one more robot in the tree.
 bool may_inherit(const ConvoyRobot& robot, int k) noexcept {
-  if (robot.power != nullptr && !is_charged(*robot.power, k)) return false;
+  if (robot.power != nullptr && !may_inherit_root(*robot.power, k)) return false;
   if (is_leaving(robot)) return true;
   return !prunes(robot.params) || robot.self.want_m > 0.0F || robot.table().message(k).role != Role::spare;
 }
@@ -186,11 +186,13 @@ ConvoyParams convoy_defaults() noexcept {
   return p;
 }
 
-// A robot beside another reaches as far as that one only if edges have some slack.
+// A robot beside another reaches as far as that one only if edges have some slack. And chains from target to target would
+// make the ways to a charging place longer.
 ConvoyParams with_room_for_relief(ConvoyParams params) noexcept {
   params.merge_distance_m = std::min(params.merge_distance_m, params.relief_edge_m);
   params.compact_distance_m = std::min(params.compact_distance_m, params.relief_edge_m);
   params.thrift = 0.0F;  // it would stretch them again
+  params.plan_after_s = 0.0F;
   return params;
 }
 
@@ -269,7 +271,10 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
                         .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, is_left_waiting(robot)); },
                         .may_insert = [&](int owner, int parent) { return may_insert(robot, owner, parent); }});
   keep_company(robot);                                 // mission.link_redundancy
-  if (robot.power != nullptr) tend_battery(*robot.power);
+  if (robot.power != nullptr) {
+    if (asks_for_relief(robot)) call_for_relief(*robot.power);
+    tend_battery(*robot.power);
+  }
   find_gap(robot);                                     // is a part of the network there that does not hear me?
   const bool regroups = is_left_waiting(robot);
   const bool retreats = is_retreating(robot, regroups);
@@ -281,10 +286,15 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   keep_off(robot, guard);                              // obstacles
   keep_sight(robot, state.corners, guard);
 
+  if (robot.power != nullptr) push_nobody(*robot.power, guard);
+
   write_convoy(robot, message);
-  const Vec2 v = allowed(u, guard, params);
+  const float pace = robot.power != nullptr && !retreats ? leisure(*robot.power, params.clearance_m) : 1.0F;
+  const Vec2 v = allowed(pace < 1.0F ? clamped(u, 1.0F) * pace : u, guard, params);
   watch_progress(robot, retreats, v);                  // does the worker make progress?
-  return drive(v, guard, params);
+  Velocity motion = drive(v, guard, params);
+  if (pace < 1.0F) motion.turn_rad_s *= std::min(1.0F, norm(v) / params.wheel_limit_m_s);
+  return motion;
 }
 
 Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, const Inputs<Heard>& inputs) noexcept {
@@ -305,6 +315,7 @@ Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, Pow
   const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
   PowerRobot power{robot, state.power, params, child_count};
   robot.power = &power;
+  robot.passes_targets_on = true;
   Output<PoweredConvoyMessage> output;
   output.velocity = tick(robot, inputs, output.message);
   static_cast<PowerStanding&>(output.message) = state.power.said;

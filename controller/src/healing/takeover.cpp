@@ -76,11 +76,12 @@ constexpr float trust = 0.2F;  // weight of what a robot says that only remember
 
 // Where the target is, as told by a robot about as near to its worker as I am. If the worker is silent, or itself goes
 // by memory, copies of copies would only drift, and wheels slip in a crowd: then the mean of what all neighbours
-// remember is best.
-void locate(const HealingRobot& robot, Task& task, const TaskNews& news, Vec2 told) noexcept {
+// remember is best. Where targets are handed over all the time, the holder and the worker first sent there know best.
+void locate(const HealingRobot& robot, Task& task, RobotId sender, const TaskNews& news, Vec2 told) noexcept {
   constexpr int stale_ticks = 3;
   const bool silent = robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
   if (task.unlocated) set_place(task, told);
+  else if (robot.passes_targets_on && (sender == task.holder || sender == task.serves)) task.target = told;
   else if (silent || task.holder != task.serves) task.target += (told - task.target) * trust;
   else if (ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks)) task.target = told;
 }
@@ -119,12 +120,13 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
   }
   if (mine) {
     // If the mission tells me where it is, no other robot knows better.
-    if (target != nullptr && robot.target == nullptr) task->target += (*target - task->target) * trust;
+    const bool knows_better = !robot.passes_targets_on || sender == news.serves;
+    if (target != nullptr && robot.target == nullptr && knows_better) task->target += (*target - task->target) * trust;
     if (news.silent) task->urgent_ticks = pass_on_ticks;
     if (news.holder != self.id) settle_rivalry(robot, *task, news);
     return;
   }
-  if (target != nullptr) locate(robot, *task, news, *target);
+  if (target != nullptr) locate(robot, *task, sender, news, *target);
   if (news.via != nobody || task->via == sender) task->via = news.via;
   const bool newer = is_news(news.beat, task->beat, task->age_ticks);
   if (newer) renew(robot, *task, news);

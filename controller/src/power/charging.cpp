@@ -16,7 +16,9 @@ constexpr float at_place = 0.2F;       // of C, from the robot that keeps the pl
 constexpr float per_hop = 0.05F;       // of a full battery
 constexpr int near_hops = 2;
 constexpr int most_hops_counted = 6;
-constexpr int inner_depth = 3;         // of the tree: from there a spare is soon at every branch
+constexpr int waits_within = 2;        // hops of a place: there charged spares wait
+constexpr float leaves_sooner = 0.2F;  // of a full battery, at most: all have started full, and are not to leave at once
+constexpr int turns = 16;
 constexpr float way_to_edge = 0.15F;   // of a full battery: so much a spare may spend on its way
 constexpr float urgent_level = 0.5F;   // whoever has less is let through to the place
 constexpr float place_room = 0.4F;     // of C: kept free round it by those that are charged
@@ -45,11 +47,19 @@ void follow_places(PowerRobot& me) noexcept {
   me.power.said.place_hops = there ? std::uint8_t{0} : hops < farthest_place ? static_cast<std::uint8_t>(hops + 1) : no_place;
 }
 
+// Neighbours have other turns.
+float leave_below(const PowerRobot& me) noexcept {
+  constexpr unsigned spread = 37;  // so that ids next to each other are far apart
+  constexpr float margin = 0.05F;
+  const auto turn = static_cast<float>(me.robot.self.id * spread % turns) / static_cast<float>(turns);
+  return std::min(me.params.relieve_below + leaves_sooner * turn, std::max(me.params.relieve_below, me.params.ready_above - margin));
+}
+
 // It stays decided until the robot is a spare, or has been charged where it is.
 void decide_to_leave(PowerRobot& me) noexcept {
   PowerState& power = me.power;
   const bool in_tree = me.robot.self.role != Role::spare;
-  const bool low = power.level >= 0.0F && power.level < me.params.relieve_below && !power.charging && !power.keeps_place;
+  const bool low = power.level >= 0.0F && power.level < leave_below(me) && !power.charging && !power.keeps_place;
   power.said.leaving = in_tree && (power.said.leaving ? power.level < full_charge && !power.keeps_place : low);
   // The farther the place, the less often: the way itself takes charge.
   const float hops = static_cast<float>(std::clamp<int>(power.said.place_hops - near_hops, 0, most_hops_counted));
@@ -71,17 +81,27 @@ int way_to_place(const PowerRobot& me) noexcept {
   return best;
 }
 
-// Where it is useful: where the branches meet.
-void wait_near_root(PowerRobot& me) noexcept {
+// Neighbour k is a spare that could go in my stead: charged, free, and it hears the call.
+bool may_go(const PowerRobot& me, int k) noexcept {
   const TreeTable& table = me.robot.table();
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
-    const TreeStanding& m = table.message(k);
-    if (!table.alive(k) || m.role == Role::spare || m.depth == invalid_depth) continue;
-    if (best < 0 || m.depth < table.message(best).depth) best = k;
-  }
-  if (best < 0 || table.message(best).depth <= inner_depth) return;
-  me.robot.self.reference = table.id(best);
+  const TreeStanding& m = table.message(k);
+  return table.alive(k) && me.is_spare(k) && m.parent == nobody && m.request == nobody && m.call_hops <= me.robot.call_hops + 1 && is_charged(me, k);
+}
+
+// A crowd on its way to one call wastes charge and hides edges: only the nearest that I know of goes.
+bool leaves_call_to_others(const PowerRobot& me) noexcept {
+  const TreeTable& table = me.robot.table();
+  const int way = me.robot.call_hops < relief_call ? -1 : table.find(me.robot.self.reference);
+  for (int k = 0; way >= 0 && k < table.size(); ++k)
+    if (may_go(me, k) && distance(table.position(k), table.position(way)) < table.range(way)) return true;
+  return false;
+}
+
+// Where it is useful: near a place it stays full until it is called.
+void wait_near_place(PowerRobot& me) noexcept {
+  const int k = me.power.said.place_hops > waits_within ? way_to_place(me) : -1;
+  if (k < 0) return;
+  me.robot.self.reference = me.robot.table().id(k);
   me.robot.self.called = true;
 }
 
@@ -111,12 +131,22 @@ void tend_battery(PowerRobot& me) noexcept {
     self.called = false;
     self.spare_state = SpareState::adjust_position;
   }
+  if (self.called && leaves_call_to_others(me)) self.called = false;
   if (self.request != nobody || self.called) return;
-  if (!me.power.seeks) return wait_near_root(me);
+  if (!me.power.seeks) return wait_near_place(me);
   const int k = way_to_place(me);
   if (k < 0) return;
   self.reference = me.robot.table().id(k);
   me.power.travels = self.called = !is_at_place(me);
+}
+
+void call_for_relief(PowerRobot& me) noexcept {
+  constexpr float urgent_at = 0.1F;       // of a full battery
+  constexpr float hops_of_battery = 20.0F; // a full one can wait as if it were so much farther away
+  TreeState& self = me.robot.self;
+  if (self.call_hops != 0) return;
+  const int hops = relief_call + static_cast<int>(std::max(0.0F, me.power.level - urgent_at) * hops_of_battery);
+  self.call_hops = static_cast<std::uint8_t>(std::min(hops, me.robot.call_hops + 1));
 }
 
 bool leaves_place(const PowerRobot& me, Vec2& away) noexcept {
@@ -134,6 +164,18 @@ bool leaves_place(const PowerRobot& me, Vec2& away) noexcept {
 bool is_charged(const PowerRobot& me, int k) noexcept {
   const std::uint8_t level = me.standing(k).level;
   return level != 0xFF && !me.standing(k).leaving && static_cast<float>(level) >= me.params.ready_above * level_unit;
+}
+
+bool may_inherit_root(const PowerRobot& me, int k) noexcept {
+  constexpr float urgent = 0.38F;   // of a full battery
+  constexpr float more = 0.06F;
+  constexpr float spare_charge = 0.1F;
+  if (is_charged(me, k)) return true;
+  const PowerStanding& other = me.standing(k);
+  if (other.level == 0xFF) return false;
+  const float level = static_cast<float>(other.level) / level_unit;
+  if (me.power.said.leaving) return me.power.level <= urgent && level >= me.power.level + more;
+  return !other.leaving && level >= me.params.relieve_below + spare_charge;
 }
 
 bool is_at_place(const PowerRobot& me) noexcept {

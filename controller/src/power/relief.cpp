@@ -37,12 +37,14 @@ bool is_parent_relieved(const PowerRobot& me) noexcept {
   return k >= 0 && me.standing(k).relieves == me.robot.self.parent;
 }
 
-// Of robots next to each other that have to leave, the emptier one goes first: a place that two robots of an edge
-// leave at once would be empty.
+// Of two robots of an edge that have to leave, the lower one goes first unless the upper one is clearly emptier: a place
+// that both left at once would be empty. If it were always the emptier one, two with equal charge would take turns to
+// ask, and no call would last long enough to be heard.
 bool is_first(const PowerRobot& me, int k) noexcept {
+  constexpr int clearly = 20;  // of 254
   const PowerStanding& other = me.standing(k);
   if (!other.leaving || !me.robot.table().alive(k)) return true;
-  return me.power.said.level != other.level ? me.power.said.level < other.level : me.robot.self.id < me.robot.table().id(k);
+  return k == me.robot.parent ? me.power.said.level <= other.level + clearly : me.power.said.level + clearly < other.level;
 }
 
 // It has a child that I do not hear: it hides it from me.
@@ -103,7 +105,7 @@ void choose_heir(PowerRobot& me) noexcept {
 }
 
 // Of the spots round the robot that leaves, the one from which the farthest of its tree neighbours is nearest, among those
-// from where it hides none of them.
+// from where it hides none of them, and rather on my side of its edges: to cross one is to hide it for a moment.
 Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const TreeTable& table = me.robot.table();
   const Vec2 at = table.position(leaver);
@@ -116,6 +118,7 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const float apart_m = beside * range_m;
   const bool hides = hides_child(me, leaver);
   constexpr float diagonal = 0.70710678F;
+  constexpr float costs_crossing = 0.5F;
   constexpr float hidden_behind = 0.6F;  // of the distance to it: its body is so near to the line of sight
   constexpr Vec2 directions[] = {{0.0F, 1.0F}, {0.0F, -1.0F}, {diagonal, diagonal}, {diagonal, -diagonal}, {-diagonal, diagonal}, {-diagonal, -diagonal}, {1.0F, 0.0F}, {-1.0F, 0.0F}};
   Vec2 best = at;
@@ -127,6 +130,7 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
     const auto look_at = [&](int k) {
       const Vec2 other = table.position(k) - at;
       farthest_m = std::max(farthest_m, distance(off, other));
+      if (crosses(at + off, at, at + other)) hidden_m += costs_crossing * range_m;
       if (norm(nearest_on_segment(off, other)) < hidden_behind * apart_m) hidden_m += range_m;
     };
     if (parent >= 0) look_at(parent);

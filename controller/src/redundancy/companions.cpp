@@ -183,11 +183,6 @@ Ends ends_around(const ConvoyRobot& robot, int of) noexcept {
   return ends;
 }
 
-// The way there crosses the line between a and b.
-bool crosses(Vec2 place, Vec2 a, Vec2 b) noexcept {
-  return cross(place, a) * cross(place, b) < 0.0F && cross(b - a, -a) * cross(b - a, place - a) < 0.0F;
-}
-
 // What is in the way at that place, and of links from it to the ends. m.
 float obstruction_of(const ConvoyRobot& robot, const Ends& ends, int of, Vec2 place) noexcept {
   const ConvoyParams& p = robot.params;

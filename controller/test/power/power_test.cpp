@@ -167,6 +167,153 @@ TEST_F(AboveALeaver, StandsThereOnceItHearsAllOfItsChildren) {
   EXPECT_TRUE(power.said.in_place);
 }
 
+// A connector (id 1) below robot 9 and above robot 2, in a chain in which all have to leave. 9 - 1 - 2.
+class AmongLeavers : public ::testing::Test {
+ protected:
+  AmongLeavers() {
+    bench.state.role = Role::connector;
+    bench.state.parent = 9;
+    bench.put(9, {-1.5F, 0.0F}).role = Role::connector;
+    auto& child = bench.put(2, {1.5F, 0.0F});
+    child.role = Role::connector;
+    child.parent = 1;
+  }
+  // Whether it asks for a spare, with such charges of 254.
+  bool asks(std::uint8_t above, std::uint8_t mine, std::uint8_t below, bool child_leaves) {
+    auto robot = bench.tick();
+    power.said.leaving = true;
+    power.said.level = mine;
+    auto& parent = power.standings[static_cast<std::size_t>(robot.table().find(9))];
+    parent.leaving = true;
+    parent.level = above;
+    auto& child = power.standings[static_cast<std::size_t>(robot.table().find(2))];
+    child.leaving = child_leaves;
+    child.level = below;
+    const auto child_count = [](int) { return 1; };
+    return wants_relief(PowerRobot{robot, power, bench.params, child_count});
+  }
+  ConvoyBench bench = grown<Convoy>();
+  PowerState power;
+};
+
+TEST_F(AmongLeavers, TheLowestGoesFirstAndKeepsItsTurnWhileChargesAreNearlyEqual) {
+  // Both sink by turns: whichever is a unit below the other, the lower one asks.
+  for (std::uint8_t level = 120; level > 20; --level) {
+    EXPECT_TRUE(asks(level, level, level, false));
+    EXPECT_TRUE(asks(static_cast<std::uint8_t>(level - 1), level, level, false));
+    EXPECT_FALSE(asks(level, level, static_cast<std::uint8_t>(level + 1), true));
+    EXPECT_FALSE(asks(level, level, level, true));
+  }
+}
+
+TEST_F(AmongLeavers, AClearlyEmptierRobotGoesBeforeThoseBelowIt) {
+  EXPECT_TRUE(asks(100, 50, 100, true));
+  EXPECT_FALSE(asks(50, 100, 100, false));
+}
+
+TEST(Power, ARobotWithLessChargeSeemsNearerAndMoreUrgentCallsOfOthersAreNotDrowned) {
+  auto bench = grown<Convoy>();
+  PowerState power;
+  const auto child_count = [](int) { return 0; };
+  const auto hops = [&](float level, std::uint8_t heard) {
+    auto robot = bench.tick();
+    robot.call_hops = heard;
+    bench.state.call_hops = 0;
+    power.level = level;
+    PowerRobot me{robot, power, bench.params, child_count};
+    call_for_relief(me);
+    return int{bench.state.call_hops};
+  };
+  EXPECT_LT(hops(0.1F, nobody_calls), hops(0.5F, nobody_calls));
+  EXPECT_GE(hops(0.0F, nobody_calls), relief_call);
+  EXPECT_EQ(hops(0.5F, 3), 4);  // an edge that holds workers back comes first
+}
+
+// A free spare (id 1) between a robot that calls and another charged spare.
+class CalledSpare : public ::testing::Test {
+ protected:
+  // Whether it goes, if the other spare is so far from the caller.
+  bool goes(float other_m, std::uint8_t other_level) {
+    auto bench = grown<Convoy>();
+    bench.state.role = Role::spare;
+    bench.put(9, {1.5F, 0.0F}).role = Role::connector;
+    auto& other = bench.put(5, {1.5F, other_m});
+    other.role = Role::spare;
+    other.call_hops = relief_call + 2;
+    auto robot = bench.tick();
+    robot.call_hops = relief_call + 1;
+    bench.state.reference = 9;
+    bench.state.called = true;
+    PowerState power;
+    power.level = 0.95F;
+    power.ready = true;
+    power.standings[static_cast<std::size_t>(robot.table().find(5))].level = other_level;
+    const auto child_count = [](int) { return 0; };
+    PowerRobot me{robot, power, bench.params, child_count};
+    tend_battery(me);
+    return bench.state.called;
+  }
+};
+
+TEST_F(CalledSpare, GoesUnlessAnotherChargedOneIsNearer) {
+  EXPECT_TRUE(goes(1.7F, 250));
+  EXPECT_FALSE(goes(1.0F, 250));
+  EXPECT_TRUE(goes(1.0F, 100));  // that one is not charged
+}
+
+TEST(Power, NobodyPushesAndEverybodyMayGoAway) {
+  auto bench = grown<Convoy>();
+  bench.put(5, {0.15F, 0.0F}).role = Role::spare;
+  auto robot = bench.tick();
+  PowerState power;
+  const auto child_count = [](int) { return 0; };
+  Guard guard;
+  push_nobody(PowerRobot{robot, power, bench.params, child_count}, guard);
+  EXPECT_LT(guard.apply({0.2F, 0.0F}).x, 0.02F);
+  EXPECT_EQ(guard.apply({-0.2F, 0.0F}).x, -0.2F);
+  EXPECT_EQ(guard.apply({0.0F, 0.2F}).y, 0.2F);
+}
+
+TEST(Power, ASpareThatWaitsIsSlowUnlessItHidesAnEdge) {
+  const auto pace = [](float off_m, bool called) {
+    auto bench = grown<Convoy>();
+    bench.state.role = Role::spare;
+    bench.state.called = called;
+    bench.put(9, {-0.8F, off_m}).role = Role::connector;
+    auto& child = bench.put(2, {0.8F, off_m});
+    child.role = Role::connector;
+    child.parent = 9;
+    auto robot = bench.tick();
+    bench.state.called = called;
+    PowerState power;
+    const auto child_count = [](int) { return 0; };
+    return leisure(PowerRobot{robot, power, bench.params, child_count}, bench.params.clearance_m);
+  };
+  EXPECT_LT(pace(0.6F, false), 0.5F);
+  EXPECT_EQ(pace(0.1F, false), 1.0F);
+  EXPECT_EQ(pace(0.6F, true), 1.0F);
+}
+
+TEST(Power, ARootThatHasToLeaveTakesAnyHeirWithMoreChargeOnlyWhenItIsUrgent) {
+  auto bench = grown<Convoy>();
+  bench.put(5, {1.0F, 0.0F}).role = Role::connector;
+  auto robot = bench.tick();
+  PowerState power;
+  const auto child_count = [](int) { return 0; };
+  PowerRobot me{robot, power, bench.params, child_count};
+  const auto may = [&](float mine, std::uint8_t level) {
+    power.said.leaving = true;
+    power.level = mine;
+    power.standings[static_cast<std::size_t>(robot.table().find(5))].level = level;
+    return may_inherit_root(me, robot.table().find(5));
+  };
+  EXPECT_TRUE(may(0.5F, 250));
+  EXPECT_FALSE(may(0.5F, 150));
+  EXPECT_TRUE(may(0.3F, 150));
+  EXPECT_FALSE(may(0.3F, 70));
+  EXPECT_FALSE(may(0.3F, 0xFF));  // not known
+}
+
 TEST(Power, ThresholdsThatContradictEachOtherAreFaults) {
   ConvoyParams p = convoy_defaults();
   EXPECT_EQ(convoy_fault(p), "");

@@ -58,6 +58,12 @@ constexpr BasicVec2<T> nearest_on_segment(BasicVec2<T> a, BasicVec2<T> b) noexce
   return a + d * (t < T(0) ? T(0) : t > T(1) ? T(1) : t);
 }
 
+// The segment from the origin to `to` crosses the one from a to b.
+template <class T>
+constexpr bool crosses(BasicVec2<T> to, BasicVec2<T> a, BasicVec2<T> b) noexcept {
+  return cross(to, a) * cross(to, b) < T(0) && cross(b - a, -a) * cross(b - a, to - a) < T(0);
+}
+
 // A rotation is a unit vector (cos, sin): composing two is complex multiplication, no trigonometry.
 template <class T> constexpr BasicVec2<T> rotate(BasicVec2<T> rotation, BasicVec2<T> v) noexcept {
   return {rotation.x * v.x - rotation.y * v.y, rotation.y * v.x + rotation.x * v.y};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "banyan/controller/core/function_ref.hpp"
+#include "banyan/controller/core/guard.hpp"
 #include "banyan/controller/healing/robot.hpp"
 #include "banyan/controller/power/params.hpp"
 #include "banyan/controller/power/state.hpp"
@@ -48,6 +49,11 @@ void watch_relief(PowerRobot& me) noexcept;
 // I take part in a relief, and move for it: where to, own frame, m.
 [[nodiscard]] bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept;
 
+// Calls for reliefs are farther off than those of edges that hold workers back, by so many hops and more: the less charge
+// is left, the nearer they seem.
+inline constexpr int relief_call = 16;
+void call_for_relief(PowerRobot& me) noexcept;
+
 // After spares have looked for edges: one with too little charge joins none, one that nobody needs goes to be charged.
 void tend_battery(PowerRobot& me) noexcept;
 
@@ -56,6 +62,16 @@ void tend_battery(PowerRobot& me) noexcept;
 
 // Neighbour k has said that it has charge enough to join the tree.
 [[nodiscard]] bool is_charged(const PowerRobot& me, int k) noexcept;
+
+// Neighbour k may become root. If I am root and have to leave, and little charge is left, whoever has more will do: as a
+// connector I can be relieved, a root calls nobody.
+[[nodiscard]] bool may_inherit_root(const PowerRobot& me, int k) noexcept;
+
+// Robots stand side by side again and again. One that is pushed does not notice, and is wrong about places from then on.
+void push_nobody(const PowerRobot& me, Guard& guard) noexcept;
+
+// How fast a spare moves that nobody waits for, as a share of its speed: it only makes room for others.
+[[nodiscard]] float leisure(const PowerRobot& me, float clearance_m) noexcept;
 
 // Near enough to a charging place: it stays there.
 [[nodiscard]] bool is_at_place(const PowerRobot& me) noexcept;
