@@ -6,6 +6,7 @@
 
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
+#include "banyan/controller/redundancy/companions.hpp"
 
 namespace banyan {
 namespace {
@@ -40,6 +41,8 @@ Outlook outlook(const ConvoyRobot& robot) noexcept {
   constexpr int hidden_ticks = 1;
   const float clearance_m = robot.params.clearance_m;
   const bool hidden = robot.table().age(robot.parent) > std::max(hidden_ticks, usual_silence_ticks(robot));
+  // Companions stand near edges. Where robots hide nothing, that endangers none.
+  if (has_companions(robot.params) && !robot.params.line_of_sight) return {hidden, hidden};
   const ConvoyMessage* parent = robot.parent_message();
   const bool warned = parent != nullptr && parent->warned == robot.self.id;
   const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance_m);

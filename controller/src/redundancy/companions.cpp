@@ -21,6 +21,7 @@ constexpr float reach = 0.97F;         // of C: a companion relies on no longer 
 constexpr float unheard_at = 0.9F;     // of C: so far away a tree neighbour that is not heard is supposed to be
 constexpr float hides = 0.6F;          // of `clearance`: a robot so near to a link hides it
 constexpr float near_place = 0.05F;    // of C: within it the companion slows down
+constexpr float even = 0.5F;           // of companion_distance: of two companions none is the nearer by less
 constexpr float costs_way = 0.15F;     // of a metre by which a place is better: the way there, so that it does not change its mind
 constexpr float costs_hidden = 0.5F;   // of C: what a hidden neighbour weighs against the distance of others
 constexpr float costs_crowd = 0.25F;   // of C: likewise a robot at that place, or an edge through it
@@ -71,16 +72,33 @@ bool holds_together(const ConvoyRobot& robot, std::span<const Vec2> ends, bool t
 
 bool is_free(const TreeStanding& m) noexcept { return m.role == Role::spare && m.parent == nobody; }
 
-// Spares that I hear which say that they stand beside that robot, those with smaller ids than `below` only.
-int count_companions(const ConvoyRobot& robot, RobotId of, int below) noexcept {
+bool accompanies(const ConvoyRobot& robot, int j, RobotId of) noexcept {
   const TreeTable& table = robot.table();
+  return table.alive(j) && table.message(j).role == Role::spare && robot.convoy_of(j).below == of;
+}
+
+// Of the companions of neighbour k, those that stay rather than I: they are much nearer to it or, where that decides
+// nothing, have smaller ids.
+int count_before_me(const ConvoyRobot& robot, int k) noexcept {
+  const TreeTable& table = robot.table();
+  const float even_m = even * robot.params.companion_distance_m;
   int count = 0;
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && table.message(k).role == Role::spare && robot.convoy_of(k).below == of && table.id(k) < below) ++count;
+  for (int j = 0; j < table.size(); ++j) {
+    if (!accompanies(robot, j, table.id(k))) continue;
+    const float behind_m = table.range(k) - distance(table.position(j), table.position(k));
+    if (behind_m > even_m || (behind_m > -even_m && table.id(j) < robot.self.id)) ++count;
+  }
   return count;
 }
 
 int wanted_companions(const ConvoyRobot& robot) noexcept { return robot.params.link_redundancy - 1; }
+
+// While a worker below it still travels, neighbour k has one more than it needs: a reserve that comes along, for robots
+// that need one when the other spares are far behind. Where robots hide edges, reserves would.
+int welcome_companions(const ConvoyRobot& robot, int k) noexcept {
+  const bool reserve = robot.table().message(k).want_cm > 0 && !robot.params.line_of_sight;
+  return wanted_companions(robot) + (reserve ? 1 : 0);
+}
 
 // No other spare that is free and that I hear is nearer to neighbour k; it will go there, or take another one soon.
 bool is_nearest_spare(const ConvoyRobot& robot, int k) noexcept {
@@ -99,7 +117,7 @@ RobotId nearest_alone(const ConvoyRobot& robot) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     if (best >= 0 && table.range(k) >= table.range(best)) continue;
-    if (!table.alive(k) || !needs_companion(robot, k) || count_companions(robot, table.id(k)) >= wanted_companions(robot)) continue;
+    if (!table.alive(k) || !needs_companion(robot, k) || count_companions(robot, table.id(k)) >= welcome_companions(robot, k)) continue;
     if (table.message(k).call_hops == companion_call || is_nearest_spare(robot, k)) best = k;
   }
   return best < 0 ? nobody : table.id(best);
@@ -133,7 +151,7 @@ void choose_whom(ConvoyRobot& robot) noexcept {
   }
   if (self.accompanies != nobody) {
     const int k = table.find(self.accompanies);
-    const bool stays = k >= 0 && table.alive(k) && needs_companion(robot, k) && count_companions(robot, self.accompanies, self.id) < wanted_companions(robot);
+    const bool stays = k >= 0 && table.alive(k) && needs_companion(robot, k) && count_before_me(robot, k) < welcome_companions(robot, k);
     if (!stays) self.accompanies = nobody;
   }
   if (self.accompanies == nobody && self.request == nobody) self.accompanies = nearest_alone(robot);
@@ -226,7 +244,12 @@ bool needs_companion(const ConvoyRobot& robot, int k) noexcept {
   return !knows_all || holds_together(robot, ends.all(), m.want_cm > 0);
 }
 
-int count_companions(const ConvoyRobot& robot, RobotId of) noexcept { return count_companions(robot, of, nobody); }
+int count_companions(const ConvoyRobot& robot, RobotId of) noexcept {
+  int count = 0;
+  for (int j = 0; j < robot.table().size(); ++j)
+    if (accompanies(robot, j, of)) ++count;
+  return count;
+}
 
 void keep_company(ConvoyRobot& robot) noexcept {
   if (!has_companions(robot.params)) return;

@@ -50,6 +50,30 @@ TEST_F(ConvoyChain, AParentAboutToBeHiddenIsReplacedInTime) {
   EXPECT_EQ(parent_after_shortcuts(), 5);
 }
 
+// With two paths companions stand beside edges. Without line of sight nothing there is a reason to change the tree, but
+// a silent parent is.
+TEST_F(ConvoyChain, WithCompanionsNobodyEndangersAnEdgeWhereRobotsHideNothing) {
+  bench.params.link_redundancy = 2;
+  auto& beside = bench.put(5, {-0.5F, 0.3F});
+  beside.role = Role::connector;
+  beside.parent = 9;
+  beside.depth = 2;
+  beside.seqno = 52;
+  beside.label_cm = 120;
+  bench.say(2).child_count = 2;  // or it would be released
+  bench.put(6, {-0.7F, -0.09F}).role = Role::spare;
+  bench.params.line_of_sight = false;
+  EXPECT_EQ(parent_after_shortcuts(), 2);
+  auto restore = bench.state;
+  bench.params.line_of_sight = true;
+  EXPECT_EQ(parent_after_shortcuts(), 5);
+  bench.state = restore;
+  bench.params.line_of_sight = false;
+  bench.silence(2);
+  EXPECT_EQ(parent_after_shortcuts(), 2);  // one lost packet is no reason
+  EXPECT_EQ(parent_after_shortcuts(), 5);
+}
+
 TEST_F(EndangeredEdge, LetsItsSeqnoRestUntilAnotherParentIsAhead) {
   bench.step();
   EXPECT_EQ(bench.state.parent, 2);

@@ -74,14 +74,33 @@ TEST_F(SpareByAChain, LeavesItToTheOneThatIsThereOrNearer) {
 
 TEST_F(SpareByAChain, OfTwoThatChooseAtOnceTheSmallerIdStays) {
   ASSERT_EQ(chosen(), 2);
-  put_spare(7, {0.3F, 1.0F}, 2);
+  put_spare(7, {0.95F, 1.0F}, 2);
   EXPECT_EQ(chosen(), 2);
   bench.silence(7);
   for (int k = 0; k < 10; ++k) chosen();  // until it is forgotten
-  put_spare(0, {0.3F, 1.0F}, 2);
+  put_spare(0, {0.95F, 1.0F}, 2);
   EXPECT_EQ(chosen(), nobody);
   bench.params.link_redundancy = 3;  // there is room for both
   EXPECT_EQ(chosen(), 2);
+}
+
+TEST_F(SpareByAChain, OfTwoTheOneThatIsThereStaysWhateverItsId) {
+  ASSERT_EQ(chosen(), 2);
+  put_spare(0, {1.6F, 1.0F}, 2);
+  EXPECT_EQ(chosen(), 2);
+  put_spare(7, {0.3F, 1.0F}, 2);
+  EXPECT_EQ(chosen(), nobody);
+}
+
+TEST_F(SpareByAChain, OneMoreComesAlongWhileTheWorkerTravels) {
+  put_spare(7, {0.3F, 1.0F}, 2);
+  bench.say(2).want_cm = bench.say(3).want_cm = 300;
+  bench.params.line_of_sight = true;  // it would hide edges
+  EXPECT_EQ(chosen(), nobody);
+  bench.params.line_of_sight = false;
+  EXPECT_EQ(chosen(), 2);
+  bench.say(2).want_cm = bench.say(3).want_cm = 0;
+  EXPECT_EQ(chosen(), nobody);  // the nearer one is enough
 }
 
 TEST_F(SpareByAChain, JoinsAnEdgeOnlyIfThatHasBegunToCall) {
