@@ -23,13 +23,16 @@ constexpr float least_lever = 0.1F;       // with less, my motion hardly moves t
 constexpr float least_lever_body = 0.02F; // but the body of a former parent lies beside the robot that is the parent now
 constexpr float forget = 1.0F;            // of C: points farther away are forgotten, since no edge is longer
 
-// Calls visit(o, r): points of obstacles with r = 0, centres of bodies with their radius.
+// Calls visit(o, r): points of obstacles with r = 0, centres of bodies with their radius. One loop, so that the firmware
+// has the visitor's code once.
 template <class Visit>
 void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit visit) noexcept {
-  for (const Vec2 o : robot.obstacles) visit(o, 0.0F);
-  const Landmarks& known = corners.landmarks;
-  for (int k = 0; k < known.size; ++k) visit(known.points[static_cast<std::size_t>(k)], 0.0F);
-  for (int k = 0; k < corners.bodies.size; ++k) visit(corners.bodies.centers[static_cast<std::size_t>(k)], body_m(robot));
+  const std::size_t sensed = robot.obstacles.size();
+  const std::size_t points = sensed + corners.landmarks.size;
+  for (std::size_t k = 0; k < points + corners.bodies.size; ++k) {
+    const Vec2& o = k < sensed ? robot.obstacles[k] : k < points ? corners.landmarks.points[k - sensed] : corners.bodies.centers[k - points];
+    visit(o, k < points ? 0.0F : body_m(robot));
+  }
 }
 
 // ---- Lines of sight ----
