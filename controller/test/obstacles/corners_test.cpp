@@ -122,7 +122,9 @@ TEST(Bodies, ATreeNeighborThatFallsSilentInPlainSightIsRemembered) {
   EXPECT_EQ(child.bodies().ids[0], 9);
   EXPECT_LT(distance(child.bodies().centers[0], {-1.8F, 0.0F}), 1e-4F);
   // A body of 7 cm, and 5 cm beside it; a point would hide no more than 5 cm.
-  const auto is_free_at = [&](float y) { return is_free(child.bench.tick(), child.bench.state.corners, {-1.0F, y}, {-2.6F, y}, 0.05F); };
+  const auto is_free_at = [&](float y) {
+    return is_free(child.bench.tick(), child.bench.state.corners, {-1.0F, y}, {-2.6F, y}, 0.05F);
+  };
   EXPECT_FALSE(is_free_at(0.1F));
   EXPECT_TRUE(is_free_at(0.14F));
   child.look(1, {.forward_m = -0.5F});
