@@ -191,6 +191,7 @@ TEST(Step, TheHashSeesEveryChange) {
   changed(s.lead_to, RobotId{3});
   changed(s.corners.pinned, true);
   changed(s.corners.landmarks.size, std::uint8_t{1});
+  changed(s.corners.bodies.size, std::uint8_t{1});
   EXPECT_EQ(seen.count(hash(s)), 1U);
   s.was_sent = true;  // a bit
   EXPECT_TRUE(seen.insert(hash(s)).second);

@@ -19,13 +19,20 @@ constexpr float hinge_width_m = 0.30F;    // the parent is told of a corner so n
 constexpr float pin_width_m = 0.06F;
 constexpr float pin_shortest_m = 0.30F;   // a parent nearer than this need not come up
 constexpr float spacing_m = 0.06F;        // between remembered points
+constexpr float least_lever = 0.1F;       // with less, my motion hardly moves the line there;
+constexpr float least_lever_body = 0.02F; // but the body of a former parent lies beside the robot that is the parent now
 constexpr float forget = 1.0F;            // of C: points farther away are forgotten, since no edge is longer
 
+// Calls visit(o, r): points of obstacles with r = 0, centres of bodies with their radius. One loop, so that the firmware
+// has the visitor's code once.
 template <class Visit>
 void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit visit) noexcept {
-  for (const Vec2 o : robot.obstacles) visit(o);
-  const Landmarks& known = corners.landmarks;
-  for (int k = 0; k < known.size; ++k) visit(known.points[static_cast<std::size_t>(k)]);
+  const std::size_t sensed = robot.obstacles.size();
+  const std::size_t points = sensed + corners.landmarks.size;
+  for (std::size_t k = 0; k < points + corners.bodies.size; ++k) {
+    const Vec2& o = k < sensed ? robot.obstacles[k] : k < points ? corners.landmarks.points[k - sensed] : corners.bodies.centers[k - points];
+    visit(o, k < points ? 0.0F : body_m(robot));
+  }
 }
 
 // ---- Lines of sight ----
@@ -33,8 +40,9 @@ void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit vis
 // An obstacle point beside the segment from me to a neighbour.
 struct Threat {
   Vec2 towards;   // unit, from the segment to the point
-  float across_m; // its distance from the segment
+  float across_m; // the distance of its surface from the segment
   float lever;    // how far the segment moves there when I move by 1
+  bool is_body;   // not a point of an obstacle
 };
 
 template <class Visit>
@@ -42,11 +50,12 @@ void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighb
   const float d = norm(neighbor);
   if (d <= 0.0F) return;
   const Vec2 along = neighbor / d;
-  for_each_obstacle(robot, corners, [&](Vec2 o) {
+  for_each_obstacle(robot, corners, [&](Vec2 o, float r) {
     const float a = dot(along, o);
     const float across = cross(along, o);
-    if (a <= 0.0F || a >= d || std::abs(across) >= sight_width_m) return;
-    visit(Threat{left_of(along) * (across < 0.0F ? -1.0F : 1.0F), std::abs(across), 1.0F - a / d});
+    const float room_m = std::max(std::abs(across) - r, 0.0F);
+    if (a <= 0.0F || a >= d || room_m >= sight_width_m) return;
+    visit(Threat{left_of(along) * (across < 0.0F ? -1.0F : 1.0F), room_m, 1.0F - a / d, r > 0.0F});
   });
 }
 
@@ -166,10 +175,55 @@ void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
   known.size = static_cast<std::uint8_t>(end - known.points.begin());
 }
 
+// Out of reach of all edges, not where the sensor would see it, or heard again.
+void forget_bodies(const TreeRobot& robot, Bodies& bodies) noexcept {
+  float nearest_m = body_m(robot) + near_m;
+  for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
+  const auto is_wrong = [&](std::size_t k) {
+    const float d = norm(bodies.centers[k]);
+    const int place = robot.table().find(bodies.ids[k]);
+    return d > forget * robot.params.communication_range_m || d - body_m(robot) < nearest_m - spacing_m || (place >= 0 && robot.table().age(place) == 0);
+  };
+  std::uint8_t kept = 0;
+  for (std::size_t k = 0; k < bodies.size; ++k) {
+    if (is_wrong(k)) continue;
+    bodies.centers[kept] = bodies.centers[k];
+    bodies.ids[kept++] = bodies.ids[k];
+  }
+  bodies.size = kept;
+}
+
+// Remembers neighbour k as a body, unless it may only be hidden or out of range.
+void note_body(const TreeRobot& robot, Corners& corners, int k) noexcept {
+  constexpr float clear_m = 0.16F;  // of other robots, which may have moved since it was heard
+  const TreeTable& table = robot.table();
+  Bodies& bodies = corners.bodies;
+  if (table.range(k) > longest_link * robot.params.communication_range_m || !sees_clearly(robot, corners, k, clear_m)) return;
+  const auto begin = bodies.ids.begin();
+  if (std::find(begin, begin + bodies.size, table.id(k)) != begin + bodies.size) return;
+  if (bodies.size == body_capacity) {  // the oldest makes room
+    std::shift_left(bodies.centers.begin(), bodies.centers.end(), 1);
+    std::shift_left(bodies.ids.begin(), bodies.ids.end(), 1);
+    --bodies.size;
+  }
+  bodies.centers[bodies.size] = table.position(k);
+  bodies.ids[bodies.size++] = table.id(k);
+}
+
+// Tree neighbours about to be forgotten: from now on their bodies are.
+void note_silent(const TreeRobot& robot, Corners& corners) noexcept {
+  if (!robot.params.line_of_sight) return;
+  const int last_tick = robot.liveness_ticks() - robot.elapsed_ticks;
+  const TreeTable& table = robot.table();
+  for (int k = 0; k < table.size(); ++k)
+    if (table.age(k) > last_tick && table.alive(k) && robot.is_tree_neighbor(k)) note_body(robot, corners, k);
+}
+
 }  // namespace
 
 void carry_corners(Corners& corners, const Carry& carry) noexcept {
   corners.seen_from = carry.point(corners.seen_from);
+  for (Vec2& center : corners.bodies.centers) center = carry.point(center);
   for (int k = 0; k < corners.landmarks.size; ++k) {
     Vec2& point = corners.landmarks.points[static_cast<std::size_t>(k)];
     point = carry.point(point);
@@ -180,6 +234,8 @@ void remember_corners(const TreeRobot& robot, Corners& corners) noexcept {
   Landmarks& known = corners.landmarks;
   note_contact(robot, corners);
   hear_of_corners(robot, corners);
+  if (corners.bodies.size > 0) forget_bodies(robot, corners.bodies);
+  note_silent(robot, corners);
   if (known.size == 0 && robot.obstacles.empty()) return;
   forget_wrong(robot, corners);
   for (const Vec2 o : robot.obstacles) file(robot, corners, o);
@@ -190,12 +246,13 @@ bool find_hinge(const TreeRobot& robot, const Corners& corners, Vec2& hinge) noe
   if (up < 0) return false;
   const Vec2 parent = robot.table().position(up);
   float best_m = hinge_width_m;
-  for_each_obstacle(robot, corners, [&](Vec2 o) {
+  for_each_obstacle(robot, corners, [&](Vec2 o, float r) {
     const float along = dot(o, parent);
-    const float across_m = std::abs(cross(o, parent)) / std::max(norm(parent), 1e-3F);
+    const float across = cross(unit(parent), o);
+    const float across_m = std::max(std::abs(across) - r, 0.0F);
     if (along <= 0.0F || along >= squared_norm(parent) || across_m >= best_m) return;
     best_m = across_m;
-    hinge = o;
+    hinge = o - left_of(unit(parent)) * (across < 0.0F ? -r : r);  // of a body the point nearest to the edge
   });
   return best_m < hinge_width_m;
 }
@@ -204,7 +261,7 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
   if (!robot.params.line_of_sight) return;
   const auto keep = [&](int k) {
     for_each_threat(robot, corners, robot.table().position(k), [&](const Threat& t) {
-      if (t.lever < 0.1F) return;
+      if (t.lever < (t.is_body ? least_lever_body : least_lever)) return;
       const float room_m = std::max(0.0F, t.across_m - sight_margin_m);
       guard.add_limit(t.towards, 0.5F * room_m * robot.params.guard_rate_per_s / t.lever);
     });
@@ -238,10 +295,11 @@ bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, flo
   const Vec2 d = b - a;
   const float d2 = squared_norm(d);
   bool free = true;
-  for_each_obstacle(robot, corners, [&](Vec2 o) {
+  for_each_obstacle(robot, corners, [&](Vec2 o, float r) {
     const float along = dot(o - a, d);
     const float across = cross(o - a, d);
-    free = free && (along <= 0.0F || along >= d2 || across * across >= clearance_m * clearance_m * d2);
+    const float apart_m = clearance_m + r;
+    free = free && (along <= 0.0F || along >= d2 || across * across >= apart_m * apart_m * d2);
   });
   return free;
 }

@@ -93,6 +93,115 @@ TEST(Landmarks, ParentsHearOfCornersFromTheirChildren) {
   EXPECT_TRUE(said.message.pinned);
 }
 
+// A child of robot 9, at `parent`, which dies in plain sight; it has looked at its memory in every tick since.
+struct Bereaved {
+  explicit Bereaved(Vec2 parent = {-1.8F, 0.0F}) {
+    bench.params.line_of_sight = true;
+    bench.state.parent = 9;
+    bench.put(9, parent).role = Role::root;
+    look();
+    bench.silence(9);
+  }
+  void look(int ticks = 1, const Odometry& odometry = {}) {
+    for (int k = 0; k < ticks; ++k) {
+      auto robot = bench.tick(odometry);
+      remember_corners(robot, bench.state.corners);
+    }
+  }
+  [[nodiscard]] const Bodies& bodies() const { return bench.state.corners.bodies; }
+  ConvoyBench bench = grown<Convoy>();
+};
+constexpr int past_liveness_ticks = 8;
+
+TEST(Bodies, ATreeNeighborThatFallsSilentInPlainSightIsRemembered) {
+  Bereaved child;
+  child.look(3);
+  EXPECT_EQ(child.bodies().size, 0) << "a packet may be lost";
+  child.look(past_liveness_ticks);
+  ASSERT_EQ(child.bodies().size, 1);
+  EXPECT_EQ(child.bodies().ids[0], 9);
+  EXPECT_LT(distance(child.bodies().centers[0], {-1.8F, 0.0F}), 1e-4F);
+  // A body of 7 cm, and 5 cm beside it; a point would hide no more than 5 cm.
+  const auto is_free_at = [&](float y) {
+    return is_free(child.bench.tick(), child.bench.state.corners, {-1.0F, y}, {-2.6F, y}, 0.05F);
+  };
+  EXPECT_FALSE(is_free_at(0.1F));
+  EXPECT_TRUE(is_free_at(0.14F));
+  child.look(1, {.forward_m = -0.5F});
+  ASSERT_EQ(child.bodies().size, 1);
+  EXPECT_LT(distance(child.bodies().centers[0], {-1.3F, 0.0F}), 1e-4F) << "half a metre nearer";
+}
+
+TEST(Bodies, WhoMayOnlyBeHiddenIsNone) {
+  Bereaved child;
+  child.bench.put(4, {-1.0F, 0.1F});
+  child.look(past_liveness_ticks);
+  EXPECT_EQ(child.bodies().size, 0) << "robot 4 is in between";
+  Bereaved far({-1.95F, 0.0F});
+  far.look(past_liveness_ticks);
+  EXPECT_EQ(far.bodies().size, 0) << "it may have gone out of range";
+  Bereaved free_radio;
+  free_radio.bench.params.line_of_sight = false;
+  free_radio.look(past_liveness_ticks);
+  EXPECT_EQ(free_radio.bodies().size, 0) << "bodies hide nothing";
+  Bereaved stranger;
+  stranger.bench.state.parent = nobody;
+  stranger.look(past_liveness_ticks);
+  EXPECT_EQ(stranger.bodies().size, 0) << "no edge of mine ended there";
+}
+
+TEST(Bodies, TheyAreForgottenWhenTheyProveWrong) {
+  Bereaved child;
+  child.look(past_liveness_ticks);
+  ASSERT_EQ(child.bodies().size, 1);
+  child.bench.put(9, {-1.7F, 0.0F});
+  child.look();
+  EXPECT_EQ(child.bodies().size, 0) << "it is heard again";
+  Bereaved near;
+  near.look(past_liveness_ticks);
+  near.look(1, {.forward_m = -1.65F});
+  EXPECT_EQ(near.bodies().size, 0) << "8 cm from body to body, and the sensor sees nothing";
+  Bereaved seen;
+  seen.look(past_liveness_ticks);
+  seen.bench.obstacles = {{-0.08F, 0.0F}};
+  seen.look(1, {.forward_m = -1.65F});
+  EXPECT_EQ(seen.bodies().size, 1);
+  seen.bench.obstacles.clear();
+  seen.look(1, {.forward_m = 1.95F});
+  EXPECT_EQ(seen.bodies().size, 0) << "no edge reaches so far";
+}
+
+// A worker does not drive to where its line of sight to the parent is hidden by the body between them.
+RC_GTEST_PROP(Bodies, NoMotionOfMyOwnBringsABodyIntoTheEdge, ()) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.params.line_of_sight = true;
+  bench.state.parent = 9;
+  const Vec2 parent{number(-1.8F, -1.2F), 0.0F};
+  bench.put(9, parent).role = Role::root;
+  const Vec2 center{parent.x + number(0.15F, 0.9F), number(0.075F, 0.2F)};
+  bench.state.corners.bodies = {{center}, {4}, 1};
+  const auto robot = bench.tick();
+  Guard guard;
+  keep_sight(robot, bench.state.corners, guard);
+  const Vec2 moved = guard.apply(unit_vector(number(-3.1F, 3.1F)) * 0.2F) * robot.params.tick_s;
+  const auto room = [&](Vec2 from) { return cross(parent - from, center - from) / distance(parent, from) * -1.0F; };
+  RC_ASSERT(room(moved) > std::min(0.09F, room({})) - 2e-3F);
+}
+
+// It hears where the edge would pass the body at its surface: it has not known the robot that died.
+TEST(Bodies, ParentsHearOfThemFromTheirChildren) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.state.parent = 9;
+  bench.put(9, {-1.5F, 0.0F}).role = Role::root;
+  bench.state.corners.bodies = {{Vec2{-1.0F, 0.15F}}, {4}, 1};
+  Vec2 hinge;
+  ASSERT_TRUE(find_hinge(bench.tick(), bench.state.corners, hinge));
+  EXPECT_LT(distance(hinge, {-1.0F, 0.08F}), 2e-3F);
+  bench.state.corners.bodies = {{Vec2{-1.0F, -0.15F}}, {4}, 1};
+  ASSERT_TRUE(find_hinge(bench.tick(), bench.state.corners, hinge));
+  EXPECT_LT(distance(hinge, {-1.0F, -0.08F}), 2e-3F);
+}
+
 TEST(Pinned, OnlyWhoHasToGoOnAndHasACornerAtItsEdge) {
   ConvoyBench bench = grown<Convoy>();
   const auto pinned = [&] { return is_pinned(bench.tick(), bench.state.corners, 1.35F); };

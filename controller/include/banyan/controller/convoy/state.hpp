@@ -77,6 +77,7 @@ constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
   if (s.alone_ticks != 0) visit(s.alone_ticks);
   visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
   for (int k = 0; k < s.corners.landmarks.size; ++k) visit(s.corners.landmarks.points[static_cast<std::size_t>(k)]);
+  for (std::size_t k = 0; k < s.corners.bodies.size; ++k) visit(s.corners.bodies.centers[k]), visit(s.corners.bodies.ids[k]);
   for (int k = 0; k < s.neighbors.size(); ++k) {
     const auto n = static_cast<std::size_t>(k);
     visit(s.corners.standings[n].hinge_x_cm), visit(s.corners.standings[n].hinge_y_cm), visit(s.corners.standings[n].pinned);

@@ -33,8 +33,18 @@ struct Landmarks {
   std::uint8_t size = 0;
 };
 
+// Where tree neighbours fell silent in plain sight: their bodies have stayed there, between the robots that they joined.
+// Centres, own frame, m.
+inline constexpr int body_capacity = 4;
+struct Bodies {
+  std::array<Vec2, body_capacity> centers{};  // the first `size` are valid
+  std::array<RobotId, body_capacity> ids{};
+  std::uint8_t size = 0;
+};
+
 struct Corners {
   Landmarks landmarks;
+  Bodies bodies;
   Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent; a spare: where the tree was
   bool pinned = false;                   // a corner is about to cut the edge to my parent
   std::array<CornerStanding, neighbor_capacity> standings{};  // beside the neighbour table
