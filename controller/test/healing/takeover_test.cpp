@@ -151,6 +151,32 @@ TEST(Takeover, ASuccessorListensToThoseWhoRememberThePlace) {
   EXPECT_TRUE(state.is_worker);
 }
 
+// Robots on batteries hand their targets over again and again: copies of copies would drift.
+TEST(Takeover, WhereTargetsArePassedOnTheHolderAndTheWorkerFirstSentThereKnowBest) {
+  constexpr RobotId first = 50, holder = 30;
+  const auto believed_m = [](bool passed_on, bool mine, RobotId teller) {
+    Watch watch;
+    watch.bench.put(teller, {1.0F, 0.0F}).task_serves = nobody;
+    watch.hear_root(2);
+    ConvoyState& state = watch.bench.state;
+    state.task_count = 1;
+    state.tasks[0] = {first, mine ? state.id : holder, 100, 0, {2.0F, 0.0F}};
+    if (mine) state.is_worker = true, state.role = Role::worker, state.serves = first;
+    watch.tell_of_target(teller, {1.0F, 0.0F}, {3.0F, 0.0F}, first, 100);
+    watch.bench.say(teller).task_holder = state.tasks[0].holder;
+    auto robot = watch.bench.tick();
+    robot.passes_targets_on = passed_on;
+    watch_tasks(robot);
+    return state.tasks[0].target.x;
+  };
+  for (const RobotId teller : {first, holder}) EXPECT_NEAR(believed_m(true, false, teller), 3.0F, 0.02F) << teller;
+  for (const RobotId teller : {first, holder, RobotId{20}}) EXPECT_NEAR(believed_m(false, false, teller), 2.2F, 0.02F) << teller;
+  EXPECT_NEAR(believed_m(true, false, 20), 2.2F, 0.02F) << "it only remembers";
+  EXPECT_NEAR(believed_m(true, true, first), 2.2F, 0.02F);
+  EXPECT_NEAR(believed_m(true, true, 20), 2.0F, 0.02F) << "no better than I";
+  EXPECT_NEAR(believed_m(false, true, 20), 2.2F, 0.02F);
+}
+
 // Of two rivals the one at the target stays, whatever their ids and whoever was sent there.
 TEST(Takeover, WhoIsAtTheTargetStays) {
   for (const RobotId serves : {RobotId{1}, RobotId{2}, RobotId{50}})
