@@ -100,6 +100,7 @@ int open_serial(const std::string& path) {
     ::cfmakeraw(&settings);
     ::cfsetspeed(&settings, B115200);
     settings.c_cflag |= CLOCAL | CREAD;
+    settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);  // whoever used it before may have set them
     if (::tcsetattr(descriptor, TCSANOW, &settings) == 0) return descriptor;
   }
   const int error = errno;

@@ -4,10 +4,15 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstdlib>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace banyan::udp {
 namespace {
@@ -125,6 +130,54 @@ TEST_F(WiredBase, DrivesAndIsLost) {
   ::close(std::exchange(wire_, -1));
   base_->listen(0.1);
   EXPECT_TRUE(base_->lost());
+}
+
+// A terminal, and the path of its other end: what a robot's program sees of a serial device.
+struct Terminal {
+  int here = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+  std::string path;
+  Terminal() {
+    std::array<char, 128> name{};
+    if (here >= 0 && ::grantpt(here) == 0 && ::unlockpt(here) == 0 && ::ptsname_r(here, name.data(), name.size()) == 0) path = name.data();
+  }
+  ~Terminal() {
+    if (here >= 0) ::close(here);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+};
+
+TEST(OpenLineBase, SetsASerialDeviceAndSpeaksOverIt) {
+  Terminal terminal;
+  ASSERT_FALSE(terminal.path.empty());
+  termios settings{};
+  ASSERT_EQ(::tcgetattr(terminal.here, &settings), 0);
+  settings.c_cflag |= CSTOPB | CRTSCTS;
+  settings.c_lflag |= ICANON | ECHO;
+  settings.c_oflag |= OPOST | ONLCR;
+  ASSERT_EQ(::cfsetspeed(&settings, B9600), 0);
+  ASSERT_EQ(::tcsetattr(terminal.here, TCSANOW, &settings), 0);
+
+  const std::unique_ptr<Driver> base = open_line_base(terminal.path);
+  ASSERT_EQ(::tcgetattr(terminal.here, &settings), 0);
+  EXPECT_EQ(::cfgetispeed(&settings), static_cast<speed_t>(B115200));
+  EXPECT_EQ(::cfgetospeed(&settings), static_cast<speed_t>(B115200));
+  EXPECT_EQ(settings.c_cflag & (CSIZE | PARENB | CSTOPB | CRTSCTS), static_cast<tcflag_t>(CS8));
+
+  const std::string_view said = "pose 1.5 0 0\r\n\x03\x04\x13pose 2 0 0\n";  // a terminal would take the odd ones as orders
+  ASSERT_EQ(::write(terminal.here, said.data(), said.size()), static_cast<ssize_t>(said.size()));
+  base->listen(1.0);
+  EXPECT_EQ(base->pose_at(1.0)->position.x, 1.5F) << "the second line is none";
+  base->drive({0.1F, 0.0F, -0.5F});
+  std::array<char, 128> room{};
+  const ssize_t size = ::read(terminal.here, room.data(), room.size());
+  ASSERT_GT(size, 0);
+  EXPECT_EQ(std::string(room.data(), static_cast<std::size_t>(size)), "drive 0.1000 0.0000 -0.5000\n") << "no echo, no other ends of lines";
+
+  EXPECT_FALSE(base->lost());
+  ::close(std::exchange(terminal.here, -1));
+  base->listen(2.0);
+  EXPECT_TRUE(base->lost()) << "unplugged";
 }
 
 TEST(OpenLineBase, SaysWhatIsWrong) {
