@@ -80,10 +80,12 @@ constexpr float trust = 0.2F;  // weight of what a robot says that only remember
 void locate(const HealingRobot& robot, Task& task, RobotId sender, const TaskNews& news, Vec2 told) noexcept {
   constexpr int stale_ticks = 3;
   const bool silent = robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
+  const bool by_memory = silent || task.holder != task.serves;
+  const bool knows_best = robot.passes_targets_on && (sender == task.holder || sender == task.serves);
+  const auto is_fresh = [&] { return ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks); };
   if (task.unlocated) set_place(task, told);
-  else if (robot.passes_targets_on && (sender == task.holder || sender == task.serves)) task.target = told;
-  else if (silent || task.holder != task.serves) task.target += (told - task.target) * trust;
-  else if (ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks)) task.target = told;
+  else if (knows_best || (!by_memory && is_fresh())) task.target = told;
+  else if (by_memory) task.target += (told - task.target) * trust;
 }
 
 // The longest recent gap in the news of a worker that was alive: in a long thin network news comes in bursts.
