@@ -102,6 +102,13 @@ class BenchOf {
     m.seqno = seqno;
     return m;
   }
+  // Below this robot in the tree.
+  Message& put_child(RobotId id, Vec2 position, Role role) {
+    Message& m = put(id, position);
+    m.role = role;
+    m.parent = state.id;
+    return m;
+  }
   Message& say(RobotId id) { return neighbors_.at(id).message; }
   void move(RobotId id, Vec2 position) { neighbors_.at(id).position = position; }
   void silence(RobotId id) { neighbors_.erase(id); }

@@ -13,12 +13,7 @@ namespace {
 class EndangeredEdge : public ConvoyChain {
  protected:
   EndangeredEdge() {
-    auto& beside = bench.put(5, {-0.5F, 0.3F});
-    beside.role = Role::connector;
-    beside.parent = 9;
-    beside.depth = 2;
-    beside.seqno = 50;
-    beside.label_cm = 400;
+    bench.put_connector(5, {-0.5F, 0.3F}, 400, 50);
     bench.say(2).child_count = 2;
     bench.put(6, {-0.7F, -0.09F}).role = Role::spare;
   }
@@ -37,12 +32,7 @@ TEST_F(ConvoyChain, AHiddenParentIsReplacedByWhoeverIsAheadAndInSight) {
 }
 
 TEST_F(ConvoyChain, AParentAboutToBeHiddenIsReplacedInTime) {
-  auto& beside = bench.put(5, {-0.5F, 0.3F});
-  beside.role = Role::connector;
-  beside.parent = 9;
-  beside.depth = 2;
-  beside.seqno = 52;
-  beside.label_cm = 120;
+  bench.put_connector(5, {-0.5F, 0.3F}, 120, 52);
   bench.say(2).child_count = 2;  // or it would be released
   EXPECT_EQ(parent_after_shortcuts(), 2);
   auto& walker = bench.put(6, {-0.7F, -0.09F});
@@ -54,12 +44,7 @@ TEST_F(ConvoyChain, AParentAboutToBeHiddenIsReplacedInTime) {
 // a silent parent is.
 TEST_F(ConvoyChain, WithCompanionsNobodyEndangersAnEdgeWhereRobotsHideNothing) {
   bench.params.link_redundancy = 2;
-  auto& beside = bench.put(5, {-0.5F, 0.3F});
-  beside.role = Role::connector;
-  beside.parent = 9;
-  beside.depth = 2;
-  beside.seqno = 52;
-  beside.label_cm = 120;
+  bench.put_connector(5, {-0.5F, 0.3F}, 120, 52);
   bench.say(2).child_count = 2;  // or it would be released
   bench.put(6, {-0.7F, -0.09F}).role = Role::spare;
   bench.params.line_of_sight = false;

@@ -52,6 +52,8 @@ TEST(Power, RobotsWithAndWithoutBatteriesDoNotTakeEachOthersMessages) {
   EXPECT_FALSE(decode_fields<PoweredConvoyMessage>(powered).has_value());
 }
 
+constexpr auto no_children = [](int) { return 0; };
+
 // A lone robot of that role with this much charge.
 struct LoneRobot {
   ConvoyParams params = convoy_defaults();
@@ -97,10 +99,7 @@ class AboveALeaver : public ::testing::Test {
     bench.state.role = Role::connector;
     bench.state.parent = 9;
     bench.put(9, {-1.5F, 0.0F}).role = Role::root;
-    auto& child = bench.put(2, {0.2F, 0.0F});
-    child.role = Role::connector;
-    child.parent = 1;
-    child.child_count = 1;
+    bench.put_child(2, {0.2F, 0.0F}, Role::connector).child_count = 1;
     auto& below = bench.put(3, {1.7F, 0.0F});
     below.role = Role::connector;
     below.parent = 2;
@@ -174,9 +173,7 @@ class AmongLeavers : public ::testing::Test {
     bench.state.role = Role::connector;
     bench.state.parent = 9;
     bench.put(9, {-1.5F, 0.0F}).role = Role::connector;
-    auto& child = bench.put(2, {1.5F, 0.0F});
-    child.role = Role::connector;
-    child.parent = 1;
+    bench.put_child(2, {1.5F, 0.0F}, Role::connector);
   }
   // Whether it asks for a spare, with such charges of 254.
   bool asks(std::uint8_t above, std::uint8_t mine, std::uint8_t below, bool child_leaves) {
@@ -214,13 +211,12 @@ TEST_F(AmongLeavers, AClearlyEmptierRobotGoesBeforeThoseBelowIt) {
 TEST(Power, ARobotWithLessChargeSeemsNearerAndMoreUrgentCallsOfOthersAreNotDrowned) {
   auto bench = grown<Convoy>();
   PowerState power;
-  const auto child_count = [](int) { return 0; };
   const auto hops = [&](float level, std::uint8_t heard) {
     auto robot = bench.tick();
     robot.call_hops = heard;
     bench.state.call_hops = 0;
     power.level = level;
-    PowerRobot me{robot, power, bench.params, child_count};
+    PowerRobot me{robot, power, bench.params, no_children};
     call_for_relief(me);
     return int{bench.state.call_hops};
   };
@@ -248,8 +244,7 @@ class CalledSpare : public ::testing::Test {
     power.level = 0.95F;
     power.ready = true;
     power.standings[static_cast<std::size_t>(robot.table().find(5))].level = other_level;
-    const auto child_count = [](int) { return 0; };
-    PowerRobot me{robot, power, bench.params, child_count};
+    PowerRobot me{robot, power, bench.params, no_children};
     tend_battery(me);
     return bench.state.called;
   }
@@ -266,9 +261,8 @@ TEST(Power, NobodyPushesAndEverybodyMayGoAway) {
   bench.put(5, {0.15F, 0.0F}).role = Role::spare;
   auto robot = bench.tick();
   PowerState power;
-  const auto child_count = [](int) { return 0; };
   Guard guard;
-  push_nobody(PowerRobot{robot, power, bench.params, child_count}, guard);
+  push_nobody(PowerRobot{robot, power, bench.params, no_children}, guard);
   EXPECT_LT(guard.apply({0.2F, 0.0F}).x, 0.02F);
   EXPECT_EQ(guard.apply({-0.2F, 0.0F}).x, -0.2F);
   EXPECT_EQ(guard.apply({0.0F, 0.2F}).y, 0.2F);
@@ -286,8 +280,7 @@ TEST(Power, ASpareThatWaitsIsSlowUnlessItHidesAnEdge) {
     auto robot = bench.tick();
     bench.state.called = called;
     PowerState power;
-    const auto child_count = [](int) { return 0; };
-    return leisure(PowerRobot{robot, power, bench.params, child_count}, bench.params.clearance_m);
+    return leisure(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance_m);
   };
   EXPECT_LT(pace(0.6F, false), 0.5F);
   EXPECT_EQ(pace(0.1F, false), 1.0F);
@@ -299,8 +292,7 @@ TEST(Power, ARootThatHasToLeaveTakesAnyHeirWithMoreChargeOnlyWhenItIsUrgent) {
   bench.put(5, {1.0F, 0.0F}).role = Role::connector;
   auto robot = bench.tick();
   PowerState power;
-  const auto child_count = [](int) { return 0; };
-  PowerRobot me{robot, power, bench.params, child_count};
+  PowerRobot me{robot, power, bench.params, no_children};
   const auto may = [&](float mine, std::uint8_t level) {
     power.said.leaving = true;
     power.level = mine;

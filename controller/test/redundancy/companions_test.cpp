@@ -143,9 +143,7 @@ class ConnectorAlone : public ::testing::Test {
     bench.state.role = Role::connector;
     bench.state.parent = 2;
     bench.put(2, {-1.7F, 0.0F}).role = Role::root;
-    auto& worker = bench.put(3, {1.7F, 0.0F});
-    worker.role = Role::worker;
-    worker.parent = 1;
+    bench.put_child(3, {1.7F, 0.0F}, Role::worker);
   }
   std::uint8_t hops_after(int ticks) {
     for (int k = 0; k < ticks; ++k) {

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <vector>
 
 #include "banyan/hosts/udp/network.hpp"
@@ -123,6 +124,7 @@ struct Made {
   const char* name;
   bool by_netem, to_hub;
 };
+void PrintTo(const Made& made, std::ostream* out) { *out << made.name; }
 
 struct Arrival {
   std::size_t number = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a robot must not outgrow: its tree edges and the links that tie others to it (spec row 4, protocol 9 and 12).
+// What a robot must not outgrow: its tree edges and the links that tie others to it (protocol 2, row 4; 9 and 12).
 #pragma once
 
 #include "banyan/controller/core/guard.hpp"
