@@ -17,6 +17,8 @@ config::Configuration load_fleet(const std::string& scenario, const std::vector<
   print_problems(loaded.problems);
   if (!loaded.ok()) throw CommandError(exit_usage, "nothing was started");
   if (loaded.configuration.scenario.clocks.asynchronous) complain("clocks.asynchronous is left out: these robots have clocks of their own");
+  if (loaded.configuration.scenario.battery.on())
+    throw CommandError(exit_usage, "battery: nobody tells a robot that is a process its charge yet; nothing was started");
   loaded.configuration.scenario.clocks = {};
   return loaded.configuration;
 }

@@ -91,6 +91,17 @@ TEST(RemoteSwarm, DoesWhatTheWorldsOwnDoes) {
   }
 }
 
+TEST(RemoteSwarm, KeepsTwoPaths) {
+  auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/three-targets.toml", algorithms(),
+                                           {{"mission.link_redundancy=2", "test"}, {"swarm.redundancy=5", "test"}, {"mission.settle_s=30", "test"}});
+  ASSERT_TRUE(loaded.ok());
+  const world::Scenario scenario = loaded.configuration.scenario;
+  NearbyRobots robots(scenario, world::robot_count(scenario));
+  const auto remote = played(scenario, robots);
+  EXPECT_TRUE(remote.run.complete);
+  EXPECT_GT(remote.run.redundant_time_ratio, 0.9);
+}
+
 TEST(RemoteSwarm, IsAFunctionOfWhatRobotsSay) {
   const world::Scenario scenario = configuration({"radio.loss=0.2", "radio.latency_ticks=2"}).scenario;
   NearbyRobots first(scenario, world::robot_count(scenario)), second(scenario, world::robot_count(scenario));
@@ -570,6 +581,7 @@ TEST_F(FleetProgram, RefusesWhatCannotBe) {
   expect_refused({"fleet", three_targets, "--loss", "1"}, "from 0 to 0.99");
   expect_refused({"fleet", "-"}, "must be a file");
   expect_refused({"fleet", three_targets, "--set", "radio.rnage_m=1"}, "rnage_m");
+  expect_refused({"fleet", three_targets, "--set", "battery.model=power"}, "nobody tells a robot that is a process its charge");
   expect_refused({"hub", three_targets}, "--key is missing");
   expect_refused({"hub", three_targets, "--key", "k", "--resume"}, "--resume needs --tape");
   write("loose.key", "1 " + std::string(64, 'a') + "\n");

@@ -121,7 +121,7 @@ std::unique_ptr<world::Bodies> mirrored_bodies(const Robots& robots) {
 
 std::unique_ptr<Swarm> MirrorAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
   members_.assign(members.begin(), members.end());
-  return std::make_unique<MirrorSwarm>(real_.make(setup, members), robots_);
+  return std::make_unique<MirrorSwarm>(real().make(setup, members), robots_);
 }
 
 }  // namespace banyan::argos

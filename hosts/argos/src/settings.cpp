@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 
 #include "banyan/world/decimal.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 // Attributes that are keys of scenarios, without their section.
 constexpr std::string_view scenario_paths[] = {
-    "mission.algorithm", "mission.reading",     "mission.scale",         "mission.target_tolerance_m",
+    "mission.algorithm", "mission.reading",     "mission.scale",         "mission.target_tolerance_m", "mission.link_redundancy",
     "radio.range_m",     "radio.line_of_sight", "robot.wheel_limit_m_s", "robot.wheel_distance_m"};
 constexpr std::string_view own_names[] = {"role", "target_m", "light_intensity_m"};
 constexpr std::string_view parts[] = {"spare", "worker", "root"};
@@ -118,6 +119,10 @@ class Reader {
     if (path == "robot.wheel_distance_m") settings_.knows_wheels = true;
     if (key.access.type == world::Type::number) {
       if (const auto value = number(attribute, key.range, key.unit)) world::set(key, scenario_, *value);
+    } else if (key.access.type == world::Type::whole) {
+      const auto value = number(attribute, key.range, key.unit);
+      if (value && *value != std::floor(*value)) return fail(attribute.name, "must be a whole number, not " + world::the_text(attribute.value));
+      if (value) world::set(key, scenario_, static_cast<std::int64_t>(*value));
     } else if (key.access.type == world::Type::truth) {
       if (attribute.value != "true" && attribute.value != "false")
         return fail(attribute.name, "must be true or false, not " + world::the_text(attribute.value));
@@ -143,6 +148,8 @@ class Reader {
     settings_.setup.history = 1;
     if (const std::string text = settings_.algorithm->fault(settings_.setup); !text.empty())
       fail("", "together: " + text);
+    if (settings_.setup.link_redundancy > 1 && !settings_.algorithm->knows_redundancy())
+      fail("link_redundancy", "is above 1, but " + scenario_.mission.algorithm + " keeps one path");
   }
 
   world::Scenario scenario_;
@@ -154,6 +161,7 @@ class Reader {
 std::string text_of(const world::Value& value) {
   if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const auto* number = std::get_if<double>(&value)) return world::number_text(*number);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   return std::get<std::string>(value);
 }
 

@@ -17,14 +17,18 @@ std::string fault_of(const std::vector<Attribute>& attributes) {
 }
 
 // What a scenario says of its robots arrives through the attributes, for all algorithms.
+world::Scenario paper_medium(const std::vector<std::string>& assignments) {
+  std::vector<config::Override> overrides;
+  for (const std::string& assignment : assignments) overrides.push_back({assignment, "test"});
+  auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/paper-medium.toml", algorithms(), overrides);
+  EXPECT_TRUE(loaded.ok());
+  return loaded.configuration.scenario;
+}
+
 TEST(Settings, CarryAScenario) {
   for (const Algorithm* algorithm : algorithms()) {
     const std::string name(algorithm->name());
-    const auto loaded = config::load_configuration(
-        std::string(BANYAN_SCENARIOS) + "/paper-medium.toml", algorithms(),
-        {{"mission.algorithm=" + name, "test"}, {"radio.range_m=2.5", "test"}, {"robot.wheel_limit_m_s=0.15", "test"}});
-    ASSERT_TRUE(loaded.ok()) << name;
-    const world::Scenario& scenario = loaded.configuration.scenario;
+    const world::Scenario scenario = paper_medium({"mission.algorithm=" + name, "radio.range_m=2.5", "robot.wheel_limit_m_s=0.15"});
     const Settings settings = read_settings(attributes_of(scenario), algorithms(), scenario.tick_s);
     EXPECT_EQ(settings.algorithm, algorithm);
     EXPECT_EQ(settings.algorithm->values(settings.setup), algorithm->values(world::setup_of(scenario))) << name;
@@ -51,6 +55,14 @@ TEST(Settings, RobotsMayBeToldHowTheyBegin) {
   EXPECT_EQ(settings.part, StartRole::worker);
   ASSERT_TRUE(settings.target);
   EXPECT_EQ(settings.target->y, -1.5);
+}
+
+TEST(Settings, CarryTwoPaths) {
+  const world::Scenario scenario = paper_medium({"mission.algorithm=convoy", "mission.link_redundancy=2"});
+  EXPECT_EQ(read_settings(attributes_of(scenario), algorithms(), scenario.tick_s).setup.link_redundancy, 2);
+  EXPECT_NE(fault_of({{"algorithm", "outwards"}, {"link_redundancy", "2"}}).find("outwards keeps one path"), std::string::npos);
+  EXPECT_NE(fault_of({{"link_redundancy", "1.5"}}).find("must be a whole number"), std::string::npos);
+  EXPECT_NE(fault_of({{"link_redundancy", "4"}}).find("link_redundancy"), std::string::npos);
 }
 
 TEST(Settings, SayWhatIsWrongAllAtOnce) {

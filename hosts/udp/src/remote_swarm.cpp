@@ -134,7 +134,7 @@ std::size_t RemoteSwarm::memory_bytes() const noexcept {
 }
 
 std::unique_ptr<Swarm> RemoteAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
-  return std::make_unique<RemoteSwarm>(real_.make(setup, members), members, setup, link_, silence_);
+  return std::make_unique<RemoteSwarm>(real().make(setup, members), members, setup, link_, silence_);
 }
 
 }  // namespace banyan::udp

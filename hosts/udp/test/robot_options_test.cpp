@@ -25,8 +25,8 @@ std::string fault(const std::vector<std::string>& arguments) {
 
 TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
   const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--reading", "literal", "--scale", "0.7", "--range", "1.7",
-                               "--tick", "0.05", "--wheel-limit", "0.13", "--wheel-distance", "0.3", "--radius", "0.09", "--arrival", "0.1", "--holonomic",
-                               "--no-line-of-sight", "--set", "safe_range_m=1.4", "--set", "x=0.1", "--stop-after", "0.7", "--delay", "0.02",
+                               "--tick", "0.05", "--wheel-limit", "0.13", "--wheel-distance", "0.3", "--radius", "0.09", "--arrival", "0.1",
+                               "--link-redundancy", "2", "--holonomic", "--no-line-of-sight", "--set", "safe_range_m=1.4", "--set", "x=0.1", "--stop-after", "0.7", "--delay", "0.02",
                                "--speed", "5"});
   const RobotOptions options = parse_robot_options(arguments);
   EXPECT_EQ(to_arguments(options), arguments);
@@ -34,6 +34,7 @@ TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
   EXPECT_EQ(options.setup.platform.communication_range_m, 1.7F);
   EXPECT_EQ(options.setup.platform.drive, Drive::holonomic);
   EXPECT_FALSE(options.setup.platform.line_of_sight);
+  EXPECT_EQ(options.setup.link_redundancy, 2);
   EXPECT_EQ(options.setup.parameters.at(1).second, 0.1);
   EXPECT_EQ(to_arguments(parse_robot_options(least)), least);  // defaults are left out
 }

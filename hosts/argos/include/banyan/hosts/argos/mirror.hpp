@@ -36,20 +36,14 @@ class Robots {
 [[nodiscard]] std::unique_ptr<world::Bodies> mirrored_bodies(const Robots& robots);
 
 // The algorithm whose robots are there. Both must outlive it. Its swarms step on one thread.
-class MirrorAlgorithm final : public Algorithm {
+class MirrorAlgorithm final : public AlgorithmElsewhere {
  public:
-  MirrorAlgorithm(const Algorithm& real, Robots& robots) noexcept : real_(real), robots_(robots) {}
-  [[nodiscard]] std::string_view name() const noexcept override { return real_.name(); }
-  [[nodiscard]] std::string_view summary() const noexcept override { return real_.summary(); }
-  [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override { return real_.parameters(); }
-  [[nodiscard]] std::vector<float> values(const Setup& setup) const override { return real_.values(setup); }
-  [[nodiscard]] std::string fault(const Setup& setup) const override { return real_.fault(setup); }
+  MirrorAlgorithm(const Algorithm& real, Robots& robots) noexcept : AlgorithmElsewhere(real), robots_(robots) {}
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override;
   // How the robots begin of which the last swarm was made.
   [[nodiscard]] std::span<const Member> members() const noexcept { return members_; }
 
  private:
-  const Algorithm& real_;
   Robots& robots_;
   mutable std::vector<Member> members_;
 };

@@ -84,18 +84,12 @@ class RemoteSwarm final : public Swarm {
 };
 
 // An algorithm whose robots are elsewhere.
-class RemoteAlgorithm final : public Algorithm {
+class RemoteAlgorithm final : public AlgorithmElsewhere {
  public:
-  RemoteAlgorithm(const Algorithm& real, Link& link, std::uint32_t silence) noexcept : real_(real), link_(link), silence_(silence) {}
-  [[nodiscard]] std::string_view name() const noexcept override { return real_.name(); }
-  [[nodiscard]] std::string_view summary() const noexcept override { return real_.summary(); }
-  [[nodiscard]] std::vector<const ParameterInfo*> parameters() const override { return real_.parameters(); }
-  [[nodiscard]] std::vector<float> values(const Setup& setup) const override { return real_.values(setup); }
-  [[nodiscard]] std::string fault(const Setup& setup) const override { return real_.fault(setup); }
+  RemoteAlgorithm(const Algorithm& real, Link& link, std::uint32_t silence) noexcept : AlgorithmElsewhere(real), link_(link), silence_(silence) {}
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override;
 
  private:
-  const Algorithm& real_;
   Link& link_;
   std::uint32_t silence_;
 };
