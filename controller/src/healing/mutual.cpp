@@ -48,12 +48,7 @@ RobotId name_next(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   if (self.calls && self.turn % call_turns == 0) return self.id;
   if (table.size() == neighbor_capacity && self.turn % 2 == 0) return nobody;  // else whom it forgets is passed over
-  // The smallest above the one named last, else the smallest: the first after it, round and round.
-  RobotId next = nobody;
-  const auto after = [&](RobotId id) { return static_cast<RobotId>(id - self.named - 1); };
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && (next == nobody || after(table.id(k)) < after(next))) next = table.id(k);
-  return self.named = next;
+  return self.named = table.next_alive(self.named);
 }
 
 void find_gap(HealingRobot& robot) noexcept {
@@ -62,7 +57,9 @@ void find_gap(HealingRobot& robot) noexcept {
   const int up = robot.up();
   const bool untied = !robot.is_root() && robot.hold < 0 && (up < 0 || !robot.is_linked(up));
   robot.gap = -1;
-  for (int k = 0; k < table.size(); ++k) {
+  int deafest = 0;
+  for (int k = 0; k < table.size(); ++k) deafest = std::max<int>(deafest, table.deaf_ticks[static_cast<std::size_t>(k)]);
+  for (int k = 0; deafest > deaf_after_ticks && k < table.size(); ++k) {
     if (!table.alive(k) || !robot.is_deaf(k) || untied == is_newer(self.epoch, table.message(k).epoch)) continue;
     if (robot.gap < 0 || table.range(k) < table.range(robot.gap)) robot.gap = k;
   }
