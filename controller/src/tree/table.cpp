@@ -13,12 +13,12 @@ void TreeTable::sort(int k, const TreeTies& said, RobotId me) noexcept {
 void TreeTable::forget(int k) noexcept {
   close_gap(standings, k, size() + 1);
   close_gap(deaf_ticks, k, size() + 1);
-  for (Rows* const rows : {&members, &rooted, &below, &untied}) rows->close_gap(k);
+  for (Rows* const rows : {&members, &rooted, &below, &untied, &deaf}) rows->close_gap(k);
 }
 
 void TreeTable::prefetch(std::size_t entries) const noexcept {
   Neighbors::prefetch(entries);
-  prefetch_lines(&members, 4 * sizeof(Rows));
+  prefetch_lines(&members, 5 * sizeof(Rows));
   prefetch_lines(standings.data(), entries * sizeof(TreeStanding));
 }
 

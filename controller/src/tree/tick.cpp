@@ -62,7 +62,7 @@ void file_heard(TreeRobot& robot) noexcept {
     if (is_new) {
       k = table.enter(m.id, h.position, ties(m.id, m), [&](int j) { return ties(table.id(j), table.message(j)); });
       if (k < 0) continue;
-      table.deaf_ticks[static_cast<std::size_t>(k)] = never_heard_ticks;
+      table.set_deaf(k, never_heard_ticks);
     }
     h.place = static_cast<std::int16_t>(k);
     if (noisy) h.position = table.position(k);

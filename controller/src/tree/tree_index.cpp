@@ -22,9 +22,10 @@ void index_neighbors(TreeRobot& robot) noexcept {
     (m.parent == me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
     if (m.role != Role::spare) ++robot.useful_children;
   });
-  robot.call_hops = nobody_calls;
+  std::uint8_t call_hops = nobody_calls;
   for (int k = 0, size = table.size(); k < size; ++k)
-    if (const std::uint8_t hops = table.message(k).call_hops; hops < robot.call_hops && table.alive(k)) robot.call_hops = hops;
+    call_hops = std::min(call_hops, table.alive(k) ? table.message(k).call_hops : nobody_calls);
+  robot.call_hops = call_hops;
 }
 
 void update_role(TreeRobot& robot) noexcept {

@@ -214,7 +214,8 @@ RC_GTEST_PROP(Mutual, WhoNamesAnotherNeitherHearsMeNorPassesMeOver, ()) {
   h.place = 0;
   h.before = {1.2F, 0.0F};
   h.named_before = *any_id;
-  const std::uint8_t deaf_ticks = robot.self.neighbors.deaf_ticks[0] = *rc::gen::element<std::uint8_t>(0, 1, 100, 101, 130);
+  const int deaf_ticks = *rc::gen::element(0, 1, 100, 101, 130);
+  robot.self.neighbors.set_deaf(0, deaf_ticks);
   const bool skipped = names_another(robot, h);
   note_hears(robot, h);
   const bool unchanged = robot.self.neighbors.deaf_ticks[0] == deaf_ticks && robot.self.caller == nobody && robot.self.called_ticks == 0;

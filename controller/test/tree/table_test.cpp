@@ -53,6 +53,7 @@ RC_GTEST_PROP(TreeTable, ItsSetsAreThoseOfWhatNeighboursSaid, ()) {
       m.parent = anyone();
       m.old_parent = anyone();
       m.grant = anyone();
+      m.count = anyone();  // whom it names as heard
     }
     const auto robot = bench.tick();
     const TreeTable& table = robot.table();
@@ -61,6 +62,10 @@ RC_GTEST_PROP(TreeTable, ItsSetsAreThoseOfWhatNeighboursSaid, ()) {
     RC_ASSERT(visited(table.rooted) == those(table, [](const TreeStanding& m) { return m.tree_hops == 0; }));
     RC_ASSERT(visited(table.below) == those(table, [](const TreeStanding& m) { return m.parent == 1 || m.old_parent == 1; }));
     RC_ASSERT(visited(table.untied) == those(table, [](const TreeStanding& m) { return is_untied(m) || hold_of(m) == 1; }));
+    std::vector<int> deaf;
+    for (int k = 0; k < table.size(); ++k)
+      if (robot.is_deaf(k)) deaf.push_back(k);
+    RC_ASSERT(visited(table.deaf) == deaf);
     const auto id = static_cast<RobotId>(below(8) == 0 ? int{nobody} : below(robots));
     RC_ASSERT(table.next_alive(id) == next_alive(table, id));
   }

@@ -3,6 +3,7 @@
 // and again. Few messages change a set, so they are kept up to date as packets are filed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,7 @@ struct TreeTable : Neighbors {
   Rows rooted;   // no hops away from the rooted tree
   Rows below;    // name me as parent or old parent
   Rows untied;   // have neither, and no hold but me
+  Rows deaf;     // for longer than deaf_after_ticks
   std::array<TreeStanding, neighbor_capacity> standings{};
   // For how long the neighbour has not heard me, although I hear it; 0: it does (healing/mutual.cpp).
   std::array<std::uint8_t, neighbor_capacity> deaf_ticks{};
@@ -33,6 +35,10 @@ struct TreeTable : Neighbors {
     TreeStanding& kept = standings[static_cast<std::size_t>(k)];
     if (is_new || static_cast<const TreeTies&>(said) != kept) sort(k, said, me);
     kept = said;
+  }
+  void set_deaf(int k, int ticks) noexcept {
+    deaf_ticks[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::min(ticks, UINT8_MAX));
+    deaf.set(k, ticks > deaf_after_ticks);
   }
   // Entry k, which remove_next() has removed.
   void forget(int k) noexcept;
