@@ -37,7 +37,7 @@ struct TreeTies {
   Role role = Role::spare;
   std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
 
-  friend constexpr bool operator==(TreeTies a, TreeTies b) noexcept { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+  friend constexpr bool operator==(const TreeTies& a, const TreeTies& b) noexcept { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 };
 
 // What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
