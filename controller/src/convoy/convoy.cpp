@@ -219,7 +219,7 @@ void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept {
     if (h.place < 0) continue;
     const auto k = static_cast<std::size_t>(h.place);
     self.healing_standings[k] = static_cast<const HealingStanding&>(m);
-    note_hears(robot, h);
+    if (!names_another(robot, h)) note_hears(robot, h);
     self.corners.standings[k] = static_cast<const CornerStanding&>(m);
     self.convoy_standings[k] = static_cast<const ConvoyStanding&>(m);
     if (robot.power != nullptr) robot.power->power.standings[k] = static_cast<const PowerStanding&>(powered_message(m));

@@ -129,16 +129,16 @@ Vec2 repulsion(const ConvoyRobot& robot) noexcept {
 template <class Visit>
 void for_each_other_edge(const ConvoyRobot& robot, Visit visit) noexcept {
   const TreeTable& table = robot.table();
-  for (int k = 0; k < table.size(); ++k) {
+  table.members.for_each([&](int k) {
+    if (!table.alive(k)) return;
     const TreeStanding& m = table.message(k);
-    if (m.role == Role::spare || !table.alive(k)) continue;
     const auto visit_edge = [&](RobotId parent) {
       if (parent == nobody || parent == robot.self.id) return;
       if (const int up = table.find(parent); up >= 0) visit(table.position(k), table.position(up));
     };
     if (k != robot.parent) visit_edge(m.parent);
     if (k != robot.old_parent && m.old_parent != m.parent) visit_edge(m.old_parent);
-  }
+  });
 }
 
 // Moves out of the lines of sight of these edges.

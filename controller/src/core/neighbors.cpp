@@ -37,6 +37,15 @@ int Neighbors::find(RobotId id) const noexcept {
   return rank < size_ && ids_[by_id_[rank]] == id ? by_id_[rank] : -1;
 }
 
+RobotId Neighbors::next_alive(RobotId id) const noexcept {
+  int rank = rank_of(static_cast<RobotId>(id + 1), size_);
+  for (int left = size_; left > 0; --left, ++rank) {
+    if (rank >= size_) rank = 0;
+    if (const int k = by_id_[rank]; alive(k)) return ids_[k];
+  }
+  return nobody;
+}
+
 // Like find(), but walks on from the last entry found if that is near.
 int Neighbors::find_next(RobotId id) noexcept {
   int rank = next_rank_;
@@ -73,6 +82,7 @@ void Neighbors::begin(int elapsed_ticks, float way_m) noexcept {
 int Neighbors::enter(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept {
   const int k = size_ < neighbor_capacity ? size_++ : evict(position, must, ties);
   if (k < 0) return k;
+  all_.set(k, true);
   const auto at = by_id_.begin() + rank_of(id, size_ - 1);
   std::move_backward(at, by_id_.begin() + size_ - 1, by_id_.begin() + size_);
   *at = static_cast<std::uint8_t>(k);
@@ -126,7 +136,7 @@ void Neighbors::remove(int k) noexcept {
   close_gap(ages_, k, size_);
   close_gap(ranges_m_, k, size_);
   close_gap(positions_, k, size_);
-  --size_;
+  all_.set(--size_, false);
 }
 
 }  // namespace banyan

@@ -36,18 +36,22 @@ void find_hold(HealingRobot& robot) noexcept {
   int wish = -1;  // the best one, whether or not it is ahead
   if (!robot.is_root() && robot.up() < 0) {
     float hold_cost = std::numeric_limits<float>::max();
-    float wish_cost = hold_cost;
-    for (int k = 0; k < table.size(); ++k) {
-      const TreeStanding& m = table.message(k);
-      if (!robot.is_linked(k) || m.epoch != self.epoch || is_untied(m)) continue;
-      const int hops = hops_to_tree(m);
-      if (hop_cost * static_cast<float>(hops) >= hold_cost) continue;  // nor is it a better wish
-      const bool ahead = is_ahead(robot, k);
-      // A robot farther from the tree than I am may depend on me: it would never get ahead.
-      if (!ahead && hops >= self.tree_hops) continue;
-      const float c = cost(robot, k, hops);
-      if (c < wish_cost) wish = k, wish_cost = c;
-      if (ahead && c < hold_cost) robot.hold = k, hold_cost = c;
+    for (const Rows* const rows : {&table.members, &table.all()}) {
+      if (hold_cost < 0.0F) break;  // a robot of the rooted tree that is near: no spare costs as little
+      hold_cost = std::numeric_limits<float>::max();
+      float wish_cost = hold_cost;
+      rows->for_each([&](int k) {
+        const TreeStanding& m = table.message(k);
+        if (!robot.is_linked(k) || m.epoch != self.epoch || is_untied(m)) return;
+        const int hops = hops_to_tree(m);
+        if (hop_cost * static_cast<float>(hops) >= hold_cost) return;  // nor is it a better wish
+        const bool ahead = is_ahead(robot, k);
+        // A robot farther from the tree than I am may depend on me: it would never get ahead.
+        if (!ahead && hops >= self.tree_hops) return;
+        const float c = cost(robot, k, hops);
+        if (c < wish_cost) wish = k, wish_cost = c;
+        if (ahead && c < hold_cost) robot.hold = k, hold_cost = c;
+      });
     }
     // Until the flood of a new epoch has arrived, the last epoch's hold will do. A robot with children keeps it until
     // that epoch's tree is dropped: by the new labels a robot that depends on me through them may be ahead.

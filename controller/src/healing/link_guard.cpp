@@ -36,10 +36,14 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
     const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || waits_for_all);
     return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
   };
-  for (int k = 0; k < table.size(); ++k) {
-    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k)) continue;
+  // Where no packets get lost, no others can hold me.
+  Rows rows = robot.tie_ticks > 0 || untied ? table.all() : table.untied;
+  for (const int k : {robot.hold, robot.gap})
+    if (k >= 0) rows.set(k, true);
+  rows.for_each([&](int k) {
+    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k)) return;
     guard_link(robot, k, longest_m, guard);
-  }
+  });
 }
 
 }  // namespace banyan

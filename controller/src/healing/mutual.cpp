@@ -22,7 +22,7 @@ int caller_of(const HealingRobot& robot) noexcept { return robot.self.called_tic
 void note_hears(HealingRobot& robot, const Heard& h) noexcept {
   HealingState& self = robot.self;
   const TreeMessage& m = *h.message;
-  std::uint8_t& deaf_ticks = self.neighbors.deaf_ticks[static_cast<std::size_t>(h.place)];
+  const int deaf_ticks = self.neighbors.deaf_ticks[static_cast<std::size_t>(h.place)];
   const bool calls = m.count == m.id;
   // By ascending ids round and round, I come after the one and before the other. Nobody: it hears no robot.
   const auto after = [&](RobotId id) { return static_cast<RobotId>(id - h.named_before - 1); };
@@ -34,8 +34,8 @@ void note_hears(HealingRobot& robot, const Heard& h) noexcept {
   // ticks that it takes, one for each neighbour.
   const bool first_time = deaf_ticks == 0 || deaf_ticks == never_heard_ticks;
   const int round_ticks = first_time ? 1 : robot.table().size();
-  if (m.count == self.id) deaf_ticks = 0;
-  else if (passed_over) deaf_ticks = static_cast<std::uint8_t>(std::min(deaf_ticks + round_ticks, UINT8_MAX));
+  if (m.count == self.id) self.neighbors.set_deaf(h.place, 0);
+  else if (passed_over) self.neighbors.set_deaf(h.place, deaf_ticks + round_ticks);
   if (calls && (self.called_ticks == 0 || self.caller == m.id)) {
     self.caller = m.id;
     self.called_ticks = call_ticks;
@@ -48,12 +48,7 @@ RobotId name_next(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   if (self.calls && self.turn % call_turns == 0) return self.id;
   if (table.size() == neighbor_capacity && self.turn % 2 == 0) return nobody;  // else whom it forgets is passed over
-  // The smallest above the one named last, else the smallest: the first after it, round and round.
-  RobotId next = nobody;
-  const auto after = [&](RobotId id) { return static_cast<RobotId>(id - self.named - 1); };
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && (next == nobody || after(table.id(k)) < after(next))) next = table.id(k);
-  return self.named = next;
+  return self.named = table.next_alive(self.named);
 }
 
 void find_gap(HealingRobot& robot) noexcept {
@@ -62,10 +57,10 @@ void find_gap(HealingRobot& robot) noexcept {
   const int up = robot.up();
   const bool untied = !robot.is_root() && robot.hold < 0 && (up < 0 || !robot.is_linked(up));
   robot.gap = -1;
-  for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k) || !robot.is_deaf(k) || untied == is_newer(self.epoch, table.message(k).epoch)) continue;
+  table.deaf.for_each([&](int k) {
+    if (!table.alive(k) || untied == is_newer(self.epoch, table.message(k).epoch)) return;
     if (robot.gap < 0 || table.range(k) < table.range(robot.gap)) robot.gap = k;
-  }
+  });
   self.called_ticks = static_cast<std::uint8_t>(std::max(self.called_ticks - robot.elapsed_ticks, 0));
   // A call is passed on away from the root only: it would never end if two robots called each other.
   const int caller = caller_of(robot);

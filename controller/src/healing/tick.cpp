@@ -64,7 +64,7 @@ void begin_tick(HealingRobot& robot, const Inputs<Heard>& inputs) noexcept {
     push_news(robot, known, h);
     if (h.place >= 0) {
       kept[static_cast<std::size_t>(h.place)] = static_cast<const HealingStanding&>(said(h));
-      note_hears(robot, h);
+      if (!names_another(robot, h)) note_hears(robot, h);
     }
   }
   forget_silent(robot, [&](int k) { return may_be_tied(robot, k); }, [&](int k, int size) { close_gap(kept, k, size); });

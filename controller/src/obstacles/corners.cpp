@@ -117,12 +117,15 @@ void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
   int nearest = -1;
   int hops = std::numeric_limits<int>::max();
   float range_m = 0.0F;
-  for (int k = 0, size = table.size(); k < size; ++k) {
-    const int hops_k = table.message(k).tree_hops;
-    if (hops_k > hops || table.age(k) > 0 || (hops_k == hops && table.range(k) >= range_m)) continue;
-    nearest = k;
-    hops = hops_k;
-    range_m = table.range(k);
+  for (const Rows* const rows : {&table.rooted, &table.all()}) {
+    if (nearest >= 0) break;
+    rows->for_each([&](int k) {
+      const int hops_k = table.message(k).tree_hops;
+      if (hops_k > hops || table.age(k) > 0 || (hops_k == hops && table.range(k) >= range_m)) return;
+      nearest = k;
+      hops = hops_k;
+      range_m = table.range(k);
+    });
   }
   if (nearest < 0) return;
   const TreeStanding& m = table.message(nearest);

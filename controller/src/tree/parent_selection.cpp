@@ -166,13 +166,16 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   int nearest = -1;
   int hops = unreachable - 1;  // the most that is passed on; robots that know no way have more
   Serial freshest = 0;
-  for (int k = 0, size = table.size(); k < size; ++k) {
-    const TreeStanding& m = table.message(k);
-    if (m.tree_hops > hops || !robot.is_linked(k)) continue;
-    if (m.tree_hops == hops && nearest >= 0 && !is_newer(m.seqno, freshest)) continue;
-    hops = m.tree_hops;
-    freshest = m.seqno;
-    nearest = k;
+  for (const Rows* const rows : {&table.rooted, &table.all()}) {
+    if (nearest >= 0) break;
+    rows->for_each([&](int k) {
+      const TreeStanding& m = table.message(k);
+      if (m.tree_hops > hops || !robot.is_linked(k)) return;
+      if (m.tree_hops == hops && nearest >= 0 && !is_newer(m.seqno, freshest)) return;
+      hops = m.tree_hops;
+      freshest = m.seqno;
+      nearest = k;
+    });
   }
   self.tree_hops = nearest < 0 ? unreachable : static_cast<std::uint8_t>(hops + 1);
   // For an orphan that drafts this spare (in GROW TREE) it must be ahead; one about to join an edge stays behind.

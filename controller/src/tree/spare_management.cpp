@@ -102,16 +102,16 @@ RobotId nearest_edge_in_need(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   RobotId best = nobody;
   float best_m = infinite_m;
-  for (int k = 0, size = table.size(); k < size; ++k) {
-    if (!in_need(table.message(k), robot.self) || !table.alive(k)) continue;
+  table.members.for_each([&](int k) {
+    if (!in_need(table.message(k), robot.self) || !table.alive(k)) return;
     Vec2 midpoint;
-    if (!midpoint_above(table, k, midpoint)) continue;
+    if (!midpoint_above(table, k, midpoint)) return;
     const float d = norm(midpoint);
     if (d < best_m) {
       best_m = d;
       best = table.id(k);
     }
-  }
+  });
   return best;
 }
 
@@ -207,14 +207,16 @@ RobotId nearest_reference(const TreeRobot& robot) noexcept {
   // In half hops: among free spares, any but the present reference counts half a hop more.
   int best_hops = std::numeric_limits<int>::max();
   float best_m = 0.0F;
-  for (int k = 0, size = table.size(); k < size; ++k) {
-    const TreeStanding& m = table.message(k);
-    if (m.role == Role::spare && best_hops < 0) continue;
-    const int hops = m.role != Role::spare ? -1 : 2 * m.tree_hops + (table.id(k) != robot.self.reference ? 1 : 0);
-    if (hops > best_hops || (hops == best_hops && table.range(k) >= best_m) || !table.alive(k)) continue;
-    best = k;
-    best_hops = hops;
-    best_m = table.range(k);
+  for (const Rows* const rows : {&table.members, &table.all()}) {
+    if (best >= 0) break;
+    rows->for_each([&](int k) {
+      const TreeStanding& m = table.message(k);
+      const int hops = m.role != Role::spare ? -1 : 2 * m.tree_hops + (table.id(k) != robot.self.reference ? 1 : 0);
+      if (hops > best_hops || (hops == best_hops && table.range(k) >= best_m) || !table.alive(k)) return;
+      best = k;
+      best_hops = hops;
+      best_m = table.range(k);
+    });
   }
   return best < 0 ? nobody : table.id(best);
 }

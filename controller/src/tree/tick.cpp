@@ -58,15 +58,16 @@ void file_heard(TreeRobot& robot) noexcept {
     if (m.id == me || m.id == nobody) continue;
     h.before = {};
     int k = table.file(m.id, h.position, h.before, robot.carry);
-    if (k < 0) {
+    const bool is_new = k < 0;
+    if (is_new) {
       k = table.enter(m.id, h.position, ties(m.id, m), [&](int j) { return ties(table.id(j), table.message(j)); });
       if (k < 0) continue;
-      table.deaf_ticks[static_cast<std::size_t>(k)] = never_heard_ticks;
+      table.set_deaf(k, never_heard_ticks);
     }
     h.place = static_cast<std::int16_t>(k);
     if (noisy) h.position = table.position(k);
     h.named_before = table.message(k).count;
-    table.standings[static_cast<std::size_t>(k)] = static_cast<const TreeStanding&>(m);
+    table.keep(k, m, me, is_new);
   }
 }
 
@@ -75,8 +76,7 @@ void forget_silent(TreeRobot& robot, FunctionRef<bool(int)> is_tied, FunctionRef
   const auto keeps = [&](int k) { return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || is_tied(k); };
   const int liveness_ticks = robot.liveness_ticks();
   for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keeps)) >= 0;) {
-    close_gap(table.standings, k, table.size() + 1);
-    close_gap(table.deaf_ticks, k, table.size() + 1);
+    table.forget(k);
     close(k, table.size() + 1);
   }
 }

@@ -15,18 +15,16 @@ void index_neighbors(TreeRobot& robot) noexcept {
   robot.old_parent = self.old_parent == nobody ? -1 : table.find(self.old_parent);
   robot.children.size = robot.old_children.size = 0;
   robot.useful_children = 0;
-  std::uint8_t call_hops = nobody_calls;
-  for (int k = 0, size = table.size(); k < size; ++k) {
-    if (!table.alive(k)) continue;
+  table.below.for_each([&](int k) {
+    if (!table.alive(k)) return;
     const TreeStanding& m = table.message(k);
-    call_hops = std::min(call_hops, m.call_hops);
-    const bool names_me = m.parent == me;
-    if (!names_me && m.old_parent != me) continue;
     // A robot that has not entered this epoch yet names its parent of the last one.
-    (names_me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
-    if (m.role == Role::spare) continue;
-    ++robot.useful_children;
-  }
+    (m.parent == me && m.epoch == self.epoch ? robot.children : robot.old_children).push(k);
+    if (m.role != Role::spare) ++robot.useful_children;
+  });
+  std::uint8_t call_hops = nobody_calls;
+  for (int k = 0, size = table.size(); k < size; ++k)
+    call_hops = std::min(call_hops, table.alive(k) ? table.message(k).call_hops : nobody_calls);
   robot.call_hops = call_hops;
 }
 

@@ -202,5 +202,29 @@ TEST(Mutual, WhoIsCalledComesNearerUntilTheCallEnds) {
   EXPECT_EQ(f.bench.state.called_ticks, 0);
 }
 
+// Most messages are not looked at further: those by which nothing would change.
+RC_GTEST_PROP(Mutual, WhoNamesAnotherNeitherHearsMeNorPassesMeOver, ()) {
+  const auto any_id = rc::gen::element<RobotId>(0, 1, 2, 3, 4, 5, 6, 0x7FFF, 0x8000, 0xFFFE, nobody);
+  Beside beside;
+  beside.bench.state.id = *any_id;
+  beside.speak();
+  beside.bench.tick();
+  auto robot = beside.bench.tick();
+  ConvoyMessage message = beside.bench.say(2);
+  message.count = *any_id;
+  Heard h = robot.heard[0];
+  h.message = &message;
+  h.place = 0;
+  h.before = {1.2F, 0.0F};
+  h.named_before = *any_id;
+  const int deaf_ticks = *rc::gen::element(0, 1, 100, 101, 130);
+  robot.self.neighbors.set_deaf(0, deaf_ticks);
+  const bool skipped = names_another(robot, h);
+  note_hears(robot, h);
+  const bool unchanged = robot.self.neighbors.deaf_ticks[0] == deaf_ticks && robot.self.caller == nobody && robot.self.called_ticks == 0;
+  RC_CLASSIFY(skipped);
+  RC_ASSERT(!skipped || unchanged);
+}
+
 }  // namespace
 }  // namespace banyan

@@ -13,10 +13,9 @@
 #include "banyan/controller/core/function_ref.hpp"
 #include "banyan/controller/core/inputs.hpp"
 #include "banyan/controller/core/position_filter.hpp"
+#include "banyan/controller/core/rows.hpp"
 
 namespace banyan {
-
-inline constexpr int neighbor_capacity = 96;
 
 // A hint to the processor that `bytes` from `from` on are needed soon; for simulations of many robots.
 inline void prefetch_lines(const void* from, std::size_t bytes) noexcept {
@@ -59,6 +58,8 @@ class Neighbors {
   [[nodiscard]] int size() const noexcept { return size_; }
   // Index of `id` in [0, size), or -1. O(log size).
   [[nodiscard]] int find(RobotId id) const noexcept;
+  // Of those alive the smallest id above `id`, else the smallest: round and round. Nobody if none is alive.
+  [[nodiscard]] RobotId next_alive(RobotId id) const noexcept;
   [[nodiscard]] RobotId id(int k) const noexcept { return ids_[k]; }
   [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
   // m; where ranges are noisy, one standard deviation more than the distance of position(k): it may be that far away.
@@ -74,6 +75,7 @@ class Neighbors {
   [[nodiscard]] int returned() const noexcept { return returned_; }
   // Heard within the liveness period; only a kept, silent neighbour is not.
   [[nodiscard]] bool alive(int k) const noexcept { return ages_[k] <= liveness_ticks_; }
+  [[nodiscard]] const Rows& all() const noexcept { return all_; }
 
  private:
   [[nodiscard]] int rank_of(RobotId id, int among) const noexcept;
@@ -98,6 +100,7 @@ class Neighbors {
   std::int16_t elapsed_ticks_ = 1;
   std::int16_t returned_ = 0;
   std::int16_t watched_ = 0;    // so many of the first entries are compared with where they were expected
+  Rows all_;                    // [0, size)
   PositionFilter filter_;
   Array<RobotId> ids_{};
   Array<std::uint8_t> by_id_{};  // indices, ascending by id

@@ -18,6 +18,11 @@ void estimate_loss(HealingRobot& robot) noexcept;
 
 // The sender, which is in the table, may have named me as one that it hears, or have passed me over.
 void note_hears(HealingRobot& robot, const Heard& h) noexcept;
+// It may have done neither, as in most messages: it has named one that comes, by ascending ids round and round, before me.
+[[nodiscard]] inline bool names_another(const HealingRobot& robot, const Heard& h) noexcept {
+  const auto after = [&](RobotId id) { return static_cast<RobotId>(id - h.named_before - 1); };
+  return after(robot.self.id) > after(h.message->count) && h.message->count != h.message->id;
+}
 // The next neighbour to be named as heard; my own id if I call.
 [[nodiscard]] RobotId name_next(const HealingRobot& robot) noexcept;
 // robot.gap: the neighbour by which a part of the network is near that hears nobody of mine, or that I do not belong to

@@ -29,10 +29,20 @@ inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
 
-// What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
-struct TreeStanding {
-  Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
+// How a robot is tied to others. It seldom changes from one message to the next (table.hpp).
+struct TreeTies {
+  RobotId parent = nobody;
+  RobotId old_parent = nobody;
+  RobotId grant = nobody;             // the spare I let into the edge to my parent; without parent: my hold
   Role role = Role::spare;
+  std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
+
+  friend constexpr bool operator==(const TreeTies& a, const TreeTies& b) noexcept { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+};
+
+// What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
+struct TreeStanding : TreeTies {
+  Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
   Phase phase = Phase::init;
   Need need = Need::no_need;
   bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
@@ -42,10 +52,7 @@ struct TreeStanding {
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops (label.hpp, keep_up)
   Serial seqno = 0;                 // the root's count as it came down the tree: (seqno, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
-  std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
   std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need no spare has answered
-  RobotId parent = nobody;
-  RobotId old_parent = nobody;
   RobotId flood_parent = nobody;
   std::uint16_t flood_robots = 0;   // echo sums
   std::uint16_t flood_workers = 0;
@@ -57,7 +64,6 @@ struct TreeStanding {
   std::uint16_t want_cm = 0;          // largest remaining worker distance below me
   std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
-  RobotId grant = nobody;             // the spare I let into the edge to my parent; without parent: my hold
   RobotId request = nobody;           // the owner whose edge I want to join
   RobotId inserted_child = nobody;    // I have just been inserted above this robot
 
@@ -132,7 +138,7 @@ constexpr void visit_fields(Visitor& visit, const TreeMessage& m) noexcept { vis
 
 // The tree neighbour that vectors of the census are addressed to: the parent or, during a switch
 // while there is none, the old parent.
-constexpr RobotId up_of(const TreeStanding& m) noexcept {
+constexpr RobotId up_of(const TreeTies& m) noexcept {
   return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent;
 }
 // The hold of a robot without a parent: the robot that it stays with.

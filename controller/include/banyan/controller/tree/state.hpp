@@ -7,24 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "banyan/controller/core/neighbors.hpp"
-#include "banyan/controller/tree/message.hpp"
+#include "banyan/controller/tree/table.hpp"
 
 namespace banyan {
-
-// A neighbour deaf for longer does not hear me. One that has heard me may be deaf to me for a while because packets get
-// lost; one that never has counts from the second number.
-inline constexpr std::uint8_t deaf_after_ticks = 120;
-inline constexpr std::uint8_t never_heard_ticks = 100;
-
-// The neighbour table, and what each neighbour said of the tree.
-struct TreeTable : Neighbors {
-  std::array<TreeStanding, neighbor_capacity> standings{};
-  // For how long the neighbour has not heard me, although I hear it; 0: it does (healing/mutual.cpp).
-  std::array<std::uint8_t, neighbor_capacity> deaf_ticks{};
-
-  [[nodiscard]] const TreeStanding& message(int k) const noexcept { return standings[static_cast<std::size_t>(k)]; }
-};
 
 struct TreeState {
   RobotId id = nobody;
@@ -100,7 +85,6 @@ struct TreeState {
     entries = std::min<std::size_t>(entries, neighbor_capacity);
     prefetch_lines(this, static_cast<std::size_t>(reinterpret_cast<const char*>(&neighbors) - reinterpret_cast<const char*>(this)));
     neighbors.prefetch(entries);
-    prefetch_lines(neighbors.standings.data(), entries * sizeof(TreeStanding));
   }
 };
 
