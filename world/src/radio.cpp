@@ -345,13 +345,16 @@ void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) 
   int least = static_cast<int>((row.written + skin_ - clock(i)) / units_per_step) + 1;
   const Way own = path_[i];
   const Way around = around_[i];
+  const Way* const path = path_.data();
+  const bool all_anew = all_anew_;
   for (Pair& pair : site.pairs) {
-    const Way ends = own + path_[pair.other];
+    const Way ends = own + path[pair.other];
     const auto wide = [&] { return steps_left(around + (pair.lively != 0 ? around : ends), pair.wide_until); };
-    const auto close = [&] { return steps_left(ends + path_[pair.witness], pair.close_until); };
-    int steps = std::min(wide(), close());
-    if (steps <= 0 || all_anew_) {
-      if (all_anew_ || wide() <= 0 || !still_holds(site, pair)) decide(site, pair);
+    const auto close = [&] { return steps_left(ends + path[pair.witness], pair.close_until); };
+    const int others = wide();
+    int steps = std::min(others, close());
+    if (steps <= 0 || all_anew) {
+      if (all_anew || others <= 0 || !still_holds(site, pair)) decide(site, pair);
       steps = std::min(wide(), close());
     }
     least = std::min(least, steps);
