@@ -102,13 +102,16 @@ class HopCount {
   // smaller number gets a larger one, and so may those that relied on it; if this spreads, counting again is cheaper.
   [[nodiscard]] bool holds(const world::World& world) {
     constexpr int most_rounds = 5;
-    if (hops_.empty() || world.alive()[first_] == 0) return false;
+    const auto alive = world.alive();
+    if (hops_.empty() || alive[first_] == 0) return false;
     for (int round = 0; round < most_rounds; ++round) {
       bool raised = false;
       for (std::size_t i = 0; i < hops_.size(); ++i) {
-        if (world.alive()[i] == 0 || i == first_ || has_nearer(world.links(i), i)) continue;
-        if (world.links(i).empty()) return false;
-        hops_[i] = hops_[world.links(i)[nearer_[i]]] + 1;
+        if (alive[i] == 0 || i == first_) continue;
+        const auto links = world.links(i);
+        if (has_nearer(links, i)) continue;
+        if (links.empty()) return false;
+        hops_[i] = hops_[links[nearer_[i]]] + 1;
         raised = true;
       }
       if (!raised) return true;
@@ -358,8 +361,8 @@ void Observer::Impl::count_edges(const world::World& world) {
   tick.broken_after_silence = 0;
   silence.next_tick();
   for (std::size_t i = 0; i < reports.size(); ++i) {
-    if (!is_of_tree(world, i)) continue;
     const Report& m = reports[i];
+    if (alive[i] == 0 || m.role == Role::spare) continue;
     count(i, m.parent);
     if (m.old_parent != m.parent) count(i, m.old_parent);
     for_each_kept_link(world, i, [&](RobotId other) { count(i, other); });
@@ -404,9 +407,11 @@ void Observer::Impl::judge_links(const world::World& world, bool sample, bool ex
 void Observer::Impl::measure_targets(const world::World& world) {
   const auto targets = world.targets();
   nearest_worker.assign(targets.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < world.size(); ++i) {
-    const Report& m = world.reports()[i];
-    if (m.role != Role::worker || world.alive()[i] == 0) continue;
+  const auto alive = world.alive();
+  const auto reports = world.reports();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Report& m = reports[i];
+    if (m.role != Role::worker || alive[i] == 0) continue;
     for (std::size_t t = 0; t < targets.size(); ++t)
       if (m.serves == targets[t].worker)
         nearest_worker[t] = std::min(nearest_worker[t], squared_norm(world.positions()[i] - targets[t].position));
@@ -432,9 +437,10 @@ void Observer::Impl::measure_targets(const world::World& world) {
 // Barrier lengths as seen by the root; the newest token decides which robot that is.
 void Observer::Impl::time_phases(const world::World& world) {
   const auto alive = world.alive();
+  const auto reports = world.reports();
   const Report* root = nullptr;
-  for (std::size_t i = 0; i < world.size(); ++i) {
-    const Report& m = world.reports()[i];
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Report& m = reports[i];
     if (alive[i] != 0 && m.role == Role::root && (root == nullptr || has_newer_root(m, *root))) root = &m;
   }
   if (root == nullptr) return;

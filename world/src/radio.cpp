@@ -4,13 +4,15 @@
 // down and clocks up, so that a verdict is always the one that the exact test would give at this
 // moment.
 //
-// The clock of a pair is the sum of three distances: the robot's, the other's, and the largest that any robot
-// around the first has moved in each tick. The first two bound how far the ends of the line of sight have
-// moved, the last how far a body beside it has. Usually one body matters, the one in the way or the one
-// nearest to it: the clock of the three counts its distance instead of the largest, and is far slower.
+// Usually one body matters, the one in the way or the one nearest to it: the clock of the three adds up its distance,
+// the robot's and the other's. For all other bodies it is the largest distance that any robot around the first has
+// moved in each tick, and that of the line of sight. A point of the line moves no farther than the end that moves more:
+// so that is at most the largest once more, and at most the distances of both ends together. Which of the two clocks
+// will be the slower one is guessed from the last tick: the first where most robots move, the second where most stand.
 #include "banyan/world/radio.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -22,15 +24,15 @@ namespace banyan::world {
 namespace {
 
 constexpr std::size_t few_cells = 15;   // so few, and scanning all robots beats the grid
-constexpr float far_away = 1e30F;
+constexpr float far_away = 1e18F;        // its square is finite
+constexpr float none_near = 1e30F;      // less than that
 constexpr double skin_share = 0.1;      // of the range
 
 // How far a body that blocks the segment from the origin to `d` may move until it is out of the way, as a
 // distance on the clock of the three. Across the segment no body gets out faster than the clock runs. Along it
 // the turning of the segment counts, too, by less than a third, since it is at least four radii long.
-double depth(Vec2 k, Vec2 d, double d2, double radius) noexcept {
-  if (d2 < 16.0 * radius * radius) return 0.0;
-  const double length = std::sqrt(d2);
+double depth(Vec2 k, Vec2 d, double length, double radius) noexcept {
+  if (length < 4.0 * radius) return 0.0;
   const double per_m = 1.0 / length;
   const double along = dot(k, d) * per_m;
   const double across = std::fabs(cross(k, d)) * per_m;
@@ -45,7 +47,9 @@ double distance_beside(Vec2 k, Vec2 d, double d2, double radius) noexcept {
 
 // Four at a time. Compilers vectorise loops themselves, but not all of the following ones.
 using Four = float __attribute__((vector_size(16)));
+using FourWhole = std::int32_t __attribute__((vector_size(16)));
 Four four(float v) noexcept { return Four{v, v, v, v}; }
+FourWhole four(std::int32_t v) noexcept { return FourWhole{v, v, v, v}; }
 Four load(const float* from) noexcept {
   Four v;
   std::memcpy(&v, from, sizeof v);
@@ -57,8 +61,8 @@ Four larger(Four a, Four b) noexcept { return a > b ? a : b; }
 
 // The smallest and the second smallest of the values offered, in each of four lanes.
 struct TwoLeast {
-  Four least = four(far_away);
-  Four second = four(far_away);
+  Four least = four(none_near);
+  Four second = four(none_near);
   void offer(Four v) noexcept {
     second = smaller(second, larger(least, v));
     least = smaller(least, v);
@@ -91,6 +95,7 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       raised_(leaky_ ? robots : 0, 0),
       nobody_(static_cast<std::uint32_t>(robots)),
       path_(robots + 1, 0),
+      step_(robots, 0),
       around_(robots, 0),
       rows_(robots),
       lower_(robots),
@@ -159,10 +164,12 @@ bool Radio::follow(std::span<const Vec2> positions, std::span<const std::uint8_t
   motion_.assign(columns_ * lines_, 0);
   Way farthest = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
+    step_[i] = 0;
     if (positions[i] == last_[i]) continue;
     const double way = std::min(distance(positions[i], last_[i]) * units_per_m_, static_cast<double>(units_per_reach));
     const Way up = static_cast<Way>(way) + 1;
     last_[i] = positions[i];
+    step_[i] = up;
     path_[i] += up;
     motion_[cell_of_[i]] = std::max(motion_[cell_of_[i]], up);
     farthest = std::max(farthest, up);
@@ -300,7 +307,7 @@ bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s
   };
   for (Pair& pair : pairs_.of(i)) {
     for (; old != s.old.cend() && old->other < *other; ++old) leave(*old);
-    pair = {*other & last_index, 0, 0, 0, nobody_, mark(clock_of_three(i, *other, nobody_)), mark(clock(i, *other))};
+    pair = {*other & last_index, 0, 0, 0, 0, nobody_, mark(clock_of_three(i, *other, nobody_)), mark(clock_of_all(i, *other, false))};
     if (old != s.old.cend() && old->other == *other) {
       if ((old->linked | old->blocked | old->near) != 0) pair = *old;
       ++old;
@@ -338,12 +345,19 @@ void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) 
   int least = static_cast<int>((row.written + skin_ - clock(i)) / units_per_step) + 1;
   const Way own = path_[i];
   const Way around = around_[i];
+  const Way* const path = path_.data();
+  const bool all_anew = all_anew_;
   for (Pair& pair : site.pairs) {
-    const Way ends = own + path_[pair.other];
-    const auto steps = [&] { return std::min(steps_left(ends + path_[pair.witness], pair.close_until), steps_left(ends + around, pair.wide_until)); };
-    if (all_anew_ || steps() <= 0)
-      if (all_anew_ || steps_left(ends + around, pair.wide_until) <= 0 || !ask_witness(site, pair)) decide(site, pair);
-    least = std::min(least, steps());
+    const Way ends = own + path[pair.other];
+    const auto wide = [&] { return steps_left(around + (pair.lively != 0 ? around : ends), pair.wide_until); };
+    const auto close = [&] { return steps_left(ends + path[pair.witness], pair.close_until); };
+    const int others = wide();
+    int steps = std::min(others, close());
+    if (steps <= 0 || all_anew) {
+      if (all_anew || others <= 0 || !still_holds(site, pair)) decide(site, pair);
+      steps = std::min(wide(), close());
+    }
+    least = std::min(least, steps);
   }
   row.quiet_until = fast_clock(i) + static_cast<Way>(std::max(0, least - 1)) * units_per_step;
 }
@@ -357,16 +371,26 @@ void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s)
   else s.rebuild = true;  // so many that all rows are rebuilt
 }
 
-// Whether the body that blocks a line of sight still does, or the one nearest to it still leaves it free, and
-// for how long. Nothing else has changed for the pair.
-bool Radio::ask_witness(const Site& site, Pair& pair) const noexcept {
-  if (pair.witness == nobody_) return false;
+// How far two robots at this distance may move until it matters that they come nearer or part.
+double Radio::distance_lasts(double length) const noexcept {
+  return std::min({std::fabs(length - range_m_), std::fabs(length - near_m_), range_m_});
+}
+
+// Whether the two are in range and near as they were, and the body that blocks their line of sight still does, or the
+// one nearest to it still leaves it free; if so, for how long. No other body has changed anything.
+bool Radio::still_holds(const Site& site, Pair& pair) const noexcept {
   const Vec2 d = site.positions[pair.other] - site.here;
-  const Vec2 body = site.positions[pair.witness] - site.here;
   const double d2 = squared_norm(d);
-  if (disc_blocks(body, d, d2, radius_m_) != (pair.blocked != 0)) return false;
-  const double lasts_m = pair.blocked != 0 ? depth(body, d, d2, radius_m_) : distance_beside(body, d, d2, radius_m_);
-  pair.close_until = mark(clock_of_three(site.i, pair.other, pair.witness) + way(std::min(lasts_m, range_m_)));
+  const bool in_range = d2 < range_m_ * range_m_ && alive_[site.i] != 0 && alive_[pair.other] != 0;
+  if (in_range != ((pair.linked | pair.blocked) != 0) || (d2 < near_m_ * near_m_) != (pair.near != 0)) return false;
+  const double length = std::sqrt(d2);
+  double lasts_m = distance_lasts(length);
+  if (pair.witness != nobody_) {
+    const Vec2 body = site.positions[pair.witness] - site.here;
+    if (disc_blocks(body, d, d2, radius_m_) != (pair.blocked != 0)) return false;
+    lasts_m = std::min(lasts_m, pair.blocked != 0 ? depth(body, d, length, radius_m_) : distance_beside(body, d, d2, radius_m_));
+  }
+  hold(site, pair, pair.witness, lasts_m);
   return true;
 }
 
@@ -376,36 +400,42 @@ void Radio::decide(Site& site, Pair& pair) const {
   const Vec2 d = site.positions[pair.other] - site.here;
   const double d2 = squared_norm(d);
   const double length = std::sqrt(d2);
-  const double in_range_m = std::min({std::fabs(length - range_m_), std::fabs(length - near_m_), range_m_});
   const bool in_range = d2 < range_m_ * range_m_ && alive_[site.i] != 0 && alive_[pair.other] != 0;
   pair.near = d2 < near_m_ * near_m_ ? 1 : 0;
   if (in_range && line_of_sight_) {
-    const double lasts_m = judge_sight(site, pair, d, d2);
-    pair.wide_until = mark(clock(site.i, pair.other) + way(std::min(in_range_m, lasts_m)));
+    leave_be(site, pair, judge_sight(site, pair, d, length));
   } else {
     pair.linked = in_range ? 1 : 0;
     pair.blocked = 0;
-    pair.wide_until = mark(clock(site.i, pair.other) + units_per_reach);
-    hold(site, pair, nobody_, in_range_m);
+    hold(site, pair, nobody_, distance_lasts(length));
+    leave_be(site, pair, reach_m_);
   }
   note(site.i, before, pair, site.s);
 }
 
-// Sets the witness of a pair: the verdict holds until the three have moved this far.
+// Sets the witness of a pair: the verdict holds until the three have moved this far,
 void Radio::hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept {
   pair.witness = witness;
   pair.close_until = mark(clock_of_three(site.i, pair.other, witness) + way(lasts_m));
 }
 
-// Whether there is a line of sight. Returns how long that holds whatever robots other than the witness do, as a
-// distance on the clock of the pair.
-double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const {
+// and until all others have moved this far.
+void Radio::leave_be(const Site& site, Pair& pair, double lasts_m) const noexcept {
+  pair.lively = step_[site.i] + step_[pair.other] > motion_[cell_of_[site.i]] ? 1 : 0;
+  pair.wide_until = mark(clock_of_all(site.i, pair.other, pair.lively != 0) + way(lasts_m));
+}
+
+// Whether there is a line of sight, of robots at this distance. Returns how far bodies other than the witness, and
+// obstacles, are from changing that.
+double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double length) const {
   const Vec2 there = site.positions[pair.other];
+  const double d2 = squared_norm(d);
+  const double in_range_m = distance_lasts(length);
   const auto hides = [&](const Obstacle* o) { return blocks(*o, site.here, there); };
   const auto hidden = [&] { return std::any_of(site.s.obstacles.begin(), site.s.obstacles.end(), hides); };
   const auto block = [&](std::uint32_t body) {
-    hold(site, pair, body, depth(site.positions[body] - site.here, d, d2, radius_m_));
-    return range_m_;
+    hold(site, pair, body, std::min(in_range_m, depth(site.positions[body] - site.here, d, length, radius_m_)));
+    return reach_m_;
   };
   const bool was_blocked = pair.blocked != 0;
   pair.blocked = 1;
@@ -416,17 +446,17 @@ double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const {
     return block(pair.witness);
   look_around(site);
   const bool by_obstacle = was_blocked && pair.witness == nobody_;
-  hold(site, pair, nobody_, range_m_);
+  hold(site, pair, nobody_, in_range_m);
   if (by_obstacle && hidden()) return 0.0;
-  const View view = look(site, pair, d, d2);
+  const View view = look(site, pair, d, length);
   if (view.blocked) return block(view.witness);
   if (!by_obstacle && hidden()) return 0.0;
   pair.blocked = 0;
   pair.linked = 1;
-  hold(site, pair, view.witness, std::min(range_m_, static_cast<double>(view.nearest_m)));
+  hold(site, pair, view.witness, std::min(in_range_m, static_cast<double>(view.nearest_m)));
   double lasts_m = static_cast<double>(view.others_m);
   for (const Obstacle* o : site.s.obstacles) lasts_m = std::min(lasts_m, gap(*o, site.here, there));
-  return lasts_m;
+  return std::min(lasts_m, reach_m_);
 }
 
 // The robots and obstacles that could block a robot's lines of sight.
@@ -435,7 +465,7 @@ void Radio::look_around(Site& site) const {
   Scratch& s = site.s;
   const std::size_t size = site.lower.size() + site.pairs.size();
   if (s.x.size() < size + chunk)
-    for (auto* v : {&s.x, &s.y, &s.gap2}) v->resize(2 * size + chunk);
+    for (auto* v : {&s.x, &s.y}) v->resize(2 * size + chunk);
   float* x = s.x.data();
   float* y = s.y.data();
   const auto put = [&](std::uint32_t j) {
@@ -453,58 +483,65 @@ void Radio::look_around(Site& site) const {
 }
 
 // The body in the way from the robot to the other of the pair, or nearest to that line. Single precision leaves
-// out bodies that are clearly beside the line; the exact test decides on the rest.
-Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept {
+// out bodies that are clearly beside the line; the exact test decides on the rest. The last bits of a distance are
+// replaced by the place of its body, so that the least one tells whose it is.
+Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double length_m) const noexcept {
   Scratch& s = site.s;
   const std::size_t lower = site.lower.size();
   const std::size_t size = lower + site.pairs.size();
   const auto target = lower + static_cast<std::size_t>(&pair - site.pairs.data());
   const auto body = [&](std::size_t at) { return at < lower ? site.lower[at] : site.pairs[at - lower].other; };
-  const auto length = static_cast<float>(std::sqrt(d2));
+  const auto length = static_cast<float>(length_m);
   const bool has_direction = length > 1e-3F;                  // if not, all bodies are tested
   const Four ux = four(has_direction ? static_cast<float>(d.x) / length : 0.0F);
   const Four uy = four(has_direction ? static_cast<float>(d.y) / length : 0.0F);
-  const Four half = four(0.5F * length);
+  const Four end = four(length);
   const float rounding = 1e-4F * (length + 1.0F);             // far above it
   const float beside = static_cast<float>(radius_m_) + rounding;
-  const float beside2 = has_direction ? beside * beside : far_away;
+  const float beside2 = has_direction ? beside * beside : none_near;
   const auto distance2 = [&](std::size_t at) {                // of four bodies, from the segment
     const Four x = load(s.x.data() + at);
     const Four y = load(s.y.data() + at);
     const Four across = x * uy - y * ux;
-    const Four middle = x * ux + y * uy - half;
-    const Four out = larger(larger(middle, -middle) - half, four(0.0F));   // beyond the ends
+    const Four along = x * ux + y * uy;
+    const Four out = along - smaller(larger(along, four(0.0F)), end);   // beyond the ends
     return across * across + out * out;
   };
+  const auto place_bits = static_cast<std::int32_t>(std::bit_ceil(size + chunk) - 1);
+  const FourWhole kept = four(~place_bits);
+  const auto with_place = [&](Four gap2, FourWhole place) { return std::bit_cast<Four>((std::bit_cast<FourWhole>(gap2) & kept) | place); };
   const float aside = std::exchange(s.x[target], far_away);   // the other itself is not in the way
   TwoLeast even, odd;
+  FourWhole place{0, 1, 2, 3};
   for (std::size_t begin = 0; begin < size; begin += chunk) {
-    const Four a = distance2(begin);
-    const Four b = distance2(begin + 4);
-    even.offer(a);
-    odd.offer(b);
-    std::memcpy(s.gap2.data() + begin, &a, sizeof a);
-    std::memcpy(s.gap2.data() + begin + 4, &b, sizeof b);
+    even.offer(with_place(distance2(begin), place));
+    odd.offer(with_place(distance2(begin + 4), place + 4));
+    place += static_cast<std::int32_t>(chunk);
   }
   s.x[target] = aside;
   even.offer(odd);
   const TwoLeast two = even.joined();
-  const auto gaps = std::span(s.gap2).first(size);
-  const auto nearest = static_cast<std::size_t>(std::find(gaps.begin(), gaps.end(), two.least[0]) - gaps.begin());
-  View view{false, nearest < size ? body(nearest) : nobody_, 0.0F, 0.0F};
-  const auto blocks = [&](std::size_t at) { return at != target && disc_blocks(site.positions[body(at)] - site.here, d, d2, radius_m_); };
-  if (two.least[0] < beside2) {
+  const auto rounded_down = [&](float gap2) { return std::bit_cast<float>(std::bit_cast<std::int32_t>(gap2) & ~place_bits); };
+  const float least = rounded_down(two.least[0]);
+  const bool none = two.least[0] >= none_near;
+  const auto nearest = none ? size : static_cast<std::size_t>(std::bit_cast<std::int32_t>(two.least[0]) & place_bits);
+  View view{false, none ? nobody_ : body(nearest), 0.0F, 0.0F};
+  const auto blocks = [&](std::size_t at) { return at != target && disc_blocks(site.positions[body(at)] - site.here, d, squared_norm(d), radius_m_); };
+  if (least < beside2) {
     // The body nearest to the line is deepest in the way, and will stay there longest.
-    view.blocked = nearest < size && blocks(nearest);
-    for (std::size_t at = 0; at < size && !view.blocked; ++at) {
-      if (gaps[at] >= beside2 || !blocks(at)) continue;
-      view.blocked = true;
-      view.witness = body(at);
+    view.blocked = !none && blocks(nearest);
+    for (std::size_t begin = 0; begin < size && !view.blocked; begin += 4) {
+      const Four gaps = distance2(begin);
+      for (std::size_t at = begin; at < std::min(begin + 4, size) && !view.blocked; ++at) {
+        if (gaps[at - begin] >= beside2 || !blocks(at)) continue;
+        view.blocked = true;
+        view.witness = body(at);
+      }
     }
   }
   if (!has_direction || view.blocked) return view;
-  view.nearest_m = std::max(0.0F, std::sqrt(two.least[0]) - beside);
-  view.others_m = std::max(0.0F, std::sqrt(two.second[0]) - beside);
+  view.nearest_m = std::max(0.0F, std::sqrt(least) - beside);
+  view.others_m = std::max(0.0F, std::sqrt(rounded_down(two.second[0])) - beside);
   return view;
 }
 
@@ -601,10 +638,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> Radio::blocked() const {
 
 std::size_t Radio::memory_bytes() const noexcept {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };  // NOLINT(bugprone-sizeof-expression)
-  std::size_t total = bytes(last_) + bytes(alive_) + bytes(raised_) + lower_.memory_bytes() + pairs_.memory_bytes() + bytes(path_) + bytes(around_) + bytes(rows_) +
+  std::size_t total = bytes(last_) + bytes(alive_) + bytes(raised_) + lower_.memory_bytes() + pairs_.memory_bytes() + bytes(path_) + bytes(step_) + bytes(around_) + bytes(rows_) +
                       bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(motion_) + bytes(across_) + links_.memory_bytes() +
                       bytes(count_) + bytes(near_);
-  for (const Scratch& s : scratch_) total += bytes(s.index) + bytes(s.old) + bytes(s.x) + bytes(s.y) + bytes(s.gap2) + bytes(s.changes) + bytes(s.obstacles);
+  for (const Scratch& s : scratch_) total += bytes(s.index) + bytes(s.old) + bytes(s.x) + bytes(s.y) + bytes(s.changes) + bytes(s.obstacles);
   return total;
 }
 

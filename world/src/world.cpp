@@ -278,15 +278,17 @@ std::size_t World::Impl::receive(std::size_t i, std::span<Packet> packets) const
   const RadioModel& model = scenario.radio;
   const bool exact = !(model.range_noise_m > 0.0 || model.bearing_noise_rad > 0.0);
   const bool lossless = losses.none(loss);
-  const Vec2 here = poses.position[i];
+  const Vec2* const position = poses.position.data();
+  const Vec2 here = position[i];
   const Vec2 heading = poses.heading[i];
-  std::size_t count = 0;
+  const auto exactly = [](Vec2 d) { return banyan::Vec2{static_cast<float>(d.x), static_cast<float>(d.y)}; };
+  Packet* to = packets.data();
   for (const std::uint32_t sender : radio.links(i)) {
     if (!lossless && lost(i, sender)) continue;
-    const Vec2 d = rotate_back(heading, poses.position[sender] - here);
-    const banyan::Vec2 seen = exact ? banyan::Vec2{static_cast<float>(d.x), static_cast<float>(d.y)} : blurred(i, sender, d);
-    packets[count++] = {.sender = sender, .age_ticks = 1, .position = seen};
+    const Vec2 d = rotate_back(heading, position[sender] - here);
+    *to++ = {.sender = sender, .age_ticks = 1, .position = exact ? exactly(d) : blurred(i, sender, d)};
   }
+  const auto count = static_cast<std::size_t>(to - packets.data());
   const auto slots = static_cast<std::size_t>(scenario.radio.slots);
   return slots > 0 && count > slots ? keep_slots(i, packets, count) : count;
 }

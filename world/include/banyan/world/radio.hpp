@@ -68,17 +68,18 @@ class Radio {
   // half of that before the row is written anew.
   using Mark = std::uint16_t;
   static constexpr Way units_per_step = 1U << 6;
-  static constexpr std::uint32_t last_index = (1U << 29) - 1;
+  static constexpr std::uint32_t last_index = (1U << 28) - 1;
   static constexpr std::size_t chunk = 8;   // of neighbours that are looked at together
 
   // What was found out about robot i and another, j > i.
   struct Pair {
-    std::uint32_t other : 29;
+    std::uint32_t other : 28;
     // Neither linked nor blocked: out of range, or dead. Both: bodies are in the way, but antennas look over them.
     std::uint32_t linked : 1, blocked : 1, near : 1;
+    std::uint32_t lively : 1;   // which of two clocks wide_until is by
     std::uint32_t witness;   // the body in the way, or if none is the one that is nearest to it; or nobody_
-    Mark close_until;        // by the clock of the three: until then the witness changes nothing,
-    Mark wide_until;         // by the clock of the pair: nor does anything else
+    Mark close_until;        // by the clock of the three: until then neither the distance nor the witness changes anything,
+    Mark wide_until;         // by that of all around: nor does any other body
   };
   // How a pair has changed: 1 linked or near, -1 no longer, 0 unchanged.
   struct Change {
@@ -97,7 +98,6 @@ class Radio {
     std::vector<Pair> old;              // a row before it was written anew
     std::vector<float> x, y;            // from a robot to each of its row, world frame, padded to whole chunks
     std::vector<const Obstacle*> obstacles;   // near it
-    std::vector<float> gap2;            // of each of them, from a line of sight
     std::vector<Change> changes;        // in this update
     bool rebuild = false;               // they are not all that has changed
     bool no_room = false;               // some row needs more
@@ -121,7 +121,8 @@ class Radio {
   };
 
   [[nodiscard]] Way clock(std::size_t i) const noexcept { return path_[i] + around_[i]; }
-  [[nodiscard]] Way clock(std::size_t i, std::size_t j) const noexcept { return path_[i] + path_[j] + around_[i]; }
+  // Of all around robot i and another: either bounds how far a body and the line of sight approach each other.
+  [[nodiscard]] Way clock_of_all(std::size_t i, std::size_t j, bool lively) const noexcept { return around_[i] + (lively ? around_[i] : path_[i] + path_[j]); }
   [[nodiscard]] Way clock_of_three(std::size_t i, std::size_t j, std::size_t witness) const noexcept { return path_[i] + path_[j] + path_[witness]; }
   // So far that clocks may go on: they are up to one unit too slow per robot, and rounding is far less.
   [[nodiscard]] Way way(double m) const noexcept { return static_cast<Way>(std::max(0.0, m * units_per_m_ - 4.0)); }
@@ -140,13 +141,15 @@ class Radio {
   void refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s);
   static void note(std::size_t i, const Pair& before, const Pair& now, Scratch& s);
   void decide(Site& site, Pair& pair) const;
+  [[nodiscard]] double distance_lasts(double length) const noexcept;
   void hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept;
-  [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const;
-  [[nodiscard]] bool ask_witness(const Site& site, Pair& pair) const noexcept;
+  void leave_be(const Site& site, Pair& pair, double lasts_m) const noexcept;
+  [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double length) const;
+  [[nodiscard]] bool still_holds(const Site& site, Pair& pair) const noexcept;
   void look_around(Site& site) const;
   void look_over(std::size_t i, std::span<const Vec2> positions, Scratch& s);
   [[nodiscard]] bool looks_over(Site& site, const Pair& pair) const;
-  [[nodiscard]] View look(const Site& site, const Pair& pair, Vec2 d, double d2) const noexcept;
+  [[nodiscard]] View look(const Site& site, const Pair& pair, Vec2 d, double length_m) const noexcept;
   void apply_changes();
   void merge();
 
@@ -170,7 +173,8 @@ class Radio {
   bool all_anew_ = true;                  // every pair is to be decided again: sight or obstacles have changed
 
   std::uint32_t nobody_;                  // the index after the last robot's; never moves
-  std::vector<Way> path_;                 // how far each robot has moved
+  std::vector<Way> path_;                 // how far each robot has moved,
+  std::vector<Way> step_;                 // and in the last update
   std::vector<Way> around_;               // the farthest move of any robot within its reach, summed over ticks
   std::vector<Row> rows_;
   Rows<std::uint32_t> lower_;             // of each row those with a smaller index,

@@ -19,8 +19,10 @@ namespace banyan {
 
 // A hint to the processor that `bytes` from `from` on are needed soon; for simulations of many robots.
 inline void prefetch_lines(const void* from, std::size_t bytes) noexcept {
-  constexpr std::size_t line = 64;
-  for (std::size_t at = 0; at < bytes; at += line) __builtin_prefetch(static_cast<const char*>(from) + at, 1);
+  constexpr std::uintptr_t line = 64;
+  const auto begin = reinterpret_cast<std::uintptr_t>(from);
+  const auto* const first = static_cast<const char*>(from) - begin % line;
+  for (std::size_t at = 0; at < bytes + begin % line; at += line) __builtin_prefetch(first + at, 1);
 }
 
 // Moves the elements of one such array.

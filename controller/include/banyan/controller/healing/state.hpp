@@ -70,6 +70,7 @@ struct HealingState : TreeState {
 
   void prefetch(std::size_t entries) const noexcept {
     TreeState::prefetch(entries = std::min<std::size_t>(entries, neighbor_capacity));
+    prefetch_lines(neighbors.deaf_ticks.data(), entries);
     prefetch_lines(&task_count, static_cast<std::size_t>(reinterpret_cast<const char*>(healing_standings.data() + entries) - reinterpret_cast<const char*>(&task_count)));
   }
 };
