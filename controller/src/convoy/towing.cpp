@@ -220,7 +220,7 @@ bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
   if (!robot.params.line_of_sight || robot.self.corners.landmarks.size == 0) return false;
   if (up >= 0 && table.alive(up) && table.age(up) >= silent_ticks) return true;
   if (robot.self.childless_ticks > 0) return true;
-  return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
+  return std::ranges::any_of(robot.children, [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
 }
 
 // A worker's pull, or along the obstacle in its way.

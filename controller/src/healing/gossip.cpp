@@ -39,7 +39,7 @@ Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
   const auto among = static_cast<int>(std::count_if(self.tasks.begin(), end, counts));
   if (among == 0) return {-1, turn};
   int left = turn % among;
-  const auto chosen = std::find_if(self.tasks.begin(), end, [&](const Task& task) { return counts(task) && left-- == 0; });
+  const auto chosen = std::ranges::find_if(self.tasks.begin(), end, [&](const Task& task) { return counts(task) && left-- == 0; });
   return {static_cast<int>(chosen - self.tasks.begin()), turn / among};
 }
 
@@ -47,7 +47,7 @@ Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
 // my own target and those of the workers below.
 Topic choose_topic(const HealingState& self) noexcept {
   int turn = self.turn + self.id;
-  if (std::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
+  if (std::ranges::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
     if (turn % 2 != 0) return next_topic(self, turn / 2, is_urgent);
     turn /= 2;
   }

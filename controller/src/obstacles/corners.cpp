@@ -81,7 +81,7 @@ float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
 void file(const TreeRobot& robot, Corners& corners, Vec2 o) noexcept {
   Landmarks& known = corners.landmarks;
   const auto begin = known.points.begin();
-  if (std::any_of(begin, begin + known.size, [&](Vec2 p) { return distance(p, o) < spacing_m; })) return;
+  if (std::ranges::any_of(begin, begin + known.size, [&](Vec2 p) { return distance(p, o) < spacing_m; })) return;
   if (known.size < landmark_capacity) {
     known.points[known.size++] = o;
     return;
@@ -164,7 +164,7 @@ bool is_towed(const TreeRobot& robot, const Corners& corners, float start_m) noe
     const TreeStanding& m = table.message(k);
     return m.role != Role::spare && m.want_cm > 0 && (corners.of(k).pinned || table.range(k) > start_m);
   };
-  return std::any_of(robot.children.begin(), robot.children.end(), tows);
+  return std::ranges::any_of(robot.children, tows);
 }
 
 void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
@@ -174,8 +174,8 @@ void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
   const float far_m = forget * robot.params.communication_range_m;
   // A point nearer than everything that is sensed no longer exists, or never did.
   const auto is_wrong = [&](Vec2 p) { return norm(p) > far_m || norm(p) < nearest_m - spacing_m; };
-  const auto end = std::remove_if(known.points.begin(), known.points.begin() + known.size, is_wrong);
-  known.size = static_cast<std::uint8_t>(end - known.points.begin());
+  const auto dropped = std::ranges::remove_if(known.points.begin(), known.points.begin() + known.size, is_wrong);
+  known.size = static_cast<std::uint8_t>(dropped.begin() - known.points.begin());
 }
 
 // Out of reach of all edges, not where the sensor would see it, or heard again.
@@ -203,7 +203,7 @@ void note_body(const TreeRobot& robot, Corners& corners, int k) noexcept {
   Bodies& bodies = corners.bodies;
   if (table.range(k) > longest_link * robot.params.communication_range_m || !sees_clearly(robot, corners, k, clear_m)) return;
   const auto begin = bodies.ids.begin();
-  if (std::find(begin, begin + bodies.size, table.id(k)) != begin + bodies.size) return;
+  if (std::ranges::find(begin, begin + bodies.size, table.id(k)) != begin + bodies.size) return;
   if (bodies.size == body_capacity) {  // the oldest makes room
     std::shift_left(bodies.centers.begin(), bodies.centers.end(), 1);
     std::shift_left(bodies.ids.begin(), bodies.ids.end(), 1);

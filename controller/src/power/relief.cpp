@@ -170,7 +170,7 @@ bool is_relieved(const PowerRobot& me) noexcept { return me.power.said.leaving &
 bool wants_relief(const PowerRobot& me) noexcept {
   const HealingRobot& robot = me.robot;
   if (!me.power.said.leaving || robot.parent < 0 || has_reliever(me)) return false;
-  return is_first(me, robot.parent) && std::all_of(robot.children.begin(), robot.children.end(), [&](int k) { return is_first(me, k); });
+  return is_first(me, robot.parent) && std::ranges::all_of(robot.children, [&](int k) { return is_first(me, k); });
 }
 
 bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(int)> in_sight) noexcept {

@@ -200,8 +200,7 @@ bool is_ahead(const TreeRobot& robot, int k) noexcept {
 }
 
 bool is_named_parent(const TreeRobot& robot) noexcept {
-  return std::any_of(robot.children.begin(), robot.children.end(),
-                     [&](int k) { return robot.table().message(k).role != Role::spare; });
+  return std::ranges::any_of(robot.children, [&](int k) { return robot.table().message(k).role != Role::spare; });
 }
 
 void keep_up(TreeRobot& robot, int k) noexcept {

@@ -228,7 +228,7 @@ bool is_stretched(const TreeRobot& robot) noexcept {
 }
 
 bool child_in_need(const TreeRobot& robot) noexcept {
-  return std::any_of(robot.children.begin(), robot.children.end(), [&](int k) {
+  return std::ranges::any_of(robot.children, [&](int k) {
     const TreeStanding& m = robot.table().message(k);
     return m.role != Role::spare && m.need == Need::need;
   });

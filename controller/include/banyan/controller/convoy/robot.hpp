@@ -37,7 +37,7 @@ struct ConvoyRobot : HealingRobot {
   // What my parent has said this tick; null if I did not hear it.
   [[nodiscard]] const ConvoyMessage* parent_message() const noexcept {
     if (self.parent == nobody) return nullptr;
-    const auto it = std::find_if(heard.begin(), heard.end(), [&](const Heard& h) { return h.message->id == self.parent; });
+    const auto it = std::ranges::find_if(heard, [&](const Heard& h) { return h.message->id == self.parent; });
     return it == heard.end() ? nullptr : &convoy_message(*it->message);
   }
 };

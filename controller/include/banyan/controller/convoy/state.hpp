@@ -11,7 +11,8 @@
 
 namespace banyan {
 
-struct ConvoyState : HealingState {
+// Stands before the others' part, as HealingMemory does.
+struct ConvoyMemory {
   std::uint16_t pending_ticks = 0;       // how long I have been waiting for pending_parent to get ahead of me
   RobotId warned = nobody;               // the child that I am about to lose sight of
 
@@ -42,17 +43,19 @@ struct ConvoyState : HealingState {
   Corners corners;                       // obstacles: lines of sight past them
   std::array<ConvoyStanding, neighbor_capacity> convoy_standings{};  // beside the neighbour table
 
-  void prefetch(std::size_t entries) const noexcept {
-    HealingState::prefetch(entries = std::min<std::size_t>(entries, neighbor_capacity));
-    prefetch_lines(&pending_ticks, static_cast<std::size_t>(reinterpret_cast<const char*>(corners.standings.data() + entries) - reinterpret_cast<const char*>(&pending_ticks)));
-    prefetch_lines(convoy_standings.data(), entries * sizeof(ConvoyStanding));
-  }
-
  private:
   static constexpr std::array<RobotId, task_capacity> none() noexcept {
     std::array<RobotId, task_capacity> hosts{};
     hosts.fill(nobody);
     return hosts;
+  }
+};
+
+struct ConvoyState : ConvoyMemory, HealingState {
+  void prefetch(std::size_t entries) const noexcept {
+    HealingState::prefetch(entries = std::min<std::size_t>(entries, neighbor_capacity));
+    prefetch_lines(&pending_ticks, static_cast<std::size_t>(reinterpret_cast<const char*>(corners.standings.data() + entries) - reinterpret_cast<const char*>(&pending_ticks)));
+    prefetch_lines(convoy_standings.data(), entries * sizeof(ConvoyStanding));
   }
 };
 

@@ -104,12 +104,12 @@ class Neighbors {
   std::int16_t watched_ = 0;    // so many of the first entries are compared with where they were expected
   Rows all_;                    // [0, size)
   PositionFilter filter_;
+  Array<Vec2> positions_{};  // first, with the ranges: a chip loads floats from at most 1,020 bytes away
+  Array<float> ranges_m_{};
   Array<RobotId> ids_{};
   Array<std::uint8_t> by_id_{};  // indices, ascending by id
   Array<std::uint8_t> measurements_{};
   Array<std::uint16_t> ages_{};
-  Array<float> ranges_m_{};
-  Array<Vec2> positions_{};
 };
 
 }  // namespace banyan

@@ -36,7 +36,8 @@ struct Progress {
   std::uint16_t vain_ticks = 0;          // eighteenths of ticks at full speed towards it since, in vain
 };
 
-struct HealingState : TreeState {
+// Stands before the tree's part: behind the neighbour table, each access would take a chip a further instruction.
+struct HealingMemory {
   std::uint8_t task_count = 0;
   bool was_sent : 1 = false;             // to a target, at the last step
   bool root_known : 1 = false;
@@ -67,7 +68,9 @@ struct HealingState : TreeState {
   std::array<Task, task_capacity> tasks{};  // the first task_count are valid
   Detour detour;                         // obstacles: the way round one
   std::array<HealingStanding, neighbor_capacity> healing_standings{};  // beside the neighbour table
+};
 
+struct HealingState : HealingMemory, TreeState {
   void prefetch(std::size_t entries) const noexcept {
     TreeState::prefetch(entries = std::min<std::size_t>(entries, neighbor_capacity));
     prefetch_lines(neighbors.deaf_ticks.data(), entries);
