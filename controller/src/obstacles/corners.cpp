@@ -178,14 +178,23 @@ void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
   known.size = static_cast<std::uint8_t>(dropped.begin() - known.points.begin());
 }
 
-// Out of reach of all edges, not where the sensor would see it, or heard again.
+// A neighbour is heard past that place so closely that a body there would hide it.
+bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
+  constexpr float well_inside = 0.5F;  // of the radius: what is remembered drifts
+  const TreeTable& table = robot.table();
+  for (int k = 0; k < table.size(); ++k)
+    if (table.age(k) == 0 && norm(nearest_on_segment(-center, table.position(k) - center)) < well_inside * body_m(robot)) return true;
+  return false;
+}
+
+// Out of reach of all edges, not where the sensor would see it, heard again, or gone.
 void forget_bodies(const TreeRobot& robot, Bodies& bodies) noexcept {
   float nearest_m = body_m(robot) + near_m;
   for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
   const auto is_wrong = [&](std::size_t k) {
     const float d = norm(bodies.centers[k]);
     const int place = robot.table().find(bodies.ids[k]);
-    return d > forget * robot.params.communication_range_m || d - body_m(robot) < nearest_m - spacing_m || (place >= 0 && robot.table().age(place) == 0);
+    return d > forget * robot.params.communication_range_m || d - body_m(robot) < nearest_m - spacing_m || (place >= 0 && robot.table().age(place) == 0) || is_heard_through(robot, bodies.centers[k]);
   };
   std::uint8_t kept = 0;
   for (std::size_t k = 0; k < bodies.size; ++k) {
