@@ -175,6 +175,20 @@ TEST(Bodies, TheyAreForgottenWhenTheyProveWrong) {
   EXPECT_EQ(seen.bodies().size, 0) << "no edge reaches so far";
 }
 
+// Bodies may vanish. What is not there must not bend the edges of those who meet across it.
+TEST(Bodies, TheyAreForgottenWhenANeighborIsHeardThroughThem) {
+  const auto is_kept = [](Vec2 heard_at) {
+    Bereaved child;
+    child.look(past_liveness_ticks);
+    child.bench.put(4, heard_at);
+    child.look();
+    return child.bodies().size == 1;
+  };
+  EXPECT_FALSE(is_kept({-1.98F, 0.01F}));
+  EXPECT_TRUE(is_kept({-1.97F, 0.1F})) << "past it at 9 cm";
+  EXPECT_TRUE(is_kept({-1.6F, 0.0F})) << "in front of it";
+}
+
 // A worker does not drive to where its line of sight to the parent is hidden by the body between them.
 RC_GTEST_PROP(Bodies, NoMotionOfMyOwnBringsABodyIntoTheEdge, ()) {
   ConvoyBench bench = grown<Convoy>();
