@@ -12,7 +12,7 @@ constexpr int sentries = 1;    // entries from which noise is noticed at first
 void Neighbors::prefetch(std::size_t entries) const noexcept {
   entries = std::min<std::size_t>(entries, neighbor_capacity);
   const auto fetch = [&](const auto& array) { prefetch_lines(array.data(), entries * sizeof array[0]); };
-  prefetch_lines(this, static_cast<std::size_t>(reinterpret_cast<const char*>(ids_.data()) - reinterpret_cast<const char*>(this)));
+  prefetch_lines(this, static_cast<std::size_t>(reinterpret_cast<const char*>(positions_.data()) - reinterpret_cast<const char*>(this)));
   fetch(ids_);
   fetch(by_id_);
   fetch(measurements_);
