@@ -10,6 +10,7 @@
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {
@@ -186,7 +187,7 @@ void shed(ConvoyRobot& robot) noexcept {
   }
   robot.add_elapsed(self.short_ticks);
   constexpr float sooner = 0.45F;  // once it is known that robots are too few
-  const bool known = std::ranges::any_of(all, [](const Task& t) { return t.holder == nobody; });
+  const bool known = banyan::any_of(all, [](const Task& t) { return t.holder == nobody; });
   if (self.short_ticks <= robot.params.ticks((known ? sooner : 1.0F) * robot.params.shed_after_s) || !is_short) return;
   self.shed = least_worth(robot);
   self.short_ticks = 0;

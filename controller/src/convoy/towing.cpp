@@ -13,6 +13,7 @@
 #include "banyan/controller/redundancy/companions.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {
@@ -220,7 +221,7 @@ bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
   if (!robot.params.line_of_sight || robot.self.corners.landmarks.size == 0) return false;
   if (up >= 0 && table.alive(up) && table.age(up) >= silent_ticks) return true;
   if (robot.self.childless_ticks > 0) return true;
-  return std::ranges::any_of(robot.children, [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
+  return banyan::any_of(robot.children, [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
 }
 
 // A worker's pull, or along the obstacle in its way.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/core/gate.hpp"
+#include "banyan/controller/core/search.hpp"
 
 #include <algorithm>
 
@@ -33,7 +34,7 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept : senses_(se
 void Gate::admit_obstacles(float limit_m) noexcept {
   const auto passes = [&](Vec2 o) { return is_within(o, limit_m); };
   const std::span<const Vec2> all = senses_.obstacles;
-  if (all.size() <= most_obstacles && std::ranges::all_of(all, passes)) return;
+  if (all.size() <= most_obstacles && banyan::all_of(all, passes)) return;
   std::array<Vec2, most_obstacles>& passed = obstacles_.emplace();
   std::size_t kept = 0;
   for (const Vec2 o : all)

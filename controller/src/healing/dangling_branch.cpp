@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {
@@ -14,12 +15,12 @@ void watch_children(HealingRobot& robot) noexcept {
   const auto hangs = [&](int k) { return table.message(k).role != Role::spare; };
   const auto leaves = [&](int k) { return hangs(k) && fades(robot, k); };
   const auto lives = [&](int k) { return hangs(k) && !fades(robot, k); };
-  const auto any = [&](auto is) { return std::ranges::any_of(robot.children, is); };
+  const auto any = [&](auto is) { return banyan::any_of(robot.children, is); };
   if (!robot.params.heals() || self.role != Role::connector || self.phase != Phase::grow_tree || any(lives)) {
     self.dangling_ticks = 0;
     return;
   }
-  const auto lost = std::ranges::find_if(robot.children, leaves);
+  const auto lost = first_of(robot.children, leaves);
   if (lost != robot.children.end()) {
     self.lost_child = table.position(*lost);
     self.dangling_ticks = static_cast<std::uint16_t>(robot.params.ticks(robot.params.pursue_for_s));

@@ -3,6 +3,7 @@
 
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {
@@ -39,7 +40,7 @@ Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
   const auto among = static_cast<int>(std::count_if(self.tasks.begin(), end, counts));
   if (among == 0) return {-1, turn};
   int left = turn % among;
-  const auto chosen = std::ranges::find_if(self.tasks.begin(), end, [&](const Task& task) { return counts(task) && left-- == 0; });
+  const auto chosen = first_of(self.tasks.begin(), end, [&](const Task& task) { return counts(task) && left-- == 0; });
   return {static_cast<int>(chosen - self.tasks.begin()), turn / among};
 }
 
@@ -47,7 +48,7 @@ Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
 // my own target and those of the workers below.
 Topic choose_topic(const HealingState& self) noexcept {
   int turn = self.turn + self.id;
-  if (std::ranges::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
+  if (banyan::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
     if (turn % 2 != 0) return next_topic(self, turn / 2, is_urgent);
     turn /= 2;
   }

@@ -27,32 +27,40 @@ float cost(const HealingRobot& robot, int k, int hops) noexcept {
   return (hops == unreachable ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) + hop_cost * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
 }
 
+// The best neighbour that is ahead of me, -1 if there is none; `wish` is the best one, whether or not it is ahead.
+int best_hold(const HealingRobot& robot, int& wish) noexcept {
+  const TreeTable& table = robot.table();
+  int hold = -1;
+  float hold_cost = std::numeric_limits<float>::max();
+  for (const Rows* const rows : {&table.members, &table.all()}) {
+    if (hold_cost < 0.0F) break;  // a robot of the rooted tree that is near: no spare costs as little
+    hold_cost = std::numeric_limits<float>::max();
+    float wish_cost = hold_cost;
+    rows->for_each([&](int k) {
+      const TreeStanding& m = table.message(k);
+      if (!robot.is_linked(k) || m.epoch != robot.self.epoch || is_untied(m)) return;
+      const int hops = hops_to_tree(m);
+      if (hop_cost * static_cast<float>(hops) >= hold_cost) return;  // nor is it a better wish
+      const bool ahead = is_ahead(robot, k);
+      // A robot farther from the tree than I am may depend on me: it would never get ahead.
+      if (!ahead && hops >= robot.self.tree_hops) return;
+      const float c = cost(robot, k, hops);
+      if (c < wish_cost) wish = k, wish_cost = c;
+      if (ahead && c < hold_cost) hold = k, hold_cost = c;
+    });
+  }
+  return hold;
+}
+
 }  // namespace
 
 void find_hold(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   robot.hold = -1;
-  int wish = -1;  // the best one, whether or not it is ahead
   if (!robot.is_root() && robot.up() < 0) {
-    float hold_cost = std::numeric_limits<float>::max();
-    for (const Rows* const rows : {&table.members, &table.all()}) {
-      if (hold_cost < 0.0F) break;  // a robot of the rooted tree that is near: no spare costs as little
-      hold_cost = std::numeric_limits<float>::max();
-      float wish_cost = hold_cost;
-      rows->for_each([&](int k) {
-        const TreeStanding& m = table.message(k);
-        if (!robot.is_linked(k) || m.epoch != self.epoch || is_untied(m)) return;
-        const int hops = hops_to_tree(m);
-        if (hop_cost * static_cast<float>(hops) >= hold_cost) return;  // nor is it a better wish
-        const bool ahead = is_ahead(robot, k);
-        // A robot farther from the tree than I am may depend on me: it would never get ahead.
-        if (!ahead && hops >= self.tree_hops) return;
-        const float c = cost(robot, k, hops);
-        if (c < wish_cost) wish = k, wish_cost = c;
-        if (ahead && c < hold_cost) robot.hold = k, hold_cost = c;
-      });
-    }
+    int wish = -1;
+    robot.hold = best_hold(robot, wish);
     // Until the flood of a new epoch has arrived, the last epoch's hold will do. A robot with children keeps it until
     // that epoch's tree is dropped: by the new labels a robot that depends on me through them may be ahead.
     const bool relied_on = self.phase < Phase::grow_tree && robot.children.size + robot.old_children.size > 0;

@@ -9,6 +9,7 @@
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/tree/motion.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {
@@ -81,7 +82,7 @@ float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
 void file(const TreeRobot& robot, Corners& corners, Vec2 o) noexcept {
   Landmarks& known = corners.landmarks;
   const auto begin = known.points.begin();
-  if (std::ranges::any_of(begin, begin + known.size, [&](Vec2 p) { return distance(p, o) < spacing_m; })) return;
+  if (banyan::any_of(begin, begin + known.size, [&](Vec2 p) { return distance(p, o) < spacing_m; })) return;
   if (known.size < landmark_capacity) {
     known.points[known.size++] = o;
     return;
@@ -164,7 +165,7 @@ bool is_towed(const TreeRobot& robot, const Corners& corners, float start_m) noe
     const TreeStanding& m = table.message(k);
     return m.role != Role::spare && m.want_cm > 0 && (corners.of(k).pinned || table.range(k) > start_m);
   };
-  return std::ranges::any_of(robot.children, tows);
+  return banyan::any_of(robot.children, tows);
 }
 
 void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
@@ -174,8 +175,10 @@ void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
   const float far_m = forget * robot.params.communication_range_m;
   // A point nearer than everything that is sensed no longer exists, or never did.
   const auto is_wrong = [&](Vec2 p) { return norm(p) > far_m || norm(p) < nearest_m - spacing_m; };
-  const auto dropped = std::ranges::remove_if(known.points.begin(), known.points.begin() + known.size, is_wrong);
-  known.size = static_cast<std::uint8_t>(dropped.begin() - known.points.begin());
+  std::uint8_t kept = 0;
+  for (std::size_t k = 0; k < known.size; ++k)
+    if (!is_wrong(known.points[k])) known.points[kept++] = known.points[k];
+  known.size = kept;
 }
 
 // A neighbour is heard past that place so closely that a body there would hide it.
@@ -212,7 +215,7 @@ void note_body(const TreeRobot& robot, Corners& corners, int k) noexcept {
   Bodies& bodies = corners.bodies;
   if (table.range(k) > longest_link * robot.params.communication_range_m || !sees_clearly(robot, corners, k, clear_m)) return;
   const auto begin = bodies.ids.begin();
-  if (std::ranges::find(begin, begin + bodies.size, table.id(k)) != begin + bodies.size) return;
+  if (banyan::any_of(begin, begin + bodies.size, [&](RobotId id) { return id == table.id(k); })) return;
   if (bodies.size == body_capacity) {  // the oldest makes room
     std::shift_left(bodies.centers.begin(), bodies.centers.end(), 1);
     std::shift_left(bodies.ids.begin(), bodies.ids.end(), 1);

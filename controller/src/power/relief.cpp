@@ -5,6 +5,7 @@
 
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/power/power.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {
@@ -170,7 +171,7 @@ bool is_relieved(const PowerRobot& me) noexcept { return me.power.said.leaving &
 bool wants_relief(const PowerRobot& me) noexcept {
   const HealingRobot& robot = me.robot;
   if (!me.power.said.leaving || robot.parent < 0 || has_reliever(me)) return false;
-  return is_first(me, robot.parent) && std::ranges::all_of(robot.children, [&](int k) { return is_first(me, k); });
+  return is_first(me, robot.parent) && banyan::all_of(robot.children, [&](int k) { return is_first(me, k); });
 }
 
 bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(int)> in_sight) noexcept {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/tree/label.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {
@@ -200,7 +201,7 @@ bool is_ahead(const TreeRobot& robot, int k) noexcept {
 }
 
 bool is_named_parent(const TreeRobot& robot) noexcept {
-  return std::ranges::any_of(robot.children, [&](int k) { return robot.table().message(k).role != Role::spare; });
+  return banyan::any_of(robot.children, [&](int k) { return robot.table().message(k).role != Role::spare; });
 }
 
 void keep_up(TreeRobot& robot, int k) noexcept {

@@ -6,6 +6,7 @@
 
 #include "banyan/controller/tree/label.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {
@@ -228,7 +229,7 @@ bool is_stretched(const TreeRobot& robot) noexcept {
 }
 
 bool child_in_need(const TreeRobot& robot) noexcept {
-  return std::ranges::any_of(robot.children, [&](int k) {
+  return banyan::any_of(robot.children, [&](int k) {
     const TreeStanding& m = robot.table().message(k);
     return m.role != Role::spare && m.need == Need::need;
   });

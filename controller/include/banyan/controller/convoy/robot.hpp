@@ -9,6 +9,7 @@
 #include "banyan/controller/healing/robot.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/power/power.hpp"
+#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 
@@ -37,7 +38,7 @@ struct ConvoyRobot : HealingRobot {
   // What my parent has said this tick; null if I did not hear it.
   [[nodiscard]] const ConvoyMessage* parent_message() const noexcept {
     if (self.parent == nobody) return nullptr;
-    const auto it = std::ranges::find_if(heard, [&](const Heard& h) { return h.message->id == self.parent; });
+    const auto it = first_of(heard, [&](const Heard& h) { return h.message->id == self.parent; });
     return it == heard.end() ? nullptr : &convoy_message(*it->message);
   }
 };

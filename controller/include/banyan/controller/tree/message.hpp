@@ -48,11 +48,11 @@ struct TreeStanding : TreeTies {
   bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
   bool committed = false;       // I am in this epoch's tree
   bool parent_silent = false;   // my parent has not been heard for longer than I
+  std::uint8_t call_hops = nobody_calls;  // hops to an edge whose need no spare has answered
   Serial epoch = 0;
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops (label.hpp, keep_up)
   Serial seqno = 0;                 // the root's count as it came down the tree: (seqno, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
-  std::uint8_t call_hops = nobody_calls;   // hops to an edge whose need no spare has answered
   RobotId flood_parent = nobody;
   std::uint16_t flood_robots = 0;   // echo sums
   std::uint16_t flood_workers = 0;
