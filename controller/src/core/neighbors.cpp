@@ -60,7 +60,7 @@ int Neighbors::find_next(RobotId id) noexcept {
 // Takes entry k out of the order by id, so that it can be another robot's.
 void Neighbors::leave(int k) noexcept {
   const auto end = by_id_.begin() + size_;
-  const auto at = first_of(by_id_.begin(), end, [&](int at) { return at == k; });
+  const auto at = first_of(by_id_.begin(), end, [&](int entry) { return entry == k; });
   std::move(at + 1, end, at);
 }
 
