@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
-#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {

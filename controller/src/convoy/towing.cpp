@@ -2,6 +2,7 @@
 // How convoy moves (docs/convoy.md, rules 2, 6, 7 and 8).
 #include <algorithm>
 
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/core/edge_frame.hpp"
@@ -13,7 +14,6 @@
 #include "banyan/controller/redundancy/companions.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
-#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/core/search.hpp"
+#include "banyan/controller/healing/healing.hpp"
 
 namespace banyan {
 namespace {

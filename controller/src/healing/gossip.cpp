@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "banyan/controller/core/edge_frame.hpp"
-#include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/core/search.hpp"
+#include "banyan/controller/healing/healing.hpp"
 
 namespace banyan {
 namespace {

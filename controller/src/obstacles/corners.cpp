@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/tree/motion.hpp"
-#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/power/power.hpp"
-#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {

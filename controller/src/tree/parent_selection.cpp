@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "banyan/controller/tree/label.hpp"
 #include "banyan/controller/core/search.hpp"
+#include "banyan/controller/tree/label.hpp"
 
 namespace banyan {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/tree/label.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
-#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 namespace {

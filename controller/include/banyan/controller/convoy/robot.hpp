@@ -6,10 +6,10 @@
 
 #include "banyan/controller/convoy/params.hpp"
 #include "banyan/controller/convoy/state.hpp"
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/robot.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/power/power.hpp"
-#include "banyan/controller/core/search.hpp"
 
 namespace banyan {
 

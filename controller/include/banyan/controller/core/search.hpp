@@ -3,7 +3,6 @@
 // almost three kilobytes; emscripten's library has no std::ranges::any_of.
 #pragma once
 
-#include "banyan/controller/core/search.hpp"
 namespace banyan {
 
 // The first in [begin, end) of which `is` holds, or `end`.
