@@ -285,8 +285,7 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   guard_links(robot, retreats, guard);
   keep_off(robot, guard);                              // obstacles
   keep_sight(robot, state.corners, guard);
-
-  if (robot.power != nullptr) push_nobody(*robot.power, guard);
+  push_nobody(robot, guard);
 
   write_convoy(robot, message);
   const float pace = robot.power != nullptr && !retreats ? leisure(*robot.power, params.clearance_m) : 1.0F;

@@ -2,11 +2,13 @@
 #include <algorithm>
 
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tie.hpp"
 
 namespace banyan {
 namespace {
 
 constexpr float hesitate_s = 2.5F;      // beyond I
+constexpr float witness_s = 2.0F;       // of the time for an answer
 constexpr float well_in_range = 0.85F;  // of C: a worker farther away may only have gone out of range
 
 // I heard the worker, and its parent is gone, too, or has more workers below than it can remember.
@@ -16,6 +18,14 @@ bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
   if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range * robot.params.communication_range_m) return false;
   const int parent = table.find(up_of(table.message(holder)));
   return parent < 0 || fades(robot, parent) || table.message(parent).subtree_workers > task_capacity;
+}
+
+// The worker stood at its target, in range, and nobody is in between: there is nothing to wait for, and less of an answer
+// to be expected. Where packets get lost, silence alone says less.
+bool has_witnessed(const HealingRobot& robot, const Task& task) noexcept {
+  const int holder = robot.table().find(task.holder);
+  return holder >= 0 && robot.tie_ticks == 0 && task.reached && fades(robot, holder) &&
+         robot.table().range(holder) <= longest_link * robot.params.communication_range_m && is_in_the_clear(robot, holder);
 }
 
 // The child has taken another parent, and its workers along, or serves none any more.
@@ -43,6 +53,11 @@ void doubt(HealingRobot& robot) noexcept {
     int child = task.via == nobody ? -1 : robot.table().find(task.via);
     if (has_left(robot, child)) task.via = nobody;
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
+    if (has_witnessed(robot, task)) {
+      begin_doubt(robot, task);
+      task.age_ticks = static_cast<std::uint16_t>(task.age_ticks + robot.params.ticks(witness_s));
+      continue;
+    }
     if (task.via == nobody && takes_charge(robot, task)) task.via = task.holder;
     if (task.via == nobody) continue;
     // While that child lives, news of the worker comes through it, in turn with news of many others. Old news is no

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/healing/link_guard.hpp"
 
+#include <algorithm>
+
+#include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/healing/tie.hpp"
 #include "banyan/controller/tree/motion.hpp"
 
@@ -43,6 +46,22 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
   rows.for_each([&](int k) {
     if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k)) return;
     guard_link(robot, k, longest_m, guard);
+  });
+}
+
+void push_nobody(const HealingRobot& robot, Guard& guard) noexcept {
+  constexpr float apart = 1.4F;  // of the distance between the wheels: bodies do not touch yet
+  constexpr float near = 2.1F;
+  const TreeTable& table = robot.table();
+  const HealingParams& p = robot.params;
+  const HealingState& self = robot.self;
+  const float apart_m = apart * p.wheel_distance_m;
+  const bool all = robot.passes_targets_on || goes_by_memory(self);
+  (all ? table.all() : table.members).for_each([&](int k) {
+    if (table.age(k) > 0 || table.range(k) >= near * p.wheel_distance_m) return;
+    const RobotId serves = self.healing_standings[static_cast<std::size_t>(k)].serves;
+    if (!all && (table.message(k).role != Role::worker || serves == table.id(k))) return;
+    guard.add_limit(unit(table.position(k)), std::max(0.0F, table.range(k) - apart_m) * p.guard_rate_per_s);
   });
 }
 

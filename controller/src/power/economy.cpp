@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How robots on batteries move: they push nobody, and spares that wait save their charge.
+// How robots on batteries move: spares that wait save their charge.
 #include <algorithm>
 
 #include "banyan/controller/power/power.hpp"
 
 namespace banyan {
-
-void push_nobody(const PowerRobot& me, Guard& guard) noexcept {
-  constexpr float apart = 1.4F;  // of the distance between the wheels: bodies do not touch yet
-  constexpr float near = 2.1F;
-  const TreeTable& table = me.robot.table();
-  const HealingParams& p = me.robot.params;
-  const float apart_m = apart * p.wheel_distance_m;
-  for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == 0 && table.range(k) < near * p.wheel_distance_m)
-      guard.add_limit(unit(table.position(k)), std::max(0.0F, table.range(k) - apart_m) * p.guard_rate_per_s);
-}
 
 float leisure(const PowerRobot& me, float clearance_m) noexcept {
   constexpr float slow = 0.25F;

@@ -256,18 +256,6 @@ TEST_F(CalledSpare, GoesUnlessAnotherChargedOneIsNearer) {
   EXPECT_TRUE(goes(1.0F, 100));  // that one is not charged
 }
 
-TEST(Power, NobodyPushesAndEverybodyMayGoAway) {
-  auto bench = grown<Convoy>();
-  bench.put(5, {0.15F, 0.0F}).role = Role::spare;
-  auto robot = bench.tick();
-  PowerState power;
-  Guard guard;
-  push_nobody(PowerRobot{robot, power, bench.params, no_children}, guard);
-  EXPECT_LT(guard.apply({0.2F, 0.0F}).x, 0.02F);
-  EXPECT_EQ(guard.apply({-0.2F, 0.0F}).x, -0.2F);
-  EXPECT_EQ(guard.apply({0.0F, 0.2F}).y, 0.2F);
-}
-
 TEST(Power, ASpareThatWaitsIsSlowUnlessItHidesAnEdge) {
   const auto pace = [](float off_m, bool called) {
     auto bench = grown<Convoy>();

@@ -82,6 +82,8 @@ void begin_doubt(const HealingRobot& robot, Task& task) noexcept;
 // Learns of targets and their workers, gives up a target that a robot with precedence serves,
 // takes over one whose worker has fallen silent.
 void watch_tasks(HealingRobot& robot) noexcept;
+// A worker that was not sent: others told it where its target is.
+[[nodiscard]] inline bool goes_by_memory(const HealingState& self) noexcept { return self.is_worker && self.serves != self.id; }
 // Serves no target any more; does not say which robot does.
 void resign(HealingRobot& robot) noexcept;
 

@@ -67,9 +67,6 @@ void tend_battery(PowerRobot& me) noexcept;
 // connector I can be relieved, a root calls nobody.
 [[nodiscard]] bool may_inherit_root(const PowerRobot& me, int k) noexcept;
 
-// Robots stand side by side again and again. One that is pushed does not notice, and is wrong about places from then on.
-void push_nobody(const PowerRobot& me, Guard& guard) noexcept;
-
 // How fast a spare moves that nobody waits for, as a share of its speed: it only makes room for others.
 [[nodiscard]] float leisure(const PowerRobot& me, float clearance_m) noexcept;
 
