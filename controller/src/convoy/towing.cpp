@@ -315,12 +315,6 @@ static bool relief_motion(const ConvoyRobot& robot, Vec2& u) noexcept {
   return true;
 }
 
-// Who has been told where its target is may be wrong by a hand, and the dead worker may lie there: so it gets as near as
-// it can. It pushes nobody (link_guard.hpp).
-static Vec2 worker_repulsion(const ConvoyRobot& robot) noexcept {
-  return goes_by_memory(robot.self) && robot.power == nullptr ? Vec2{} : repulsion(robot);
-}
-
 Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
@@ -335,7 +329,10 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   // before the target is out of tolerance.
   constexpr float fading = 0.1F;
   const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
-  if (robot.self.is_worker) return pull_past_obstacles(robot) * worker_pace(p) + clamped(shared_slack(robot), give) + worker_repulsion(robot);
+  // A successor hurries: the tree stands there already. It has been told where its target is and may be wrong by a hand,
+  // and the dead worker may lie there: so it gets as near as it can, and pushes nobody (link_guard.hpp).
+  const bool succeeds = goes_by_memory(robot.self) && robot.power == nullptr;
+  if (robot.self.is_worker) return pull_past_obstacles(robot) * (succeeds ? 1.0F : worker_pace(p)) + clamped(shared_slack(robot), give) + (succeeds ? Vec2{} : repulsion(robot));
   if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
   if (holds_still(robot)) return {};
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
