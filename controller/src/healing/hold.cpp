@@ -27,27 +27,32 @@ float cost(const HealingRobot& robot, int k, int hops) noexcept {
   return (hops == unreachable ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) + hop_cost * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
 }
 
-// The best neighbour that is ahead of me, -1 if there is none; `wish` is the best one, whether or not it is ahead.
+// The best neighbour that is ahead of me, -1 if there is none; `wish` is the best one, whether or not it is ahead. Most
+// robots find it among those of the tree that are near, or among those from which the tree is nearest, so these are
+// looked at first.
 int best_hold(const HealingRobot& robot, int& wish) noexcept {
   const TreeTable& table = robot.table();
   int hold = -1;
   float hold_cost = std::numeric_limits<float>::max();
-  for (const Rows* const rows : {&table.members, &table.all()}) {
-    if (hold_cost < 0.0F) break;  // a robot of the rooted tree that is near: no spare costs as little
-    hold_cost = std::numeric_limits<float>::max();
-    float wish_cost = hold_cost;
-    rows->for_each([&](int k) {
-      const TreeStanding& m = table.message(k);
-      if (!robot.is_linked(k) || m.epoch != robot.self.epoch || is_untied(m)) return;
-      const int hops = hops_to_tree(m);
-      if (hop_cost * static_cast<float>(hops) >= hold_cost) return;  // nor is it a better wish
-      const bool ahead = is_ahead(robot, k);
-      // A robot farther from the tree than I am may depend on me: it would never get ahead.
-      if (!ahead && hops >= robot.self.tree_hops) return;
-      const float c = cost(robot, k, hops);
-      if (c < wish_cost) wish = k, wish_cost = c;
-      if (ahead && c < hold_cost) hold = k, hold_cost = c;
-    });
+  float wish_cost = hold_cost;
+  const auto consider = [&](int k) {
+    const TreeStanding& m = table.message(k);
+    if (!robot.is_linked(k) || m.epoch != robot.self.epoch || is_untied(m)) return;
+    const int hops = hops_to_tree(m);
+    if (hop_cost * static_cast<float>(hops) >= hold_cost) return;  // nor is it a better wish
+    const bool ahead = is_ahead(robot, k);
+    // A robot farther from the tree than I am may depend on me: it would never get ahead.
+    if (!ahead && hops >= robot.self.tree_hops) return;
+    const float c = cost(robot, k, hops);
+    if (c < wish_cost) wish = k, wish_cost = c;
+    if (ahead && c < hold_cost) hold = k, hold_cost = c;
+  };
+  float others = 0.0F;  // that have not been looked at cost at least so much
+  for (const Rows* const rows : {&table.members, &table.nearest, &table.all()}) {
+    if (rows == &table.all()) hold_cost = wish_cost = std::numeric_limits<float>::max();  // of those that cost as much the first
+    rows->for_each(consider);
+    if (hold_cost < others) break;
+    others = hop_cost * static_cast<float>(table.least_hops + 1);
   }
   return hold;
 }

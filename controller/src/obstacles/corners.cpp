@@ -118,7 +118,7 @@ void note_contact(const TreeRobot& robot, Corners& corners) noexcept {
   int nearest = -1;
   int hops = std::numeric_limits<int>::max();
   float range_m = 0.0F;
-  for (const Rows* const rows : {&table.rooted, &table.all()}) {
+  for (const Rows* const rows : {&table.nearest, &table.all()}) {
     if (nearest >= 0) break;
     rows->for_each([&](int k) {
       const int hops_k = table.message(k).tree_hops;

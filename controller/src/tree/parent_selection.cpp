@@ -167,7 +167,7 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   int nearest = -1;
   int hops = unreachable - 1;  // the most that is passed on; robots that know no way have more
   Serial freshest = 0;
-  for (const Rows* const rows : {&table.rooted, &table.all()}) {
+  for (const Rows* const rows : {&table.nearest, &table.all()}) {
     if (nearest >= 0) break;
     rows->for_each([&](int k) {
       const TreeStanding& m = table.message(k);

@@ -208,7 +208,7 @@ RobotId nearest_reference(const TreeRobot& robot) noexcept {
   // In half hops: among free spares, any but the present reference counts half a hop more.
   int best_hops = std::numeric_limits<int>::max();
   float best_m = 0.0F;
-  for (const Rows* const rows : {&table.members, &table.all()}) {
+  for (const Rows* const rows : {&table.members, &table.nearest, &table.all()}) {
     if (best >= 0) break;
     rows->for_each([&](int k) {
       const TreeStanding& m = table.message(k);

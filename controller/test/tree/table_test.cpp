@@ -59,7 +59,10 @@ RC_GTEST_PROP(TreeTable, ItsSetsAreThoseOfWhatNeighboursSaid, ()) {
     const TreeTable& table = robot.table();
     RC_ASSERT(visited(table.all()) == those(table, [](const TreeStanding&) { return true; }));
     RC_ASSERT(visited(table.members) == those(table, [](const TreeStanding& m) { return m.role != Role::spare; }));
-    RC_ASSERT(visited(table.rooted) == those(table, [](const TreeStanding& m) { return m.tree_hops == 0; }));
+    int least = unreachable;
+    for (int k = 0; k < table.size(); ++k) least = std::min<int>(least, table.message(k).tree_hops);
+    RC_ASSERT(table.least_hops == least);
+    RC_ASSERT(visited(table.nearest) == those(table, [&](const TreeStanding& m) { return m.tree_hops == least; }));
     RC_ASSERT(visited(table.below) == those(table, [](const TreeStanding& m) { return m.parent == 1 || m.old_parent == 1; }));
     RC_ASSERT(visited(table.untied) == those(table, [](const TreeStanding& m) { return is_untied(m) || hold_of(m) == 1; }));
     std::vector<int> deaf;

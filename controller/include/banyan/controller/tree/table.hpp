@@ -20,10 +20,11 @@ inline constexpr std::uint8_t never_heard_ticks = 100;
 
 struct TreeTable : Neighbors {
   Rows members;  // of the tree: no spares
-  Rows rooted;   // no hops away from the rooted tree
+  Rows nearest;  // the fewest hops away from the rooted tree, least_hops
   Rows below;    // name me as parent or old parent
   Rows untied;   // have neither, and no hold but me
   Rows deaf;     // for longer than deaf_after_ticks
+  std::uint8_t least_hops = unreachable;
   std::array<TreeStanding, neighbor_capacity> standings{};
   // For how long the neighbour has not heard me, although I hear it; 0: it does (healing/mutual.cpp).
   std::array<std::uint8_t, neighbor_capacity> deaf_ticks{};
@@ -47,6 +48,7 @@ struct TreeTable : Neighbors {
 
  private:
   void sort(int k, const TreeTies& said, RobotId me) noexcept;  // into the sets
+  void find_nearest() noexcept;
 };
 
 }  // namespace banyan
