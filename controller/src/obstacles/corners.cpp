@@ -238,7 +238,7 @@ void note_silent(const TreeRobot& robot, Corners& corners) noexcept {
 
 void carry_corners(Corners& corners, const Carry& carry) noexcept {
   corners.seen_from = carry.point(corners.seen_from);
-  for (Vec2& center : corners.bodies.centers) center = carry.point(center);
+  for (std::size_t k = 0; k < corners.bodies.size; ++k) corners.bodies.centers[k] = carry.point(corners.bodies.centers[k]);
   for (int k = 0; k < corners.landmarks.size; ++k) {
     Vec2& point = corners.landmarks.points[static_cast<std::size_t>(k)];
     point = carry.point(point);
