@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Every verdict on a pair comes with a margin: how far robots may move before it could change. Clocks add up
-// how far they have moved, and a pair is tested again when its clock has passed the margin. Margins are rounded
-// down and clocks up, so that a verdict is always the one that the exact test would give at this
-// moment.
+// A verdict on a pair names one body, its witness: the one in the way or, if none is, the one nearest to the line of
+// sight. A robot that moves tests all its pairs against their witnesses, four at a time in single precision; the exact
+// test decides where that leaves a doubt. One that stands still tests those whose other or witness has moved.
 //
-// Usually one body matters, the one in the way or the one nearest to it: the clock of the three adds up its distance,
-// the robot's and the other's. For all other bodies it is the largest distance that any robot around the first has
-// moved in each tick, and that of the line of sight. A point of the line moves no farther than the end that moves more:
-// so that is at most the largest once more, and at most the distances of both ends together. Which of the two clocks
-// will be the slower one is guessed from the last tick: the first where most robots move, the second where most stand.
+// For all other bodies a verdict comes with a margin: how far robots may move before one of them could change it. Clocks
+// add up the largest distance that any robot around the first has moved in each tick, and that of the line of sight; when
+// the clock has passed the margin, the pair is decided anew. Margins are rounded down and clocks up, so that a verdict is
+// always the one that the exact test would give at this moment. A point of the line moves no farther than the end that
+// moves more: so that is at most the largest once more, and at most the distances of both ends together. Which of the
+// two clocks will be the slower one is guessed from the last tick: the first where most robots move, the second where
+// most stand.
 #include "banyan/world/radio.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "banyan/world/obstacles.hpp"
@@ -28,23 +31,6 @@ constexpr float far_away = 1e18F;        // its square is finite
 constexpr float none_near = 1e30F;      // less than that
 constexpr double skin_share = 0.1;      // of the range
 
-// How far a body that blocks the segment from the origin to `d` may move until it is out of the way, as a
-// distance on the clock of the three. Across the segment no body gets out faster than the clock runs. Along it
-// the turning of the segment counts, too, by less than a third, since it is at least four radii long.
-double depth(Vec2 k, Vec2 d, double length, double radius) noexcept {
-  if (length < 4.0 * radius) return 0.0;
-  const double per_m = 1.0 / length;
-  const double along = dot(k, d) * per_m;
-  const double across = std::fabs(cross(k, d)) * per_m;
-  return std::min(std::min(along, length - along) * 0.66, radius - across);
-}
-
-// How far a body is from touching that segment.
-double distance_beside(Vec2 k, Vec2 d, double d2, double radius) noexcept {
-  const double along = std::clamp(dot(k, d) / d2, 0.0, 1.0);
-  return norm(k - d * along) - radius;
-}
-
 // Four at a time. Compilers vectorise loops themselves, but not all of the following ones.
 using Four = float __attribute__((vector_size(16)));
 using FourWhole = std::int32_t __attribute__((vector_size(16)));
@@ -55,6 +41,8 @@ Four load(const float* from) noexcept {
   std::memcpy(&v, from, sizeof v);
   return v;
 }
+void store(Four v, float* to) noexcept { std::memcpy(to, &v, sizeof v); }
+Four magnitude(Four v) noexcept { return std::bit_cast<Four>(std::bit_cast<FourWhole>(v) & four(std::numeric_limits<std::int32_t>::max())); }
 Four smaller(Four a, Four b) noexcept { return a < b ? a : b; }
 // Not by a < b: a compiler that finds that comparison twice shares it, and takes no instruction for either any more.
 Four larger(Four a, Four b) noexcept { return a > b ? a : b; }
@@ -94,9 +82,10 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
       obstacles_(scenario.obstacles),
       raised_(leaky_ ? robots : 0, 0),
       nobody_(static_cast<std::uint32_t>(robots)),
-      path_(robots + 1, 0),
-      step_(robots, 0),
+      path_(robots, 0),
+      step_(robots + 1, 0),
       around_(robots, 0),
+      places_(robots + 1, Place{far_away, far_away}),
       rows_(robots),
       lower_(robots),
       pairs_(robots),
@@ -111,6 +100,9 @@ Radio::Radio(const Scenario& scenario, std::size_t robots)
   units_per_m_ = units_per_reach / reach_m_;
   skin_ = static_cast<Way>(skin_m * units_per_m_);
   valid_ = static_cast<Way>(0.99 * (skin_m + tick_m) * units_per_m_);
+  limits_.range_m2 = static_cast<float>(range_m_ * range_m_);
+  limits_.near_m2 = static_cast<float>(near_m_ * near_m_);
+  limits_.radius_m2 = static_cast<float>(radius_m_ * radius_m_);
 }
 
 void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t> alive, Executor& executor) {
@@ -120,7 +112,7 @@ void Radio::update(std::span<const Vec2> positions, std::span<const std::uint8_t
     executor.parallel_for(positions.size(), [&](std::size_t begin, std::size_t end, int worker) {
       Scratch& s = scratch_[static_cast<std::size_t>(worker)];
       for (std::size_t i = begin; i < end; ++i) {
-        if (all_anew_ || !rows_[i].known || static_cast<std::int32_t>(rows_[i].quiet_until - fast_clock(i)) < 0) refresh(i, positions, s);
+        if (all_anew_ || !rows_[i].known || rows_[i].seen != fast_clock(i)) refresh(i, positions, s);
         if (leaky_) look_over(i, positions, s);
       }
     });
@@ -185,6 +177,19 @@ bool Radio::follow(std::span<const Vec2> positions, std::span<const std::uint8_t
   return farthest > 0 || all_anew_ || rows_anew;
 }
 
+// Positions in single precision, relative to the middle of the swarm, and how much that rounds.
+void Radio::note_places(std::span<const Vec2> positions, Vec2 low, Vec2 high) {
+  const Vec2 middle = (low + high) * 0.5;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec2 p = positions[i] - middle;
+    places_[i] = {static_cast<float>(p.x), static_cast<float>(p.y)};
+  }
+  // The difference of two places: each is rounded by half of the last of 24 bits, and so is the difference.
+  rounding_m_ = static_cast<float>(1e-6 + 2.0 * std::numeric_limits<float>::epsilon() * std::max(high.x - low.x, high.y - low.y));
+  limits_.area_m2 = 8.0F * static_cast<float>(reach_m_) * rounding_m_;
+  limits_.edge_m4 = 4.0F * static_cast<float>(1.0 + radius_m_) * limits_.area_m2 * (static_cast<float>(radius_m_ * reach_m_) + limits_.area_m2);
+}
+
 // Cells are as wide as a row reaches, so that every robot within reach is in the same cell or one beside it.
 // The number of cells stays below 4 N, so that a wide, thin swarm costs no more memory than a dense one:
 // the cells grow instead.
@@ -195,6 +200,7 @@ void Radio::lay_grid(std::span<const Vec2> positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+  note_places(positions, low, high);
   cell_m_ = reach_m_;
   const double limit = 4.0 * static_cast<double>(positions.size()) + 16.0;
   while (((high.x - low.x) / cell_m_ + 1.0) * ((high.y - low.y) / cell_m_ + 1.0) > limit) cell_m_ *= 2.0;
@@ -307,7 +313,8 @@ bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s
   };
   for (Pair& pair : pairs_.of(i)) {
     for (; old != s.old.cend() && old->other < *other; ++old) leave(*old);
-    pair = {*other & last_index, 0, 0, 0, 0, nobody_, mark(clock_of_three(i, *other, nobody_)), mark(clock_of_all(i, *other, false))};
+    pair = {*other & last_index, 0, 0, 0, 0, nobody_, 0};
+    pair.until = clock_of_all(i, pair);
     if (old != s.old.cend() && old->other == *other) {
       if ((old->linked | old->blocked | old->near) != 0) pair = *old;
       ++old;
@@ -337,29 +344,79 @@ void Radio::make_room(std::span<const Vec2> positions) {
 
 // ---- Pairs ----
 
-// Looks at the pairs of robot i whose clock has run out.
+// Of four pairs, from `begin` on: not 0 where the clock has run out, or where the distance or the witness may have
+// changed the verdict. Beyond the last pair it means nothing. Inlined, since the limits are the same for a whole row.
+[[gnu::always_inline]] inline Radio::FourWhole Radio::doubtful(const Site& site, std::size_t begin) const noexcept {
+  const auto each = [&](auto of) {
+    const Pair* const pair = site.pairs.data() + begin;
+    using One = decltype(of(*pair));
+    return std::conditional_t<std::is_same_v<One, float>, Four, FourWhole>{of(pair[0]), of(pair[1]), of(pair[2]), of(pair[3])};
+  };
+  const auto whole = [](std::uint32_t v) { return static_cast<std::int32_t>(v); };
+  const FourWhole words = each([](const Pair& pair) { return word_of(pair); });
+  const auto has = [&](const Pair& flag) { return (words & four(word_of(flag))) == four(word_of(flag)); };
+  const FourWhole witness = each([&](const Pair& pair) { return whole(pair.witness); });
+  const FourWhole ends = each([&](const Pair& pair) { return whole(path_[pair.other]); }) + four(whole(path_[site.i]));
+  const FourWhole around = four(whole(around_[site.i]));
+  const FourWhole now = around + (has({.lively = 1}) ? around : ends);
+  const FourWhole left = each([&](const Pair& pair) { return whole(pair.until); }) - now;
+  const Four kx = each([&](const Pair& pair) { return places_[pair.witness].x; }) - four(places_[site.i].x);
+  const Four ky = each([&](const Pair& pair) { return places_[pair.witness].y; }) - four(places_[site.i].y);
+  const Four dx = load(site.s.x.data() + site.lower.size() + begin);
+  const Four dy = load(site.s.y.data() + site.lower.size() + begin);
+  const Four d2 = dx * dx + dy * dy;
+  const Four beyond_range = d2 - four(limits_.range_m2);
+  const Four beyond_near = d2 - four(limits_.near_m2);
+  const Four along = kx * dx + ky * dy;
+  const Four across = kx * dy - ky * dx;
+  const Four beside = across * across - four(limits_.radius_m2) * d2;
+  const Four none = four(0.0F);
+  const Four area = four(limits_.area_m2);
+  const Four edge = four(limits_.edge_m4);
+  const FourWhole is_blocked = has({.blocked = 1});
+  const FourWhole blocks = (beside < none) & (along > none) & (along < d2);
+  const FourWhole by_body = is_blocked & (witness < four(whole(nobody_)));
+  const FourWhole changed = ((beyond_range < none) ^ (is_blocked | has({.linked = 1}))) | ((beyond_near < none) ^ has({.near = 1})) | (blocks ^ by_body);
+  const FourWhole unclear = (magnitude(beyond_range) < area) | (magnitude(beyond_near) < area) |
+                            ((beside < edge) & ((magnitude(beside) < edge) | (magnitude(along) < area) | (magnitude(along - d2) < area)));
+  return changed | unclear | (left <= four(0));
+}
+
+// Looks at the pairs of robot i of which something may have changed.
 void Radio::refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s) {
   Row& row = rows_[i];
   if ((!row.known || clock(i) - row.written > skin_) && !write_row(i, positions, s)) return;
+  row.seen = fast_clock(i);
   Site site{i, positions[i], positions, lower_.of(i), pairs_.of(i), s};
-  int least = static_cast<int>((row.written + skin_ - clock(i)) / units_per_step) + 1;
-  const Way own = path_[i];
-  const Way around = around_[i];
-  const Way* const path = path_.data();
-  const bool all_anew = all_anew_;
-  for (Pair& pair : site.pairs) {
-    const Way ends = own + path[pair.other];
-    const auto wide = [&] { return steps_left(around + (pair.lively != 0 ? around : ends), pair.wide_until); };
-    const auto close = [&] { return steps_left(ends + path[pair.witness], pair.close_until); };
-    const int others = wide();
-    int steps = std::min(others, close());
-    if (steps <= 0 || all_anew) {
-      if (all_anew || others <= 0 || !still_holds(site, pair)) decide(site, pair);
-      steps = std::min(wide(), close());
-    }
-    least = std::min(least, steps);
+  if (all_anew_) {
+    for (Pair& pair : site.pairs) decide(site, pair);
+  } else if (step_[i] == 0) {
+    look_at_moving(site);
+  } else {
+    look_at_all(site);
   }
-  row.quiet_until = fast_clock(i) + static_cast<Way>(std::max(0, least - 1)) * units_per_step;
+}
+
+// The robot has stood still, and so have most others.
+void Radio::look_at_moving(Site& site) const {
+  for (Pair& pair : site.pairs) {
+    const bool runs_out = way_left(site.i, pair) <= 0;
+    if ((step_[pair.other] | step_[pair.witness]) == 0 && !runs_out) continue;
+    if (runs_out || !still_holds(site, pair)) decide(site, pair);
+  }
+}
+
+void Radio::look_at_all(Site& site) const {
+  look_around(site);
+  for (std::size_t begin = 0; begin < site.pairs.size(); begin += lanes) {
+    const FourWhole doubts = doubtful(site, begin);
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(doubts);
+    if ((halves[0] | halves[1]) == 0) continue;
+    for (std::size_t k = 0; k < std::min(lanes, site.pairs.size() - begin); ++k) {
+      Pair& pair = site.pairs[begin + k];
+      if (doubts[k] != 0 && (way_left(site.i, pair) <= 0 || !still_holds(site, pair))) decide(site, pair);
+    }
+  }
 }
 
 // Records the new state of a pair. The list has room for the most that can occur.
@@ -371,27 +428,14 @@ void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s)
   else s.rebuild = true;  // so many that all rows are rebuilt
 }
 
-// How far two robots at this distance may move until it matters that they come nearer or part.
-double Radio::distance_lasts(double length) const noexcept {
-  return std::min({std::fabs(length - range_m_), std::fabs(length - near_m_), range_m_});
-}
-
 // Whether the two are in range and near as they were, and the body that blocks their line of sight still does, or the
-// one nearest to it still leaves it free; if so, for how long. No other body has changed anything.
-bool Radio::still_holds(const Site& site, Pair& pair) const noexcept {
+// one nearest to it still leaves it free.
+bool Radio::still_holds(const Site& site, const Pair& pair) const noexcept {
   const Vec2 d = site.positions[pair.other] - site.here;
   const double d2 = squared_norm(d);
   const bool in_range = d2 < range_m_ * range_m_ && alive_[site.i] != 0 && alive_[pair.other] != 0;
   if (in_range != ((pair.linked | pair.blocked) != 0) || (d2 < near_m_ * near_m_) != (pair.near != 0)) return false;
-  const double length = std::sqrt(d2);
-  double lasts_m = distance_lasts(length);
-  if (pair.witness != nobody_) {
-    const Vec2 body = site.positions[pair.witness] - site.here;
-    if (disc_blocks(body, d, d2, radius_m_) != (pair.blocked != 0)) return false;
-    lasts_m = std::min(lasts_m, pair.blocked != 0 ? depth(body, d, length, radius_m_) : distance_beside(body, d, d2, radius_m_));
-  }
-  hold(site, pair, pair.witness, lasts_m);
-  return true;
+  return pair.witness == nobody_ || disc_blocks(site.positions[pair.witness] - site.here, d, d2, radius_m_) == (pair.blocked != 0);
 }
 
 // Decides a pair, and for how long.
@@ -399,61 +443,44 @@ void Radio::decide(Site& site, Pair& pair) const {
   const Pair before = pair;
   const Vec2 d = site.positions[pair.other] - site.here;
   const double d2 = squared_norm(d);
-  const double length = std::sqrt(d2);
   const bool in_range = d2 < range_m_ * range_m_ && alive_[site.i] != 0 && alive_[pair.other] != 0;
   pair.near = d2 < near_m_ * near_m_ ? 1 : 0;
+  double lasts_m = reach_m_;
   if (in_range && line_of_sight_) {
-    leave_be(site, pair, judge_sight(site, pair, d, length));
+    lasts_m = judge_sight(site, pair, d, d2);
   } else {
     pair.linked = in_range ? 1 : 0;
     pair.blocked = 0;
-    hold(site, pair, nobody_, distance_lasts(length));
-    leave_be(site, pair, reach_m_);
+    pair.witness = nobody_;
   }
+  pair.lively = step_[site.i] + step_[pair.other] > motion_[cell_of_[site.i]] ? 1 : 0;
+  pair.until = clock_of_all(site.i, pair) + way(lasts_m);
   note(site.i, before, pair, site.s);
 }
 
-// Sets the witness of a pair: the verdict holds until the three have moved this far,
-void Radio::hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept {
-  pair.witness = witness;
-  pair.close_until = mark(clock_of_three(site.i, pair.other, witness) + way(lasts_m));
-}
-
-// and until all others have moved this far.
-void Radio::leave_be(const Site& site, Pair& pair, double lasts_m) const noexcept {
-  pair.lively = step_[site.i] + step_[pair.other] > motion_[cell_of_[site.i]] ? 1 : 0;
-  pair.wide_until = mark(clock_of_all(site.i, pair.other, pair.lively != 0) + way(lasts_m));
-}
-
-// Whether there is a line of sight, of robots at this distance. Returns how far bodies other than the witness, and
-// obstacles, are from changing that.
-double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double length) const {
+// Whether there is a line of sight, of robots so far apart. Returns how far bodies other than the witness, and obstacles,
+// are from changing that.
+double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const {
   const Vec2 there = site.positions[pair.other];
-  const double d2 = squared_norm(d);
-  const double in_range_m = distance_lasts(length);
   const auto hides = [&](const Obstacle* o) { return blocks(*o, site.here, there); };
   const auto hidden = [&] { return std::any_of(site.s.obstacles.begin(), site.s.obstacles.end(), hides); };
-  const auto block = [&](std::uint32_t body) {
-    hold(site, pair, body, std::min(in_range_m, depth(site.positions[body] - site.here, d, length, radius_m_)));
-    return reach_m_;
-  };
   const bool was_blocked = pair.blocked != 0;
   pair.blocked = 1;
   pair.linked = 0;
   // The body that blocked the pair before usually still does.
   if (was_blocked && pair.witness != nobody_ && !(dead_vanish_ && alive_[pair.witness] == 0) &&
       disc_blocks(site.positions[pair.witness] - site.here, d, d2, radius_m_))
-    return block(pair.witness);
+    return reach_m_;
   look_around(site);
   const bool by_obstacle = was_blocked && pair.witness == nobody_;
-  hold(site, pair, nobody_, in_range_m);
+  pair.witness = nobody_;
   if (by_obstacle && hidden()) return 0.0;
-  const View view = look(site, pair, d, length);
-  if (view.blocked) return block(view.witness);
-  if (!by_obstacle && hidden()) return 0.0;
+  const View view = look(site, pair, d, std::sqrt(d2));
+  if (!view.blocked && !by_obstacle && hidden()) return 0.0;
+  pair.witness = view.witness;
+  if (view.blocked) return reach_m_;
   pair.blocked = 0;
   pair.linked = 1;
-  hold(site, pair, view.witness, std::min(in_range_m, static_cast<double>(view.nearest_m)));
   double lasts_m = static_cast<double>(view.others_m);
   for (const Obstacle* o : site.s.obstacles) lasts_m = std::min(lasts_m, gap(*o, site.here, there));
   return std::min(lasts_m, reach_m_);
@@ -468,13 +495,21 @@ void Radio::look_around(Site& site) const {
     for (auto* v : {&s.x, &s.y}) v->resize(2 * size + chunk);
   float* x = s.x.data();
   float* y = s.y.data();
-  const auto put = [&](std::uint32_t j) {
-    const Vec2 d = site.positions[j] - site.here;
-    *x++ = static_cast<float>(d.x);
-    *y++ = static_cast<float>(d.y);
+  const Place here = places_[site.i];
+  const auto put = [&](std::size_t count, auto other) {
+    std::size_t k = 0;
+    for (; k + lanes <= count; k += lanes, x += lanes, y += lanes) {
+      const std::array<Place, lanes> at{places_[other(k)], places_[other(k + 1)], places_[other(k + 2)], places_[other(k + 3)]};
+      store(Four{at[0].x, at[1].x, at[2].x, at[3].x} - four(here.x), x);
+      store(Four{at[0].y, at[1].y, at[2].y, at[3].y} - four(here.y), y);
+    }
+    for (; k < count; ++k) {
+      *x++ = places_[other(k)].x - here.x;
+      *y++ = places_[other(k)].y - here.y;
+    }
   };
-  for (const std::uint32_t j : site.lower) put(j);
-  for (const Pair& pair : site.pairs) put(pair.other);
+  put(site.lower.size(), [&](std::size_t k) { return site.lower[k]; });
+  put(site.pairs.size(), [&](std::size_t k) { return site.pairs[k].other; });
   std::fill_n(x, chunk, far_away);
   std::fill_n(y, chunk, far_away);
   s.obstacles.clear();
@@ -496,7 +531,7 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double lengt
   const Four ux = four(has_direction ? static_cast<float>(d.x) / length : 0.0F);
   const Four uy = four(has_direction ? static_cast<float>(d.y) / length : 0.0F);
   const Four end = four(length);
-  const float rounding = 1e-4F * (length + 1.0F);             // far above it
+  const float rounding = 1e-4F * (length + 1.0F) + 4.0F * rounding_m_;   // far above it
   const float beside = static_cast<float>(radius_m_) + rounding;
   const float beside2 = has_direction ? beside * beside : none_near;
   const auto distance2 = [&](std::size_t at) {                // of four bodies, from the segment
@@ -525,7 +560,7 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double lengt
   const float least = rounded_down(two.least[0]);
   const bool none = two.least[0] >= none_near;
   const auto nearest = none ? size : static_cast<std::size_t>(std::bit_cast<std::int32_t>(two.least[0]) & place_bits);
-  View view{false, none ? nobody_ : body(nearest), 0.0F, 0.0F};
+  View view{false, none ? nobody_ : body(nearest), 0.0F};
   const auto blocks = [&](std::size_t at) { return at != target && disc_blocks(site.positions[body(at)] - site.here, d, squared_norm(d), radius_m_); };
   if (least < beside2) {
     // The body nearest to the line is deepest in the way, and will stay there longest.
@@ -540,7 +575,6 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double lengt
     }
   }
   if (!has_direction || view.blocked) return view;
-  view.nearest_m = std::max(0.0F, std::sqrt(least) - beside);
   view.others_m = std::max(0.0F, std::sqrt(rounded_down(two.second[0])) - beside);
   return view;
 }
@@ -552,6 +586,7 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double lengt
 void Radio::look_over(std::size_t i, std::span<const Vec2> positions, Scratch& s) {
   if (!rows_[i].known) return;
   Site site{i, positions[i], positions, lower_.of(i), pairs_.of(i), s};
+  look_around(site);
   for (Pair& pair : site.pairs) {
     if (pair.blocked == 0) continue;
     const Pair before = pair;
@@ -560,7 +595,7 @@ void Radio::look_over(std::size_t i, std::span<const Vec2> positions, Scratch& s
   }
 }
 
-bool Radio::looks_over(Site& site, const Pair& pair) const {
+bool Radio::looks_over(const Site& site, const Pair& pair) const {
   const bool here = raised_[site.i] != 0;
   const bool there = raised_[pair.other] != 0;
   if (pair.witness == nobody_ || !(here || there)) return false;   // without a witness an obstacle is in the way
@@ -574,7 +609,6 @@ bool Radio::looks_over(Site& site, const Pair& pair) const {
   if (std::any_of(site.lower.begin(), site.lower.end(), stops)) return false;
   const auto stops_other = [&](const Pair& p) { return p.other != pair.other && stops(p.other); };
   if (std::any_of(site.pairs.begin(), site.pairs.end(), stops_other)) return false;
-  look_around(site);
   return std::none_of(site.s.obstacles.begin(), site.s.obstacles.end(),
                       [&](const Obstacle* o) { return blocks(*o, site.here, site.positions[pair.other]); });
 }

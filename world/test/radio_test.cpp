@@ -199,6 +199,25 @@ TEST(Radio, AgreesWithPlainGeometryWhileRobotsMoveAndDie) {
   }
 }
 
+// Single precision, by which pairs are sifted, is coarse there.
+TEST(Radio, AgreesWithPlainGeometryInAWideWorld) {
+  Executor executor(1);
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Crowd c = crowd(seed);
+    for (Vec2& p : c.positions) p += Vec2{3e4, -2e4};
+    c.positions.push_back({-3e4, 2e4});
+    c.alive.push_back(1);
+    if (!c.raised.empty()) c.raised.push_back(0);
+    Radio radio(c.scenario, c.positions.size());
+    for (std::uint64_t tick = 0; tick < 12; ++tick) {
+      c.show(radio, executor);
+      ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed));
+      for (std::size_t i = 0; i < c.positions.size(); ++i)
+        c.positions[i] += Vec2{0.04 * (to_uniform(bits(seed, Purpose::loss, i, 0, tick)) - 0.5), 0.04 * (to_uniform(bits(seed, Purpose::loss, i, 1, tick)) - 0.5)};
+    }
+  }
+}
+
 // A crowd in which many stand, some creep, some drive and a few are fast, each on its own way to and fro; in every third
 // crowd nearly all drive.
 class Traffic {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
@@ -64,23 +65,30 @@ class Radio {
   // A way in small units, rounded up. It wraps: only differences count.
   using Way = std::uint32_t;
   static constexpr Way units_per_reach = 1U << 20;
-  // A clock in steps: what a pair keeps. They wrap after four times the reach; a clock does not go on by
-  // half of that before the row is written anew.
-  using Mark = std::uint16_t;
-  static constexpr Way units_per_step = 1U << 6;
   static constexpr std::uint32_t last_index = (1U << 28) - 1;
   static constexpr std::size_t chunk = 8;   // of neighbours that are looked at together
+  static constexpr std::size_t lanes = 4;   // of pairs that are tested together
 
   // What was found out about robot i and another, j > i.
   struct Pair {
-    std::uint32_t other : 28;
+    std::uint32_t other : 28 = 0;
     // Neither linked nor blocked: out of range, or dead. Both: bodies are in the way, but antennas look over them.
-    std::uint32_t linked : 1, blocked : 1, near : 1;
-    std::uint32_t lively : 1;   // which of two clocks wide_until is by
-    std::uint32_t witness;   // the body in the way, or if none is the one that is nearest to it; or nobody_
-    Mark close_until;        // by the clock of the three: until then neither the distance nor the witness changes anything,
-    Mark wide_until;         // by that of all around: nor does any other body
+    std::uint32_t linked : 1 = 0, blocked : 1 = 0, near : 1 = 0;
+    std::uint32_t lively : 1 = 0;   // which of two clocks `until` is by
+    std::uint32_t witness = 0;   // the body in the way, or if none is the one that is nearest to it; or nobody_
+    Way until = 0;               // by the clock of all around: until then no other body changes anything
   };
+  // Its first four bytes: the other and the flags.
+  [[nodiscard]] static std::int32_t word_of(const Pair& pair) noexcept {
+    std::int32_t word = 0;
+    std::memcpy(&word, &pair, sizeof word);
+    return word;
+  }
+  // A position in single precision.
+  struct Place {
+    float x, y;
+  };
+  using FourWhole = std::int32_t __attribute__((vector_size(16)));
   // How a pair has changed: 1 linked or near, -1 no longer, 0 unchanged.
   struct Change {
     Couple couple;
@@ -90,7 +98,7 @@ class Radio {
   struct Row {
     bool known = false;
     Way written = 0;         // by the clock of the row
-    Way quiet_until = 0;     // by the fast clock of the row: until then no pair runs out
+    Way seen = 0;            // by its fast clock: when its pairs were looked at last
   };
   struct Scratch {           // one per thread
     std::vector<std::uint32_t> index;   // all robots within reach of a robot, ascending; the first `size` are valid
@@ -112,27 +120,31 @@ class Radio {
     Scratch& s;
     bool looked = false;   // s.x, s.y and s.obstacles are those of this robot
   };
-  // Whether a body is in the way, and which. If none is: how far the nearest body, and how far all others,
-  // are from being in the way.
+  // Whether a body is in the way, and which. If none is: the nearest one, and how far all others are from being in the way.
   struct View {
     bool blocked;
     std::uint32_t witness;
-    float nearest_m, others_m;
+    float others_m;
+  };
+  // In single precision; and so near to a limit a doubt is left.
+  struct Limits {
+    float range_m2, near_m2, radius_m2;
+    float area_m2;   // of a product of two lengths
+    float edge_m4;   // of the square of one, where a body only just blocks
   };
 
   [[nodiscard]] Way clock(std::size_t i) const noexcept { return path_[i] + around_[i]; }
   // Of all around robot i and another: either bounds how far a body and the line of sight approach each other.
-  [[nodiscard]] Way clock_of_all(std::size_t i, std::size_t j, bool lively) const noexcept { return around_[i] + (lively ? around_[i] : path_[i] + path_[j]); }
-  [[nodiscard]] Way clock_of_three(std::size_t i, std::size_t j, std::size_t witness) const noexcept { return path_[i] + path_[j] + path_[witness]; }
+  [[nodiscard]] Way clock_of_all(std::size_t i, const Pair& pair) const noexcept { return around_[i] + (pair.lively != 0 ? around_[i] : path_[i] + path_[pair.other]); }
+  // None, or less: the clock has run out.
+  [[nodiscard]] std::int32_t way_left(std::size_t i, const Pair& pair) const noexcept { return static_cast<std::int32_t>(pair.until - clock_of_all(i, pair)); }
   // So far that clocks may go on: they are up to one unit too slow per robot, and rounding is far less.
   [[nodiscard]] Way way(double m) const noexcept { return static_cast<Way>(std::max(0.0, m * units_per_m_ - 4.0)); }
   [[nodiscard]] Way fast_clock(std::size_t i) const noexcept { return path_[i] + 2 * around_[i]; }
-  [[nodiscard]] static Mark mark(Way clock) noexcept { return static_cast<Mark>(clock / units_per_step); }
-  // None, or less: it has run out.
-  [[nodiscard]] static int steps_left(Way now, Mark until) noexcept { return static_cast<std::int16_t>(static_cast<Mark>(until - mark(now))); }
 
   [[nodiscard]] bool follow(std::span<const Vec2> positions, std::span<const std::uint8_t> alive);
   void lay_grid(std::span<const Vec2> positions);
+  void note_places(std::span<const Vec2> positions, Vec2 low, Vec2 high);
   void spread_motion();
   void sort_into_cells();
   void gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) const;
@@ -141,14 +153,14 @@ class Radio {
   void refresh(std::size_t i, std::span<const Vec2> positions, Scratch& s);
   static void note(std::size_t i, const Pair& before, const Pair& now, Scratch& s);
   void decide(Site& site, Pair& pair) const;
-  [[nodiscard]] double distance_lasts(double length) const noexcept;
-  void hold(const Site& site, Pair& pair, std::uint32_t witness, double lasts_m) const noexcept;
-  void leave_be(const Site& site, Pair& pair, double lasts_m) const noexcept;
-  [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double length) const;
-  [[nodiscard]] bool still_holds(const Site& site, Pair& pair) const noexcept;
+  [[nodiscard]] FourWhole doubtful(const Site& site, std::size_t begin) const noexcept;
+  [[nodiscard]] bool still_holds(const Site& site, const Pair& pair) const noexcept;
+  [[nodiscard]] double judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const;
+  void look_at_moving(Site& site) const;
+  void look_at_all(Site& site) const;
   void look_around(Site& site) const;
   void look_over(std::size_t i, std::span<const Vec2> positions, Scratch& s);
-  [[nodiscard]] bool looks_over(Site& site, const Pair& pair) const;
+  [[nodiscard]] bool looks_over(const Site& site, const Pair& pair) const;
   [[nodiscard]] View look(const Site& site, const Pair& pair, Vec2 d, double length_m) const noexcept;
   void apply_changes();
   void merge();
@@ -172,13 +184,16 @@ class Radio {
   bool raised_anew_ = false;              // since the last update
   bool all_anew_ = true;                  // every pair is to be decided again: sight or obstacles have changed
 
-  std::uint32_t nobody_;                  // the index after the last robot's; never moves
+  std::uint32_t nobody_;                  // the index after the last robot's; is far away, and never moves
   std::vector<Way> path_;                 // how far each robot has moved,
   std::vector<Way> step_;                 // and in the last update
   std::vector<Way> around_;               // the farthest move of any robot within its reach, summed over ticks
+  std::vector<Place> places_;             // relative to the middle of the swarm
+  float rounding_m_ = 0.0F;               // of the difference of two places, at most
+  Limits limits_{};
   std::vector<Row> rows_;
   Rows<std::uint32_t> lower_;             // of each row those with a smaller index,
-  Rows<Pair> pairs_;                      // and those with a larger one; ascending
+  Rows<Pair, lanes - 1> pairs_;           // and those with a larger one; ascending
 
   // Grid of cells at least as wide as the reach, robots sorted by cell (counting sort).
   double cell_m_ = 1.0;

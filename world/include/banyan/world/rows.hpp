@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rows of varying length, one after the other in one array. Each has some room to grow, so that the
-// array is laid out anew now and then, not for every new item.
+// array is laid out anew now and then, not for every new item. Behind each row the next `spare` items may be read, too,
+// whatever they are.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 
 namespace banyan::world {
 
-template <class T>
+template <class T, std::size_t spare = 0>
 class Rows {
  public:
   explicit Rows(std::size_t rows) : begin_(rows + 1, 0), size_(rows, 0) {}
@@ -21,7 +22,7 @@ class Rows {
 
   // Makes the row `size` long, whatever is in it then. False, and nothing has changed, if there is no room.
   [[nodiscard]] bool resize(std::size_t row, std::size_t size) noexcept {
-    if (begin_[row] + size > begin_[row + 1]) return false;
+    if (begin_[row] + size + spare > begin_[row + 1]) return false;
     size_[row] = static_cast<std::uint32_t>(size);
     return true;
   }
@@ -58,7 +59,7 @@ class Rows {
     begin_[0] = 0;
     for (std::size_t r = 0; r < rows; ++r) {
       const std::size_t size = wanted(r);
-      begin_[r + 1] = begin_[r] + static_cast<std::uint32_t>(size + size / 8 + 3);
+      begin_[r + 1] = begin_[r] + static_cast<std::uint32_t>(size + size / 8 + 3 + spare);
     }
     if (begin_[rows] > items_.size()) {
       if (begin_[rows] > items_.capacity()) items_.reserve(begin_[rows] + begin_[rows] / 8);
