@@ -318,7 +318,8 @@ Observer::Impl::Impl(const world::World& world)
   run.star_length_m = star_length(first_targets);
   run.robots_bound = robots_bound(first_targets, tolerance_m, range_m);
   run.link_redundancy = redundancy.wanted();
-  const RedundancyBound bound = redundancy_bound(first_targets, tolerance_m, range_m, redundancy.wanted());
+  const RedundancyBound bound = redundancy.wanted() > 1 ? redundancy_bound(first_targets, tolerance_m, range_m, redundancy.wanted())
+                                                        : RedundancyBound{run.robots_bound, false};
   run.redundancy_bound = bound.robots;
   run.redundancy_exact = bound.exact;
 }

@@ -10,8 +10,8 @@ namespace banyan::measure {
 
 // The bottleneck assignment: over all ways to send one robot to each place, the least value of the longest straight
 // drive, in metres; 0 for no place, -1 for fewer robots than places. Positions in metres; obstacles and bodies are
-// ignored. A search over the distances, with a matching for each (augmenting paths), O(log(n p) n p^2) for n robots
-// and p places.
+// ignored. Of the robots only the p nearest of each of the p places are asked. A search over the distances, with a
+// matching for each (augmenting paths).
 [[nodiscard]] double bottleneck_m(const std::vector<world::Vec2>& robots, const std::vector<world::Vec2>& places);
 
 }  // namespace banyan::measure
