@@ -36,7 +36,13 @@ bool was_edge(const ConvoyRobot& robot, int k) noexcept {
   return k == robot.old_parent || robot.table().message(k).old_parent == robot.self.id;
 }
 
-// Once all workers below have arrived, the tree keeps its edges. Otherwise short first edges come first, then edges
+// On batteries: it is about to be charged, or on its way, and would have to be relieved at once.
+bool is_drained_spare(const ConvoyRobot& robot, int k) noexcept {
+  return robot.power != nullptr && robot.table().message(k).role == Role::spare && !is_charged(*robot.power, k);
+}
+
+// Once all workers below have arrived, the tree keeps its edges, also to a robot that has to leave: it is relieved where
+// it stands. Otherwise short first edges come first, then edges
 // that need no spare, then the nearest. A link that may soon be blocked counts as a long one, one worse as longer yet.
 struct Preference {
   int rank;
@@ -44,7 +50,7 @@ struct Preference {
   Preference(const ConvoyRobot& robot, int k) noexcept {
     const ConvoyParams& p = robot.params;
     const float c = p.communication_range_m;
-    if (prunes(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k) && !is_leaving(robot, k)) {
+    if (prunes(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k)) {
       rank = -1;
       key = static_cast<float>(robot.table().message(k).label_cm);
       return;
@@ -52,6 +58,7 @@ struct Preference {
     float range_m = robot.table().range(k);
     if (!sees_clearly(robot, k, p.clearance_m)) range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? 5.0F * c : 10.0F * c;
     if (is_leaving(robot, k)) range_m += 4.0F * c;
+    if (is_drained_spare(robot, k)) range_m += 8.0F * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather a robot that is not leaving
     rank = range_m <= p.first_edge_m ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;

@@ -367,8 +367,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const float reach_m = (led ? follow_spare : follow_tree) * c;
   // A spare under way along a chain may come nearer to lines of sight than one that waits.
   const float way_m = p.line_of_sight ? 2.0F * p.clearance_m : 0.0F;  // none where robots hide no edges
-  if (robot.power != nullptr && robot.power->power.travels && d > p.avoidance_range_m)
-    return bypass(robot, reference) + repulsion(robot) * 0.3F + make_way(robot, way_m);
+  if (robot.power != nullptr && robot.power->power.travels) return past(robot, bypass(robot, robot.power->power.way), way_m);
   if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
   if (d > reach_m)
     return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);

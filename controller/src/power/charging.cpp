@@ -13,19 +13,23 @@ constexpr float level_unit = 254.0F;
 constexpr float charge_smoothing = 0.1F;      // per step, of a measured charge
 constexpr std::uint8_t farthest_place = 250;
 constexpr float at_place = 0.2F;       // of C, from the robot that keeps the place
+constexpr float in_slot = 0.3F;        // while it is charged
 constexpr float per_hop = 0.05F;       // of a full battery
 constexpr int near_hops = 2;
-constexpr int most_hops_counted = 6;
+constexpr int farther_hops = 6;
+constexpr float way_per_hop = 0.02F;   // of a full battery: what the way takes
+constexpr int most_hops_counted = 12;
 constexpr int waits_within = 2;        // hops of a place: there charged spares wait
-constexpr float leaves_sooner = 0.2F;  // of a full battery, at most: all have started full, and are not to leave at once
+constexpr float leaves_sooner = 0.35F; // of a full battery, at most
+constexpr std::uint8_t calls_end = 60; // hops
 constexpr int turns = 16;
-constexpr float way_to_edge = 0.15F;   // of a full battery: so much a spare may spend on its way
 constexpr float urgent_level = 0.5F;   // whoever has less is let through to the place
 constexpr float place_room = 0.4F;     // of C: kept free round it by those that are charged
 
 void measure_charge(PowerRobot& me, const Senses& senses) noexcept {
   PowerState& power = me.power;
   power.charging = senses.charge && senses.charge->charging;
+  power.was_charged |= power.charging;
   if (senses.charge) {
     const float level = senses.charge->level;
     power.level = power.level < 0.0F ? level : power.level + (level - power.level) * charge_smoothing;
@@ -47,12 +51,32 @@ void follow_places(PowerRobot& me) noexcept {
   me.power.said.place_hops = there ? std::uint8_t{0} : hops < farthest_place ? static_cast<std::uint8_t>(hops + 1) : no_place;
 }
 
-// Neighbours have other turns.
+// Hops of a call that has ended count up, and the slower the more neighbours are hidden now and then: spares followed such
+// calls to nowhere for minutes. So only what has just been heard counts, and no call goes farther than a relief may be.
+void listen_for_calls(PowerRobot& me) noexcept {
+  HealingRobot& robot = me.robot;
+  const TreeTable& table = robot.table();
+  const auto hops_of = [&](int k) {
+    const std::uint8_t hops = table.message(k).call_hops;
+    return table.age(k) > 1 || (hops >= calls_end && hops < companion_call) ? nobody_calls : hops;
+  };
+  robot.call_hops = nobody_calls;
+  for (int k = 0; k < table.size(); ++k) robot.call_hops = std::min(robot.call_hops, hops_of(k));
+}
+
+int hops_counted(const PowerRobot& me) noexcept { return std::min<int>(me.power.said.place_hops, most_hops_counted); }
+
+// What a robot of the tree needs while it waits to be relieved, and for its way to the place.
+float least_charge(const PowerRobot& me) noexcept { return me.params.relieve_below + way_per_hop * static_cast<float>(hops_counted(me)); }
+
+// All have started full, and are not to leave at once. Who has been charged since then has a turn of its own.
 float leave_below(const PowerRobot& me) noexcept {
   constexpr unsigned spread = 37;  // so that ids next to each other are far apart
   constexpr float margin = 0.05F;
+  const float least = least_charge(me);
+  if (me.power.was_charged) return least;
   const auto turn = static_cast<float>(me.robot.self.id * spread % turns) / static_cast<float>(turns);
-  return std::min(me.params.relieve_below + leaves_sooner * turn, std::max(me.params.relieve_below, me.params.ready_above - margin));
+  return std::min(least + leaves_sooner * turn, std::max(least, me.params.ready_above - margin));
 }
 
 // It stays decided until the robot is a spare, or has been charged where it is.
@@ -62,11 +86,20 @@ void decide_to_leave(PowerRobot& me) noexcept {
   const bool low = power.level >= 0.0F && power.level < leave_below(me) && !power.charging && !power.keeps_place;
   power.said.leaving = in_tree && (power.said.leaving ? power.level < full_charge && !power.keeps_place : low);
   // The farther the place, the less often: the way itself takes charge.
-  const float hops = static_cast<float>(std::clamp<int>(power.said.place_hops - near_hops, 0, most_hops_counted));
+  const float hops = static_cast<float>(std::clamp<int>(power.said.place_hops - near_hops, 0, farther_hops));
   const float below = std::max(me.params.charge_below - per_hop * hops, me.params.relieve_below);
   const bool wants = power.level >= 0.0F && power.level < (power.seeks ? full_charge : below);
   power.seeks = !in_tree && wants;
-  power.ready = power.level >= me.params.ready_above - (power.ready ? way_to_edge : 0.0F);
+  // One that has set out may use up on its way what it would not need there: turning back would be in vain.
+  constexpr float margin = 0.05F;
+  const bool under_way = !in_tree && (me.robot.self.called || me.robot.self.request != nobody);
+  power.ready = power.level >= (under_way ? std::min(least_charge(me) + margin, me.params.ready_above) : me.params.ready_above);
+}
+
+// How far the place is through neighbour k, in half hops: spares move themselves.
+int half_hops(const PowerRobot& me, int k) noexcept {
+  const std::uint8_t hops = me.standing(k).place_hops;
+  return hops > farthest_place / 2 ? no_place : 2 * hops + (me.is_spare(k) ? 1 : 0);
 }
 
 // The nearest of the neighbours through which a charging place is nearest; -1: no way known.
@@ -74,11 +107,35 @@ int way_to_place(const PowerRobot& me) noexcept {
   const TreeTable& table = me.robot.table();
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k) || me.standing(k).place_hops > farthest_place) continue;
-    const auto key = [&](int n) { return std::pair(me.standing(n).place_hops, table.range(n)); };
+    if (!table.alive(k) || half_hops(me, k) == no_place) continue;
+    const auto key = [&](int n) { return std::pair(half_hops(me, n), table.range(n)); };
     if (best < 0 || key(k) < key(best)) best = k;
   }
   return best;
+}
+
+// Bodies hide the robots ahead again and again. Whoever turned to another one each time would get nowhere: it drives to
+// where the robot was that it has chosen, until it is there or hears one that is nearer to the place.
+void choose_way(PowerRobot& me) noexcept {
+  constexpr float reached = 0.18F;   // of C
+  constexpr float patience_s = 10.0F;
+  PowerState& power = me.power;
+  const HealingRobot& robot = me.robot;
+  const TreeTable& table = robot.table();
+  const int k = way_to_place(me);
+  robot.add_elapsed(power.way_ticks);
+  const int now = power.way_id == nobody ? -1 : table.find(power.way_id);
+  if (now >= 0 && table.age(now) == 0) {
+    power.way = table.position(now);
+    if (half_hops(me, now) > power.way_hops) power.way_id = nobody;
+  }
+  const bool there = norm(power.way) < reached * robot.params.communication_range_m && power.way_hops > 0;
+  if (k >= 0 && (power.way_id == nobody || there || power.way_ticks > robot.params.ticks(patience_s) || half_hops(me, k) < power.way_hops)) {
+    power.way = table.position(k);
+    power.way_hops = static_cast<std::uint8_t>(half_hops(me, k));
+    power.way_id = table.id(k);
+    power.way_ticks = 0;
+  }
 }
 
 // Neighbour k is a spare that could go in my stead: charged, free, and it hears the call.
@@ -91,7 +148,7 @@ bool may_go(const PowerRobot& me, int k) noexcept {
 // A crowd on its way to one call wastes charge and hides edges: only the nearest that I know of goes.
 bool leaves_call_to_others(const PowerRobot& me) noexcept {
   const TreeTable& table = me.robot.table();
-  const int way = me.robot.call_hops < relief_call ? -1 : table.find(me.robot.self.reference);
+  const int way = table.find(me.robot.self.reference);
   for (int k = 0; way >= 0 && k < table.size(); ++k)
     if (may_go(me, k) && distance(table.position(k), table.position(way)) < table.range(way)) return true;
   return false;
@@ -118,13 +175,16 @@ bool lets_through(const PowerRobot& me) noexcept {
 
 void watch_charge(PowerRobot& me, const Senses& senses) noexcept {
   measure_charge(me, senses);
+  me.power.way = me.robot.carry.point(me.power.way);
   follow_places(me);
+  listen_for_calls(me);
   decide_to_leave(me);
 }
 
 void tend_battery(PowerRobot& me) noexcept {
   TreeState& self = me.robot.self;
   me.power.travels = false;
+  if (!me.power.seeks) me.power.way_id = nobody;
   if (self.role != Role::spare || self.parent != nobody || me.power.level < 0.0F) return;
   if (!me.power.ready) {
     self.request = nobody;
@@ -134,9 +194,9 @@ void tend_battery(PowerRobot& me) noexcept {
   if (self.called && leaves_call_to_others(me)) self.called = false;
   if (self.request != nobody || self.called) return;
   if (!me.power.seeks) return wait_near_place(me);
-  const int k = way_to_place(me);
-  if (k < 0) return;
-  self.reference = me.robot.table().id(k);
+  choose_way(me);
+  if (me.power.way_id == nobody) return;
+  self.reference = me.power.way_id;
   me.power.travels = self.called = !is_at_place(me);
 }
 
@@ -145,7 +205,8 @@ void call_for_relief(PowerRobot& me) noexcept {
   constexpr float hops_of_battery = 20.0F; // a full one can wait as if it were so much farther away
   TreeState& self = me.robot.self;
   if (self.call_hops != 0) return;
-  const int hops = relief_call + static_cast<int>(std::max(0.0F, me.power.level - urgent_at) * hops_of_battery);
+  const float waits = (me.power.level - urgent_at) * hops_of_battery - static_cast<float>(hops_counted(me));
+  const int hops = relief_call + static_cast<int>(std::max(0.0F, waits));
   self.call_hops = static_cast<std::uint8_t>(std::min(hops, me.robot.call_hops + 1));
 }
 
@@ -169,7 +230,7 @@ bool is_charged(const PowerRobot& me, int k) noexcept {
 bool may_inherit_root(const PowerRobot& me, int k) noexcept {
   constexpr float urgent = 0.38F;   // of a full battery
   constexpr float more = 0.06F;
-  constexpr float spare_charge = 0.1F;
+  constexpr float spare_charge = 0.3F;
   if (is_charged(me, k)) return true;
   const PowerStanding& other = me.standing(k);
   if (other.level == 0xFF) return false;
@@ -179,8 +240,8 @@ bool may_inherit_root(const PowerRobot& me, int k) noexcept {
 }
 
 bool is_at_place(const PowerRobot& me) noexcept {
-  const int k = me.robot.table().find(me.robot.self.reference);
-  return me.power.seeks && k >= 0 && me.standing(k).place_hops == 0 && me.robot.table().range(k) <= at_place * me.robot.params.communication_range_m;
+  const PowerState& power = me.power;
+  return power.seeks && power.way_id != nobody && power.way_hops == 0 && norm(power.way) <= (power.charging ? in_slot : at_place) * me.robot.params.communication_range_m;
 }
 
 }  // namespace banyan

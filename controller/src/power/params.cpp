@@ -6,7 +6,7 @@ namespace {
 
 constexpr Parameter<PowerParams> of_power[] = {
     {{"relieve_below", "", "", "batteries: a robot of the tree with less charge than this asks to be relieved",
-      "Enough for the wait and the way to a charging place.", "lasting", 0.0F, 1.0F}, &PowerParams::relieve_below},
+      "Enough for the wait; 0.02 more for each hop to a charging place.", "lasting", 0.0F, 1.0F}, &PowerParams::relieve_below},
     {{"charge_below", "", "", "batteries: a spare with less charge than this drives to a charging place when nobody needs it",
       "Larger keeps spares full and makes more trips.", "lasting", 0.0F, 1.0F}, &PowerParams::charge_below},
     {{"ready_above", "", "", "batteries: a spare with less charge than this joins no edge",

@@ -7,7 +7,7 @@
 namespace banyan {
 
 struct PowerParams : HealingParams {
-  float relieve_below = 0.55F;   // a robot of the tree with less asks to be relieved
+  float relieve_below = 0.35F;   // a robot of the tree with less, and some more for each hop to a place, asks to be relieved
   float charge_below = 0.85F;     // a spare with less drives to a charging place when nobody needs it
   float ready_above = 0.8F;      // a spare with less joins no edge
   float relief_edge_m = 1.65F;    // edges are compacted and merged up to this, so that a robot beside another reaches as far

@@ -11,9 +11,6 @@
 
 namespace banyan {
 
-// Call hops from this on are those of calls for companions; smaller ones are of edges in need, and come first.
-inline constexpr std::uint8_t companion_call = 128;
-
 // Otherwise, with k = 1 or companion_distance 0, none of these rules does anything.
 [[nodiscard]] inline bool has_companions(const ConvoyParams& params) noexcept {
   return params.link_redundancy > 1 && params.companion_distance_m > 0.0F;
