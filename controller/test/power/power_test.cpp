@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "banyan/controller/convoy/convoy.hpp"
@@ -208,6 +209,170 @@ TEST_F(AmongLeavers, AClearlyEmptierRobotGoesBeforeThoseBelowIt) {
   EXPECT_FALSE(asks(50, 100, 100, false));
 }
 
+// A robot (id 1) beside robot 5, which says what the test makes it say.
+class BesideAnother : public ::testing::Test {
+ protected:
+  BesideAnother() { bench.put(5, {1.5F, 0.0F}).role = Role::connector; }
+  void tell(Role self_role, float level, std::uint8_t place_hops) {
+    auto robot = bench.tick();
+    bench.state.role = self_role;
+    power.standings[static_cast<std::size_t>(robot.table().find(5))].place_hops = place_hops;
+    PowerRobot me{robot, power, bench.params, no_children};
+    Senses senses;
+    senses.charge = Charge{level, false};
+    power.level = -1.0F;  // no smoothing
+    watch_charge(me, senses);
+    call_hops = robot.call_hops;
+  }
+  ConvoyBench bench = grown<Convoy>();
+  PowerState power;
+  int call_hops = 0;
+};
+
+TEST_F(BesideAnother, HearsOnlyCallsOfThisTickOrTheLastAndNoneThatHaveGoneOnForTooLong) {
+  bench.say(5).call_hops = relief_call + 3;
+  tell(Role::spare, 0.9F, 2);
+  EXPECT_EQ(call_hops, relief_call + 3);
+  bench.say(5).call_hops = 70;  // more hops than any relief is away: it has ended, and is only counted up
+  tell(Role::spare, 0.9F, 2);
+  EXPECT_EQ(call_hops, nobody_calls);
+  bench.say(5).call_hops = companion_call + 1;
+  tell(Role::spare, 0.9F, 2);
+  EXPECT_EQ(call_hops, companion_call + 1);
+  bench.say(5).call_hops = relief_call + 3;
+  bench.tick();
+  bench.silence(5);
+  bench.tick(), bench.tick();
+  auto robot = bench.tick();
+  ASSERT_TRUE(robot.table().alive(robot.table().find(5)));
+  EXPECT_EQ(robot.call_hops, relief_call + 3);
+  PowerRobot me{robot, power, bench.params, no_children};
+  watch_charge(me, {});
+  EXPECT_EQ(robot.call_hops, nobody_calls);
+}
+
+TEST_F(BesideAnother, LeavesTheSoonerTheFartherItIsFromAPlace) {
+  power.was_charged = true;
+  tell(Role::connector, 0.45F, 1);
+  EXPECT_FALSE(power.said.leaving);
+  tell(Role::connector, 0.45F, 8);
+  EXPECT_TRUE(power.said.leaving);
+}
+
+TEST_F(BesideAnother, LeavesSoonerByItsIdOnlyUntilItHasBeenCharged) {
+  tell(Role::connector, 0.45F, 1);
+  EXPECT_TRUE(power.said.leaving);
+  power = {};
+  power.was_charged = true;
+  tell(Role::connector, 0.45F, 1);
+  EXPECT_FALSE(power.said.leaving);
+}
+
+TEST_F(BesideAnother, DoesNotTurnBackOnItsWayToARelief) {
+  tell(Role::spare, 0.6F, 3);
+  EXPECT_FALSE(power.ready);
+  bench.state.called = true;
+  tell(Role::spare, 0.6F, 3);
+  EXPECT_TRUE(power.ready);
+  tell(Role::spare, 0.4F, 3);  // there it would have to leave at once
+  EXPECT_FALSE(power.ready);
+}
+
+// A spare (id 1) that has to be charged, between robots 5 and 6.
+class OnItsWay : public ::testing::Test {
+ protected:
+  OnItsWay() {
+    bench.put(5, {1.5F, 0.0F}).role = Role::connector;
+    bench.put(6, {0.4F, 0.4F}).role = Role::connector;
+  }
+  Vec2 tick(float forward_m = 0.0F) {
+    Odometry odometry;
+    odometry.forward_m = forward_m;
+    auto robot = bench.tick(odometry);
+    bench.state.role = Role::spare;
+    for (const auto& [id, hops] : {std::pair{RobotId{5}, hops_of_5}, std::pair{RobotId{6}, std::uint8_t{2}}})
+      if (const int k = robot.table().find(id); k >= 0) power.standings[static_cast<std::size_t>(k)].place_hops = hops;
+    PowerRobot me{robot, power, bench.params, no_children};
+    Senses senses;
+    senses.charge = Charge{0.3F, false};
+    watch_charge(me, senses);
+    tend_battery(me);
+    return power.way;
+  }
+  ConvoyBench bench = grown<Convoy>();
+  PowerState power;
+  std::uint8_t hops_of_5 = 1;
+};
+
+TEST_F(OnItsWay, DrivesToWhereTheRobotAheadWasAlsoWhenItIsHidden) {
+  EXPECT_NEAR(tick().x, 1.5F, 1e-3F);
+  ASSERT_TRUE(power.travels);
+  bench.silence(5);
+  for (int t = 0; t < 30; ++t) tick();
+  EXPECT_NEAR(tick(0.5F).x, 1.0F, 1e-3F) << "its own way is subtracted";
+  EXPECT_NEAR(tick(0.7F).y, 0.4F, 1e-3F) << "there, it takes the next one";
+}
+
+TEST_F(OnItsWay, LeavesARobotThatHasLostTheWay) {
+  tick();
+  hops_of_5 = 9;
+  tick();
+  EXPECT_EQ(power.way_id, 6);
+}
+
+TEST_F(OnItsWay, PrefersARobotOfTheTreeToASpareAsFarAway) {
+  hops_of_5 = 2;
+  bench.say(6).role = Role::spare;
+  EXPECT_NEAR(tick().x, 1.5F, 1e-3F) << "though the spare is nearer";
+}
+
+// A worker (id 1) that chooses its parent in a new epoch, between two candidates.
+class Choosing : public ::testing::Test {
+ protected:
+  Choosing() {
+    state.epoch = 2;
+    state.phase = Phase::select_parent;
+    state.root = {1, 9};
+    state.label_cm = 300;
+    for (PoweredConvoyMessage* m : {&first, &second}) {
+      m->epoch = 2;
+      m->phase = Phase::select_parent;
+      m->root = {1, 9};
+      m->level = 250;
+    }
+    first.id = 5;
+    first.label_cm = 150;
+    second.id = 6;
+    second.label_cm = 100;  // so that by its label it is preferred
+  }
+  RobotId parent() {
+    std::vector<Heard> heard{{&first, {1.0F, 0.6F}}, {&second, {1.0F, -0.6F}}};
+    Senses senses;
+    senses.charge = Charge{0.9F, false};
+    senses.orders.sent = true;
+    senses.orders.target = Vec2{0.0F, 0.01F};  // it is there
+    return powered_convoy_step(params, state, {heard, senses, params}).message.parent;
+  }
+  ConvoyParams params = convoy_defaults();
+  PoweredConvoyState state = initial_powered_state(1, true, false);
+  PoweredConvoyMessage first, second;
+};
+
+TEST_F(Choosing, ASpareThatIsNotChargedIsTheLastChoice) {
+  second.level = 100;
+  EXPECT_EQ(parent(), 5);
+}
+
+TEST_F(Choosing, AmongChargedSparesTheLabelDecides) { EXPECT_EQ(parent(), 6); }
+
+TEST_F(Choosing, AnEdgeToARobotThatHasToLeaveIsKept) {
+  for (PoweredConvoyMessage* m : {&first, &second}) m->role = Role::connector;
+  first.leaving = true;
+  first.level = 90;
+  state.old_parent = 5;
+  EXPECT_EQ(parent(), 5);
+}
+
 TEST(Power, ARobotWithLessChargeSeemsNearerAndMoreUrgentCallsOfOthersAreNotDrowned) {
   auto bench = grown<Convoy>();
   PowerState power;
@@ -220,24 +385,30 @@ TEST(Power, ARobotWithLessChargeSeemsNearerAndMoreUrgentCallsOfOthersAreNotDrown
     call_for_relief(me);
     return int{bench.state.call_hops};
   };
+  power.said.place_hops = 1;
   EXPECT_LT(hops(0.1F, nobody_calls), hops(0.5F, nobody_calls));
   EXPECT_GE(hops(0.0F, nobody_calls), relief_call);
   EXPECT_EQ(hops(0.5F, 3), 4);  // an edge that holds workers back comes first
+  // The call comes to the place as if it had been made there.
+  power.said.place_hops = 2;
+  const int near = hops(0.9F, nobody_calls);
+  power.said.place_hops = 8;
+  EXPECT_EQ(hops(0.9F, nobody_calls), near - 6);
 }
 
 // A free spare (id 1) between a robot that calls and another charged spare.
 class CalledSpare : public ::testing::Test {
  protected:
   // Whether it goes, if the other spare is so far from the caller.
-  bool goes(float other_m, std::uint8_t other_level) {
+  bool goes(float other_m, std::uint8_t other_level, std::uint8_t call = relief_call) {
     auto bench = grown<Convoy>();
     bench.state.role = Role::spare;
     bench.put(9, {1.5F, 0.0F}).role = Role::connector;
     auto& other = bench.put(5, {1.5F, other_m});
     other.role = Role::spare;
-    other.call_hops = relief_call + 2;
+    other.call_hops = static_cast<std::uint8_t>(call + 2);
     auto robot = bench.tick();
-    robot.call_hops = relief_call + 1;
+    robot.call_hops = static_cast<std::uint8_t>(call + 1);
     bench.state.reference = 9;
     bench.state.called = true;
     PowerState power;
@@ -254,6 +425,7 @@ TEST_F(CalledSpare, GoesUnlessAnotherChargedOneIsNearer) {
   EXPECT_TRUE(goes(1.7F, 250));
   EXPECT_FALSE(goes(1.0F, 250));
   EXPECT_TRUE(goes(1.0F, 100));  // that one is not charged
+  EXPECT_FALSE(goes(1.0F, 250, 0));  // nor to an edge that holds workers back
 }
 
 TEST(Power, ASpareThatWaitsIsSlowUnlessItHidesAnEdge) {
