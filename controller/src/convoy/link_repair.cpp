@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
@@ -35,6 +36,21 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare || leaves ? c : 0.0F) + (clear ? 0.0F : 2.0F * c);
 }
 
+// Companions come and go beside the robots of a branch that has arrived, and make way themselves. A link that they are
+// near to is not about to be cut for long, and to change the tree for it would send them to other places again.
+bool sees_past_companions(const ConvoyRobot& robot, int k, float clearance_m) noexcept {
+  if (!has_companions(robot.params) || !has_arrived(robot)) return sees_clearly(robot, k, clearance_m);
+  const TreeTable& table = robot.table();
+  const Vec2 other = table.position(k);
+  for (int j = 0; j < table.size(); ++j) {
+    if (j == k || companion_of(robot, j) != nobody) continue;
+    const Vec2 at = table.position(j);
+    const float along = dot(at, other);
+    if (along > 0.0F && along < squared_norm(other) && norm(nearest_on_segment(-at, other - at)) < clearance_m) return false;
+  }
+  return is_free(robot, robot.self.corners, Vec2{}, other, obstacle_clearance_m);
+}
+
 }  // namespace
 
 Outlook outlook(const ConvoyRobot& robot) noexcept {
@@ -45,8 +61,8 @@ Outlook outlook(const ConvoyRobot& robot) noexcept {
   if (has_companions(robot.params) && !robot.params.line_of_sight) return {hidden, hidden};
   const ConvoyMessage* parent = robot.parent_message();
   const bool warned = parent != nullptr && parent->warned == robot.self.id;
-  const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance_m);
-  return {endangered, endangered && (hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance_m))};
+  const bool endangered = hidden || warned || !sees_past_companions(robot, robot.parent, danger * clearance_m);
+  return {endangered, endangered && (hidden || warned || !sees_past_companions(robot, robot.parent, urgency * clearance_m))};
 }
 
 // Takes the best new parent that is ahead of me, a spare only when it is urgent. If there is none, my sequence
@@ -93,7 +109,7 @@ RobotId child_to_warn(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   for (const int k : robot.children)
-    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance_m))
+    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_past_companions(robot, k, danger * p.clearance_m))
       return table.id(k);
   return nobody;
 }

@@ -335,6 +335,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (robot.self.is_worker) return pull_past_obstacles(robot) * (succeeds ? 1.0F : worker_pace(p)) + clamped(shared_slack(robot), give) + (succeeds ? Vec2{} : repulsion(robot));
   if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
   if (holds_still(robot)) return {};
+  if (Vec2 way; steps_aside(robot, way)) return way + repulsion(robot);
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
   return along + tension(robot) + shared_slack(robot) + repulsion(robot) + make_way(robot, p.corridor_width_m) + clear_sight(robot, robot.self.corners);
 }
@@ -348,7 +349,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
   if (const int of = self.accompanies == nobody ? -1 : robot.table().find(self.accompanies); of >= 0)
-    return past(robot, companion_motion(robot, of), p.line_of_sight && robot.table().range(of) > 2.0F * p.companion_distance_m ? 2.0F * p.clearance_m : 0.0F);
+    return past(robot, companion_motion(robot, of), companion_way_m(robot, of));
   // No robot near has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m) return bypass(robot, self.corners.seen_from) + repulsion(robot);
   // The root is about to go round a corner, and waits for spares.

@@ -4,8 +4,6 @@
 namespace banyan {
 namespace {
 
-constexpr float obstacle_clearance_m = 0.05F;  // a tree edge must pass a corner at least this far away
-
 // `p` is nearer than `clearance_m` to the inside of the segment from `a` along `d`. The ends are the robots
 // that communicate; a point beyond them blocks nothing.
 bool blocks(Vec2 p, Vec2 a, Vec2 d, float d2, float clearance_m) noexcept {

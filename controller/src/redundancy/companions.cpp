@@ -14,6 +14,10 @@ namespace {
 
 constexpr float short_for_s = 10.0F;   // an edge in need has called for so long: its tree comes before companions
 constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for companions
+constexpr int lacks_after_ticks = 3;   // it may just not have heard its companion
+constexpr float too_near = 0.75F;      // of C: a child and a parent so near to each other can do without the robot between
+constexpr float aside = 1.3F;          // of `clearance`: so far out of their line
+constexpr float edge_room = 1.4F;      // of `clearance`: how near to edges a companion in its place comes; it must be able to cross
 constexpr int places = 12;             // around the robot of the tree
 constexpr float bridged = 0.75F;      // of C: two tree neighbours of a robot so near to each other do without it,
 constexpr float bridged_on_way = 0.4F; // and for some time to come while a worker below still has to travel
@@ -42,8 +46,9 @@ IndexList neighbors_of(const ConvoyRobot& robot, int of) noexcept {
 
 float distance_to_segment(Vec2 p, Vec2 a, Vec2 b) noexcept { return norm(nearest_on_segment(a - p, b - p)); }
 
-// Two robots at a and b will hear each other when the one at `without` is gone; its body may stay.
-bool hear_each_other(const ConvoyRobot& robot, Vec2 a, Vec2 b, bool travels) noexcept {
+// Two robots at a and b hear each other without the one at `middle`, whose body stays where it is, even if it dies.
+bool hear_each_other(const ConvoyRobot& robot, Vec2 middle, Vec2 a, Vec2 b, bool travels) noexcept {
+  if (robot.params.line_of_sight && distance_to_segment(middle, a, b) < hides * robot.params.clearance_m) return false;
   return distance(a, b) <= (travels ? bridged_on_way : bridged) * robot.params.communication_range_m;
 }
 
@@ -57,14 +62,14 @@ struct Ends {
 
 // Some of these are joined to others of them by the robot at `middle` alone. A tree of links that do without it is
 // grown from the first.
-bool holds_together(const ConvoyRobot& robot, std::span<const Vec2> ends, bool travels) noexcept {
+bool holds_together(const ConvoyRobot& robot, Vec2 middle, std::span<const Vec2> ends, bool travels) noexcept {
   std::array<bool, neighbor_capacity + 1> joined{};
   if (!ends.empty()) joined[0] = true;
   for (std::size_t round = 1; round < ends.size(); ++round) {
     bool grown = false;
     for (std::size_t i = 0; i < ends.size() && !grown; ++i)
       for (std::size_t j = 0; joined[i] && j < ends.size() && !grown; ++j)
-        if (!joined[j] && hear_each_other(robot, ends[i], ends[j], travels)) joined[j] = grown = true;
+        if (!joined[j] && hear_each_other(robot, middle, ends[i], ends[j], travels)) joined[j] = grown = true;
     if (!grown) return true;
   }
   return false;
@@ -111,6 +116,36 @@ bool is_nearest_spare(const ConvoyRobot& robot, int k) noexcept {
   return true;
 }
 
+// Neighbour k says that it lacks companions. Where robots hide others, only it can know.
+bool says_it_lacks(const ConvoyRobot& robot, int k) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  return m.role != Role::spare && m.request == robot.table().id(k);
+}
+
+// Of the spares that are free, or stand beside the same robot as I, one is nearer to neighbour k.
+bool another_is_nearer(const ConvoyRobot& robot, int k) noexcept {
+  const TreeTable& table = robot.table();
+  for (int j = 0; j < table.size(); ++j) {
+    if (!table.alive(j) || !is_free(table.message(j)) || distance(table.position(j), table.position(k)) >= table.range(k)) continue;
+    const RobotId of = companion_of(robot, j);
+    if (of == nobody || of == robot.self.accompanies) return true;
+  }
+  return false;
+}
+
+// A child of the robot beside which I stand lacks a companion, and no spare is nearer: I go there. My place is filled
+// in the same way, and so on towards the root, where the spares are; all of them drive at once.
+RobotId farther_out(const ConvoyRobot& robot) noexcept {
+  const TreeTable& table = robot.table();
+  int best = -1;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k) || up_of(table.message(k)) != robot.self.accompanies || !says_it_lacks(robot, k)) continue;
+    if (count_companions(robot, table.id(k)) >= wanted_companions(robot) || another_is_nearer(robot, k)) continue;
+    if (best < 0 || table.range(k) < table.range(best)) best = k;
+  }
+  return best < 0 ? robot.self.accompanies : table.id(best);
+}
+
 // The nearest robot that lacks companions; those that have called for long take anybody.
 RobotId nearest_alone(const ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
@@ -118,6 +153,7 @@ RobotId nearest_alone(const ConvoyRobot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     if (best >= 0 && table.range(k) >= table.range(best)) continue;
     if (!table.alive(k) || !needs_companion(robot, k) || count_companions(robot, table.id(k)) >= welcome_companions(robot, k)) continue;
+    if (robot.params.line_of_sight && !says_it_lacks(robot, k)) continue;
     if (table.message(k).call_hops == companion_call || is_nearest_spare(robot, k)) best = k;
   }
   return best < 0 ? nobody : table.id(best);
@@ -154,7 +190,7 @@ void choose_whom(ConvoyRobot& robot) noexcept {
     const bool stays = k >= 0 && table.alive(k) && needs_companion(robot, k) && count_before_me(robot, k) < welcome_companions(robot, k);
     if (!stays) self.accompanies = nobody;
   }
-  if (self.accompanies == nobody && self.request == nobody) self.accompanies = nearest_alone(robot);
+  if (self.request == nobody) self.accompanies = self.accompanies == nobody ? nearest_alone(robot) : farther_out(robot);
   leave_edge_to_others(robot);
   // One spare goes where a companion is missed far away; a crowd would be in the way there.
   const int way = robot.call_hops < companion_call ? -1 : table.find(self.reference);
@@ -170,7 +206,7 @@ bool depends_on_me(const ConvoyRobot& robot) noexcept {
     const TreeStanding& m = table.message(k);
     if (k == up || (m.role != Role::spare && up_of(m) == robot.self.id)) ends.add(table.position(k));
   }
-  return holds_together(robot, ends.all(), robot.self.want_m > 0.0F);
+  return holds_together(robot, Vec2{}, ends.all(), robot.self.want_m > 0.0F);
 }
 
 void call(ConvoyRobot& robot) noexcept {
@@ -178,6 +214,7 @@ void call(ConvoyRobot& robot) noexcept {
   const bool alone = depends_on_me(robot) && count_companions(robot, self.id) < wanted_companions(robot);
   if (!alone) self.alone_ticks = 0;
   else robot.add_elapsed(self.alone_ticks);
+  if (alone && robot.params.line_of_sight && self.phase == Phase::grow_tree && self.alone_ticks > lacks_after_ticks) self.request = self.id;
   if (alone && self.phase == Phase::grow_tree && self.alone_ticks > robot.params.ticks(robot.params.call_after_s))
     self.call_hops = std::min(self.call_hops, companion_call);
 }
@@ -241,7 +278,7 @@ bool needs_companion(const ConvoyRobot& robot, int k) noexcept {
   Ends ends;
   for (const int n : neighbors_of(robot, k)) ends.add(table.position(n));
   const bool knows_all = static_cast<int>(ends.size) + (up_of(m) == robot.self.id ? 1 : 0) >= degree;
-  return !knows_all || holds_together(robot, ends.all(), m.want_cm > 0);
+  return !knows_all || holds_together(robot, table.position(k), ends.all(), m.want_cm > 0);
 }
 
 int count_companions(const ConvoyRobot& robot, RobotId of) noexcept {
@@ -259,6 +296,29 @@ void keep_company(ConvoyRobot& robot) noexcept {
   if (robot.self.role == Role::spare) return choose_whom(robot);
   robot.self.accompanies = nobody;
   call(robot);
+}
+
+bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
+  const ConvoyParams& p = robot.params;
+  const TreeTable& table = robot.table();
+  if (!has_companions(p) || !p.line_of_sight || robot.self.role != Role::connector || robot.useful_children != 1 || robot.parent < 0 || !has_arrived(robot)) return false;
+  const auto* const child = first_of(robot.children, [&](int k) { return table.message(k).role != Role::spare; });
+  if (child == robot.children.end()) return false;
+  const Vec2 from = table.position(*child);
+  const Vec2 to = table.position(robot.parent);
+  const Vec2 near = nearest_on_segment(from, to);
+  if (distance(from, to) > too_near * p.communication_range_m || norm(near) > aside * p.clearance_m) return false;
+  const Vec2 left = left_of(unit(to - from));
+  constexpr float pace = 0.7F;
+  way = (dot(near, left) > 0.0F ? -left : left) * pace;
+  return true;
+}
+
+float companion_way_m(const ConvoyRobot& robot, int of) noexcept {
+  const ConvoyParams& p = robot.params;
+  if (!p.line_of_sight) return 0.0F;
+  constexpr float under_way = 2.0F;
+  return (robot.table().range(of) > 2.0F * p.companion_distance_m ? under_way : edge_room) * p.clearance_m;
 }
 
 Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {

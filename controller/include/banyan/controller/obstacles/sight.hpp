@@ -9,6 +9,7 @@
 namespace banyan {
 
 inline constexpr float narrow = 0.5F;  // of `clearance`: just past a body, better than nothing
+inline constexpr float obstacle_clearance_m = 0.05F;  // a tree edge must pass a corner at least this far away
 
 // No robot of the table but neighbours `i` and `j` (-1: none) is nearer than `clearance_m` to the inside
 // of segment a-b; nor am I, unless an end is where I am. O(neighbours).

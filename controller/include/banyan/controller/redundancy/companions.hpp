@@ -24,12 +24,23 @@ namespace banyan {
 
 // Neighbour k is a robot of the tree whose death would cut some of its tree neighbours off from others.
 [[nodiscard]] bool needs_companion(const ConvoyRobot& robot, int k) noexcept;
+// The robot that neighbour j, a spare, stands beside; nobody: none, or it is no spare.
+[[nodiscard]] inline RobotId companion_of(const ConvoyRobot& robot, int j) noexcept {
+  const TreeStanding& m = robot.table().message(j);
+  return m.role == Role::spare && m.parent == nobody ? robot.convoy_of(j).below : nobody;
+}
 // Spares that I hear which say that they stand beside that robot.
 [[nodiscard]] int count_companions(const ConvoyRobot& robot, RobotId of) noexcept;
 
 // Once a tick, after the spares: a spare decides beside whom it stands; a robot of the tree that has stood alone for
 // long calls.
 void keep_company(ConvoyRobot& robot) noexcept;
+
+// My only child could do without me, but I stand in its line of sight to my parent: which way I step aside.
+[[nodiscard]] bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept;
+
+// How near a companion comes to the edges of others, m.
+[[nodiscard]] float companion_way_m(const ConvoyRobot& robot, int of) noexcept;
 
 // How a companion moves, in units of speed_gain: to the place beside its robot from which it hears that robot's tree
 // neighbours best and is in nobody's line of sight. The robot must be in the table.
