@@ -153,7 +153,6 @@ RobotId nearest_alone(const ConvoyRobot& robot) noexcept {
   for (int k = 0; k < table.size(); ++k) {
     if (best >= 0 && table.range(k) >= table.range(best)) continue;
     if (!table.alive(k) || !needs_companion(robot, k) || count_companions(robot, table.id(k)) >= welcome_companions(robot, k)) continue;
-    if (robot.params.line_of_sight && !says_it_lacks(robot, k)) continue;
     if (table.message(k).call_hops == companion_call || is_nearest_spare(robot, k)) best = k;
   }
   return best < 0 ? nobody : table.id(best);

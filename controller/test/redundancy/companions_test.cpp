@@ -103,6 +103,60 @@ TEST_F(SpareByAChain, OneMoreComesAlongWhileTheWorkerTravels) {
   EXPECT_EQ(chosen(), nobody);  // the nearer one is enough
 }
 
+// Where robots hide others, who has a companion is known to that robot alone.
+TEST_F(SpareByAChain, WithSightItGoesWhereOneIsSaidToBeMissed) {
+  bench.params.line_of_sight = true;
+  EXPECT_EQ(chosen(), nobody);
+  bench.say(2).request = 2;
+  EXPECT_EQ(chosen(), 2);
+  bench.say(2).request = nobody;
+  EXPECT_EQ(chosen(), 2);  // it is there now
+}
+
+// The body between two robots that are near to each other stays where it is, even if it dies.
+TEST_F(SpareByAChain, WithSightItIsNeededWhereARobotHidesItsNeighbours) {
+  bench.params.line_of_sight = true;
+  bench.say(2).request = 2;
+  bench.move(9, {-0.7F, 1.0F});
+  bench.move(3, {0.7F, 1.0F});
+  EXPECT_EQ(chosen(), 2);
+  bench.move(2, {0.0F, 1.3F});  // out of their line
+  EXPECT_EQ(chosen(), nobody);
+}
+
+// My robot's child lacks a companion: I go there, unless another spare is nearer to it.
+TEST_F(SpareByAChain, MovesOutwardsToFillAGap) {
+  bench.params.line_of_sight = true;
+  bench.say(2).request = 2;
+  ASSERT_EQ(chosen(), 2);
+  bench.say(2).request = nobody;
+  auto& worker = bench.say(3);
+  worker.role = Role::connector;
+  worker.child_count = 1;
+  EXPECT_EQ(chosen(), 2);
+  worker.request = 3;
+  put_spare(7, {1.0F, 0.6F}, nobody);
+  EXPECT_EQ(chosen(), 2);
+  bench.silence(7);
+  for (int k = 0; k < 20; ++k) {
+    static_cast<void>(bench.tick());  // until that one is forgotten
+  }
+  EXPECT_EQ(chosen(), 3);
+}
+
+// In its place it keeps clear of edges, but not so far that it could not cross one to get there.
+TEST_F(SpareByAChain, NearEdgesOnlyWithSight) {
+  auto robot = bench.tick();
+  const int near = robot.table().find(2);
+  EXPECT_EQ(companion_way_m(robot, near), 0.0F);
+  bench.params.line_of_sight = true;
+  const float under_way_m = companion_way_m(robot, near);
+  bench.move(2, {0.3F, 0.0F});
+  auto there = bench.tick();
+  EXPECT_GT(companion_way_m(there, there.table().find(2)), bench.params.clearance_m);
+  EXPECT_LT(companion_way_m(there, there.table().find(2)), under_way_m);
+}
+
 TEST_F(SpareByAChain, JoinsAnEdgeOnlyIfThatHasBegunToCall) {
   ASSERT_EQ(chosen(), 2);
   bench.state.request = 3;
@@ -162,6 +216,46 @@ TEST_F(ConnectorAlone, CallsAfterAWhile) {
   EXPECT_EQ(hops_after(1), companion_call);
   bench.put(7, {0.3F, 0.3F}).below = 1;
   EXPECT_EQ(hops_after(1), nobody_calls);
+}
+
+// It says so at once where robots hide others, in a field that means nothing else of a robot of the tree.
+TEST_F(ConnectorAlone, SaysThatItLacksOneWithSight) {
+  hops_after(10);
+  EXPECT_EQ(bench.state.request, nobody);
+  bench.params.line_of_sight = true;
+  hops_after(1);
+  EXPECT_EQ(bench.state.request, 1);
+  EXPECT_EQ(bench.step().message.request, 1);
+  bench.state.request = nobody;  // as at each step
+  bench.put(7, {0.3F, 0.3F}).below = 1;
+  hops_after(1);
+  EXPECT_EQ(bench.state.request, nobody);
+}
+
+// With sight it hides its child from its parent, although they are near: it lets the child go past.
+TEST_F(ConnectorAlone, StepsAsideOnceItIsSuperfluous) {
+  bench.params.line_of_sight = true;
+  bench.say(2).subtree_workers = 1;
+  bench.say(3).subtree_workers = 1;
+  const auto way = [&] {
+    auto robot = bench.tick();
+    bench.state.subtree_workers = 1;
+    bench.state.want_m = 0.0F;
+    robot.useful_children = 1;
+    Vec2 out;
+    return steps_aside(robot, out) ? out : Vec2{};
+  };
+  EXPECT_EQ(way(), Vec2{});  // too far from each other
+  bench.move(2, {-0.7F, 0.05F});
+  bench.move(3, {0.6F, 0.05F});
+  EXPECT_LT(way().y, -0.5F);
+  bench.move(2, {-0.7F, 0.3F});
+  bench.move(3, {0.6F, 0.3F});
+  EXPECT_EQ(way(), Vec2{});  // it is aside
+  bench.move(2, {-0.7F, 0.05F});
+  bench.move(3, {0.6F, 0.05F});
+  bench.params.link_redundancy = 1;
+  EXPECT_EQ(way(), Vec2{});
 }
 
 TEST_F(ConnectorAlone, CallsForNobodyWithOnePath) {
