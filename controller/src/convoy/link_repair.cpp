@@ -46,7 +46,8 @@ bool sees_past_companions(const ConvoyRobot& robot, int k, float clearance_m) no
     if (j == k || companion_of(robot, j) != nobody) continue;
     const Vec2 at = table.position(j);
     const float along = dot(at, other);
-    if (along > 0.0F && along < squared_norm(other) && norm(nearest_on_segment(-at, other - at)) < clearance_m) return false;
+    const bool between = along > 0.0F && along < squared_norm(other);
+    if (between && norm(nearest_on_segment(-at, other - at)) < clearance_m) return false;
   }
   return is_free(robot, robot.self.corners, Vec2{}, other, obstacle_clearance_m);
 }

@@ -5,6 +5,8 @@
 #include <array>
 #include <span>
 
+#include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/tree/label.hpp"
@@ -15,9 +17,8 @@ namespace {
 constexpr float short_for_s = 10.0F;   // an edge in need has called for so long: its tree comes before companions
 constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for companions
 constexpr int lacks_after_ticks = 3;   // it may just not have heard its companion
-constexpr float too_near = 0.75F;      // of C: a child and a parent so near to each other can do without the robot between
-constexpr float aside = 1.3F;          // of `clearance`: so far out of their line
-constexpr float edge_room = 1.4F;      // of `clearance`: how near to edges a companion in its place comes; it must be able to cross
+constexpr float aside = 1.3F;          // of `clearance`: so far out of a line a robot steps that is in the way
+constexpr float edge_room = 1.4F;      // of `clearance`: how near to edges a companion in its place comes, since it may have to cross
 constexpr int places = 12;             // around the robot of the tree
 constexpr float bridged = 0.75F;      // of C: two tree neighbours of a robot so near to each other do without it,
 constexpr float bridged_on_way = 0.4F; // and for some time to come while a worker below still has to travel
@@ -126,7 +127,8 @@ bool says_it_lacks(const ConvoyRobot& robot, int k) noexcept {
 bool another_is_nearer(const ConvoyRobot& robot, int k) noexcept {
   const TreeTable& table = robot.table();
   for (int j = 0; j < table.size(); ++j) {
-    if (!table.alive(j) || !is_free(table.message(j)) || distance(table.position(j), table.position(k)) >= table.range(k)) continue;
+    if (!table.alive(j) || !is_free(table.message(j))) continue;
+    if (distance(table.position(j), table.position(k)) >= table.range(k)) continue;
     const RobotId of = companion_of(robot, j);
     if (of == nobody || of == robot.self.accompanies) return true;
   }
@@ -213,8 +215,9 @@ void call(ConvoyRobot& robot) noexcept {
   const bool alone = depends_on_me(robot) && count_companions(robot, self.id) < wanted_companions(robot);
   if (!alone) self.alone_ticks = 0;
   else robot.add_elapsed(self.alone_ticks);
-  if (alone && robot.params.line_of_sight && self.phase == Phase::grow_tree && self.alone_ticks > lacks_after_ticks) self.request = self.id;
-  if (alone && self.phase == Phase::grow_tree && self.alone_ticks > robot.params.ticks(robot.params.call_after_s))
+  if (!alone || self.phase != Phase::grow_tree) return;
+  if (robot.params.line_of_sight && self.alone_ticks > lacks_after_ticks) self.request = self.id;
+  if (self.alone_ticks > robot.params.ticks(robot.params.call_after_s))
     self.call_hops = std::min(self.call_hops, companion_call);
 }
 
@@ -300,13 +303,14 @@ void keep_company(ConvoyRobot& robot) noexcept {
 bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  if (!has_companions(p) || !p.line_of_sight || robot.self.role != Role::connector || robot.useful_children != 1 || robot.parent < 0 || !has_arrived(robot)) return false;
+  if (!has_companions(p) || !p.line_of_sight || !has_arrived(robot)) return false;
+  if (robot.self.role != Role::connector || robot.useful_children != 1 || robot.parent < 0) return false;
   const auto* const child = first_of(robot.children, [&](int k) { return table.message(k).role != Role::spare; });
   if (child == robot.children.end()) return false;
   const Vec2 from = table.position(*child);
   const Vec2 to = table.position(robot.parent);
   const Vec2 near = nearest_on_segment(from, to);
-  if (distance(from, to) > too_near * p.communication_range_m || norm(near) > aside * p.clearance_m) return false;
+  if (distance(from, to) > bridged * p.communication_range_m || norm(near) > aside * p.clearance_m) return false;
   const Vec2 left = left_of(unit(to - from));
   constexpr float pace = 0.7F;
   way = (dot(near, left) > 0.0F ? -left : left) * pace;

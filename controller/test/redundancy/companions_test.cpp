@@ -51,6 +51,7 @@ TEST_F(SpareByAChain, WithOnePathItIsASpareLikeAnyOther) {
 }
 
 TEST_F(SpareByAChain, IsNotNeededWhereTheNeighboursHearEachOther) {
+  bench.params.line_of_sight = false;
   bench.move(9, {-0.7F, 1.0F});
   bench.move(3, {0.7F, 1.0F});
   EXPECT_EQ(chosen(), nobody);
@@ -103,20 +104,9 @@ TEST_F(SpareByAChain, OneMoreComesAlongWhileTheWorkerTravels) {
   EXPECT_EQ(chosen(), nobody);  // the nearer one is enough
 }
 
-// Where robots hide others, who has a companion is known to that robot alone.
-TEST_F(SpareByAChain, WithSightItGoesWhereOneIsSaidToBeMissed) {
-  bench.params.line_of_sight = true;
-  EXPECT_EQ(chosen(), nobody);
-  bench.say(2).request = 2;
-  EXPECT_EQ(chosen(), 2);
-  bench.say(2).request = nobody;
-  EXPECT_EQ(chosen(), 2);  // it is there now
-}
-
 // The body between two robots that are near to each other stays where it is, even if it dies.
 TEST_F(SpareByAChain, WithSightItIsNeededWhereARobotHidesItsNeighbours) {
   bench.params.line_of_sight = true;
-  bench.say(2).request = 2;
   bench.move(9, {-0.7F, 1.0F});
   bench.move(3, {0.7F, 1.0F});
   EXPECT_EQ(chosen(), 2);
@@ -127,9 +117,7 @@ TEST_F(SpareByAChain, WithSightItIsNeededWhereARobotHidesItsNeighbours) {
 // My robot's child lacks a companion: I go there, unless another spare is nearer to it.
 TEST_F(SpareByAChain, MovesOutwardsToFillAGap) {
   bench.params.line_of_sight = true;
-  bench.say(2).request = 2;
   ASSERT_EQ(chosen(), 2);
-  bench.say(2).request = nobody;
   auto& worker = bench.say(3);
   worker.role = Role::connector;
   worker.child_count = 1;
@@ -148,6 +136,7 @@ TEST_F(SpareByAChain, MovesOutwardsToFillAGap) {
 TEST_F(SpareByAChain, NearEdgesOnlyWithSight) {
   auto robot = bench.tick();
   const int near = robot.table().find(2);
+  bench.params.line_of_sight = false;
   EXPECT_EQ(companion_way_m(robot, near), 0.0F);
   bench.params.line_of_sight = true;
   const float under_way_m = companion_way_m(robot, near);
@@ -220,6 +209,7 @@ TEST_F(ConnectorAlone, CallsAfterAWhile) {
 
 // It says so at once where robots hide others, in a field that means nothing else of a robot of the tree.
 TEST_F(ConnectorAlone, SaysThatItLacksOneWithSight) {
+  bench.params.line_of_sight = false;
   hops_after(10);
   EXPECT_EQ(bench.state.request, nobody);
   bench.params.line_of_sight = true;
