@@ -36,6 +36,13 @@ bool has_left(const HealingRobot& robot, int child) noexcept {
   return up != robot.self.id && (up != nobody || m.role == Role::spare);
 }
 
+// While I waited the worker, if it lives, has gone on counting: what others heard of it before that is no answer. Half of
+// these ticks, since clocks and steps differ.
+void raise_doubt(const HealingRobot& robot, Task& task) noexcept {
+  task.beat = static_cast<Serial>(task.beat + std::max(0, task.age_ticks - robot.liveness_ticks()) / 2);
+  begin_doubt(robot, task);
+}
+
 }  // namespace
 
 void begin_doubt(const HealingRobot& robot, Task& task) noexcept {
@@ -54,7 +61,7 @@ void doubt(HealingRobot& robot) noexcept {
     if (has_left(robot, child)) task.via = nobody;
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
     if (has_witnessed(robot, task)) {
-      begin_doubt(robot, task);
+      raise_doubt(robot, task);
       task.age_ticks = static_cast<std::uint16_t>(task.age_ticks + robot.params.ticks(witness_s));
       continue;
     }
@@ -66,7 +73,7 @@ void doubt(HealingRobot& robot) noexcept {
     const bool fading = child >= 0 && fades(robot, child);
     if (fading) task.age_ticks = static_cast<std::uint16_t>(std::min<int>(task.age_ticks, robot.table().age(child)));
     if (task.age_ticks > std::max(outdated_ticks, 2 * doubt_ticks)) task.via = nobody;
-    else if (task.age_ticks > doubt_ticks && (child < 0 || fading)) begin_doubt(robot, task);
+    else if (task.age_ticks > doubt_ticks && (child < 0 || fading)) raise_doubt(robot, task);
   }
 }
 

@@ -94,11 +94,15 @@ void measure_gap(HealingState& self, const Task& task) noexcept {
   self.news_gap = static_cast<std::uint16_t>(std::max(gap, std::min<int>(task.age_ticks * per_tick, UINT16_MAX)));
 }
 
+// A count so little later than the one last heard is no proof of life: it was on another way when the worker fell silent.
+bool proves_life(const HealingRobot& robot, Serial later, Serial missed) noexcept { return ahead_by(later, missed) > robot.liveness_ticks() / 2; }
+
 // A later sign of life, or another holder.
 void renew(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
   if (news.holder == task.holder && !task.silent) measure_gap(robot.self, task);
+  if (news.holder == task.holder && task.silent && !proves_life(robot, news.beat, task.beat)) return;
   // It has been alive since I missed it: another robot is in charge of it.
-  if (task.silent && !news.silent && ahead_by(news.beat, task.beat) > robot.liveness_ticks() / 2) task.via = nobody;
+  if (task.silent && !news.silent) task.via = nobody;
   if (news.silent != task.silent || news.holder != task.holder) task.urgent_ticks = pass_on_ticks;
   task.beat = news.beat;
   task.holder = news.holder;
@@ -133,8 +137,8 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
   const bool newer = is_news(news.beat, task->beat, task->age_ticks);
   if (newer) renew(robot, *task, news);
   if (news.silent && !task->silent) {
-    if (news.beat == task->beat) begin_doubt(robot, *task);
-    else task->urgent_ticks = pass_on_ticks;  // I know of a later sign of life
+    if (proves_life(robot, task->beat, news.beat)) task->urgent_ticks = pass_on_ticks;  // I know of a later sign of life
+    else begin_doubt(robot, *task);
   }
 }
 

@@ -258,6 +258,56 @@ TEST(Doubt, ALaterSignOfLifeEndsItAndIsPassedOn) {
   EXPECT_EQ(watch.bench.state.tally.replacements, 0U);
 }
 
+// Its last count was on another way when it fell silent: who knows it joins the doubt instead of ending it.
+TEST(Doubt, TheLastCountOfADeadWorkerIsNoSignOfLife) {
+  for (const int later : {1, 30}) {
+    ForgetfulWatch watch;
+    watch.tell_of_target(20, {1.0F, 0.0F}, {2.0F, 0.0F}, worker_id, 10);
+    watch.bench.say(20).task_silent = true;
+    watch.hear_root(5);
+    ASSERT_TRUE(watch.task().silent);
+    auto& answers = watch.bench.put(21, {0.0F, 1.0F});
+    answers.task_serves = answers.task_holder = worker_id;
+    answers.task_beat = static_cast<std::uint16_t>(10 + later);
+    watch.hear_root(1);
+    EXPECT_EQ(watch.task().silent, later == 1) << later;
+    watch.bench.silence(20);
+    watch.bench.silence(21);
+    watch.hear_root(very_long);
+    EXPECT_EQ(watch.bench.state.tally.replacements, later == 1 ? 1U : 0U) << later;
+  }
+}
+
+// The same, of the robot that knows the last count and hears the doubt.
+TEST(Doubt, WhoKnowsButTheLastCountJoins) {
+  for (const int later : {1, 30}) {
+    ForgetfulWatch watch;
+    watch.worker({1.0F, 0.0F}, 30);
+    watch.bench.put(30, {0.0F, 1.0F});
+    watch.hear_worker(5);
+    const std::uint16_t last = watch.bench.say(worker_id).task_beat;
+    watch.bench.silence(worker_id);
+    auto& doubter = watch.bench.put(20, {0.0F, -1.0F});
+    doubter.task_serves = doubter.task_holder = worker_id;
+    doubter.task_beat = static_cast<std::uint16_t>(last - later);
+    doubter.task_silent = true;
+    watch.hear_root(1);
+    EXPECT_EQ(watch.task().silent, later == 1) << later;
+  }
+}
+
+// Others may have heard it a little longer than the robot in charge of it, and would answer that.
+TEST(Doubt, AsksForACountOfNow) {
+  ForgetfulWatch watch;
+  watch.worker({1.9F, 0.0F}, 1);
+  watch.hear_worker(5);
+  const int last = watch.bench.say(worker_id).task_beat;
+  watch.bench.silence(worker_id);
+  watch.hear_root(doubt_ticks(watch));
+  ASSERT_TRUE(watch.task().silent);
+  EXPECT_NEAR(watch.task().beat - last, watch.bench.params.ticks(2.5F) / 2, 1);
+}
+
 // Only one neighbour at a time is told where a target is: the question does not wait for that, but the successor does.
 TEST(Doubt, AQuestionIsPassedOnByThoseWhoDoNotKnowWhere) {
   ForgetfulWatch watch;
