@@ -42,8 +42,8 @@ bool is_drained_spare(const ConvoyRobot& robot, int k) noexcept {
 }
 
 // Once all workers below have arrived, the tree keeps its edges, also to a robot that has to leave: it is relieved where
-// it stands. Otherwise short first edges come first, then edges
-// that need no spare, then the nearest. A link that may soon be blocked counts as a long one, one worse as longer yet.
+// it stands. Otherwise short first edges come first, then edges that need no spare, then the nearest. A link that may soon
+// be blocked counts as a long one, one worse as longer yet.
 struct Preference {
   int rank;
   float key;
