@@ -2,7 +2,6 @@
 #include "banyan/measure/lasting.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace banyan::measure {
 
@@ -61,9 +60,6 @@ void Lasting::follow_trip(const world::World& world, std::size_t i) {
   const bool charged = world.charged_at()[i] >= 0;
   if (course.travels && !alive) ++lost_;
   if (course.travels && alive && charged) ++arrived_;
-  const bool spare = alive && world.reports()[i].role == Role::spare;
-  if (spare && charged) ++slot_ticks_;
-  else if (spare && course.travels) ++way_ticks_;
   if (!alive || charged || !seeks) course.travels = false;
   else if (world.charge()[i] < course.level) course.travels = true;
 }
@@ -89,26 +85,6 @@ void Lasting::observe(const world::World& world) {
     drawn_s_ += world.scenario().tick_s;
   }
   if (living > 0) mean_ = level_sum_ / static_cast<double>(living);
-  if (world.tick() % after_ticks_ == 0) note_level(world);
-}
-
-void Lasting::note_level(const world::World& world) {
-  const auto robots = std::count(world.alive().begin(), world.alive().end(), std::uint8_t{1}) + static_cast<std::ptrdiff_t>(world.emptied());
-  levels_.push_back(static_cast<float>(robots == 0 ? 0.0 : level_sum_ / static_cast<double>(robots)));
-}
-
-// Over a battery life each robot has had its turn, so that the mean of one tells how it goes on from the last. In the
-// first one the charge sinks in any swarm: all have started full.
-double Lasting::sinks_for_s(double each_per_s) const noexcept {
-  constexpr double clearly = 0.95;
-  const auto life = static_cast<std::size_t>(1.0 / each_per_s);
-  if (life == 0 || levels_.size() < 3 * life) return -1.0;
-  const auto mean = [&](std::size_t lives_ago) {
-    const auto end = levels_.end() - static_cast<std::ptrdiff_t>(lives_ago * life);
-    return std::accumulate(end - static_cast<std::ptrdiff_t>(life), end, 0.0) / static_cast<double>(life);
-  };
-  const double before = mean(1), now = mean(0);
-  return now < clearly * before ? static_cast<double>(levels_.back()) * static_cast<double>(life) / (before - now) : -1.0;
 }
 
 double Lasting::lasts_s(const world::World& world, double committed) const noexcept {
@@ -117,12 +93,9 @@ double Lasting::lasts_s(const world::World& world, double committed) const noexc
   const double each_per_s = drawn_ / drawn_s_;
   const auto living = static_cast<double>(std::count(world.alive().begin(), world.alive().end(), std::uint8_t{1}));
   const auto places = static_cast<double>(battery.places.size());
-  const double there = slot_ticks_ == 0 ? 1.0 : static_cast<double>(slot_ticks_) / static_cast<double>(slot_ticks_ + 2 * way_ticks_);
-  const double charged = std::min(places * static_cast<double>(battery.slots), std::max(0.0, living - committed) * there + places);
+  const double charged = std::min(places * static_cast<double>(battery.slots), std::max(0.0, living - committed + places));
   const double sinks_per_s = living * each_per_s - charged * battery.charge_w / battery.capacity_j;
-  const double seen_s = sinks_for_s(each_per_s);
-  if (sinks_per_s <= 0.0) return seen_s;
-  return seen_s < 0.0 ? level_sum_ / sinks_per_s : std::min(seen_s, level_sum_ / sinks_per_s);
+  return sinks_per_s > 0.0 ? level_sum_ / sinks_per_s : -1.0;
 }
 
 }  // namespace banyan::measure

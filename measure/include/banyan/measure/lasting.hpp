@@ -28,10 +28,9 @@ class Lasting {
   // A trip: a spare sets out to be charged, and is charged or dies. One that is called to the tree meanwhile makes none.
   [[nodiscard]] std::uint64_t trips() const noexcept { return arrived_ + lost_; }
   [[nodiscard]] std::uint64_t trips_arrived() const noexcept { return arrived_; }
-  // At the end: for how long the charge lasts; -1: for ever, as far as can be told, or no batteries. By the balance: the
-  // living go on drawing what they drew on average, and as many as can are charged, in all slots and all of them but
-  // `committed` robots of the tree (those at charging places count), less those who are on the way, there and back, by
-  // the times that trips have taken. By what was seen: the charge sinks from one battery life to the next.
+  // At the end: for how long the charge lasts, if the living go on drawing what they drew on average and as many as can
+  // are charged, in all slots and all of them but `committed` robots of the tree, of which those at charging places
+  // count, too; -1: for ever, or no batteries.
   [[nodiscard]] double lasts_s(const world::World& world, double committed) const noexcept;
 
  private:
@@ -46,8 +45,6 @@ class Lasting {
   void mark_broken(const world::World& world);
   void follow_swap(const world::World& world, std::size_t i);
   void follow_trip(const world::World& world, std::size_t i);
-  void note_level(const world::World& world);
-  [[nodiscard]] double sinks_for_s(double each_per_s) const noexcept;
 
   double range_m_;
   std::uint32_t after_ticks_;
@@ -56,8 +53,6 @@ class Lasting {
   std::vector<std::uint8_t> relieved_;       // by robot: another takes its place
   double least_ = -1.0, mean_ = -1.0, level_sum_ = 0.0;
   double drawn_ = 0.0, drawn_s_ = 0.0;       // by robots that were not charged
-  std::uint64_t slot_ticks_ = 0, way_ticks_ = 0;   // of spares in slots, and on their way there
-  std::vector<float> levels_;                // by second: mean charge, of those without it too, not of others that died
   std::uint64_t swaps_ = 0, broken_swaps_ = 0, arrived_ = 0, lost_ = 0;
 };
 
