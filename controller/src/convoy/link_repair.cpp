@@ -39,17 +39,8 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
 // Companions come and go beside the robots of a branch that has arrived, and make way themselves. A link that they are
 // near to is not about to be cut for long, and to change the tree for it would send them to other places again.
 bool sees_past_companions(const ConvoyRobot& robot, int k, float clearance_m) noexcept {
-  if (!has_companions(robot.params) || !has_arrived(robot)) return sees_clearly(robot, k, clearance_m);
-  const TreeTable& table = robot.table();
-  const Vec2 other = table.position(k);
-  for (int j = 0; j < table.size(); ++j) {
-    if (j == k || companion_of(robot, j) != nobody) continue;
-    const Vec2 at = table.position(j);
-    const float along = dot(at, other);
-    const bool between = along > 0.0F && along < squared_norm(other);
-    if (between && norm(nearest_on_segment(-at, other - at)) < clearance_m) return false;
-  }
-  return is_free(robot, robot.self.corners, Vec2{}, other, obstacle_clearance_m);
+  const bool rests = has_companions(robot.params) && has_arrived(robot);
+  return sees_clearly(robot, robot.self.corners, k, clearance_m, [&](int j) { return rests && companion_of(robot, j) != nobody; });
 }
 
 }  // namespace

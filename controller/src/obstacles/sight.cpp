@@ -16,19 +16,21 @@ bool blocks(Vec2 p, Vec2 a, Vec2 d, float d2, float clearance_m) noexcept {
 
 }  // namespace
 
-bool is_clear(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, int i, int j, float clearance_m) noexcept {
+bool is_clear(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, int i, int j, float clearance_m,
+              FunctionRef<bool(int k)> is_passed) noexcept {
   const TreeTable& table = robot.table();
   const Vec2 d = b - a;
   const float d2 = squared_norm(d);
   if (blocks(Vec2{}, a, d, d2, clearance_m)) return false;
   if (!is_free(robot, corners, a, b, obstacle_clearance_m)) return false;
   for (int k = 0; k < table.size(); ++k)
-    if (k != i && k != j && blocks(table.position(k), a, d, d2, clearance_m)) return false;
+    if (k != i && k != j && blocks(table.position(k), a, d, d2, clearance_m) && !is_passed(k)) return false;
   return true;
 }
 
-bool sees_clearly(const TreeRobot& robot, const Corners& corners, int k, float clearance_m) noexcept {
-  return is_clear(robot, corners, Vec2{}, robot.table().position(k), k, -1, clearance_m);
+bool sees_clearly(const TreeRobot& robot, const Corners& corners, int k, float clearance_m,
+                  FunctionRef<bool(int k)> is_passed) noexcept {
+  return is_clear(robot, corners, Vec2{}, robot.table().position(k), k, -1, clearance_m, is_passed);
 }
 
 }  // namespace banyan
