@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page as plain static files: relative addresses, so that any web server, in any folder, can
-// serve them. BANYAN_LIVE is the folder with the compiled simulation, BANYAN_PAGE where to build.
+// serve them. BANYAN_LIVE is the folder with the compiled simulation, BANYAN_LIVE_THREADS that with threads or "none",
+// BANYAN_PAGE where to build.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
@@ -17,6 +18,7 @@ const algorithms: string[] = (await createLive({ wasmBinary: readFileSync(`${liv
 const threads: Plugin = {
   name: 'threads',
   generateBundle() {
+    if (liveThreads === 'none') return;
     for (const ending of ['mjs', 'wasm', 'worker.js']) {
       const file = `banyan_live_threads.${ending}`;
       this.emitFile({ type: 'asset', fileName: `threads/${file}`, source: readFileSync(`${liveThreads}/${file}`) });
@@ -26,7 +28,7 @@ const threads: Plugin = {
 
 export default defineConfig({
   plugins: [threads],
-  define: { builtInAlgorithms: JSON.stringify(algorithms) },
+  define: { builtInAlgorithms: JSON.stringify(algorithms), builtWithThreads: JSON.stringify(liveThreads !== 'none') },
   base: './',
   root: here('.'),
   publicDir: here('public'),

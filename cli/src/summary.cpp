@@ -77,6 +77,8 @@ std::string paths_text(const measure::Run& run) {
 std::string deaths_text(const measure::Run& run) {
   std::string text = format("%u of %s died, the last at %.1f s; ", run.deaths, plural(run.robots, "robot").c_str(),
                             run.last_death_s);
+  if (run.held_again_s >= 0.0)
+    text += format("%s lost a worker, held again after %.1f s (median); ", plural(run.lost_holders, "target").c_str(), run.held_again_s);
   if (run.recovered) return text + format("whole again %.1f s later", run.recovery_time_s);
   const double watched_s = std::min(run.time_s - run.last_death_s, measure::recovery_limit_s);
   text += format("not whole again in the %.1f s after it", watched_s);

@@ -20,6 +20,7 @@
 #include "banyan/measure/relays.hpp"
 #include "banyan/measure/silence.hpp"
 #include "banyan/measure/steiner.hpp"
+#include "banyan/measure/takeovers.hpp"
 #include "banyan/world/tree_parts.hpp"
 
 namespace banyan::measure {
@@ -208,6 +209,7 @@ struct Observer::Impl {
   std::uint64_t start_ticks = 0, select_ticks = 0;
   std::uint64_t two_roots_streak = 0, longest_two_roots = 0;
   std::vector<double> nearest_worker;          // by target: squared distance
+  std::vector<RobotId> holders;                // by target: that worker if it holds the target
   std::vector<world::Vec2> first_targets;      // those the bounds are about
   std::vector<world::Vec2> first_others;       // where robots start that are not sent to a target
   double speed_m_s;
@@ -215,6 +217,7 @@ struct Observer::Impl {
   Effort effort;
   Lasting lasting;
   Recovery recovery;
+  Takeovers takeovers;
   Silence silence;
   Redundancy redundancy;
   bool pending_kills;
@@ -304,6 +307,7 @@ Observer::Impl::Impl(const world::World& world)
       effort(world),
       lasting(world),
       recovery(world.scenario().tick_s, stop_when_complete ? settle_s : 0.0),
+      takeovers(world.scenario().tick_s),
       silence(liveness_period_s(world), world.scenario().tick_s),
       redundancy(world),
       pending_kills(world.pending_kills()) {
@@ -408,14 +412,19 @@ void Observer::Impl::judge_links(const world::World& world, bool sample, bool ex
 void Observer::Impl::measure_targets(const world::World& world) {
   const auto targets = world.targets();
   nearest_worker.assign(targets.size(), std::numeric_limits<double>::infinity());
+  holders.assign(targets.size(), nobody);
   const auto alive = world.alive();
   const auto reports = world.reports();
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const Report& m = reports[i];
     if (m.role != Role::worker || alive[i] == 0) continue;
-    for (std::size_t t = 0; t < targets.size(); ++t)
-      if (m.serves == targets[t].worker)
-        nearest_worker[t] = std::min(nearest_worker[t], squared_norm(world.positions()[i] - targets[t].position));
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      if (m.serves != targets[t].worker) continue;
+      const double away = squared_norm(world.positions()[i] - targets[t].position);
+      if (away >= nearest_worker[t]) continue;
+      nearest_worker[t] = away;
+      if (std::sqrt(away) <= tolerance_m) holders[t] = static_cast<RobotId>(i);
+    }
   }
   tick.worst_target_distance_m = 0.0;
   tick.targets_reached = tick.active_targets = 0;
@@ -482,6 +491,7 @@ void Observer::Impl::add_up() {
 
 void Observer::Impl::watch_recovery(const world::World& world) {
   recovery.observe(world.deaths(), tick.components == 1 && tick.roots == 1 && tick.all_held());
+  takeovers.observe(holders, world.targets(), world.alive());
   pending_kills = world.pending_kills();
   run.deaths = static_cast<std::uint32_t>(world.deaths());
   run.survivors = tick.alive;
@@ -633,6 +643,8 @@ Run Observer::result(const world::World& world) const {
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
   run.deployment_ratio = static_cast<double>(impl_->most_deploying) / static_cast<double>(run.robots_bound);
   run.oracle_ratio = static_cast<double>(run.committed) / static_cast<double>(run.oracle_robots);
+  run.lost_holders = impl_->takeovers.lost();
+  run.held_again_s = impl_->takeovers.median_s();
   impl_->sum_up_redundancy(world, run);
   impl_->sum_up_targets(world, run);
   run.network_length_m = network_length_m(world);

@@ -34,7 +34,7 @@ std::string hexadecimal(std::uint64_t value) {
 // 4: messages, decisions, driven_m.
 // 5: link_redundancy and what was achieved of it; batteries.
 // 6: the targets that are held, and that the oracle can hold.
-constexpr int format_version = 7;
+constexpr int format_version = 8;
 
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
@@ -188,6 +188,9 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) -> Cell { return r.run.recovered; }},
     {"recovery_time_s", "from the last death until then; empty if not recovered", 4,
      [](const Row& r) { return if_known(r.run.recovery_time_s); }},
+    {"lost_holders", "workers that died at their targets", 0, [](const Row& r) { return natural(r.run.lost_holders); }, 8},
+    {"held_again_s", "from then until such a target was held again, median; empty if none was lost or half never were", 4,
+     [](const Row& r) { return if_known(r.run.held_again_s); }, 8},
     {"survivors_suffice", "as many as the bound for the targets active at the end", 0,
      [](const Row& r) -> Cell { return r.run.survivors_suffice; }},
     {"hash", "state hash of the world at the end, hexadecimal", 0,

@@ -147,12 +147,15 @@ void command(ConvoyRobot& robot) noexcept {
 
 // ---- The root: too few robots (rule 15) ----
 
-// Of the targets not yet reached, the one without which the shortest tree takes fewest robots.
+// Of the targets not yet reached, the one without which the shortest tree takes fewest robots; while one is tried again,
+// only that one: no other is lost for it.
 RobotId least_worth(ConvoyRobot& robot) noexcept {
   RobotId worst = nobody;
   int fewest = INT16_MAX;
-  for (Task& task : tasks(robot.self)) {
-    if (task.holder == nobody || task.reached || task.unlocated) continue;
+  const auto all = tasks(robot.self);
+  const bool tries = banyan::any_of(all, is_tried_again);
+  for (Task& task : all) {
+    if (task.holder == nobody || task.reached || task.unlocated || (tries && !is_tried_again(task))) continue;
     const RobotId holder = std::exchange(task.holder, nobody);
     const int robots = best_tree(robot).robots;
     task.holder = holder;
@@ -187,10 +190,42 @@ void shed(ConvoyRobot& robot) noexcept {
   }
   robot.add_elapsed(self.short_ticks);
   constexpr float sooner = 0.45F;  // once it is known that robots are too few
-  const bool known = banyan::any_of(all, [](const Task& t) { return t.holder == nobody; });
+  const bool known = banyan::any_of(all, [](const Task& t) { return t.holder == nobody || t.times_put_off > 0; });
   if (self.short_ticks <= robot.params.ticks((known ? sooner : 1.0F) * robot.params.shed_after_s) || !is_short) return;
   self.shed = least_worth(robot);
   self.short_ticks = 0;
+}
+
+// The fewest robots that it takes beside what stands: along a straight line from the nearest way to a target that is
+// held. If none is, all come along.
+int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
+  float gap_m = far_m;
+  for (const Task& other : tasks(robot.self))
+    if (other.holder != nobody) gap_m = std::min(gap_m, norm(nearest_on_segment(other.target - task.target, -task.target)));
+  return gap_m < far_m ? static_cast<int>((gap_m - robot.params.arrival_distance_m) / robot.params.ideal_distance_m) + 1 : 1;
+}
+
+// Once all others are held and spares may suffice, a target that was put off is tried again: soon if there are more
+// spares than ever before, else after a pause that doubles with each time. If nobody sets out for it, it is put off again.
+void retry(ConvoyRobot& robot) noexcept {
+  constexpr float first_pause_s = 30.0F;
+  constexpr float settled_s = 5.0F;
+  constexpr float unclaimed_s = 60.0F;
+  ConvoyState& self = robot.self;
+  const int spares = self.root_size - self.subtree;
+  const bool none_held = !banyan::any_of(tasks(self), [](const Task& t) { return t.holder != nobody; });
+  const bool settled = self.phase == Phase::grow_tree && !self.forgets && (none_held || self.settled_ticks > robot.params.ticks(settled_s));
+  Task* next = nullptr;
+  int fewest = spares + 1;
+  for (Task& task : tasks(self)) {
+    if ((is_tried_again(task) || task.serves == self.shed) && task.holder != nobody && task.age_ticks > robot.params.ticks(unclaimed_s)) return put_off(robot, task);
+    const int pause_ticks = robot.params.ticks(first_pause_s) << (spares > self.tried_with ? 1 : int{task.times_put_off});
+    if (!settled || !is_put_off(task) || task.unlocated || task.age_ticks <= pause_ticks) continue;
+    if (const int robots = least_robots(robot, task); robots < fewest) next = &task, fewest = robots;
+  }
+  if (next == nullptr) return;
+  try_again(robot, *next);
+  self.tried_with = static_cast<std::uint16_t>(std::max<int>(self.tried_with, spares));
 }
 
 // ---- Every robot ----
@@ -249,6 +284,7 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
     self.above = nobody;
     command(robot);
     shed(robot);
+    retry(robot);
   } else {
     hear_parent(robot);
   }
@@ -256,9 +292,10 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
   if (self.forgets) withdraw(self);
   bool planned = false;
   for (int k = 0; k < self.task_count; ++k) {
-    const Task& task = self.tasks[k];
+    Task& task = self.tasks[k];
+    if (is_put_off(task)) self.hosts[k] = nobody;  // whoever takes it when it is tried again has heard of this before
     if (self.hosts[k] != task.serves) planned = planned || self.hosts[k] != nobody;
-    else if (self.is_worker && self.serves == task.serves) yield_task(robot, nobody);
+    else if (self.is_worker && self.serves == task.serves) resign(robot), put_off(robot, task);
   }
   robot.add_elapsed(self.plan_ticks);
   if (!planned) self.plan_ticks = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
@@ -131,7 +132,7 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
     if (k >= 0) return take_parent(robot, k);
     if (is_leaving(robot) || robot.power->power.said.relieves != nobody) return;  // no robot is saved meanwhile
   }
-  if (step_before_parent(robot)) return;
+  if (step_before_parent(robot) || leave_junction(robot)) return;
   if (is_left_waiting(robot)) take_inner(robot);
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);

@@ -9,6 +9,7 @@
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/tree/motion.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
+#include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/convoy/plan.hpp"
 #include "banyan/controller/convoy/shortcut.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
@@ -27,6 +28,8 @@ constexpr float called_follow_tree = 0.75F;
 constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
+constexpr float up_start_m = 0.05F;  // beside a junction that is handed on
+constexpr float up_width_m = 0.20F;
 
 constexpr float tows_sooner = 4.0F;  // times the spread of ranges
 constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
@@ -49,6 +52,13 @@ Vec2 pull_of(const ConvoyRobot& robot, int k) noexcept {
   return from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, robot.table().position(k));
 }
 
+// The chain below me has slack, and I am a junction of a large swarm: my parent is near, or has come up to me.
+bool has_slack_below(const ConvoyRobot& robot) noexcept {
+  constexpr float near_parent = 0.5F;  // of C
+  const float near_m = near_parent * robot.params.communication_range_m;
+  return is_in_large_swarm(robot) && robot.parent >= 0 && robot.table().range(robot.parent) < near_m;
+}
+
 // Children that still have to go on tow me, in proportion to how far the edge is stretched. The root and
 // junctions stay with the spares as long as they can: there their edges grow and are split.
 Vec2 tow(const ConvoyRobot& robot) noexcept {
@@ -60,10 +70,12 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
     const TreeStanding& m = table.message(k);
     return m.role != Role::spare && m.want_cm > least_cm && up_of(m) == robot.self.id;
   };
-  const auto count = std::count_if(robot.children.begin(), robot.children.end(), tows) +
-                     std::count_if(robot.old_children.begin(), robot.old_children.end(), tows);
+  int count = 0;
+  for (const IndexList* below : {&robot.children, &robot.old_children})
+    for (const int k : *below) count += tows(k) ? 1 : 0;
   // Noise makes the guard hold a child back now and then: its parent comes along sooner.
-  const float start_m = (robot.is_root() || count > 1 ? p.safe_range_m : p.pull_start_m) - tows_sooner * table.spread_m();
+  const bool stays = robot.is_root() || (count > 1 && !has_slack_below(robot));
+  const float start_m = (stays ? p.safe_range_m : p.pull_start_m) - tows_sooner * table.spread_m();
   Vec2 u;
   const auto add = [&](int k) {
     if (!tows(k)) return;
@@ -72,12 +84,17 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
       u += pull_of(robot, k);
       return;
     }
+    if (count == 1 && is_in_large_swarm(robot) && is_held_by_branches(robot, k)) {
+      const Vec2 way = place_beside(robot, k);
+      u += unit(way) * std::max(ramp(norm(way), up_start_m, up_width_m), ramp(table.range(k), start_m, p.pull_width_m));
+      return;
+    }
     // A child at a corner needs its parent there before it can go round.
     const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width_m);
     u += unit(table.position(k)) * weight;
   };
-  for (const int k : robot.children) add(k);
-  for (const int k : robot.old_children) add(k);
+  for (const IndexList* below : {&robot.children, &robot.old_children})
+    for (const int k : *below) add(k);
   return u;
 }
 
@@ -100,10 +117,18 @@ Vec2 tension(const ConvoyRobot& robot) noexcept {
   return u * p.tension_gain;
 }
 
+// In a large swarm: I am on my way past child k or up to it, and my other edges are not to hold me back.
+bool goes_to_child(const ConvoyRobot& robot) noexcept {
+  constexpr float on_the_way_m = 1.0F;
+  return is_in_large_swarm(robot) && robot.self.want_m > on_the_way_m && banyan::any_of(robot.children, [&](int k) {
+    return robot.table().message(k).role != Role::spare && (tows_past(robot, k) || is_held_by_branches(robot, k));
+  });
+}
+
 // While spares are short, long edges take slack from short ones.
 Vec2 shared_slack(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
-  if (!is_short_of_robots(robot)) return {};
+  if (!is_short_of_robots(robot) || goes_to_child(robot)) return {};
   const float start_m = p.pull_start_m;
   Vec2 u;
   for_each_edge(robot, [&](int k) {

@@ -46,6 +46,7 @@ void raise_doubt(const HealingRobot& robot, Task& task) noexcept {
 }  // namespace
 
 void begin_doubt(const HealingRobot& robot, Task& task) noexcept {
+  if (task.holder == nobody && task.times_put_off < most_put_off) ++task.times_put_off;
   task.silent = true;
   task.age_ticks = static_cast<std::uint16_t>(robot.liveness_ticks());
 }

@@ -198,9 +198,7 @@ void mind_own(HealingRobot& robot) noexcept {
   const RobotId own = self.is_worker ? self.serves : nobody;
   for (Task& task : std::span(self.tasks).first(self.task_count)) {
     if (task.holder != me || task.serves == own || task.gave_up) continue;
-    task.holder = nobody;
-    task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
-    task.urgent_ticks = pass_on_ticks;
+    announce(task, nobody);
   }
   if (!self.is_worker) {  // I may still be told where the target is that I was sent to
     if (Task* task = self.target_known ? find_task(self, me) : nullptr; task != nullptr) set_place(*task, self.target);
@@ -220,8 +218,7 @@ void take_over(HealingRobot& robot, Task& task) noexcept {
   self.role = Role::worker;
   self.request = self.inserted_child = nobody;
   self.spare_state = SpareState::wait;
-  task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
-  task.urgent_ticks = pass_on_ticks;
+  announce(task, self.id);
   self.progress = {};
   serve(self, task, is_there(robot, task));
   ++self.tally.replacements;
@@ -276,10 +273,26 @@ void resign(HealingRobot& robot) noexcept {
 void yield_task(HealingRobot& robot, RobotId heir) noexcept {
   Task* task = find_task(robot.self, robot.self.serves);
   resign(robot);
-  if (task == nullptr) return;
-  task->holder = heir;
-  task->beat = static_cast<std::uint16_t>(task->beat + takeover_beats);
-  task->urgent_ticks = pass_on_ticks;
+  if (task != nullptr) announce(*task, heir);
+}
+
+void announce(Task& task, RobotId holder) noexcept {
+  task.holder = holder;
+  task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
+  task.urgent_ticks = pass_on_ticks;
+}
+
+void put_off(const HealingRobot& robot, Task& task) noexcept {
+  announce(task, nobody);
+  begin_doubt(robot, task);
+}
+
+// I stand for the dead worker, and do not go myself.
+void try_again(const HealingRobot& robot, Task& task) noexcept {
+  announce(task, robot.self.id);
+  task.gave_up = true;
+  task.silent = task.reached = false;
+  task.age_ticks = 0;
 }
 
 void inherit_task(HealingRobot& robot, RobotId serves) noexcept {

@@ -33,8 +33,14 @@ void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
     self.serves = self.id;
   }
   self.was_sent = orders.sent;
-  for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up})  // no longer given up in vain
-    if (Task* task = ended == nobody ? nullptr : find_task(self, ended); task != nullptr) task->gave_up = false;
+  for (const RobotId ended : {called_back ? self.id : nobody, orders.given_up}) {  // no longer given up in vain
+    Task* task = ended == nobody ? nullptr : find_task(self, ended);
+    if (task == nullptr) continue;
+    task->gave_up = false;
+    if (task->times_put_off == 0) continue;
+    announce(*task, nobody);  // not to be tried again
+    task->silent = false;
+  }
   if (!orders.sent) self.target_known = false;
   if (orders.target) {
     const float off_m = self.target_known ? distance(*orders.target, self.target) : 0.0F;

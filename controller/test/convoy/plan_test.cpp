@@ -241,8 +241,111 @@ TEST(Shed, TheWorkerThatHearsOfItIsNoWorkerAnyMoreAndNobodyFollows) {
   auto again = bench.tick();
   take_part_in_plan(again);
   EXPECT_FALSE(bench.state.is_worker);
-  EXPECT_EQ(bench.state.tasks[1].holder, nobody);
+  EXPECT_TRUE(is_put_off(bench.state.tasks[1]));
+  bench.state.parent = nobody;  // a spare hears no more of it
+  auto later = bench.tick();
+  take_part_in_plan(later);
+  EXPECT_EQ(bench.state.hosts[1], nobody) << "it may be the one that tries it again";
+  EXPECT_EQ(bench.state.tasks[1].times_put_off, 1);
   EXPECT_EQ(bench.state.lead_to, nobody);
+}
+
+// Three targets are held with 12 robots; a fourth, which takes seven more, has been put off.
+ConvoyBench with_one_put_off(int spares) {
+  ConvoyBench bench = commander({{2, 0}, {3, 0}, {6, 0}, {-12, 0}}, 12);
+  for (Task& task : bench.state.tasks) task.reached = true;
+  Task& task = bench.state.tasks[3];
+  task.holder = nobody;
+  task.reached = false;
+  task.silent = true;
+  task.times_put_off = 1;
+  task.age_ticks = 10000;
+  bench.state.root_size = static_cast<std::uint16_t>(12 + spares);
+  bench.say(5).subtree_workers = 3;
+  return bench;
+}
+bool tries(const ConvoyBench& bench) { return bench.state.tasks[3].holder == bench.state.id; }
+
+TEST(Retry, ATargetIsTriedAgainOnceSparesSuffice) {
+  ConvoyBench few = with_one_put_off(6);
+  run(few, 200);
+  EXPECT_FALSE(tries(few));
+  ConvoyBench enough = with_one_put_off(7);
+  run(enough, 50);
+  EXPECT_FALSE(tries(enough)) << "the others have been held for less than five seconds";
+  run(enough, 50);
+  EXPECT_TRUE(tries(enough));
+  EXPECT_TRUE(is_tried_again(enough.state.tasks[3]));
+  EXPECT_TRUE(enough.state.tasks[3].gave_up) << "the root does not go itself";
+}
+
+TEST(Retry, ATargetThatHasEndedIsNot) {
+  ConvoyBench bench = with_one_put_off(20);
+  bench.state.tasks[3].silent = false;
+  run(bench, 200);
+  EXPECT_FALSE(tries(bench));
+}
+
+TEST(Retry, NotBeforeTheOthersAreHeld) {
+  ConvoyBench bench = with_one_put_off(20);
+  bench.say(5).want_cm = 100;
+  run(bench, 200);
+  EXPECT_FALSE(tries(bench));
+}
+
+TEST(Retry, AtOnceIfNoOtherIsHeld) {
+  ConvoyBench bench = with_one_put_off(20);
+  for (int k = 0; k < 3; ++k) bench.state.tasks[static_cast<std::size_t>(k)].holder = nobody;
+  bench.say(5).subtree_workers = 0;
+  run(bench, 2);
+  EXPECT_TRUE(tries(bench)) << "nobody else is to be waited for";
+}
+
+TEST(Retry, ThePauseDoublesUnlessThereAreMoreSparesThanEver) {
+  for (const int tried_with : {8, 7}) {
+    ConvoyBench bench = with_one_put_off(8);
+    bench.state.tried_with = static_cast<std::uint16_t>(tried_with);
+    bench.state.tasks[3].times_put_off = 3;
+    bench.state.tasks[3].age_ticks = static_cast<std::uint16_t>(bench.params.ticks(239.0F));
+    run(bench, 200);
+    EXPECT_EQ(tries(bench), tried_with == 7) << tried_with;
+    if (!tries(bench)) {
+      bench.state.tasks[3].age_ticks = static_cast<std::uint16_t>(bench.params.ticks(241.0F));
+      run(bench, 1);
+    }
+    EXPECT_TRUE(tries(bench));
+    EXPECT_EQ(bench.state.tried_with, 8);
+  }
+}
+
+TEST(Retry, ItIsPutOffAgainIfNobodySetsOut) {
+  ConvoyBench bench = with_one_put_off(7);
+  run(bench, 100);
+  ASSERT_TRUE(tries(bench));
+  bench.state.tasks[3].age_ticks = static_cast<std::uint16_t>(bench.params.ticks(61.0F));
+  run(bench, 1);
+  EXPECT_TRUE(is_put_off(bench.state.tasks[3]));
+  EXPECT_EQ(bench.state.tasks[3].times_put_off, 2);
+}
+
+TEST(Retry, NoOtherTargetIsGivenUpForIt) {
+  ConvoyBench bench = starving();  // the target that costs most is 103
+  bench.state.tasks[2].times_put_off = 1;
+  run(bench, bench.params.ticks(bench.params.shed_after_s));
+  EXPECT_TRUE(gives_up(bench, 2));
+  EXPECT_FALSE(gives_up(bench, 3));
+}
+
+TEST(Retry, HowOftenIsInTheHash) {
+  ConvoyBench bench = with_one_put_off(7);
+  ConvoyState often = bench.state;
+  ConvoyState richer = bench.state;
+  ++often.tasks[3].times_put_off;
+  ++richer.tried_with;
+  Digest now, then, other;
+  add_to(now, bench.state), add_to(then, often), add_to(other, richer);
+  EXPECT_NE(now.value(), then.value());
+  EXPECT_NE(now.value(), other.value());
 }
 
 TEST(Plan, TravelsDownTheTreeFromTheParentOnly) {

@@ -33,6 +33,29 @@ TEST(Takeover, ASpareTakesOverTheTargetOfAWorkerThatFellSilent) {
   EXPECT_GT(state.want_m, 1.5F);  // it knows where to go without being told from outside
 }
 
+TEST(Takeover, ATargetThatWasPutOffIsTakenOnceTheRootHasItTriedAgain) {
+  Watch watch;
+  watch.hear_root(2);
+  const Vec2 target{2.0F, 1.0F};
+  watch.tell_of_target(20, {1.0F, 0.0F}, target, 50, 10);
+  watch.hear_root(1);
+  auto& news = watch.bench.say(20);
+  news.task_holder = nobody;
+  news.task_silent = true;
+  news.task_beat = 70;
+  watch.hear_root(2 * takeover_ticks(watch.bench, norm(target)));
+  const auto& task = watch.bench.state.tasks[0];
+  EXPECT_TRUE(is_put_off(task));
+  EXPECT_EQ(task.times_put_off, 1) << "once, however often it is told";
+  EXPECT_FALSE(watch.bench.state.is_worker);
+  news.task_holder = root_id;
+  news.task_silent = false;
+  news.task_beat = 130;
+  watch.hear_root(2 * takeover_ticks(watch.bench, norm(target)));
+  EXPECT_TRUE(watch.bench.state.is_worker);
+  EXPECT_EQ(watch.bench.state.serves, 50);
+}
+
 // In a long line news of a far worker comes in bunches.
 TEST(Takeover, WhereNewsIsRareSilenceSaysLess) {
   constexpr int gap = 200;

@@ -68,6 +68,23 @@ TEST(Orders, ATargetThatIsGivenUpHasNoWorkerUntilSomebodyIsSentAgain) {
   EXPECT_EQ(serves(bench), 1);
 }
 
+TEST(Orders, ATargetThatEndsWhileItIsPutOffIsNotTriedAgain) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.send({3.0F, 4.0F});
+  bench.steps(3);
+  bench.state.is_worker = false;
+  bench.state.serves = nobody;
+  put_off(bench.tick(), bench.state.tasks[0]);
+  bench.steps(3);
+  ASSERT_TRUE(is_put_off(bench.state.tasks[0]));
+  const Serial before = bench.state.tasks[0].beat;
+  bench.call_back();
+  const auto m = bench.step().message;
+  EXPECT_EQ(m.task_holder, nobody);
+  EXPECT_FALSE(m.task_silent);
+  EXPECT_TRUE(is_newer(m.task_beat, before)) << "and everybody is told";
+}
+
 TEST(Orders, WhoIsSentElsewhereInTheSameTickGoesOnWithTheNewTarget) {
   ConvoyBench bench = grown<Convoy>();
   bench.send({3.0F, 4.0F});

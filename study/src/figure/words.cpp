@@ -58,6 +58,8 @@ constexpr std::pair<std::string_view, std::string_view> metric_words[] = {
     {"last_death_s", "last death (s)"},
     {"recovered", "recovered networks (share)"},
     {"recovery_time_s", "recovery time (s)"},
+    {"lost_holders", "workers that died at their targets"},
+    {"held_again_s", "target held again after (s, median)"},
     {"survivors_suffice", "enough survivors (share)"},
 };
 

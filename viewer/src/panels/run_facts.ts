@@ -39,7 +39,7 @@ const sections: [title: string, rows: Row[]][] = [
   ['Connection', [
     ['disconnected_time_ratio', 'time with a broken edge', '%'], ['disconnected_time_ratio_by_distance', 'by distance', '%'],
     ['disconnected_time_ratio_by_occlusion', 'by occlusion', '%'], ['split_ticks', 'ticks in several parts', ''],
-    ['recovery_time_s', 'whole again after the last death', 's'],
+    ['recovery_time_s', 'whole again after the last death', 's'], ['held_again_s', 'a dead worker\'s target held again (median)', 's'],
   ]],
   ['Work', [
     ['insertions', 'insertions', ''], ['handovers', 'hand-overs of the root', ''], ['repairs', 'repairs', ''],

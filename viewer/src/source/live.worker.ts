@@ -5,6 +5,8 @@ import type { LiveModule } from './live_module';
 import { Problem } from './problem';
 import type { Request } from './protocol';
 
+declare const builtWithThreads: boolean; // vite.config.ts
+
 let module: Promise<LiveModule> | null = null;
 
 async function load(): Promise<LiveModule> {
@@ -21,7 +23,7 @@ async function load(): Promise<LiveModule> {
 /** Where the page is served isolated, as `banyan view` does. It is no part of the bundle: its own workers load it by its
  *  address (vite.config.ts puts it there). Null: it is not to be had, and one thread does. */
 async function loadThreads(): Promise<LiveModule | null> {
-  if (!self.crossOriginIsolated) return null;
+  if (!builtWithThreads || !self.crossOriginIsolated) return null;
   try {
     const address = new URL('../threads/banyan_live_threads.mjs', self.location.href).href;
     const { default: create } = (await import(/* @vite-ignore */ address)) as typeof import('@live/banyan_live.mjs');

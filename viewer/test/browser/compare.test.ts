@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Runs side by side whatever they are: recordings beside live ones, other scenarios, many seeds at once; and the threads
 // that compute a large one.
+import { existsSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import type { Page } from 'playwright-core';
-import { banyan, scenario, served } from './harness';
+import { banyan, page, scenario, served } from './harness';
 import { playTo } from './live_run';
 import { expectEvent, factsShown, seekTo, settle } from './visitor';
 
@@ -130,7 +131,8 @@ describe('side by side', () => {
   });
 });
 
-describe('threads', () => {
+// `./check` builds the page without them, `./check --full` with them.
+describe.skipIf(!existsSync(`${page}/threads`))('threads', () => {
   it('compute a large run where the page is isolated, and come to the same state however many they are', async () => {
     const { tab, errors } = await visit();
     expect(await tab.evaluate(() => crossOriginIsolated)).toBe(true);

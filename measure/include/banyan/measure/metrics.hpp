@@ -115,6 +115,8 @@ struct Run {
   double last_death_s = -1.0;              // -1: none died
   bool recovered = false;                  // from the last death (recovery.hpp); false if none died
   double recovery_time_s = -1.0;           // from the last death; -1: not recovered
+  std::uint32_t lost_holders = 0;          // workers that died at their targets (takeovers.hpp)
+  double held_again_s = -1.0;              // from then until such a target was held again, median; -1: none, or most never were
   bool survivors_suffice = true;           // as many as the bound for the targets active at the end
   std::uint64_t hash = 0;                  // state hash of the world at the end
 };

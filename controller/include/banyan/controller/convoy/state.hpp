@@ -34,6 +34,7 @@ struct ConvoyMemory {
   std::uint16_t short_ticks = 0;         // spares have been missed for so long without progress:
   std::uint16_t short_want_cm = 0;       // the least distance that was left since
   std::uint8_t short_reached = 0;        // so many targets were reached
+  std::uint16_t tried_with = 0;          // the most spares with which a target was tried again
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 
   // A second path (redundancy/companions.hpp)
@@ -72,6 +73,7 @@ constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
   // Left out where they are not in use, so that hashes of runs without them are those of before.
   if (s.shed != nobody) visit(s.shed);
   if (s.short_ticks != 0) visit(s.short_ticks), visit(s.short_want_cm), visit(s.short_reached);
+  if (s.tried_with != 0) visit(s.tried_with);
   if (s.plan_targets != 0) {
     visit(s.plan_targets), visit(s.plan_levels), visit(s.plan_steps);
     for (int k = 0; k < s.task_count; ++k) visit(s.planned[static_cast<std::size_t>(k)]), visit(s.plan_level[static_cast<std::size_t>(k)]);

@@ -55,7 +55,7 @@ inline void set_place(Task& task, Vec2 target) noexcept {
 
 // A doubt is a question to all, for a minute: later no answer will come, and no spare was free to take over.
 inline constexpr int question_ticks = 600;
-[[nodiscard]] inline bool is_asked_about(const Task& task) noexcept { return task.silent && task.age_ticks <= question_ticks; }
+[[nodiscard]] inline bool is_asked_about(const Task& task) noexcept { return task.silent && task.holder != nobody && task.age_ticks <= question_ticks; }
 // Every robot has to pass it on soon: a question, or news that has priority.
 [[nodiscard]] inline bool is_urgent(const Task& task) noexcept { return is_asked_about(task) || task.urgent_ticks > 0; }
 
@@ -89,6 +89,15 @@ void resign(HealingRobot& robot) noexcept;
 
 // The holder of my target is robot `heir` from now on, and I am free.
 void yield_task(HealingRobot& robot, RobotId heir) noexcept;
+
+// All robots are to hear of another holder.
+void announce(Task& task, RobotId holder) noexcept;
+
+// Robots are too few for it: nobody serves it until the root has it tried again. Then it is as if its worker had died.
+void put_off(const HealingRobot& robot, Task& task) noexcept;
+void try_again(const HealingRobot& robot, Task& task) noexcept;
+[[nodiscard]] inline bool is_put_off(const Task& task) noexcept { return task.holder == nobody && task.silent; }
+[[nodiscard]] inline bool is_tried_again(const Task& task) noexcept { return task.holder != nobody && task.times_put_off > 0 && !task.reached; }
 // I serve that target from now on, as after its worker's death; it knows. Nothing if I do not know where it is.
 void inherit_task(HealingRobot& robot, RobotId serves) noexcept;
 

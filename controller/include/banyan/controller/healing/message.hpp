@@ -25,7 +25,7 @@ struct HealingNews {
   RobotId task_holder = nobody;       // gossip: the robot that serves it; nobody: it has been given up
   Serial task_beat = 0;               // gossip: the holder's count of ticks
   bool task_reached = false;          // gossip: its holder is there
-  bool task_silent = false;           // gossip: the robots that heard the holder last no longer hear it
+  bool task_silent = false;           // gossip: the robots that heard the holder last no longer hear it; without holder: put off
   bool task_below = false;            // the holder is below me in the tree, or I am the holder
   bool forgets = false;               // gossip: some robot has had no room for a target
   std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `told`
@@ -44,7 +44,7 @@ template <class Visitor, class M>
 constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
   visit.flag("root_told", "1: knows where the root is", m.root_told);
   visit.flag("task_reached", "1: the holder of `task` is at the target", m.task_reached);
-  visit.flag("task_silent", "1: the robots that heard the holder of `task` last no longer hear it", m.task_silent);
+  visit.flag("task_silent", "1: the robots that heard the holder of `task` last no longer hear it; without holder, it is put off", m.task_silent);
   visit.flag("task_below", "1: the holder of `task` is the sender, or below it in the tree", m.task_below);
   visit.flag("forgets", "1: some robot has had no room for a target", m.forgets);
   visit.number("root_size", "robots that this root counted last, 0: none yet", m.root_size);

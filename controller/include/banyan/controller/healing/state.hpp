@@ -21,13 +21,16 @@ struct Task {
   std::uint16_t age_ticks = 0;   // since it grew; in doubt: since I know that it is, and before
   Vec2 target;                   // m, own frame
   RobotId via = nobody;          // the child by which its holder is below me in the tree; nobody: it is not
-  bool silent : 1 = false;       // in doubt: the robots that heard the holder last no longer hear it
+  bool silent : 1 = false;       // in doubt: the robots that heard the holder last no longer hear it. Without holder: put
+                                 // off, since robots are too few, until the root has it tried again
   bool reached : 1 = false;      // the holder is there
   bool gave_up : 1 = false;      // I went there in vain (progress.cpp)
   bool unlocated : 1 = false;    // I do not know where it is, and only pass on question and answer
+  std::uint8_t times_put_off : 3 = 0;  // as far as I have heard, at most most_put_off
   std::uint8_t urgent_ticks = 0; // for how long all robots have to pass on the news of it
 };
 
+inline constexpr std::uint8_t most_put_off = 7;
 inline constexpr std::uint16_t first_gap = 200;  // sixteenths of ticks: taken for granted at first
 
 // The progress of a worker (progress.cpp).
@@ -91,6 +94,7 @@ constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
     auto& task = s.tasks[static_cast<std::size_t>(k)];
     visit(task.serves), visit(task.holder), visit(task.beat), visit(task.age_ticks), visit(task.target), visit(task.via), visit(bool{task.silent}), visit(bool{task.reached}), visit(bool{task.gave_up}), visit(task.urgent_ticks);
     if (task.unlocated) visit(bool{task.unlocated});
+    if (task.times_put_off != 0) visit(std::uint8_t{task.times_put_off});
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
   if (s.usual_silence != 0) visit(s.usual_silence);
