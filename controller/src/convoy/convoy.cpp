@@ -122,7 +122,7 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const float reach_m = p.ideal_distance_m - p.join_margin_m;
   const float clearance_m = p.clearance_m;
   if (is_leaving(robot, owner)) return may_relieve(*robot.power, owner, parent, [&](int k) { return sees_clearly(robot, k, tight * clearance_m); });
-  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m) return false;
+  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || (robot.has_bursts() && !robot.is_sure(parent))) return false;
   const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
   const float room_m = in_the_way ? tight * clearance_m : clearance_m;
   return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
@@ -287,6 +287,7 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   const bool retreats = is_retreating(robot, regroups);
   Vec2 u;
   if (!closes_gap(robot, u)) u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
+  if (awaits_the_unheard(robot)) u = {};
   Guard guard;
   guard_edges(robot, retreats, guard);
   guard_links(robot, retreats, guard);

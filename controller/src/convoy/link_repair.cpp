@@ -24,7 +24,7 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const TreeTable& table = robot.table();
   const TreeStanding& m = table.message(k);
   const float c = p.communication_range_m;
-  if (k == robot.parent || table.age(k) > 0 || robot.is_deaf(k) || table.range(k) > robot.parent_range_m()) return impossible;
+  if (k == robot.parent || table.age(k) > 0 || !robot.is_sure(k) || table.range(k) > robot.parent_range_m()) return impossible;
   const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == robot.self.epoch &&
                      m.tree_hops != unreachable && (robot.convoy_of(k).below == nobody || robot.table().age(robot.parent) > 1);
   if (!spare && !is_rooted(robot, k)) return impossible;

@@ -97,7 +97,7 @@ bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept {
 bool is_rooted(const ConvoyRobot& robot, int k) noexcept {
   const TreeTable& table = robot.table();
   const TreeStanding& m = table.message(k);
-  return table.age(k) <= 1 && !robot.is_deaf(k) && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
+  return table.age(k) <= 1 && robot.is_sure(k) && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
          m.depth != invalid_depth;
 }
 

@@ -38,11 +38,11 @@ int Neighbors::find(RobotId id) const noexcept {
   return rank < size_ && ids_[by_id_[rank]] == id ? by_id_[rank] : -1;
 }
 
-RobotId Neighbors::next_alive(RobotId id) const noexcept {
+RobotId Neighbors::next_heard(RobotId id, int ticks) const noexcept {
   int rank = rank_of(static_cast<RobotId>(id + 1), size_);
   for (int left = size_; left > 0; --left, ++rank) {
     if (rank >= size_) rank = 0;
-    if (const int k = by_id_[rank]; alive(k)) return ids_[k];
+    if (const int k = by_id_[rank]; ages_[k] <= ticks) return ids_[k];
   }
   return nobody;
 }
@@ -111,8 +111,8 @@ int Neighbors::evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noex
 }
 
 // Only silent neighbours are dead-reckoned: one heard just now has a fresh position.
-int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps) noexcept {
-  liveness_ticks_ = static_cast<std::int16_t>(liveness_ticks);
+int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps, int kept_ticks) noexcept {
+  liveness_ticks_ = static_cast<std::int16_t>(std::max(liveness_ticks, kept_ticks));
   for (int k = from, size = size_; k < size; ++k) {
     if (ages_[k] == 0) continue;
     if (ages_[k] == elapsed_ticks_) ++missed_;  // it was heard in the tick before

@@ -37,7 +37,7 @@ int best_hold(const HealingRobot& robot, int& wish) noexcept {
   float wish_cost = hold_cost;
   const auto consider = [&](int k) {
     const TreeStanding& m = table.message(k);
-    if (!robot.is_linked(k) || m.epoch != robot.self.epoch || is_untied(m)) return;
+    if (!(table.id(k) == robot.held ? robot.is_linked(k) : robot.is_sure(k)) || m.epoch != robot.self.epoch || is_untied(m)) return;
     const int hops = hops_to_tree(m);
     if (hop_cost * static_cast<float>(hops) >= hold_cost) return;  // nor is it a better wish
     const bool ahead = is_ahead(robot, k);

@@ -10,14 +10,21 @@
 namespace banyan {
 namespace {
 
-// No longer than that, less by how far neighbour k may be from where it was measured.
+// No longer than that, less by how far neighbour k may be from where it was measured. Where packets get lost many in a row
+// it may come back from there, and whoever does not hear it need not drive to it, only stay.
 void guard_link(const HealingRobot& robot, int k, float longest_m, Guard& guard) noexcept {
-  guard.add(robot.table().position(k), longest_m - robot.table().spread_m() - strayed_m(robot, k), robot.params.guard_rate_per_s);
+  const TreeTable& table = robot.table();
+  const float strayed = strayed_m(robot, k);
+  float limit_m = longest_m - table.spread_m() - strayed;
+  if (robot.has_bursts() && strayed > 0.0F)
+    limit_m = std::max(limit_m, std::min(table.range(k), longest_m) - table.spread_m());
+  guard.add(table.position(k), limit_m, robot.params.guard_rate_per_s);
 }
 
 }  // namespace
 
 void guard_edges(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept {
+  lets_go = lets_go && !robot.has_bursts();
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
     if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard_link(robot, k, robot.params.ideal_distance_m, guard);
@@ -25,13 +32,14 @@ void guard_edges(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
 }
 
 void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept {
+  lets_go = lets_go && !robot.has_bursts();
   const TreeTable& table = robot.table();
   const TreeParams& p = robot.params;
   const float longest_m = longest_link * p.communication_range_m;
   const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // below it full speed is allowed
   const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
   // In a grown tree only robots of its epoch wait for a hold: those of another are cut off, or of another fragment.
-  const bool waits_for_all = robot.self.phase < Phase::grow_tree;
+  const bool waits_for_all = robot.self.phase < Phase::grow_tree || robot.has_bursts();
   const auto holds_me = [&](int k) {
     if (!table.alive(k)) return !lets_go && is_tie(robot, k);
     const TreeStanding& m = table.message(k);

@@ -11,15 +11,24 @@ constexpr float fading = 0.99F;           // per tick: about the last hundred ti
 constexpr float prior_packets = 2.0F;     // counted as heard before the first one
 constexpr float silent_by_chance = 1e-5F;
 
-// A neighbour that was heard a tick ago, is in range and in the clear is silent. One such neighbour is looked at in a
-// step: where packets get lost, there will soon be another.
-bool is_missed(const HealingRobot& robot) noexcept {
+// So long a living neighbour may be silent by chance.
+int by_chance_ticks(const HealingRobot& robot) noexcept {
+  return std::max<int>(robot.params.ticks(robot.params.liveness_period_s), robot.self.loss_ticks);
+}
+
+bool is_in_reach(const HealingRobot& robot, int k) noexcept {
+  return robot.table().range(k) <= longest_link * robot.params.communication_range_m && is_in_the_clear(robot, k);
+}
+
+// A neighbour that was heard a tick ago, is in range and in the clear is silent; -1 if there is none. One such neighbour
+// is looked at in a step: where packets get lost, there will soon be another.
+int missed(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const float range_m = longest_link * robot.params.communication_range_m;
-  if (table.missed() == 0) return false;
+  if (table.missed() == 0) return -1;
   for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= range_m) return is_in_the_clear(robot, k);
-  return false;
+    if (table.age(k) == robot.elapsed_ticks && table.range(k) <= range_m) return is_in_the_clear(robot, k) ? k : -1;
+  return -1;
 }
 
 // Packets may be lost many in a row, or over some links more than over others. Then their share says little of how long
@@ -32,7 +41,7 @@ void note_silence(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (self.turn % memory_turns == 0) self.missed_in_the_clear = 0;
   if (self.usual_silence == 0) {
-    if (is_missed(robot) && ++self.missed_in_the_clear > deaths) self.usual_silence = first_silence_ticks;
+    if (missed(robot) >= 0 && ++self.missed_in_the_clear > deaths) self.usual_silence = first_silence_ticks;
     return;
   }
   const int ended_ticks = std::min(robot.table().returned() - robot.elapsed_ticks, longest_silence_ticks);
@@ -40,15 +49,47 @@ void note_silence(HealingRobot& robot) noexcept {
   else if (self.turn % fading_turns == 0) --self.usual_silence;
 }
 
+// A neighbour comes back after a silence that lost packets alone do not explain: they get lost many in a row. Every robot
+// watches one silent neighbour at a time, and passes on the longest such silence that it knows of.
+void note_burst(HealingRobot& robot) noexcept {
+  constexpr int beyond_chance = 2;  // times as long as a silence by chance
+  constexpr int fading_turns = 16;  // to be a tick shorter
+  HealingState& self = robot.self;
+  const TreeTable& table = robot.table();
+  if (robot.params.line_of_sight) return;  // an obstacle that no sensor reaches may have hidden it
+  for (const Heard& h : robot.heard)
+    if (h.message->new_root == nobody && h.message->centroid_x_cm > self.burst_ticks)
+      self.burst_ticks = static_cast<std::uint8_t>(std::min<int>(h.message->centroid_x_cm, longest_silence_ticks));
+  if (self.burst_ticks > 0 && self.turn % fading_turns == 0) --self.burst_ticks;
+  if (table.size() == neighbor_capacity) self.watched = nobody;  // it may only have had no room
+  if (self.watched != nobody) {
+    const int ticks = std::min(self.watched_ticks + robot.elapsed_ticks, longest_silence_ticks + 1);
+    self.watched_ticks = static_cast<std::uint8_t>(ticks);
+    const int k = table.find(self.watched);
+    const bool back = k >= 0 && table.age(k) == 0;
+    const int silent_ticks = ticks - robot.elapsed_ticks;
+    const int least_ticks = std::max<int>(self.burst_ticks, beyond_chance * by_chance_ticks(robot));
+    if (back && silent_ticks > least_ticks && is_in_reach(robot, k)) self.burst_ticks = static_cast<std::uint8_t>(silent_ticks);
+    if (back || self.watched_ticks > longest_silence_ticks) self.watched = nobody;
+  }
+  if (self.watched != nobody) return;
+  const int k = missed(robot);
+  if (k < 0) return;
+  self.watched = table.id(k);
+  self.watched_ticks = static_cast<std::uint8_t>(table.age(k));
+}
+
 }  // namespace
 
 // For so many ticks a silent neighbour may be there: twice what is usual, and longer while the first tree is built.
 void HealingRobot::take_patience() noexcept {
   constexpr int silences = 2;
-  loss_ticks = self.loss_ticks;
+  forget_ticks = by_chance_ticks(*this);
+  loss_ticks = std::max<int>(self.loss_ticks, silences * self.burst_ticks);
   if (self.usual_silence == 0) tie_ticks = 0;
   else if (self.phase < Phase::grow_tree) tie_ticks = longest_silence_ticks;
   else tie_ticks = std::max(liveness_ticks(), silences * self.usual_silence);
+  if (has_bursts()) tie_ticks = std::max(tie_ticks, loss_ticks);
 }
 
 // A robot heard a tick ago is still there, so that its silence now is a lost packet. One silent for
@@ -62,6 +103,7 @@ void estimate_loss(HealingRobot& robot) noexcept {
   self.loss_ticks = 0;
   for (float chance = 1.0F; loss > 0.0F && chance > silent_by_chance; chance *= loss) ++self.loss_ticks;
   note_silence(robot);
+  note_burst(robot);
   robot.take_patience();
 }
 

@@ -48,7 +48,7 @@ RobotId name_next(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   if (self.calls && self.turn % call_turns == 0) return self.id;
   if (table.size() == neighbor_capacity && self.turn % 2 == 0) return nobody;  // else whom it forgets is passed over
-  return self.named = table.next_alive(self.named);
+  return self.named = table.next_heard(self.named, robot.forget_ticks);
 }
 
 void find_gap(HealingRobot& robot) noexcept {

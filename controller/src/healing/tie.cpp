@@ -22,13 +22,14 @@ bool is_in_the_clear(const HealingRobot& robot, int k) noexcept {
 bool may_depend(const HealingRobot& robot, int k) noexcept {
   const TreeState& self = robot.self;
   const TreeStanding& m = robot.table().message(k);
-  if (m.parent == self.id || m.old_parent == self.id) return m.role != Role::spare;
+  if (m.parent == self.id || m.old_parent == self.id) return m.role != Role::spare || robot.has_bursts();
   if (is_untied(m) || hold_of(m) == self.id || robot.table().id(k) == robot.held) return true;
   return robot.held == nobody && self.parent == nobody && self.old_parent == nobody && !robot.is_root();
 }
 
 bool may_be_tied(const HealingRobot& robot, int k) noexcept {
-  return robot.tie_ticks > 0 && robot.table().age(k) <= longest_silence_ticks && may_depend(robot, k);
+  const int longest_ticks = std::max(longest_silence_ticks, robot.loss_ticks);
+  return robot.tie_ticks > 0 && robot.table().age(k) <= longest_ticks && may_depend(robot, k);
 }
 
 bool is_tie(const HealingRobot& robot, int k) noexcept {
@@ -38,9 +39,10 @@ bool is_tie(const HealingRobot& robot, int k) noexcept {
 float strayed_m(const HealingRobot& robot, int k) noexcept {
   constexpr int usual_ticks = 2;  // for so long a neighbour is silent now and then
   constexpr int at_most_ticks = 30;
-  if (robot.tie_ticks == 0 || robot.table().alive(k) || !is_in_the_clear(robot, k)) return 0.0F;
+  const int ticks = robot.table().age(k) - usual_ticks;
+  if (robot.tie_ticks == 0 || (robot.table().alive(k) && !robot.has_bursts()) || ticks <= 0 || !is_in_the_clear(robot, k)) return 0.0F;
   const TreeParams& p = robot.params;
-  return p.speed_gain_m_s * p.tick_s * static_cast<float>(std::min(robot.table().age(k) - usual_ticks, at_most_ticks));
+  return p.speed_gain_m_s * p.tick_s * static_cast<float>(robot.has_bursts() ? ticks : std::min(ticks, at_most_ticks));
 }
 
 }  // namespace banyan

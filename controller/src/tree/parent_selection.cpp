@@ -37,7 +37,7 @@ int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) 
 int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   const TreeState& self = robot.self;
   const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
-  if (k < 0 || !robot.is_linked(k)) return -1;
+  if (k < 0 || !robot.is_sure(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= longest_link * robot.params.communication_range_m;
   return near && may_relay(rule, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
@@ -49,7 +49,7 @@ int nearest_committed(const TreeRobot& robot, const ParentRule& rule) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (!robot.is_linked(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || !m.committed) continue;
+    if (!robot.is_sure(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || !m.committed) continue;
     if (m.label_cm == unknown_label || !is_ahead(robot, k) || table.range(k) > robot.parent_range_m()) continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
@@ -89,7 +89,7 @@ int way_to_tree(const TreeRobot& robot, const ParentRule& rule, float range_m) n
   const auto key = [&](int k) { return std::pair(table.message(k).tree_hops, table.range(k)); };
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (!robot.is_linked(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
+    if (!robot.is_sure(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || m.tree_hops == unreachable) continue;
     if (!is_ahead(robot, k) || m.old_parent == robot.self.id || table.range(k) > range_m) continue;
     if (best < 0 || key(k) < key(best)) best = k;
   }
@@ -190,7 +190,7 @@ bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept {
   // An edge that exists may be as long as the guard lets it grow.
   const float range_m =
       std::max(robot.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
-  return robot.is_linked(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch && m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
+  return robot.is_sure(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch && m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
 }
 
 bool is_ahead(const TreeRobot& robot, int k) noexcept {

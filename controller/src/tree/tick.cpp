@@ -75,7 +75,7 @@ void forget_silent(TreeRobot& robot, FunctionRef<bool(int)> is_tied, FunctionRef
   TreeTable& table = robot.self.neighbors;
   const auto keeps = [&](int k) { return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || is_tied(k); };
   const int liveness_ticks = robot.liveness_ticks();
-  for (int k = 0; (k = table.remove_next(k, robot.carry, liveness_ticks, keeps)) >= 0;) {
+  for (int k = 0; (k = table.remove_next(k, robot.carry, robot.forget_ticks, keeps, liveness_ticks)) >= 0;) {
     table.forget(k);
     close(k, table.size() + 1);
   }

@@ -70,7 +70,7 @@ RC_GTEST_PROP(TreeTable, ItsSetsAreThoseOfWhatNeighboursSaid, ()) {
       if (robot.is_deaf(k)) deaf.push_back(k);
     RC_ASSERT(visited(table.deaf) == deaf);
     const auto id = static_cast<RobotId>(below(8) == 0 ? int{nobody} : below(robots));
-    RC_ASSERT(table.next_alive(id) == next_alive(table, id));
+    RC_ASSERT(table.next_heard(id, robot.liveness_ticks()) == next_alive(table, id));
   }
 }
 

@@ -51,8 +51,9 @@ class Neighbors {
   // those that must not be lost stay (`must`: the sender; `ties(k)`: entry k), and of the others the nearest.
   int enter(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
   // From entry `from` on: removes the first that is older than `liveness_ticks`, unless `keeps(k)`: its silence
-  // matters; those behind it move up by one. Its index; -1 if there is none.
-  int remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps) noexcept;
+  // matters, and it counts as alive for `kept_ticks` if that is longer; those behind it move up by one. Its index; -1 if
+  // there is none.
+  int remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps, int kept_ticks = 0) noexcept;
 
   // About `entries` entries are needed soon.
   void prefetch(std::size_t entries) const noexcept;
@@ -60,8 +61,9 @@ class Neighbors {
   [[nodiscard]] int size() const noexcept { return size_; }
   // Index of `id` in [0, size), or -1. O(log size).
   [[nodiscard]] int find(RobotId id) const noexcept;
-  // Of those alive the smallest id above `id`, else the smallest: round and round. Nobody if none is alive.
-  [[nodiscard]] RobotId next_alive(RobotId id) const noexcept;
+  // Of those heard within the last `ticks` the smallest id above `id`, else the smallest: round and round. Nobody if
+  // there is none.
+  [[nodiscard]] RobotId next_heard(RobotId id, int ticks) const noexcept;
   [[nodiscard]] RobotId id(int k) const noexcept { return ids_[k]; }
   [[nodiscard]] Vec2 position(int k) const noexcept { return positions_[k]; }  // m, body frame
   // m; where ranges are noisy, one standard deviation more than the distance of position(k): it may be that far away.

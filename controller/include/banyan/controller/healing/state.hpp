@@ -53,6 +53,9 @@ struct HealingMemory {
   std::uint16_t loss_ticks = 0;          // what this loss requires in place of I; 0: I is long enough
   std::uint8_t missed_in_the_clear = 0;  // silences of neighbours in range that nobody hid; from time to time 0 again
   std::uint8_t usual_silence = 0;        // ticks: the longest that has ended lately; 0: the radio loses no packets
+  RobotId watched = nobody;              // a neighbour that fell silent in range and in the clear,
+  std::uint8_t watched_ticks = 0;        // and for how long it has been
+  std::uint8_t burst_ticks = 0;          // gossip: the longest silence of late, if lost packets alone do not explain it
   std::uint16_t root_size = 0;           // robots that this root counted last; 0: none yet
   std::uint16_t flood_counted = 0;       // the root, of its last START TREE: the most robots that the flood had found,
   std::uint16_t flood_ticks = 0;         // and when that was
@@ -96,6 +99,8 @@ constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
   if (s.usual_silence != 0) visit(s.usual_silence);
   if (s.missed_in_the_clear != 0) visit(s.missed_in_the_clear);
+  if (s.burst_ticks != 0) visit(s.burst_ticks);
+  if (s.watched != nobody) visit(s.watched), visit(s.watched_ticks);
   visit(s.named), visit(bool{s.calls});
   if (s.caller != nobody) visit(s.caller), visit(s.called_ticks);
   if (s.detour.last_side != 0) visit(s.detour.last_side), visit(s.detour.again);

@@ -75,7 +75,8 @@ struct TreeStanding : TreeTies {
 struct TreeNews {
   RootToken root;                     // gossip: the newest root token I know
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
-  std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`
+  std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`; with no offer, of a robot that
+                                      // heals, gossip: burst_ticks (healing/state.hpp)
   std::int16_t centroid_y_cm = 0;
 
   friend bool operator==(const TreeNews&, const TreeNews&) = default;

@@ -63,7 +63,7 @@ inline constexpr float longest_link = 0.95F;
 struct TreeRobot {
   TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Inputs<Heard>& inputs) noexcept
       : params(params_), reading(reading_), self(self_), heard(inputs.heard()), obstacles(inputs.senses().obstacles),
-        carry(inputs.senses().odometry), elapsed_ticks(inputs.elapsed_ticks()) {
+        carry(inputs.senses().odometry), elapsed_ticks(inputs.elapsed_ticks()), forget_ticks(params_.ticks(params_.liveness_period_s)) {
     self.tally.rejected += inputs.rejected();
   }
 
@@ -78,6 +78,7 @@ struct TreeRobot {
   Carry carry;                      // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
   int loss_ticks = 0;               // how long lost packets may silence a living neighbour; 0: unknown
+  int forget_ticks;                 // and one that matters to nobody: less where packets get lost many in a row
   bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
 
   // The index (tree_index.hpp)
@@ -99,7 +100,10 @@ struct TreeRobot {
   // I, and longer where packets are lost.
   [[nodiscard]] int liveness_ticks() const noexcept { return std::max(params.ticks(params.liveness_period_s), loss_ticks); }
   // How long a connector waits for a child; one that has just chosen it may not have been heard yet.
-  [[nodiscard]] int patience_ticks() const noexcept { return std::max(params.ticks(params.connector_patience_s), loss_ticks); }
+  // A silent one counts as alive for long where packets get lost many in a row.
+  [[nodiscard]] int patience_ticks() const noexcept {
+    return std::max(params.ticks(params.connector_patience_s), has_bursts() ? loss_ticks / 6 : loss_ticks);
+  }
   // The longest edge a robot may choose (protocol 2, row 4).
   [[nodiscard]] float parent_range_m() const noexcept {
     return reading.keeps_margin ? params.ideal_distance_m - params.parent_margin_m : params.communication_range_m;
@@ -123,6 +127,12 @@ struct TreeRobot {
   [[nodiscard]] bool is_deaf(int k) const noexcept { return table().deaf_ticks[static_cast<std::size_t>(k)] > deaf_after_ticks; }
   // We hear each other, as far as I know: only such a neighbour can be a parent or a hold.
   [[nodiscard]] bool is_linked(int k) const noexcept { return table().alive(k) && !is_deaf(k); }
+  // Packets get lost many in a row (healing/loss.cpp).
+  [[nodiscard]] bool has_bursts() const noexcept { return loss_ticks > forget_ticks; }
+  // And it has heard me of late: only such a neighbour is taken as parent or hold, since it is to stay near.
+  [[nodiscard]] bool is_sure(int k) const noexcept {
+    return has_bursts() ? table().age(k) <= forget_ticks && table().deaf_ticks[static_cast<std::size_t>(k)] == 0 : is_linked(k);
+  }
   [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && is_linked(parent); }
   [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && is_linked(old_parent); }
 };

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Where packets get lost many in a row: nobody moves out of what holds the network.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <random>
+
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/link_guard.hpp"
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+// One end of an edge: it wants to go somewhere at full speed, and goes where its guard lets it.
+struct End {
+  ConvoyBench bench;
+  Vec2 place;
+  Vec2 wish{};
+  bool hears = true;
+  int left = 0;  // ticks until that changes
+
+  End(RobotId id, Vec2 at) : bench(id), place(at) {
+    bench.state.epoch = 1;
+    bench.state.phase = Phase::grow_tree;
+    bench.state.root = {1, 9};
+    bench.state.role = Role::connector;
+  }
+  Vec2 step(const End& other) {
+    bench.state.burst_ticks = 100;
+    if (hears) bench.move(other.bench.state.id, other.place - place);
+    const auto said = bench.say(other.bench.state.id);
+    if (!hears) bench.silence(other.bench.state.id);
+    auto robot = bench.tick({moved.x, moved.y, 0.0F});
+    bench.put(other.bench.state.id, other.place - place) = said;
+    Guard guard;
+    guard_edges(robot, true, guard);
+    return moved = allowed(wish, guard, robot.params) * robot.params.tick_s;
+  }
+  Vec2 moved{};
+};
+
+// A parent and its child hear each other now and then, each for itself, and both want to go anywhere.
+RC_GTEST_PROP(Bursts, TwoEndsOfAnEdgeStayInRangeWhateverTheyHear, ()) {
+  std::minstd_rand random(*rc::gen::inRange(1U, 1000000U));
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const float start_m = 0.01F * static_cast<float>(*rc::gen::inRange(20, 189));
+  End parent(1, {}), child(2, {start_m, 0.0F});
+  parent.bench.put_child(2, child.place, Role::connector);
+  child.bench.put_connector(1, -child.place, 100, 1);
+  child.bench.state.parent = 1;
+  for (int tick = 0; tick < 300; ++tick) {
+    for (End* end : {&parent, &child}) {
+      if (end->left-- == 0) {
+        end->hears = !end->hears || tick == 0;
+        end->left = end->hears ? below(30) : below(190);
+      }
+      if (below(10) == 0) end->wish = unit(Vec2{static_cast<float>(below(201) - 100), static_cast<float>(below(200)) - 99.5F});
+    }
+    const Vec2 of_parent = parent.step(child);
+    const Vec2 of_child = child.step(parent);
+    parent.place += of_parent;
+    child.place += of_child;
+    RC_ASSERT(distance(parent.place, child.place) < parent.bench.params.communication_range_m);
+  }
+}
+
+// The burst that a robot notes when a neighbour comes back after so many ticks.
+int noted_after(int ticks, Vec2 at, bool line_of_sight) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.params.line_of_sight = line_of_sight;
+  bench.put(20, at);
+  bench.steps(5);
+  const auto said = bench.say(20);
+  bench.silence(20);
+  bench.steps(ticks);
+  bench.put(20, at) = said;
+  bench.step();
+  return bench.state.burst_ticks;
+}
+
+TEST(Bursts, ASilenceBeyondWhatChanceExplainsIsOne) {
+  EXPECT_EQ(noted_after(8, {1.0F, 0.0F}, false), 0) << "less than 2 I";
+  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, false), 30, 2);
+  EXPECT_EQ(noted_after(30, {1.95F, 0.0F}, false), 0) << "it may have been out of range";
+  EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true), 0) << "something may have hidden it";
+  EXPECT_EQ(noted_after(120, {1.0F, 0.0F}, false), 0) << "too long ago to be watched";
+}
+
+// However many packets get lost: silences by chance are none.
+TEST(Bursts, LostPacketsAloneMakeNone) {
+  std::minstd_rand random(1);
+  for (const unsigned lost_percent : {15U, 30U, 60U, 90U}) {
+    ConvoyBench bench = grown<Convoy>();
+    bench.params.line_of_sight = false;
+    for (int tick = 0; tick < 3000; ++tick) {
+      for (RobotId id = 20; id < 26; ++id) {
+        bench.silence(id);
+        if (random() % 100 >= lost_percent) bench.put(id, {0.05F * static_cast<float>(id), 0.5F});
+      }
+      bench.step();
+      ASSERT_EQ(bench.state.burst_ticks, 0) << lost_percent << " % lost, tick " << tick;
+    }
+  }
+}
+
+TEST(Bursts, ThatAreKnownMakePatientAndArePassedOn) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.params.line_of_sight = false;
+  bench.put_child(20, {1.0F, 0.0F}, Role::connector);
+  bench.put_connector(21, {0.0F, 1.0F}, 100, 1).centroid_x_cm = 40;
+  bench.state.role = Role::connector;
+  bench.state.parent = 21;
+  bench.steps(3);
+  EXPECT_EQ(bench.step().message.centroid_x_cm, 40);
+  bench.silence(20);
+  bench.put_connector(22, {0.5F, 1.0F}, 100, 1);
+  bench.steps(3);
+  bench.silence(22);
+  bench.steps(60);
+  const auto robot = bench.tick();
+  EXPECT_EQ(robot.children.size, 1) << "it is still there";
+  EXPECT_EQ(robot.table().find(22), -1) << "who matters to nobody is forgotten after I";
+}
+
+// Who hears it need not be heard by it: for a new edge both have to know.
+TEST(Bursts, OnlyWhoHasHeardMeOfLateIsSure) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.params.line_of_sight = false;
+  bench.put(20, {1.0F, 0.0F});
+  bench.steps(3);
+  const auto sure = [&](int deaf_ticks, int burst_ticks) {
+    bench.state.burst_ticks = static_cast<std::uint8_t>(burst_ticks);
+    auto robot = bench.tick();
+    const int k = robot.table().find(20);
+    bench.state.neighbors.set_deaf(k, deaf_ticks);
+    return robot.is_sure(k);
+  };
+  EXPECT_TRUE(sure(0, 40));
+  EXPECT_FALSE(sure(1, 40));
+  EXPECT_TRUE(sure(1, 0)) << "without bursts once may be chance";
+}
+
+}  // namespace
+}  // namespace banyan
