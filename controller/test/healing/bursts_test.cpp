@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 #include "banyan/controller/healing/healing.hpp"
@@ -40,19 +42,24 @@ struct End {
   Vec2 moved{};
 };
 
-// A parent and its child hear each other now and then, each for itself, and both want to go anywhere.
-RC_GTEST_PROP(Bursts, TwoEndsOfAnEdgeStayInRangeWhateverTheyHear, ()) {
-  std::minstd_rand random(*rc::gen::inRange(1U, 1000000U));
-  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  const float start_m = 0.01F * static_cast<float>(*rc::gen::inRange(20, 189));
-  End parent(1, {}), child(2, {start_m, 0.0F});
-  parent.bench.put_child(2, child.place, Role::connector);
-  child.bench.put_connector(1, -child.place, 100, 1);
-  child.bench.state.parent = 1;
-  for (int tick = 0; tick < 300; ++tick) {
+constexpr float step_m = 0.02F;  // what a robot drives in two ticks: silences of two ticks count for nothing
+
+// A parent and its child, each of which hears the other now and then and wants to go anywhere.
+struct Pair {
+  End parent{1, {}}, child;
+  std::minstd_rand random;
+
+  Pair(float start_m, unsigned seed) : child(2, {start_m, 0.0F}), random(seed) {
+    parent.bench.put_child(2, child.place, Role::connector);
+    child.bench.put_connector(1, -child.place, 100, 1);
+    child.bench.state.parent = 1;
+  }
+  int below(int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); }
+  // Silences of up to 19 s.
+  void tick(int now) {
     for (End* end : {&parent, &child}) {
-      if (end->left-- == 0) {
-        end->hears = !end->hears || tick == 0;
+      if (end->left-- <= 0) {
+        end->hears = !end->hears || now == 0;
         end->left = end->hears ? below(30) : below(190);
       }
       if (below(10) == 0) end->wish = unit(Vec2{static_cast<float>(below(201) - 100), static_cast<float>(below(200)) - 99.5F});
@@ -61,7 +68,27 @@ RC_GTEST_PROP(Bursts, TwoEndsOfAnEdgeStayInRangeWhateverTheyHear, ()) {
     const Vec2 of_child = child.step(parent);
     parent.place += of_parent;
     child.place += of_child;
-    RC_ASSERT(distance(parent.place, child.place) < parent.bench.params.communication_range_m);
+  }
+};
+
+// While neither hears the other, both could go round the place where the other was, in opposite directions. What each can
+// see to is that it stays as near to that place as it was, or as an edge may be long.
+RC_GTEST_PROP(Bursts, WhoHearsNothingGoesNoFartherFromWhereItHeardTheOther, ()) {
+  Pair pair(0.01F * static_cast<float>(*rc::gen::inRange(20, 189)), *rc::gen::inRange(1U, 1000000U));
+  std::array<Vec2, 2> there{pair.child.place, pair.parent.place};
+  std::array<float, 2> longest_m{};
+  for (int now = 0; now < 300; ++now) {
+    const std::array<Vec2, 2> before{pair.child.place, pair.parent.place};
+    const std::array<const End*, 2> ends{&pair.parent, &pair.child};
+    pair.tick(now);
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (ends[e]->hears) {
+        there[e] = before[e];
+        longest_m[e] = std::max(distance(ends[e]->place, there[e]), ends[e]->bench.params.ideal_distance_m);
+      } else {
+        RC_ASSERT(distance(ends[e]->place, there[e]) <= longest_m[e] + step_m);
+      }
+    }
   }
 }
 
