@@ -60,6 +60,35 @@ bool hides_child(const PowerRobot& me, int leaver) noexcept {
   return heard < me.child_count(leaver);
 }
 
+// The robot that leaves beside which I am to stand: above it, or as the spare that its edge has let in; -1: none.
+int leaver_of(const PowerRobot& me) noexcept {
+  const HealingRobot& robot = me.robot;
+  int k = relieved(me);
+  if (k < 0 && robot.self.role == Role::spare && robot.self.spare_state == SpareState::extend_edge && robot.self.request != nobody)
+    k = robot.table().find(robot.self.request);
+  return k >= 0 && me.standing(k).leaving ? k : -1;
+}
+
+// A child that I do not hear is right behind the robot that leaves, seen from here. That is remembered for a while: if it
+// were behind it from wherever I go, every spot that I come near would seem a bad one, and I would go to and fro.
+void remember_unseen_child(PowerRobot& me) noexcept {
+  constexpr float remembered_s = 5.0F;
+  PowerState& power = me.power;
+  const int k = leaver_of(me);
+  if (k < 0 || !hides_child(me, k)) {
+    power.unseen = {};
+    power.unseen_ticks = 0;
+    return;
+  }
+  power.unseen = me.robot.carry.point(power.unseen);
+  if (power.unseen_ticks == 0 || power.unseen_ticks > me.robot.params.ticks(remembered_s)) {
+    const Vec2 at = me.robot.table().position(k);
+    power.unseen = at + unit(at) * me.robot.params.communication_range_m;
+    power.unseen_ticks = 0;
+  }
+  me.robot.add_elapsed(power.unseen_ticks);
+}
+
 // Whoever stands right above a robot that leaves, and has more charge, takes its place, however it came there: a spare
 // that joined for it, or the robot that happens to be there. Nothing has to be remembered over a reconstruction.
 void choose_relieved(PowerRobot& me) noexcept {
@@ -117,7 +146,7 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const Vec2 axis = parent >= 0 && distance(table.position(parent), at) > 0.0F ? unit(table.position(parent) - at) : Vec2{1.0F, 0.0F};
   const float range_m = me.robot.params.communication_range_m;
   const float apart_m = beside * range_m;
-  const bool hides = hides_child(me, leaver);
+  const bool hides = me.power.unseen_ticks > 0;
   constexpr float diagonal = 0.70710678F;
   constexpr float costs_crossing = 0.5F;
   constexpr float hidden_behind = 0.6F;  // of the distance to it: its body is so near to the line of sight
@@ -135,8 +164,7 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
       if (norm(nearest_on_segment(off, other)) < hidden_behind * apart_m) hidden_m += range_m;
     };
     if (parent >= 0) look_at(parent);
-    // A child that I do not hear is right behind it, seen from here.
-    if (hides && norm(nearest_on_segment(off, unit(at) * range_m)) < hidden_behind * apart_m) hidden_m += range_m;
+    if (hides && norm(nearest_on_segment(off, me.power.unseen - at)) < hidden_behind * apart_m) hidden_m += range_m;
     for (int k = 0; k < table.size(); ++k)  // its children, and those that have changed to me already
       if (k != leaver && !me.is_spare(k) && (table.message(k).parent == id || up_of(table.message(k)) == me.robot.self.id)) look_at(k);
     const float cost = farthest_m + hidden_m + 0.1F * norm(at + off);
@@ -149,6 +177,7 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
 
 void watch_relief(PowerRobot& me) noexcept {
   choose_relieved(me);
+  remember_unseen_child(me);
   settle_in(me);
   choose_heir(me);
 }
@@ -204,10 +233,8 @@ bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept {
     if (!robot.self.is_worker || robot.target == nullptr) return spot = {}, true;
     return spot = *robot.target - unit(table.position(robot.parent)) * apart_m, true;
   }
-  int k = relieved(me);
-  if (k < 0 && robot.self.role == Role::spare && robot.self.spare_state == SpareState::extend_edge && robot.self.request != nobody)
-    k = table.find(robot.self.request);
-  if (k < 0 || !me.standing(k).leaving) return false;
+  const int k = leaver_of(me);
+  if (k < 0) return false;
   const Task* task = find_task(robot.self, robot.self.healing_standings[static_cast<std::size_t>(k)].serves);
   const bool at_target = table.message(k).role == Role::worker && task != nullptr && !task->unlocated;
   spot = at_target && robot.self.role != Role::spare ? task->target - unit(table.position(k)) * apart_m : spot_beside(me, k);
