@@ -331,12 +331,29 @@ bool is_relay(const ConvoyRobot& robot, int k) noexcept {
   return prunes(robot.params) && m.role == Role::worker && m.want_cm == 0 && robot.self.want_m == 0.0F;
 }
 
+// A point beside the first robot of the tree that stands in the way of a spare to `goal`, on the side on which the way
+// passes it; else `goal`. Straight on, the spare would be pushed back, and lose sight of the robot that it is to relieve.
+static Vec2 past_bodies(const ConvoyRobot& robot, Vec2 goal) noexcept {
+  const TreeTable& table = robot.table();
+  const float room_m = 2.0F * robot.params.clearance_m;
+  int first = -1;
+  Vec2 side;
+  table.members.for_each([&](int k) {
+    const Vec2 at = table.position(k);
+    const Vec2 off = nearest_on_segment(-at, goal - at);
+    if (!table.alive(k) || norm(off) >= room_m || distance(at, goal) < room_m || (first >= 0 && table.range(k) >= table.range(first))) return;
+    first = k;
+    side = norm(off) > same_spot_m ? unit(off) : left_of(unit(goal));
+  });
+  return first < 0 ? goal : table.position(first) + side * (2.0F * room_m);
+}
+
 // Beside the robot that is relieved, or as it makes room; slower over the last decimetre.
 static bool relief_motion(const ConvoyRobot& robot, Vec2& u) noexcept {
   constexpr float last_bit_m = 0.1F;
   Vec2 spot;
   if (robot.power == nullptr || !find_relief_spot(*robot.power, spot)) return false;
-  u = clamped(spot / last_bit_m, 1.0F);
+  u = clamped((robot.self.role == Role::spare ? past_bodies(robot, spot) : spot) / last_bit_m, 1.0F);
   return true;
 }
 

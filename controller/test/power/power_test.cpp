@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "banyan/controller/convoy/convoy.hpp"
+#include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/power/power.hpp"
 #include "bench.hpp"
 
@@ -165,6 +166,44 @@ TEST_F(AboveALeaver, StandsThereOnceItHearsAllOfItsChildren) {
   bench.say(2).child_count = 1;
   relieved(0.9F);
   EXPECT_TRUE(power.said.in_place);
+}
+
+// Were the hidden child behind the leaver from wherever it goes, it would go to and fro between two spots.
+TEST_F(AboveALeaver, RemembersForAWhileWhereAHiddenChildWas) {
+  bench.say(2).child_count = 2;
+  relieved(0.9F);
+  EXPECT_NEAR(power.unseen.x, 2.2F, 1e-4F) << "right behind the leaver";
+  EXPECT_NEAR(power.unseen.y, 0.0F, 1e-4F);
+  bench.move(2, {0.0F, 0.2F});
+  for (int tick = 1; tick < 50; ++tick) relieved(0.9F);
+  EXPECT_NEAR(power.unseen.x, 2.2F, 1e-4F) << "where it was";
+  for (int tick = 0; tick < 3; ++tick) relieved(0.9F);
+  EXPECT_NEAR(power.unseen.y, 2.2F, 1e-4F) << "after 5 s behind it as seen from here";
+  bench.say(2).child_count = 1;
+  relieved(0.9F);
+  EXPECT_EQ(power.unseen_ticks, 0);
+}
+
+TEST(Power, ASpareGoesToTheLeaverPastARobotThatStandsInItsWay) {
+  const auto course = [](Vec2 parent) {
+    auto bench = grown<Convoy>();
+    bench.state.role = Role::spare;
+    bench.put(9, parent).role = Role::connector;
+    auto& leaver = bench.put(2, {1.8F, 0.0F});
+    leaver.role = Role::connector;
+    leaver.parent = 9;
+    auto robot = bench.tick();
+    bench.state.spare_state = SpareState::extend_edge;
+    bench.state.request = 2;
+    PowerState power;
+    power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = true;
+    PowerRobot me{robot, power, bench.params, no_children};
+    robot.power = &me;
+    return unit(waiting_motion(robot));
+  };
+  EXPECT_GT(course({0.9F, -1.0F}).x, 0.95F) << "nobody is in the way";
+  EXPECT_GT(course({0.9F, -0.02F}).y, 0.3F);
+  EXPECT_LT(course({0.9F, 0.02F}).y, -0.3F);
 }
 
 // A connector (id 1) below robot 9 and above robot 2, in a chain in which all have to leave. 9 - 1 - 2.
