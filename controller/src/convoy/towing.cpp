@@ -386,7 +386,11 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const float c = p.communication_range_m;
   const ConvoyState& self = robot.self;
-  if (Vec2 u; relief_motion(robot, u)) return past(robot, u, 2.0F * p.clearance_m);
+  if (Vec2 u; relief_motion(robot, u)) {
+    // Pushed back by two robots and the edge between them, it would wait there until the leaver has run down.
+    constexpr float hesitates_s = 8.0F;
+    return self.request_ticks > p.ticks(hesitates_s) ? u : past(robot, u, 2.0F * p.clearance_m);
+  }
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
@@ -410,7 +414,11 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const float reach_m = (led ? follow_spare : follow_tree) * c;
   // A spare under way along a chain may come nearer to lines of sight than one that waits.
   const float way_m = p.line_of_sight ? 2.0F * p.clearance_m : 0.0F;  // none where robots hide no edges
-  if (robot.power != nullptr && robot.power->power.travels) return past(robot, bypass(robot, robot.power->power.way), way_m);
+  if (robot.power != nullptr && robot.power->power.travels) {
+    // If it is there, and hears nobody nearer to the place, that robot hides them: it goes round it.
+    const Vec2 way = robot.power->power.way;
+    return past(robot, bypass(robot, norm(way) < p.avoidance_range_m ? left_of(unit(way)) : way), way_m);
+  }
   if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
   if (d > reach_m)
     return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
