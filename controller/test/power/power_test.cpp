@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -204,6 +205,49 @@ TEST(Power, ASpareGoesToTheLeaverPastARobotThatStandsInItsWay) {
   EXPECT_GT(course({0.9F, -1.0F}).x, 0.95F) << "nobody is in the way";
   EXPECT_GT(course({0.9F, -0.02F}).y, 0.3F);
   EXPECT_LT(course({0.9F, 0.02F}).y, -0.3F);
+}
+
+TEST(Power, ASpareThatIsKeptOffDrivesOnAfterAWhile) {
+  const auto course = [](float since_s) {
+    auto bench = grown<Convoy>();
+    bench.state.role = Role::spare;
+    // An edge between two robots lies across its way.
+    bench.put(9, {0.1F, 0.34F}).role = Role::connector;
+    auto& other = bench.put(8, {0.1F, -0.34F});
+    other.role = Role::connector;
+    other.parent = 9;
+    auto& leaver = bench.put(2, {1.8F, 0.0F});
+    leaver.role = Role::connector;
+    leaver.parent = 9;
+    auto robot = bench.tick();
+    bench.state.spare_state = SpareState::extend_edge;
+    bench.state.request = 2;
+    bench.state.request_ticks = static_cast<std::uint16_t>(since_s / bench.params.tick_s);
+    PowerState power;
+    power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = true;
+    PowerRobot me{robot, power, bench.params, no_children};
+    robot.power = &me;
+    return waiting_motion(robot);
+  };
+  EXPECT_GT(std::abs(course(1.0F).y), 0.5F) << "turned aside by the edge";
+  EXPECT_NEAR(course(9.0F).y, 0.0F, 0.1F);
+  EXPECT_GT(course(9.0F).x, 0.9F);
+}
+
+TEST(Power, ATravellerGoesRoundTheRobotThatHidesTheWay) {
+  auto bench = grown<Convoy>();
+  bench.state.role = Role::spare;
+  bench.put(9, {0.2F, 0.0F}).role = Role::connector;
+  auto robot = bench.tick();
+  PowerState power;
+  power.travels = true;
+  power.way = {0.2F, 0.0F};
+  PowerRobot me{robot, power, bench.params, no_children};
+  robot.power = &me;
+  EXPECT_GT(std::abs(unit(waiting_motion(robot)).y), 0.4F) << "not to and from it";
+  power.way = {1.0F, 0.0F};
+  bench.move(9, power.way);
+  EXPECT_GT(unit(waiting_motion(robot)).x, 0.99F);
 }
 
 // A connector (id 1) below robot 9 and above robot 2, in a chain in which all have to leave. 9 - 1 - 2.
