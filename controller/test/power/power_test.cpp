@@ -185,22 +185,28 @@ TEST_F(AboveALeaver, RemembersForAWhileWhereAHiddenChildWas) {
   EXPECT_EQ(power.unseen_ticks, 0);
 }
 
+// Where a spare goes that robot 2, 1.8 m ahead and below robot 9, has let into its edge so long ago.
+Vec2 course_to_leaver(ConvoyBench& bench, float since_s) {
+  bench.state.role = Role::spare;
+  auto& leaver = bench.put(2, {1.8F, 0.0F});
+  leaver.role = Role::connector;
+  leaver.parent = 9;
+  auto robot = bench.tick();
+  bench.state.spare_state = SpareState::extend_edge;
+  bench.state.request = 2;
+  bench.state.request_ticks = static_cast<std::uint16_t>(since_s / bench.params.tick_s);
+  PowerState power;
+  power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = true;
+  PowerRobot me{robot, power, bench.params, no_children};
+  robot.power = &me;
+  return waiting_motion(robot);
+}
+
 TEST(Power, ASpareGoesToTheLeaverPastARobotThatStandsInItsWay) {
   const auto course = [](Vec2 parent) {
     auto bench = grown<Convoy>();
-    bench.state.role = Role::spare;
     bench.put(9, parent).role = Role::connector;
-    auto& leaver = bench.put(2, {1.8F, 0.0F});
-    leaver.role = Role::connector;
-    leaver.parent = 9;
-    auto robot = bench.tick();
-    bench.state.spare_state = SpareState::extend_edge;
-    bench.state.request = 2;
-    PowerState power;
-    power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = true;
-    PowerRobot me{robot, power, bench.params, no_children};
-    robot.power = &me;
-    return unit(waiting_motion(robot));
+    return unit(course_to_leaver(bench, 0.0F));
   };
   EXPECT_GT(course({0.9F, -1.0F}).x, 0.95F) << "nobody is in the way";
   EXPECT_GT(course({0.9F, -0.02F}).y, 0.3F);
@@ -210,24 +216,12 @@ TEST(Power, ASpareGoesToTheLeaverPastARobotThatStandsInItsWay) {
 TEST(Power, ASpareThatIsKeptOffDrivesOnAfterAWhile) {
   const auto course = [](float since_s) {
     auto bench = grown<Convoy>();
-    bench.state.role = Role::spare;
     // An edge between two robots lies across its way.
     bench.put(9, {0.1F, 0.34F}).role = Role::connector;
     auto& other = bench.put(8, {0.1F, -0.34F});
     other.role = Role::connector;
     other.parent = 9;
-    auto& leaver = bench.put(2, {1.8F, 0.0F});
-    leaver.role = Role::connector;
-    leaver.parent = 9;
-    auto robot = bench.tick();
-    bench.state.spare_state = SpareState::extend_edge;
-    bench.state.request = 2;
-    bench.state.request_ticks = static_cast<std::uint16_t>(since_s / bench.params.tick_s);
-    PowerState power;
-    power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = true;
-    PowerRobot me{robot, power, bench.params, no_children};
-    robot.power = &me;
-    return waiting_motion(robot);
+    return course_to_leaver(bench, since_s);
   };
   EXPECT_GT(std::abs(course(1.0F).y), 0.5F) << "turned aside by the edge";
   EXPECT_NEAR(course(9.0F).y, 0.0F, 0.1F);
