@@ -58,8 +58,8 @@ void note_burst(HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   if (robot.params.line_of_sight) return;  // an obstacle that no sensor reaches may have hidden it
   for (const Heard& h : robot.heard)
-    if (h.message->new_root == nobody && h.message->centroid_x_cm > self.burst_ticks)
-      self.burst_ticks = static_cast<std::uint8_t>(std::min<int>(h.message->centroid_x_cm, longest_silence_ticks));
+    if (const int known = std::min<int>(burst_of(*h.message), longest_silence_ticks); known > self.burst_ticks)
+      self.burst_ticks = static_cast<std::uint8_t>(known);
   if (self.burst_ticks > 0 && self.turn % fading_turns == 0) --self.burst_ticks;
   if (table.size() == neighbor_capacity) self.watched = nobody;  // it may only have had no room
   if (self.watched != nobody) {

@@ -82,7 +82,7 @@ int write_healing(const HealingRobot& robot, HealingMessage& m) noexcept {
   m.serves = robot.self.serves;
   m.root_size = robot.self.root_size;
   m.count = name_next(robot);
-  if (m.new_root == nobody) m.centroid_x_cm = robot.self.burst_ticks;
+  set_burst(m, robot.self.burst_ticks);
   return gossip(robot, m);
 }
 

@@ -39,6 +39,13 @@ struct HealingMessage : TreeMessage, HealingStanding, HealingNews {
   friend bool operator==(const HealingMessage&, const HealingMessage&) = default;
 };
 
+// Gossip: the longest burst of loss that the sender knows, ticks (loss.cpp). It travels in a field that only an offer of the
+// token needs, since a message has no byte left; robots that do not heal leave it 0.
+[[nodiscard]] constexpr int burst_of(const TreeMessage& m) noexcept { return m.new_root == nobody ? m.centroid_x_cm : 0; }
+constexpr void set_burst(TreeMessage& m, std::uint8_t ticks) noexcept {
+  if (m.new_root == nobody) m.centroid_x_cm = ticks;
+}
+
 // The healing block, field by field (wire.hpp).
 template <class Visitor, class M>
 constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {

@@ -75,8 +75,7 @@ struct TreeStanding : TreeTies {
 struct TreeNews {
   RootToken root;                     // gossip: the newest root token I know
   RobotId new_root = nobody;          // offer of the token root.sequence + 1
-  std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`; with no offer, of a robot that
-                                      // heals, gossip: burst_ticks (healing/state.hpp)
+  std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`; with no offer: burst_of()
   std::int16_t centroid_y_cm = 0;
 
   friend bool operator==(const TreeNews&, const TreeNews&) = default;
@@ -129,7 +128,7 @@ constexpr void visit_tree_block(Visitor& visit, M& m, bool heals = false) noexce
   visit.robot("request", "the owner of the edge a spare wants to join, -1: nobody", m.request);
   visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody", m.inserted_child);
   visit.robot("new_root", "the robot to which the root token is offered, -1: nobody", m.new_root);
-  visit.number("centroid_x_cm", "with the offer: centroid relative to that robot, along the edge to it", m.centroid_x_cm);
+  visit.number("centroid_x_cm", "with the offer: centroid relative to that robot, along the edge to it; with none: the longest burst of loss known, ticks", m.centroid_x_cm);
   visit.number("centroid_y_cm", "the same, to the left of that edge", m.centroid_y_cm);
 }
 
