@@ -72,7 +72,8 @@ void note_burst(HealingRobot& robot) noexcept {
     if (back && silent_ticks > least_ticks && is_in_reach(robot, k)) self.burst_ticks = static_cast<std::uint8_t>(silent_ticks);
     if (back || self.watched_ticks > longest_silence_ticks) self.watched = nobody;
   }
-  if (self.watched != nobody) return;
+  // One that has missed nothing (note_silence) need not look again.
+  if (self.watched != nobody || (self.usual_silence == 0 && self.missed_in_the_clear == 0)) return;
   const int k = missed(robot);
   if (k < 0) return;
   self.watched = table.id(k);
