@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t buffer_bytes = std::size_t{1} << 16;
 
 // Somebody who only looks whether a file is locked (InputFile) has it for less than that.
-constexpr int lock_attempts = 5;
+constexpr int lock_attempts = 25;
 constexpr useconds_t between_attempts_us = 2000;
 
 bool lock(int descriptor) {
