@@ -164,6 +164,23 @@ TEST(Documents, LinksAndPathsLeadSomewhere) {
 }
 
 // Each algorithm's, wherever they are given.
+// architecture.md: the paper's part is short enough to be read beside the PDF.
+TEST(Documents, ThePapersPartIsAsShortAsTheySay) {
+  const fs::path controller = source / "controller/src";
+  std::vector<fs::path> files{controller / "paper.cpp", controller / "outwards.cpp", controller / "inwards.cpp"};
+  for (const auto& entry : fs::directory_iterator(controller / "tree"))
+    if (entry.path().extension() == ".cpp") files.push_back(entry.path());
+  const std::regex blank_or_comment(R"(\s*(//.*)?)");
+  int lines = 0;
+  for (const fs::path& file : files) {
+    std::ifstream in(file);
+    ASSERT_TRUE(in) << file;
+    for (std::string line; std::getline(in, line);) lines += std::regex_match(line, blank_or_comment) ? 0 : 1;
+  }
+  EXPECT_GT(lines, 500) << "sources were not found";
+  EXPECT_LE(lines, 1300) << "lines of code; docs/architecture.md says how they are counted";
+}
+
 TEST(Documents, AMessageIsAsLongAsTheySay) {
   const std::regex bytes(R"((\d+)(?:,| to) (?:(\d+) or )?(\d+) bytes (?:ten|per tick|can hold))");
   std::size_t found = 0;
