@@ -370,7 +370,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   // At its target a worker may give way a little, if that lets another one reach its own; this fades out
   // before the target is out of tolerance.
   constexpr float fading = 0.1F;
-  const float give = std::clamp((as_good_as_there - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
+  const float give = std::clamp((as_good_as_there * p.target_gain - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
   // A successor hurries: the tree stands there already. It has been told where its target is and may be wrong by a hand,
   // and the dead worker may lie there: so it gets as near as it can, and pushes nobody (link_guard.hpp).
   const bool succeeds = goes_by_memory(robot.self) && robot.power == nullptr;

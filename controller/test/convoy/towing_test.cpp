@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "chain.hpp"
 
 namespace banyan {
@@ -36,6 +38,32 @@ TEST_F(ConvoyChain, AJunctionStaysUntilItsEdgesAreNearTheirLimit) {
   bench.move(3, {1.88F, 0.0F});
   bench.move(4, {0.0F, 1.88F});
   EXPECT_GT(norm(motion()), norm(waits) + 0.2F);
+}
+
+// A worker (id 1) whose edge is long, near an edge that waits in vain for a spare.
+class WorkerWhereRobotsAreShort : public ConvoyChain {
+ protected:
+  WorkerWhereRobotsAreShort() {
+    bench.silence(3);
+    bench.state.role = Role::worker;
+    bench.state.is_worker = true;
+    bench.state.call_hops = 2;
+    bench.move(2, {-1.8F, 0.0F});
+  }
+  float pace_to(Vec2 target, float gain) {
+    bench.params.target_gain = gain;
+    bench.send(target);
+    bench.state.pull = unit(target) * (gain * std::min(1.0F, norm(target) / bench.params.arrival_distance_m));
+    return motion().x;
+  }
+};
+
+// Else the slack that it gives holds it where its edge is too short to ask for a spare, for ever.
+TEST_F(WorkerWhereRobotsAreShort, InsistsUntilItIsThereHoweverWeaklyItsTargetAttractsIt) {
+  for (const float gain : {1.0F, 0.49F, 0.25F}) {
+    EXPECT_NEAR(pace_to({3.0F, 0.0F}, gain), gain, 1e-5F);
+    EXPECT_LT(pace_to({0.1F, 0.0F}, gain), 0.0F) << "there, it gives way";
+  }
 }
 
 TEST_F(ConvoyChain, HoldsStillInAReconstructionWhenAllHaveArrived) {
