@@ -38,6 +38,12 @@ constexpr int slack_reach_hops = 8;
 // Somewhere near, an edge waits in vain for a spare.
 bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }
 
+// The workers below me have come no nearer to their targets for a while.
+bool is_stuck(const ConvoyRobot& robot) noexcept {
+  constexpr float stuck_after_s = 5.0F;
+  return robot.self.stalled_ticks > robot.params.ticks(stuck_after_s);
+}
+
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
 // Neighbour k stands at its target, and robots below it in the tree still have to go on.
@@ -50,6 +56,16 @@ bool tows_past(const ConvoyRobot& robot, int k) noexcept {
 Vec2 pull_of(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   return from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, robot.table().position(k));
+}
+
+// Past child k, a worker at its target; round it, if I am stuck behind it, since its body is in the way.
+Vec2 way_past(const ConvoyRobot& robot, int k) noexcept {
+  const Vec2 pull = pull_of(robot, k);
+  const Vec2 at = robot.table().position(k);
+  const float d = robot.table().range(k);
+  if (!is_stuck(robot) || d > robot.params.avoidance_range_m || dot(pull, at) <= 0.0F) return pull;
+  const Vec2 left = left_of(at) / d;
+  return dot(pull, left) < 0.0F ? -left : left;
 }
 
 // The chain below me has slack, and I am a junction of a large swarm: my parent is near, or has come up to me.
@@ -81,7 +97,7 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
     if (!tows(k)) return;
     // The child of a worker at its target tows me past that worker: there it can take me as its parent.
     if (tows_past(robot, k)) {
-      u += pull_of(robot, k);
+      u += way_past(robot, k);
       return;
     }
     if (count == 1 && is_in_large_swarm(robot) && is_held_by_branches(robot, k)) {
@@ -316,7 +332,8 @@ bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
   for (const int k : robot.children)
     if (table.message(k).role != Role::spare && table.message(k).want_cm > (best < 0 ? 0 : table.message(best).want_cm)) best = k;
   if (best < 0) return false;
-  pull = pull_of(robot, best);
+  // My parent is to come to where that child can take it as its own, and the child may have to go elsewhere.
+  pull = is_stuck(robot) ? unit(table.position(best)) : pull_of(robot, best);
   return true;
 }
 

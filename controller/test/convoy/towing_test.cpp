@@ -40,6 +40,43 @@ TEST_F(ConvoyChain, AJunctionStaysUntilItsEdgesAreNearTheirLimit) {
   EXPECT_GT(norm(motion()), norm(waits) + 0.2F);
 }
 
+// Child 3 of a worker at its target is drawn to one side. Once it is stuck it needs the worker's parent beside itself.
+TEST_F(ConvoyChain, AWorkerAtItsTargetSaysWhereTheChildIsThatIsStuck) {
+  bench.state.role = Role::worker;
+  bench.state.is_worker = true;
+  bench.send({0.05F, 0.0F});
+  bench.say(3).pull_y = static_cast<std::int16_t>(pull_unit);
+  Vec2 pull;
+  EXPECT_TRUE(passes_pull_on(bench.tick(), pull));
+  EXPECT_LT(distance(pull, {0.0F, -1.0F}), 1e-5F);
+  bench.state.stalled_ticks = 51;
+  EXPECT_TRUE(passes_pull_on(bench.tick(), pull));
+  EXPECT_LT(distance(pull, {1.0F, 0.0F}), 1e-5F);
+}
+
+// Child 3, a worker at its target, is between me and a robot below it, which is stuck: its body is in my way.
+TEST_F(ConvoyChain, PastAWorkerAtItsTargetAStuckRobotGoesRound) {
+  const auto way = [&](float x, float pull_y) {
+    bench.move(3, {x, 0.0F});
+    auto& worker = bench.say(3);
+    worker.serves = 3;
+    worker.child_count = 1;
+    worker.pull_x = static_cast<std::int16_t>(-pull_unit);  // away from me
+    worker.pull_y = static_cast<std::int16_t>(pull_y * pull_unit);
+    auto robot = bench.tick();
+    bench.state.task_count = 1;
+    bench.state.tasks[0].serves = 3;
+    bench.state.tasks[0].target = {x, 0.0F};
+    bench.state.tasks[0].unlocated = false;
+    return towed_motion(robot);
+  };
+  EXPECT_GT(way(0.16F, 0.2F).x, 0.3F);
+  bench.state.stalled_ticks = 51;
+  EXPECT_LT(way(0.16F, 0.2F).y, -0.5F);
+  EXPECT_GT(way(0.16F, -0.2F).y, 0.5F);
+  EXPECT_GT(way(0.6F, 0.2F).x, 0.3F) << "it is not there yet";
+}
+
 // A worker (id 1) whose edge is long, near an edge that waits in vain for a spare.
 class WorkerWhereRobotsAreShort : public ConvoyChain {
  protected:
