@@ -6,6 +6,11 @@
 
 namespace banyan {
 
+bool is_in_large_swarm(const ConvoyRobot& robot) noexcept {
+  constexpr std::uint16_t large_swarm = 450;
+  return (robot.self.root_size > large_swarm || robot.self.forgets) && !robot.is_root();
+}
+
 bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   return m.call_hops <= 1 && robot.convoy_of(k).child_count > (m.role == Role::worker ? 0 : 1);

@@ -57,6 +57,13 @@ TEST_F(BesideAJunction, ItStaysInASmallSwarm) {
   EXPECT_LT(motion().x, 0.3F);
 }
 
+// Their branches use up the spares that are near, however many robots the root has counted.
+TEST_F(BesideAJunction, ItComesUpWhereTargetsAreMoreThanARobotRemembers) {
+  bench.state.root_size = 100;
+  bench.state.forgets = true;
+  EXPECT_GT(motion().x, 0.5F);
+}
+
 TEST_F(BesideAJunction, AWorkerWithABranchOfItsOwnIsHelpedTowardsThatBranch) {
   bench.say(3).role = Role::worker;
   bench.say(3).child_count = 1;

@@ -166,6 +166,9 @@ TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
   auto robot = bench.tick();
   ASSERT_TRUE(has_arrived(robot));
   EXPECT_GT(towed_motion(robot).x, 0.5F);
+  bench.state.forgets = true;  // there are more targets than a robot remembers
+  EXPECT_NEAR(towed_motion(robot).x, 0.0F, 0.1F);
+  bench.state.forgets = false;
   bench.move(7, {-bench.params.compact_distance_m - 0.04F, 0});
   auto stretched = bench.tick();
   EXPECT_LT(towed_motion(stretched).x, 0.0F);

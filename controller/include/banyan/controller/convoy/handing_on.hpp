@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Rule 16 (docs/convoy.md): in a large swarm the spares are minutes away from an edge that calls them, but the chain
 // below a junction has slack. The junction is handed on: its parent comes up beside it and takes over one of its
-// branches, so that it can follow the other. A small swarm has its spares at hand and goes without this rule.
+// branches, so that it can follow the other. A small swarm has its spares at hand and goes without this rule, unless it
+// has so many targets that its branches use them up.
 #pragma once
 
 #include "banyan/controller/convoy/robot.hpp"
 
 namespace banyan {
 
-// As far as I have heard what the root has counted. The root itself stays with the spares.
-[[nodiscard]] inline bool is_in_large_swarm(const ConvoyRobot& robot) noexcept {
-  constexpr std::uint16_t large_swarm = 450;
-  return robot.self.root_size > large_swarm && !robot.is_root();
-}
+// As far as I have heard what the root has counted, or that there are more targets than a robot remembers. The root
+// itself stays with the spares.
+[[nodiscard]] bool is_in_large_swarm(const ConvoyRobot& robot) noexcept;
 
 // An edge above child k calls in vain, and k cannot follow it: it is a junction, or a worker with a branch of its own.
 [[nodiscard]] bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept;
