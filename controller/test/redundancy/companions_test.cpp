@@ -237,6 +237,7 @@ TEST_F(ConnectorAlone, CallsAfterAWhile) {
 
 // It says so at once, in a field that means nothing else of a robot of the tree.
 TEST_F(ConnectorAlone, SaysThatItLacksOne) {
+  bench.params.line_of_sight = false;  // as well as with it
   hops_after(3);
   EXPECT_EQ(bench.state.request, nobody);
   hops_after(1);
