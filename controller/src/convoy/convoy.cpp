@@ -231,7 +231,7 @@ void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept {
     self.convoy_standings[k] = static_cast<const ConvoyStanding&>(m);
     if (robot.power != nullptr) robot.power->power.standings[k] = static_cast<const PowerStanding&>(powered_message(m));
   }
-  forget_silent(robot, [&](int k) { return may_be_tied(robot, k); }, [&](int k, int size) {
+  forget_silent(robot, [&](int k) { return may_be_tied(robot, k) || stands_in_for(robot, k); }, [&](int k, int size) {
     close_gap(self.healing_standings, k, size);
     close_gap(self.corners.standings, k, size);
     close_gap(self.convoy_standings, k, size);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "banyan/controller/convoy/towing.hpp"
@@ -17,6 +18,7 @@ namespace {
 constexpr float short_for_s = 10.0F;   // an edge in need has called for so long: its tree comes before companions
 constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for companions
 constexpr int lacks_after_ticks = 3;   // it may just not have heard its companion
+constexpr int stand_in = 3;            // times the silence after which a robot counts as dead: so long its companion stays
 constexpr float aside = 1.3F;          // of `clearance`: so far out of a line a robot steps that is in the way
 constexpr float edge_room = 1.4F;      // of `clearance`: how near to edges a companion in its place comes, since it may have to cross
 constexpr int places = 12;             // around the robot of the tree
@@ -188,7 +190,10 @@ void choose_whom(ConvoyRobot& robot) noexcept {
   }
   if (self.accompanies != nobody) {
     const int k = table.find(self.accompanies);
-    const bool stays = k >= 0 && table.alive(k) && needs_companion(robot, k) && count_before_me(robot, k) < welcome_companions(robot, k);
+    const auto is_wanted = [&] {
+      return needs_companion(robot, k) && count_before_me(robot, k) < welcome_companions(robot, k);
+    };
+    const bool stays = k >= 0 && (table.alive(k) ? is_wanted() : stands_in_for(robot, k));
     if (!stays) self.accompanies = nobody;
   }
   if (self.request == nobody) self.accompanies = self.accompanies == nobody ? nearest_alone(robot) : farther_out(robot);
@@ -216,7 +221,7 @@ void call(ConvoyRobot& robot) noexcept {
   if (!alone) self.alone_ticks = 0;
   else robot.add_elapsed(self.alone_ticks);
   if (!alone || self.phase != Phase::grow_tree) return;
-  if (robot.params.line_of_sight && self.alone_ticks > lacks_after_ticks) self.request = self.id;
+  if (self.alone_ticks > lacks_after_ticks) self.request = self.id;
   if (self.alone_ticks > robot.params.ticks(robot.params.call_after_s))
     self.call_hops = std::min(self.call_hops, companion_call);
 }
@@ -225,7 +230,23 @@ int degree_of(const ConvoyRobot& robot, int k) noexcept {
   return robot.convoy_of(k).child_count + (up_of(robot.table().message(k)) != nobody ? 1 : 0);
 }
 
-// The tree neighbours of neighbour `of`. One that I do not hear is probably opposite to the others.
+// In which direction from the robot at `center` a tree neighbour is that I do not hear: opposite to the others or,
+// where robots hide nothing, as near to that as is out of my reach.
+Vec2 unheard_direction(const ConvoyRobot& robot, Vec2 center, Vec2 opposite) noexcept {
+  const float c = robot.params.communication_range_m;
+  if (robot.params.line_of_sight) return opposite;
+  const float far_m = unheard_at * c;
+  const float d = std::max(norm(center), 0.05F);
+  const Vec2 me = -center / d;
+  // The cosine of the angle to me from which on it is out of reach.
+  const float nearest = std::max((far_m * far_m + d * d - c * c) / (2.0F * far_m * d), -1.0F);
+  const float along = dot(opposite, me);
+  if (along <= nearest) return opposite;
+  const Vec2 side = cross(me, opposite) < 0.0F ? -left_of(me) : left_of(me);
+  return me * nearest + side * std::sqrt(1.0F - nearest * nearest);
+}
+
+// The tree neighbours of neighbour `of`.
 Ends ends_around(const ConvoyRobot& robot, int of) noexcept {
   const TreeTable& table = robot.table();
   const Vec2 center = table.position(of);
@@ -236,7 +257,7 @@ Ends ends_around(const ConvoyRobot& robot, int of) noexcept {
     sum += unit(table.position(n) - center);
   }
   if (static_cast<int>(ends.size) < degree_of(robot, of) && sum != Vec2{})
-    ends.add(center - unit(sum) * (unheard_at * robot.params.communication_range_m));
+    ends.add(center + unheard_direction(robot, center, -unit(sum)) * (unheard_at * robot.params.communication_range_m));
   return ends;
 }
 
@@ -298,6 +319,11 @@ void keep_company(ConvoyRobot& robot) noexcept {
   if (robot.self.role == Role::spare) return choose_whom(robot);
   robot.self.accompanies = nobody;
   call(robot);
+}
+
+bool stands_in_for(const ConvoyRobot& robot, int k) noexcept {
+  if (robot.params.line_of_sight) return false;  // it may only be hidden
+  return robot.table().id(k) == robot.self.accompanies && robot.table().age(k) <= stand_in * robot.liveness_ticks();
 }
 
 bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {

@@ -116,7 +116,6 @@ TEST_F(SpareByAChain, WithSightItIsNeededWhereARobotHidesItsNeighbours) {
 
 // My robot's child lacks a companion: I go there, unless another spare is nearer to it.
 TEST_F(SpareByAChain, MovesOutwardsToFillAGap) {
-  bench.params.line_of_sight = true;
   ASSERT_EQ(chosen(), 2);
   auto& worker = bench.say(3);
   worker.role = Role::connector;
@@ -130,6 +129,35 @@ TEST_F(SpareByAChain, MovesOutwardsToFillAGap) {
     static_cast<void>(bench.tick());  // until that one is forgotten
   }
   EXPECT_EQ(chosen(), 3);
+}
+
+// Its robot dies: it keeps its links until others have taken it as their parent.
+TEST_F(SpareByAChain, StaysForAWhileWhenItsRobotHasDied) {
+  bench.params.line_of_sight = false;
+  ASSERT_EQ(chosen(), 2);
+  bench.silence(2);
+  const int dead_after = bench.params.ticks(bench.params.liveness_period_s);
+  for (int k = 0; k < 3 * dead_after; ++k) ASSERT_EQ(chosen(), 2) << k;
+  chosen();
+  EXPECT_EQ(chosen(), nobody);
+}
+
+// The worker is out of reach from here, so it is not opposite to the root, where it would be heard. The other side of the
+// chain hears both.
+TEST_F(SpareByAChain, GoesToTheSideFromWhichItHearsTheOneThatIsOutOfReach) {
+  const auto way = [&] {
+    auto robot = bench.tick();
+    return companion_motion(robot, robot.table().find(2));
+  };
+  bench.move(9, {1.8F, -0.3F});
+  bench.move(2, {0.0F, -0.3F});
+  bench.silence(3);
+  bench.say(2).child_count = 1;
+  for (int k = 0; k < 20; ++k) way();  // until it is forgotten
+  bench.params.line_of_sight = true;
+  EXPECT_GT(way().y, -0.1F);  // it may be hidden
+  bench.params.line_of_sight = false;
+  EXPECT_LT(way().y, -0.1F);
 }
 
 // In its place it keeps clear of edges, but not so far that it could not cross one to get there.
@@ -207,12 +235,11 @@ TEST_F(ConnectorAlone, CallsAfterAWhile) {
   EXPECT_EQ(hops_after(1), nobody_calls);
 }
 
-// It says so at once where robots hide others, in a field that means nothing else of a robot of the tree.
-TEST_F(ConnectorAlone, SaysThatItLacksOneWithSight) {
-  bench.params.line_of_sight = false;
-  hops_after(10);
+// It says so at once, in a field that means nothing else of a robot of the tree.
+TEST_F(ConnectorAlone, SaysThatItLacksOne) {
+  bench.params.line_of_sight = false;  // as well as with it
+  hops_after(3);
   EXPECT_EQ(bench.state.request, nobody);
-  bench.params.line_of_sight = true;
   hops_after(1);
   EXPECT_EQ(bench.state.request, 1);
   EXPECT_EQ(bench.step().message.request, 1);

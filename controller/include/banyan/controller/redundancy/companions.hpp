@@ -37,6 +37,10 @@ namespace banyan {
 // long calls.
 void keep_company(ConvoyRobot& robot) noexcept;
 
+// Without line of sight: neighbour k is the robot that I accompany, and has not been silent for much longer than makes it
+// count as dead. I stay, since others are about to take me as their parent.
+[[nodiscard]] bool stands_in_for(const ConvoyRobot& robot, int k) noexcept;
+
 // My only child could do without me, but I stand in its line of sight to my parent: which way I step aside.
 [[nodiscard]] bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept;
 
