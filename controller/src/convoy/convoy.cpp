@@ -286,7 +286,7 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   const bool regroups = is_left_waiting(robot);
   const bool retreats = is_retreating(robot, regroups);
   Vec2 u;
-  if (!closes_gap(robot, u)) u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
+  if (!closes_gap(robot, u) && !awaits_others(robot, u)) u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
   if (awaits_the_unheard(robot)) u = {};
   Guard guard;
   guard_edges(robot, retreats, guard);

@@ -25,6 +25,7 @@ constexpr float follow_spare = 0.25F;  // of C: how far it stays behind a spare 
 constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
 constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
 constexpr float called_follow_tree = 0.75F;
+constexpr float called_follow_thin = 0.9F;  // where no crowd is, and packets get lost
 constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
@@ -309,7 +310,7 @@ int followed_by(const ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   // In a crowd, a called spare might wait for others to move while the tree goes away.
   if (const int home = self.called && robot.hold >= 0 ? table.find(nearest_reference(robot)) : -1; home >= 0) {
-    const float home_c = table.message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
+    const float home_c = is_thin(self) ? called_follow_thin : table.message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
     if (table.range(home) > home_c * robot.params.communication_range_m) return home;
   }
   return table.find(self.parent != nobody ? self.parent : self.reference);

@@ -11,13 +11,15 @@ namespace banyan {
 namespace {
 
 // No longer than that, less by how far neighbour k may be from where it was measured. Where packets get lost many in a row
-// it may come back from there, and whoever does not hear it need not drive to it, only stay.
+// it may come back from there, and whoever does not hear it need not drive to it, only stay. But far away it may be silent
+// because the signal has faded: up to where that is rare it comes nearer.
 void guard_link(const HealingRobot& robot, int k, float longest_m, Guard& guard) noexcept {
+  constexpr float near = 0.77F;  // of C
   const TreeTable& table = robot.table();
   const float strayed = strayed_m(robot, k);
   float limit_m = longest_m - table.spread_m() - strayed;
   if (robot.has_bursts() && strayed > 0.0F)
-    limit_m = std::max(limit_m, std::min(table.range(k), longest_m) - table.spread_m());
+    limit_m = std::max(limit_m, std::min(table.range(k), near * robot.params.communication_range_m) - table.spread_m());
   guard.add(table.position(k), limit_m, robot.params.guard_rate_per_s);
 }
 
@@ -43,7 +45,8 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
   const auto holds_me = [&](int k) {
     if (!table.alive(k)) return !lets_go && is_tie(robot, k);
     const TreeStanding& m = table.message(k);
-    const bool tied_to_me = k == robot.hold || k == robot.gap || hold_of(m) == robot.self.id;
+    const bool is_gap = robot.is_deaf(k) && is_newer(robot.self.epoch, m.epoch);  // unless I am untied
+    const bool tied_to_me = k == robot.hold || is_gap || hold_of(m) == robot.self.id;
     const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || waits_for_all);
     return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
   };

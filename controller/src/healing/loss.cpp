@@ -88,7 +88,7 @@ void HealingRobot::take_patience() noexcept {
   forget_ticks = by_chance_ticks(*this);
   loss_ticks = std::max<int>(self.loss_ticks, silences * self.burst_ticks);
   if (self.usual_silence == 0) tie_ticks = 0;
-  else if (self.phase < Phase::grow_tree) tie_ticks = longest_silence_ticks;
+  else if (self.phase < Phase::grow_tree || is_thin(self)) tie_ticks = longest_silence_ticks;
   else tie_ticks = std::max(liveness_ticks(), silences * self.usual_silence);
   if (has_bursts()) tie_ticks = std::max(tie_ticks, loss_ticks);
 }

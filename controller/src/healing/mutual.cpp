@@ -58,9 +58,12 @@ void find_gap(HealingRobot& robot) noexcept {
   const bool untied = !robot.is_root() && robot.hold < 0 && (up < 0 || !robot.is_linked(up));
   robot.gap = -1;
   table.deaf.for_each([&](int k) {
-    if (!table.alive(k) || untied == is_newer(self.epoch, table.message(k).epoch)) return;
+    const TreeStanding& m = table.message(k);
+    // Two parts that have heard of no root wait until they are fetched: each would leave those that hear it.
+    if (!table.alive(k) || untied == is_newer(self.epoch, m.epoch) || (untied && m.phase == Phase::init)) return;
     if (robot.gap < 0 || table.range(k) < table.range(robot.gap)) robot.gap = k;
   });
+  if (robot.gap >= 0 && !untied) self.call_hops = 0;  // the chain to it may be taut: spares come along it
   self.called_ticks = static_cast<std::uint8_t>(std::max(self.called_ticks - robot.elapsed_ticks, 0));
   // A call is passed on away from the root only: it would never end if two robots called each other.
   const int caller = caller_of(robot);
@@ -72,6 +75,23 @@ bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
   if (k < 0) return false;
   const float rest_m = (robot.gap >= 0 ? fetched_to : called_to) * robot.params.communication_range_m;
   u = robot.table().range(k) > rest_m ? unit(robot.table().position(k)) : Vec2{};
+  return true;
+}
+
+[[gnu::noinline]] bool awaits_others(HealingRobot& robot, Vec2& u) noexcept {
+  constexpr int look_ticks = 10;
+  constexpr int end_ticks = 150;
+  constexpr int few = 4;
+  constexpr float apart = 0.4F;  // of C: so few in a crowd are nearer
+  constexpr float stretched = 0.72F;
+  HealingState& self = robot.self;
+  const TreeTable& table = robot.table();
+  const float c = robot.params.communication_range_m;
+  const int size = table.size();
+  if (self.turn == look_ticks && size <= few && table.range(0) > apart * c) self.neighbors_at_start = static_cast<std::uint8_t>(size);
+  if (self.missed_in_the_clear + self.usual_silence == 0) return false;
+  if (self.phase != Phase::init && (self.neighbors_at_start != 1 || size > 1 || self.turn >= end_ticks)) return false;
+  if (size == 1 && table.range(0) < stretched * c) u = -table.position(0);
   return true;
 }
 

@@ -150,6 +150,24 @@ TEST(Bursts, ThatAreKnownMakePatientAndArePassedOn) {
   EXPECT_EQ(robot.table().find(22), -1) << "who matters to nobody is forgotten after I";
 }
 
+// Far away, the signal may have faded; near by, whoever is silent will be heard again.
+TEST(Bursts, WhoHearsNothingOfAFarNeighbourComesNearer) {
+  for (const float range_m : {1.85F, 1.5F}) {
+    ConvoyBench bench = grown<Convoy>();
+    bench.params.line_of_sight = false;
+    bench.put_child(20, {range_m, 0.0F}, Role::connector);
+    bench.state.role = Role::connector;
+    bench.steps(3);
+    bench.state.burst_ticks = 40;
+    bench.silence(20);
+    bench.steps(10);
+    const auto robot = bench.tick();
+    Guard guard;
+    guard_edges(robot, false, guard);
+    EXPECT_EQ(guard.apply({}).x > 0.0F, range_m > 1.8F) << range_m;
+  }
+}
+
 // Who hears it need not be heard by it: for a new edge both have to know.
 TEST(Bursts, OnlyWhoHasHeardMeOfLateIsSure) {
   ConvoyBench bench = grown<Convoy>();

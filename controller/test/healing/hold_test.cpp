@@ -207,6 +207,7 @@ TEST(Hold, IsNotLeftBehindAndDoesNotLeave) {
 TEST(Hold, WhoFallsSilentIsNotLeftAtOnceWherePacketsGetLost) {
   const auto allowed_after = [](int ticks, std::uint8_t usual_silence, Vec2 way = {0.0F, 1.0F}) {
     Follower f;
+    f.bench.state.turn = 200;  // no thin start
     f.bench.put(5, way * 1.7F).grant = f.bench.state.id;
     f.bench.steps(3);
     f.bench.silence(5);

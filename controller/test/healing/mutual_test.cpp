@@ -185,6 +185,71 @@ TEST(Mutual, WhoIsOfAnOlderEpochIsFetched) {
   }
 }
 
+// At the end of a thin start: robot 2 alone is heard, and packets get lost.
+struct AtEnd {
+  ConvoyBench bench;
+  explicit AtEnd(float range_m, Phase phase = Phase::grow_tree) : bench(grown<Convoy>()) {
+    bench.params.line_of_sight = false;
+    bench.state.phase = phase;
+    bench.put(2, {range_m, 0.0F});
+    bench.steps(12);
+  }
+  bool awaits(Vec2& u) {
+    auto robot = bench.tick();
+    return awaits_others(robot, u);
+  }
+};
+
+TEST(Mutual, TheEndOfAThinStartWaitsForWhoMayHearItAndGoesTowardsIt) {
+  Vec2 u;
+  AtEnd f(1.2F);
+  EXPECT_FALSE(f.awaits(u)) << "no packet has been lost";
+  f.bench.state.usual_silence = 32;
+  EXPECT_TRUE(f.awaits(u));
+  EXPECT_LT(u.x, 0.0F) << "away from the only neighbour";
+  u = {};
+  f.bench.move(2, {1.5F, 0.0F});
+  EXPECT_TRUE(f.awaits(u));
+  EXPECT_EQ(u, Vec2{}) << "far enough";
+  f.bench.state.turn = 160;
+  EXPECT_FALSE(f.awaits(u)) << "only in the first seconds";
+  AtEnd near(0.5F);
+  near.bench.state.usual_silence = 32;
+  EXPECT_FALSE(near.awaits(u)) << "a compact start";
+}
+
+TEST(Mutual, WhoHasHeardOfNoRootWaitsWherePacketsGetLost) {
+  Vec2 u;
+  AtEnd f(0.5F, Phase::init);
+  EXPECT_FALSE(f.awaits(u));
+  f.bench.state.usual_silence = 32;
+  EXPECT_TRUE(f.awaits(u));
+}
+
+// The chain to it may be taut: spares are called along it.
+TEST(Mutual, WhoFetchesCallsSpares) {
+  Beside f;
+  auto& last = f.bench.put(5, {0.0F, 1.2F});
+  last = {};
+  last.id = 5;
+  last.count = nobody;
+  last.root = f.bench.state.root;
+  last.role = Role::spare;
+  f.named = {1};
+  f.steps(2 * never_heard_for);
+  EXPECT_EQ(f.bench.state.call_hops, 0);
+}
+
+// Each would leave those that hear it.
+TEST(Mutual, WhoIsTiedToNobodyDoesNotGoToWhoHasHeardOfNoRoot) {
+  for (const Phase phase : {Phase::grow_tree, Phase::init}) {
+    Beside f;
+    f.bench.say(2).phase = phase;
+    f.steps(never_heard_for);
+    EXPECT_EQ(f.bench.state.calls, phase != Phase::init);
+  }
+}
+
 TEST(Mutual, WhoIsCalledComesNearerUntilTheCallEnds) {
   Beside f;
   f.named = {1};

@@ -31,6 +31,7 @@ TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
 TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
   const auto ticks_until = [](std::uint8_t usual_silence, Phase phase) {
     Watch watch({1.95F, 0.0F});
+    watch.bench.state.turn = 200;  // no thin start
     watch.hear_root(50);
     auto& state = watch.bench.state;
     state.phase = watch.bench.say(root_id).phase = phase;

@@ -45,6 +45,7 @@ struct HealingMemory {
   bool was_sent : 1 = false;             // to a target, at the last step
   bool root_known : 1 = false;
   bool calls : 1 = false;                // asks its neighbours to come nearer
+  std::uint8_t neighbors_at_start = 0;   // so few were heard after a second, and they were far away; 0: it is no thin start
   bool forgets : 1 = false;              // here or elsewhere a robot has had no room for a target
   std::uint16_t news_gap = first_gap;  // sixteenths of ticks: the longest time without news of a living worker, of late
   float expected_packets = 0.0F;         // packets that were to be heard in the last ticks, fading
@@ -97,6 +98,7 @@ constexpr void visit_healing_state(Visitor& visit, State& s) noexcept {
     if (task.times_put_off != 0) visit(std::uint8_t{task.times_put_off});
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m), visit(s.detour.span_m);
+  if (s.neighbors_at_start != 0 && s.usual_silence + s.missed_in_the_clear != 0) visit(s.neighbors_at_start);  // else of no consequence
   if (s.usual_silence != 0) visit(s.usual_silence);
   if (s.missed_in_the_clear != 0) visit(s.missed_in_the_clear);
   if (s.burst_ticks != 0) visit(s.burst_ticks);
