@@ -7,8 +7,7 @@
 namespace banyan {
 
 bool is_in_large_swarm(const ConvoyRobot& robot) noexcept {
-  constexpr std::uint16_t large_swarm = 450;
-  return (robot.self.root_size > large_swarm || robot.self.forgets) && !robot.is_root();
+  return (is_counted_large(robot) || robot.self.forgets) && !robot.is_root();
 }
 
 bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept {

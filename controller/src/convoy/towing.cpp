@@ -240,9 +240,10 @@ Vec2 sliding(const ConvoyRobot& robot, int way) noexcept {
 
 // Rule 9: a connector whose workers have arrived moves until its longest other edge is stretched. So the
 // slack of a branch gathers at one end, where a robot becomes superfluous. Not with more targets than a robot
-// remembers: if a robot of so large a tree dies, its neighbours soon meet again only if their edges are not stretched.
+// remembers: if a robot of so large a tree dies, its neighbours soon meet again only if their edges are not stretched. In
+// a large swarm the slack is wanted all the same, since spares are minutes away.
 Vec2 compaction(const ConvoyRobot& robot) noexcept {
-  if (robot.self.forgets) return {};
+  if (robot.self.forgets && !is_counted_large(robot)) return {};
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   const float c = p.communication_range_m;

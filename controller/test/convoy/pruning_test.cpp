@@ -168,6 +168,9 @@ TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
   EXPECT_GT(towed_motion(robot).x, 0.5F);
   bench.state.forgets = true;  // there are more targets than a robot remembers
   EXPECT_NEAR(towed_motion(robot).x, 0.0F, 0.1F);
+  bench.state.root_size = 451;  // but spares are far
+  EXPECT_GT(towed_motion(robot).x, 0.5F);
+  bench.state.root_size = 0;
   bench.state.forgets = false;
   bench.move(7, {-bench.params.compact_distance_m - 0.04F, 0});
   auto stretched = bench.tick();

@@ -9,7 +9,13 @@
 
 namespace banyan {
 
-// As far as I have heard what the root has counted, or that there are more targets than a robot remembers. The root
+// As far as I have heard what the root has counted.
+[[nodiscard]] inline bool is_counted_large(const ConvoyRobot& robot) noexcept {
+  constexpr std::uint16_t large_swarm = 450;
+  return robot.self.root_size > large_swarm;
+}
+
+// The same, or that there are more targets than a robot remembers. The root
 // itself stays with the spares.
 [[nodiscard]] bool is_in_large_swarm(const ConvoyRobot& robot) noexcept;
 
