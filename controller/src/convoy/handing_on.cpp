@@ -7,7 +7,8 @@
 namespace banyan {
 
 bool is_in_large_swarm(const ConvoyRobot& robot) noexcept {
-  return (is_counted_large(robot) || robot.self.forgets) && !robot.is_root();
+  const bool many_targets = robot.self.forgets && robot.self.root_size != 0;
+  return (is_counted_large(robot) || many_targets) && !robot.is_root();
 }
 
 bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept {

@@ -78,12 +78,13 @@ bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
   return true;
 }
 
+// Not inlined: it is for the first seconds only (and the firmware is smaller).
 [[gnu::noinline]] bool awaits_others(HealingRobot& robot, Vec2& u) noexcept {
-  constexpr int look_ticks = 10;
-  constexpr int end_ticks = 150;
+  constexpr int look_ticks = 10;     // by then the neighbours have been heard, whatever is lost
+  constexpr int end_ticks = 150;     // so long the end of a thin start stays
   constexpr int few = 4;
-  constexpr float apart = 0.4F;  // of C: so few in a crowd are nearer
-  constexpr float stretched = 0.72F;
+  constexpr float apart = 0.4F;      // of C: so few in a crowd are nearer
+  constexpr float stretched = 0.72F; // of C: the nearer to whoever may be beyond this end
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   const float c = robot.params.communication_range_m;

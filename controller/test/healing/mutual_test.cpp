@@ -213,6 +213,9 @@ TEST(Mutual, TheEndOfAThinStartWaitsForWhoMayHearItAndGoesTowardsIt) {
   EXPECT_EQ(u, Vec2{}) << "far enough";
   f.bench.state.turn = 160;
   EXPECT_FALSE(f.awaits(u)) << "only in the first seconds";
+  f.bench.state.turn = UINT16_MAX;
+  f.bench.steps(30);
+  EXPECT_FALSE(f.awaits(u)) << "nor when its count of ticks wraps";
   AtEnd near(0.5F);
   near.bench.state.usual_silence = 32;
   EXPECT_FALSE(near.awaits(u)) << "a compact start";

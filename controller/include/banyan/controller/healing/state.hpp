@@ -42,10 +42,10 @@ struct Progress {
 // Stands before the tree's part: behind the neighbour table, each access would take a chip a further instruction.
 struct HealingMemory {
   std::uint8_t task_count = 0;
+  std::uint8_t neighbors_at_start = 0;   // so few after a second, all of them far away; 0: it is no thin start
   bool was_sent : 1 = false;             // to a target, at the last step
   bool root_known : 1 = false;
   bool calls : 1 = false;                // asks its neighbours to come nearer
-  std::uint8_t neighbors_at_start = 0;   // so few were heard after a second, and they were far away; 0: it is no thin start
   bool forgets : 1 = false;              // here or elsewhere a robot has had no room for a target
   std::uint16_t news_gap = first_gap;  // sixteenths of ticks: the longest time without news of a living worker, of late
   float expected_packets = 0.0F;         // packets that were to be heard in the last ticks, fading
