@@ -192,7 +192,7 @@ TEST_F(FleetProgram, CompletesAndSaysWhatARunSays) {
 }
 
 TEST_F(FleetProgram, GoesOnWhenARobotAndTheHubAreKilled) {
-  const pid_t fleet = start_fleet({"--loss", "0.1", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40", "--set", "mission.algorithm=convoy"});
+  const pid_t fleet = start_fleet({"--loss", "0.1", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40", "--set", "mission.algorithm=convoy"}, 30);
   kill_and_wait(robot(fleet, 4), [&] { return robot(fleet, 4); });
   kill_and_wait(hub(fleet), [&] { return hub(fleet); });
   kill_and_wait(robot(fleet, 2), [&] { return robot(fleet, 2); });

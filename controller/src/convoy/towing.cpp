@@ -39,10 +39,10 @@ constexpr int slack_reach_hops = 8;
 // Somewhere near, an edge waits in vain for a spare.
 bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }
 
-// The workers below me have come no nearer to their targets for a while.
+// The workers below me have come no nearer to their targets for a while. In a large swarm rule 16 helps them.
 bool is_stuck(const ConvoyRobot& robot) noexcept {
   constexpr float stuck_after_s = 5.0F;
-  return robot.self.stalled_ticks > robot.params.ticks(stuck_after_s);
+  return !is_counted_large(robot) && robot.self.stalled_ticks > robot.params.ticks(stuck_after_s);
 }
 
 float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }

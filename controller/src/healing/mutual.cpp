@@ -90,7 +90,7 @@ bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
   const float c = robot.params.communication_range_m;
   const int size = table.size();
   if (self.turn == look_ticks && size <= few && table.range(0) > apart * c) self.neighbors_at_start = static_cast<std::uint8_t>(size);
-  if (self.turn <= look_ticks || self.missed_in_the_clear + self.usual_silence == 0) return false;
+  if (self.neighbors_at_start == 0 || self.missed_in_the_clear + self.usual_silence == 0) return false;
   if (self.phase != Phase::init && (self.neighbors_at_start != 1 || size > 1 || self.turn >= end_ticks)) return false;
   if (size == 1 && table.range(0) < stretched * c) u = -table.position(0);
   return true;

@@ -223,10 +223,13 @@ TEST(Mutual, TheEndOfAThinStartWaitsForWhoMayHearItAndGoesTowardsIt) {
 
 TEST(Mutual, WhoHasHeardOfNoRootWaitsWherePacketsGetLost) {
   Vec2 u;
-  AtEnd f(0.5F, Phase::init);
+  AtEnd f(1.2F, Phase::init);
   EXPECT_FALSE(f.awaits(u));
   f.bench.state.usual_silence = 32;
   EXPECT_TRUE(f.awaits(u));
+  AtEnd near(0.5F, Phase::init);
+  near.bench.state.usual_silence = 32;
+  EXPECT_FALSE(near.awaits(u)) << "a compact start";
 }
 
 // The chain to it may be taut: spares are called along it.

@@ -30,8 +30,9 @@ void note_hears(HealingRobot& robot, const Heard& h) noexcept;
 void find_gap(HealingRobot& robot) noexcept;
 // Whether I come nearer to it, or to a robot that calls, by motion `u`.
 [[nodiscard]] bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept;
-// Where packets get lost, another part of the network may hear me that I do not hear. At the end of a thin start I stay
-// for the first seconds, or go towards whoever may be there, by motion `u`; and as long as I have heard of no root.
+// Where packets get lost in a thin start, another part of the network may hear me that I do not hear. So I stay as long as
+// I have heard of no root; at the end of such a start also for the first seconds, or go towards whoever may be there, by
+// motion `u`.
 [[nodiscard]] bool awaits_others(HealingRobot& robot, Vec2& u) noexcept;
 // Packets get lost, and few robots were heard at the start, all of them far away.
 [[nodiscard]] inline bool is_thin(const HealingState& self) noexcept { return self.usual_silence > 0 && self.neighbors_at_start > 0; }
