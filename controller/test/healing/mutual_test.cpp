@@ -182,6 +182,7 @@ TEST(Mutual, WhoIsOfAnOlderEpochIsFetched) {
     f.named = {1};
     f.steps(2 * never_heard_for);
     EXPECT_EQ(f.bench.state.calls, older);
+    EXPECT_EQ(f.bench.state.call_hops == 0, older) << "the chain to it may be taut: spares come along it";
   }
 }
 
@@ -230,20 +231,6 @@ TEST(Mutual, WhoHasHeardOfNoRootWaitsWherePacketsGetLost) {
   AtEnd near(0.5F, Phase::init);
   near.bench.state.usual_silence = 32;
   EXPECT_FALSE(near.awaits(u)) << "a compact start";
-}
-
-// The chain to it may be taut: spares are called along it.
-TEST(Mutual, WhoFetchesCallsSpares) {
-  Beside f;
-  auto& last = f.bench.put(5, {0.0F, 1.2F});
-  last = {};
-  last.id = 5;
-  last.count = nobody;
-  last.root = f.bench.state.root;
-  last.role = Role::spare;
-  f.named = {1};
-  f.steps(2 * never_heard_for);
-  EXPECT_EQ(f.bench.state.call_hops, 0);
 }
 
 // Each would leave those that hear it.
