@@ -163,7 +163,6 @@ TEST(Documents, LinksAndPathsLeadSomewhere) {
   EXPECT_GE(found, 50U);
 }
 
-// Each algorithm's, wherever they are given.
 // architecture.md: the paper's part is short enough to be read beside the PDF.
 TEST(Documents, ThePapersPartIsAsShortAsTheySay) {
   const fs::path controller = source / "controller/src";
@@ -181,6 +180,7 @@ TEST(Documents, ThePapersPartIsAsShortAsTheySay) {
   EXPECT_LE(lines, 1300) << "lines of code; docs/architecture.md says how they are counted";
 }
 
+// Each algorithm's, wherever they are given.
 TEST(Documents, AMessageIsAsLongAsTheySay) {
   const std::regex bytes(R"((\d+)(?:,| to) (?:(\d+) or )?(\d+) bytes (?:ten|per tick|can hold))");
   std::size_t found = 0;

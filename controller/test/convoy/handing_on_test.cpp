@@ -62,6 +62,8 @@ TEST_F(BesideAJunction, ItComesUpWhereTargetsAreMoreThanARobotRemembers) {
   bench.state.root_size = 100;
   bench.state.forgets = true;
   EXPECT_GT(motion().x, 0.5F);
+  bench.state.root_size = 0;
+  EXPECT_LT(motion().x, 0.3F) << "the root has not counted yet: the swarm may be small";
 }
 
 TEST_F(BesideAJunction, AWorkerWithABranchOfItsOwnIsHelpedTowardsThatBranch) {

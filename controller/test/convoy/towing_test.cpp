@@ -52,6 +52,9 @@ TEST_F(ConvoyChain, AWorkerAtItsTargetSaysWhereTheChildIsThatIsStuck) {
   bench.state.stalled_ticks = 51;
   EXPECT_TRUE(passes_pull_on(bench.tick(), pull));
   EXPECT_LT(distance(pull, {1.0F, 0.0F}), 1e-5F);
+  bench.state.root_size = 451;
+  EXPECT_TRUE(passes_pull_on(bench.tick(), pull));
+  EXPECT_LT(distance(pull, {0.0F, -1.0F}), 1e-5F) << "rule 16 helps it";
 }
 
 // Child 3, a worker at its target, is between me and a robot below it, which is stuck: its body is in my way.
@@ -162,6 +165,12 @@ TEST(Convoy, ACalledSpareKeepsUpWithTheTree) {
   };
   EXPECT_LT(towards_tree(), 0.5F);
   bench.move(2, {1.6F, 0.0F});
+  EXPECT_GT(towards_tree(), 0.5F);
+  bench.state.usual_silence = 32;
+  EXPECT_GT(towards_tree(), 0.5F);
+  bench.state.neighbors_at_start = 2;
+  EXPECT_LT(towards_tree(), 0.5F) << "in a thin start nobody waits for others to move";
+  bench.move(2, {1.85F, 0.0F});
   EXPECT_GT(towards_tree(), 0.5F);
 }
 

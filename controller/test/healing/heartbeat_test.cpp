@@ -110,6 +110,25 @@ TEST(Election, OfThoseWhoNeverHeardOfARootTheFirstClaims) {
     }
 }
 
+// Part of a thin start may have to be fetched before it hears of the root.
+TEST(Election, InAThinStartWherePacketsGetLostItTakesThreeTimesAsLong) {
+  const auto ticks_until_elected = [](float range_m, std::uint8_t usual_silence) {
+    ConvoyBench bench;
+    bench.state = initial_convoy_state(1, false, false);
+    bench.put(5, {range_m, 0.0F}).role = Role::spare;
+    bench.say(5).root = bench.state.root;
+    int ticks = 0;
+    for (; ticks < 1000 && bench.state.tally.elections == 0; ++ticks) {
+      bench.state.usual_silence = usual_silence;
+      bench.step();
+    }
+    return ticks;
+  };
+  EXPECT_EQ(ticks_until_elected(1.0F, 0), 201);
+  EXPECT_EQ(ticks_until_elected(1.0F, 32), 601);
+  EXPECT_EQ(ticks_until_elected(0.5F, 32), 201) << "a compact start";
+}
+
 TEST(Election, WhoHearsNobodyNeedsNoRoot) {
   ConvoyBench bench;
   bench.state = initial_convoy_state(1, false, false);

@@ -29,9 +29,10 @@ TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
 
 // Where packets get lost silence says less, and least before the first tree.
 TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
-  const auto ticks_until = [](std::uint8_t usual_silence, Phase phase) {
+  const auto ticks_until = [](std::uint8_t usual_silence, Phase phase, bool thin_start = false) {
     Watch watch({1.95F, 0.0F});
-    watch.bench.state.turn = 200;  // no thin start
+    watch.bench.state.turn = 200;  // so that it does not look now whether its start is thin
+    watch.bench.state.neighbors_at_start = thin_start ? 2 : 0;
     watch.hear_root(50);
     auto& state = watch.bench.state;
     state.phase = watch.bench.say(root_id).phase = phase;
@@ -50,6 +51,8 @@ TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
   EXPECT_EQ(ticks_until(30, Phase::grow_tree), ticks + 4 * 30 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
   EXPECT_EQ(ticks_until(0, Phase::start_tree), ticks);
   EXPECT_EQ(ticks_until(30, Phase::start_tree), ticks + 2 * 100 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
+  EXPECT_EQ(ticks_until(0, Phase::grow_tree, true), ticks);
+  EXPECT_EQ(ticks_until(30, Phase::grow_tree, true), ticks_until(30, Phase::start_tree));
 }
 
 TEST(Retreat, TheSilentHoldNobodyBack) {
