@@ -9,6 +9,7 @@
 
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/healing/hold.hpp"
+#include "banyan/controller/healing/link_guard.hpp"
 #include "banyan/controller/tree/motion.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "bench.hpp"
@@ -168,21 +169,46 @@ TEST(Mutual, WhoIsTiedToNobodyComesNearerToWhoDoesNotHearIt) {
   EXPECT_FALSE(f.bench.state.calls);
 }
 
+// A spare that hears nobody, of this epoch or the one before.
+void put_deaf(ConvoyBench& bench, RobotId id, Vec2 position, bool older) {
+  auto& m = bench.put(id, position);
+  m = {};
+  m.id = id;
+  m.count = nobody;
+  m.root = bench.state.root;
+  m.epoch = older ? 0 : 1;
+  m.role = Role::spare;
+}
+
 // A neighbour of an older epoch hears nobody of mine: it has to be fetched, though I am in the tree.
 TEST(Mutual, WhoIsOfAnOlderEpochIsFetched) {
   for (const bool older : {false, true}) {
     Beside f;
-    auto& last = f.bench.put(5, {0.0F, 1.2F});
-    last = {};
-    last.id = 5;
-    last.count = nobody;
-    last.root = f.bench.state.root;
-    last.epoch = older ? 0 : 1;
-    last.role = Role::spare;
+    put_deaf(f.bench, 5, {0.0F, 1.2F}, older);
     f.named = {1};
     f.steps(2 * never_heard_for);
     EXPECT_EQ(f.bench.state.calls, older);
     EXPECT_EQ(f.bench.state.call_hops == 0, older) << "the chain to it may be taut: spares come along it";
+  }
+}
+
+// I drive to the nearest, and the other would stay behind.
+TEST(Mutual, OfTwoToBeFetchedNeitherIsLeft) {
+  for (const bool older : {false, true}) {
+    Beside f;
+    put_deaf(f.bench, 5, {0.0F, 0.6F}, older);
+    put_deaf(f.bench, 6, {0.0F, -1.9F}, older);
+    f.named = {1};
+    f.steps(2 * never_heard_for);
+    f.bench.move(5, {0.0F, 0.6F});
+    f.bench.move(6, {0.0F, -1.9F});
+    f.bench.say(6).grant = 7;  // its hold is another robot
+    f.bench.state.usual_silence = 32;
+    auto robot = f.bench.tick();
+    robot.hold = robot.table().find(2);
+    Guard guard;
+    guard_links(robot, false, guard);
+    EXPECT_EQ(guard.apply({0.0F, 0.2F}).y < 0.1F, older);
   }
 }
 
