@@ -11,8 +11,8 @@ using namespace banyan;
 int main() {
   const HealingParams params = outwards_defaults();
   HealingState states[2] = {initial_healing_state(0, false, true), initial_healing_state(1, true, false)};
-  HealingMessage sent[2];   // what each robot said in the last tick
-  Odometry odometry[2];     // how each moved since then; the root does not
+  HealingMessage sent[2];  // what each robot said in the last tick
+  Odometry odometry[2];    // how each moved since then; the root does not
   const Vec2 target{1.2F, 0.4F};
   Vec2 position[2] = {{0.0F, 0.0F}, {0.3F, 0.0F}};
   Vec2 heading[2] = {{1.0F, 0.0F}, {0.0F, 1.0F}};  // the worker does not face the target

@@ -10,7 +10,7 @@
 using namespace banyan;
 
 int main() {
-  world::Scenario scenario;   // every other field has a default
+  world::Scenario scenario;  // every other field has a default
   scenario.algorithms = &algorithms();
   scenario.seed = 1;
   scenario.mission.algorithm = "inwards";

@@ -13,14 +13,21 @@ struct Hello {  // what is broadcast; list all fields below, and they travel, ar
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
 };
-template <class Visitor, class Message>
-constexpr void visit_fields(Visitor& visit, Message& m) noexcept { visit.robot("id", "of the sender", m.id); }
+template <class Visitor, class Message> constexpr void visit_fields(Visitor& visit, Message& m) noexcept {
+  visit.robot("id", "of the sender", m.id);
+}
 
 struct Spread {
   using Params = Platform;  // what every algorithm is told: range of the radio, tick, wheels
   using Message = Hello;
-  struct State { RobotId id; };
-  struct Heard { const Hello* message; Vec2 position; float age_s; };  // where the sender is: x ahead, y to the left
+  struct State {
+    RobotId id;
+  };
+  struct Heard {
+    const Hello* message;
+    Vec2 position;
+    float age_s;
+  };  // where the sender is: x ahead, y to the left
 
   static State initial(RobotId id, bool, bool) { return {id}; }
   static Output<Hello> step(const Params&, State& self, const Inputs<Heard>& inputs) {

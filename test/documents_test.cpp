@@ -26,7 +26,7 @@ struct Line {
   fs::path file;
   std::size_t number = 0;
   std::string text;
-  std::string block;   // "sh", "toml", ... inside a fenced block; "plain" if it names no language
+  std::string block;  // "sh", "toml", ... inside a fenced block; "plain" if it names no language
   [[nodiscard]] std::string where() const { return file.filename().string() + ":" + std::to_string(number); }
 };
 
@@ -70,7 +70,10 @@ class Clone {
   Clone(const Clone&) = delete;
   Clone& operator=(const Clone&) = delete;
 
-  struct Result { int status; std::string output; };
+  struct Result {
+    int status;
+    std::string output;
+  };
   [[nodiscard]] Result run(const std::string& command) const {
     Result result{-1, ""};
     // A shell is the point: it is where a reader types these commands.
@@ -117,7 +120,7 @@ TEST(Documents, CommandsRun) {
   std::size_t commands = 0;
   for (const Line& line : lines_of_documents()) {
     if (line.block != "sh" || !line.text.starts_with("./")) continue;
-    if (!line.text.starts_with("./banyan ")) {   // a script of the house
+    if (!line.text.starts_with("./banyan ")) {  // a script of the house
       EXPECT_TRUE(fs::exists(source / line.text.substr(2, line.text.find(' ') - 2))) << line.where();
       continue;
     }
@@ -132,7 +135,8 @@ TEST(Documents, CommandsRun) {
     const bool bench = line.text.starts_with("./banyan bench");
     // Only the first study is a matter of seconds; of the others and of tunings the plan must do.
     const bool long_one = std::regex_search(line.text, std::regex("banyan (study|tune) ")) &&
-                          line.text.find("first.toml") == std::string::npos && line.text.find("--help") == std::string::npos;
+                          line.text.find("first.toml") == std::string::npos &&
+                          line.text.find("--help") == std::string::npos;
     // And the first second of a run that is long on purpose.
     const bool long_run = line.text.find("--set mission.time_limit_s=") != std::string::npos;
     const auto result = clone.run(line.text + (bench      ? " spread-94-los --windows 1 --window 0.01"
@@ -189,7 +193,9 @@ TEST(Documents, AMessageIsAsLongAsTheySay) {
     if (!std::regex_search(line.text, match, bytes)) continue;
     ++found;
     EXPECT_EQ(std::stoul(match[1]), banyan::wire_size<banyan::TreeMessage>()) << line.where();
-    if (match[2].matched) { EXPECT_EQ(std::stoul(match[2]), banyan::wire_size<banyan::HealingMessage>()) << line.where(); }
+    if (match[2].matched) {
+      EXPECT_EQ(std::stoul(match[2]), banyan::wire_size<banyan::HealingMessage>()) << line.where();
+    }
     EXPECT_EQ(std::stoul(match[3]), banyan::wire_size<banyan::ConvoyMessage>()) << line.where();
   }
   EXPECT_EQ(found, 3U);
@@ -197,9 +203,10 @@ TEST(Documents, AMessageIsAsLongAsTheySay) {
 
 // protocol.md, section 1.
 TEST(Documents, EachAlgorithmsMessageIsAsLongAsTheTableSays) {
-  const std::vector<std::pair<std::string, std::size_t>> rows{{"literal", banyan::wire_size<banyan::TreeMessage>()},
-                                                              {"corrected", banyan::wire_size<banyan::HealingMessage>()},
-                                                              {"convoy", banyan::wire_size<banyan::ConvoyMessage>()}};
+  const std::vector<std::pair<std::string, std::size_t>> rows{
+      {"literal", banyan::wire_size<banyan::TreeMessage>()},
+      {"corrected", banyan::wire_size<banyan::HealingMessage>()},
+      {"convoy", banyan::wire_size<banyan::ConvoyMessage>()}};
   for (const auto& [name, bytes] : rows) {
     const std::regex row("\\| .*" + name + " \\| [a-z, ]+ \\| " + std::to_string(bytes) + " \\|");
     std::size_t found = 0;

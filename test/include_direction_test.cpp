@@ -3,7 +3,8 @@
 // and viewer -> config: a browser has no processes to start. Only algorithms -> controller, rivals knows the
 // algorithms; the others see them through controller/core, and who composes a program hands the list down. So does
 // rivals -> controller/core. A host is a program of its own beside the world: hosts -> controller/core; what starts one
-// is above it, cli -> hosts. hosts/argos is one that observes and records its robots as a world: hosts/argos -> config. Reads the include lines of every source file and names each that points up.
+// is above it, cli -> hosts. hosts/argos is one that observes and records its robots as a world: hosts/argos -> config.
+// Reads the include lines of every source file and names each that points up.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -70,9 +71,10 @@ const std::map<std::string, Names, std::less<>> homes = {
 };
 
 // The whole of the standard library that runs on a robot: no heap, no streams, no clock, no threads.
-const Names on_the_robot = {"algorithm", "array",   "bit",    "cmath",       "compare",  "concepts",    "cstddef",
-                            "cstdint",   "cstring", "limits", "numeric",     "optional", "span",        "string_view",
-                            "tuple",     "utility", "version", "type_traits", "iterator", "initializer_list"};
+const Names on_the_robot = {"algorithm", "array",    "bit",         "cmath",       "compare",
+                            "concepts",  "cstddef",  "cstdint",     "cstring",     "limits",
+                            "numeric",   "optional", "span",        "string_view", "tuple",
+                            "utility",   "version",  "type_traits", "iterator",    "initializer_list"};
 
 // The seam's side towards hosts, which have a heap. Nothing else in controller/ includes these, and in rivals/ only
 // algorithm.cpp, which makes an Algorithm of each, and algorithm.hpp of common/.
@@ -97,7 +99,9 @@ bool is_product(const fs::path& room_folder, const fs::path& file) {
 
 const Names& allowed_for(const fs::path& room_folder, const fs::path& file) {
   if (room_folder.filename() == "hosts")
-    if (const auto found = host_may_include.find(part_of(room_folder, file).filename().string()); found != host_may_include.end()) return found->second;
+    if (const auto found = host_may_include.find(part_of(room_folder, file).filename().string());
+        found != host_may_include.end())
+      return found->second;
   return may_include.at(room_folder.filename().string());
 }
 
@@ -124,7 +128,8 @@ std::vector<fs::path> sources(const fs::path& folder) {
   for (fs::recursive_directory_iterator entry(folder), end; entry != end; ++entry) {
     const std::string name = entry->path().filename().string();
     if (entry->is_directory() && (name == "node_modules" || name == "build")) entry.disable_recursion_pending();
-    else if (std::ranges::find(endings, entry->path().extension().string()) != endings.end()) found.push_back(entry->path());
+    else if (std::ranges::find(endings, entry->path().extension().string()) != endings.end())
+      found.push_back(entry->path());
   }
   std::ranges::sort(found);
   return found;
@@ -136,28 +141,33 @@ std::optional<std::string> quoted_fault(const fs::path& room_folder, const fs::p
   const fs::path part = part_of(room_folder, file);
   if (file.lexically_relative(part / "test").begin()->string() != "..") {
     for (const std::string& below : may_include.at(room_folder.filename().string()))
-      if (fs::exists(room_folder.parent_path() / below / "test" / name) && name.find("..") == std::string::npos) return std::nullopt;
+      if (fs::exists(room_folder.parent_path() / below / "test" / name) && name.find("..") == std::string::npos)
+        return std::nullopt;
   }
   // The viewer's src/ is the page's; its C++ is in live/.
   for (const fs::path& folder :
        {file.parent_path(), part / "src", part / "live", part / "test", room_folder / "common/test"}) {
     if (!fs::exists(folder / name)) continue;
-    const std::string inside = fs::weakly_canonical(folder / name).lexically_relative(fs::weakly_canonical(room_folder)).string();
+    const std::string inside =
+        fs::weakly_canonical(folder / name).lexically_relative(fs::weakly_canonical(room_folder)).string();
     return inside.starts_with("..") ? std::optional("reaches out of its room") : std::nullopt;
   }
   return "is not in its room";
 }
 
 // What is wrong with an include line of `file` in `room`, in words; nothing if it is right.
-std::optional<std::string> fault(const fs::path& room_folder, const fs::path& file, const Include& include, bool product) {
+std::optional<std::string> fault(const fs::path& room_folder, const fs::path& file, const Include& include,
+                                 bool product) {
   const std::string room = room_folder.filename().string();
   const std::string& name = include.name;
   const bool on_robot = product && (room == "controller" || room == "rivals") && !is_for_hosts(file);
   if (name.starts_with("banyan/")) {
     const std::size_t slash = name.find('/', 7);
-    if (slash == std::string::npos) return room == "controller" ? std::optional("is not the controller's") : std::nullopt;
+    if (slash == std::string::npos)
+      return room == "controller" ? std::optional("is not the controller's") : std::nullopt;
     const std::string other = name.substr(7, slash - 7);
-    if (other == "controller" && product && room != "controller" && room != "algorithms" && !name.starts_with("banyan/controller/core/"))
+    if (other == "controller" && product && room != "controller" && room != "algorithms" &&
+        !name.starts_with("banyan/controller/core/"))
       return "names an algorithm";
     if (on_robot && is_for_hosts(name)) return "is for hosts";
     if (other == "algorithms" && !product && room != "controller") return std::nullopt;  // tests name them
@@ -183,7 +193,8 @@ std::vector<std::string> faults(const fs::path& house) {
       const std::string where = fs::relative(file, house).string();
       const bool product = is_product(house / room, file);
       for (const Include& include : includes(file)) {
-        if (const auto what = fault(house / room, file, include, product)) found.push_back(where + ": " + include.name + " " + *what);
+        if (const auto what = fault(house / room, file, include, product))
+          found.push_back(where + ": " + include.name + " " + *what);
       }
     }
   }
@@ -231,7 +242,9 @@ TEST_F(WrongHouse, ControllerKnowsTheVersion) {
   EXPECT_NE(faults_of("controller/src/x.cpp", "#include \"banyan/version.hpp\""), "");
 }
 TEST_F(WrongHouse, OnlyTheSeamKnowsHosts) {
-  EXPECT_EQ(faults_of("controller/include/banyan/controller/core/swarm.hpp", "#include <memory>\n#include \"banyan/controller/core/swarm_of.hpp\""), "");
+  EXPECT_EQ(faults_of("controller/include/banyan/controller/core/swarm.hpp",
+                      "#include <memory>\n#include \"banyan/controller/core/swarm_of.hpp\""),
+            "");
   EXPECT_NE(faults_of("controller/include/banyan/controller/core/swarm.hpp", "#include <iostream>"), "");
   EXPECT_EQ(faults_of("controller/include/banyan/controller/core/swarm.hpp", ""), "");
   EXPECT_EQ(faults_of("controller/src/x.cpp", "#include \"banyan/controller/core/swarm.hpp\""),
@@ -239,7 +252,9 @@ TEST_F(WrongHouse, OnlyTheSeamKnowsHosts) {
 }
 TEST_F(WrongHouse, OnlyTheListAndTestsNameAlgorithms) {
   EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/controller/outwards.hpp\""), "");
-  EXPECT_EQ(faults_of("world/test/x_test.cpp", "#include \"banyan/algorithms/algorithms.hpp\"\n#include \"banyan/controller/outwards.hpp\""), "");
+  EXPECT_EQ(faults_of("world/test/x_test.cpp",
+                      "#include \"banyan/algorithms/algorithms.hpp\"\n#include \"banyan/controller/outwards.hpp\""),
+            "");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/controller/outwards.hpp\""),
             "world/src/x.cpp: banyan/controller/outwards.hpp names an algorithm\n");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/algorithms/algorithms.hpp\""),
@@ -254,43 +269,56 @@ TEST_F(WrongHouse, RivalsStandOnTheCoreAlone) {
   EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/core/guard.hpp\""), "");
   EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/tree/motion.hpp\""),
             "rivals/toy/src/x.cpp: banyan/controller/tree/motion.hpp names an algorithm\n");
-  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include <vector>"), "rivals/toy/src/x.cpp: vector has no place on a robot\n");
-  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""), "rivals/toy/src/x.cpp: banyan/world/world.hpp points up\n");
+  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include <vector>"),
+            "rivals/toy/src/x.cpp: vector has no place on a robot\n");
+  EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""),
+            "rivals/toy/src/x.cpp: banyan/world/world.hpp points up\n");
   EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/controller/core/algorithm_of.hpp\""),
             "rivals/toy/src/x.cpp: banyan/controller/core/algorithm_of.hpp is for hosts\n");
   EXPECT_EQ(faults_of("rivals/toy/src/x.cpp", "#include \"banyan/rivals/common/algorithm.hpp\""),
             "rivals/toy/src/x.cpp: banyan/rivals/common/algorithm.hpp is for hosts\n");
   std::filesystem::remove(house_ / "rivals/toy/src/x.cpp");
   EXPECT_EQ(faults_of("rivals/toy/src/algorithm.cpp",
-                      "#include <vector>\n#include \"banyan/controller/core/algorithm_of.hpp\""), "");
-  EXPECT_EQ(faults_of("rivals/toy/toy.cpp", "#include <vector>"), "rivals/toy/toy.cpp: vector has no place on a robot\n");
+                      "#include <vector>\n#include \"banyan/controller/core/algorithm_of.hpp\""),
+            "");
+  EXPECT_EQ(faults_of("rivals/toy/toy.cpp", "#include <vector>"),
+            "rivals/toy/toy.cpp: vector has no place on a robot\n");
   std::filesystem::remove(house_ / "rivals/toy/toy.cpp");
   EXPECT_EQ(faults_of("rivals/common/test/net.hpp", "#include <vector>"), "");
   EXPECT_EQ(faults_of("rivals/toy/test/x_test.cpp",
-                      "#include <vector>\n#include \"net.hpp\"\n#include \"banyan/controller/core/swarm_of.hpp\""), "");
+                      "#include <vector>\n#include \"net.hpp\"\n#include \"banyan/controller/core/swarm_of.hpp\""),
+            "");
   EXPECT_EQ(faults_of("algorithms/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""), "");
   EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"banyan/rivals/common/motion.hpp\""),
             "world/src/x.cpp: banyan/rivals/common/motion.hpp points up\n");
 }
 TEST_F(WrongHouse, AHostKnowsNoWorld) {
   EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include <vector>\n#include \"banyan/controller/core/swarm.hpp\""), "");
-  EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""), "hosts/toy/src/x.cpp: banyan/world/world.hpp points up\n");
+  EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include \"banyan/world/world.hpp\""),
+            "hosts/toy/src/x.cpp: banyan/world/world.hpp points up\n");
   EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include \"banyan/controller/convoy/convoy.hpp\""),
             "hosts/toy/src/x.cpp: banyan/controller/convoy/convoy.hpp names an algorithm\n");
   std::filesystem::remove(house_ / "hosts/toy/src/x.cpp");
-  EXPECT_EQ(faults_of("hosts/argos/src/x.cpp", "#include \"banyan/config/config.hpp\"\n#include <argos3/core/simulator/simulator.h>"), "");
-  EXPECT_EQ(faults_of("hosts/argos/src/x.cpp", "#include \"banyan/study/study.hpp\""), "hosts/argos/src/x.cpp: banyan/study/study.hpp points up\n");
+  EXPECT_EQ(faults_of("hosts/argos/src/x.cpp",
+                      "#include \"banyan/config/config.hpp\"\n#include <argos3/core/simulator/simulator.h>"),
+            "");
+  EXPECT_EQ(faults_of("hosts/argos/src/x.cpp", "#include \"banyan/study/study.hpp\""),
+            "hosts/argos/src/x.cpp: banyan/study/study.hpp points up\n");
   std::filesystem::remove(house_ / "hosts/argos/src/x.cpp");
   EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/hosts/toy/x.hpp\""), "");
-  EXPECT_EQ(faults_of("world/src/x.cpp", "#include <sodium.h>"), "world/src/x.cpp: sodium.h belongs into another room\n");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include <sodium.h>"),
+            "world/src/x.cpp: sodium.h belongs into another room\n");
 }
 TEST_F(WrongHouse, PythonPutsAProgramTogether) {
-  EXPECT_EQ(faults_of("hosts/python/src/x.cpp", "#include <pybind11/pybind11.h>\n#include \"banyan/study/study.hpp\""), "");
-  EXPECT_EQ(faults_of("hosts/python/src/x.cpp", "#include \"banyan/cli/x.hpp\""), "hosts/python/src/x.cpp: banyan/cli/x.hpp points up\n");
+  EXPECT_EQ(faults_of("hosts/python/src/x.cpp", "#include <pybind11/pybind11.h>\n#include \"banyan/study/study.hpp\""),
+            "");
+  EXPECT_EQ(faults_of("hosts/python/src/x.cpp", "#include \"banyan/cli/x.hpp\""),
+            "hosts/python/src/x.cpp: banyan/cli/x.hpp points up\n");
   EXPECT_EQ(faults_of("hosts/python/src/x.cpp", "#include \"banyan/controller/convoy/convoy.hpp\""),
             "hosts/python/src/x.cpp: banyan/controller/convoy/convoy.hpp names an algorithm\n");
   fs::remove(house_ / "hosts/python/src/x.cpp");
-  EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include <pybind11/numpy.h>"), "hosts/toy/src/x.cpp: pybind11/numpy.h belongs into another room\n");
+  EXPECT_EQ(faults_of("hosts/toy/src/x.cpp", "#include <pybind11/numpy.h>"),
+            "hosts/toy/src/x.cpp: pybind11/numpy.h belongs into another room\n");
 }
 TEST_F(WrongHouse, WorldIncludesMeasure) {
   EXPECT_NE(faults_of("world/include/banyan/world/x.hpp", "#include \"banyan/measure/metrics.hpp\""), "");
@@ -312,7 +340,8 @@ TEST_F(WrongHouse, WorldReachesOut) {
 TEST_F(WrongHouse, OnlyTestsShareTheHelpersOfTests) {
   EXPECT_EQ(faults_of("controller/test/helper.hpp", ""), "");
   EXPECT_EQ(faults_of("world/test/x_test.cpp", "#include \"helper.hpp\""), "");
-  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"helper.hpp\""), "world/src/x.cpp: helper.hpp is not in its room\n");
+  EXPECT_EQ(faults_of("world/src/x.cpp", "#include \"helper.hpp\""),
+            "world/src/x.cpp: helper.hpp is not in its room\n");
 }
 TEST_F(WrongHouse, ThePageUsesTheProgram) {
   EXPECT_NE(faults_of("viewer/live/x.cpp", "#include \"banyan/study/study.hpp\""), "");
@@ -321,9 +350,12 @@ TEST_F(WrongHouse, ThePageUsesTheProgram) {
   EXPECT_NE(faults_of("record/src/x.cpp", "#include \"live.hpp\""), "");
 }
 TEST_F(WrongHouse, WorldReadsToml) { EXPECT_NE(faults_of("world/src/x.cpp", "#include <toml++/toml.h>"), ""); }
-TEST_F(WrongHouse, RoomThatDoesNotExist) { EXPECT_NE(faults_of("cli/src/x.cpp", "#include \"banyan/attic/x.hpp\""), ""); }
+TEST_F(WrongHouse, RoomThatDoesNotExist) {
+  EXPECT_NE(faults_of("cli/src/x.cpp", "#include \"banyan/attic/x.hpp\""), "");
+}
 TEST_F(WrongHouse, WhatIsRightIsNotNamed) {
-  EXPECT_EQ(faults_of("cli/src/x.cpp", "#include \"banyan/world/world.hpp\"\n#include <CLI/CLI.hpp>\n#include <vector>"), "");
+  EXPECT_EQ(
+      faults_of("cli/src/x.cpp", "#include \"banyan/world/world.hpp\"\n#include <CLI/CLI.hpp>\n#include <vector>"), "");
 }
 
 }  // namespace

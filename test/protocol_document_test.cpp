@@ -52,8 +52,7 @@ std::vector<std::string> all(const std::string& text, const std::string& form) {
   return found;
 }
 
-template <class Params, class Rows>
-void collect(Numbers& numbers, const Params& params, const Rows& rows) {
+template <class Params, class Rows> void collect(Numbers& numbers, const Params& params, const Rows& rows) {
   for (const auto& row : rows) numbers[std::string(row.key)] = static_cast<double>(params.*row.member);
 }
 
@@ -75,11 +74,11 @@ double constant_of(const fs::path& file, const std::string& name) {
 }
 
 struct Claim {
-  std::string page;      // in docs/
-  std::string form;      // with one group around the number
-  std::string file;      // under controller/src/
+  std::string page;  // in docs/
+  std::string form;  // with one group around the number
+  std::string file;  // under controller/src/
   std::string constant;
-  double factor = 1.0;   // from the code's unit to the page's
+  double factor = 1.0;  // from the code's unit to the page's
 };
 void PrintTo(const Claim& claim, std::ostream* out) { *out << claim.page << ' ' << claim.constant; }
 
@@ -102,14 +101,21 @@ INSTANTIATE_TEST_SUITE_P(
         Claim{"protocol.md", R"(at least (\d+) ticks have passed)", "tree/epoch.cpp", "settle_ticks"},
         Claim{"protocol.md", R"((\d+) ticks after first hearing a labelled)", "tree/label.cpp", "wait_ticks"},
         Claim{"protocol.md", R"(\((\d+) while all of these are beyond)", "tree/label.cpp", "wait_far_ticks"},
-        Claim{"protocol.md", R"(heard within the last (\d+) ticks has this epoch)", "tree/label.cpp", "echo_silence_ticks"},
-        Claim{"protocol.md", R"(Without any candidate for more than (\d+) ticks)", "tree/parent_selection.cpp", "patience_flood_ticks"},
-        Claim{"protocol.md", R"(After more than (\d+) ticks, a robot without)", "tree/parent_selection.cpp", "patience_relabel_ticks"},
-        Claim{"protocol.md", R"(is within ([\d.]+) C, the last resort)", "../include/banyan/controller/tree/robot.hpp", "longest_link"},
-        Claim{"protocol.md", R"(- more than (\d+): it stands still)", "tree/parent_selection.cpp", "orphan_still_ticks"},
+        Claim{"protocol.md", R"(heard within the last (\d+) ticks has this epoch)", "tree/label.cpp",
+              "echo_silence_ticks"},
+        Claim{"protocol.md", R"(Without any candidate for more than (\d+) ticks)", "tree/parent_selection.cpp",
+              "patience_flood_ticks"},
+        Claim{"protocol.md", R"(After more than (\d+) ticks, a robot without)", "tree/parent_selection.cpp",
+              "patience_relabel_ticks"},
+        Claim{"protocol.md", R"(is within ([\d.]+) C, the last resort)", "../include/banyan/controller/tree/robot.hpp",
+              "longest_link"},
+        Claim{"protocol.md", R"(- more than (\d+): it stands still)", "tree/parent_selection.cpp",
+              "orphan_still_ticks"},
         Claim{"protocol.md", R"(- more than (\d+), or more than)", "tree/parent_selection.cpp", "orphan_attach_ticks"},
-        Claim{"protocol.md", R"(, or more than (\d+) if it has no parent)", "tree/parent_selection.cpp", "drafted_attach_ticks"},
-        Claim{"protocol.md", R"(of its living neighbours, up to (\d+), then 255)", "tree/spare_management.cpp", "call_reach_hops"}));
+        Claim{"protocol.md", R"(, or more than (\d+) if it has no parent)", "tree/parent_selection.cpp",
+              "drafted_attach_ticks"},
+        Claim{"protocol.md", R"(of its living neighbours, up to (\d+), then 255)", "tree/spare_management.cpp",
+              "call_reach_hops"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Obstacles, Constants,
@@ -118,19 +124,26 @@ INSTANTIATE_TEST_SUITE_P(
         Claim{"protocol.md", R"(\(d − body − (\d+) cm\))", "obstacles/bypass.cpp", "keep_m", 50.0},
         Claim{"protocol.md", R"(the goal is (\d+) cm nearer)", "obstacles/bypass.cpp", "progress_m", 100.0},
         Claim{"protocol.md", R"(the goal moves by more than ([\d.]+) m)", "obstacles/bypass.cpp", "goal_moved_m"},
-        Claim{"protocol.md", R"(Farther than ([\d.]+) C from where the detour began)", "obstacles/bypass.cpp", "first_span"},
-        Claim{"protocol.md", R"(nearer than (\d+) cm to an edge by its own motion)", "obstacles/corners.cpp", "sight_margin_m", 100.0},
-        Claim{"protocol.md", R"(connectors move away from points nearer than (\d+) cm)", "obstacles/corners.cpp", "sight_width_m", 100.0},
-        Claim{"protocol.md", R"(the nearest one within ([\d.]+) m \(`hinge`\))", "obstacles/corners.cpp", "hinge_width_m"},
-        Claim{"protocol.md", R"(whose edge to the parent is longer than ([\d.]+) m)", "obstacles/corners.cpp", "pin_shortest_m"},
+        Claim{"protocol.md", R"(Farther than ([\d.]+) C from where the detour began)", "obstacles/bypass.cpp",
+              "first_span"},
+        Claim{"protocol.md", R"(nearer than (\d+) cm to an edge by its own motion)", "obstacles/corners.cpp",
+              "sight_margin_m", 100.0},
+        Claim{"protocol.md", R"(connectors move away from points nearer than (\d+) cm)", "obstacles/corners.cpp",
+              "sight_width_m", 100.0},
+        Claim{"protocol.md", R"(the nearest one within ([\d.]+) m \(`hinge`\))", "obstacles/corners.cpp",
+              "hinge_width_m"},
+        Claim{"protocol.md", R"(whose edge to the parent is longer than ([\d.]+) m)", "obstacles/corners.cpp",
+              "pin_shortest_m"},
         Claim{"protocol.md", R"(passes a point at less than (\d+) cm)", "obstacles/corners.cpp", "pin_width_m", 100.0},
         Claim{"protocol.md", R"(tree hops have counted up beyond (\d+))", "convoy/towing.cpp", "lost_hops"},
-        Claim{"protocol.md", R"(has not heard its parent for (\d+) ticks backs up)", "convoy/towing.cpp", "silent_ticks"}));
+        Claim{"protocol.md", R"(has not heard its parent for (\d+) ticks backs up)", "convoy/towing.cpp",
+              "silent_ticks"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Healing, Constants,
     testing::Values(
-        Claim{"protocol.md", R"(drives to within ([\d.]+) C of where the child was)", "healing/dangling_branch.cpp", "near_enough"},
+        Claim{"protocol.md", R"(drives to within ([\d.]+) C of where the child was)", "healing/dangling_branch.cpp",
+              "near_enough"},
         Claim{"protocol.md", R"(Its count starts (\d+) ahead)", "healing/takeover.cpp", "takeover_beats"},
         Claim{"protocol.md", R"(a count more than (\d+) behind)", "healing/takeover.cpp", "rival_beats"},
         Claim{"protocol.md", R"(passed on in the same way for (\d+) s)", "healing/takeover.cpp", "pass_on_ticks", 0.1},
@@ -142,13 +155,15 @@ INSTANTIATE_TEST_SUITE_P(
         Claim{"protocol.md", R"(a child tows (\d+) spreads sooner)", "convoy/towing.cpp", "tows_sooner"},
         Claim{"protocol.md", R"(a connector is released (\d+) spreads later)", "convoy/shortcut.cpp", "releases_later"},
         Claim{"protocol.md", R"(found no parent for (\d+) ticks drives)", "healing/retreat.cpp", "lost_ticks"},
-        Claim{"protocol.md", R"(drives to within ([\d.]+) C of where the root was)", "healing/retreat.cpp", "near_enough"},
+        Claim{"protocol.md", R"(drives to within ([\d.]+) C of where the root was)", "healing/retreat.cpp",
+              "near_enough"},
         Claim{"protocol.md", R"(drives home for at most (\d+) s)", "healing/retreat.cpp", "regroup_for_s"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Convoy, Constants,
     testing::Values(
-        Claim{"protocol.md", R"(Within (\d+) hops of an edge that waits in vain)", "convoy/towing.cpp", "slack_reach_hops"},
+        Claim{"protocol.md", R"(Within (\d+) hops of an edge that waits in vain)", "convoy/towing.cpp",
+              "slack_reach_hops"},
         Claim{"protocol.md", R"(than ([\d.]+) of the tolerance neither)", "convoy/towing.cpp", "as_good_as_there"},
         Claim{"convoy.md", R"(if it stands in the way itself, ([\d.]+) `clearance`)", "convoy/convoy.cpp", "tight"},
         Claim{"convoy.md", R"(with a robot within ([\d.]+) `clearance`)", "convoy/link_repair.cpp", "danger"},
@@ -160,7 +175,8 @@ INSTANTIATE_TEST_SUITE_P(
         Claim{"convoy.md", R"(at most every (\d+) s a robot)", "convoy/pruning.cpp", "merge_period_s"},
         Claim{"convoy.md", R"(every (\d+) s, for at most)", "convoy/plan.cpp", "plan_period_s"},
         Claim{"convoy.md", R"(, for at most (\d+) s, one more level)", "convoy/plan.cpp", "plan_limit_s"},
-        Claim{"convoy.md", R"(made no progress for (\d+) s asks for a spare)", "convoy/plan.cpp", "held_back_after_s"}));
+        Claim{"convoy.md", R"(made no progress for (\d+) s asks for a spare)", "convoy/plan.cpp",
+              "held_back_after_s"}));
 
 // Every number in the controller's rooms that is no parameter stands, with its reason, in docs/algorithms.md; and
 // that page names no other.
@@ -169,11 +185,16 @@ TEST(ProtocolDocument, NumbersThatAreNoParametersAreGivenAReason) {
   for (const char* folder : {"controller/src", "controller/include"})
     for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
       // The headers of the core hold sizes and limits of the seam, which nobody tunes.
-      if (!entry.is_regular_file() || entry.path().parent_path() == source / "controller/include/banyan/controller/core") continue;
-      for (const std::string& name : all(text_of(entry.path()), R"(constexpr (?:float|int|std::uint(?:8|16)_t) (\w+) = (?:0\.|[1-9.]))")) in_code.insert(name);
+      if (!entry.is_regular_file() ||
+          entry.path().parent_path() == source / "controller/include/banyan/controller/core")
+        continue;
+      for (const std::string& name :
+           all(text_of(entry.path()), R"(constexpr (?:float|int|std::uint(?:8|16)_t) (\w+) = (?:0\.|[1-9.]))"))
+        in_code.insert(name);
     }
   std::set<std::string> in_document;
-  for (const std::string& name : all(section(text_of("docs/algorithms.md"), "## Numbers that are no parameters"), R"(`(\w+)`)"))
+  for (const std::string& name :
+       all(section(text_of("docs/algorithms.md"), "## Numbers that are no parameters"), R"(`(\w+)`)"))
     in_document.insert(name);
   EXPECT_EQ(in_document, in_code);
   EXPECT_GT(in_code.size(), 40U);
@@ -249,7 +270,8 @@ TEST(ProtocolDocument, ConvoysLengthsAreThoseOfItsDefaults) {
   };
   expect(R"(No edge outgrows G = ([\d.]+) C)", p.ideal_distance_m / p.communication_range_m);
   expect(R"(the root and junctions only from ([\d.]+) C on)", p.safe_range_m / p.communication_range_m);
-  expect(R"(Need: the edge to the parent is longer than ([\d.]+) C)", p.recruitment_distance_m / p.communication_range_m);
+  expect(R"(Need: the edge to the parent is longer than ([\d.]+) C)",
+         p.recruitment_distance_m / p.communication_range_m);
   expect(R"(Repulsion only nearer than ([\d.]+) C)", p.avoidance_range_m / p.communication_range_m);
   expect(R"(from spares ([\d.]+) C)", p.spare_avoidance_m / p.communication_range_m);
   expect(R"(`plan_after_s` \((\d+) s\))", p.plan_after_s);
@@ -262,7 +284,8 @@ TEST(ProtocolDocument, EveryChoiceOfTheReadingHasItsRow) {
   const auto fields = all(text_of("controller/include/banyan/controller/tree/reading.hpp"), R"(\n  bool (\w+);)");
   const auto rows = all(section(text_of("docs/algorithms.md"), "## literal against corrected"), R"(\n\| `(\w+)` \|)");
   EXPECT_GE(fields.size(), 7U);
-  EXPECT_EQ(std::multiset<std::string>(fields.begin(), fields.end()), std::multiset<std::string>(rows.begin(), rows.end()));
+  EXPECT_EQ(std::multiset<std::string>(fields.begin(), fields.end()),
+            std::multiset<std::string>(rows.begin(), rows.end()));
 }
 
 // docs/architecture.md names the calls of convoy_step in their order.
@@ -298,7 +321,8 @@ TEST(ProtocolDocument, SectionsThatTheCodeCitesExist) {
         ++found;
         EXPECT_TRUE(sections.contains(cited)) << entry.path() << ": protocol " << cited;
       }
-      for (const std::string& cited : all(text, R"(protocol 2, row (\d+))")) EXPECT_TRUE(rows.contains(cited)) << entry.path() << ": row " << cited;
+      for (const std::string& cited : all(text, R"(protocol 2, row (\d+))"))
+        EXPECT_TRUE(rows.contains(cited)) << entry.path() << ": row " << cited;
     }
   EXPECT_GE(found, 30U);
 }

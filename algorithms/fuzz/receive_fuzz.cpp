@@ -54,7 +54,10 @@ std::vector<Packet> packets_of(Swarm& swarm, Bytes input, std::uint8_t where) {
     const std::size_t length = std::min<std::size_t>(take(input), input.size());
     const auto place = receive(swarm, input.first(length));
     input = input.subspan(length);
-    if (place) packets.push_back({.sender = *place, .position = {0.01F * static_cast<float>(where), 0.2F * static_cast<float>(packets.size() + 1)}});
+    if (place)
+      packets.push_back(
+          {.sender = *place,
+           .position = {0.01F * static_cast<float>(where), 0.2F * static_cast<float>(packets.size() + 1)}});
   }
   return packets;
 }

@@ -61,8 +61,9 @@ const Algorithm& inwards() noexcept {
 }
 
 const Algorithm& convoy() noexcept {
-  static constexpr Convoy algorithm(
-      "convoy", "a sparse tree that its workers tow; spares join near the root, without travelling", convoy_defaults, true);
+  static constexpr Convoy algorithm("convoy",
+                                    "a sparse tree that its workers tow; spares join near the root, without travelling",
+                                    convoy_defaults, true);
   return algorithm;
 }
 

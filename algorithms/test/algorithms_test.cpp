@@ -108,7 +108,8 @@ TEST(Algorithms, RoomForBodiesDoesNotShrinkWithTheRadio) {
   EXPECT_FLOAT_EQ(params(4.0F, 1.0F).clearance_m, 2.0F * clearance_m);
   EXPECT_FLOAT_EQ(params(1.0F, 0.5F).clearance_m, 0.5F * clearance_m) << "everything half as large";
   EXPECT_FLOAT_EQ(params(0.6F, 1.0F).spare_avoidance_m, params(2.0F, 1.0F).spare_avoidance_m);
-  EXPECT_FLOAT_EQ(params(0.6F, 1.0F).corridor_width_m, 0.3F * params(2.0F, 1.0F).corridor_width_m) << "a width of the chain's";
+  EXPECT_FLOAT_EQ(params(0.6F, 1.0F).corridor_width_m, 0.3F * params(2.0F, 1.0F).corridor_width_m)
+      << "a width of the chain's";
 }
 
 TEST(Algorithms, ConvoyRefusesARadioThatReachesHardlyBeyondABody) {
@@ -131,7 +132,8 @@ TEST(Algorithms, TheScaleOfAMissionActsOnTheLengthsOfTableI) {
 TEST(Algorithms, DistancesOutOfOrderAreAFault) {
   banyan::Setup setup;
   setup.parameters = {{"safe_range_m", 1.95}};
-  for (const Algorithm* algorithm : {&outwards(), &inwards()}) EXPECT_NE(algorithm->fault(setup).find("safe_range_m"), std::string::npos);
+  for (const Algorithm* algorithm : {&outwards(), &inwards()})
+    EXPECT_NE(algorithm->fault(setup).find("safe_range_m"), std::string::npos);
 }
 
 }  // namespace

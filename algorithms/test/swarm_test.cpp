@@ -38,7 +38,9 @@ struct Row {
     swarm = algorithm.make(setup, members);
     for (std::size_t i = 0; i < robots; ++i) listen(i);
   }
-  static Vec2 seen(std::size_t from, std::size_t to) { return {static_cast<float>(to) - static_cast<float>(from), 0.0F}; }
+  static Vec2 seen(std::size_t from, std::size_t to) {
+    return {static_cast<float>(to) - static_cast<float>(from), 0.0F};
+  }
   void listen(std::size_t i) {
     for (std::size_t j = 0; j < robots; ++j)
       if (j != i) packets[i].push_back({static_cast<std::uint32_t>(j), 1, seen(i, j)});
@@ -90,8 +92,9 @@ INSTANTIATE_TEST_SUITE_P(Algorithms, EverySwarm, testing::ValuesIn(choices()), n
 // Over the tree.
 class EveryTree : public EverySwarm {};
 INSTANTIATE_TEST_SUITE_P(Algorithms, EveryTree,
-                         testing::Values(Choice{&outwards(), "literal"}, Choice{&outwards(), "corrected"}, Choice{&inwards(), "literal"},
-                                         Choice{&inwards(), "corrected"}, Choice{&convoy(), "corrected"}),
+                         testing::Values(Choice{&outwards(), "literal"}, Choice{&outwards(), "corrected"},
+                                         Choice{&inwards(), "literal"}, Choice{&inwards(), "corrected"},
+                                         Choice{&convoy(), "corrected"}),
                          name_of);
 
 TEST_P(EveryTree, AWorkerFindsItsWayIntoTheTree) {
@@ -117,7 +120,8 @@ TEST_P(EverySwarm, RangesInAnyOrderAreOneTick) {
     whole.tick();
     for (const std::size_t first : {std::size_t{3}, std::size_t{0}, std::size_t{4}}) {
       const std::size_t count = first == 0 ? 3 : 1;
-      parts.swarm->step(first, std::span(parts.sensed).subspan(first, count), std::span(parts.commands).subspan(first, count),
+      parts.swarm->step(first, std::span(parts.sensed).subspan(first, count),
+                        std::span(parts.commands).subspan(first, count),
                         std::span(parts.reports).subspan(first, count));
     }
     parts.swarm->advance();
@@ -229,7 +233,8 @@ RC_GTEST_PROP(Swarms, NoBrokenSensorMakesAVelocityInfiniteOrASecondRoot, ()) {
     r.packets[victim] = heard;
     r.sensed[victim] = sane;
     for (int t = 0; t < 20; ++t) {
-      for (const Velocity& v : r.commands) RC_ASSERT(std::isfinite(v.forward_m_s) && std::isfinite(v.sideways_m_s) && std::isfinite(v.turn_rad_s));
+      for (const Velocity& v : r.commands)
+        RC_ASSERT(std::isfinite(v.forward_m_s) && std::isfinite(v.sideways_m_s) && std::isfinite(v.turn_rad_s));
       for (std::size_t i = 0; i < robots; ++i)
         RC_ASSERT(r.reports[i].root == before[i].root && r.reports[i].tally.elections == before[i].tally.elections);
       RC_ASSERT(r.reports[robots - 1].want_m > 0.0F);

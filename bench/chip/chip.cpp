@@ -74,7 +74,9 @@ int main() {
     embedded::stop(false);
     return 1;
   }
-  embedded::write("| algorithm | robots | packets heard | instructions: a packet | a robot's tick | the longest |\n|---|---|---|---|---|---|\n");
+  embedded::write(
+      "| algorithm | robots | packets heard | instructions: a packet | a robot's tick | the longest "
+      "|\n|---|---|---|---|---|---|\n");
   start_timer();
   banyan::chip::run(robots, steps_taken, report);
   embedded::stop(true);

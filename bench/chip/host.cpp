@@ -12,8 +12,11 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "banyan_chip_host: the number of robots is %zu to 100\n", banyan::chip::targets + 1);
     return 2;
   }
-  banyan::chip::run(robots, []() noexcept { return std::uint32_t{0}; }, [](const banyan::chip::Result& result) {
-    std::printf("%.*s %zu %016" PRIx64 "\n", static_cast<int>(result.algorithm.size()), result.algorithm.data(), result.robots, result.digest);
-  });
+  banyan::chip::run(
+      robots, []() noexcept { return std::uint32_t{0}; },
+      [](const banyan::chip::Result& result) {
+        std::printf("%.*s %zu %016" PRIx64 "\n", static_cast<int>(result.algorithm.size()), result.algorithm.data(),
+                    result.robots, result.digest);
+      });
   return 0;
 }

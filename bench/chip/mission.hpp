@@ -17,7 +17,7 @@
 
 namespace banyan::chip {
 
-inline constexpr std::size_t targets = 3;         // robot 0 is the root, the next three are the workers
+inline constexpr std::size_t targets = 3;  // robot 0 is the root, the next three are the workers
 inline constexpr float target_distance_m = 4.0F;
 inline constexpr float pitch_m = 0.25F;
 inline constexpr int ticks = 300;
@@ -28,10 +28,10 @@ inline std::uint32_t between(std::uint32_t begun, std::uint32_t ended) noexcept 
 
 struct Cost {
   std::uint64_t robot_steps = 0;
-  std::uint64_t packets = 0;     // heard
-  std::uint64_t receiving = 0;   // in counts: messages read
-  std::uint64_t stepping = 0;    // a step, its message written
-  std::uint32_t longest = 0;     // of both, in one robot-step
+  std::uint64_t packets = 0;    // heard
+  std::uint64_t receiving = 0;  // in counts: messages read
+  std::uint64_t stepping = 0;   // a step, its message written
+  std::uint32_t longest = 0;    // of both, in one robot-step
 };
 
 class ChipMission {
@@ -67,8 +67,8 @@ class ChipMission {
 
   struct Robot {
     std::unique_ptr<Swarm> swarm;
-    Vec2 place;                // m
-    Vec2 heading;              // unit vector
+    Vec2 place;    // m
+    Vec2 heading;  // unit vector
     Velocity command;
     Odometry odometry;
     Bytes said{};

@@ -23,11 +23,11 @@ void* _sbrk(std::ptrdiff_t bytes) {
 
 // Where the variables of the only thread begin, less the two words that the chip's rules put before them. Nothing but
 // r0 may change.
-[[gnu::naked]] void* __aeabi_read_tp() {
-  asm volatile("ldr r0, =tls_begin - 8\n bx lr\n .ltorg");
-}
+[[gnu::naked]] void* __aeabi_read_tp() { asm volatile("ldr r0, =tls_begin - 8\n bx lr\n .ltorg"); }
 
-[[noreturn]] void _exit(int) { for (;;) {} }
+[[noreturn]] void _exit(int) {
+  for (;;) {}
+}
 int _kill(int, int) { return -1; }
 int _getpid() { return 1; }
 int _close(int) { return -1; }

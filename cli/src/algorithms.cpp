@@ -49,7 +49,9 @@ std::string_view scaling_text(const Algorithm& algorithm, std::size_t row) {
   return "";
 }
 
-std::string range_text(const ParameterInfo& info) { return value_text(info.minimum) + " to " + value_text(info.maximum); }
+std::string range_text(const ParameterInfo& info) {
+  return value_text(info.minimum) + " to " + value_text(info.maximum);
+}
 
 nlohmann::ordered_json json_of(const Algorithm& algorithm) {
   nlohmann::ordered_json entry = {{"name", algorithm.name()}, {"summary", algorithm.summary()}};
@@ -67,7 +69,8 @@ nlohmann::ordered_json json_of(const Algorithm& algorithm) {
                                   {"minimum", as_written(info.minimum)},
                                   {"maximum", as_written(info.maximum)},
                                   {"scaling", scaling_text(algorithm, k)}};
-    for (const auto reading : readings) row["default"][std::string(reading)] = as_written(defaults[k]);  // the same in both
+    for (const auto reading : readings)
+      row["default"][std::string(reading)] = as_written(defaults[k]);  // the same in both
     const auto owner = platform_key(info.key);
     row["set_by"] = owner.empty() ? "mission.parameters." + std::string(info.key) : std::string(owner);
     list.push_back(std::move(row));
@@ -95,13 +98,16 @@ bool is_same(const ParameterInfo& a, const ParameterInfo& b) {
   return a.meaning == b.meaning && a.advice == b.advice && a.source == b.source && range_text(a) == range_text(b);
 }
 
-void append_name(std::string& names, std::string_view name) { names += (names.empty() ? "" : ", ") + std::string(name); }
+void append_name(std::string& names, std::string_view name) {
+  names += (names.empty() ? "" : ", ") + std::string(name);
+}
 
 std::vector<Said> said_of(std::string_view key, const std::vector<const Algorithm*>& list) {
   std::vector<Said> said;
   for (const Algorithm* algorithm : list) {
     const auto rows = algorithm->parameters();
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const ParameterInfo* info) { return info->key == key; });
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const ParameterInfo* info) { return info->key == key; });
     if (row == rows.end()) continue;
     auto group = std::find_if(said.begin(), said.end(), [&](const Said& s) { return is_same(*s.info, **row); });
     if (group == said.end()) group = said.insert(said.end(), {*row, "", {}});
@@ -128,20 +134,24 @@ std::string range_and_scaling(const Said& said) {
 // A row for each key that one of them has. Where its meaning differs, each meaning is printed.
 std::string table_text(const std::vector<const Algorithm*>& list) {
   std::string head = format("%-26s %-8s %-4s", "parameter", "symbol", "unit");
-  for (const Algorithm* algorithm : list) head += format("  %-*s", column_width(*algorithm), std::string(algorithm->name()).c_str());
+  for (const Algorithm* algorithm : list)
+    head += format("  %-*s", column_width(*algorithm), std::string(algorithm->name()).c_str());
   std::string text = head + "  source\n";
   for (const auto& row : algorithms().parameters()) {
     const std::vector<Said> said = said_of(row.key, list);
     if (said.empty()) continue;
-    text += format("%-26s %-8s %-4s", std::string(row.key).c_str(), std::string(said[0].info->symbol).c_str(), std::string(said[0].info->unit).c_str());
-    for (const Algorithm* algorithm : list) text += format("  %-*s", column_width(*algorithm), default_text(*algorithm, row.key).c_str());
+    text += format("%-26s %-8s %-4s", std::string(row.key).c_str(), std::string(said[0].info->symbol).c_str(),
+                   std::string(said[0].info->unit).c_str());
+    for (const Algorithm* algorithm : list)
+      text += format("  %-*s", column_width(*algorithm), default_text(*algorithm, row.key).c_str());
     text += "  " + std::string(said[0].info->source) + "\n";
     for (const Said& group : said) {
       const ParameterInfo* info = group.info;
       text += "    " + (said.size() > 1 ? group.names + ": " : "") + std::string(info->meaning);
       if (const auto owner = platform_key(row.key); !owner.empty()) text += " (set by " + std::string(owner) + ")";
       text += "; " + range_and_scaling(group);
-      text += "\n    " + std::string(info->advice) + (said.size() > 1 && info != said[0].info ? " (" + std::string(info->source) + ")" : "") + "\n";
+      text += "\n    " + std::string(info->advice) +
+              (said.size() > 1 && info != said[0].info ? " (" + std::string(info->source) + ")" : "") + "\n";
     }
   }
   return text;

@@ -155,7 +155,8 @@ double moving_share(world::World& world) {
 }
 
 // One window: steps for `seconds` of measured time, or a whole mission; copies back to `settled` do not count.
-void measure_window(const world::World& settled, const BenchLayout& layout, double seconds, Sample& sample, int windows) {
+void measure_window(const world::World& settled, const BenchLayout& layout, double seconds, Sample& sample,
+                    int windows) {
   if (layout.kind == Kind::mission) seconds = std::numeric_limits<double>::infinity();
   double spent_s = 0.0;
   double cpu_s = 0.0;
@@ -271,13 +272,10 @@ int bench_command(const BenchOptions& options) {
     Progress progress(true);
     const auto sample = measure_layout(layout, options, progress);
     progress.clear();
-    if (options.json)
-      report[layout.name] = json_of(sample);
-    else
-      print(row_text(layout, sample));
+    if (options.json) report[layout.name] = json_of(sample);
+    else print(row_text(layout, sample));
   }
-  if (options.json)
-    print(report.dump(2) + "\n");
+  if (options.json) print(report.dump(2) + "\n");
   else
     print(
         format("\nin range, visible: neighbours per robot at the first and last tick of a window. %d windows of %g s\n"

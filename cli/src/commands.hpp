@@ -50,10 +50,10 @@ struct ListenOptions {
   RunOptions run;
   std::string listen = "0.0.0.0:4700";
   std::string key_file;
-  double wait_s = 10.0;       // for robots, before the recording begins
+  double wait_s = 10.0;  // for robots, before the recording begins
   double dead_after_s = 5.0;
   double speed = 1.0;
-  bool view = false;          // the page beside it
+  bool view = false;  // the page beside it
 };
 int listen_command(const ListenOptions& options);
 
@@ -64,17 +64,17 @@ int ros2_command(const std::vector<std::string>& arguments);
 
 struct FleetOptions {
   RunOptions run;
-  bool loopback = false;      // no network namespaces
-  bool restart = true;        // robots that end unasked
-  bool view = false;          // the page beside it
+  bool loopback = false;  // no network namespaces
+  bool restart = true;    // robots that end unasked
+  bool view = false;      // the page beside it
   double speed = 1.0;
   std::size_t bundle = 1;
-  double loss = 0.0;          // from here on: of the way from robot to robot
+  double loss = 0.0;  // from here on: of the way from robot to robot
   double delay_ms = 0.0;
   double jitter_ms = 0.0;
   double duplicate = 0.0;
   double reorder = 0.0;
-  double rate_kbit_s = 0.0;   // of each robot, either way; 0: no limit
+  double rate_kbit_s = 0.0;         // of each robot, either way; 0: no limit
   std::string impairment = "auto";  // who does that: "netem", "relay"; "auto": netem where it can be had
 };
 int fleet_command(const FleetOptions& options);
@@ -83,12 +83,12 @@ int fleet_command(const FleetOptions& options);
 struct ArgosOptions {
   std::string scenario;
   std::vector<config::Override> overrides;
-  std::string output;                  // the .argos file; the world goes beside it
-  std::string out;                     // directory of its results; "": beside it, without the ending
+  std::string output;  // the .argos file; the world goes beside it
+  std::string out;     // directory of its results; "": beside it, without the ending
   std::string robot = "kheperaiv";
-  std::string sight = "stock";         // or "exact"
-  std::string obstacles = "sensors";   // or "world"
-  std::string library;                 // "": the one that was built with this program
+  std::string sight = "stock";        // or "exact"
+  std::string obstacles = "sensors";  // or "world"
+  std::string library;                // "": the one that was built with this program
   bool force = false;
 };
 int argos_command(const ArgosOptions& options);
@@ -201,7 +201,7 @@ struct CollectOptions {
 int collect_command(const CollectOptions& options);
 
 struct SoakOptions {
-  std::string file;                       // a scenario to watch instead; "": random missions
+  std::string file;  // a scenario to watch instead; "": random missions
   std::uint64_t seed = 1;
   std::uint64_t from = 0;                 // the first mission
   std::optional<std::uint64_t> missions;  // how many; none: as many as there is time for

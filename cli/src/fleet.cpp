@@ -24,7 +24,8 @@ namespace {
 class MemoryKey {
  public:
   MemoryKey() : file_(::memfd_create("banyan-key", 0)) {
-    if (file_ < 0 || ::fchmod(file_, S_IRUSR | S_IWUSR) != 0) throw CommandError(exit_lost, std::string("memfd_create: ") + std::strerror(errno));
+    if (file_ < 0 || ::fchmod(file_, S_IRUSR | S_IWUSR) != 0)
+      throw CommandError(exit_lost, std::string("memfd_create: ") + std::strerror(errno));
     const std::string text = udp::new_key_text();
     if (::write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
       throw CommandError(exit_lost, std::string("the fleet's key: ") + std::strerror(errno));
@@ -43,7 +44,8 @@ std::string text_of(const FleetOptions& options) {
   std::string text;
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
   if (options.loss > 0.0) add(format("%g %% lost", 100.0 * options.loss));
-  if (options.delay_ms > 0.0 || options.jitter_ms > 0.0) add(format("%g ± %g ms late", options.delay_ms, options.jitter_ms));
+  if (options.delay_ms > 0.0 || options.jitter_ms > 0.0)
+    add(format("%g ± %g ms late", options.delay_ms, options.jitter_ms));
   if (options.duplicate > 0.0) add(format("%g %% twice", 100.0 * options.duplicate));
   if (options.reorder > 0.0) add(format("%g %% not delayed", 100.0 * options.reorder));
   if (options.rate_kbit_s > 0.0) add(format("%g kbit/s", options.rate_kbit_s));
@@ -54,18 +56,35 @@ std::string text_of(const FleetOptions& options) {
 void choose_impairment(const FleetOptions& options, udp::Fleet::Plan& plan) {
   const bool demanded = options.impairment == "netem";
   if (demanded || (options.impairment == "auto" && plan.way.any())) {
-    const std::string fault = plan.namespaces ? udp::netem_fault(udp::per_hop(plan.way), plan.speed) : "robots have no networks of their own";
+    const std::string fault =
+        plan.namespaces ? udp::netem_fault(udp::per_hop(plan.way), plan.speed) : "robots have no networks of their own";
     if (demanded && !fault.empty())
-      throw CommandError(exit_usage, "--impairment netem cannot be had here: " + fault + "; --impairment relay does the same");
+      throw CommandError(exit_usage,
+                         "--impairment netem cannot be had here: " + fault + "; --impairment relay does the same");
     plan.netem = fault.empty();
   }
   if (!plan.way.any()) return;
   plan.hub.insert(plan.hub.end(), {"--impairment", (plan.netem ? "by tc netem: " : "by a relay: ") + text_of(options)});
 }
 
-udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key, const std::string& out, const std::string& tape) {
-  udp::Arguments arguments{own_program(), "hub", options.run.scenario, "--key", key, "--out", out, "--force", "--tape", tape,
-                           "--speed", format("%g", options.speed), "--bundle", std::to_string(options.bundle)};
+udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key, const std::string& out,
+                             const std::string& tape) {
+  // clang-format off: option and value side by side
+  udp::Arguments arguments{own_program(),
+                           "hub",
+                           options.run.scenario,
+                           "--key",
+                           key,
+                           "--out",
+                           out,
+                           "--force",
+                           "--tape",
+                           tape,
+                           "--speed",
+                           format("%g", options.speed),
+                           "--bundle",
+                           std::to_string(options.bundle)};
+  // clang-format on
   for (const auto& override : options.run.overrides) {
     if (override.file.empty()) arguments.insert(arguments.end(), {"--set", override.assignment});
     else arguments.insert(arguments.end(), {"--with", override.file});
@@ -75,7 +94,8 @@ udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key
   return arguments;
 }
 
-udp::Arguments robot_arguments(const FleetOptions& options, const world::Scenario& scenario, std::size_t i, const std::string& key) {
+udp::Arguments robot_arguments(const FleetOptions& options, const world::Scenario& scenario, std::size_t i,
+                               const std::string& key) {
   udp::RobotOptions robot = robot_options(scenario, i);
   robot.key_file = key;
   robot.speed = options.speed;
@@ -95,13 +115,15 @@ int run_fleet(udp::Fleet::Plan plan) {
   }
 }
 
-udp::Fleet::Plan make_plan(const FleetOptions& options, const world::Scenario& scenario, const std::string& key, const std::string& out,
-                           const std::string& tape) {
+udp::Fleet::Plan make_plan(const FleetOptions& options, const world::Scenario& scenario, const std::string& key,
+                           const std::string& out, const std::string& tape) {
   udp::Fleet::Plan plan;
   plan.hub = hub_arguments(options, key, out, tape);
-  for (std::size_t i = 0; i < world::robot_count(scenario); ++i) plan.robots.push_back(robot_arguments(options, scenario, i, key));
+  for (std::size_t i = 0; i < world::robot_count(scenario); ++i)
+    plan.robots.push_back(robot_arguments(options, scenario, i, key));
   plan.restart = options.restart;
-  plan.way = {options.loss, options.delay_ms / 1e3, options.jitter_ms / 1e3, options.duplicate, options.reorder, options.rate_kbit_s * 125.0};
+  plan.way = {options.loss,      options.delay_ms / 1e3, options.jitter_ms / 1e3,
+              options.duplicate, options.reorder,        options.rate_kbit_s * 125.0};
   plan.speed = options.speed;
   plan.seed = scenario.seed;
   plan.namespaces = !options.loopback && udp::enter_network();
@@ -112,11 +134,13 @@ udp::Fleet::Plan make_plan(const FleetOptions& options, const world::Scenario& s
 }
 
 int start_fleet(const FleetOptions& options) {
-  if (options.run.scenario == "-") throw CommandError(exit_usage, "the scenario of a fleet must be a file: its hub reads it, too");
+  if (options.run.scenario == "-")
+    throw CommandError(exit_usage, "the scenario of a fleet must be a file: its hub reads it, too");
   const config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
   const RunOutputs outputs(configuration, options.run.out, options.run.force);
   try {
-    PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();  // in the network of the browser
+    PageBeside page =
+        options.view ? PageBeside(outputs, configuration.output) : PageBeside();  // in the network of the browser
     const std::string tape = outputs.directory() + "/fleet.tape";
     const MemoryKey key;
     const int code = run_fleet(make_plan(options, configuration.scenario, key.path(), outputs.directory(), tape));

@@ -16,9 +16,11 @@ config::Configuration load_fleet(const std::string& scenario, const std::vector<
   auto loaded = config::load_configuration(scenario, algorithms(), overrides);
   print_problems(loaded.problems);
   if (!loaded.ok()) throw CommandError(exit_usage, "nothing was started");
-  if (loaded.configuration.scenario.clocks.asynchronous) complain("clocks.asynchronous is left out: these robots have clocks of their own");
+  if (loaded.configuration.scenario.clocks.asynchronous)
+    complain("clocks.asynchronous is left out: these robots have clocks of their own");
   if (loaded.configuration.scenario.battery.on())
-    throw CommandError(exit_usage, "battery: nobody tells a robot that is a process its charge yet; nothing was started");
+    throw CommandError(exit_usage,
+                       "battery: nobody tells a robot that is a process its charge yet; nothing was started");
   loaded.configuration.scenario.clocks = {};
   return loaded.configuration;
 }
@@ -45,9 +47,13 @@ std::string program_beside(const char* name, const char* advice) {
 
 }  // namespace
 
-std::string robot_program() { return program_beside("banyan-robot", "build the target banyan_robot, or call ./banyan"); }
+std::string robot_program() {
+  return program_beside("banyan-robot", "build the target banyan_robot, or call ./banyan");
+}
 std::string ros2_program() {
-  return program_beside("banyan-ros2", "install cyclonedds-dev and cyclonedds-tools, configure again and build the target banyan_ros2, or call ./banyan");
+  return program_beside("banyan-ros2",
+                        "install cyclonedds-dev and cyclonedds-tools, configure again and build the target "
+                        "banyan_ros2, or call ./banyan");
 }
 
 int with_fleet_errors(const std::function<int()>& command) {
@@ -59,9 +65,7 @@ int with_fleet_errors(const std::function<int()>& command) {
     throw CommandError(exit_lost, error.what());
   } catch (const udp::TapeError& error) {
     throw CommandError(exit_lost, error.what());
-  } catch (const udp::FleetError& error) {
-    throw CommandError(exit_lost, error.what());
-  }
+  } catch (const udp::FleetError& error) { throw CommandError(exit_lost, error.what()); }
 }
 
 }  // namespace banyan::cli

@@ -12,7 +12,8 @@
 namespace banyan::cli {
 
 // The configuration of a fleet: its robots have real clocks, so simulated ones are left out, with a warning.
-[[nodiscard]] config::Configuration load_fleet(const std::string& scenario, const std::vector<config::Override>& overrides);
+[[nodiscard]] config::Configuration load_fleet(const std::string& scenario,
+                                               const std::vector<config::Override>& overrides);
 
 // The options of robot i, without hub and key.
 [[nodiscard]] udp::RobotOptions robot_options(const world::Scenario& scenario, std::size_t i);

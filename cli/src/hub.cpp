@@ -47,9 +47,10 @@ std::unique_ptr<udp::Tape> open_tape(const HubOptions& options, const config::Co
     return std::make_unique<udp::Tape>(options.tape, digest, std::random_device{}(), tracker ? tracker->lines() : "");
   auto tape = std::make_unique<udp::Tape>(options.tape, digest);
   if (tape->start().empty() != (tracker == nullptr))
-    throw CommandError(exit_usage, options.tape + (tracker == nullptr
-                                                       ? ": is the tape of a mission with a tracker; --poses is missing"
-                                                       : ": is the tape of a mission without a tracker; leave --poses out"));
+    throw CommandError(
+        exit_usage,
+        options.tape + (tracker == nullptr ? ": is the tape of a mission with a tracker; --poses is missing"
+                                           : ": is the tape of a mission without a tracker; leave --poses out"));
   if (tracker != nullptr) tracker->restore(tape->start());
   return tape;
 }
@@ -67,7 +68,8 @@ class Conductor {
   Conductor(udp::Hub& hub, udp::PoseStream* tracker, udp::KeyFile& keys, const HubOptions& options)
       : hub_(hub), tracker_(tracker), keys_(keys), options_(options) {}
 
-  record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor, const record::GoOn& go_on) {
+  record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor,
+                            const record::GoOn& go_on) {
     record::Simulation simulation(std::move(world), sink);
     const auto stopped = [&] { return !go_on(simulation); };
     simulation.stop_when(stopped);
@@ -96,7 +98,8 @@ class Conductor {
     });
     if (missing.empty() || stopped()) return;
     hub_.stop_all();
-    throw CommandError(exit_lost, format("within %g s nothing was heard of robot ", options_.wait_s) + list_of(missing));
+    throw CommandError(exit_lost,
+                       format("within %g s nothing was heard of robot ", options_.wait_s) + list_of(missing));
   }
 
   // Without poses nothing goes on: the hub is silent, so the robots stand still, until the tracker is back.
@@ -134,13 +137,15 @@ std::string remarks_on(const udp::HubCounts& counts, const std::string& impairme
       "processes", format("control period %.1f ms (median), %.1f ms (99th percentile), %.1f ms (longest); %s late",
                           counts.periods.quantile_ms(0.5), counts.periods.quantile_ms(0.99),
                           counts.periods.longest_ms(), plural(counts.late_ticks, "tick").c_str()));
-  text += summary_line("datagrams", format("%s to robots, %s from them", grouped(static_cast<double>(counts.sent)).c_str(),
-                                           grouped(static_cast<double>(counts.received)).c_str()));
+  text +=
+      summary_line("datagrams", format("%s to robots, %s from them", grouped(static_cast<double>(counts.sent)).c_str(),
+                                       grouped(static_cast<double>(counts.received)).c_str()));
   if (!impairment.empty()) text += summary_line("impairment", impairment);
   std::string dropped;
   for (std::size_t k = 0; k < udp::drop_kinds; ++k) {
     if (counts.dropped[k] == 0) continue;
-    dropped += (dropped.empty() ? "" : ", ") + grouped(static_cast<double>(counts.dropped[k])) + " " + udp::name_of(static_cast<udp::Drop>(k));
+    dropped += (dropped.empty() ? "" : ", ") + grouped(static_cast<double>(counts.dropped[k])) + " " +
+               udp::name_of(static_cast<udp::Drop>(k));
   }
   return text + summary_line("dropped", (dropped.empty() ? "none by the hub" : dropped + " by the hub") + ", " +
                                             grouped(static_cast<double>(counts.dropped_by_robots)) + " by robots");
@@ -156,7 +161,8 @@ std::unique_ptr<udp::PoseStream> open_tracker(const HubOptions& options, std::si
     tracker->listen();
   }
   if (!tracker->missing().empty())
-    throw CommandError(exit_lost, format("within %g s the tracker did not see robot ", options.wait_s) + list_of(tracker->missing()));
+    throw CommandError(
+        exit_lost, format("within %g s the tracker did not see robot ", options.wait_s) + list_of(tracker->missing()));
   return tracker;
 }
 
@@ -176,7 +182,8 @@ world::World make_world(const world::Scenario& scenario, const Algorithm& remote
 }
 
 udp::KeyFile keys_of(const HubOptions& options) {
-  if (options.key_file.empty()) throw CommandError(exit_usage, "--key is missing; make one with banyan hub --new-key FILE");
+  if (options.key_file.empty())
+    throw CommandError(exit_usage, "--key is missing; make one with banyan hub --new-key FILE");
   return udp::KeyFile(options.key_file);
 }
 
@@ -192,14 +199,16 @@ int play_scenario(const HubOptions& options) {
   const RunOutputs outputs(configuration, options.run.out, options.run.force || options.resume);
   PageBeside page = options.view ? PageBeside(outputs, configuration.output) : PageBeside();
   try {
-    const udp::HubSettings hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s, options.bundle};
+    const udp::HubSettings hub_options{udp::parse_address(options.listen), scenario.tick_s, options.speed,
+                                       options.dead_after_s, options.bundle};
     udp::Hub hub(hub_options, robots, keys.keys(), tape.get());
     const auto silence = static_cast<std::uint32_t>(still_after_s / scenario.tick_s);
     const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), hub, silence);
     RunOptions run = options.run;
     run.threads = 1;
     const int code = keep_run(configuration, outputs, run, make_world(scenario, remote, tracker.get()),
-                              Conductor(hub, tracker.get(), keys, options), [&] { return remarks_on(hub.counts(), options.impairment); });
+                              Conductor(hub, tracker.get(), keys, options),
+                              [&] { return remarks_on(hub.counts(), options.impairment); });
     page.stay();
     return code;
   } catch (...) {

@@ -16,7 +16,7 @@ using Play = std::function<record::RunEnd(world::World, record::Sink&, world::Ex
 
 // Opens the outputs, plays, prints the summary; returns the exit code. `remarks`: asked at the end, for
 // SummaryExtras::remarks.
-int keep_run(const config::Configuration& configuration, const RunOutputs& outputs, const RunOptions& options, world::World world,
-             const Play& play, const std::function<std::string()>& remarks = {});
+int keep_run(const config::Configuration& configuration, const RunOutputs& outputs, const RunOptions& options,
+             world::World world, const Play& play, const std::function<std::string()>& remarks = {});
 
 }  // namespace banyan::cli

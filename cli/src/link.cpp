@@ -135,7 +135,8 @@ class Reader {
     else wrong("do", "is \"" + value + "\"; it is a tick, a colon and an event as JSON");
   }
   static std::string known(const std::string& key) {
-    const std::vector<std::string_view> all{"scenario", "name", "text", "set", "algorithm", "seed", "do", "t", "view", "robot", "target", "beside"};
+    const std::vector<std::string_view> all{"scenario", "name", "text", "set",   "algorithm", "seed",
+                                            "do",       "t",    "view", "robot", "target",    "beside"};
     const auto near = nearest(key, all);
     std::string text;
     for (const std::string_view one : all) text += (text.empty() ? "" : ", ") + std::string(one);
@@ -155,20 +156,26 @@ std::string scenario_text(Reader& reader) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(shipped_scenarios(), ignored))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
-  if (std::ranges::count(names, parts.scenario)) return read_text_file(shipped_scenarios() + "/" + parts.scenario + ".toml");
+  if (std::ranges::count(names, parts.scenario))
+    return read_text_file(shipped_scenarios() + "/" + parts.scenario + ".toml");
   std::vector<std::string_view> views(names.begin(), names.end());
-  std::string text = parts.scenario.empty() ? "the link names no scenario" : "there is no scenario \"" + parts.scenario + "\"";
-  if (const auto near = nearest(parts.scenario, views); !near.empty()) text += "; did you mean " + std::string(near) + "?";
+  std::string text =
+      parts.scenario.empty() ? "the link names no scenario" : "there is no scenario \"" + parts.scenario + "\"";
+  if (const auto near = nearest(parts.scenario, views); !near.empty())
+    text += "; did you mean " + std::string(near) + "?";
   reader.wrong("scenario", text);
   return "";
 }
 
 std::vector<Override> overrides_of(const Parts& parts, const std::vector<Override>& more) {
   std::vector<Override> all;
-  const auto add = [&](const std::string& assignment) { all.push_back({assignment, "set=" + assignment + " of the link", {}}); };
+  const auto add = [&](const std::string& assignment) {
+    all.push_back({assignment, "set=" + assignment + " of the link", {}});
+  };
   for (const std::string& set : parts.sets) add(set);
   if (!parts.seeds.empty()) add("seed=" + parts.seeds.front());
-  if (!parts.algorithms.empty() && !parts.algorithms.front().empty()) add("mission.algorithm=" + parts.algorithms.front());
+  if (!parts.algorithms.empty() && !parts.algorithms.front().empty())
+    add("mission.algorithm=" + parts.algorithms.front());
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -183,7 +190,8 @@ Loaded with_acts(const Loaded& loaded, const std::vector<Act>& acts, const std::
     Node event = parse_document("link.json", act.json);
     const Node::Table* given = event.table();
     if (given == nullptr) throw DocumentError({event.place, "do", "an event is a table"});
-    event.table()->push_back({"time_s", Node{static_cast<double>(act.tick) * configuration.scenario.tick_s, event.place}});
+    event.table()->push_back(
+        {"time_s", Node{static_cast<double>(act.tick) * configuration.scenario.tick_s, event.place}});
     root.find("events")->array()->push_back(std::move(event));
   }
   return configure(std::move(root), path, algorithms(), loaded.problems);
@@ -195,7 +203,8 @@ bool is_link(std::string_view text) {
   const auto hash = text.find('#');
   if (hash == std::string_view::npos) return false;
   const std::string_view before = text.substr(0, hash);
-  return before.empty() || before.starts_with("http://") || before.starts_with("https://") || before.starts_with("file://");
+  return before.empty() || before.starts_with("http://") || before.starts_with("https://") ||
+         before.starts_with("file://");
 }
 
 LoadedLink load_link(const std::string& link, const std::vector<Override>& more) {
@@ -203,7 +212,8 @@ LoadedLink load_link(const std::string& link, const std::vector<Override>& more)
   result.fragment = link.substr(link.find('#'));
   Reader reader(link);
   const auto odd = [](char c) { return c <= ' ' || c > '~'; };
-  if (std::ranges::any_of(link, odd)) reader.wrong("", "has characters that no address has; copy it as a whole, in quotes");
+  if (std::ranges::any_of(link, odd))
+    reader.wrong("", "has characters that no address has; copy it as a whole, in quotes");
   try {
     const std::string text = scenario_text(reader);
     if (!reader.problems.empty()) {
@@ -211,8 +221,11 @@ LoadedLink load_link(const std::string& link, const std::vector<Override>& more)
       return result;
     }
     const Parts& parts = reader.parts;
-    result.runs = std::max<std::size_t>(1, parts.algorithms.size()) * std::max<std::size_t>(1, parts.seeds.size()) + reader.beside;
-    const std::string path = parts.text.empty() ? parts.scenario + ".toml" : parts.name.empty() ? "link.toml" : parts.name;
+    result.runs = std::max<std::size_t>(1, parts.algorithms.size()) * std::max<std::size_t>(1, parts.seeds.size()) +
+                  reader.beside;
+    const std::string path = parts.text.empty()   ? parts.scenario + ".toml"
+                             : parts.name.empty() ? "link.toml"
+                                                  : parts.name;
     result.loaded = parse_configuration(path, text, algorithms(), overrides_of(parts, more));
     if (result.loaded.ok() && !parts.acts.empty()) result.loaded = with_acts(result.loaded, parts.acts, path);
   } catch (const DocumentError& error) { result.loaded.problems.push_back(error.problem); }

@@ -15,9 +15,9 @@ namespace banyan::cli {
 [[nodiscard]] bool is_link(std::string_view text);
 
 struct LoadedLink {
-  config::Loaded loaded;   // the first of the runs side by side
-  std::size_t runs = 1;    // how many the link shows
-  std::string fragment;    // from the # on, for the page
+  config::Loaded loaded;  // the first of the runs side by side
+  std::size_t runs = 1;   // how many the link shows
+  std::string fragment;   // from the # on, for the page
 };
 
 // Never throws for bad input: what is wrong is among the problems. `more` comes after the link's own changes.

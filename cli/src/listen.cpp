@@ -15,7 +15,7 @@
 namespace banyan::cli {
 namespace {
 
-constexpr double moved_m = 0.05;       // by less a target has not moved: it is measured
+constexpr double moved_m = 0.05;  // by less a target has not moved: it is measured
 constexpr double told_lately_s = 0.5;
 
 // Which robots have a target, in their order: target k is that of the k-th.
@@ -29,7 +29,8 @@ std::vector<std::size_t> workers_of(const udp::Chart& chart) {
 
 // The scenario with the robots where they place each other. Each target lies where its worker stands, since a world
 // sends whoever is nearest; from the first tick on it is where that robot says.
-world::Scenario told_by(const udp::Listener& listener, const std::vector<std::size_t>& workers, world::Scenario scenario) {
+world::Scenario told_by(const udp::Listener& listener, const std::vector<std::size_t>& workers,
+                        world::Scenario scenario) {
   scenario.mission.time_limit_s = world::time_limit_s(scenario);  // by the scenario's own targets
   scenario = started_where_seen(std::move(scenario), listener.chart().poses());
   std::vector<world::Vec2> targets;
@@ -51,7 +52,8 @@ class Ears {
  public:
   Ears(udp::Listener& listener, std::vector<std::size_t> workers) : listener_(listener), workers_(std::move(workers)) {}
 
-  record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor, const record::GoOn& go_on) {
+  record::RunEnd operator()(world::World world, record::Sink& sink, world::Executor& executor,
+                            const record::GoOn& go_on) {
     record::Simulation simulation(std::move(world), sink);
     const auto stopped = [&] { return !go_on(simulation); };
     simulation.stop_when(stopped);
@@ -104,7 +106,8 @@ int record_mission(const ListenOptions& options) {
   config::Configuration configuration = load_fleet(options.run.scenario, options.run.overrides);
   configuration.output.live = true;
   world::Scenario& scenario = configuration.scenario;
-  const udp::ListenerOptions ends{udp::parse_address(options.listen), scenario.tick_s, options.speed, options.dead_after_s};
+  const udp::ListenerOptions ends{udp::parse_address(options.listen), scenario.tick_s, options.speed,
+                                  options.dead_after_s};
   udp::Listener listener(ends, world::robot_count(scenario), udp::KeyFile(options.key_file).keys());
   gather(listener, world::mission_targets(scenario).size(), options.wait_s);
   if (stop_signal() != 0) return exit_signal + stop_signal();
@@ -117,8 +120,9 @@ int record_mission(const ListenOptions& options) {
     const udp::RemoteAlgorithm remote(world::algorithm_of(scenario), listener, silence);
     RunOptions run = options.run;
     run.threads = 1;
-    const int code = keep_run(configuration, outputs, run, world::World(scenario, remote, tracked_bodies(listener.chart().poses())),
-                              Ears(listener, workers), [&] { return remarks_on(listener); });
+    const int code =
+        keep_run(configuration, outputs, run, world::World(scenario, remote, tracked_bodies(listener.chart().poses())),
+                 Ears(listener, workers), [&] { return remarks_on(listener); });
     page.stay();
     return code;
   } catch (...) {

@@ -218,7 +218,10 @@ void add_outputs(CLI::App& command, std::vector<Override>& overrides) {
     const std::string name = (format.by_default ? "--no-" : "--") + key;
     const std::string assignment = "output." + key + (format.by_default ? "=false" : "=true");
     command.add_flag_function(
-        name, [&overrides, name, assignment](std::int64_t) { overrides.push_back({assignment, name}); },
+        name,
+        [&overrides, name, assignment](std::int64_t) {
+          overrides.push_back({assignment, name});
+        },
         (format.by_default ? "do not write " : "also write ") + text);
   }
 }
@@ -287,8 +290,8 @@ CLI::Validator number_within(double least, double most) {
             double value = 0.0;
             const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
             return fits ? std::string()
-                        : "must be a number from " + number_text(least) + " to " + number_text(most) + ", not \"" + text +
-                              "\"";
+                        : "must be a number from " + number_text(least) + " to " + number_text(most) + ", not \"" +
+                              text + "\"";
           },
           ""};
 }
@@ -502,8 +505,7 @@ constexpr std::uint64_t most_missions = 1'000'000'000'000;
 
 void add_soak(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<SoakOptions>();
-  auto* command =
-      app.add_subcommand("soak", "run random missions and look for faults")->group(command_group);
+  auto* command = app.add_subcommand("soak", "run random missions and look for faults")->group(command_group);
   command->footer(soak_footer);
   command->add_option("file", options->file, "a scenario to watch, instead of random missions")->type_name("FILE");
   command->add_option("-s,--seed", options->seed, "seed of the missions, default 1")
@@ -538,7 +540,9 @@ void add_bench(CLI::App& app, std::function<int()>& action) {
   command->add_option("--windows", options->windows, "measured windows per layout, default 7")
       ->type_name("N")
       ->check(CLI::Range(1, 1000).description(""));
-  command->add_option("--window", options->window_s, "length of a window, s of wall time, default 0.7; a mission is measured whole")
+  command
+      ->add_option("--window", options->window_s,
+                   "length of a window, s of wall time, default 0.7; a mission is measured whole")
       ->type_name("S")
       ->check(number_within(0.01, 600.0));
   command->callback([options, &action] { action = [options] { return bench_command(*options); }; });
@@ -576,26 +580,29 @@ template <class Options> void add_pace(CLI::App& command, Options& options) {
   command.add_option("--speed", options.speed, "speed of all clocks, default 1; for tests")
       ->type_name("X")
       ->check(number_within(0.01, 100.0));
-  command
-      .add_option("--bundle", options.bundle, "most packets in one datagram to a robot; default 1, as on a radio")
+  command.add_option("--bundle", options.bundle, "most packets in one datagram to a robot; default 1, as on a radio")
       ->type_name("N")
       ->check(CLI::Range(1, 64).description(""));
 }
 
 void add_hub(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<HubOptions>();
-  auto* command =
-      app.add_subcommand("hub", "hand each robot process what its robot can hear")->group(command_group);
+  auto* command = app.add_subcommand("hub", "hand each robot process what its robot can hear")->group(command_group);
   command->footer(hub_footer);
   command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->type_name("FILE");
-  command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->type_name("FILE");
+  command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")
+      ->type_name("FILE");
   command->add_option("--new-key", options->new_key, "make a key file and exit")->type_name("FILE");
-  command->add_option("--stop", options->stop, "stop robots that have no hub, at these addresses or at a broadcast, and exit")
+  command
+      ->add_option("--stop", options->stop,
+                   "stop robots that have no hub, at these addresses or at a broadcast, and exit")
       ->type_name("ADDRESSES");
-  command->add_option("--listen", options->listen, "where robots find it, default 0.0.0.0:4600")->type_name("ADDRESS:PORT");
+  command->add_option("--listen", options->listen, "where robots find it, default 0.0.0.0:4600")
+      ->type_name("ADDRESS:PORT");
   command->add_flag("--print-robots", options->print_robots, "print the command line of each robot and exit");
   add_patience(*command, *options);
-  command->add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")->type_name("ADDRESS:PORT");
+  command->add_option("--poses", options->poses, "take poses from a tracker here, instead of simulating bodies")
+      ->type_name("ADDRESS:PORT");
   command->add_option("--tape", options->tape, "keep here what robots say and the tracker sees, to resume from")
       ->type_name("FILE");
   command->add_flag("--resume", options->resume, "go on where the tape ends");
@@ -612,7 +619,9 @@ void add_listen(CLI::App& app, std::function<int()>& action) {
       app.add_subcommand("listen", "record robots that have no hub, from what they report")->group(command_group);
   command->footer(listen_footer);
   command->add_option("scenario", options->run.scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
-  command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")->required()->type_name("FILE");
+  command->add_option("--key", options->key_file, "the fleet's keys; only their owner may read them")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--listen", options->listen, "where robots report to, their --tell; default 0.0.0.0:4700")
       ->type_name("ADDRESS:PORT");
   add_patience(*command, *options);
@@ -632,7 +641,8 @@ void add_robot(CLI::App& app, std::function<int()>& action) {
 }
 
 void add_ros2(CLI::App& app, std::function<int()>& action) {
-  auto* command = app.add_subcommand("ros2", "connect a fleet with ROS 2; see banyan ros2 --help")->group(command_group);
+  auto* command =
+      app.add_subcommand("ros2", "connect a fleet with ROS 2; see banyan ros2 --help")->group(command_group);
   command->prefix_command();
   command->set_help_flag();
   command->callback([command, &action] { action = [command] { return ros2_command(command->remaining()); }; });
@@ -655,8 +665,9 @@ void add_fleet(CLI::App& app, std::function<int()>& action) {
   way("--reorder", options->reorder, 1.0, "share of the packets that are not delayed and so overtake others");
   way("--rate-kbit", options->rate_kbit_s, 1e9, "kbit/s for each robot, in each direction; default 0: no limit");
   command
-      ->add_option("--impairment", options->impairment,
-                   "who does that: netem, the kernel, or relay, a process of ours; default auto: netem where it can be had")
+      ->add_option(
+          "--impairment", options->impairment,
+          "who does that: netem, the kernel, or relay, a process of ours; default auto: netem where it can be had")
       ->type_name("WHO")
       ->check(CLI::IsMember({"auto", "netem", "relay"}).description(""));
   add_page_beside(*command, *options);
@@ -671,15 +682,19 @@ void add_argos(CLI::App& app, std::function<int()>& action) {
   command->footer(argos_footer);
   command->add_option("scenario", options->scenario, "a scenario (.toml or .json)")->required()->type_name("FILE");
   command->add_option("-o,--output", options->output, "the experiment, FILE.argos")->required()->type_name("FILE");
-  command->add_option("--out", options->out, "directory for its results, default FILE without .argos")->type_name("DIR");
-  const auto choice = [&](const char* name, std::string& value, const std::vector<std::string>& allowed, const char* meaning) {
+  command->add_option("--out", options->out, "directory for its results, default FILE without .argos")
+      ->type_name("DIR");
+  const auto choice = [&](const char* name, std::string& value, const std::vector<std::string>& allowed,
+                          const char* meaning) {
     command->add_option(name, value, meaning)->check(CLI::IsMember(allowed).description(""));
   };
   choice("--robot", options->robot, {"kheperaiv", "foot-bot"}, "kheperaiv, the default, or foot-bot");
-  choice("--sight", options->sight, {"stock", "exact"}, "stock: lines of sight as ARGoS has them, the default; or exact");
+  choice("--sight", options->sight, {"stock", "exact"},
+         "stock: lines of sight as ARGoS has them, the default; or exact");
   choice("--obstacles", options->obstacles, {"sensors", "world"},
          "how robots see them: by sensors of their own, the default, or told by the world");
-  command->add_option("--library", options->library, "libbanyan_argos, default the one built with this program")->type_name("FILE");
+  command->add_option("--library", options->library, "libbanyan_argos, default the one built with this program")
+      ->type_name("FILE");
   command->add_flag("-f,--force", options->force, "replace the files, and later the results, that are there");
   add_overrides(*command, options->overrides);
   add_seed(*command, options->overrides);

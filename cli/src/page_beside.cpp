@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <thread>
@@ -48,7 +48,8 @@ PageBeside::PageBeside(PageBeside&& other) noexcept
     : process_(std::exchange(other.process_, 0)), recording_(std::move(other.recording_)) {}
 
 PageBeside::~PageBeside() {
-  if (process_ == 0 || ::waitpid(process_, nullptr, WNOHANG) != 0) return;  // it has ended, and somebody may know already
+  if (process_ == 0 || ::waitpid(process_, nullptr, WNOHANG) != 0)
+    return;  // it has ended, and somebody may know already
   ::kill(process_, SIGTERM);
   while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {}
 }
@@ -57,7 +58,8 @@ void PageBeside::stay() {
   std::error_code none;
   const bool begun = std::filesystem::exists(recording_, none) || std::filesystem::exists(recording_ + ".part", none);
   if (process_ == 0 || !begun || stop_signal() != 0) return;
-  while (stop_signal() == 0 && ::waitpid(process_, nullptr, WNOHANG) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  while (stop_signal() == 0 && ::waitpid(process_, nullptr, WNOHANG) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 }  // namespace banyan::cli

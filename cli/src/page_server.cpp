@@ -129,7 +129,8 @@ bool is_growing(const record::InputFile& file) {
   constexpr std::string_view magic = "\x89MCAP0\r\n";
   constexpr double lately_s = 5.0;
   std::string end;
-  const bool finished = file.size() >= 2 * magic.size() && file.read(file.size() - magic.size(), magic.size(), end) && end == magic;
+  const bool finished =
+      file.size() >= 2 * magic.size() && file.read(file.size() - magic.size(), magic.size(), end) && end == magic;
   return !finished && (file.is_being_written() || file.unchanged_s() < lately_s);
 }
 
@@ -179,10 +180,8 @@ void PageServer::Impl::bind(int wanted) {
   });
   server.set_tcp_nodelay(true);
   errno = 0;
-  if (wanted == 0)
-    port = server.bind_to_any_port(host);
-  else if (server.bind_to_port(host, wanted))
-    port = wanted;
+  if (wanted == 0) port = server.bind_to_any_port(host);
+  else if (server.bind_to_port(host, wanted)) port = wanted;
   if (port > 0) return server.lengthen_queue();
   const std::string name = wanted == 0 ? "no port" : "port " + std::to_string(wanted);
   const std::string why = errno == EADDRINUSE ? "it is taken; leave out --port and one that is free is found"
@@ -282,8 +281,7 @@ void PageServer::Impl::start(Response& response) const {
   const auto input = open_recording(response);
   if (!input) return;
   const json start = {
-      {"recording",
-       {{"name", fs::path(input->path()).filename().string()}, {"size", input->size()}, {"url", "file"}}}};
+      {"recording", {{"name", fs::path(input->path()).filename().string()}, {"size", input->size()}, {"url", "file"}}}};
   response.set_content(start.dump(-1, ' ', false, json::error_handler_t::replace), json_type);
 }
 
@@ -304,7 +302,8 @@ PageServer::~PageServer() {
 
 int PageServer::port() const noexcept { return impl_->port; }
 std::string PageServer::address() const {
-  return std::string("http://") + host + ":" + std::to_string(impl_->port) + "/?start";  // the page asks for /start.json
+  return std::string("http://") + host + ":" + std::to_string(impl_->port) +
+         "/?start";  // the page asks for /start.json
 }
 
 }  // namespace banyan::cli

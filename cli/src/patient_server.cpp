@@ -102,10 +102,8 @@ class Crowd final : public httplib::TaskQueue {
   void enter(socket_t socket) {
     const std::lock_guard lock(mutex_);
     staying_.push_back(socket);
-    if (ending_)
-      send_away();
-    else
-      make_room();
+    if (ending_) send_away();
+    else make_room();
   }
   // Under the lock: the number of a closed socket may be reused at once.
   void leave(socket_t socket) {
@@ -157,7 +155,7 @@ class Crowd final : public httplib::TaskQueue {
   std::size_t leaving_ = 0;      // sent away, but not gone yet
   std::size_t idle_ = 0;
   bool ending_ = false;
-  bool no_more_ = false;         // threads than there are
+  bool no_more_ = false;  // threads than there are
   std::vector<std::thread> threads_;
 };
 

@@ -100,10 +100,8 @@ int draw_command(const DrawOptions& options) {
     const PixelSize size = size_of(picture);
     picture = png_of(rasterize(picture, size.width, size.height));
   }
-  if (options.output == "-")
-    record::write_all(STDOUT_FILENO, picture, "standard output");
-  else
-    record::write_file(options.output, picture, existing(options.force));
+  if (options.output == "-") record::write_all(STDOUT_FILENO, picture, "standard output");
+  else record::write_file(options.output, picture, existing(options.force));
   tell_further_warnings(recording, options.recording, told);
   return exit_done;
 }

@@ -86,7 +86,9 @@ Loaded load_experiment(const RunOptions& options) {
   if (!is_link(options.scenario)) return load_configuration(options.scenario, algorithms(), options.overrides);
   LoadedLink link = load_link(options.scenario, options.overrides);
   if (link.loaded.ok() && link.runs > 1)
-    complain(format("the link shows %zu runs side by side; this is the first (--set mission.algorithm, --seed for the others)", link.runs));
+    complain(format(
+        "the link shows %zu runs side by side; this is the first (--set mission.algorithm, --seed for the others)",
+        link.runs));
   return std::move(link.loaded);
 }
 
@@ -113,8 +115,8 @@ record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, C
 
 }  // namespace
 
-int keep_run(const Configuration& configuration, const RunOutputs& outputs, const RunOptions& options, world::World world,
-             const Play& play, const std::function<std::string()>& remarks) {
+int keep_run(const Configuration& configuration, const RunOutputs& outputs, const RunOptions& options,
+             world::World world, const Play& play, const std::function<std::string()>& remarks) {
   catch_stop_signals();
   Progress progress(!options.quiet);
   const record::SinkOptions wanted{
@@ -131,22 +133,20 @@ int keep_run(const Configuration& configuration, const RunOutputs& outputs, cons
     for (const auto& rest : sinks.rests()) tell_of_rest(rest, "the run is lost; ");
     throw;
   }
-  SummaryExtras extras{progress.elapsed_s(), threads, end.last.active_targets, end.last.targets_reached, end.last.tree_parts, {},
-                       remarks ? remarks() : ""};
+  SummaryExtras extras{progress.elapsed_s(), threads, end.last.active_targets, end.last.targets_reached,
+                       end.last.tree_parts,  {},      remarks ? remarks() : ""};
   if (options.force) outputs.remove_leftovers(configuration.output);
   for (const auto& format : record::output_formats) {
     if (wanted.output.wants(format) && !complaints.about(outputs.path(format))) extras.written.push_back(&format);
   }
 
   const record::RunRow row{record::identify(configuration.scenario, version, git_id()), end.run, end.interrupted};
-  if (options.json)
-    print(record::run_json(row, wanted.provenance.config_json));
-  else if (!options.quiet)
-    print(summary_text(row, configuration, outputs, extras));
+  if (options.json) print(record::run_json(row, wanted.provenance.config_json));
+  else if (!options.quiet) print(summary_text(row, configuration, outputs, extras));
   if (complaints.any()) return exit_lost;
   if (!end.interrupted) return exit_done;
-  complain(format("stopped by %s at %.1f s; what was done until then is in %s",
-                  stop_signal_name(), end.run.time_s, outputs.directory().c_str()));
+  complain(format("stopped by %s at %.1f s; what was done until then is in %s", stop_signal_name(), end.run.time_s,
+                  outputs.directory().c_str()));
   return exit_signal + stop_signal();
 }
 

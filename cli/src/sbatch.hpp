@@ -10,6 +10,7 @@ namespace banyan::cli {
 
 // An array job of options.shards tasks, one shard each, with this program, this study and this
 // folder by their absolute paths. A comment in it explains how to collect.
-[[nodiscard]] std::string sbatch_script(const StudyOptions& options, const std::string& name, const std::string& folder);
+[[nodiscard]] std::string sbatch_script(const StudyOptions& options, const std::string& name,
+                                        const std::string& folder);
 
 }  // namespace banyan::cli

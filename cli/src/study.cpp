@@ -303,10 +303,8 @@ int study_command(const StudyOptions& options) {
     if (options.file == "-") throw CommandError(exit_usage, "--sbatch needs a study in a file, not standard input");
     const auto folder = folder_of(options, prepared.study);
     const auto script = sbatch_script(options, prepared.study.name, std::filesystem::absolute(folder.path).string());
-    if (options.sbatch == "-")
-      print(script);
-    else
-      record::write_file(options.sbatch, script, options.force ? record::Existing::replace : record::Existing::keep);
+    if (options.sbatch == "-") print(script);
+    else record::write_file(options.sbatch, script, options.force ? record::Existing::replace : record::Existing::keep);
     return exit_done;
   }
   return run_plan(options, prepared, shard, processes);

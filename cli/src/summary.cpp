@@ -18,7 +18,8 @@ std::string verdict(const record::RunRow& row, const SummaryExtras& extras) {
   if (run.complete) return format("COMPLETE after %.1f s", run.completion_time_s);
   std::string reached = format("%zu of %zu targets reached", extras.targets_reached, extras.targets);
   if (extras.targets_reached == extras.targets && extras.tree_parts != 1)
-    reached += extras.tree_parts == 0 ? ", but there is no root" : format(", but the tree is in %zu parts", extras.tree_parts);
+    reached +=
+        extras.tree_parts == 0 ? ", but there is no root" : format(", but the tree is in %zu parts", extras.tree_parts);
   if (row.interrupted) return format("STOPPED at %.1f s: ", run.time_s) + reached;
   return format("NOT COMPLETE within %.1f s: ", run.time_limit_s) + reached;
 }
@@ -54,31 +55,37 @@ std::string robots_text(const measure::Run& run) {
   std::string text = format("%u of %u committed; at least %u are needed", run.committed, run.robots, run.robots_bound);
   if (run.robots_bound > 0)
     text += format(" (%.2f times the bound)", static_cast<double>(run.committed) / run.robots_bound);
-  text += format(", an oracle has %s%u (%.2f times)", run.oracle_exact ? "" : "at most ", run.oracle_robots, run.oracle_ratio);
+  text += format(", an oracle has %s%u (%.2f times)", run.oracle_exact ? "" : "at most ", run.oracle_robots,
+                 run.oracle_ratio);
   return text;
 }
 
 std::string targets_text(const measure::Run& run, std::size_t targets) {
   std::string text = format("%u of %zu held in the end", run.held_targets, targets);
   if (!run.missed_targets.empty()) text += "; not: " + run.missed_targets;
-  if (run.oracle_targets < targets) text += format("; the %u robots are too few for all, an oracle holds %u", run.robots, run.oracle_targets);
+  if (run.oracle_targets < targets)
+    text += format("; the %u robots are too few for all, an oracle holds %u", run.robots, run.oracle_targets);
   return text;
 }
 
 std::string paths_text(const measure::Run& run) {
   const std::string wanted = plural(run.link_redundancy, "disjoint path");
-  std::string text = run.redundant_time_ratio < 0.0 ? wanted + " asked for"
-                     : format("%s between targets and root for %.2f %% of the time from 10 s after completion on", wanted.c_str(), 100.0 * run.redundant_time_ratio);
-  text += format("; %u companions, with them %.2f times the bound of %u", run.companions, run.redundancy_ratio, run.redundancy_bound);
+  std::string text = run.redundant_time_ratio < 0.0
+                         ? wanted + " asked for"
+                         : format("%s between targets and root for %.2f %% of the time from 10 s after completion on",
+                                  wanted.c_str(), 100.0 * run.redundant_time_ratio);
+  text += format("; %u companions, with them %.2f times the bound of %u", run.companions, run.redundancy_ratio,
+                 run.redundancy_bound);
   if (!run.single_targets.empty()) text += "; in the end fewer to targets " + run.single_targets;
   return text;
 }
 
 std::string deaths_text(const measure::Run& run) {
-  std::string text = format("%u of %s died, the last at %.1f s; ", run.deaths, plural(run.robots, "robot").c_str(),
-                            run.last_death_s);
+  std::string text =
+      format("%u of %s died, the last at %.1f s; ", run.deaths, plural(run.robots, "robot").c_str(), run.last_death_s);
   if (run.held_again_s >= 0.0)
-    text += format("%s lost a worker, held again after %.1f s (median); ", plural(run.lost_holders, "target").c_str(), run.held_again_s);
+    text += format("%s lost a worker, held again after %.1f s (median); ", plural(run.lost_holders, "target").c_str(),
+                   run.held_again_s);
   if (run.recovered) return text + format("whole again %.1f s later", run.recovery_time_s);
   const double watched_s = std::min(run.time_s - run.last_death_s, measure::recovery_limit_s);
   text += format("not whole again in the %.1f s after it", watched_s);
@@ -86,17 +93,21 @@ std::string deaths_text(const measure::Run& run) {
 }
 
 std::string power_text(const measure::Run& run) {
-  std::string text = format("at least %.0f %% in every living robot, %.0f %% on average at the end; %s, %s with a broken edge; %s of %s to a charging place arrived",
-                            100.0 * run.least_charge, 100.0 * run.mean_charge, plural(run.swaps, "swap").c_str(), grouped(static_cast<double>(run.broken_swaps)).c_str(),
-                            grouped(static_cast<double>(run.trips_arrived)).c_str(), plural(run.trips, "trip").c_str());
+  std::string text = format(
+      "at least %.0f %% in every living robot, %.0f %% on average at the end; %s, %s with a broken edge; %s of %s to a "
+      "charging place arrived",
+      100.0 * run.least_charge, 100.0 * run.mean_charge, plural(run.swaps, "swap").c_str(),
+      grouped(static_cast<double>(run.broken_swaps)).c_str(), grouped(static_cast<double>(run.trips_arrived)).c_str(),
+      plural(run.trips, "trip").c_str());
   if (run.emptied > 0) text += "; " + plural(run.emptied, "robot") + " ran down";
-  if (run.lasts_s >= 0.0) text += format("; too few are free to be charged: the swarm lasts for another %.0f s", run.lasts_s);
+  if (run.lasts_s >= 0.0)
+    text += format("; too few are free to be charged: the swarm lasts for another %.0f s", run.lasts_s);
   return text;
 }
 
 std::string work_text(const measure::Run& run) {
-  std::string text = plural(run.insertions, "insertion") + ", " + plural(run.handovers, "hand-over") + " of the root, " +
-                     plural(run.repairs, "repair") + ", " + plural(run.epochs, "tree") + " grown";
+  std::string text = plural(run.insertions, "insertion") + ", " + plural(run.handovers, "hand-over") +
+                     " of the root, " + plural(run.repairs, "repair") + ", " + plural(run.epochs, "tree") + " grown";
   if (run.elections > 0) text += ", " + plural(run.elections, "root") + " elected";
   if (run.replacements > 0) text += ", " + plural(run.replacements, "worker") + " replaced";
   return text;
@@ -104,9 +115,11 @@ std::string work_text(const measure::Run& run) {
 
 std::string computing_text(const measure::Run& run, const SummaryExtras& extras) {
   const double steps = static_cast<double>(run.ticks) * run.robots / std::max(extras.wall_s, 1e-9);
-  std::string text = summary_line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s,
-                               grouped(steps).c_str(), extras.threads, extras.threads == 1 ? "thread" : "threads"));
-  return text + summary_line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)", run.hash));
+  std::string text =
+      summary_line("speed", format("%.2f s of computing, %s robot-steps per second, %d %s", extras.wall_s,
+                                   grouped(steps).c_str(), extras.threads, extras.threads == 1 ? "thread" : "threads"));
+  return text + summary_line("hash", format("%016" PRIx64 " (the same for the same scenario and seed, on any machine)",
+                                            run.hash));
 }
 
 }  // namespace
@@ -117,7 +130,7 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   const auto& scenario = configuration.scenario;
   std::string text = scenario.name + ": " + verdict(row, extras) + "\n\n";
   text += summary_line("algorithm", format("%s (%s), %u robots, %zu targets, seed %" PRIu64, row.id.algorithm.c_str(),
-                                   row.id.reading.c_str(), run.robots, extras.targets, row.id.seed));
+                                           row.id.reading.c_str(), run.robots, extras.targets, row.id.seed));
   text += summary_line("time", time_text(run));
   text += summary_line("tree", tree_text(run));
   text += summary_line("network", network_text(run, scenario.radio.line_of_sight));
@@ -135,8 +148,8 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
     const std::string more = recording ? "; opens in Foxglove and Lichtblick, or draw a moment of it:" : "";
     text += summary_line(std::string(kept->file).c_str(), std::string(kept->what) + more);
     if (recording) {
-      text += summary_line("", format("banyan draw %s --at %.0f -o frame.svg", outputs.path(*kept).c_str(),
-                                      std::floor(run.time_s / 2)));
+      text += summary_line(
+          "", format("banyan draw %s --at %.0f -o frame.svg", outputs.path(*kept).c_str(), std::floor(run.time_s / 2)));
     }
   }
   return text;

@@ -11,8 +11,8 @@ class TrackedBodies final : public world::Bodies {
   explicit TrackedBodies(SeenPoses seen) noexcept : seen_(seen) {}
   [[nodiscard]] std::unique_ptr<world::Bodies> clone() const override { return std::make_unique<TrackedBodies>(seen_); }
 
-  void step(std::span<const Velocity> /*command*/, world::NearPairs /*near*/, std::uint64_t /*tick*/, world::Poses& poses,
-            std::span<Odometry> odometry) override {
+  void step(std::span<const Velocity> /*command*/, world::NearPairs /*near*/, std::uint64_t /*tick*/,
+            world::Poses& poses, std::span<Odometry> odometry) override {
     const SeenPoses seen = seen_;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (!seen[i]) continue;

@@ -12,7 +12,8 @@ namespace banyan::cli {
 // Of a tracker or a chart, which renews them in place.
 using SeenPoses = std::span<const std::optional<udp::TrackedPose>>;
 
-// In each tick robots are where they were seen last; commands move them outside. What `seen` refers to must outlive them.
+// In each tick robots are where they were seen last; commands move them outside. What `seen` refers to must outlive
+// them.
 [[nodiscard]] std::unique_ptr<world::Bodies> tracked_bodies(SeenPoses seen);
 
 // The scenario with robots that start where they are. Each of them must have been seen.

@@ -30,13 +30,13 @@ std::string plan_text(const TunePlan& plan) {
   std::string text = summary_line("algorithm", mission.algorithm + " (" + mission.reading + ")");
   text += summary_line("fitness", std::string(study::name_of(plan.fitness.judgement)));
   text += summary_line("search", std::string(study::name_of(o.search)) + ", " + plural(o.islands, "island") + " of " +
-                             plural(o.population, "individual") + ", " + plural(o.generations, "generation") +
-                             format(", seed %" PRIu64, o.seed));
+                                     plural(o.population, "individual") + ", " + plural(o.generations, "generation") +
+                                     format(", seed %" PRIu64, o.seed));
   std::string worlds;
   for (const auto& world : plan.worlds) worlds += (worlds.empty() ? "" : ", ") + world.scenario.name;
   text += summary_line("worlds", worlds);
   return text + summary_line("seeds", plural(plan.training.size(), "seed") + " to train on, " +
-                                  grouped(static_cast<double>(plan.test.size())) + " to test with");
+                                          grouped(static_cast<double>(plan.test.size())) + " to test with");
 }
 
 std::string dry_run_text(const TunePlan& plan, const std::string& directory) {
@@ -44,9 +44,9 @@ std::string dry_run_text(const TunePlan& plan, const std::string& directory) {
   const auto compared = plan.comparison_runs();
   std::string text = plan.name + ": nothing was started\n\n" + plan_text(plan);
   text += summary_line("runs", "at most " + grouped(static_cast<double>(evaluations * plan.runs() + compared)) + ": " +
-                           plural(evaluations, "evaluation") + " of " + plural(plan.runs(), "run") + ", and " +
-                           grouped(static_cast<double>(compared)) +
-                           " to compare; what cannot be run or was seen before costs none");
+                                   plural(evaluations, "evaluation") + " of " + plural(plan.runs(), "run") + ", and " +
+                                   grouped(static_cast<double>(compared)) +
+                                   " to compare; what cannot be run or was seen before costs none");
   text += summary_line("results", "in " + directory + "/");
   text += "\n  parameter                  from      to        start\n";
   for (std::size_t i = 0; i < plan.bounds.size(); ++i) {
@@ -93,7 +93,7 @@ std::string summary_text(const TunePlan& plan, const study::TuneResult& result, 
                                         plan.fitness.of(best.training.merit), plan.fitness.of(best.test.merit));
   text += plan_text(plan);
   text += summary_line("work", plural(result.evaluations, "evaluation") + format(", %.1f s", wall_s) +
-                           (result.resumed_at > 0 ? format(" from generation %u on", result.resumed_at) : ""));
+                                   (result.resumed_at > 0 ? format(" from generation %u on", result.resumed_at) : ""));
   text += "\n" + comparison_text(plan, result);
   text += "\n\"default\" is the scenarios without tuning; \"discon.\" is the share of runs with any disconnection.\n";
   text += "\nResults in " + directory + "/\n";

@@ -19,7 +19,8 @@ std::string summary(const std::string& file, const Configuration& configuration)
   const auto& scenario = configuration.scenario;
   return file + ": ok: " + scenario.mission.algorithm + " (" + scenario.mission.reading + "), " +
          count_of(world::robot_count(scenario), "robot") + ", " +
-         count_of(world::target_positions(scenario).size(), "target") + format(", at most %.1f s\n", world::time_limit_s(scenario));
+         count_of(world::target_positions(scenario).size(), "target") +
+         format(", at most %.1f s\n", world::time_limit_s(scenario));
 }
 
 nlohmann::ordered_json json_of(const std::string& file, const Loaded& loaded) {
@@ -52,17 +53,12 @@ int validate_command(const ValidateOptions& options) {
     problems.insert(problems.end(), loaded.problems.begin(), loaded.problems.end());
     if (options.json) report.push_back(json_of(file, loaded));
     if (!loaded.ok()) continue;
-    if (options.show == "toml")
-      text += config_toml(loaded.configuration);
-    else if (options.show == "json")
-      text += config_json(loaded.configuration, 2) + "\n";
-    else if (!options.quiet)
-      text += summary(file, loaded.configuration);
+    if (options.show == "toml") text += config_toml(loaded.configuration);
+    else if (options.show == "json") text += config_json(loaded.configuration, 2) + "\n";
+    else if (!options.quiet) text += summary(file, loaded.configuration);
   }
-  if (options.json)
-    text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  else
-    print_problems(problems);
+  if (options.json) text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  else print_problems(problems);
   print(text);
   return all_ok ? exit_done : exit_usage;
 }

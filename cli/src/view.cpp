@@ -55,7 +55,8 @@ std::string scenarios_folder(const ViewOptions& options) {
 bool is_recording(const std::string& file) {
   std::array<char, 5> start{};
   std::error_code ignored;
-  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) return false;  // what comes out of a pipe is gone once it is read
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
+    return false;  // what comes out of a pipe is gone once it is read
   std::ifstream(file, std::ios::binary).read(start.data(), start.size());
   return std::string_view(start.data(), start.size()) == "\x89MCAP" || file.ends_with(".mcap") ||
          file.ends_with(".mcap.part");

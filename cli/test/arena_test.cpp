@@ -82,8 +82,8 @@ TEST(Arena, GrowthHasEveryAlgorithmAndTheRobotsThatItsLabelsSay) {
 TEST(Arena, EveryRadioIsWhatItsLabelSays) {
   const study::Study study = arena();
   for (const auto& part : study.parts) {
-    const auto radio = std::find_if(part.axes.begin(), part.axes.end(),
-                                    [](const auto& axis) { return axis.name == "radio"; });
+    const auto radio =
+        std::find_if(part.axes.begin(), part.axes.end(), [](const auto& axis) { return axis.name == "radio"; });
     ASSERT_NE(radio, part.axes.end()) << part.name;
     std::set<std::string> labels;
     for (const auto& value : radio->values) labels.insert(value.label);

@@ -126,11 +126,14 @@ TEST_F(InArgos, AMissionLeavesItsResultsInOneFolderFromWhereverItIsStarted) {
 
 // The page follows a recording that grows; here it is read while ARGoS computes an hour.
 TEST_F(InArgos, AMissionCanBeWatchedWhileItRuns) {
-  write_experiment("a.argos", "three-targets",
-                   {"--set", "output.live=true", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=3600"});
+  write_experiment(
+      "a.argos", "three-targets",
+      {"--set", "output.live=true", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=3600"});
   const pid_t there = start_argos("a.argos");
   const auto seconds_recorded = [&] {
-    if (!exists("a/run.mcap.part") || run({"export", "a/run.mcap.part", "-o", "table.csv", "--every", "10", "--force"}).code != 0) return 0L;
+    if (!exists("a/run.mcap.part") ||
+        run({"export", "a/run.mcap.part", "-o", "table.csv", "--every", "10", "--force"}).code != 0)
+      return 0L;
     const std::string table = read("table.csv");
     return std::count(table.begin(), table.end(), '\n') / 18;  // a line for each robot
   };

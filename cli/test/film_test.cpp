@@ -153,8 +153,9 @@ TEST_F(Film, AnFfmpegThatGivesUpIsQuotedAndLeavesNothing) {
 TEST_F(Film, AnFfmpegThatFailsAtTheEndIsNoticedWhoeverStartedUs) {
   write("bin/ffmpeg", "#!/bin/sh\ncat >/dev/null\nexit 7\n");
   fs::permissions(home_ / "bin/ffmpeg", fs::perms::owner_all);
-  const auto outcome = run({"film", "o/run.mcap", "-o", "a.mp4"},
-                           {.environment = {{"PATH", (home_ / "bin").string() + ":/usr/bin:/bin"}}, .ignores_children = true});
+  const auto outcome =
+      run({"film", "o/run.mcap", "-o", "a.mp4"},
+          {.environment = {{"PATH", (home_ / "bin").string() + ":/usr/bin:/bin"}}, .ignores_children = true});
   EXPECT_EQ(outcome.code, 1);
   EXPECT_TRUE(has(outcome.err, "a.mp4: ffmpeg has given up (exit code 7)")) << outcome.err;
   expect_nothing_left("a.mp4");

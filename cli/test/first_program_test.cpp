@@ -52,8 +52,10 @@ TEST_F(FirstProgram, ThoseThatTheScriptKeepsFromItAreThoseItLacks) {
 }
 
 TEST_F(FirstProgram, TheSameResult) {
-  const Arguments arguments{"run", std::string(BANYAN_SCENARIOS) + "/three-targets.toml", "--set", "mission.time_limit_s=3",
-                            "--no-record", "--quiet", "--out"};
+  const Arguments arguments{"run",         std::string(BANYAN_SCENARIOS) + "/three-targets.toml",
+                            "--set",       "mission.time_limit_s=3",
+                            "--no-record", "--quiet",
+                            "--out"};
   for (const char* out : {"first", "whole"}) {
     Arguments with_folder = arguments;
     with_folder.emplace_back(out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Fleets of processes, as a user starts them, and what may happen to them: processes that are killed, bad radio, Ctrl-C.
-// Their clocks are five times as fast as the wall's, so that a mission of ten seconds takes two.
+// Fleets of processes, as a user starts them, and what may happen to them: processes that are killed, bad radio,
+// Ctrl-C. Their clocks are five times as fast as the wall's, so that a mission of ten seconds takes two.
 #include <netinet/in.h>
 #include <signal.h>
 #include <sys/socket.h>
@@ -40,9 +40,12 @@ class NearbyRobots final : public udp::Link {
     Setup setup = world::setup_of(scenario);
     setup.history = 1;
     for (std::size_t i = 0; i < robots; ++i)
-      robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5, static_cast<float>(scenario.robot.radius_m));
+      robots_.emplace_back(world::algorithm_of(scenario), setup, static_cast<RobotId>(i), 0.5,
+                           static_cast<float>(scenario.robot.radius_m));
   }
-  [[nodiscard]] std::optional<udp::Status> take(std::size_t i) override { return std::exchange(answers_[i], std::nullopt); }
+  [[nodiscard]] std::optional<udp::Status> take(std::size_t i) override {
+    return std::exchange(answers_[i], std::nullopt);
+  }
   void deliver(std::size_t i, udp::SensorFrame frame, std::span<const udp::Hearing> heard) override {
     const double now_s = 1.0 + 0.1 * frame.tick;
     frame.mission = 1;
@@ -92,8 +95,9 @@ TEST(RemoteSwarm, DoesWhatTheWorldsOwnDoes) {
 }
 
 TEST(RemoteSwarm, KeepsTwoPaths) {
-  auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/three-targets.toml", algorithms(),
-                                           {{"mission.link_redundancy=2", "test"}, {"swarm.redundancy=5", "test"}, {"mission.settle_s=30", "test"}});
+  auto loaded = config::load_configuration(
+      std::string(BANYAN_SCENARIOS) + "/three-targets.toml", algorithms(),
+      {{"mission.link_redundancy=2", "test"}, {"swarm.redundancy=5", "test"}, {"mission.settle_s=30", "test"}});
   ASSERT_TRUE(loaded.ok());
   const world::Scenario scenario = loaded.configuration.scenario;
   NearbyRobots robots(scenario, world::robot_count(scenario));
@@ -109,7 +113,9 @@ TEST(RemoteSwarm, IsAFunctionOfWhatRobotsSay) {
 }
 
 TEST(RemoteSwarm, TargetsThatAreGivenUpAndDeathsReachTheRobots) {
-  world::Scenario scenario = configuration({"mission.algorithm=convoy", "mission.stop_when_complete=false", "mission.time_limit_s=40"}).scenario;
+  world::Scenario scenario =
+      configuration({"mission.algorithm=convoy", "mission.stop_when_complete=false", "mission.time_limit_s=40"})
+          .scenario;
   world::Event give_up, die;
   give_up.time_s = 3.0;
   give_up.action = world::RemoveTarget{1};
@@ -158,14 +164,19 @@ class FleetProgram : public StartedProcesses {
     more.insert(more.begin(), {"fleet", three_targets, "--speed", "5", "--out", "result", "--quiet"});
     const pid_t fleet = start(more);
     const auto tape = home_ / "result/fleet.tape";
-    EXPECT_TRUE(becomes([&] { return std::filesystem::exists(tape) && std::filesystem::file_size(tape) > 20 + ticks * 6 * 9; })) << read("stderr.txt");
+    EXPECT_TRUE(becomes([&] {
+      return std::filesystem::exists(tape) && std::filesystem::file_size(tape) > 20 + ticks * 6 * 9;
+    })) << read("stderr.txt");
     return fleet;
   }
   // Kills a child of it and waits until another one is there in its place.
   static void kill_and_wait(pid_t child, const std::function<pid_t()>& again) {
     ASSERT_GT(child, 0);
     ASSERT_EQ(::kill(child, SIGKILL), 0);
-    EXPECT_TRUE(becomes([&] { const pid_t now = again(); return now > 0 && now != child; }));
+    EXPECT_TRUE(becomes([&] {
+      const pid_t now = again();
+      return now > 0 && now != child;
+    }));
   }
   // Ended well, with the results of a mission that completed in a network that was never split.
   nlohmann::json expect_complete(pid_t fleet) {
@@ -177,7 +188,8 @@ class FleetProgram : public StartedProcesses {
     EXPECT_TRUE(exists("result/run.mcap") && exists("result/run.csv"));
     const auto whole = nlohmann::json::parse(read("result/run.json"), nullptr, false);
     auto result = whole.value("result", nlohmann::json::object());
-    EXPECT_TRUE(result.contains("complete") && result["complete"] == true) << result.dump(1).substr(0, 2000) << outcome.err;
+    EXPECT_TRUE(result.contains("complete") && result["complete"] == true)
+        << result.dump(1).substr(0, 2000) << outcome.err;
     return result;
   }
 };
@@ -185,14 +197,17 @@ class FleetProgram : public StartedProcesses {
 TEST_F(FleetProgram, CompletesAndSaysWhatARunSays) {
   const Outcome outcome = run({"fleet", three_targets, "--speed", "5", "--out", "result"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* words : {"COMPLETE after", "network    in one piece at every tick", "control period", "the recording", "0 by robots"})
+  for (const char* words :
+       {"COMPLETE after", "network    in one piece at every tick", "control period", "the recording", "0 by robots"})
     EXPECT_TRUE(has(outcome.out, words)) << words << "\n" << outcome.out;
   EXPECT_FALSE(has(outcome.out, "hash"));  // nothing that can be repeated to the bit
   EXPECT_TRUE(exists("result/run.mcap"));
 }
 
 TEST_F(FleetProgram, GoesOnWhenARobotAndTheHubAreKilled) {
-  const pid_t fleet = start_fleet({"--loss", "0.1", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40", "--set", "mission.algorithm=convoy"}, 30);
+  const pid_t fleet = start_fleet({"--loss", "0.1", "--set", "mission.stop_when_complete=false", "--set",
+                                   "mission.time_limit_s=40", "--set", "mission.algorithm=convoy"},
+                                  30);
   kill_and_wait(robot(fleet, 4), [&] { return robot(fleet, 4); });
   kill_and_wait(hub(fleet), [&] { return hub(fleet); });
   kill_and_wait(robot(fleet, 2), [&] { return robot(fleet, 2); });
@@ -202,7 +217,8 @@ TEST_F(FleetProgram, GoesOnWhenARobotAndTheHubAreKilled) {
 }
 
 TEST_F(FleetProgram, ARobotThatStaysAwayCountsAsDead) {
-  const pid_t fleet = start_fleet({"--no-restart", "--set", "mission.algorithm=convoy", "--set", "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40"});
+  const pid_t fleet = start_fleet({"--no-restart", "--set", "mission.algorithm=convoy", "--set",
+                                   "mission.stop_when_complete=false", "--set", "mission.time_limit_s=40"});
   ASSERT_EQ(::kill(robot(fleet, 6), SIGKILL), 0);
   const auto result = expect_complete(fleet);
   EXPECT_EQ(result["deaths"], 1);
@@ -210,8 +226,9 @@ TEST_F(FleetProgram, ARobotThatStaysAwayCountsAsDead) {
 
 TEST_F(FleetProgram, StandsLossDelayDuplicatesAndReordering) {
   for (const char* algorithm : {"outwards", "inwards", "convoy"}) {
-    const pid_t fleet = start_fleet({"--force", "--loss", "0.3", "--delay-ms", "20", "--jitter-ms", "10", "--duplicate", "0.1", "--reorder", "0.1",
-                                     "--set", std::string("mission.algorithm=") + algorithm});
+    const pid_t fleet =
+        start_fleet({"--force", "--loss", "0.3", "--delay-ms", "20", "--jitter-ms", "10", "--duplicate", "0.1",
+                     "--reorder", "0.1", "--set", std::string("mission.algorithm=") + algorithm});
     const auto result = expect_complete(fleet);
     EXPECT_EQ(result["split_ticks"], 0) << algorithm;
     std::filesystem::remove_all(home_ / "result");
@@ -220,18 +237,29 @@ TEST_F(FleetProgram, StandsLossDelayDuplicatesAndReordering) {
 
 // By tc netem if there is one, which is asked of tc itself; `./check --full` runs this again in a kernel that has it.
 TEST_F(FleetProgram, NetemMakesTheRadioBadWhereItIs) {
-  const bool there = std::system("unshare -n tc qdisc add dev lo root netem 2>/dev/null || unshare -rn tc qdisc add dev lo root netem 2>/dev/null") == 0;
-  const Outcome outcome = run({"fleet", three_targets, "--speed", "5", "--set", "mission.algorithm=convoy", "--loss", "0.3", "--delay-ms", "20", "--jitter-ms", "10",
-                               "--duplicate", "0.1", "--reorder", "0.1", "--rate-kbit", "400", "--impairment", "netem", "--out", "result"});
+  const bool there = std::system(
+                         "unshare -n tc qdisc add dev lo root netem 2>/dev/null || unshare -rn tc qdisc add dev lo "
+                         "root netem 2>/dev/null") == 0;
+  // clang-format off: option and value side by side
+  const Outcome outcome =
+      run({"fleet",        three_targets, "--speed",    "5",     "--set",       "mission.algorithm=convoy",
+           "--loss",       "0.3",         "--delay-ms", "20",    "--jitter-ms", "10",
+           "--duplicate",  "0.1",         "--reorder",  "0.1",   "--rate-kbit", "400",
+           "--impairment", "netem",       "--out",      "result"});
+  // clang-format on
   EXPECT_EQ(exists("result"), there);
   EXPECT_EQ(outcome.code, there ? 0 : 2) << outcome.err;
-  const Arguments expected = there ? Arguments{"COMPLETE after", "in one piece at every tick", "by tc netem: 30 % lost, 20 ± 10 ms late, 10 % twice, 10 % not delayed, 400 kbit/s"}
-                                 : Arguments{"--impairment netem cannot be had here: ", "--impairment relay does the same"};
-  for (const std::string& words : expected) EXPECT_TRUE(has(outcome.out + outcome.err, words)) << words << outcome.out << outcome.err;
+  const Arguments expected =
+      there ? Arguments{"COMPLETE after", "in one piece at every tick",
+                        "by tc netem: 30 % lost, 20 ± 10 ms late, 10 % twice, 10 % not delayed, 400 kbit/s"}
+            : Arguments{"--impairment netem cannot be had here: ", "--impairment relay does the same"};
+  for (const std::string& words : expected)
+    EXPECT_TRUE(has(outcome.out + outcome.err, words)) << words << outcome.out << outcome.err;
 }
 
 TEST_F(FleetProgram, ARelayMakesTheRadioBadWhereNetemIsNot) {
-  const Outcome outcome = run({"fleet", three_targets, "--speed", "5", "--set", "mission.algorithm=convoy", "--loss", "0.1", "--loopback", "--out", "result"});
+  const Outcome outcome = run({"fleet", three_targets, "--speed", "5", "--set", "mission.algorithm=convoy", "--loss",
+                               "0.1", "--loopback", "--out", "result"});
   EXPECT_TRUE(has(outcome.out, "by a relay: 10 % lost\n")) << outcome.out << outcome.err;
   const Outcome without = run({"fleet", three_targets, "--loopback", "--impairment", "netem", "--out", "neither"});
   EXPECT_EQ(without.code, 2);
@@ -258,8 +286,9 @@ TEST_F(FleetProgram, CtrlCStopsAllAndLeavesValidFiles) {
 // The page's own tests look at what it shows.
 TEST_F(FleetProgram, ThePageBesideItStaysUntilCtrlC) {
   write("page/index.html", "<!doctype html>");
-  const pid_t fleet = start({"fleet", three_targets, "--speed", "10", "--out", "result", "--json", "--view"},
-                            {.environment = {{"BANYAN_PAGE", (home_ / "page").string()}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
+  const pid_t fleet =
+      start({"fleet", three_targets, "--speed", "10", "--out", "result", "--json", "--view"},
+            {.environment = {{"BANYAN_PAGE", (home_ / "page").string()}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
   EXPECT_TRUE(becomes([&] { return has(read("stderr.txt"), "http://127.0.0.1:"); })) << read("stderr.txt");
   EXPECT_TRUE(exists("result/run.mcap.part"));
   const auto over = [&] { return exists("result/run.mcap") && hub(fleet) == 0 && robot(fleet, 0) == 0; };
@@ -271,7 +300,8 @@ TEST_F(FleetProgram, ThePageBesideItStaysUntilCtrlC) {
   ::kill(fleet, SIGINT);
   EXPECT_EQ(finish(fleet).code, 0);
   EXPECT_FALSE(runs(page));
-  EXPECT_TRUE(has(run({"fleet", three_targets, "--view", "--set", "output.record=false"}).err, "none is to be written"));
+  EXPECT_TRUE(
+      has(run({"fleet", three_targets, "--view", "--set", "output.record=false"}).err, "none is to be written"));
 }
 
 TEST_F(FleetProgram, AllEndWithAFleetThatIsKilled) {
@@ -305,13 +335,14 @@ class Laboratory : public FleetProgram {
     poses_ = "127.0.0.1:" + std::to_string(port + 1);
     ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
     const std::string examples = BANYAN_EXAMPLES;
-    bases_ = start({"-c", "exec python3 " + examples + "/base.py 9 " + std::to_string(port + 2) + " 5 | tee seen.csv | exec python3 " + examples +
-                              "/tracker.py " + poses_},
+    bases_ = start({"-c", "exec python3 " + examples + "/base.py 9 " + std::to_string(port + 2) +
+                              " 5 | tee seen.csv | exec python3 " + examples + "/tracker.py " + poses_},
                    {.program = "sh"});
     ASSERT_TRUE(becomes([&] { return answers(port + 2 + 8); }));
     for (int i = 0; i < 9; ++i)
-      robots_.push_back(start({"robot", "--id", std::to_string(i), "--hub", hub_address_, "--key", "fleet.key", "--algorithm", "outwards", "--speed", "5",
-                               "--base", "tcp:127.0.0.1:" + std::to_string(port + 2 + i)}));
+      robots_.push_back(
+          start({"robot", "--id", std::to_string(i), "--hub", hub_address_, "--key", "fleet.key", "--algorithm",
+                 "outwards", "--speed", "5", "--base", "tcp:127.0.0.1:" + std::to_string(port + 2 + i)}));
   }
   void TearDown() override {
     for (const pid_t robot : robots_)
@@ -321,7 +352,8 @@ class Laboratory : public FleetProgram {
     FleetProgram::TearDown();
   }
   [[nodiscard]] Arguments hub() const {
-    return {"hub", three_targets, "--key", "fleet.key", "--listen", hub_address_, "--poses", poses_, "--speed", "5", "--out", "result", "--force"};
+    return {"hub",  three_targets, "--key", "fleet.key", "--listen", hub_address_, "--poses",
+            poses_, "--speed",     "5",     "--out",     "result",   "--force"};
   }
   // The latest poses that the camera has seen, one line of each robot.
   [[nodiscard]] std::map<std::string, std::string> seen() const {
@@ -339,7 +371,7 @@ class Laboratory : public FleetProgram {
     EXPECT_EQ(hub.code, 0) << hub.err;
     EXPECT_TRUE(has(hub.out, "COMPLETE after")) << hub.out;
     EXPECT_TRUE(has(hub.out, "in one piece at every tick")) << hub.out;
-    if (HasFailure()) return;  // the robots still wait for a hub
+    if (HasFailure()) return;                                            // the robots still wait for a hub
     for (const pid_t robot : robots_) EXPECT_EQ(finish(robot).code, 0);  // the hub has stopped it
     robots_.clear();
   }
@@ -361,13 +393,17 @@ void say_to(int port, const std::string& text) {
 TEST_F(FleetProgram, ATrackerMaySeeWhereNoMissionCanBegin) {
   ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
   const int port = free_port();
-  const pid_t hub = start({"hub", three_targets, "--key", "fleet.key", "--listen", "127.0.0.1:0", "--poses", "127.0.0.1:" + std::to_string(port)});
+  const pid_t hub = start({"hub", three_targets, "--key", "fleet.key", "--listen", "127.0.0.1:0", "--poses",
+                           "127.0.0.1:" + std::to_string(port)});
   std::string poses;
   for (int i = 0; i < 9; ++i) poses += std::to_string(i) + " " + std::to_string(i == 8 ? 9.0 : 0.3 * i) + " 0 0\n";
   EXPECT_TRUE(becomes([&] { return say_to(port, poses), !runs(hub); }));
   const Outcome outcome = finish(hub);
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_TRUE(has(outcome.err, "where the tracker sees the robots:\n  swarm.start.positions_m: the start is not connected: 2 groups")) << outcome.err;
+  EXPECT_TRUE(
+      has(outcome.err,
+          "where the tracker sees the robots:\n  swarm.start.positions_m: the start is not connected: 2 groups"))
+      << outcome.err;
 }
 
 TEST_F(Laboratory, Completes) { expect_complete(run(hub())); }
@@ -412,10 +448,12 @@ TEST_F(Laboratory, AHubThatIsStartedAgainGoesOnWhereItWas) {
   for (const char* more : {"--tape", "mission.tape"}) arguments.emplace_back(more);
   const pid_t first = start(arguments);
   const auto tape = home_ / "mission.tape";
-  EXPECT_TRUE(becomes([&] { return std::filesystem::exists(tape) && std::filesystem::file_size(tape) > 30000; })) << read("stderr.txt");
+  EXPECT_TRUE(becomes([&] { return std::filesystem::exists(tape) && std::filesystem::file_size(tape) > 30000; }))
+      << read("stderr.txt");
   ::kill(first, SIGKILL);
   finish(first);
-  const auto blind = run({"hub", three_targets, "--key", "fleet.key", "--listen", hub_address_, "--tape", "mission.tape", "--resume"});
+  const auto blind =
+      run({"hub", three_targets, "--key", "fleet.key", "--listen", hub_address_, "--tape", "mission.tape", "--resume"});
   EXPECT_EQ(blind.code, 2);
   EXPECT_TRUE(has(blind.err, "mission.tape: is the tape of a mission with a tracker; --poses is missing")) << blind.err;
   arguments.emplace_back("--resume");
@@ -465,7 +503,8 @@ class WithoutAHub : public FleetProgram {
     FleetProgram::SetUp();
     port_ = free_port();
     ASSERT_EQ(run({"hub", "--new-key", "fleet.key"}).code, 0);
-    std::string command = std::string("exec python3 ") + BANYAN_EXAMPLES + "/base.py 9 " + std::to_string(port_ + count) + " 5 2";
+    std::string command =
+        std::string("exec python3 ") + BANYAN_EXAMPLES + "/base.py 9 " + std::to_string(port_ + count) + " 5 2";
     for (const auto& [x, y] : targets) command += " " + std::to_string(x) + "," + std::to_string(y);
     bases_ = start({"-c", command + " > seen.csv"}, {.program = "sh"});
     ASSERT_TRUE(becomes([&] { return answers(port_ + 2 * count - 1); }));
@@ -480,8 +519,23 @@ class WithoutAHub : public FleetProgram {
     FleetProgram::TearDown();
   }
   void start_robot(int i, bool root) {
-    Arguments arguments{"robot", "--id", std::to_string(i), "--listen", address(i), "--peers", others_than(i), "--key", "fleet.key", "--speed", "5",
-                        "--base", "tcp:127.0.0.1:" + std::to_string(port_ + count + i), "--tell", address(3 * count)};
+    // clang-format off: option and value side by side
+    Arguments arguments{"robot",
+                        "--id",
+                        std::to_string(i),
+                        "--listen",
+                        address(i),
+                        "--peers",
+                        others_than(i),
+                        "--key",
+                        "fleet.key",
+                        "--speed",
+                        "5",
+                        "--base",
+                        "tcp:127.0.0.1:" + std::to_string(port_ + count + i),
+                        "--tell",
+                        address(3 * count)};
+    // clang-format on
     if (root) arguments.emplace_back("--root");
     if (i >= 1 && i <= 3) arguments.emplace_back("--worker");
     robots_[static_cast<std::size_t>(i)] = start(arguments);
@@ -509,7 +563,9 @@ class WithoutAHub : public FleetProgram {
     }
     return moments;
   }
-  static double distance(const std::array<double, 2>& a, const std::array<double, 2>& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+  static double distance(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1]);
+  }
   [[nodiscard]] bool is_complete() const {
     const auto moments = seen();
     for (std::size_t k = 0; k < targets.size(); ++k)
@@ -552,9 +608,11 @@ TEST_F(WithoutAHub, TheyCompleteInOnePieceAndStopAtAWord) {
 
 // Somebody listens: what is recorded is what they did, but for where on the floor they did it.
 TEST_F(WithoutAHub, TheirMissionIsRecordedByWhatTheyTell) {
-  const Outcome outcome = run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count), "--speed", "5", "--wait", "60", "--out", "result"});
+  const Outcome outcome = run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count), "--speed",
+                               "5", "--wait", "60", "--out", "result"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* words : {"COMPLETE after", "network    in one piece at every tick", "the recording", "places are the robots' own", " 0 datagrams dropped"})
+  for (const char* words : {"COMPLETE after", "network    in one piece at every tick", "the recording",
+                            "places are the robots' own", " 0 datagrams dropped"})
     EXPECT_TRUE(has(outcome.out, words)) << words << "\n" << outcome.out << outcome.err;
   EXPECT_EQ(run({"export", "result/run.mcap", "-o", "robots.csv"}).code, 0);
   std::istringstream rows(read("robots.csv"));
@@ -563,25 +621,29 @@ TEST_F(WithoutAHub, TheirMissionIsRecordedByWhatTheyTell) {
     double time_s = 0.0, x = 0.0, y = 0.0;
     std::size_t tick = 0, i = 0;
     char comma = 0;
-    if (std::istringstream(row) >> tick >> comma >> time_s >> comma >> i >> comma >> x >> comma >> y) last.at(i) = {x, y};
+    if (std::istringstream(row) >> tick >> comma >> time_s >> comma >> i >> comma >> x >> comma >> y)
+      last.at(i) = {x, y};
   }
   double best_m = 1e9;  // the moment of the last tick is one of those that were seen
   for (const Places& truth : seen()) {
     double worst_m = 0.0;
     for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t j = 0; j < i; ++j) worst_m = std::max(worst_m, std::fabs(distance(last.at(i), last.at(j)) - distance(truth.at(i), truth.at(j))));
+      for (std::size_t j = 0; j < i; ++j)
+        worst_m = std::max(worst_m, std::fabs(distance(last.at(i), last.at(j)) - distance(truth.at(i), truth.at(j))));
     best_m = std::min(best_m, worst_m);
   }
   EXPECT_LT(best_m, 0.1);
-  EXPECT_TRUE(has(run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count + 1), "--wait", "0.3"}).err,
-                  "there was no place for robot 0, 1, 2"));
+  EXPECT_TRUE(
+      has(run({"listen", three_targets, "--key", "fleet.key", "--listen", address(3 * count + 1), "--wait", "0.3"}).err,
+          "there was no place for robot 0, 1, 2"));
 }
 
 TEST_F(FleetProgram, RefusesWhatCannotBe) {
   expect_refused({"fleet", three_targets, "--loss", "1"}, "from 0 to 0.99");
   expect_refused({"fleet", "-"}, "must be a file");
   expect_refused({"fleet", three_targets, "--set", "radio.rnage_m=1"}, "rnage_m");
-  expect_refused({"fleet", three_targets, "--set", "battery.model=power"}, "nobody tells a robot that is a process its charge");
+  expect_refused({"fleet", three_targets, "--set", "battery.model=power"},
+                 "nobody tells a robot that is a process its charge");
   expect_refused({"hub", three_targets}, "--key is missing");
   expect_refused({"hub", three_targets, "--key", "k", "--resume"}, "--resume needs --tape");
   write("loose.key", "1 " + std::string(64, 'a') + "\n");
@@ -598,10 +660,13 @@ TEST_F(FleetProgram, RefusesWhatCannotBe) {
 }
 
 TEST_F(FleetProgram, TheHubPrintsTheCommandOfEachRobot) {
-  const auto outcome = run({"hub", three_targets, "--key", "fleet.key", "--listen", "10.1.2.3:4600", "--print-robots", "--set", "radio.range_m=2.5"});
+  const auto outcome = run({"hub", three_targets, "--key", "fleet.key", "--listen", "10.1.2.3:4600", "--print-robots",
+                            "--set", "radio.range_m=2.5"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 9);
-  EXPECT_TRUE(outcome.out.starts_with("banyan-robot --id 0 --hub 10.1.2.3:4600 --key fleet.key --algorithm outwards --range 2.5")) << outcome.out;
+  EXPECT_TRUE(outcome.out.starts_with(
+      "banyan-robot --id 0 --hub 10.1.2.3:4600 --key fleet.key --algorithm outwards --range 2.5"))
+      << outcome.out;
 }
 
 }  // namespace

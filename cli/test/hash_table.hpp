@@ -80,16 +80,17 @@ using Runs = std::vector<std::vector<std::string>>;
 // A row without hash behind the others of its scenario, for as many ticks as they have.
 inline void add_row(std::vector<HashRow>& rows, const std::vector<std::string>& run) {
   constexpr std::uint64_t usual_ticks = 1200;
-  const auto last = std::find_if(rows.rbegin(), rows.rend(),
-                                 [&](const HashRow& row) { return row.run.front() == run.front(); });
+  const auto last =
+      std::find_if(rows.rbegin(), rows.rend(), [&](const HashRow& row) { return row.run.front() == run.front(); });
   if (last == rows.rend()) rows.push_back({run, usual_ticks, ""});
   else rows.insert(last.base(), {run, last->ticks, ""});
 }
 
-// Runs every row that is `wanted` and compares; each of `asked` must begin a row. With BANYAN_RENEW_GOLDEN in the environment, rows
-// that are missing are added, and what came out is written.
+// Runs every row that is `wanted` and compares; each of `asked` must begin a row. With BANYAN_RENEW_GOLDEN in the
+// environment, rows that are missing are added, and what came out is written.
 template <class HashOf, class Wanted>
-void check_hashes(const char* path, const std::string& run_columns, const Runs& asked, const HashOf& hash_of, const Wanted& wanted) {
+void check_hashes(const char* path, const std::string& run_columns, const Runs& asked, const HashOf& hash_of,
+                  const Wanted& wanted) {
   const bool renews = std::getenv("BANYAN_RENEW_GOLDEN") != nullptr;
   std::vector<HashRow> rows = read_hashes(path, run_columns);
   for (const std::vector<std::string>& run : asked) {

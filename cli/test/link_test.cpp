@@ -21,7 +21,9 @@ std::string three_targets() {
   return text.str();
 }
 
-config::Loaded scenario(const std::string& text) { return config::parse_configuration("three-targets.toml", text, algorithms()); }
+config::Loaded scenario(const std::string& text) {
+  return config::parse_configuration("three-targets.toml", text, algorithms());
+}
 
 std::string problem_of(const std::string& link) {
   const auto loaded = load_link(link).loaded;
@@ -30,9 +32,11 @@ std::string problem_of(const std::string& link) {
 }
 
 TEST(Link, IsToldFromAFile) {
-  for (const char* link : {"#rooms", "http://127.0.0.1:8000/?start#rooms", "https://example.org/page/#seed=3", "file:///page/index.html#a"})
+  for (const char* link : {"#rooms", "http://127.0.0.1:8000/?start#rooms", "https://example.org/page/#seed=3",
+                           "file:///page/index.html#a"})
     EXPECT_TRUE(is_link(link)) << link;
-  for (const char* file : {"", "rooms.toml", "scenarios/a#1.toml", "./#1.toml", "http://example.org/a.toml"}) EXPECT_FALSE(is_link(file)) << file;
+  for (const char* file : {"", "rooms.toml", "scenarios/a#1.toml", "./#1.toml", "http://example.org/a.toml"})
+    EXPECT_FALSE(is_link(file)) << file;
 }
 
 TEST(Link, WithANameIsThatScenario) {
@@ -53,7 +57,9 @@ TEST(Link, CarriesChangesAndWhatWasDone) {
   std::string text = three_targets();
   auto expected = config::parse_configuration(
       "three-targets.toml",
-      text + "\n[[events]]\nkind = \"die\"\nrobot = 4\ntime_s = 2.0\n[[events]]\nkind = \"set_loss\"\nloss = 0.5\ntime_s = 3.0\n",
+      text +
+          "\n[[events]]\nkind = \"die\"\nrobot = 4\ntime_s = 2.0\n[[events]]\nkind = \"set_loss\"\nloss = 0.5\ntime_s "
+          "= 3.0\n",
       algorithms(), {{"radio.loss=0.25", "", {}}, {"seed=7", "", {}}, {"mission.algorithm=outwards", "", {}}});
   ASSERT_TRUE(expected.ok());
   EXPECT_EQ(config_json(link.loaded.configuration), config_json(expected.configuration));
@@ -74,7 +80,9 @@ TEST(Link, TheCommandLineHasTheLastWord) {
 }
 
 TEST(Link, SaysWhatIsWrong) {
-  const auto has = [](const std::string& text, const char* words) { return testing::AssertionResult(text.find(words) != std::string::npos) << text; };
+  const auto has = [](const std::string& text, const char* words) {
+    return testing::AssertionResult(text.find(words) != std::string::npos) << text;
+  };
   EXPECT_TRUE(has(problem_of("#three-target"), "did you mean three-targets?"));
   EXPECT_TRUE(has(problem_of("#"), "names no scenario"));
   EXPECT_TRUE(has(problem_of("#../secret"), "there is no scenario"));

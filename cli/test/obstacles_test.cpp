@@ -15,7 +15,8 @@ namespace banyan::cli {
 namespace {
 
 world::Scenario load(const std::string& name, std::uint64_t seed) {
-  const auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + name + ".toml", algorithms(), {{"mission.algorithm=convoy", "test"}});
+  const auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/" + name + ".toml", algorithms(),
+                                                 {{"mission.algorithm=convoy", "test"}});
   EXPECT_TRUE(loaded.ok()) << name;
   world::Scenario scenario = loaded.configuration.scenario;
   scenario.seed = seed;
@@ -24,8 +25,8 @@ world::Scenario load(const std::string& name, std::uint64_t seed) {
 
 struct Outcome {
   measure::Run run;
-  double nearest_m = 1e9;        // of a robot's centre to an obstacle
-  std::vector<double> held;      // share of the ticks after 60 s, by target
+  double nearest_m = 1e9;                // of a robot's centre to an obstacle
+  std::vector<double> held;              // share of the ticks after 60 s, by target
   std::vector<std::uint32_t> committed;  // of each tick
 };
 
@@ -38,7 +39,8 @@ Outcome simulate(const std::string& name, std::uint64_t seed) {
     world.step();
     observer.observe(world);
     for (const world::Vec2 p : world.positions())
-      for (const world::Obstacle& obstacle : world.scenario().obstacles) outcome.nearest_m = std::min(outcome.nearest_m, clearance(obstacle, p));
+      for (const world::Obstacle& obstacle : world.scenario().obstacles)
+        outcome.nearest_m = std::min(outcome.nearest_m, clearance(obstacle, p));
     std::uint32_t committed = 0;
     for (const Report& m : world.reports()) committed += m.role != Role::spare ? 1 : 0;
     outcome.committed.push_back(committed);

@@ -53,7 +53,8 @@ TEST_F(Program, ARunLeavesItsThreeFilesAndAShortSummary) {
 TEST_F(Program, ASummaryTellsOfDeathsAndRecovery) {
   const std::string world = read("small.toml") + "[[events]]\nkind = \"kill\"\nwhen = \"complete\"\ntime_s = 1.0\n";
   write("widow.toml", world + "of = \"worker\"\n");
-  const auto widow = run({"run", "widow.toml", "--set", "mission.algorithm=outwards", "--set", "mission.reading=literal"});
+  const auto widow =
+      run({"run", "widow.toml", "--set", "mission.algorithm=outwards", "--set", "mission.reading=literal"});
   ASSERT_EQ(widow.code, 0) << widow.err;
   EXPECT_TRUE(has(widow.out, "deaths     1 of 8 robots died, the last at ")) << widow.out;
   EXPECT_TRUE(has(widow.out, "not whole again in the 200.0 s after it")) << widow.out;
@@ -77,14 +78,10 @@ TEST_F(Program, TheTableAndTheJsonHoldTheSame) {
     ++columns;
     ASSERT_TRUE(result.contains(name)) << name;
     const auto& value = result[name];
-    if (value.is_string())
-      EXPECT_EQ(value.get<std::string>(), cell) << name;
-    else if (value.is_boolean())
-      EXPECT_EQ(value.get<bool>() ? "true" : "false", cell) << name;
-    else if (value.is_null())
-      EXPECT_EQ(cell, "") << name;
-    else
-      EXPECT_EQ(value.get<double>(), std::stod(cell)) << name;
+    if (value.is_string()) EXPECT_EQ(value.get<std::string>(), cell) << name;
+    else if (value.is_boolean()) EXPECT_EQ(value.get<bool>() ? "true" : "false", cell) << name;
+    else if (value.is_null()) EXPECT_EQ(cell, "") << name;
+    else EXPECT_EQ(value.get<double>(), std::stod(cell)) << name;
   }
   EXPECT_EQ(columns, result.size());
   EXPECT_FALSE(std::getline(table, row));
@@ -398,8 +395,9 @@ TEST_F(Program, AFileTooLargeForAScenarioIsRefusedUnread) {
 // A run that goes on to recover from a death has no more "at most".
 TEST_F(Program, ProgressAfterTheLimitSaysSo) {
   // Its targets are out of reach, so the run waits for a recovery that cannot be.
-  write("late.toml", "[mission]\ntime_limit_s = 0.1\n[swarm]\nrobots = 3000\n[swarm.start]\npitch_m = 0.9\n"
-                     "[targets]\nradius_m = 900.0\n[[events]]\nkind = \"die\"\nrobot = 5\ntime_s = 0.0\n");
+  write("late.toml",
+        "[mission]\ntime_limit_s = 0.1\n[swarm]\nrobots = 3000\n[swarm.start]\npitch_m = 0.9\n"
+        "[targets]\nradius_m = 900.0\n[[events]]\nkind = \"die\"\nrobot = 5\ntime_s = 0.0\n");
   const pid_t child = start({"run", "late.toml", "--no-record", "--threads", "1", "--out", "o"});
   const std::string wanted = " s, after its limit of 0.1 s, 0 of 3 targets reached";
   for (int k = 0; k < 12'000 && !has(read("stderr.txt"), wanted); ++k) std::this_thread::sleep_for(10ms);
@@ -505,10 +503,13 @@ TEST_F(Program, AlgorithmsAreListedWithTheirParameters) {
 // Which lengths follow the radio is each algorithm's own choice: Table I's do not, convoy's and the rivals' do.
 TEST_F(Program, AlgorithmsSayWhatAParameterMayBeAndWhatItGrowsWith) {
   const auto text = run({"algorithms"}).out;
-  EXPECT_TRUE(has(text, "; 0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)\n")) << text;
+  EXPECT_TRUE(has(
+      text, "; 0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)\n"))
+      << text;
   EXPECT_TRUE(has(run({"algorithms", "convoy"}).out, "; 0.05 to 100, grows with C and mission.scale\n"));
 
-  std::map<std::string, std::string> scaling{{"safe_range_m", "grows with C and mission.scale"}, {"clearance", "in units of C, in metres never less than for C = 2 m"},
+  std::map<std::string, std::string> scaling{{"safe_range_m", "grows with C and mission.scale"},
+                                             {"clearance", "in units of C, in metres never less than for C = 2 m"},
                                              {"target_gain", ""}};
   const auto list = json::parse(run({"algorithms", "convoy", "--json"}).out);
   for (const auto& row : list[0]["parameters"])
@@ -533,11 +534,13 @@ TEST_F(Program, EachAlgorithmSaysWhatItsOwnParametersMean) {
       EXPECT_TRUE(has(text.substr(row, end - row), std::string(info->advice))) << text.substr(row, end - row);
       ++at;
     }
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), static_cast<std::ptrdiff_t>(8 + 3 * at)) << "and nothing about parameters of others";
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), static_cast<std::ptrdiff_t>(8 + 3 * at))
+        << "and nothing about parameters of others";
   }
   const auto all = run({"algorithms"}).out;
   for (const Algorithm* algorithm : algorithms())
-    for (const ParameterInfo* info : algorithm->parameters()) EXPECT_TRUE(has(all, std::string(info->meaning))) << algorithm->name() << ": " << info->key;
+    for (const ParameterInfo* info : algorithm->parameters())
+      EXPECT_TRUE(has(all, std::string(info->meaning))) << algorithm->name() << ": " << info->key;
 }
 
 TEST_F(Program, EveryCommandHelpsWithExamples) {
@@ -576,7 +579,8 @@ TEST_F(Program, BenchRunsAWholeMissionWithAnyAlgorithm) {
   EXPECT_EQ(convoy["robots"], 94);
   // It starts as a cluster and ends spread out over four branches.
   EXPECT_GT(convoy["neighbors_in_range_start"].get<double>(), 1.5 * convoy["neighbors_in_range_end"].get<double>());
-  const auto other = run({"bench", "--json", "--windows", "1", "--window", "0.01", "spread-94-los", "--algorithm", "inwards"});
+  const auto other =
+      run({"bench", "--json", "--windows", "1", "--window", "0.01", "spread-94-los", "--algorithm", "inwards"});
   ASSERT_EQ(other.code, 0) << other.err;
   EXPECT_EQ(json::parse(other.out)["spread-94-los"]["algorithm"], "inwards");
   const auto unknown = run({"bench", "spread-94-los", "--algorithm", "inward"});
@@ -607,8 +611,9 @@ class Completion : public Program {
 using Words = std::vector<std::string>;
 
 TEST_F(Completion, KnowsCommandsOptionsKeysValuesAndFiles) {
-  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "argos", "bench", "collect", "draw", "export", "film",
-                                  "fleet", "hub", "keys", "listen", "robot", "run", "soak", "study", "tune", "validate", "view"}));
+  EXPECT_EQ(complete(" "), (Words{"--help", "--version", "algorithms", "argos", "bench",    "collect", "draw",
+                                  "export", "film",      "fleet",      "hub",   "keys",     "listen",  "robot",
+                                  "run",    "soak",      "study",      "tune",  "validate", "view"}));
   EXPECT_EQ(complete(" ru"), Words{"run"});
   EXPECT_EQ(complete(" run --th"), Words{"--threads"});
   EXPECT_EQ(complete(" run small.toml --set radio.lo"), Words{"radio.loss="});

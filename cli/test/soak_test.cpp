@@ -15,15 +15,15 @@
 #include "banyan/world/faults.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/world.hpp"
+#include "commands.hpp"
+#include "plain_scenario.hpp"
+#include "sample.hpp"
 #include "soak/free_path.hpp"
 #include "soak/isolated.hpp"
 #include "soak/journal.hpp"
 #include "soak/mission.hpp"
 #include "soak/shrink.hpp"
 #include "soak/sight.hpp"
-#include "commands.hpp"
-#include "plain_scenario.hpp"
-#include "sample.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli::soak {
@@ -178,7 +178,9 @@ TEST(SoakWatch, PromisesWhatItsPageSays) {
     const std::string kind = line.substr(3, line.find('`', 3) - 3);
     const std::string promised = line.substr(line.rfind("| ", line.size() - 3) + 2);
     kinds.insert(kind);
-    const char* says = is_promised(kind, rough) ? "in all missions |" : is_promised(kind, plain) ? "in plain missions |" : "reported only |";
+    const char* says = is_promised(kind, rough)   ? "in all missions |"
+                       : is_promised(kind, plain) ? "in plain missions |"
+                                                  : "reported only |";
     EXPECT_EQ(promised, says) << kind;
   }
   EXPECT_EQ(kinds.size(), 11U);
@@ -285,14 +287,20 @@ TEST(SoakCommand, NamesALineOfItsJournalThatIsNone) {
   try {
     const SoakJournal damaged(path, 9, false);
     FAIL() << "a number of robots that is none";
-  } catch (const CommandError& e) { EXPECT_NE(std::string(e.what()).find("soak.csv:3"), std::string::npos) << e.what(); }
+  } catch (const CommandError& e) {
+    EXPECT_NE(std::string(e.what()).find("soak.csv:3"), std::string::npos) << e.what();
+  }
   EXPECT_FALSE(SoakJournal(path, 9, true).has(3)) << "begun anew";
 }
 
 TEST(SoakJournal, CountsAMissionInEachOfItsKinds) {
   std::map<std::uint64_t, Row> rows;
   for (std::uint64_t k = 1; k <= 41; ++k)
-    rows[k] = {.index = k, .kind = k == 41 ? "loose start, noise" : "noise", .complete = k != 7, .complete_s = static_cast<double>(k), .bound_s = 2.0};
+    rows[k] = {.index = k,
+               .kind = k == 41 ? "loose start, noise" : "noise",
+               .complete = k != 7,
+               .complete_s = static_cast<double>(k),
+               .bound_s = 2.0};
   rows[3].findings = "split@1.0";
   EXPECT_EQ(table_of(rows),
             "  kind               missions  complete  findings time/bound    95 %   worst\n"
@@ -315,14 +323,16 @@ TEST(FreePath, OfPlainShapes) {
   EXPECT_NEAR(free_path_m({Disc{{0, 0}, 1}}, {-2, 0}, {2, 0}), round, 0.02 * round);
   EXPECT_LE(free_path_m({Disc{{0, 0}, 1}}, {-2, 0}, {2, 0}), round);
   EXPECT_NEAR(free_path_m({Box{{0, 0}, {2, 2}, 0}}, {-2, 0}, {2, 0}), 2.0 + 2.0 * std::sqrt(2.0), 1e-6);
-  EXPECT_TRUE(std::isinf(free_path_m({Wall{{-2, -1}, {2, -1}}, Wall{{1, -2}, {0, 2}}, Wall{{0.3, 2.4}, {-1.5, -2}}}, {0, 0}, {4, 0})));
+  EXPECT_TRUE(std::isinf(
+      free_path_m({Wall{{-2, -1}, {2, -1}}, Wall{{1, -2}, {0, 2}}, Wall{{0.3, 2.4}, {-1.5, -2}}}, {0, 0}, {4, 0})));
 }
 
 bool covers(const world::Obstacle& obstacle, Vec2 p) {
   if (const auto* disc = std::get_if<Disc>(&obstacle)) return distance(disc->center, p) < disc->radius_m;
   const auto* box = std::get_if<Box>(&obstacle);
   const Vec2 x{std::cos(box->angle_rad), std::sin(box->angle_rad)}, off = p - box->center;
-  return std::abs(off.x * x.x + off.y * x.y) < 0.5 * box->size.x && std::abs(off.y * x.x - off.x * x.y) < 0.5 * box->size.y;
+  return std::abs(off.x * x.x + off.y * x.y) < 0.5 * box->size.x &&
+         std::abs(off.y * x.x - off.x * x.y) < 0.5 * box->size.y;
 }
 
 // Brute force: ways over a fine grid, whose steps lead to the 32 nearest points in different directions; at most 1.4 %
@@ -344,7 +354,9 @@ TEST(FreePath, AgreesWithAGrid) {
       if (k % 2 == 0) obstacles.emplace_back(Disc{center, between(0.3, 1.0)});
       else obstacles.emplace_back(Box{center, {between(0.5, 2.5), between(0.5, 1.5)}, between(0, 3)});
     }
-    const auto free = [&](Vec2 p) { return std::none_of(obstacles.begin(), obstacles.end(), [&](const auto& o) { return covers(o, p); }); };
+    const auto free = [&](Vec2 p) {
+      return std::none_of(obstacles.begin(), obstacles.end(), [&](const auto& o) { return covers(o, p); });
+    };
     std::vector<double> way(std::size_t{n} * n, 1e9);
     const int from = (n / 2) * n + 8, to = (n / 2) * n + n - 9;
     std::set<std::pair<double, int>> queue{{0.0, from}};

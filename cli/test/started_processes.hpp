@@ -28,7 +28,8 @@ class StartedProcesses : public StartedProgram {
     return true;
   }
   static std::vector<pid_t> children_of(pid_t parent) {
-    std::istringstream list(contents("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children"));
+    std::istringstream list(
+        contents("/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children"));
     std::vector<pid_t> children;
     for (pid_t child = 0; list >> child;) children.push_back(child);
     return children;

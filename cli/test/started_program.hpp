@@ -30,10 +30,10 @@ struct Circumstances {
   std::string directory = "";            // below home
   std::string program = BANYAN_PROGRAM;  // found in PATH if there is no slash
   std::vector<std::pair<std::string, std::string>> environment = {};
-  int input = -1;             // a descriptor for standard input, else /dev/null
+  int input = -1;                 // a descriptor for standard input, else /dev/null
   bool ignores_children = false;  // by a parent that does, which is inherited
-  std::vector<int> closed = {};  // standard streams that it has not
-  const char* out = nullptr;  // a file for standard output instead of one that is read at the end
+  std::vector<int> closed = {};   // standard streams that it has not
+  const char* out = nullptr;      // a file for standard output instead of one that is read at the end
 };
 
 using Arguments = std::vector<std::string>;
@@ -41,7 +41,8 @@ using Arguments = std::vector<std::string>;
 inline std::string contents(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
-  text << in.rdbuf();  // what /proc says of a process that ends meanwhile cannot be read to its end, and throws elsewhere
+  text << in.rdbuf();  // what /proc says of a process that ends meanwhile cannot be read to its end, and throws
+                       // elsewhere
   return text.str();
 }
 

@@ -562,7 +562,8 @@ TEST_F(StudyProgram, FoldersAndFilesThatCannotBeAreSaidByName) {
   fs::create_directory_symlink("loop", home_ / "loop");
   for (const std::string& folder : {std::string(300, 'x'), std::string("loop"), std::string("loop/x")}) {
     const std::string reason = folder.size() == 300 ? "File name too long" : "Too many levels of symbolic links";
-    for (const Arguments& arguments : {Arguments{"run", "w.toml", "--out", folder}, {"study", "s.toml", "--out", folder},
+    for (const Arguments& arguments : {Arguments{"run", "w.toml", "--out", folder},
+                                       {"study", "s.toml", "--out", folder},
                                        {"study", "s.toml", "--out", folder, "--force"},
                                        {"collect", "s.toml", "--out", folder}}) {
       const auto outcome = run(arguments);

@@ -53,12 +53,11 @@ TEST_P(Trajectory, InEveryScenario) {
                [&](const HashRow& row) { return row.run[1] == algorithm; });
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Trajectory, testing::ValuesIn(algorithms().names()),
-                         [](const auto& test) {
-                           std::string name(test.param);
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, Trajectory, testing::ValuesIn(algorithms().names()), [](const auto& test) {
+  std::string name(test.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST(Trajectories, AreOfAlgorithmsThatThereAre) {
   for (const HashRow& row : read_hashes(BANYAN_TRAJECTORIES, "scenario,algorithm,reading"))

@@ -94,7 +94,8 @@ class View : public StartedProgram {
       bool sent = after_the_answer.empty();
       for (ssize_t got = 0; (got = ::recv(socket, piece.data(), piece.size(), 0)) > 0;) {
         answer.append(piece.data(), static_cast<std::size_t>(got));
-        if (!std::exchange(sent, true)) (void)::send(socket, after_the_answer.data(), after_the_answer.size(), MSG_NOSIGNAL);
+        if (!std::exchange(sent, true))
+          (void)::send(socket, after_the_answer.data(), after_the_answer.size(), MSG_NOSIGNAL);
       }
     }
     ::close(socket);
@@ -271,9 +272,11 @@ TEST_F(View, OnlyItsOwnAddressIsAnswered) {
 // What a page elsewhere hides in the body of a request that is refused is no request.
 TEST_F(View, NothingComesAfterARefusal) {
   serve();
-  const std::string hidden = "GET /start.json HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server_->port()) + "\r\n\r\n";
+  const std::string hidden =
+      "GET /start.json HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server_->port()) + "\r\n\r\n";
   for (const char* head : {"POST / HTTP/1.1\r\nHost: evil.example", "BREW / HTTP/1.1\r\nHost: evil.example"}) {
-    const auto answer = raw(std::string(head) + "\r\nContent-Length: " + std::to_string(hidden.size()) + "\r\n\r\n", hidden);
+    const auto answer =
+        raw(std::string(head) + "\r\nContent-Length: " + std::to_string(hidden.size()) + "\r\n\r\n", hidden);
     EXPECT_TRUE(answer.starts_with("HTTP/1.1 4")) << answer;
     EXPECT_EQ(answer.find("HTTP/1.1", 1), std::string::npos) << answer;
     EXPECT_FALSE(has(answer, "recording")) << answer;
@@ -377,8 +380,9 @@ class ViewCommand : public View {
   json started(Arguments arguments, int signal = SIGTERM, int input = -1) {
     arguments.insert(arguments.begin(), "view");
     fs::remove(home_ / "stdout.txt");
-    const pid_t child = start(arguments, {.environment = {{"BANYAN_PAGE", path("page")}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}},
-                                          .input = input});
+    const pid_t child = start(
+        arguments,
+        {.environment = {{"BANYAN_PAGE", path("page")}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}, .input = input});
     std::string said;
     for (int k = 0; k < 1000 && !said.ends_with('\n'); ++k) {
       std::this_thread::sleep_for(10ms);
@@ -427,7 +431,8 @@ TEST_F(ViewCommand, TakesARecordingAScenarioOrNothing) {
 
 // The page reads what is behind the #; wherever the link was copied, nothing is asked of that server.
 TEST_F(ViewCommand, OpensALinkHere) {
-  const std::string experiment = "#scenario=three-targets&seed=7&do=50:{%22kind%22:%22die%22,%22robot%22:4}&t=12&view=0,1,60&robot=3";
+  const std::string experiment =
+      "#scenario=three-targets&seed=7&do=50:{%22kind%22:%22die%22,%22robot%22:4}&t=12&view=0,1,60&robot=3";
   EXPECT_EQ(started({"https://example.org/elsewhere/" + experiment}), json::object());
   EXPECT_TRUE(said_.ends_with("/?start" + experiment + "\n")) << said_;
   EXPECT_EQ(started({"#three-targets"}), json::object());
@@ -441,10 +446,10 @@ TEST_F(ViewCommand, OpensABrowserOnADesktopOnly) {
   const std::string programs = path("bin") + ":/usr/bin:/bin";
   const auto visit = [&](const Arguments& arguments, const std::string& display) {
     fs::remove(home_ / "opened");
-    const pid_t child = start(arguments, {.environment = {{"BANYAN_PAGE", path("page")},
-                                                          {"PATH", programs},
-                                                          {"DISPLAY", display},
-                                                          {"WAYLAND_DISPLAY", ""}}});
+    const pid_t child =
+        start(arguments,
+              {.environment = {
+                   {"BANYAN_PAGE", path("page")}, {"PATH", programs}, {"DISPLAY", display}, {"WAYLAND_DISPLAY", ""}}});
     std::this_thread::sleep_for(1s);
     const auto begin = std::chrono::steady_clock::now();
     ::kill(child, SIGINT);

@@ -87,7 +87,8 @@ Loaded parse_configuration(const std::string& path, std::string_view text, const
   } catch (const DocumentError& e) { return {{}, {e.problem}}; }
 }
 
-Loaded load_configuration(const std::string& path, const AlgorithmList& algorithms, const std::vector<Override>& overrides) {
+Loaded load_configuration(const std::string& path, const AlgorithmList& algorithms,
+                          const std::vector<Override>& overrides) {
   try {
     return parse_configuration(path, read_text_file(path), algorithms, overrides);
   } catch (const DocumentError& e) { return {{}, {e.problem}}; }

@@ -110,10 +110,8 @@ class LineCounter {
   LineCounter(const char* at, Lines* lines) : at_(at), lines_(lines) {}
   reference operator*() const { return *at_; }
   LineCounter& operator++() {
-    if (*at_ == '\n')
-      ++lines_->current;
-    else if (*at_ != ' ' && *at_ != '\t' && *at_ != '\r')
-      lines_->last_ink = lines_->current;
+    if (*at_ == '\n') ++lines_->current;
+    else if (*at_ != ' ' && *at_ != '\t' && *at_ != '\r') lines_->last_ink = lines_->current;
     ++at_;
     return *this;
   }
@@ -176,10 +174,8 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
       root = std::move(node);
       return;
     }
-    if (auto* table = open_.back().table())
-      table->push_back({keys_.back().first, std::move(node)});
-    else
-      open_.back().array()->push_back(std::move(node));
+    if (auto* table = open_.back().table()) table->push_back({keys_.back().first, std::move(node)});
+    else open_.back().array()->push_back(std::move(node));
   }
   template <class T> bool add(T v) {
     attach({std::move(v), here()});

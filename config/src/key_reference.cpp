@@ -67,7 +67,8 @@ KeyRow row_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> k
 }
 
 template <class Owner>
-void add_rows(std::vector<KeyRow>& rows, std::string_view section, std::span<const world::Key<Owner>> keys, const Owner& owner) {
+void add_rows(std::vector<KeyRow>& rows, std::string_view section, std::span<const world::Key<Owner>> keys,
+              const Owner& owner) {
   for (const auto& key : keys)
     if (key.section() == section) rows.push_back(row_of(key, keys, owner));
 }
@@ -115,7 +116,8 @@ std::vector<KeyRow> key_rows(const AlgorithmList& algorithms) {
   standard.scenario.algorithms = &algorithms;
   std::vector<KeyRow> rows;
   for (const auto& section : sections()) {
-    each_part(std::as_const(standard), [&](const auto& keys, const auto& owner) { add_rows(rows, section.path, keys, owner); });
+    each_part(std::as_const(standard),
+              [&](const auto& keys, const auto& owner) { add_rows(rows, section.path, keys, owner); });
     world::each_list(standard.scenario, [&](auto, const auto& keys, const auto& list) {
       add_rows(rows, section.path, keys, typename std::decay_t<decltype(list)>::value_type{});
     });

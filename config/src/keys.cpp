@@ -14,11 +14,20 @@ using OutputKey = world::Key<record::OutputSettings>;
 
 // Of the recording; they follow its switch.
 constexpr OutputKey recording_rows[] = {
-    {"output.record_every", world::of<&record::OutputSettings::record_every>, "ticks", {1.0, 1e6},
+    {"output.record_every",
+     world::of<&record::OutputSettings::record_every>,
+     "ticks",
+     {1.0, 1e6},
      "record the robots only every this many ticks; metrics at every tick"},
-    {"output.messages", world::of<&record::OutputSettings::messages>, "", {},
+    {"output.messages",
+     world::of<&record::OutputSettings::messages>,
+     "",
+     {},
      "record what each robot broadcast, as well as where it was"},
-    {"output.live", world::of<&record::OutputSettings::live>, "", {},
+    {"output.live",
+     world::of<&record::OutputSettings::live>,
+     "",
+     {},
      "end a chunk of the recording every second, so that it can be watched while it is written"},
 };
 

@@ -101,10 +101,8 @@ void overlay(Node& root, Node changes) {
     return;
   }
   for (auto& [name, value] : *changes.table()) {
-    if (Node* there = root.find(name))
-      overlay(*there, std::move(value));
-    else
-      root.table()->push_back({std::move(name), std::move(value)});
+    if (Node* there = root.find(name)) overlay(*there, std::move(value));
+    else root.table()->push_back({std::move(name), std::move(value)});
   }
 }
 

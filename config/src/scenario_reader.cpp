@@ -108,10 +108,8 @@ Configuration ScenarioReader::read(const Node& root) {
 }
 
 void ScenarioReader::read_section(const Part& part, const Choices& choices, Configuration& configuration) {
-  if (part.section == "output")
-    read_keys(part, output_keys(), choices, configuration.output);
-  else
-    read_keys(part, world::scenario_keys(), choices, configuration.scenario);
+  if (part.section == "output") read_keys(part, output_keys(), choices, configuration.output);
+  else read_keys(part, world::scenario_keys(), choices, configuration.scenario);
   for (const auto& [name, child] : *part.node.table()) {
     const world::Section* inner = section_in(part.section, name);
     if (!inner) continue;
@@ -265,12 +263,9 @@ void ScenarioReader::report_unknown(const Place& place, const Part& part, const 
   };
   // The same name in another section is a better guess than a similar one in this section.
   std::string meant;
-  if (std::find(elsewhere.begin(), elsewhere.end(), name) != elsewhere.end())
-    meant = path_of(name);
-  else if (const auto near = nearest(name, here); !near.empty())
-    meant = join(part.shown, near);
-  else if (const auto far = nearest(name, elsewhere); !far.empty())
-    meant = path_of(far);
+  if (std::find(elsewhere.begin(), elsewhere.end(), name) != elsewhere.end()) meant = path_of(name);
+  else if (const auto near = nearest(name, here); !near.empty()) meant = join(part.shown, near);
+  else if (const auto far = nearest(name, elsewhere); !far.empty()) meant = path_of(far);
   std::string text = "there is no such key";
   if (!meant.empty()) text += "; did you mean " + meant + "?";
   std::string list;
@@ -318,38 +313,27 @@ Value ScenarioReader::read_value(const Node& node, const std::string& path, cons
       if (const auto* truth = std::get_if<bool>(&node.value)) return *truth;
       report(node.place, path, "must be true or false, not " + node.describe());
       return {};
-    case Type::whole:
-      return read_whole(node, path, key.range, key.unit);
-    case Type::number:
-      return read_number(node, path, key.range, key.unit);
-    case Type::name:
-      return read_name(node, path, key.access.names(owner));
-    case Type::point:
-      return read_point(node, path, key.range, key.unit);
-    case Type::points:
-      return read_points(node, path, key.range, key.unit);
-    case Type::numbers:
-      return read_numbers(node, path, key.range, key.unit);
-    case Type::text:
-      break;
+    case Type::whole: return read_whole(node, path, key.range, key.unit);
+    case Type::number: return read_number(node, path, key.range, key.unit);
+    case Type::name: return read_name(node, path, key.access.names(owner));
+    case Type::point: return read_point(node, path, key.range, key.unit);
+    case Type::points: return read_points(node, path, key.range, key.unit);
+    case Type::numbers: return read_numbers(node, path, key.range, key.unit);
+    case Type::text: break;
   }
   const auto* text = node.string();
-  if (!text)
-    report(node.place, path, "must be text in quotes, not " + node.describe());
+  if (!text) report(node.place, path, "must be text in quotes, not " + node.describe());
   else if (key.path == "name" && !good_name(*text))
     report(node.place, path, "is " + in_quotes(*text) + "; allowed: " + std::string(name_rule));
-  else
-    return *text;
+  else return *text;
   return {};
 }
 
 Value ScenarioReader::read_number(const Node& node, const std::string& path, const Range& range,
                                   std::string_view unit) {
   double number = 0.0;
-  if (const auto* real = std::get_if<double>(&node.value))
-    number = *real;
-  else if (const auto* whole = std::get_if<std::int64_t>(&node.value))
-    number = static_cast<double>(*whole);
+  if (const auto* real = std::get_if<double>(&node.value)) number = *real;
+  else if (const auto* whole = std::get_if<std::int64_t>(&node.value)) number = static_cast<double>(*whole);
   else {
     report(node.place, path, "must be a number (" + range_text(range, unit) + "), not " + node.describe());
     return {};
@@ -378,12 +362,9 @@ Value ScenarioReader::read_whole(const Node& node, const std::string& path, cons
 
 Value ScenarioReader::read_name(const Node& node, const std::string& path, world::Names names) {
   const auto* text = node.string();
-  if (!text)
-    report(node.place, path, "must be " + world::alternatives(names) + ", not " + node.describe());
-  else if (const auto fault = world::name_fault(*text, names))
-    report(node.place, path, *fault);
-  else
-    return *text;
+  if (!text) report(node.place, path, "must be " + world::alternatives(names) + ", not " + node.describe());
+  else if (const auto fault = world::name_fault(*text, names)) report(node.place, path, *fault);
+  else return *text;
   return {};
 }
 

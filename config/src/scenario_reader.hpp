@@ -17,7 +17,8 @@ namespace banyan::config {
 
 class ScenarioReader {
  public:
-  ScenarioReader(std::vector<Problem>& problems, const AlgorithmList& algorithms) : problems_(problems), algorithms_(algorithms) {}
+  ScenarioReader(std::vector<Problem>& problems, const AlgorithmList& algorithms)
+      : problems_(problems), algorithms_(algorithms) {}
 
   [[nodiscard]] Configuration read(const Node& root);
   // Where a key was written, or else the nearest section around it.

@@ -81,10 +81,8 @@ std::optional<double> TableReader::number(std::string_view name, const Range& ra
   const Node* node = find(name);
   if (!node) return std::nullopt;
   double value = 0.0;
-  if (const auto* real = std::get_if<double>(&node->value))
-    value = *real;
-  else if (const auto* integer = std::get_if<std::int64_t>(&node->value))
-    value = static_cast<double>(*integer);
+  if (const auto* real = std::get_if<double>(&node->value)) value = *real;
+  else if (const auto* integer = std::get_if<std::int64_t>(&node->value)) value = static_cast<double>(*integer);
   else {
     report(name, "must be a number (" + range_text(range, "") + "), not " + node->describe());
     return std::nullopt;

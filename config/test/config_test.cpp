@@ -347,7 +347,8 @@ TEST(Config, TheSameKeyElsewhereIsNamed) {
 TEST(Config, AQuotedNameWithADotIsNoPath) {
   EXPECT_TRUE(says(parse(small, {"\"radio.loss\"=0.5"}), "there is no such key"));
   EXPECT_TRUE(says(parse("\"radio.loss\" = 0.5\n" + small), "w.toml:1: error: radio.loss: there is no such key"));
-  EXPECT_TRUE(says(parse("\"swarm.start\" = { pitch_m = 0.5 }\n" + small), "w.toml:1: error: swarm.start: there is no such key"));
+  EXPECT_TRUE(says(parse("\"swarm.start\" = { pitch_m = 0.5 }\n" + small),
+                   "w.toml:1: error: swarm.start: there is no such key"));
 }
 
 TEST(Config, SectionsAndListsMustBeSuch) {
@@ -425,8 +426,10 @@ TEST(Config, WrongOptionsAreNamedAsGiven) {
 
 TEST(Config, RunsTheResultOfAnEarlierRunAgain) {
   const auto first = parse(small, {"radio.loss=0.25"});
-  const auto again = parse_configuration("run.json", R"({"format": "banyan.run", "result": {"name": "w"}, "config": )" +
-                                                         config_json(first.configuration, 2) + "}", algorithms());
+  const auto again = parse_configuration(
+      "run.json",
+      R"({"format": "banyan.run", "result": {"name": "w"}, "config": )" + config_json(first.configuration, 2) + "}",
+      algorithms());
   ASSERT_TRUE(again.ok()) << all_problems(again);
   EXPECT_EQ(config_json(again.configuration), config_json(first.configuration));
 }
@@ -479,7 +482,8 @@ class Laid : public ::testing::Test {
 };
 
 TEST_F(Laid, ItsKeysWinOverTheScenarioAndTheRestStays) {
-  const auto loaded = parse_configuration("w.toml", small + "[radio]\nrange_m = 2.0\nloss = 0.1\n", algorithms(), {laid()});
+  const auto loaded =
+      parse_configuration("w.toml", small + "[radio]\nrange_m = 2.0\nloss = 0.1\n", algorithms(), {laid()});
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
   EXPECT_EQ(loaded.configuration.scenario.radio.range_m, 3.0);
   EXPECT_EQ(loaded.configuration.scenario.radio.loss, 0.1);
@@ -490,17 +494,22 @@ TEST_F(Laid, ItsKeysWinOverTheScenarioAndTheRestStays) {
 
 TEST_F(Laid, TheLaterOptionWins) {
   const Override set{"radio.range_m=4", "--set"};
-  EXPECT_EQ(parse_configuration("w.toml", small, algorithms(), {laid(), set}).configuration.scenario.radio.range_m, 4.0);
-  EXPECT_EQ(parse_configuration("w.toml", small, algorithms(), {set, laid()}).configuration.scenario.radio.range_m, 3.0);
+  EXPECT_EQ(parse_configuration("w.toml", small, algorithms(), {laid(), set}).configuration.scenario.radio.range_m,
+            4.0);
+  EXPECT_EQ(parse_configuration("w.toml", small, algorithms(), {set, laid()}).configuration.scenario.radio.range_m,
+            3.0);
 }
 
 TEST_F(Laid, ItsFaultsNameItsLine) {
   std::ofstream(file_) << "\nradio.rnage_m = 3.0\n[radio.x]\n";
-  EXPECT_TRUE(says(parse_configuration("w.toml", small, algorithms(), {laid()}), file_.string() + ":2: error: radio.rnage_m: "));
+  EXPECT_TRUE(says(parse_configuration("w.toml", small, algorithms(), {laid()}),
+                   file_.string() + ":2: error: radio.rnage_m: "));
   std::ofstream(file_) << "x = = 1\n";
-  EXPECT_TRUE(says(parse_configuration("w.toml", small, algorithms(), {laid()}), file_.string() + ":1: error: this is not TOML"));
+  EXPECT_TRUE(says(parse_configuration("w.toml", small, algorithms(), {laid()}),
+                   file_.string() + ":1: error: this is not TOML"));
   const Override missing{"", "--with", file_.string() + "-none"};
-  EXPECT_TRUE(says(parse_configuration("w.toml", small, algorithms(), {missing}), "-none: error: there is no such file"));
+  EXPECT_TRUE(
+      says(parse_configuration("w.toml", small, algorithms(), {missing}), "-none: error: there is no such file"));
 }
 
 TEST(Trees, OfAnEarlierRunAreItsConfiguration) {

@@ -47,24 +47,18 @@ template <class Owner> rc::Gen<json> value_of(const world::Key<Owner>& key) {
                         [](const std::vector<json>& v) { return json(v); });
   };
   switch (key.access.type) {
-    case Type::truth:
-      return rc::gen::map(rc::gen::arbitrary<bool>(), [](bool b) { return json(b); });
+    case Type::truth: return rc::gen::map(rc::gen::arbitrary<bool>(), [](bool b) { return json(b); });
     case Type::whole:
       return rc::gen::map(real,
                           [](const json& v) { return json(static_cast<std::int64_t>(std::ceil(v.get<double>()))); });
-    case Type::number:
-      return real;
-    case Type::point:
-      return point;
-    case Type::points:
-      return list(point);
-    case Type::numbers:
-      return list(real);
+    case Type::number: return real;
+    case Type::point: return point;
+    case Type::points: return list(point);
+    case Type::numbers: return list(real);
     case Type::name:
       return rc::gen::map(rc::gen::inRange<std::size_t>(0, key.access.names(blank<Owner>()).size()),
                           [names = key.access.names(blank<Owner>())](std::size_t i) { return json(names[i]); });
-    case Type::text:
-      break;
+    case Type::text: break;
   }
   if (key.path == "name")
     return rc::gen::map(rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange('a', 'z'))),

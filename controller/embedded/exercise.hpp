@@ -65,8 +65,8 @@ inline constexpr bool hashes_state = BANYAN_EXERCISE_HASHES_STATE;
 
 // The same for an algorithm. Returns a hash of all velocities, of every byte that travels and of the state at the end.
 template <class Message, class Params, class State>
-std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, const Inputs<Heard>&) noexcept, const Params& params,
-                       State& state) noexcept {
+std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, const Inputs<Heard>&) noexcept,
+                       const Params& params, State& state) noexcept {
   std::array<std::optional<Message>, neighbors> received;
   Message said{};
   Digest digest;
@@ -102,11 +102,19 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
     for (const bool worker : {false, true}) {
       const auto as_tree = [&](const char* name, auto step, HealingParams params) {
         params.drive = drive;
-        report(name, exercise<TreeMessage, TreeParams>(step, params, *new (&memory.tree) TreeState(initial_tree_state(0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
+        report(name,
+               exercise<TreeMessage, TreeParams>(
+                   step, params,
+                   *new (&memory.tree) TreeState(initial_tree_state(
+                       0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
       };
       const auto as_healing = [&](const char* name, auto step, HealingParams params) {
         params.drive = drive;
-        report(name, exercise<HealingMessage>(step, params, *new (&memory.healing) HealingState(initial_healing_state(0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
+        report(name,
+               exercise<HealingMessage>(
+                   step, params,
+                   *new (&memory.healing) HealingState(initial_healing_state(
+                       0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
       };
       as_tree("outwards, literal", outwards_literal_step, outwards_defaults());
       as_healing("outwards", outwards_step, outwards_defaults());
@@ -114,7 +122,11 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
       as_healing("inwards", inwards_step, inwards_defaults());
       ConvoyParams params = convoy_defaults();
       params.drive = drive;
-      report("convoy", exercise<ConvoyMessage>(convoy_step, params, *new (&memory.convoy) ConvoyState(initial_convoy_state(0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
+      report("convoy",
+             exercise<ConvoyMessage>(
+                 convoy_step, params,
+                 *new (&memory.convoy) ConvoyState(initial_convoy_state(
+                     0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
     }
   }
 }

@@ -7,8 +7,7 @@
 
 int main() {
   static banyan::embedded::Memory robot;
-  banyan::embedded::exercise_all(robot, [](const char* name, std::uint64_t digest) noexcept {
-    std::printf("%s %016" PRIx64 "\n", name, digest);
-  });
+  banyan::embedded::exercise_all(
+      robot, [](const char* name, std::uint64_t digest) noexcept { std::printf("%s %016" PRIx64 "\n", name, digest); });
   return 0;
 }

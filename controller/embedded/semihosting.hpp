@@ -27,7 +27,10 @@ inline void write_hexadecimal(std::uint64_t value) noexcept {
 
 // The words that the emulator was given for the program. False: none.
 inline bool command_line(char* text, std::size_t size) noexcept {
-  struct { char* text; int size; } block{text, static_cast<int>(size)};
+  struct {
+    char* text;
+    int size;
+  } block{text, static_cast<int>(size)};
   return ask(0x15, &block) == 0;
 }
 

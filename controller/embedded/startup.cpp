@@ -31,5 +31,5 @@ void reset() {
 }
 
 // The first two vectors of a Cortex-M: initial stack, reset.
-__attribute__((section(".vectors"), used)) const void* const vectors[] = {&stack_top,
-                                                                         reinterpret_cast<const void*>(&reset)};
+__attribute__((section(".vectors"), used))
+const void* const vectors[] = {&stack_top, reinterpret_cast<const void*>(&reset)};

@@ -23,16 +23,15 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-template <class Message>
-bool is_written_back(const Message& message, std::span<const std::uint8_t> bytes) {
+template <class Message> bool is_written_back(const Message& message, std::span<const std::uint8_t> bytes) {
   std::array<std::uint8_t, wire_size<Message>()> wire;
   return encode_fields(message, wire) == bytes.size() && std::memcmp(wire.data(), bytes.data(), bytes.size()) == 0;
 }
 
 // Three ticks of a robot that hears nothing but this.
 template <class Message, class Params, class State>
-void hear(Output<Message> (*step)(const Params&, State&, const Inputs<Heard>&) noexcept, const Params& params, State state,
-          const Message& message, std::uint8_t place) {
+void hear(Output<Message> (*step)(const Params&, State&, const Inputs<Heard>&) noexcept, const Params& params,
+          State state, const Message& message, std::uint8_t place) {
   for (int tick = 0; tick < 3; ++tick) {
     Heard heard{&message, {0.01F * static_cast<float>(place), 0.5F}};
     Senses senses;

@@ -9,18 +9,24 @@ namespace {
 
 bool may_join_inwards(const TreeRobot& robot) noexcept { return robot.self.is_worker || is_named_parent(robot); }
 
-bool all_workers_counted(const TreeRobot& robot) noexcept { return robot.self.subtree_workers >= robot.self.flood_workers; }
+bool all_workers_counted(const TreeRobot& robot) noexcept {
+  return robot.self.subtree_workers >= robot.self.flood_workers;
+}
 
 // SELECT PARENT: the candidate with the smallest distance to the root; corrected: within S if there is one.
 void select_inner_parent(TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  const auto is_safe = [&](int k) { return robot.reading.prefers_safe_parent && table.range(k) <= robot.params.safe_range_m; };
+  const auto is_safe = [&](int k) {
+    return robot.reading.prefers_safe_parent && table.range(k) <= robot.params.safe_range_m;
+  };
   select_parent(robot, {.may_join = may_join_inwards(robot),
                         .workers_relay = false,
                         .accepts = [](int) { return true; },
-                        .prefers = [&](int a, int b) {
-                          return is_safe(a) != is_safe(b) ? is_safe(a) : table.message(a).label_cm < table.message(b).label_cm;
-                        }});
+                        .prefers =
+                            [&](int a, int b) {
+                              return is_safe(a) != is_safe(b) ? is_safe(a)
+                                                              : table.message(a).label_cm < table.message(b).label_cm;
+                            }});
 }
 
 constexpr Growth inwards_growth{.all_counted = all_workers_counted, .select_parent = select_inner_parent};
@@ -41,11 +47,13 @@ HealingParams inwards_defaults() noexcept {
   return p;
 }
 
-Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& state, const Inputs<Heard>& inputs) noexcept {
+Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& state,
+                                         const Inputs<Heard>& inputs) noexcept {
   return literal_step(inwards_growth, params, state, inputs);
 }
 
-Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& state, const Inputs<Heard>& inputs) noexcept {
+Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& state,
+                                    const Inputs<Heard>& inputs) noexcept {
   return corrected_step(inwards_growth, params, state, inputs);
 }
 

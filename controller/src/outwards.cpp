@@ -8,7 +8,9 @@ namespace banyan {
 namespace {
 
 // All robots join in SELECT PARENT; later only those that still matter to the tree.
-bool may_join_outwards(const TreeRobot& robot) noexcept { return robot.self.phase == Phase::select_parent || robot.self.role != Role::spare; }
+bool may_join_outwards(const TreeRobot& robot) noexcept {
+  return robot.self.phase == Phase::select_parent || robot.self.role != Role::spare;
+}
 
 // Never equality: with motion and occlusion the flood under-counts (protocol 4).
 bool all_robots_counted(const TreeRobot& robot) noexcept { return robot.self.subtree >= robot.self.flood_robots; }
@@ -27,11 +29,13 @@ constexpr Growth outwards_growth{.all_counted = all_robots_counted, .select_pare
 
 HealingParams outwards_defaults() noexcept { return {}; }  // the defaults of TreeParams
 
-Output<TreeMessage> outwards_literal_step(const TreeParams& params, TreeState& state, const Inputs<Heard>& inputs) noexcept {
+Output<TreeMessage> outwards_literal_step(const TreeParams& params, TreeState& state,
+                                          const Inputs<Heard>& inputs) noexcept {
   return literal_step(outwards_growth, params, state, inputs);
 }
 
-Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& state, const Inputs<Heard>& inputs) noexcept {
+Output<HealingMessage> outwards_step(const HealingParams& params, HealingState& state,
+                                     const Inputs<Heard>& inputs) noexcept {
   return corrected_step(outwards_growth, params, state, inputs);
 }
 

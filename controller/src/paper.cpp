@@ -20,16 +20,16 @@ Output<TreeMessage> literal_step(const Growth& growth, const TreeParams& params,
                                  const Inputs<Heard>& inputs) noexcept {
   TreeRobot robot(params, literal_reading, state, inputs);
   begin_tick(robot, inputs);
-  listen(robot);                                       // the largest epoch, phase and root token heard
-  accept_offer(robot);                                 // Select Root, the heir's side
-  index_neighbors(robot);                              // who are my parent and children
+  listen(robot);           // the largest epoch, phase and root token heard
+  accept_offer(robot);     // Select Root, the heir's side
+  index_neighbors(robot);  // who are my parent and children
   update_role(robot);
-  advance(robot, growth.all_counted(robot));           // the root's barriers
-  update_label(robot);                                 // Start Tree
-  growth.select_parent(robot);                         // Select Parent, repair
-  take_census(robot, params.arrival_distance_m);       // Alg. 1 and 2
-  select_root(robot, [](int) { return true; });        // Select Root, the root's side
-  manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
+  advance(robot, growth.all_counted(robot));      // the root's barriers
+  update_label(robot);                            // Start Tree
+  growth.select_parent(robot);                    // Select Parent, repair
+  take_census(robot, params.arrival_distance_m);  // Alg. 1 and 2
+  select_root(robot, [](int) { return true; });   // Select Root, the root's side
+  manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },  // Grow Tree
                         .may_call = [] { return false; },
                         .count_waiting = [&](bool unserved) { count_unserved(robot, unserved); },
                         .may_insert = [&](int owner, int parent) { return is_at_midpoint(robot, owner, parent); }});
@@ -45,22 +45,22 @@ Output<HealingMessage> corrected_step(const Growth& growth, const HealingParams&
                                       const Inputs<Heard>& inputs) noexcept {
   HealingRobot robot(params, state, inputs);
   begin_tick(robot, inputs);
-  estimate_loss(robot);                                // how long neighbours may be silent
+  estimate_loss(robot);  // how long neighbours may be silent
   listen_among_fragments(robot);
-  accept_offered_root(robot);                          // Select Root, the heir's side
-  follow_heartbeat(robot);                             // is there a root at all,
-  claim_root(robot);                                   // and if not, should I become it?
-  watch_tasks(robot);                                  // does every target have its worker?
+  accept_offered_root(robot);  // Select Root, the heir's side
+  follow_heartbeat(robot);     // is there a root at all,
+  claim_root(robot);           // and if not, should I become it?
+  watch_tasks(robot);          // does every target have its worker?
   index_neighbors(robot);
-  watch_branch(robot);                                 // has the last robot below me died?
+  watch_branch(robot);  // has the last robot below me died?
   update_role(robot);
-  advance_and_count(robot, growth.all_counted(robot)); // the root's barriers
-  update_label(robot);                                 // Start Tree
-  growth.select_parent(robot);                         // Select Parent, repair
+  advance_and_count(robot, growth.all_counted(robot));  // the root's barriers
+  update_label(robot);                                  // Start Tree
+  growth.select_parent(robot);                          // Select Parent, repair
   take_census(robot, params.arrival_distance_m, own_want_m(robot));
-  select_root(robot, [](int) { return true; });        // Select Root, the root's side
-  find_hold(robot);                                    // what ties me to the others while I have no parent
-  manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },   // Grow Tree
+  select_root(robot, [](int) { return true; });  // Select Root, the root's side
+  find_hold(robot);                              // what ties me to the others while I have no parent
+  manage_spares(robot, {.needs_spare = [&] { return is_stretched(robot) || child_in_need(robot); },  // Grow Tree
                         .may_call = [] { return true; },
                         .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, false); },
                         .may_insert = [&](int owner, int parent) { return is_at_midpoint(robot, owner, parent); }});
@@ -71,12 +71,12 @@ Output<HealingMessage> corrected_step(const Growth& growth, const HealingParams&
   Guard guard;
   guard_edges(robot, retreats, guard);
   guard_links(robot, retreats, guard);
-  keep_off(robot, guard);                              // obstacles
+  keep_off(robot, guard);  // obstacles
 
   Output<HealingMessage> output;
   write_healing(robot, output.message);
   const Vec2 v = allowed(u, guard, params);
-  watch_progress(robot, retreats, v);                  // does the worker make progress?
+  watch_progress(robot, retreats, v);  // does the worker make progress?
   output.velocity = drive(v, guard, params);
   return output;
 }

@@ -19,28 +19,36 @@ namespace banyan {
 
 // ---- Kinds of robots: what an algorithm runs on ----
 
-template <auto defaults_function, auto step_function>
-struct LiteralKind {
+template <auto defaults_function, auto step_function> struct LiteralKind {
   using Params = TreeParams;
   using State = TreeState;
   using Message = TreeMessage;
   using Robot = TreeRobot;
-  static Params defaults() { return defaults_function(); }  // NOLINT(cppcoreguidelines-slicing): the tree's share of them
+  static Params defaults() {
+    return defaults_function();
+  }  // NOLINT(cppcoreguidelines-slicing): the tree's share of them
   static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) { return {params, literal_reading, state, inputs}; }
-  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) { return step_function(params, state, inputs); }
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return {params, literal_reading, state, inputs};
+  }
+  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return step_function(params, state, inputs);
+  }
 };
 
-template <auto defaults_function, auto step_function>
-struct CorrectedKind {
+template <auto defaults_function, auto step_function> struct CorrectedKind {
   using Params = HealingParams;
   using State = HealingState;
   using Message = HealingMessage;
   using Robot = HealingRobot;
   static Params defaults() { return defaults_function(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_healing_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) { return {params, state, inputs}; }
-  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) { return step_function(params, state, inputs); }
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return {params, state, inputs};
+  }
+  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return step_function(params, state, inputs);
+  }
 };
 
 struct Convoy {
@@ -50,8 +58,12 @@ struct Convoy {
   using Robot = ConvoyRobot;
   static Params defaults() { return convoy_defaults(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_convoy_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) { return {params, state, inputs}; }
-  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) { return convoy_step(params, state, inputs); }
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return {params, state, inputs};
+  }
+  static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return convoy_step(params, state, inputs);
+  }
 };
 
 using Outwards = CorrectedKind<outwards_defaults, outwards_step>;
@@ -60,8 +72,7 @@ using OutwardsLiteral = LiteralKind<outwards_defaults, outwards_literal_step>;
 using InwardsLiteral = LiteralKind<inwards_defaults, inwards_literal_step>;
 
 // visit.operator()<Kind>() for every algorithm, in both readings.
-template <class Visit>
-void for_each_kind(Visit visit) {
+template <class Visit> void for_each_kind(Visit visit) {
   visit.template operator()<OutwardsLiteral>();
   visit.template operator()<Outwards>();
   visit.template operator()<InwardsLiteral>();
@@ -71,8 +82,7 @@ void for_each_kind(Visit visit) {
 
 // ---- The workbench ----
 
-template <class Kind>
-class BenchOf {
+template <class Kind> class BenchOf {
  public:
   using Message = typename Kind::Message;
   using Robot = typename Kind::Robot;
@@ -147,7 +157,10 @@ class BenchOf {
   float elapsed_s = 0.0F;       // between steps; 0: a tick
 
  private:
-  struct Neighbor { Message message; Vec2 position; };
+  struct Neighbor {
+    Message message;
+    Vec2 position;
+  };
   void listen() {
     heard_.clear();
     for (const auto& [id, n] : neighbors_) heard_.push_back({&n.message, n.position});
@@ -163,8 +176,7 @@ using Bench = BenchOf<Outwards>;
 using ConvoyBench = BenchOf<Convoy>;
 
 // A member of the tree in GROW TREE, epoch 1, with robot 9 as root.
-template <class Kind = Outwards>
-BenchOf<Kind> grown() {
+template <class Kind = Outwards> BenchOf<Kind> grown() {
   BenchOf<Kind> bench;
   bench.state.epoch = 1;
   bench.state.phase = Phase::grow_tree;

@@ -19,7 +19,9 @@ inline constexpr float infinite_m = std::numeric_limits<float>::infinity();
 inline float garbage() {
   switch (*rc::gen::inRange(0, 4)) {
     case 0: return std::bit_cast<float>(*rc::gen::arbitrary<std::uint32_t>());
-    case 1: return *rc::gen::element(nan_m, infinite_m, -infinite_m, std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min(), 0.0F, -0.0F);
+    case 1:
+      return *rc::gen::element(nan_m, infinite_m, -infinite_m, std::numeric_limits<float>::max(),
+                               std::numeric_limits<float>::denorm_min(), 0.0F, -0.0F);
     default: return number(-2.0F, 2.0F);
   }
 }

@@ -16,8 +16,9 @@ inline std::atomic<long> allocations{0};  // NOLINT(cppcoreguidelines-avoid-non-
 inline void* counted(std::size_t size, std::size_t alignment) noexcept {
   ++allocations;
   if (size == 0) size = 1;
-  return alignment <= alignof(std::max_align_t) ? std::malloc(size)
-                                                : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  return alignment <= alignof(std::max_align_t)
+             ? std::malloc(size)
+             : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }
 
 inline void* counted_or_throw(std::size_t size, std::size_t alignment) {
@@ -31,8 +32,12 @@ inline void* counted_or_throw(std::size_t size, std::size_t alignment) {
 // NOLINTBEGIN(misc-definitions-in-headers)
 void* operator new(std::size_t size) { return banyan::test::counted_or_throw(size, 1); }
 void* operator new[](std::size_t size) { return banyan::test::counted_or_throw(size, 1); }
-void* operator new(std::size_t size, std::align_val_t a) { return banyan::test::counted_or_throw(size, static_cast<std::size_t>(a)); }
-void* operator new[](std::size_t size, std::align_val_t a) { return banyan::test::counted_or_throw(size, static_cast<std::size_t>(a)); }
+void* operator new(std::size_t size, std::align_val_t a) {
+  return banyan::test::counted_or_throw(size, static_cast<std::size_t>(a));
+}
+void* operator new[](std::size_t size, std::align_val_t a) {
+  return banyan::test::counted_or_throw(size, static_cast<std::size_t>(a));
+}
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return banyan::test::counted(size, 1); }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return banyan::test::counted(size, 1); }
 void* operator new(std::size_t size, std::align_val_t a, const std::nothrow_t&) noexcept {

@@ -34,16 +34,14 @@ Moment until(Bench bench, const std::vector<int>& lengths, const Happened& happe
 }
 
 // In the first step that ends no sooner than at regular steps.
-template <class Bench, class Happened>
-bool takes_its_time(const Bench& bench, const Happened& happened) {
+template <class Bench, class Happened> bool takes_its_time(const Bench& bench, const Happened& happened) {
   const int regular = until(bench, {1}, happened).ticks;
   const auto lengths = *rc::gen::nonEmpty(rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 9)));
   const Moment moment = until(bench, lengths, happened);
   return regular > 10 && moment.ticks >= regular && moment.ticks - moment.last_step < regular;
 }
 
-template <class Kind>
-BenchOf<Kind> root() {
+template <class Kind> BenchOf<Kind> root() {
   BenchOf<Kind> bench = grown<Kind>();
   bench.state.root = {1, 1};
   bench.state.role = Role::root;

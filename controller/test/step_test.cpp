@@ -50,7 +50,8 @@ void babble(Noise& noise, std::uint32_t robots, TreeMessage& m) {
   m.depth = noise.word(8);
   m.tree_hops = static_cast<std::uint8_t>(noise.word(256));
   m.call_hops = static_cast<std::uint8_t>(noise.word(256));
-  for (RobotId* id : {&m.parent, &m.old_parent, &m.flood_parent, &m.grant, &m.request, &m.inserted_child, &m.new_root}) *id = anybody();
+  for (RobotId* id : {&m.parent, &m.old_parent, &m.flood_parent, &m.grant, &m.request, &m.inserted_child, &m.new_root})
+    *id = anybody();
   m.flood_robots = noise.word(65535);
   m.subtree = noise.word(65535);
   m.count = noise.word(65535);
@@ -76,8 +77,7 @@ void babble(Noise& noise, std::uint32_t robots, ConvoyMessage& m) {
 }
 
 // What packets do: their messages live as long as this.
-template <class Message, std::size_t capacity>
-struct Crowd {
+template <class Message, std::size_t capacity> struct Crowd {
   std::array<Message, capacity> messages;
   std::array<Heard, capacity> heard;
   std::span<Heard> speak(Noise& noise, std::size_t count, std::uint32_t robots) {
@@ -93,7 +93,8 @@ struct Crowd {
 bool within_limits(const Velocity& v, const Platform& platform) {
   const WheelSpeeds wheels = wheel_speeds(v, platform.wheel_distance_m);
   const float limit = platform.wheel_limit_m_s + 1e-5F;
-  return std::fabs(wheels.left_m_s) <= limit && std::fabs(wheels.right_m_s) <= limit && v.sideways_m_s == 0.0F;  // false for NaN too
+  return std::fabs(wheels.left_m_s) <= limit && std::fabs(wheels.right_m_s) <= limit &&
+         v.sideways_m_s == 0.0F;  // false for NaN too
 }
 
 // Thousands of steps on nonsense: nothing from the heap, wheels within their limits, a message that
@@ -124,7 +125,10 @@ TEST(Step, StandsNonsenseWithoutTheHeap) {
       taken += allocations - start;
       bad_wheels += within_limits(output.velocity, params) ? 0 : 1;
       bad_messages += over_the_wire(output.message) == output.message ? 0 : 1;
-      steps_back += state.epoch < before.epoch || (state.epoch == before.epoch && state.phase < before.phase) || newer(before.root, state.root) ? 1 : 0;
+      steps_back += state.epoch < before.epoch || (state.epoch == before.epoch && state.phase < before.phase) ||
+                            newer(before.root, state.root)
+                        ? 1
+                        : 0;
     }
   });
   EXPECT_EQ(taken, 0);
@@ -136,8 +140,7 @@ TEST(Step, StandsNonsenseWithoutTheHeap) {
   EXPECT_GT(allocations, before) << "the counter counts";
 }
 
-template <class State>
-std::uint64_t hash(const State& state) {
+template <class State> std::uint64_t hash(const State& state) {
   Digest digest;
   add_to(digest, state);
   return digest.value();
@@ -210,15 +213,14 @@ TEST(Step, MembersThatAreHeardLetALoneRobotBegin) {
 
 // All that can be wrong in one tick.
 struct Readings {
-  Vec2 position;            // of the root
-  float age_s = 0.0F;       // of that position
+  Vec2 position;       // of the root
+  float age_s = 0.0F;  // of that position
   std::vector<Vec2> obstacles;
   Senses senses;
 };
 
 // A member of a grown tree whose root, two metres behind, is heard every tick and counts; sent to a target.
-template <class Kind>
-struct Sensing {
+template <class Kind> struct Sensing {
   static constexpr RobotId root_id = 9;
   typename Kind::Params params = Kind::defaults();
   typename Kind::State state = Kind::initial(1, true, false);
@@ -262,8 +264,7 @@ struct Sensing {
   }
 };
 
-template <class Message>
-bool is_sound(const Output<Message>& output, const Platform& platform) {
+template <class Message> bool is_sound(const Output<Message>& output, const Platform& platform) {
   return within_limits(output.velocity, platform) && over_the_wire(output.message) == output.message;
 }
 
@@ -287,7 +288,8 @@ RC_GTEST_PROP(Sensors, WhateverTheySayVelocityAndMessageAreSound, ()) {
 
 // One reading of one sensor that is no number, or far too large.
 enum class Bad { position, age, odometry, turn, target, obstacle, elapsed };
-constexpr std::array all_bad{Bad::position, Bad::age, Bad::odometry, Bad::turn, Bad::target, Bad::obstacle, Bad::elapsed};
+constexpr std::array all_bad{Bad::position, Bad::age,      Bad::odometry, Bad::turn,
+                             Bad::target,   Bad::obstacle, Bad::elapsed};
 
 Readings spoilt(Readings r, Bad bad, float value) {
   switch (bad) {
@@ -302,8 +304,7 @@ Readings spoilt(Readings r, Bad bad, float value) {
   return r;
 }
 
-template <class Visit>
-void for_each_bad_reading(Visit visit) {
+template <class Visit> void for_each_bad_reading(Visit visit) {
   for (const Bad bad : all_bad)
     for (const float value : {nan_m, infinite_m, -infinite_m, 3e38F, -3e38F}) {
       SCOPED_TRACE(testing::Message() << "reading " << static_cast<int>(bad) << ", " << value);

@@ -45,13 +45,14 @@ class Matching {
   std::vector<char> asked_;
 };
 
-// Those that are among the nearest of some place, as many for each as there are places: no place needs another one, since
-// the other places leave it one of these.
+// Those that are among the nearest of some place, as many for each as there are places: no place needs another one,
+// since the other places leave it one of these.
 std::vector<Vec2> worth_asking(const std::vector<Vec2>& robots, const std::vector<Vec2>& places) {
   std::vector<std::pair<double, std::size_t>> by_drive(robots.size());
   std::vector<char> asked(robots.size(), 0);
   for (const Vec2 place : places) {
-    for (std::size_t robot = 0; robot < robots.size(); ++robot) by_drive[robot] = {squared_norm(robots[robot] - place), robot};
+    for (std::size_t robot = 0; robot < robots.size(); ++robot)
+      by_drive[robot] = {squared_norm(robots[robot] - place), robot};
     const auto end = by_drive.begin() + static_cast<std::ptrdiff_t>(places.size());
     std::nth_element(by_drive.begin(), end - 1, by_drive.end());
     std::for_each(by_drive.begin(), end, [&](const auto& near) { asked[near.second] = 1; });

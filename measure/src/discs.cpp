@@ -35,8 +35,8 @@ Cell::Cell(std::vector<Disc> discs) : discs_{std::move(discs)} {
         if (has(p)) corners_.push_back(p);
   // Without a corner there is one disc inside all others, or nothing.
   const auto inner = [this](const Disc& d) { return has(d.center); };
-  const auto least = std::min_element(discs_.begin(), discs_.end(),
-                                      [](const Disc& a, const Disc& b) { return a.radius < b.radius; });
+  const auto least =
+      std::min_element(discs_.begin(), discs_.end(), [](const Disc& a, const Disc& b) { return a.radius < b.radius; });
   empty_ = corners_.empty() && !inner(*least);
 }
 

@@ -49,7 +49,9 @@ class Cell {
   bool empty_ = false;
 };
 
-struct Nearest { world::Vec2 a, b; };
+struct Nearest {
+  world::Vec2 a, b;
+};
 // Two points of two cells, neither of them empty, with the least distance.
 [[nodiscard]] Nearest nearest(const Cell& a, const Cell& b);
 

@@ -71,7 +71,8 @@ bool DisjointPaths::augment(const Graph& graph) {
   return false;
 }
 
-std::uint32_t DisjointPaths::paths(const Graph& graph, std::uint32_t source, std::span<const std::uint32_t> ends, std::uint32_t most) {
+std::uint32_t DisjointPaths::paths(const Graph& graph, std::uint32_t source, std::span<const std::uint32_t> ends,
+                                   std::uint32_t most) {
   const std::size_t n = graph.size();
   came_from_.resize(2 * n);
   next_.assign(n, no_node);

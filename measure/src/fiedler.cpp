@@ -3,8 +3,8 @@
 // so none is used before the graph is known to be connected.
 #include "banyan/measure/fiedler.hpp"
 
-#include <Eigen/Dense>
 #include <Spectra/SymEigsShiftSolver.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -64,8 +64,7 @@ class InverseOffConstants {
 
 // x' L x / x' x off the constant vector: an upper bound of lambda_2, close to it when x is close
 // to its eigenvector. Infinite for a constant x.
-template <class T>
-double rayleigh_quotient(const Graph& graph, const std::vector<T>& x) {
+template <class T> double rayleigh_quotient(const Graph& graph, const std::vector<T>& x) {
   double sum = 0.0;
   for (const T v : x) sum += static_cast<double>(v);
   const double mean = sum / static_cast<double>(x.size());

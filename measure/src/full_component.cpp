@@ -100,7 +100,11 @@ class Layouts {
     return false;
   }
 
-  struct End { LeafSet leaves; const Bunch* bunch; int hops; };
+  struct End {
+    LeafSet leaves;
+    const Bunch* bunch;
+    int hops;
+  };
   bool meet(const End& a, int middle, int up, const End& b) {
     const Disc about{leaves_[static_cast<std::size_t>(middle)], static_cast<double>(up)};
     const auto hub = between(about, a.bunch->place, a.hops, b.bunch->place, b.hops);
@@ -141,7 +145,9 @@ class Layouts {
     extend(leaves, hops, 0, {least, most}, found);
     return found;
   }
-  struct Sums { int least, most; };
+  struct Sums {
+    int least, most;
+  };
   void extend(LeafSet left, std::vector<int>& hops, int sum, Sums wanted, std::vector<Bunch>& found) const {
     if (left == 0) {
       if (sum < wanted.least) return;
@@ -155,7 +161,8 @@ class Layouts {
     const LeafSet all = (1U << leaves_.size()) - 1U, rest = left & (left - 1);
     chosen_[hops.size()] = leaves_[static_cast<std::size_t>(leaf)];
     // Without the leaf and its branch the others are still joined.
-    const int most = std::min(edges_ - edges_for(lengths_[all & ~(1U << leaf)]), wanted.most - sum - std::popcount(rest));
+    const int most =
+        std::min(edges_ - edges_for(lengths_[all & ~(1U << leaf)]), wanted.most - sum - std::popcount(rest));
     for (int n = rest == 0 ? std::max(1, wanted.least - sum) : 1; n <= most; ++n) {
       if (!meets_others(hops, n)) continue;
       hops.push_back(n);

@@ -10,12 +10,14 @@ namespace banyan::measure {
 
 // A chain of `hops` edges between two nodes. A node below the number of terminals is a terminal; after these come
 // the hubs.
-struct Branch { int from, to, hops; };
+struct Branch {
+  int from, to, hops;
+};
 
 struct FullComponent {
-  std::vector<world::Vec2> hubs;   // relays with three or more edges
+  std::vector<world::Vec2> hubs;  // relays with three or more edges
   std::vector<Branch> branches;
-  int relays = 0;                  // hubs, and those within the branches
+  int relays = 0;  // hubs, and those within the branches
 };
 
 constexpr int most_leaves = 5;
@@ -23,8 +25,8 @@ constexpr int most_leaves = 5;
 // The component of these terminals (2 to most_leaves) with the fewest relays, for edges of at most 1, if these are at
 // most `most_relays`; otherwise one without branches. lengths[s] is a lower bound of the length of any network that
 // joins the terminals in the bit set s.
-[[nodiscard]] FullComponent full_component(const std::vector<world::Vec2>& terminals, const std::vector<double>& lengths,
-                                           int most_relays);
+[[nodiscard]] FullComponent full_component(const std::vector<world::Vec2>& terminals,
+                                           const std::vector<double>& lengths, int most_relays);
 
 // Relays in a straight chain of edges of at most 1.
 [[nodiscard]] int relays_between(world::Vec2 a, world::Vec2 b) noexcept;

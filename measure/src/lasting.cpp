@@ -30,7 +30,8 @@ void Lasting::mark_broken(const world::World& world) {
     }
   }
   for (std::size_t i = 0; i < reports.size(); ++i)
-    if (world.alive()[i] != 0 && touched_[i] != 0 && reports[i].relieves < reports.size()) touched_[reports[i].relieves] = 1;
+    if (world.alive()[i] != 0 && touched_[i] != 0 && reports[i].relieves < reports.size())
+      touched_[reports[i].relieves] = 1;
 }
 
 void Lasting::follow_swap(const world::World& world, std::size_t i) {
@@ -44,7 +45,8 @@ void Lasting::follow_swap(const world::World& world, std::size_t i) {
   if (course.stage == Stage::none && m.leaves) course.stage = Stage::leaving;
   if (course.stage == Stage::leaving && relieved_[i] != 0) course.stage = Stage::swapping, course.broken = false;
   if (course.stage == Stage::leaving && spare) course.broken = false;
-  if ((course.stage == Stage::leaving || course.stage == Stage::swapping) && spare) course.stage = Stage::left, course.left_ticks = 0;
+  if ((course.stage == Stage::leaving || course.stage == Stage::swapping) && spare)
+    course.stage = Stage::left, course.left_ticks = 0;
   else if (!spare && !m.leaves) course.stage = Stage::none;  // charged where it was
   course.broken |= touched_[i] != 0;
   if (course.stage != Stage::left || course.left_ticks++ < after_ticks_) return;
@@ -93,7 +95,8 @@ double Lasting::lasts_s(const world::World& world, double committed) const noexc
   const double each_per_s = drawn_ / drawn_s_;
   const auto living = static_cast<double>(std::count(world.alive().begin(), world.alive().end(), std::uint8_t{1}));
   const auto places = static_cast<double>(battery.places.size());
-  const double charged = std::min(places * static_cast<double>(battery.slots), std::max(0.0, living - committed + places));
+  const double charged =
+      std::min(places * static_cast<double>(battery.slots), std::max(0.0, living - committed + places));
   const double sinks_per_s = living * each_per_s - charged * battery.charge_w / battery.capacity_j;
   return sinks_per_s > 0.0 ? level_sum_ / sinks_per_s : -1.0;
 }

@@ -30,7 +30,7 @@ class Ldlt {
   double eliminate_row(const SparseMatrix& upper, Eigen::Index k);
 
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_, back_;
-  std::vector<int> parent_;               // elimination tree; -1: a root
+  std::vector<int> parent_;                // elimination tree; -1: a root
   std::vector<std::size_t> begin_, size_;  // of the columns of L, without its diagonal of ones
   std::vector<int> row_;
   std::vector<double> value_;

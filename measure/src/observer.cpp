@@ -26,9 +26,9 @@
 namespace banyan::measure {
 namespace {
 
-constexpr double low_fiedler = 1e-3;        // paper Sec. IV-B
+constexpr double low_fiedler = 1e-3;           // paper Sec. IV-B
 constexpr std::size_t every_tick_limit = 150;  // robots up to which lambda_2 is judged at every tick
-constexpr double sample_period_s = 2.0;     // above that
+constexpr double sample_period_s = 2.0;        // above that
 
 // Communication graph of the living robots, which are renumbered without gaps.
 class LivingGraph {
@@ -125,12 +125,13 @@ class HopCount {
   // If not, nearer_[i] is still the place of the nearest one. Usually it is where it was.
   [[nodiscard]] bool has_nearer(std::span<const std::uint32_t> links, std::size_t i) {
     if (nearer_[i] < links.size() && hops_[links[nearer_[i]]] < hops_[i]) return true;
-    const auto nearer = std::min_element(links.begin(), links.end(), [&](std::uint32_t a, std::uint32_t b) { return hops_[a] < hops_[b]; });
+    const auto nearer = std::min_element(links.begin(), links.end(),
+                                         [&](std::uint32_t a, std::uint32_t b) { return hops_[a] < hops_[b]; });
     nearer_[i] = static_cast<std::uint32_t>(nearer - links.begin());
     return nearer != links.end() && hops_[*nearer] < hops_[i];
   }
-  std::vector<std::uint32_t> hops_;     // by robot; empty: not connected
-  std::vector<std::uint32_t> nearer_;   // by robot: place of a nearer robot in its row of links
+  std::vector<std::uint32_t> hops_;    // by robot; empty: not connected
+  std::vector<std::uint32_t> nearer_;  // by robot: place of a nearer robot in its row of links
   std::size_t first_ = 0;
 };
 
@@ -208,10 +209,10 @@ struct Observer::Impl {
   std::uint64_t committed_sum = 0, low_ticks = 0, low_ticks_by_distance = 0;
   std::uint64_t start_ticks = 0, select_ticks = 0;
   std::uint64_t two_roots_streak = 0, longest_two_roots = 0;
-  std::vector<double> nearest_worker;          // by target: squared distance
-  std::vector<RobotId> holders;                // by target: that worker if it holds the target
-  std::vector<world::Vec2> first_targets;      // those the bounds are about
-  std::vector<world::Vec2> first_others;       // where robots start that are not sent to a target
+  std::vector<double> nearest_worker;      // by target: squared distance
+  std::vector<RobotId> holders;            // by target: that worker if it holds the target
+  std::vector<world::Vec2> first_targets;  // those the bounds are about
+  std::vector<world::Vec2> first_others;   // where robots start that are not sent to a target
   double speed_m_s;
   bool oracle_asked = false;
   Effort effort;
@@ -247,12 +248,13 @@ std::vector<world::Vec2> unsent_positions(const world::World& world) {
   return positions;
 }
 
-bool is_of_tree(const world::World& world, std::size_t i) { return world.alive()[i] != 0 && world.reports()[i].role != Role::spare; }
+bool is_of_tree(const world::World& world, std::size_t i) {
+  return world.alive()[i] != 0 && world.reports()[i].role != Role::spare;
+}
 
 // The links that robot i keeps besides edges to parents, except those counted at the other end: that has i as its
 // parent, or keeps the link, too, and has the smaller id.
-template <class Visit>
-void for_each_kept_link(const world::World& world, std::size_t i, Visit visit) {
+template <class Visit> void for_each_kept_link(const world::World& world, std::size_t i, Visit visit) {
   const Report& mine = world.reports()[i];
   const auto me = static_cast<RobotId>(i);
   for (const RobotId other : mine.kept) {
@@ -284,7 +286,8 @@ double network_length_m(const world::World& world) {
   for (std::size_t i = 0; i < world.size(); ++i) {
     if (!is_of_tree(world, i)) continue;
     const auto add = [&](RobotId other) {
-      if (other < world.size() && world.alive()[other] != 0) length_m += distance(world.positions()[i], world.positions()[other]);
+      if (other < world.size() && world.alive()[other] != 0)
+        length_m += distance(world.positions()[i], world.positions()[other]);
     };
     add(up_of(world.reports()[i]));
     for_each_kept_link(world, i, add);
@@ -299,7 +302,8 @@ Observer::Impl::Impl(const world::World& world)
       tolerance_m(world.scenario().mission.target_tolerance_m),
       stop_when_complete(world.scenario().mission.stop_when_complete),
       settle_s(world.scenario().mission.settle_s),
-      sample_ticks(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(sample_period_s / world.scenario().tick_s + 0.5))),
+      sample_ticks(
+          std::max<std::uint64_t>(1, static_cast<std::uint64_t>(sample_period_s / world.scenario().tick_s + 0.5))),
       tree_parts(world.size()),
       first_targets(active_positions(world)),
       first_others(unsent_positions(world)),
@@ -322,8 +326,9 @@ Observer::Impl::Impl(const world::World& world)
   run.star_length_m = star_length(first_targets);
   run.robots_bound = robots_bound(first_targets, tolerance_m, range_m);
   run.link_redundancy = redundancy.wanted();
-  const RedundancyBound bound = redundancy.wanted() > 1 ? redundancy_bound(first_targets, tolerance_m, range_m, redundancy.wanted())
-                                                        : RedundancyBound{run.robots_bound, false};
+  const RedundancyBound bound = redundancy.wanted() > 1
+                                    ? redundancy_bound(first_targets, tolerance_m, range_m, redundancy.wanted())
+                                    : RedundancyBound{run.robots_bound, false};
   run.redundancy_bound = bound.robots;
   run.redundancy_exact = bound.exact;
 }
@@ -462,7 +467,8 @@ void Observer::Impl::time_phases(const world::World& world) {
 void Observer::Impl::add_up() {
   ++run.ticks;
   run.time_s = tick.time_s;
-  if (tick.least_charge >= 0.0) run.least_charge = run.least_charge < 0.0 ? tick.least_charge : std::min(run.least_charge, tick.least_charge);
+  if (tick.least_charge >= 0.0)
+    run.least_charge = run.least_charge < 0.0 ? tick.least_charge : std::min(run.least_charge, tick.least_charge);
   run.mean_charge = tick.mean_charge;
   run.committed = tick.committed;
   committed_sum += tick.committed;
@@ -495,7 +501,8 @@ void Observer::Impl::watch_recovery(const world::World& world) {
   pending_kills = world.pending_kills();
   run.deaths = static_cast<std::uint32_t>(world.deaths());
   run.survivors = tick.alive;
-  if (const auto last = world.last_death_tick()) run.last_death_s = static_cast<double>(*last) * world.scenario().tick_s;
+  if (const auto last = world.last_death_tick())
+    run.last_death_s = static_cast<double>(*last) * world.scenario().tick_s;
   run.recovered = recovery.recovered();
   run.recovery_time_s = recovery.time_s();
 }
@@ -533,7 +540,8 @@ void Observer::Impl::ask_oracle() {
 
 void Observer::Impl::sum_up_redundancy(const world::World& world, Run& result) {
   result.companions = count_companions(world);
-  result.redundancy_ratio = static_cast<double>(result.committed + result.companions) / static_cast<double>(result.redundancy_bound);
+  result.redundancy_ratio =
+      static_cast<double>(result.committed + result.companions) / static_cast<double>(result.redundancy_bound);
   if (redundancy.wanted() <= 1) return;
   result.redundant_time_ratio = redundancy.time_ratio();
   result.severed_ticks = redundancy.severed_ticks();
@@ -566,7 +574,9 @@ void Observer::Impl::sum_up_targets(const world::World& world, Run& result) cons
       ++result.held_targets;
       continue;
     }
-    const std::string why = std::isinf(nearest_m) ? "given up" : nearest_m <= tolerance_m ? "cut off" : metres(nearest_m) + " short";
+    const std::string why = std::isinf(nearest_m)      ? "given up"
+                            : nearest_m <= tolerance_m ? "cut off"
+                                                       : metres(nearest_m) + " short";
     result.missed_targets += (result.missed_targets.empty() ? "" : ", ") + std::to_string(t) + " " + why;
   }
 }
@@ -629,7 +639,8 @@ Run Observer::result(const world::World& world) const {
   }
   run.messages = world.packets_sent();
   if (run.time_s > 0.0)
-    run.bytes_per_robot_s = static_cast<double>(run.messages * world.swarm().message_bytes()) / (static_cast<double>(world.size()) * run.time_s);
+    run.bytes_per_robot_s = static_cast<double>(run.messages * world.swarm().message_bytes()) /
+                            (static_cast<double>(world.size()) * run.time_s);
   run.decisions = impl_->effort.decisions();
   run.swaps = impl_->lasting.swaps();
   run.broken_swaps = impl_->lasting.broken_swaps();
@@ -638,7 +649,8 @@ Run Observer::result(const world::World& world) const {
   run.emptied = static_cast<std::uint32_t>(world.emptied());
   run.lasts_s = impl_->lasting.lasts_s(world, run.mean_committed);
   run.driven_m = impl_->effort.driven_m() / static_cast<double>(world.size());
-  if (impl_->ticks_since_complete > 0) run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
+  if (impl_->ticks_since_complete > 0)
+    run.held_time_ratio = impl_->held_sum / static_cast<double>(impl_->ticks_since_complete);
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
   run.deployment_ratio = static_cast<double>(impl_->most_deploying) / static_cast<double>(run.robots_bound);

@@ -23,9 +23,7 @@ void Recovery::observe(std::uint64_t deaths, bool whole) {
   recovered_ = whole_since_ <= limit_ticks_ && ticks_ > whole_since_ + hold_ticks_;
 }
 
-double Recovery::time_s() const noexcept {
-  return recovered_ ? static_cast<double>(whole_since_) * tick_s_ : -1.0;
-}
+double Recovery::time_s() const noexcept { return recovered_ ? static_cast<double>(whole_since_) * tick_s_ : -1.0; }
 
 bool Recovery::settled() const noexcept { return deaths_ == 0 || recovered_ || whole_since_ > limit_ticks_; }
 

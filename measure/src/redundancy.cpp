@@ -24,7 +24,8 @@ std::uint32_t count_companions(const world::World& world) noexcept {
   return count;
 }
 
-Redundancy::Redundancy(const world::World& world) : wanted_(static_cast<std::uint32_t>(world.scenario().mission.link_redundancy)) {}
+Redundancy::Redundancy(const world::World& world)
+    : wanted_(static_cast<std::uint32_t>(world.scenario().mission.link_redundancy)) {}
 
 void Redundancy::build(const world::World& world) {
   const auto targets = world.targets();

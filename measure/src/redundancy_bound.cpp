@@ -21,16 +21,19 @@ using world::Vec2;
 using Table = std::vector<std::vector<int>>;  // symmetric; the diagonal is not looked at
 
 constexpr int far = std::numeric_limits<int>::max() / 4;
-constexpr int most_packings = 100'000;          // while packing: the best so far is certain, too
-constexpr std::size_t most_toured = 9;       // targets
+constexpr int most_packings = 100'000;  // while packing: the best so far is certain, too
+constexpr std::size_t most_toured = 9;  // targets
 
 // Relays that any path between two workers has at least; exactly, for workers at rest on targets that far apart.
-int relays_along(double distance_m, double range_m) noexcept { return distance_m <= 0.0 ? 0 : static_cast<int>(std::floor(distance_m / range_m)); }
+int relays_along(double distance_m, double range_m) noexcept {
+  return distance_m <= 0.0 ? 0 : static_cast<int>(std::floor(distance_m / range_m));
+}
 
 // The most layers around nodes so that any two of these have no more than their room together: branch and bound.
 class Packing {
  public:
-  explicit Packing(const Table& room) : room_(room), layers_(room.size(), 0), best_(room.size(), 0), order_(room.size()) {
+  explicit Packing(const Table& room)
+      : room_(room), layers_(room.size(), 0), best_(room.size(), 0), order_(room.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     // Nodes far from all others first: there most is at stake.
     std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return alone(a) > alone(b); });
@@ -99,7 +102,8 @@ std::vector<std::size_t> groups_of(const Table& room) {
   std::vector<std::size_t> names = group;
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  for (std::size_t& g : group) g = static_cast<std::size_t>(std::lower_bound(names.begin(), names.end(), g) - names.begin());
+  for (std::size_t& g : group)
+    g = static_cast<std::size_t>(std::lower_bound(names.begin(), names.end(), g) - names.begin());
   return group;
 }
 
@@ -171,21 +175,25 @@ int relays_found(const std::vector<Vec2>& targets, double range_m, int paths) {
   if (targets.size() == 2) return relays[0][1] > 0 ? paths * relays[0][1] : paths - 1;
   if (targets.size() > most_toured) return far;
   int found = paths == 2 ? std::max(1, relays_of_ring(relays)) : far;
-  if (targets.size() <= static_cast<std::size_t>(most_leaves)) found = std::min(found, paths * relays_of_tree(targets, range_m));
+  if (targets.size() <= static_cast<std::size_t>(most_leaves))
+    found = std::min(found, paths * relays_of_tree(targets, range_m));
   return found;
 }
 
 }  // namespace
 
-RedundancyBound redundancy_bound(const std::vector<Vec2>& targets, double tolerance_m, double range_m, std::uint32_t paths) {
+RedundancyBound redundancy_bound(const std::vector<Vec2>& targets, double tolerance_m, double range_m,
+                                 std::uint32_t paths) {
   const auto workers = static_cast<std::uint32_t>(targets.size());
   std::uint32_t robots = robots_bound(targets, tolerance_m, range_m);
   if (paths <= 1 || targets.empty()) return {robots, false};
   // A direct link is one path; each further one has a robot of its own. The same holds for the root.
   robots = std::max({robots, workers + 1, paths + 1});
-  const auto layers = static_cast<std::uint32_t>(layers_around(relays_between_all(targets, 2.0 * tolerance_m, range_m)));
+  const auto layers =
+      static_cast<std::uint32_t>(layers_around(relays_between_all(targets, 2.0 * tolerance_m, range_m)));
   robots = std::max(robots, workers + paths * layers);
-  return {robots, robots == workers + static_cast<std::uint32_t>(relays_found(targets, range_m, static_cast<int>(paths)))};
+  return {robots,
+          robots == workers + static_cast<std::uint32_t>(relays_found(targets, range_m, static_cast<int>(paths)))};
 }
 
 }  // namespace banyan::measure

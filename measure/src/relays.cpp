@@ -20,8 +20,8 @@ namespace {
 using world::Vec2;
 using TargetSet = std::uint32_t;
 
-constexpr std::size_t most_programmed = 9;    // targets; above, components are chosen greedily
-constexpr std::size_t most_quadruples = 40;   // targets up to which components of four are tried
+constexpr std::size_t most_programmed = 9;   // targets; above, components are chosen greedily
+constexpr std::size_t most_quadruples = 40;  // targets up to which components of four are tried
 
 // A component of these targets; its branches count them in their order here.
 struct Part {
@@ -98,8 +98,8 @@ class Program {
  private:
   struct Choice {
     int relays = std::numeric_limits<int>::max();
-    TargetSet one = 0, other = 0;              // two trees, or, if there are none, the component
-    std::vector<FullComponent> component;      // at most one
+    TargetSet one = 0, other = 0;          // two trees, or, if there are none, the component
+    std::vector<FullComponent> component;  // at most one
   };
 
   void split(TargetSet set, Choice& choice) const {
@@ -203,7 +203,7 @@ class Greedy {
   // The edge with most relays on the way in the tree, by its lower end; nothing if the way is cut.
   std::optional<std::size_t> dearest_between(std::size_t a, std::size_t b, const std::vector<char>& cut) {
     std::vector<char> above(targets_.size(), 0);
-    for (std::size_t i = a; ; i = up_[i]) {
+    for (std::size_t i = a;; i = up_[i]) {
       above[i] = 1;
       if (up_[i] == i) break;
     }
@@ -260,7 +260,7 @@ class Greedy {
   }
 
   const std::vector<Vec2>& targets_;
-  std::vector<int> cost_;          // relays between two targets
+  std::vector<int> cost_;  // relays between two targets
   std::vector<std::size_t> up_;
 };
 
@@ -303,7 +303,10 @@ class Laid {
 // other edges of a network with r relays are shorter than the range, and with the forest and a way of at most the
 // tolerance from each worker to its target they join the targets: L <= forest + (k - 1 + r) C + T tolerance.
 int fewest_relays_certain(const std::vector<Vec2>& targets, double tolerance_m, double range_m) {
-  struct Pair { double length; std::size_t a, b; };
+  struct Pair {
+    double length;
+    std::size_t a, b;
+  };
   std::vector<Pair> near;
   for (std::size_t a = 0; a < targets.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)

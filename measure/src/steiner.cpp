@@ -72,7 +72,9 @@ std::vector<Vec2> far_apart(std::vector<Vec2> points, std::size_t most) {
 // A full topology over `terminals` of the points, 0 and 1 among them: node k < exact_limit is
 // terminal k, node exact_limit + s is Steiner point s, which has three edges.
 struct Tree {
-  struct Edge { int a, b; };
+  struct Edge {
+    int a, b;
+  };
   int terminals = 0;
   int edge_count = 0;
   std::array<Edge, 2 * exact_limit - 3> edges{};
@@ -246,7 +248,11 @@ class Search {
   }
 
  private:
-  struct Branch { double bound; int edge; Tree tree; };
+  struct Branch {
+    double bound;
+    int edge;
+    Tree tree;
+  };
 
   [[nodiscard]] bool hopeless(double bound) const noexcept { return bound >= best_ * (1.0 - tolerance); }
 
@@ -359,7 +365,8 @@ SteinerLength steiner_length(const std::vector<Vec2>& terminals) {
 double star_length(const std::vector<Vec2>& terminals) {
   if (terminals.size() < 2) return 0.0;
   const auto length_from = [&](Vec2 hub) {
-    return std::accumulate(terminals.begin(), terminals.end(), 0.0, [&](double sum, Vec2 t) { return sum + distance(t, hub); });
+    return std::accumulate(terminals.begin(), terminals.end(), 0.0,
+                           [&](double sum, Vec2 t) { return sum + distance(t, hub); });
   };
   Vec2 hub;
   for (const Vec2 t : terminals) hub += t / static_cast<double>(terminals.size());

@@ -5,7 +5,8 @@
 
 namespace banyan::measure {
 
-void Takeovers::observe(std::span<const RobotId> holders, std::span<const world::Target> targets, std::span<const std::uint8_t> alive) {
+void Takeovers::observe(std::span<const RobotId> holders, std::span<const world::Target> targets,
+                        std::span<const std::uint8_t> alive) {
   courses_.resize(holders.size());
   for (std::size_t t = 0; t < holders.size(); ++t) {
     Course& course = courses_[t];

@@ -42,7 +42,8 @@ TEST(Bottleneck, NoAssignmentIsBetter) {
     double least = 1e9;
     do {
       double longest = 0.0;
-      for (std::size_t k = 0; k < places.size(); ++k) longest = std::max(longest, distance(robots[order[k]], places[k]));
+      for (std::size_t k = 0; k < places.size(); ++k)
+        longest = std::max(longest, distance(robots[order[k]], places[k]));
       least = std::min(least, longest);
     } while (std::next_permutation(order.begin(), order.end()));
     EXPECT_EQ(bottleneck_m(robots, places), least) << seed;

@@ -26,8 +26,9 @@ struct Nod {
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
 };
-template <class Visitor, class M>
-constexpr void visit_fields(Visitor& visit, M& m) noexcept { visit.robot("id", "of the sender", m.id); }
+template <class Visitor, class M> constexpr void visit_fields(Visitor& visit, M& m) noexcept {
+  visit.robot("id", "of the sender", m.id);
+}
 
 // What robots report after their n-th step. Robot 0 stands, 1 drives straight on at 0.1 m/s, 2 turns on the spot,
 // 3 drives there and back: two steps on, two steps back.
@@ -38,7 +39,11 @@ struct Scripted {
     RobotId id;
     int steps;
   };
-  struct Heard { const Nod* message; banyan::Vec2 position; float age_s; };
+  struct Heard {
+    const Nod* message;
+    banyan::Vec2 position;
+    float age_s;
+  };
   static State initial(RobotId id, bool, bool) { return {id, 0}; }
   static Output<Nod> step(const Params&, State& self, const Inputs<Heard>&) {
     ++self.steps;
@@ -48,12 +53,12 @@ struct Scripted {
   static Report report(const State& self) {
     Report r;
     r.role = self.id == 0 ? Role::root : Role::spare;
-    if (self.id == 1 && self.steps >= 2) r.parent = 0;                                // in step 2
-    if (self.id == 2 && self.steps >= 3) r.parent = self.steps < 6 ? 0 : 1;           // in steps 3 and 6,
-    if (self.id == 2 && self.steps >= 3) r.role = Role::connector;                    // at once with the parent in 3
-    if (self.id == 2) r.old_parent = static_cast<RobotId>(self.steps);                // does not count
-    if (self.id == 3 && self.steps >= 4) r.serves = 3;                                // in step 4
-    if (self.id == 3 && self.steps >= 5) r.role = Role::worker;                       // in step 5
+    if (self.id == 1 && self.steps >= 2) r.parent = 0;                       // in step 2
+    if (self.id == 2 && self.steps >= 3) r.parent = self.steps < 6 ? 0 : 1;  // in steps 3 and 6,
+    if (self.id == 2 && self.steps >= 3) r.role = Role::connector;           // at once with the parent in 3
+    if (self.id == 2) r.old_parent = static_cast<RobotId>(self.steps);       // does not count
+    if (self.id == 3 && self.steps >= 4) r.serves = 3;                       // in step 4
+    if (self.id == 3 && self.steps >= 5) r.role = Role::worker;              // in step 5
     return r;
   }
   static void add_to(Digest& digest, const State& self) { digest.add(self.id); }

@@ -28,10 +28,18 @@ Graph graph_of(std::size_t n, const std::function<bool(std::size_t, std::size_t)
   return graph;
 }
 
-Graph path(std::size_t n) { return graph_of(n, [](auto a, auto b) { return b == a + 1; }); }
-Graph cycle(std::size_t n) { return graph_of(n, [n](auto a, auto b) { return b == a + 1 || (a == 0 && b == n - 1); }); }
-Graph complete(std::size_t n) { return graph_of(n, [](auto, auto) { return true; }); }
-Graph star(std::size_t n) { return graph_of(n, [](auto a, auto) { return a == 0; }); }
+Graph path(std::size_t n) {
+  return graph_of(n, [](auto a, auto b) { return b == a + 1; });
+}
+Graph cycle(std::size_t n) {
+  return graph_of(n, [n](auto a, auto b) { return b == a + 1 || (a == 0 && b == n - 1); });
+}
+Graph complete(std::size_t n) {
+  return graph_of(n, [](auto, auto) { return true; });
+}
+Graph star(std::size_t n) {
+  return graph_of(n, [](auto a, auto) { return a == 0; });
+}
 Graph grid(std::size_t w, std::size_t h) {
   return graph_of(w * h, [w](auto a, auto b) { return b == a + w || (b == a + 1 && b % w != 0); });
 }
@@ -53,8 +61,8 @@ void expect_value(const Graph& graph, double value) {
 TEST(Fiedler, ClosedFormsDenseAndSparse) {
   for (const std::size_t n : {2U, 3U, 10U, 94U, 150U, 151U, 400U, 1000U}) {
     expect_value(path(n), path_value(n));
-    if (n > 2) expect_value(cycle(n), cycle_value(n));  // lambda_2 = lambda_3
-    if (n > 2) expect_value(star(n), 1.0);              // n - 2 times
+    if (n > 2) expect_value(cycle(n), cycle_value(n));                // lambda_2 = lambda_3
+    if (n > 2) expect_value(star(n), 1.0);                            // n - 2 times
     if (n <= 400) expect_value(complete(n), static_cast<double>(n));  // n - 1 times
   }
   expect_value(grid(8, 8), path_value(8));  // twice
@@ -105,9 +113,8 @@ TEST(Fiedler, SparseAgreesWithDenseOnRandomGeometricGraphs) {
     std::vector<std::vector<char>> joined(n, std::vector<char>(n, 0));
     for (std::size_t i = 0; i < n; ++i)
       for (const std::uint32_t j : small.of(i)) joined[i][j] = 1;
-    const Graph product = graph_of(3 * n, [&](auto a, auto b) {
-      return a % n == b % n || (a / n == b / n && joined[a % n][b % n]);
-    });
+    const Graph product =
+        graph_of(3 * n, [&](auto a, auto b) { return a % n == b % n || (a / n == b / n && joined[a % n][b % n]); });
     expect_value(product, std::min(expected, 3.0));
     ++compared;
   }

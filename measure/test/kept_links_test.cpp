@@ -16,21 +16,29 @@ struct Hello {
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
 };
-template <class Visitor, class M>
-constexpr void visit_fields(Visitor& visit, M& m) noexcept { visit.robot("id", "of the sender", m.id); }
+template <class Visitor, class M> constexpr void visit_fields(Visitor& visit, M& m) noexcept {
+  visit.robot("id", "of the sender", m.id);
+}
 
 // Robots that stand and keep what the test says: robot i links[i], with parent parents[i].
 struct Promise {
   RobotId parent = nobody;
   std::vector<RobotId> links;
 };
-std::vector<Promise> promises;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): an algorithm has no other way to a test
+std::vector<Promise>
+    promises;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): an algorithm has no other way to a test
 
 struct Standing {
   using Params = Platform;
   using Message = Hello;
-  struct State { RobotId id; };
-  struct Heard { const Hello* message; banyan::Vec2 position; float age_s; };
+  struct State {
+    RobotId id;
+  };
+  struct Heard {
+    const Hello* message;
+    banyan::Vec2 position;
+    float age_s;
+  };
   static State initial(RobotId id, bool, bool) { return {id}; }
   static Output<Hello> step(const Params&, State& self, const Inputs<Heard>&) { return {{self.id}, {}}; }
   static Report report(const State& self) {

@@ -14,12 +14,14 @@ namespace {
 // A symmetric matrix with some entries in each row, positive definite or not.
 SparseMatrix random_matrix(std::uint64_t seed, int n, double diagonal) {
   const auto draw = [&](int i, int k) {
-    return world::to_uniform(world::bits(seed, world::Purpose::loss, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(k)));
+    return world::to_uniform(
+        world::bits(seed, world::Purpose::loss, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(k)));
   };
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < n; ++i) {
     entries.emplace_back(i, i, diagonal + draw(i, 0));
-    for (int k = 1; k < 4 && i > 0; ++k) entries.emplace_back(i, static_cast<int>(draw(i, k) * i), draw(i, k + 4) - 0.5);
+    for (int k = 1; k < 4 && i > 0; ++k)
+      entries.emplace_back(i, static_cast<int>(draw(i, k) * i), draw(i, k + 4) - 0.5);
   }
   SparseMatrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -60,7 +62,11 @@ TEST(Ldlt, CanBeStoppedAndUsedAgain) {
   const Vector whole = factors.pivots();
   for (const int at : {1, 2, 3, pauses}) {
     int count = 0;
-    EXPECT_THROW(factors.compute(lower, [&] { if (++count == at) throw Enough{}; }), Enough);
+    EXPECT_THROW(factors.compute(lower,
+                                 [&] {
+                                   if (++count == at) throw Enough{};
+                                 }),
+                 Enough);
     ASSERT_TRUE(factors.compute(lower, {}));
     EXPECT_TRUE((factors.pivots().array() == whole.array()).all()) << at;
   }

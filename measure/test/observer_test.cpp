@@ -247,7 +247,8 @@ TEST(Observer, RatiosAreToTheBounds) {
   long most = 0;
   while (!observer.run().complete) {
     after(world, observer, 1);
-    most = std::max(most, std::count_if(world.reports().begin(), world.reports().end(), [](const Report& r) { return r.role != Role::spare; }));
+    most = std::max(most, std::count_if(world.reports().begin(), world.reports().end(),
+                                        [](const Report& r) { return r.role != Role::spare; }));
   }
   while (!observer.finished()) after(world, observer, 1);
   const measure::Run run = observer.result(world);
@@ -439,7 +440,8 @@ TEST(Observer, ASpareIsNotMissed) {
   std::vector<bool> whole;  // at each look after the death
   while (!observer.finished()) {
     const Tick tick = after(world, observer, 1);
-    if (world.alive()[spare] == 0) whole.push_back(tick.components == 1 && tick.roots == 1 && world.holder(0) && world.holder(1));
+    if (world.alive()[spare] == 0)
+      whole.push_back(tick.components == 1 && tick.roots == 1 && world.holder(0) && world.holder(1));
   }
   const measure::Run run = observer.result(world);
   EXPECT_NEAR(run.completion_time_s, probe.time_s(), 1e-9) << "what comes later does not change it";
@@ -583,8 +585,10 @@ class Recount {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j) {
         const auto links = world.links(i);
-        const bool near = world.alive()[i] != 0 && world.alive()[j] != 0 && squared_norm(world.positions()[i] - world.positions()[j]) < range2;
-        const bool joined = by_distance ? near : std::find(links.begin(), links.end(), static_cast<std::uint32_t>(j)) != links.end();
+        const bool near = world.alive()[i] != 0 && world.alive()[j] != 0 &&
+                          squared_norm(world.positions()[i] - world.positions()[j]) < range2;
+        const bool joined =
+            by_distance ? near : std::find(links.begin(), links.end(), static_cast<std::uint32_t>(j)) != links.end();
         if (!joined || find(i) == find(j)) continue;
         leader[find(i)] = find(j);
         --count;
@@ -596,7 +600,8 @@ class Recount {
 TEST(Observer, AgreesWithARecountOfAHardRun) {
   for (const char* algorithm : {"outwards", "inwards"}) {
     for (const char* reading : {"literal", "corrected"}) {
-      const std::size_t message_bytes = std::string(reading) == "literal" ? wire_size<TreeMessage>() : wire_size<HealingMessage>();
+      const std::size_t message_bytes =
+          std::string(reading) == "literal" ? wire_size<TreeMessage>() : wire_size<HealingMessage>();
       Scenario s = ring(30, 3, 6.0, 4);
       s.mission.algorithm = algorithm;
       s.mission.reading = reading;

@@ -115,7 +115,9 @@ TEST(Recovery, IsWhatItsDefinitionSays) {
     }
     std::optional<std::size_t> first;
     for (std::size_t t = last_death; t + 40 < whole.size() && t <= last_death + 400 && !first; ++t)
-      if (const auto from = whole.begin() + static_cast<std::ptrdiff_t>(t); std::all_of(from, from + 41, [](bool w) { return w; })) first = t;
+      if (const auto from = whole.begin() + static_cast<std::ptrdiff_t>(t);
+          std::all_of(from, from + 41, [](bool w) { return w; }))
+        first = t;
     EXPECT_EQ(recovery.recovered(), first.has_value()) << seed;
     EXPECT_EQ(recovery.time_s(), first ? 0.5 * static_cast<double>(*first - last_death) : -1.0) << seed;
   }

@@ -29,7 +29,8 @@ Graph within_range(const std::vector<Vec2>& nodes, double range_m) {
 }
 
 // Whether some set of `relays` further places joins the targets by that many paths; tries all.
-bool can_be_joined(std::vector<Vec2>& nodes, std::size_t targets, const std::vector<Vec2>& places, std::size_t from, int relays, std::uint32_t paths) {
+bool can_be_joined(std::vector<Vec2>& nodes, std::size_t targets, const std::vector<Vec2>& places, std::size_t from,
+                   int relays, std::uint32_t paths) {
   if (relays == 0) {
     std::vector<std::uint32_t> terminals;
     for (std::uint32_t t = 0; t < targets; ++t) terminals.push_back(t);
@@ -56,7 +57,8 @@ TEST(RedundancyBound, OfTwoTargets) {
 
 TEST(RedundancyBound, OfATriangleIsARing) {
   const double side = 5.0;  // two relays on each side, with edges of 5/3
-  const RedundancyBound bound = redundancy_bound({{0, 0}, {side, 0}, {side / 2, side * std::numbers::sqrt3 / 2}}, 0.0, 2.0, 2);
+  const RedundancyBound bound =
+      redundancy_bound({{0, 0}, {side, 0}, {side / 2, side * std::numbers::sqrt3 / 2}}, 0.0, 2.0, 2);
   EXPECT_EQ(bound.robots, 3U + 6U);
   EXPECT_TRUE(bound.exact);
 }
@@ -80,7 +82,8 @@ TEST(RedundancyBound, NoSetOfPlacesOnALatticeNeedsFewer) {
     const RedundancyBound bound = redundancy_bound(targets, 0.0, 1.0, 2);
     const int least = static_cast<int>(bound.robots) - 3;
     for (int fewer = 1; fewer < least; ++fewer)  // one for the root in any case
-      ASSERT_FALSE(can_be_joined(nodes, 3, places, 0, fewer, 2)) << "round " << round << ": " << fewer << " relays, bound " << least;
+      ASSERT_FALSE(can_be_joined(nodes, 3, places, 0, fewer, 2))
+          << "round " << round << ": " << fewer << " relays, bound " << least;
     met += can_be_joined(nodes, 3, places, 0, least, 2) ? 1 : 0;
   }
   EXPECT_GT(met, 20);  // and as a rule so many suffice, even on a lattice

@@ -36,7 +36,8 @@ std::vector<Vec2> scattered(std::uint64_t seed, int count, double side) {
   std::vector<Vec2> points;
   points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
-    points.push_back({side * drawn(seed, static_cast<std::uint64_t>(i), 0), side * drawn(seed, static_cast<std::uint64_t>(i), 1)});
+    points.push_back(
+        {side * drawn(seed, static_cast<std::uint64_t>(i), 0), side * drawn(seed, static_cast<std::uint64_t>(i), 1)});
   return points;
 }
 
@@ -51,9 +52,7 @@ std::size_t relays_for(const std::vector<Vec2>& targets, double range_m) {
     EXPECT_NE(from, to) << "a cycle";
     std::replace(part.begin(), part.end(), from, to);
   }
-  if (!part.empty()) {
-    EXPECT_EQ(tree.edges.size(), part.size() - 1) << "a tree";
-  }
+  if (!part.empty()) { EXPECT_EQ(tree.edges.size(), part.size() - 1) << "a tree"; }
   return tree.relays.size();
 }
 
@@ -175,7 +174,8 @@ TEST(FewestRelays, RegularPentagonsHaveThreeHubsOrFour) {
     const auto found = static_cast<int>(relays_for(targets, 1.0));
     EXPECT_GE(found, static_cast<int>(std::ceil(length - 1e-9)) - 4) << r;
     EXPECT_LE(found, sides) << r;
-    EXPECT_LE(found, static_cast<int>(std::ceil(length)) - 4 + 4) << r << ": rounding costs at most one per branch over three";
+    EXPECT_LE(found, static_cast<int>(std::ceil(length)) - 4 + 4)
+        << r << ": rounding costs at most one per branch over three";
   }
 }
 
@@ -313,10 +313,10 @@ TEST(RobotsBound, CountsAWorkerForEachTargetAndTheRelaysBetween) {
   EXPECT_EQ(robots_bound({}, 0.2, 2.0), 1U) << "a root";
   EXPECT_EQ(robots_bound({{0, 0}}, 0.2, 2.0), 2U) << "a worker and the root";
   EXPECT_EQ(robots_bound(circle_of(9, 1.6), 0.2, 2.0), 10U) << "nine near targets: no relay but the root";
-  EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.2, 2.0), 10U);        // ceil(17.6 / 2) edges
-  EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.0, 2.0), 10U);        // 18 / 2 exactly
-  EXPECT_EQ(robots_bound(circle_of(3, 9.0), 0.2, 2.0), 15U);        // ceil(26.4 / 2) + 1
-  EXPECT_EQ(robots_bound(circle_of(4, 9.0), 0.2, 2.0), 18U);        // (34.77 - 0.8) / 2 = 16.99
+  EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.2, 2.0), 10U);  // ceil(17.6 / 2) edges
+  EXPECT_EQ(robots_bound({{-9, 0}, {9, 0}}, 0.0, 2.0), 10U);  // 18 / 2 exactly
+  EXPECT_EQ(robots_bound(circle_of(3, 9.0), 0.2, 2.0), 15U);  // ceil(26.4 / 2) + 1
+  EXPECT_EQ(robots_bound(circle_of(4, 9.0), 0.2, 2.0), 18U);  // (34.77 - 0.8) / 2 = 16.99
   // Four near each other, a fifth 20 m away: (20 - 5 * 0.2) / 2 edges beyond the four.
   EXPECT_EQ(robots_bound({{0, 0}, {-1, 0}, {-2, 0}, {-3, 0}, {20, 0}}, 0.2, 2.0), 5U + 9U);
   EXPECT_EQ(robots_bound({{0, 0}, {0, 0}, {0, 0}}, 0.2, 2.0), 4U) << "at the same place, still a worker each";

@@ -36,7 +36,10 @@ std::vector<Vec2> random_points(std::uint64_t seed, int count) {
 
 // Kruskal, to be independent of the library's Prim.
 double spanning_tree(const std::vector<Vec2>& p) {
-  struct Edge { double length; std::size_t a, b; };
+  struct Edge {
+    double length;
+    std::size_t a, b;
+  };
   std::vector<Edge> edges;
   std::vector<std::size_t> part(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -278,7 +281,8 @@ TEST(Star, RunsFromTheGeometricMedian) {
   EXPECT_EQ(star_length({{1, 2}}), 0.0);
   EXPECT_NEAR(star_length({{0, 0}, {3, 4}}), 5.0, 1e-6);
   EXPECT_NEAR(star_length(ring(6, 2.0)), 12.0, 1e-6);
-  EXPECT_NEAR(star_length({{0, 0}, {10, 0}, {1, 0.1}}), 10.0 + 0.1, 0.1) << "an angle beyond 120 degrees: the hub is that terminal";
+  EXPECT_NEAR(star_length({{0, 0}, {10, 0}, {1, 0.1}}), 10.0 + 0.1, 0.1)
+      << "an angle beyond 120 degrees: the hub is that terminal";
   EXPECT_NEAR(star_length({{-1, 0}, {1, 0}, {0, -1}, {0, 1}}), 4.0, 1e-6);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const std::vector<Vec2> points = random_points(seed, 7);

@@ -11,16 +11,17 @@
 
 namespace banyan::record::mcap {
 
+// clang-format off
 enum class Op : std::uint8_t {
   header = 0x01, footer, schema, channel, message, chunk, message_index, chunk_index, attachment,
   attachment_index, statistics, metadata, metadata_index, summary_offset, data_end
 };
+// clang-format on
 
 inline constexpr std::string_view magic{"\x89MCAP0\r\n", 8};
 inline constexpr std::uint64_t record_header_bytes = 9;  // opcode, length
 
-template <class Unsigned>
-void put(std::string& out, Unsigned value) {
+template <class Unsigned> void put(std::string& out, Unsigned value) {
   for (std::size_t k = 0; k < sizeof(Unsigned); ++k) out.push_back(static_cast<char>(value >> (8 * k)));
 }
 inline void put_string(std::string& out, std::string_view text) {
@@ -74,8 +75,7 @@ class Fields {
   [[nodiscard]] bool done() const noexcept { return !ok_ || rest_.empty(); }
   [[nodiscard]] std::string_view rest() const noexcept { return rest_; }
 
-  template <class Unsigned>
-  Unsigned number() noexcept {
+  template <class Unsigned> Unsigned number() noexcept {
     const std::string_view bytes = take(sizeof(Unsigned));
     Unsigned value = 0;
     for (std::size_t k = 0; k < bytes.size(); ++k) {

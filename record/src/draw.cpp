@@ -30,9 +30,9 @@ constexpr double smallest_spare_px = 2.2;   // of hundreds, which must not hide 
 constexpr Vec2 zoom_one_px{1280.0, 720.0};  // a picture of given size whose text is as large as elsewhere;
 constexpr double smallest_zoom = 0.7;       // it goes with the picture, down to what can be read
 constexpr double smallest_view_m = 2.0;
-constexpr double tallest = 1.25;            // height / width of the map at most
+constexpr double tallest = 1.25;  // height / width of the map at most
 constexpr double trail_step_s = 0.5;
-constexpr double most_m = 1e6;              // beyond, a position is damage and would hide the rest
+constexpr double most_m = 1e6;  // beyond, a position is damage and would hide the rest
 
 struct Extent {
   Vec2 low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
@@ -194,8 +194,7 @@ class Picture {
     move_to(screen(a), 'M');
     move_to(screen(b), 'L');
   }
-  template <class Fill>
-  void path(const Color& color, double width_px, const Fill& fill, std::string_view more = {}) {
+  template <class Fill> void path(const Color& color, double width_px, const Fill& fill, std::string_view more = {}) {
     out_.put("<path fill=\"none\"");
     attribute("stroke", color.hex);
     attribute("stroke-width", width_px);
@@ -227,8 +226,7 @@ class Picture {
   void radio();
   void trails();
   void targets();
-  template <class Which>
-  void edges(std::int32_t RobotFrame::*to, const Which& which);
+  template <class Which> void edges(std::int32_t RobotFrame::*to, const Which& which);
   void trees();
   void headings();
   void dead();
@@ -251,7 +249,7 @@ class Picture {
   Extent extent_;
   const Theme& theme_;
   Layout layout_;
-  Vec2 origin_{};  // px, of the map's upper left corner
+  Vec2 origin_{};      // px, of the map's upper left corner
   Vec2 size_{};        // of the picture, px
   double zoom_ = 1.0;  // everything is laid out as for a picture smaller by this
   double width_ = 0.0, robot_px_ = 0.0;
@@ -483,8 +481,7 @@ void Picture::targets() {
   }
 }
 
-template <class Which>
-void Picture::edges(std::int32_t RobotFrame::*to, const Which& which) {
+template <class Which> void Picture::edges(std::int32_t RobotFrame::*to, const Which& which) {
   for (std::size_t i = 0; i < frame_.robots.size(); ++i) {
     const RobotFrame& robot = frame_.robots[i];
     const std::int32_t j = robot.*to;
@@ -499,11 +496,15 @@ void Picture::trees() {
   const auto broken = [](bool is_linked) { return !is_linked; };
   path(
       theme_.tree, width, [&] { edges(&RobotFrame::parent, open); }, " stroke-linecap=\"round\"");
-  path(palette::old_tree, 0.8 * width, [&] { edges(&RobotFrame::old_parent, open); }, " stroke-dasharray=\"6 4\"");
-  path(palette::root, width, [&] {
-    edges(&RobotFrame::parent, broken);
-    edges(&RobotFrame::old_parent, broken);
-  }, " stroke-dasharray=\"2 3\"");
+  path(
+      palette::old_tree, 0.8 * width, [&] { edges(&RobotFrame::old_parent, open); }, " stroke-dasharray=\"6 4\"");
+  path(
+      palette::root, width,
+      [&] {
+        edges(&RobotFrame::parent, broken);
+        edges(&RobotFrame::old_parent, broken);
+      },
+      " stroke-dasharray=\"2 3\"");
 }
 
 // Besides its colour each role has a mark of its own, for grey prints: the root a ring, a worker a
@@ -581,7 +582,8 @@ void Picture::ids() {
     const bool right = at.x < width_ - 4.0 * margin_px;
     std::string label("T");
     label += std::to_string(k);
-    text(at + Vec2{right ? away : -away, -away}, 15.0, label, frame_.targets[k].active ? theme_.target_ink : theme_.faint_ink,
+    text(at + Vec2{right ? away : -away, -away}, 15.0, label,
+         frame_.targets[k].active ? theme_.target_ink : theme_.faint_ink,
          " font-weight=\"bold\"" + halo + (right ? "" : " text-anchor=\"end\""));
   }
   if (!options_.ids) return;
@@ -689,10 +691,8 @@ void Picture::legend() {
       entry.symbol(at + Vec2{12.0, 0.0});
       text(at + Vec2{30.0, 4.5}, 13.0, entry.words, theme_.ink, {});
     }
-    if (layout_.panel)
-      at.y += legend_row_px;
-    else
-      at.x += width;
+    if (layout_.panel) at.y += legend_row_px;
+    else at.x += width;
   }
 }
 

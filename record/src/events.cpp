@@ -106,10 +106,8 @@ void judge_edge(const Setting& setting, const Frame& frame, std::size_t i, bool 
   if (!has_robot(frame, to) || !frame.robots[static_cast<std::size_t>(to)].alive) return;
   const double length = distance(robot.position, frame.robots[static_cast<std::size_t>(to)].position);
   BrokenEdge edge{static_cast<std::int32_t>(i), to, old, ""};
-  if (!(length < setting.range_m))
-    edge.why = metres(length) + " apart, out of range";
-  else if (setting.line_of_sight)
-    edge.why = hidden_by(setting, frame, edge.robot, to);
+  if (!(length < setting.range_m)) edge.why = metres(length) + " apart, out of range";
+  else if (setting.line_of_sight) edge.why = hidden_by(setting, frame, edge.robot, to);
   if (!edge.why.empty()) broken.push_back(std::move(edge));
 }
 
@@ -170,7 +168,8 @@ void EventWatcher::watch_obstacles(std::span<const world::Obstacle> before, std:
       continue;
     }
     if (!stays && drifting_[to] == 0) {
-      add("obstacle_moved", -1, -1, "obstacle " + std::to_string(to) + " has moved to " + place(world::center_of(now[to])));
+      add("obstacle_moved", -1, -1,
+          "obstacle " + std::to_string(to) + " has moved to " + place(world::center_of(now[to])));
     }
     drifting_[to++] = stays ? 0 : 1;
   }
@@ -329,7 +328,8 @@ void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const
   if (before > 0) {
     const auto earlier = broken_edges(setting_, last_);
     std::erase_if(edges, [&](const BrokenEdge& e) {
-      return std::any_of(earlier.begin(), earlier.end(), [&](const BrokenEdge& o) { return o.robot == e.robot && o.to == e.to; });
+      return std::any_of(earlier.begin(), earlier.end(),
+                         [&](const BrokenEdge& o) { return o.robot == e.robot && o.to == e.to; });
     });
   }
   const std::string all = before > 0 ? "; " + std::to_string(now) + " are now" : "";
@@ -341,8 +341,10 @@ void EventWatcher::watch_edges(const Setting& setting, const Frame& frame, const
     return;
   }
   const auto count = edges.empty() ? now - before : static_cast<std::uint32_t>(edges.size());
-  std::string text = std::to_string(count) + (before > 0 ? " more" : "") + (count == 1 ? " tree edge is broken" : " tree edges are broken");
-  if (before == 0 && tick.broken_by_distance > 0) text += ", " + std::to_string(tick.broken_by_distance) + " out of range";
+  std::string text = std::to_string(count) + (before > 0 ? " more" : "") +
+                     (count == 1 ? " tree edge is broken" : " tree edges are broken");
+  if (before == 0 && tick.broken_by_distance > 0)
+    text += ", " + std::to_string(tick.broken_by_distance) + " out of range";
   if (before == 0 && tick.broken_by_occlusion > 0) text += ", " + std::to_string(tick.broken_by_occlusion) + " hidden";
   std::vector<std::string> names;
   names.reserve(edges.size());

@@ -65,7 +65,8 @@ std::uint64_t export_csv(Recording& recording, const WritePiece& write, const Ta
 std::uint64_t export_csv(Recording& recording, const std::string& path, Existing existing,
                          const TableOptions& options) {
   OutputFile file(path, existing);
-  const std::uint64_t rows = export_csv(recording, [&](std::string_view piece) { file.write(piece); }, options);
+  const std::uint64_t rows = export_csv(
+      recording, [&](std::string_view piece) { file.write(piece); }, options);
   file.commit();
   return rows;
 }

@@ -96,7 +96,8 @@ int open_locked(const std::string& path, int flags) {
 }
 
 bool has_name(int descriptor, const std::string& path) {
-  struct stat opened{}, named{};
+  struct stat opened {
+  }, named{};
   return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
          opened.st_ino == named.st_ino;
 }
@@ -114,7 +115,7 @@ void write_all(int descriptor, std::string_view bytes, const std::string& name) 
 
 OutputFile::OutputFile(std::string path, Existing existing) : path_(std::move(path)), existing_(existing) {
   if (path_.empty()) throw FileError("(no name)", "cannot create", ENOENT);
-  struct stat status{};
+  struct stat status {};
   const bool exists = ::stat(path_.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) throw FileError(path_, "cannot create", EISDIR);
   replaceable_ = !exists || S_ISREG(status.st_mode);
@@ -204,7 +205,7 @@ void write_file(const std::string& path, std::string_view text, Existing existin
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
   descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a FIFO must not block us
   if (descriptor_ < 0) throw FileError(path_, "cannot open", errno);
-  struct stat status{};
+  struct stat status {};
   int error = ::fstat(descriptor_, &status) != 0 ? errno : 0;
   if (error == 0 && S_ISDIR(status.st_mode)) error = EISDIR;
   if (error == 0 && !S_ISREG(status.st_mode)) error = ESPIPE;
@@ -216,7 +217,8 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
   struct timespec now {};
   ::clock_gettime(CLOCK_REALTIME, &now);
   const struct timespec& changed = status.st_mtim;
-  unchanged_s_ = static_cast<double>(now.tv_sec - changed.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - changed.tv_nsec);
+  unchanged_s_ =
+      static_cast<double>(now.tv_sec - changed.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec - changed.tv_nsec);
 }
 
 bool InputFile::is_being_written() const noexcept {

@@ -135,7 +135,8 @@ Setting setting_of(const world::World& world) {
 
 bool still_holds(const Setting& setting, const world::World& world) noexcept {
   return setting.line_of_sight == world.line_of_sight() &&
-         std::equal(setting.obstacles.begin(), setting.obstacles.end(), world.obstacles().begin(), world.obstacles().end());
+         std::equal(setting.obstacles.begin(), setting.obstacles.end(), world.obstacles().begin(),
+                    world.obstacles().end());
 }
 
 std::string_view name_of(Role role) noexcept {

@@ -30,15 +30,11 @@ struct Field {
   bool optional = false;  // left out where it is 0 for all robots
 };
 
-constexpr double far = 1e12;                 // m: beyond, a position is damage
+constexpr double far = 1e12;  // m: beyond, a position is damage
 constexpr double most_robots = 4294967294.0;
 
-template <auto member>
-double get(const RobotFrame& robot) {
-  return static_cast<double>(robot.*member);
-}
-template <auto member>
-void set(RobotFrame& robot, double value) {
+template <auto member> double get(const RobotFrame& robot) { return static_cast<double>(robot.*member); }
+template <auto member> void set(RobotFrame& robot, double value) {
   robot.*member = static_cast<std::remove_reference_t<decltype(robot.*member)>>(value);
 }
 template <auto member>
@@ -79,7 +75,8 @@ constexpr std::array<Field, 20> of_robot{{
     whole<&R::target>("target", -1, 65535, "index of the target the robot serves, -1: none"),
     if_any(whole<&R::raised>("raised", 0, 1,
                              "where sight leaks, 1: the antenna looks over bodies; left out if none does")),
-    if_any(real<&R::spent>("spent", 3, 0, 1, "share of the battery that is used up; left out where all are full, or without batteries")),
+    if_any(real<&R::spent>("spent", 3, 0, 1,
+                           "share of the battery that is used up; left out where all are full, or without batteries")),
 }};
 
 void key(Text& out, std::string_view name) {
@@ -533,8 +530,9 @@ std::string targets_schema() {
 
 std::string metrics_schema() {
   Text out;
-  out.put("{\"title\":\"banyan.Metrics\",\"description\":\"Connectivity and progress at one tick, ground truth\","
-          "\"type\":\"object\",\"properties\":{");
+  out.put(
+      "{\"title\":\"banyan.Metrics\",\"description\":\"Connectivity and progress at one tick, ground truth\","
+      "\"type\":\"object\",\"properties\":{");
   for (const auto& column : series_columns()) {
     const Cell cell = column.cell({});
     out.json_string(column.name);

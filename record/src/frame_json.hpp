@@ -15,13 +15,13 @@
 
 namespace banyan::record {
 
-void write_frame(Text& out, const Frame& frame);            // without the targets
+void write_frame(Text& out, const Frame& frame);  // without the targets
 // An array per field that is_recorded(), a number per robot.
 void write_messages(Text& out, std::uint64_t tick, double time_s, const MessageNumbers& messages);
 void write_targets(Text& out, const Frame& frame);
 void write_metrics(Text& out, const measure::Tick& tick);
 void write_event(Text& out, const RecordedEvent& event);
-void write_log(Text& out, const RecordedEvent& event);      // foxglove.Log
+void write_log(Text& out, const RecordedEvent& event);  // foxglove.Log
 void write_setting(Text& out, const Setting& setting);
 
 // Throw std::runtime_error with what is wrong. A frame's targets are left alone.

@@ -18,7 +18,7 @@ constexpr std::uint64_t footer_content = 20;
 // A stretch of the file that holds messages: a chunk, or messages that stand outside of any.
 struct Stretch {
   Nanoseconds start = 0, end = 0;
-  std::uint64_t offset = 0, length = 0;   // of the chunk record, or of the loose records
+  std::uint64_t offset = 0, length = 0;  // of the chunk record, or of the loose records
   bool chunk = true;
   std::map<std::uint16_t, std::uint64_t> channels;  // what is in it; empty: unknown
 };
@@ -131,23 +131,23 @@ struct Reader::Impl {
   Decompressor decompressor;
   bool indexed = false;
   std::vector<std::string> warnings;
-  std::set<std::uint64_t> warned;          // offsets of chunks that were complained about
+  std::set<std::uint64_t> warned;  // offsets of chunks that were complained about
   std::map<std::uint16_t, Schema> schemas;
   std::map<std::uint16_t, Channel> channels;
   std::vector<Metadata> metadata;
-  std::vector<Stretch> stretches;          // by start
+  std::vector<Stretch> stretches;  // by start
   std::map<std::uint16_t, std::uint64_t> counts;
 
-  std::string record;                      // the last chunk record read
+  std::string record;  // the last chunk record read
   std::string unpacked;
-  const Stretch* loaded = nullptr;         // whose records are in `contents`
+  const Stretch* loaded = nullptr;  // whose records are in `contents`
   std::string_view contents;
 
   void warn(std::uint64_t offset, const std::string& text) {
     if (warned.insert(offset).second) warnings.push_back(text + at_byte(offset));
   }
   void check_magic() const;
-  std::string load_summary();              // what is wrong with it, "" if it is sound
+  std::string load_summary();  // what is wrong with it, "" if it is sound
   std::string take_summary(std::string_view records);
   std::string take_metadata(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& places);
   void forget();
@@ -172,14 +172,14 @@ void Reader::Impl::check_magic() const {
 std::string Reader::Impl::load_summary() {
   const std::uint64_t tail = record_header_bytes + footer_content + magic.size();
   std::string footer;
-  if (file.size() < magic.size() + tail || !file.read(file.size() - tail, tail, footer) ||
-      !footer.ends_with(magic) || static_cast<Op>(footer[0]) != Op::footer) {
+  if (file.size() < magic.size() + tail || !file.read(file.size() - tail, tail, footer) || !footer.ends_with(magic) ||
+      static_cast<Op>(footer[0]) != Op::footer) {
     return "the file was cut short: it has no end";
   }
   Fields fields(std::string_view(footer).substr(1));
   const auto length = fields.number<std::uint64_t>();
   const auto start = fields.number<std::uint64_t>();
-  (void)fields.number<std::uint64_t>();    // offsets of groups: everything is read anyway
+  (void)fields.number<std::uint64_t>();  // offsets of groups: everything is read anyway
   const auto crc = fields.number<std::uint32_t>();
   if (length != footer_content) return "its footer is damaged";
   if (start == 0) return "it has no index";
@@ -201,13 +201,16 @@ std::string Reader::Impl::take_summary(std::string_view records) {
     Fields f(r->content);
     switch (static_cast<Op>(r->op)) {
       case Op::schema:
-        if (auto s = read_schema(r->content)) schemas.insert_or_assign(s->id, std::move(*s)); else sound = false;
+        if (auto s = read_schema(r->content)) schemas.insert_or_assign(s->id, std::move(*s));
+        else sound = false;
         break;
       case Op::channel:
-        if (auto c = read_channel(r->content)) channels.insert_or_assign(c->id, std::move(*c)); else sound = false;
+        if (auto c = read_channel(r->content)) channels.insert_or_assign(c->id, std::move(*c));
+        else sound = false;
         break;
       case Op::chunk_index:
-        if (auto s = read_chunk_index(r->content, file.size())) stretches.push_back(std::move(*s)); else sound = false;
+        if (auto s = read_chunk_index(r->content, file.size())) stretches.push_back(std::move(*s));
+        else sound = false;
         break;
       case Op::metadata_index: {
         const auto offset = f.number<std::uint64_t>();
@@ -286,13 +289,16 @@ void Reader::Impl::scan_record(const Record& r, std::uint64_t offset, std::uint6
   bool sound = true;
   switch (static_cast<Op>(r.op)) {
     case Op::schema:
-      if (auto s = read_schema(r.content)) schemas.insert_or_assign(s->id, std::move(*s)); else sound = false;
+      if (auto s = read_schema(r.content)) schemas.insert_or_assign(s->id, std::move(*s));
+      else sound = false;
       break;
     case Op::channel:
-      if (auto c = read_channel(r.content)) channels.insert_or_assign(c->id, std::move(*c)); else sound = false;
+      if (auto c = read_channel(r.content)) channels.insert_or_assign(c->id, std::move(*c));
+      else sound = false;
       break;
     case Op::metadata:
-      if (auto m = read_metadata(r.content)) metadata.push_back(std::move(*m)); else sound = false;
+      if (auto m = read_metadata(r.content)) metadata.push_back(std::move(*m));
+      else sound = false;
       break;
     case Op::message: scan_loose(r, offset, length); break;
     default: break;
@@ -319,7 +325,7 @@ void Reader::Impl::scan_chunk(std::uint64_t offset, std::uint64_t length) {
   // The times of the header are not trusted: messages have their own.
   Stretch s{0, 0, offset, length, true, {}};
   if (!load(s)) return;
-  loaded = nullptr;                        // `s` is about to go
+  loaded = nullptr;  // `s` is about to go
   Fields fields(contents);
   bool any = false;
   while (const auto r = next_record(fields)) {

@@ -101,8 +101,8 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t seed) noexcept {
   for (; left >= 8; left -= 8, p += 8) {
     const std::uint32_t a = word(p) ^ c;
     const std::uint32_t b = word(p + 4);
-    c = t[7][a & 0xFFU] ^ t[6][(a >> 8) & 0xFFU] ^ t[5][(a >> 16) & 0xFFU] ^ t[4][a >> 24] ^
-        t[3][b & 0xFFU] ^ t[2][(b >> 8) & 0xFFU] ^ t[1][(b >> 16) & 0xFFU] ^ t[0][b >> 24];
+    c = t[7][a & 0xFFU] ^ t[6][(a >> 8) & 0xFFU] ^ t[5][(a >> 16) & 0xFFU] ^ t[4][a >> 24] ^ t[3][b & 0xFFU] ^
+        t[2][(b >> 8) & 0xFFU] ^ t[1][(b >> 16) & 0xFFU] ^ t[0][b >> 24];
   }
   for (; left > 0; --left, ++p) c = t[0][(c ^ *p) & 0xFFU] ^ (c >> 8);
   return ~c;
@@ -115,7 +115,7 @@ struct Writer::Impl {
   std::uint32_t data_crc = 0;
   std::vector<Schema> schemas;
   std::vector<Channel> channels;
-  std::vector<std::uint32_t> sequences;   // per channel: messages so far
+  std::vector<std::uint32_t> sequences;  // per channel: messages so far
   std::vector<ChunkEntry> chunks;
   std::vector<MetadataEntry> metadata;
   std::vector<AttachmentEntry> attachments;
@@ -123,14 +123,14 @@ struct Writer::Impl {
   Nanoseconds first = 0, last = 0;
 
   std::map<ChunkGroup, OpenChunk> open;
-  std::vector<OpenChunk*> chunk_of;       // per channel; nodes of a map stay where they are
+  std::vector<OpenChunk*> chunk_of;  // per channel; nodes of a map stay where they are
   std::string scratch;
 
   Impl(OutputFile& output, WriterOptions wanted) : file(output), options(std::move(wanted)) {
     options.compression_level = possible_level(options.compression_level);
   }
 
-  void data(std::string_view bytes) {     // of the data section
+  void data(std::string_view bytes) {  // of the data section
     data_crc = crc32(bytes, data_crc);
     file.write(bytes);
   }
@@ -294,7 +294,10 @@ void Writer::attachment(std::string_view name, std::string_view media_type, Nano
 // Groups of one kind of record each, then where each group is.
 std::string Writer::Impl::summary(std::uint64_t start) const {
   std::string out;
-  struct Group { Op op; std::uint64_t begin, end; };
+  struct Group {
+    Op op;
+    std::uint64_t begin, end;
+  };
   std::vector<Group> groups;
   const auto group = [&](Op op, const auto& items, const auto& put_item) {
     const std::uint64_t begin = out.size();

@@ -9,8 +9,9 @@ namespace banyan::record {
 namespace {
 
 constexpr std::string_view elsewhere[] = {
-    "role", "phase", "need", "id", "epoch", "label_cm", "depth", "parent", "old_parent", "want_cm", "request",  // in the frame
-    "root_x_cm", "root_y_cm", "task_x_cm", "task_y_cm"};                                                        // nowhere
+    "role",      "phase",     "need",       "id",       "epoch",   "label_cm",
+    "depth",     "parent",    "old_parent", "want_cm",  "request",  // in the frame
+    "root_x_cm", "root_y_cm", "task_x_cm",  "task_y_cm"};           // nowhere
 
 // The name behind an enumerator's field; nothing for other fields.
 std::string_view word(std::string_view field, double value) noexcept {
@@ -26,7 +27,8 @@ void capture_messages(const Swarm& swarm, MessageNumbers& into) {
   into.fields = swarm.message_fields();
   into.numbers.resize(into.fields.size() * swarm.size());
   const std::span<double> all(into.numbers);
-  for (std::size_t i = 0; i < swarm.size(); ++i) swarm.message_numbers(i, all.subspan(i * into.fields.size(), into.fields.size()));
+  for (std::size_t i = 0; i < swarm.size(); ++i)
+    swarm.message_numbers(i, all.subspan(i * into.fields.size(), into.fields.size()));
 }
 
 bool is_recorded(const FieldInfo& field) noexcept {

@@ -20,7 +20,9 @@ std::size_t format_of(std::string_view key) {
 
 bool& OutputSettings::operator[](std::string_view key) { return wanted[format_of(key)]; }
 bool OutputSettings::operator[](std::string_view key) const { return wanted[format_of(key)]; }
-bool OutputSettings::wants(const OutputFormat& format) const { return format.key.empty() ? results : (*this)[format.key]; }
+bool OutputSettings::wants(const OutputFormat& format) const {
+  return format.key.empty() ? results : (*this)[format.key];
+}
 bool OutputSettings::any() const noexcept { return std::find(wanted.begin(), wanted.end(), true) != wanted.end(); }
 
 }  // namespace banyan::record

@@ -17,11 +17,11 @@ namespace banyan::record {
 
 namespace {
 
-constexpr double chunk_span_s = 10.0;      // what a crash may cost at most
+constexpr double chunk_span_s = 10.0;  // what a crash may cost at most
 constexpr std::chrono::milliseconds live_every{1000};
 // Plots and lists are to be read without unpacking what every robot did at every tick.
 constexpr mcap::ChunkGroup large = 0, small = 1;
-constexpr double scene_full_rate = 1000;   // robots; above, scenes come in proportion less often
+constexpr double scene_full_rate = 1000;  // robots; above, scenes come in proportion less often
 
 mcap::WriterOptions writer_options(const Provenance& provenance, const RecorderOptions& options) {
   return {"", "banyan " + provenance.version, options.compression_level, options.chunk_bytes};
@@ -31,7 +31,9 @@ mcap::WriterOptions writer_options(const Provenance& provenance, const RecorderO
 
 struct Recorder::Impl {
   Impl(std::string path, Provenance from, const RecorderOptions& wanted)
-      : options(wanted), provenance(std::move(from)), file(std::move(path), wanted.existing),
+      : options(wanted),
+        provenance(std::move(from)),
+        file(std::move(path), wanted.existing),
         mcap(file, writer_options(provenance, wanted)) {}
 
   RecorderOptions options;
@@ -47,7 +49,7 @@ struct Recorder::Impl {
   bool started = false, frame_written = false, finished = false;
   double last_chunk_s = 0.0, next_scene_s = 0.0;
   std::chrono::steady_clock::time_point next_live;  // long ago: the start is seen at once
-  MessageNumbers last_messages;  // of now's world; empty: none
+  MessageNumbers last_messages;                     // of now's world; empty: none
   std::vector<TargetFrame> last_targets;
 
   void add_channels();

@@ -15,7 +15,7 @@ struct Recording::Impl {
   explicit Impl(const std::string& path) : reader(path) {}
 
   mcap::Reader reader;
-  std::uint16_t frames = 0;                  // channel
+  std::uint16_t frames = 0;  // channel
   Provenance provenance;
   Setting setting;
   std::map<std::string, std::string> result;
@@ -23,10 +23,10 @@ struct Recording::Impl {
   std::vector<std::pair<mcap::Nanoseconds, std::vector<TargetFrame>>> targets;  // by time
   std::vector<std::pair<mcap::Nanoseconds, Setting>> settings;                  // by time
   std::vector<std::string> own_warnings;
-  mutable std::vector<std::string> warnings; // the reader's and ours
+  mutable std::vector<std::string> warnings;  // the reader's and ours
 
   void warn(std::string text) {
-    constexpr std::size_t most = 20;         // a file that is all damage needs no longer list
+    constexpr std::size_t most = 20;  // a file that is all damage needs no longer list
     if (own_warnings.size() < most) own_warnings.push_back(std::move(text));
   }
   void read_provenance(const mcap::Map& entries);
@@ -91,9 +91,7 @@ void Recording::Impl::read_all_targets() {
   reader.messages(channel->id, [&](const mcap::Message& message) {
     try {
       targets.emplace_back(message.log_time, read_targets(message.data));
-    } catch (const std::runtime_error& problem) {
-      warn(std::string("targets: ") + problem.what());
-    }
+    } catch (const std::runtime_error& problem) { warn(std::string("targets: ") + problem.what()); }
     return true;
   });
 }
@@ -122,8 +120,8 @@ std::optional<Frame> Recording::Impl::parse(const mcap::Message& message) {
   try {
     read_frame(message.data, frame);
   } catch (const std::runtime_error& problem) {
-    warn("the frame at " + std::to_string(static_cast<double>(message.log_time) * 1e-9) + " s was skipped: " +
-         problem.what());
+    warn("the frame at " + std::to_string(static_cast<double>(message.log_time) * 1e-9) +
+         " s was skipped: " + problem.what());
     return std::nullopt;
   }
   frame.time_s = static_cast<double>(message.log_time) * 1e-9;  // the text has but four decimals
@@ -207,9 +205,7 @@ std::vector<measure::Tick> Recording::metrics() {
   impl_->reader.messages(channel->id, [&](const mcap::Message& message) {
     try {
       ticks.push_back(read_metrics(message.data));
-    } catch (const std::runtime_error& problem) {
-      impl_->warn(std::string("metrics: ") + problem.what());
-    }
+    } catch (const std::runtime_error& problem) { impl_->warn(std::string("metrics: ") + problem.what()); }
     return true;
   });
   return ticks;
@@ -222,9 +218,7 @@ std::vector<RecordedEvent> Recording::events() {
   impl_->reader.messages(channel->id, [&](const mcap::Message& message) {
     try {
       events.push_back(read_event(message.data));
-    } catch (const std::runtime_error& problem) {
-      impl_->warn(std::string("events: ") + problem.what());
-    }
+    } catch (const std::runtime_error& problem) { impl_->warn(std::string("events: ") + problem.what()); }
     return true;
   });
   return events;

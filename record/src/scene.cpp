@@ -13,7 +13,7 @@ namespace banyan::record {
 
 namespace {
 
-constexpr double robot_height_m = 0.06;    // Khepera IV
+constexpr double robot_height_m = 0.06;  // Khepera IV
 constexpr double wall_height_m = 0.15;
 
 void color(Text& out, const Color& c, double alpha = 1.0) {
@@ -70,8 +70,7 @@ struct Entity {
     out.json_string(id);
     out.put(",\"lifetime\":{\"sec\":0,\"nsec\":0},\"frame_locked\":false,\"metadata\":[]");
   }
-  template <class Fill>
-  void list(std::string_view name, const Fill& fill) const {
+  template <class Fill> void list(std::string_view name, const Fill& fill) const {
     out.put(",\"");
     out.put(name);
     out.put("\":[");
@@ -86,8 +85,7 @@ struct Entity {
   void end() const { out.put("},"); }
 };
 
-template <class Points>
-void line_list(Text& out, const Color& c, double thickness_m, const Points& points) {
+template <class Points> void line_list(Text& out, const Color& c, double thickness_m, const Points& points) {
   out.put("{\"type\":2,");
   pose(out, {}, 0.0);
   out.put(",\"thickness\":");

@@ -101,10 +101,12 @@ constexpr Column<Row> result_table[] = {
     {"oracle_ratio", "committed / oracle_robots", 6, [](const Row& r) -> Cell { return r.run.oracle_ratio; }, 2},
     {"deployment_ratio", "most robots in the tree in a tick up to completion / robots_bound", 6,
      [](const Row& r) -> Cell { return r.run.deployment_ratio; }, 7},
-    {"link_redundancy", "mission.link_redundancy, k", 0, [](const Row& r) { return natural(r.run.link_redundancy); }, 5},
-    {"redundancy_bound", "no fewer robots, a worker for each target among them, join the targets by k disjoint paths", 0,
-     [](const Row& r) { return natural(r.run.redundancy_bound); }, 5},
-    {"redundancy_exact", "a network with as few exists", 0, [](const Row& r) -> Cell { return r.run.redundancy_exact; }, 5},
+    {"link_redundancy", "mission.link_redundancy, k", 0, [](const Row& r) { return natural(r.run.link_redundancy); },
+     5},
+    {"redundancy_bound", "no fewer robots, a worker for each target among them, join the targets by k disjoint paths",
+     0, [](const Row& r) { return natural(r.run.redundancy_bound); }, 5},
+    {"redundancy_exact", "a network with as few exists", 0, [](const Row& r) -> Cell { return r.run.redundancy_exact; },
+     5},
     {"companions", "spares that stand beside a robot of the tree at the end", 0,
      [](const Row& r) { return natural(r.run.companions); }, 5},
     {"redundancy_ratio", "(committed + companions) / redundancy_bound", 6,
@@ -171,12 +173,14 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) { return if_known(r.run.least_charge); }, 5},
     {"mean_charge", "of the living at the end; empty without batteries", 4,
      [](const Row& r) { return if_known(r.run.mean_charge); }, 5},
-    {"swaps", "robots of the tree with little charge that were relieved", 0, [](const Row& r) { return natural(r.run.swaps); }, 5},
+    {"swaps", "robots of the tree with little charge that were relieved", 0,
+     [](const Row& r) { return natural(r.run.swaps); }, 5},
     {"broken_swaps", "of these, with a broken edge to either robot meanwhile", 0,
      [](const Row& r) { return natural(r.run.broken_swaps); }, 5},
     {"trips", "of spares to charging places, until they were charged or died", 0,
      [](const Row& r) { return natural(r.run.trips); }, 5},
-    {"trips_arrived", "of these, those that ended in a slot", 0, [](const Row& r) { return natural(r.run.trips_arrived); }, 5},
+    {"trips_arrived", "of these, those that ended in a slot", 0,
+     [](const Row& r) { return natural(r.run.trips_arrived); }, 5},
     {"emptied", "robots that died for want of charge", 0, [](const Row& r) { return natural(r.run.emptied); }, 5},
     {"lasts_s", "the charge is used up so long after the end; empty if it is not, or without batteries", 4,
      [](const Row& r) { return if_known(r.run.lasts_s); }, 5},
@@ -188,9 +192,10 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) -> Cell { return r.run.recovered; }},
     {"recovery_time_s", "from the last death until then; empty if not recovered", 4,
      [](const Row& r) { return if_known(r.run.recovery_time_s); }},
-    {"lost_holders", "workers that died at their targets", 0, [](const Row& r) { return natural(r.run.lost_holders); }, 8},
-    {"held_again_s", "from then until such a target was held again, median; empty if none was lost or half never were", 4,
-     [](const Row& r) { return if_known(r.run.held_again_s); }, 8},
+    {"lost_holders", "workers that died at their targets", 0, [](const Row& r) { return natural(r.run.lost_holders); },
+     8},
+    {"held_again_s", "from then until such a target was held again, median; empty if none was lost or half never were",
+     4, [](const Row& r) { return if_known(r.run.held_again_s); }, 8},
     {"survivors_suffice", "as many as the bound for the targets active at the end", 0,
      [](const Row& r) -> Cell { return r.run.survivors_suffice; }},
     {"hash", "state hash of the world at the end, hexadecimal", 0,
@@ -249,8 +254,7 @@ void write_csv_field(Text& out, std::string_view field) {
   out.put('"');
 }
 
-template <class Columns>
-std::string header_of(const Columns& columns) {
+template <class Columns> std::string header_of(const Columns& columns) {
   std::string line;
   for (const auto& column : columns) {
     if (!line.empty()) line += ',';
@@ -259,8 +263,7 @@ std::string header_of(const Columns& columns) {
   return line;
 }
 
-template <class Columns, class RowType>
-void write_row(Text& out, const Columns& columns, const RowType& row) {
+template <class Columns, class RowType> void write_row(Text& out, const Columns& columns, const RowType& row) {
   for (const auto& column : columns) {
     write_cell_csv(out, column.cell(row), column.decimals);
     out.put(',');
@@ -369,12 +372,9 @@ std::vector<std::string> csv_cells(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
     if (quoted) {
-      if (c != '"')
-        cells.back() += c;
-      else if (i + 1 < line.size() && line[i + 1] == '"')
-        cells.back() += line[++i];
-      else
-        quoted = false;
+      if (c != '"') cells.back() += c;
+      else if (i + 1 < line.size() && line[i + 1] == '"') cells.back() += line[++i];
+      else quoted = false;
     } else if (c == '"') {
       quoted = true;
     } else if (c == ',') {

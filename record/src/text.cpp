@@ -91,8 +91,7 @@ void Text::integer(std::int64_t value) {
   advance_to(write_natural(at, value < 0 ? std::uint64_t{0} - bits : bits));
 }
 
-template <int decimals>
-void Text::fixed_of(double value) {
+template <int decimals> void Text::fixed_of(double value) {
   constexpr std::uint64_t unit = power[decimals];
   const auto number = static_cast<std::uint64_t>(std::fabs(value) * static_cast<double>(unit) + 0.5);
   char* at = space(40);
@@ -114,9 +113,7 @@ void Text::fixed(double value, int decimals, std::string_view otherwise) {
   if (decimals == 2 && std::fabs(value) < exact_limit / 1e2) return fixed_of<2>(value);
   const std::uint64_t unit = power[static_cast<std::size_t>(decimals)];
   const double scaled = std::fabs(value) * static_cast<double>(unit);
-  if (scaled >= exact_limit) {
-    return advance_to(world::write_fixed(space(world::longest_fixed), value, decimals));
-  }
+  if (scaled >= exact_limit) { return advance_to(world::write_fixed(space(world::longest_fixed), value, decimals)); }
   const auto number = static_cast<std::uint64_t>(scaled + 0.5);
   char* at = space(40);
   if (value < 0.0 && number != 0) *at++ = '-';

@@ -38,10 +38,10 @@ class Text {
   void natural(std::uint64_t value);
   // `decimals` in [0, 9]; half away from zero, no "-0". `otherwise` for what is not finite.
   void fixed(double value, int decimals, std::string_view otherwise = "null");
-  void shortest(double value);               // the fewest digits that read back as `value`; null if not finite
-  void json_string(std::string_view text);   // quoted; invalid UTF-8 becomes U+FFFD
-  void xml(std::string_view text);           // escaped for text and attributes
-  void drop_last() noexcept { --size_; }     // a trailing comma
+  void shortest(double value);              // the fewest digits that read back as `value`; null if not finite
+  void json_string(std::string_view text);  // quoted; invalid UTF-8 becomes U+FFFD
+  void xml(std::string_view text);          // escaped for text and attributes
+  void drop_last() noexcept { --size_; }    // a trailing comma
   // Room for n more bytes; advance() after writing them.
   char* space(std::size_t n) {
     if (buffer_.size() - size_ < n) grow(n);
@@ -50,8 +50,7 @@ class Text {
   void advance_to(const char* end) noexcept { size_ = static_cast<std::size_t>(end - buffer_.data()); }
 
  private:
-  template <int decimals>
-  void fixed_of(double value);
+  template <int decimals> void fixed_of(double value);
   void grow(std::size_t n);
 
   std::string buffer_;

@@ -172,7 +172,9 @@ TEST(Draw, ATargetGivenUpIsFaint) {
   Frame frame = test::sample_frame(9, 1.0, 3);
   PictureOptions options;
   options.legend = false;
-  const auto filled = [&] { return count(draw_svg(test::sample_setting(), frame, {}, options), "fill-opacity=\"0.18\""); };
+  const auto filled = [&] {
+    return count(draw_svg(test::sample_setting(), frame, {}, options), "fill-opacity=\"0.18\"");
+  };
   EXPECT_EQ(filled(), 2U);
   frame.targets[1].active = false;
   EXPECT_EQ(filled(), 1U);

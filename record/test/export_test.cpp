@@ -63,7 +63,9 @@ TEST(Export, RangeAndStep) {
   options.from_s = 1.0;
   options.to_s = 2.0;
   options.every = 5;
-  EXPECT_EQ(export_csv(recording, [&](std::string_view piece) { all += piece; }, options), 9U);
+  EXPECT_EQ(export_csv(
+                recording, [&](std::string_view piece) { all += piece; }, options),
+            9U);
   EXPECT_NE(all.find("\n15,1.5000,0,"), std::string::npos);
   EXPECT_EQ(all.find("\n16,"), std::string::npos);
 }

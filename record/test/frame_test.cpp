@@ -138,7 +138,8 @@ TEST(Capture, WhoServesATargetIsWhoHoldsItNow) {
   recorder.finish(observer.result(world));
   ASSERT_GE(successor, 0);
   EXPECT_NE(successor, frame.targets[0].worker);
-  EXPECT_TRUE(std::ranges::none_of(frame.robots, [](const RobotFrame& r) { return r.target == 2; })) << "it is given up";
+  EXPECT_TRUE(std::ranges::none_of(frame.robots, [](const RobotFrame& r) { return r.target == 2; }))
+      << "it is given up";
   std::size_t arrivals = 0, removals = 0, completions = 0;
   for (const RecordedEvent& e : Recording(directory.file("a.mcap")).events()) {
     arrivals += e.kind == "arrival" && e.target == 0 && e.robot == successor;
@@ -161,8 +162,7 @@ TEST(Capture, LinksOfAPictureAreTheRadios) {
     world::Scenario s = scenario(60, line_of_sight);
     s.robot.dead_bodies = dead_bodies;
     s.radio.sight_leak = sight_leak;
-    for (std::size_t robot = 5; robot < 20; ++robot)
-      s.events.push_back({.time_s = 1.0, .action = world::Die{robot}});
+    for (std::size_t robot = 5; robot < 20; ++robot) s.events.push_back({.time_s = 1.0, .action = world::Die{robot}});
     world::World world(s);
     const Setting setting = setting_of(world);
     Frame frame;

@@ -23,8 +23,14 @@ using Json = nlohmann::json;
 TEST(Pack, HasTheNumbersOfARecordedFrameColumnByColumn) {
   Frame frame;
   frame.robots.resize(3);
-  frame.robots[1] = {.position = {1.25, -2.5}, .role = Role::worker, .label_cm = 17, .parent = 2, .want_m = 0.75,
-                     .target = 1, .spent = 0.125, .raised = true};
+  frame.robots[1] = {.position = {1.25, -2.5},
+                     .role = Role::worker,
+                     .label_cm = 17,
+                     .parent = 2,
+                     .want_m = 0.75,
+                     .target = 1,
+                     .spent = 0.125,
+                     .raised = true};
   Text text;
   write_frame(text, frame);
   const Json recorded = Json::parse(text.view());
@@ -59,9 +65,13 @@ void expect_only_if_any(std::string_view name, Member member, Value value, std::
   EXPECT_EQ(read, frame);
 }
 
-TEST(Frames, HaveNoArrayOfAntennasWhereNoneIsRaised) { expect_only_if_any("raised", &RobotFrame::raised, true, "\"raised\":[0,1]"); }
+TEST(Frames, HaveNoArrayOfAntennasWhereNoneIsRaised) {
+  expect_only_if_any("raised", &RobotFrame::raised, true, "\"raised\":[0,1]");
+}
 
-TEST(Frames, HaveNoArrayOfChargesWithoutBatteries) { expect_only_if_any("spent", &RobotFrame::spent, 0.25, "\"spent\":[0.000,0.250]"); }
+TEST(Frames, HaveNoArrayOfChargesWithoutBatteries) {
+  expect_only_if_any("spent", &RobotFrame::spent, 0.25, "\"spent\":[0.000,0.250]");
+}
 
 TEST(Older, FieldsThatWereNotThereHaveTheirDefaults) {
   const auto targets = read_targets(R"({"tick":0,"time_s":0,"x_m":[1,2],"y_m":[3,4],"worker":[0,-1]})");
@@ -82,16 +92,14 @@ TEST(Older, FieldsThatWereNotThereHaveTheirDefaults) {
   EXPECT_EQ(read_setting(object.dump()).sight_leak, 0.0);
 }
 
-template <class Message>
-std::vector<double> shown(const Message& message) {
+template <class Message> std::vector<double> shown(const Message& message) {
   const auto swarm = test::saying(message);
   MessageNumbers numbers;
   capture_messages(*swarm, numbers);
   return numbers.numbers;
 }
 
-template <class Message>
-class MessageFields : public ::testing::Test {};
+template <class Message> class MessageFields : public ::testing::Test {};
 using MessageTypes = ::testing::Types<TreeMessage, HealingMessage, ConvoyMessage>;
 TYPED_TEST_SUITE(MessageFields, MessageTypes);
 

@@ -42,10 +42,13 @@ std::vector<std::string> texts(Reader& reader, std::string_view topic, Nanosecon
   std::vector<std::string> all;
   const Channel* channel = reader.find_channel(topic);
   if (channel == nullptr) return all;
-  reader.messages(channel->id, [&](const Message& m) {
-    all.emplace_back(m.data);
-    return true;
-  }, from, to);
+  reader.messages(
+      channel->id,
+      [&](const Message& m) {
+        all.emplace_back(m.data);
+        return true;
+      },
+      from, to);
   return all;
 }
 
@@ -114,7 +117,7 @@ TEST_P(Mcap, WithoutAnEndItIsScanned) {
     const auto some = texts(reader, "/a");
     ASSERT_LE(some.size(), expected.size());
     EXPECT_TRUE(std::equal(some.begin(), some.end(), expected.begin())) << size;
-    EXPECT_GE(some.size(), longest);     // more bytes never tell less
+    EXPECT_GE(some.size(), longest);  // more bytes never tell less
     longest = some.size();
   }
   EXPECT_EQ(longest, expected.size());
@@ -280,8 +283,7 @@ TEST(McapReader, SurvivesMutations) {
           reader.messages(id, [](const Message&) { return true; });
           reader.last_before(id, 60000000, [](const Message&) { return true; });
         }
-      } catch (const FileError&) {
-      }
+      } catch (const FileError&) {}
     }
   }
   EXPECT_GT(readable, 1000U);

@@ -50,7 +50,9 @@ struct Rows {
   void add(const std::string& name, std::size_t size, const char* unit) {
     list.push_back(name + " " + std::to_string(size) + " " + unit + (size == 1 ? "" : "s"));
   }
-  template <class E> void choice(const char* name, const char*, const E&, int bits, E) { add(name, static_cast<std::size_t>(bits), "bit"); }
+  template <class E> void choice(const char* name, const char*, const E&, int bits, E) {
+    add(name, static_cast<std::size_t>(bits), "bit");
+  }
   void flag(const char* name, const char*, bool) { add(name, 1, "bit"); }
   template <class T> void number(const char* name, const char*, const T&) { add(name, sizeof(T), "byte"); }
   template <class T> void known(const char* name, const char*, const T&) { add(name, sizeof(T), "byte"); }

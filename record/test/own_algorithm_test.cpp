@@ -22,10 +22,9 @@ using namespace banyan;
 struct Message {
   static constexpr std::uint8_t blocks = 0;
   RobotId id = nobody;
-  std::uint16_t fled_ticks = 0;   // so long somebody has been too near
+  std::uint16_t fled_ticks = 0;  // so long somebody has been too near
 };
-template <class Visitor, class M>
-constexpr void visit_fields(Visitor& visit, M& m) noexcept {
+template <class Visitor, class M> constexpr void visit_fields(Visitor& visit, M& m) noexcept {
   visit.robot("id", "of the sender", m.id);
   visit.number("fled_ticks", "so long somebody was too near", m.fled_ticks);
 }
@@ -95,7 +94,9 @@ world::Scenario crowd() {
   return s;
 }
 
-const SwarmOf<shy::Shy>& robots_of(const world::World& world) { return dynamic_cast<const SwarmOf<shy::Shy>&>(world.swarm()); }
+const SwarmOf<shy::Shy>& robots_of(const world::World& world) {
+  return dynamic_cast<const SwarmOf<shy::Shy>&>(world.swarm());
+}
 
 TEST(OwnAlgorithm, KeepsApartWhateverTheNumberOfThreads) {
   std::optional<std::uint64_t> hash;

@@ -141,7 +141,7 @@ TEST(Recording, FrameAtIsTheLastOneBefore) {
   Recording recording(directory.file("a.mcap"));
   EXPECT_EQ(recording.frame_at(-1.0).tick, 0U);
   EXPECT_EQ(recording.frame_at(0.0).tick, 0U);
-  EXPECT_EQ(recording.frame_at(0.3).tick, 3U);   // 0.3 is not 3 x 0.1 in binary
+  EXPECT_EQ(recording.frame_at(0.3).tick, 3U);  // 0.3 is not 3 x 0.1 in binary
   EXPECT_EQ(recording.frame_at(0.35).tick, 3U);
   EXPECT_EQ(recording.frame_at(4.9).tick, 49U);
   EXPECT_EQ(recording.frame_at(1e9).tick, 49U);
@@ -241,9 +241,9 @@ TEST(Recording, EventsTellWhatChanged) {
   Recording recording(path);
   std::vector<std::string> kinds;
   for (const RecordedEvent& event : recording.events()) kinds.push_back(std::to_string(event.tick) + " " + event.kind);
-  EXPECT_EQ(kinds, (std::vector<std::string>{"1 death", "2 root", "2 split", "3 epoch", "3 phase", "3 joined",
-                                             "3 arrival", "3 complete", "4 target_moved", "4 target_added",
-                                             "4 remark", "4 interrupted"}));
+  EXPECT_EQ(kinds,
+            (std::vector<std::string>{"1 death", "2 root", "2 split", "3 epoch", "3 phase", "3 joined", "3 arrival",
+                                      "3 complete", "4 target_moved", "4 target_added", "4 remark", "4 interrupted"}));
   EXPECT_EQ(recording.events()[1].robot, 2);
   EXPECT_EQ(recording.events()[10].text, "\"quoted\"");
   EXPECT_EQ(recording.result().at("interrupted"), "true");
@@ -493,8 +493,8 @@ TEST(Events, ATargetGivenUpIsToldAndNoLongerCounts) {
   told.next(setting, frame, of_targets(0, 0));
   EXPECT_EQ(told.events(), (std::vector<std::string>{
                                "arrival 2: robot 2 has reached target T0", "target_removed 3: target T1 is given up",
-                               "complete -1: all targets are held, and the tree is in one piece", "death 3: robot 3 died, a spare",
-                               "target_removed 2: target T0 is given up"}));
+                               "complete -1: all targets are held, and the tree is in one piece",
+                               "death 3: robot 3 died, a spare", "target_removed 2: target T0 is given up"}));
 }
 
 TEST(Events, TheVanishedHideNobody) {
@@ -514,7 +514,8 @@ TEST(Events, TheVanishedHideNobody) {
     told.next(setting, frame, tick);
     const std::string who = dead_bodies ? "robot 3" : "obstacle 0";
     EXPECT_EQ(told.events(), (std::vector<std::string>{"edges_broken 1: the edge from robot 1 to its parent, robot 0, "
-                                                       "is broken: hidden by " + who}));
+                                                       "is broken: hidden by " +
+                                                       who}));
   }
 }
 
@@ -597,17 +598,18 @@ TEST(Recording, ObstaclesThatComeAndGoAreTold) {
   const test::TemporaryDirectory directory;
   Told told(directory.file("a.mcap"));
   Setting setting = test::sample_setting();
-  const world::Obstacle a = world::Disc{{1.0, 1.0}, 0.25}, b = world::Wall{{2.0, 2.0}, {3.0, 2.0}}, c = world::Disc{{4.0, 4.0}, 0.5},
-                        d = world::Disc{{-1.0, 0.5}, 0.5};
-  for (const auto& there : std::vector<std::vector<world::Obstacle>>{{a, b}, {a, b, c}, {b, c}, {b, d}, {b, d}, {}, {a}}) {
+  const world::Obstacle a = world::Disc{{1.0, 1.0}, 0.25}, b = world::Wall{{2.0, 2.0}, {3.0, 2.0}},
+                        c = world::Disc{{4.0, 4.0}, 0.5}, d = world::Disc{{-1.0, 0.5}, 0.5};
+  for (const auto& there :
+       std::vector<std::vector<world::Obstacle>>{{a, b}, {a, b, c}, {b, c}, {b, d}, {b, d}, {}, {a}}) {
     setting.obstacles = there;
     told.next(setting, chain());
   }
-  EXPECT_EQ(told.events(), (std::vector<std::string>{"obstacle_added -1: obstacle 2 is new, at (4.00, 4.00) m",
-                                                     "obstacle_removed -1: obstacle 0 is gone",
-                                                     "obstacle_moved -1: obstacle 1 has moved to (-1.00, 0.50) m",
-                                                     "obstacle_removed -1: obstacle 0 is gone", "obstacle_removed -1: obstacle 1 is gone",
-                                                     "obstacle_added -1: obstacle 0 is new, at (1.00, 1.00) m"}));
+  EXPECT_EQ(told.events(),
+            (std::vector<std::string>{
+                "obstacle_added -1: obstacle 2 is new, at (4.00, 4.00) m", "obstacle_removed -1: obstacle 0 is gone",
+                "obstacle_moved -1: obstacle 1 has moved to (-1.00, 0.50) m", "obstacle_removed -1: obstacle 0 is gone",
+                "obstacle_removed -1: obstacle 1 is gone", "obstacle_added -1: obstacle 0 is new, at (1.00, 1.00) m"}));
 }
 
 // Recordings of before there were such channels, made by renaming these to something unknown.
@@ -747,11 +749,13 @@ TEST(Recording, MalformedFramesAreSkippedWithAWarning) {
     value.is_null() ? (void)object.erase(key) : (void)(object[key] = std::move(value));
     return object.dump();
   };
+  // clang-format off
   const std::vector<std::string> bad = {
       "", "{", "[]", "null", "\xFF", std::string(100000, '['), good.substr(0, good.size() / 2),
       without("x_m", nullptr), without("x_m", 3), without("y_m", {1, 2}), without("role", {0, 1, 4}),
       without("role", {0, 1, -1}), without("parent", {0, 1, 1e300}), without("phase", {0, "1", 2}),
       without("time_s", -1), without("tick", 1.5e300), without("heading_rad", {nullptr, 0, 0})};
+  // clang-format on
   {
     OutputFile file(path);
     mcap::Writer writer(file, {});
@@ -799,8 +803,7 @@ TEST(Recording, SurvivesMutations) {
       (void)recording.events();
       (void)export_csv(recording, [](std::string_view) {});
       EXPECT_FALSE(draw_svg(recording, 1.5).empty());
-    } catch (const FileError&) {
-    }
+    } catch (const FileError&) {}
   }
   EXPECT_GT(opened, 100U);
 }

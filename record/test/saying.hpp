@@ -11,8 +11,7 @@
 
 namespace banyan::record::test {
 
-template <class SomeMessage>
-struct Saying {
+template <class SomeMessage> struct Saying {
   struct Params : Platform {
     SomeMessage words;
   };
@@ -36,8 +35,7 @@ struct Saying {
   static void add_to(Digest& digest, const State& state) { digest.add(state.id); }
 };
 
-template <class Message>
-std::unique_ptr<Swarm> saying(const Message& words) {
+template <class Message> std::unique_ptr<Swarm> saying(const Message& words) {
   using Speaker = Saying<Message>;
   typename Speaker::Params params;
   params.words = words;

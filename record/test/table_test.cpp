@@ -136,16 +136,21 @@ TEST(Table, ARowOfAnEarlierVersionLacksWhatLaterOnesHave) {
   since_7.insert(since_8.begin(), since_8.end());
   std::set<std::string_view> since_6{"oracle_targets", "held_targets", "missed_targets"};
   since_6.insert(since_7.begin(), since_7.end());
-  std::set<std::string_view> since_5{"link_redundancy", "redundancy_bound", "redundancy_exact", "companions", "redundancy_ratio",
+  // clang-format off
+  std::set<std::string_view> since_5{"link_redundancy", "redundancy_bound", "redundancy_exact", "companions",
+      "redundancy_ratio",
                                            "redundant_time_ratio", "severed_ticks", "restored_s", "redundant_targets",
-                                           "least_charge", "mean_charge", "swaps", "broken_swaps", "trips", "trips_arrived", "emptied", "lasts_s"};
+                                           "least_charge", "mean_charge", "swaps", "broken_swaps", "trips",
+                                               "trips_arrived", "emptied", "lasts_s"};
+  // clang-format on
   since_5.insert(since_6.begin(), since_6.end());
   std::set<std::string_view> since_4{"messages", "decisions", "driven_m"};
   since_4.insert(since_5.begin(), since_5.end());
   std::set<std::string_view> since_3{"sight_leak", "liveness_period_s", "broken_ticks_after_silence",
                                      "disconnected_time_ratio_after_silence", "held_ratio"};
   since_3.insert(since_4.begin(), since_4.end());
-  for (const auto& [version, later] : {std::pair{"2", since_3}, std::pair{"3", since_4}, std::pair{"4", since_5}, std::pair{"5", since_6}, std::pair{"6", since_7}, std::pair{"7", since_8}}) {
+  for (const auto& [version, later] : {std::pair{"2", since_3}, std::pair{"3", since_4}, std::pair{"4", since_5},
+                                       std::pair{"5", since_6}, std::pair{"6", since_7}, std::pair{"7", since_8}}) {
     std::string row;
     for (const auto& column : run_columns())
       if (!later.contains(column.name))
@@ -175,7 +180,8 @@ TEST(Table, ColumnsOfHealingAreThereOrEmpty) {
   row.run.two_roots_ticks = 17;
   row.run.network_length_m = 12.25;
   const auto before = nlohmann::json::parse(run_json(row, "{}"))["result"];
-  for (const char* name : {"last_death_s", "recovery_time_s", "time_ratio"}) EXPECT_TRUE(before[name].is_null()) << name;
+  for (const char* name : {"last_death_s", "recovery_time_s", "time_ratio"})
+    EXPECT_TRUE(before[name].is_null()) << name;
   EXPECT_EQ(before["deaths"], 0);
   EXPECT_EQ(before["recovered"], false);
   EXPECT_EQ(before["elections"], 2);

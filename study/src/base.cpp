@@ -21,10 +21,8 @@ void lay_over(Node& below, Node above) {
   }
   below.place = above.place;
   for (auto& [name, value] : *above.table()) {
-    if (Node* known = below.find(name))
-      lay_over(*known, std::move(value));
-    else
-      below.table()->push_back({name, std::move(value)});
+    if (Node* known = below.find(name)) lay_over(*known, std::move(value));
+    else below.table()->push_back({name, std::move(value)});
   }
 }
 

@@ -95,10 +95,8 @@ class Comparing {
     std::vector<std::pair<std::size_t, std::size_t>> list;
     for (std::size_t i = 0; i < axis.values.size(); ++i) {
       for (std::size_t j = i + 1; j < axis.values.size(); ++j) {
-        if (against.empty() || is_named(j))
-          list.emplace_back(i, j);
-        else if (is_named(i))
-          list.emplace_back(j, i);
+        if (against.empty() || is_named(j)) list.emplace_back(i, j);
+        else if (is_named(i)) list.emplace_back(j, i);
       }
     }
     return list;
@@ -251,16 +249,12 @@ std::string within(const std::string& word, Verdict verdict) {
 
 std::string worded(Verdict verdict, const char* lower, const char* higher) {
   switch (verdict) {
-    case Verdict::no_difference:
-      return "no difference";
+    case Verdict::no_difference: return "no difference";
     case Verdict::lower:
-    case Verdict::lower_within:
-      return within(lower, verdict);
+    case Verdict::lower_within: return within(lower, verdict);
     case Verdict::higher:
-    case Verdict::higher_within:
-      return within(higher, verdict);
-    case Verdict::undecided:
-      break;
+    case Verdict::higher_within: return within(higher, verdict);
+    case Verdict::undecided: break;
   }
   return "undecided";
 }

@@ -148,7 +148,9 @@ double estimate_s(const Plan& plan, const std::vector<std::size_t>& todo, double
   for (std::size_t n = 0; n < std::min<std::size_t>(todo.size(), 64) && sampled_s < patience_s; ++n) {
     const auto& run = plan.runs[todo[static_cast<std::size_t>(at * static_cast<double>(todo.size()))]];
     auto configuration = configuration_of(plan, run);
-    sampled_s += decode_outcome(simulate(encode(RunTask{config::config_json(configuration), ""}), *configuration.scenario.algorithms)).wall_s;
+    sampled_s += decode_outcome(simulate(encode(RunTask{config::config_json(configuration), ""}),
+                                         *configuration.scenario.algorithms))
+                     .wall_s;
     sampled_work += run.cost;
     at += 0.6180339887498949;
     if (at >= 1.0) at -= 1.0;

@@ -126,8 +126,7 @@ static void add_outcome(Gathered& gathered, const std::string& path, const std::
   const Outcome outcome = readable(written);
   const auto [at, added] = gathered.outcomes.emplace(id, outcome);
   if (added) return;
-  if (!at->second.error.empty())
-    at->second = outcome;
+  if (!at->second.error.empty()) at->second = outcome;
   else if (outcome.error.empty() && !same_result(outcome.row, at->second.row))
     throw FileError(path, "holds another result of the run " + id +
                               " than was read before: builds or "
@@ -211,10 +210,8 @@ std::vector<std::string> sources_in(const std::string& folder) {
 Gathered gather(const std::vector<std::string>& sources, const std::string& study) {
   Gathered gathered;
   for (const auto& path : sources) {
-    if (path.ends_with(".csv"))
-      gather_table(gathered, path, study);
-    else
-      gather_journal(gathered, path, study);
+    if (path.ends_with(".csv")) gather_table(gathered, path, study);
+    else gather_journal(gathered, path, study);
   }
   return gathered;
 }

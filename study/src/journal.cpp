@@ -187,8 +187,7 @@ void Journal::write_line(const std::string& text) {
   end_ += line.size();
 }
 
-JournalLock::JournalLock(std::string path)
-    : path_(std::move(path)), descriptor_(open_journal(path_, O_RDONLY)) {}
+JournalLock::JournalLock(std::string path) : path_(std::move(path)), descriptor_(open_journal(path_, O_RDONLY)) {}
 
 JournalLock::JournalLock(JournalLock&& other) noexcept
     : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}

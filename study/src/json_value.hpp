@@ -14,12 +14,9 @@ template <class T, class Json> [[nodiscard]] std::optional<T> value_in(const Jso
   const auto at = object.find(key);
   if (at == object.end()) return std::nullopt;
   bool fits = false;
-  if constexpr (std::is_same_v<T, std::string>)
-    fits = at->is_string();
-  else if constexpr (std::is_same_v<T, double>)
-    fits = at->is_number();
-  else
-    fits = at->is_number_unsigned();
+  if constexpr (std::is_same_v<T, std::string>) fits = at->is_string();
+  else if constexpr (std::is_same_v<T, double>) fits = at->is_number();
+  else fits = at->is_number_unsigned();
   return fits ? std::optional<T>(at->template get<T>()) : std::nullopt;
 }
 

@@ -144,10 +144,8 @@ std::int64_t SignedRank::largest(std::int64_t weight) const noexcept {
   }
   while (low < high) {  // low has the weight, what is above high has not
     const std::int64_t middle = high - (high - low) / 2;
-    if (at_least(middle) >= weight)
-      low = middle;
-    else
-      high = middle - 1;
+    if (at_least(middle) >= weight) low = middle;
+    else high = middle - 1;
   }
   return low;
 }
@@ -181,10 +179,8 @@ Interval SignedRank::interval(double alpha) const {
   std::int64_t low = 0, high = total_ / 2 + 1;  // the smallest weight that is not rejected is among these
   while (low < high) {
     const std::int64_t middle = low + (high - low) / 2;
-    if (2.0 * tail(middle) >= alpha)
-      high = middle;
-    else
-      low = middle + 1;
+    if (2.0 * tail(middle) >= alpha) high = middle;
+    else low = middle + 1;
   }
   if (low == 0) return {-unbounded, unbounded};
   return {in_values(smallest(low)), in_values(largest(low))};

@@ -144,8 +144,7 @@ class Planner {
     // A run of the study is checked: with the scenario's own seed there may be no valid world.
     if (!part.seeds.empty()) (void)config::assign(root, "seed", {static_cast<std::int64_t>(part.seeds.front()), place});
     const auto change = [&](const Change& c) {
-      if (c.key.empty())
-        config::overlay(root, c.value);
+      if (c.key.empty()) config::overlay(root, c.value);
       else
         for (auto& problem : config::assign(root, c.key, c.value)) problems.push_back(std::move(problem));
     };
@@ -239,9 +238,7 @@ bool Plan::ok() const noexcept {
   return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
 }
 
-bool keeps_files(const config::Configuration& configuration) noexcept {
-  return configuration.output.any();
-}
+bool keeps_files(const config::Configuration& configuration) noexcept { return configuration.output.any(); }
 
 std::string plan_text(const Plan& plan) { return hexadecimal(plan.digest); }
 

@@ -89,10 +89,8 @@ class StudyReader {
         problems_.push_back({list[i]->place, table.path(axes), "has two axes named \"" + axis.name + "\""});
       const auto same =
           std::find_if(part.axes.begin(), part.axes.end(), [&](const Axis& a) { return a.name == axis.name; });
-      if (same != part.axes.end())
-        *same = std::move(axis);
-      else
-        part.axes.push_back(std::move(axis));
+      if (same != part.axes.end()) *same = std::move(axis);
+      else part.axes.push_back(std::move(axis));
     }
     return part;
   }
@@ -204,8 +202,7 @@ class StudyReader {
         return result;
       }
       result.label = value.string()->empty() ? "none" : std::filesystem::path(*value.string()).stem().string();
-      if (key == "scenario")
-        result.scenario = beside(value.place, path_, *value.string());
+      if (key == "scenario") result.scenario = beside(value.place, path_, *value.string());
       else if (!value.string()->empty()) {
         if (auto change =
                 read_overlay(beside(value.place, path_, *value.string()), value.place, table.path("values"), problems_))

@@ -55,8 +55,8 @@ std::string axis(const std::string& name, const std::string& key, const std::str
 const std::string plan_head = "scenario = \"w.toml\"\nseeds = [5, 3]\n";
 
 TEST_F(PlanTest, CountsTheLastAxisAndThenTheSeedFastest) {
-  const auto plan =
-      good(plan_head + axis("a", "mission.algorithm", "[\"outwards\", \"inwards\"]") + axis("l", "radio.loss", "[0, 0.5]"));
+  const auto plan = good(plan_head + axis("a", "mission.algorithm", "[\"outwards\", \"inwards\"]") +
+                         axis("l", "radio.loss", "[0, 0.5]"));
   ASSERT_EQ(plan.rows.size(), 8U);
   ASSERT_EQ(plan.combinations.size(), 4U);
   std::vector<std::string> order;
@@ -75,7 +75,9 @@ TEST_F(PlanTest, CountsTheLastAxisAndThenTheSeedFastest) {
 
 TEST_F(PlanTest, LaterChangesWin) {
   write("tuned.toml", "radio.loss = 0.1\nradio.range_m = 3.0\n");
-  const auto loss = [&](const std::string& text) { return good(plan_head + text).combinations.at(0).scenario.radio.loss; };
+  const auto loss = [&](const std::string& text) {
+    return good(plan_head + text).combinations.at(0).scenario.radio.loss;
+  };
   EXPECT_EQ(loss("with = \"tuned.toml\"\n"), 0.1);
   EXPECT_EQ(loss("with = \"tuned.toml\"\nset = { radio.loss = 0.2 }\n"), 0.2);
   EXPECT_EQ(loss("set.radio.loss = 0.2\n[[parts]]\nname = \"p\"\nset = { radio.loss = 0.3 }\n"), 0.3);
@@ -136,8 +138,9 @@ TEST_F(PlanTest, TheOrderOfAxesChangesNoId) {
 }
 
 TEST_F(PlanTest, PartsShareARunThatBothAskFor) {
-  const auto plan = good(plan_head + "[[parts]]\nname = \"p\"\n[[parts.axes]]\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n" +
-                         "[[parts]]\nname = \"q\"\n[[parts.axes]]\nkey = \"radio.loss\"\nvalues = [0.1, 0.2]\n");
+  const auto plan =
+      good(plan_head + "[[parts]]\nname = \"p\"\n[[parts.axes]]\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n" +
+           "[[parts]]\nname = \"q\"\n[[parts.axes]]\nkey = \"radio.loss\"\nvalues = [0.1, 0.2]\n");
   EXPECT_EQ(plan.rows.size(), 8U);
   EXPECT_EQ(plan.runs.size(), 6U);
   EXPECT_EQ(plan.rows[2].run, plan.rows[4].run);
@@ -252,8 +255,8 @@ RC_GTEST_FIXTURE_PROP(PlanTest, HoldsEveryCombinationOnce, ()) {
 }
 
 TEST_F(PlanTest, SaysHowFarItIs) {
-  const auto loaded = parse_study(path("s.toml"), "scenario = \"w.toml\"\nseeds = \"1-2500\"\n" +
-                                                      axis("loss", "radio.loss", "[0.0, 0.1]"));
+  const auto loaded = parse_study(
+      path("s.toml"), "scenario = \"w.toml\"\nseeds = \"1-2500\"\n" + axis("loss", "radio.loss", "[0.0, 0.1]"));
   ASSERT_TRUE(loaded.ok());
   std::vector<double> told;
   const auto plan = make_plan(loaded.study, algorithms(), [&](double rows) { told.push_back(rows); });

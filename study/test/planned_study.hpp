@@ -52,8 +52,7 @@ class PlannedStudy : public TemporaryFolder {
     ASSERT_TRUE(plan_.ok()) << config::to_string(plan_.problems.front());
     outcomes_.clear();
   }
-  template <class Fill>
-  void finish(const PlannedRun& run, Fill fill) {
+  template <class Fill> void finish(const PlannedRun& run, Fill fill) {
     record::RunRow row{record::identify(configuration_of(plan_, run).scenario, version, git_id()), {}, false};
     fill(row.run);
     outcomes_[run.id] = {record::run_csv_row(row), "", 1.0};

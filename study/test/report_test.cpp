@@ -35,17 +35,17 @@ class ReportTest : public PlannedStudy {
     prepare("by = [[\"r\"], [\"way\", \"r\"], [\"way\"], []]\n");
   }
   void prepare(const std::string& by) {
-    ASSERT_NO_FATAL_FAILURE(plan(
-        "seeds = \"1-7\"\nfigures = []\n"
-        "[[axes]]\nname = \"way\"\nkeys = [\"mission.algorithm\", \"radio.range_m\"]\n"
-        "values = [[\"outwards\", 2], [\"inwards\", 2], [\"inwards\", 3]]\n"
-        "labels = [\"outwards\", \"inwards\", \"tuned\"]\n"
-        "[[parts]]\nname = \"big\"\n"
-        "[[parts.axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1.5, 1.0]\n"
-        "[[parts.axes]]\nname = \"q\"\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n"
-        "[[parts]]\nname = \"small\"\n"
-        "[statistics]\ncompare = \"way\"\nresamples = 100\nmetrics = [\"normalized_time\", \"complete\"]\n" +
-            by));
+    ASSERT_NO_FATAL_FAILURE(
+        plan("seeds = \"1-7\"\nfigures = []\n"
+             "[[axes]]\nname = \"way\"\nkeys = [\"mission.algorithm\", \"radio.range_m\"]\n"
+             "values = [[\"outwards\", 2], [\"inwards\", 2], [\"inwards\", 3]]\n"
+             "labels = [\"outwards\", \"inwards\", \"tuned\"]\n"
+             "[[parts]]\nname = \"big\"\n"
+             "[[parts.axes]]\nname = \"r\"\nkey = \"targets.radius_m\"\nvalues = [1.5, 1.0]\n"
+             "[[parts.axes]]\nname = \"q\"\nkey = \"radio.loss\"\nvalues = [0, 0.1]\n"
+             "[[parts]]\nname = \"small\"\n"
+             "[statistics]\ncompare = \"way\"\nresamples = 100\nmetrics = [\"normalized_time\", \"complete\"]\n" +
+             by));
     for (std::size_t i = 0; i < plan_.runs.size(); ++i) set(plan_.runs[i], time_of(i), complete(i));
   }
   void set(const PlannedRun& run, double time, bool done) {
@@ -131,10 +131,8 @@ class ReportTest : public PlannedStudy {
   }
   static void expect_cells(const TableRow& row, const std::vector<std::pair<const char*, double>>& cells) {
     for (const auto& [name, value] : cells) {
-      if (std::isnan(value))
-        EXPECT_EQ(row.at(name), "") << name;
-      else
-        EXPECT_NEAR(cell_value(row.at(name)), value, 1e-5 * (1.0 + std::abs(value))) << name;
+      if (std::isnan(value)) EXPECT_EQ(row.at(name), "") << name;
+      else EXPECT_NEAR(cell_value(row.at(name)), value, 1e-5 * (1.0 + std::abs(value))) << name;
     }
   }
   static void expect_bounds(const TableRow& row, const char* low, const char* high, const Interval& interval) {
@@ -203,10 +201,8 @@ class ReportTest : public PlannedStudy {
       const auto pairs = pairs_of_row(row);
       EXPECT_EQ(row.at("way"), "*");
       ASSERT_EQ(row.at("pairs"), std::to_string(pairs.size()));
-      if (row.at("metric") == "complete")
-        check_shares(row, pairs);
-      else
-        check_ranks(row, pairs);
+      if (row.at("metric") == "complete") check_shares(row, pairs);
+      else check_ranks(row, pairs);
       if (pairs.empty()) {
         for (const char* cell : {"verdict", "misses", "first_median", "shift", "shift_low", "p", "p_holm", "holm_low"})
           EXPECT_EQ(row.at(cell), "") << cell;

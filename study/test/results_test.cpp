@@ -26,11 +26,12 @@ class ResultsTest : public PlannedStudy {
  protected:
   void SetUp() override {
     PlannedStudy::SetUp();
-    ASSERT_NO_FATAL_FAILURE(plan("seeds = [1, 2]\n"
-                                 "[[axes]]\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"inwards\"]\n"
-                                 "[[parts]]\nname = \"p\"\n[[parts.axes]]\nname = \"noise\"\nkey = \"radio.loss\"\n"
-                                 "values = [0, 0.1]\nlabels = [\"none, at all\", \"some\"]\n"
-                                 "[[parts]]\nname = \"q\"\n"));
+    ASSERT_NO_FATAL_FAILURE(
+        plan("seeds = [1, 2]\n"
+             "[[axes]]\nkey = \"mission.algorithm\"\nvalues = [\"outwards\", \"inwards\"]\n"
+             "[[parts]]\nname = \"p\"\n[[parts.axes]]\nname = \"noise\"\nkey = \"radio.loss\"\n"
+             "values = [0, 0.1]\nlabels = [\"none, at all\", \"some\"]\n"
+             "[[parts]]\nname = \"q\"\n"));
     ASSERT_EQ(plan_.rows.size(), 12U);
     ASSERT_EQ(plan_.runs.size(), 8U);  // those of q are the ones without noise of p
     for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
@@ -114,8 +115,9 @@ TEST_F(ResultsTest, ARowOfAnotherVersionSaysSo) {
 }
 
 TEST(Columns, AreMetricsOrNot) {
-  for (const char* name : {"complete", "normalized_time", "committed", "bytes_per_robot_s", "loss", "seed", "time_ratio",
-                           "recovered", "recovery_time_s", "last_death_s", "network_length_m", "elections"})
+  for (const char* name :
+       {"complete", "normalized_time", "committed", "bytes_per_robot_s", "loss", "seed", "time_ratio", "recovered",
+        "recovery_time_s", "last_death_s", "network_length_m", "elections"})
     EXPECT_TRUE(is_metric(name)) << name;
   for (const char* name : {"hash", "algorithm", "version", "nothing", ""}) EXPECT_FALSE(is_metric(name)) << name;
   for (const char* name : {"complete", "recovered", "survivors_suffice"}) EXPECT_TRUE(is_boolean(name)) << name;

@@ -20,7 +20,8 @@ namespace {
 config::Configuration small_world() {
   auto loaded = config::parse_configuration("small.toml",
                                             "seed = 3\n[mission]\ntime_limit_s = 5.0\n[swarm]\nrobots = 6\n"
-                                            "[targets]\ncount = 2\nradius_m = 0.9\n[output]\nrecord = false\n", algorithms());
+                                            "[targets]\ncount = 2\nradius_m = 0.9\n[output]\nrecord = false\n",
+                                            algorithms());
   EXPECT_TRUE(loaded.ok());
   return loaded.configuration;
 }
@@ -54,13 +55,15 @@ TEST_F(SimulateTest, MalformedTasksAreFailedRuns) {
   const auto whole = encode(RunTask{config::config_json(small_world()), ""});
   for (const std::string& task :
        {std::string(), std::string("{}"), std::string("\xff\xff"), whole.substr(0, whole.size() / 2),
-        encode(RunTask{"", ""}), encode(RunTask{"{\"radio\": {\"loss\": 2}}", ""}), encode(RunTask{"{\"no\": 1}", ""})}) {
+        encode(RunTask{"", ""}), encode(RunTask{"{\"radio\": {\"loss\": 2}}", ""}),
+        encode(RunTask{"{\"no\": 1}", ""})}) {
     const auto outcome = decode_outcome(simulate(task, algorithms()));
     EXPECT_NE(outcome.error, "");
     EXPECT_EQ(outcome.error.find('\n'), std::string::npos);
     EXPECT_EQ(outcome.row, "");
   }
-  EXPECT_NE(decode_outcome(simulate(encode(RunTask{"{\"radio\": {\"loss\": 2}}", ""}), algorithms())).error.find("radio.loss: "),
+  EXPECT_NE(decode_outcome(simulate(encode(RunTask{"{\"radio\": {\"loss\": 2}}", ""}), algorithms()))
+                .error.find("radio.loss: "),
             std::string::npos);
 }
 

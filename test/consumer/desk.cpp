@@ -12,17 +12,21 @@
 
 namespace {
 
-constexpr banyan::TreeAlgorithmOf<banyan::CorrectedSwarm<banyan::inwards_step>> slow("slow", "inwards with a weaker pull", []() noexcept {
-  banyan::HealingParams params = banyan::inwards_defaults();
-  params.target_gain = 0.1F;
-  return params;
-});
+constexpr banyan::TreeAlgorithmOf<banyan::CorrectedSwarm<banyan::inwards_step>> slow("slow",
+                                                                                     "inwards with a weaker pull",
+                                                                                     []() noexcept {
+                                                                                       banyan::HealingParams params =
+                                                                                           banyan::inwards_defaults();
+                                                                                       params.target_gain = 0.1F;
+                                                                                       return params;
+                                                                                     });
 
 }  // namespace
 
 int main() {
   const auto loaded = banyan::config::parse_configuration(
-      "desk.toml", "[swarm]\nrobots = 12\n[targets]\nlayout = \"ring\"\ncount = 2\nradius_m = 1.0\n", banyan::algorithms());
+      "desk.toml", "[swarm]\nrobots = 12\n[targets]\nlayout = \"ring\"\ncount = 2\nradius_m = 1.0\n",
+      banyan::algorithms());
   if (!loaded.ok()) return 2;
   banyan::world::World world(loaded.configuration.scenario);
   banyan::measure::Observer observer(world);
@@ -35,8 +39,11 @@ int main() {
   if (own.scenario().mission.algorithm != "slow" || own.hash() == world.hash()) return 3;
   // The same from a file, by a list of the program's own.
   const banyan::AlgorithmList mine{&slow};
-  const auto named = banyan::config::parse_configuration(
-      "slow.toml", "[mission]\nalgorithm = \"slow\"\n[swarm]\nrobots = 12\n[targets]\nlayout = \"ring\"\ncount = 2\nradius_m = 1.0\n", mine);
+  const auto named =
+      banyan::config::parse_configuration("slow.toml",
+                                          "[mission]\nalgorithm = \"slow\"\n[swarm]\nrobots = 12\n[targets]\nlayout = "
+                                          "\"ring\"\ncount = 2\nradius_m = 1.0\n",
+                                          mine);
   if (!named.ok()) return 4;
   banyan::world::World again(named.configuration.scenario);
   for (int tick = 0; tick < 20; ++tick) again.step();

@@ -44,8 +44,7 @@ class Bench {
     return m;
   }
   // All of them are in the table and have just been heard.
-  template <class Call>
-  void step(Call call) {
+  template <class Call> void step(Call call) {
     const Inputs<Heard> inputs(std::span<Heard>(heard_).first(count_), {}, params());
     HealingRobot robot(params(), self(), inputs);
     begin_tick(robot, inputs);
@@ -220,8 +219,7 @@ void token_read(Token& self) {
 }
 
 // Orders are followed at every step, and would send no worker.
-template <class Call>
-void token_step(Bench& bench, const Token& self, Call call) {
+template <class Call> void token_step(Bench& bench, const Token& self, Call call) {
   bench.step([&](HealingRobot& robot) {
     robot.self.is_worker = self.worker;
     call(robot);
@@ -290,7 +288,11 @@ void service_step(int me, Service* self, int id, const Service* heard, int beats
   s.role = self->serving ? Role::worker : Role::spare;
   if (self->known) {
     s.task_count = 1;
-    s.tasks[0] = {.serves = first, .holder = to_id(self->holder), .beat = self->beat, .age_ticks = static_cast<std::uint16_t>(silent ? 30000 : 0), .target = {1, 0}};
+    s.tasks[0] = {.serves = first,
+                  .holder = to_id(self->holder),
+                  .beat = self->beat,
+                  .age_ticks = static_cast<std::uint16_t>(silent ? 30000 : 0),
+                  .target = {1, 0}};
     if (self->serving) s.tasks[0].beat = static_cast<Serial>(s.tasks[0].beat + beats - 1);
   }
   if (id >= 0 && heard->known) {
@@ -388,8 +390,12 @@ void stage_step(int me, Stage* self, const Stage* const* heard, const int* from,
     else if (robot.is_root()) robot.self.done_ticks = 100, robot.self.phase_ticks = 5;
     advance(robot, robot.self.subtree_workers >= robot.self.flood_workers);
     update_label(robot);
-    select_parent(robot, {.may_join = self->worker || is_named_parent(robot), .workers_relay = true, .accepts = always,
-                          .prefers = [&](int a, int b) { return robot.table().message(a).label_cm < robot.table().message(b).label_cm; }});
+    select_parent(robot, {.may_join = self->worker || is_named_parent(robot),
+                          .workers_relay = true,
+                          .accepts = always,
+                          .prefers = [&](int a, int b) {
+                            return robot.table().message(a).label_cm < robot.table().message(b).label_cm;
+                          }});
     take_census(robot, 0);
   });
   stage_read(*self);
@@ -407,11 +413,14 @@ void stage_open_epoch(int me, Stage* self) {
 
 // ---- insertion.pml ----
 
-void insertion_step(int me, Insertion* self, const Insertion* const* heard, const int* from, int count, int stretched, int may_insert, int ticks) {
+void insertion_step(int me, Insertion* self, const Insertion* const* heard, const int* from, int count, int stretched,
+                    int may_insert, int ticks) {
   Bench bench(me);
   HealingState& s = Bench::self();
   const auto place = [](int id) { return static_cast<std::uint16_t>(100 * id); };  // robot 0 is root, 1 hangs on it
-  const auto seqno = [](int parent, int id) { return static_cast<Serial>(id == 0 ? 3 : id == 1 ? 1 : parent < 0 ? 0 : 2); };
+  const auto seqno = [](int parent, int id) {
+    return static_cast<Serial>(id == 0 ? 3 : id == 1 ? 1 : parent < 0 ? 0 : 2);
+  };
   s.epoch = 1;
   s.phase = Phase::grow_tree;
   s.root = {1, 0};
@@ -450,7 +459,9 @@ void insertion_step(int me, Insertion* self, const Insertion* const* heard, cons
       r.request_ticks = static_cast<std::uint16_t>(r.request_ticks + ticks - 1);
       if (r.ungranted_ticks > 0) r.ungranted_ticks = static_cast<std::uint16_t>(r.ungranted_ticks + ticks - 1);
     }
-    manage_spares(robot, {.needs_spare = [&] { return stretched != 0; }, .may_call = never, .count_waiting = none,
+    manage_spares(robot, {.needs_spare = [&] { return stretched != 0; },
+                          .may_call = never,
+                          .count_waiting = none,
                           .may_insert = [&](auto...) { return may_insert != 0; }});
   });
   self->role = static_cast<unsigned char>(s.role);
@@ -463,5 +474,6 @@ void insertion_step(int me, Insertion* self, const Insertion* const* heard, cons
   self->grant_ticks = static_cast<unsigned char>(s.grant == nobody ? 0 : std::min<int>(s.grant_ticks, 250));
   self->request_ticks = static_cast<unsigned char>(s.request == nobody ? 0 : std::min<int>(s.request_ticks, 250));
   self->ungranted_ticks = static_cast<unsigned char>(s.request == nobody ? 0 : std::min<int>(s.ungranted_ticks, 250));
-  self->inserted_ticks = static_cast<unsigned char>(s.inserted_child == nobody ? 0 : std::min<int>(s.inserted_ticks, 250));
+  self->inserted_ticks =
+      static_cast<unsigned char>(s.inserted_child == nobody ? 0 : std::min<int>(s.inserted_ticks, 250));
 }

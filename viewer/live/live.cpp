@@ -252,8 +252,7 @@ std::string Live::metrics_json() const { return record::metrics_json(run().head.
 std::string Live::take_events_json() {
   std::string text = "[";
   std::vector<record::RecordedEvent>& events = run().head.events;
-  for (const record::RecordedEvent& event : events)
-    text += (text.size() > 1 ? "," : "") + record::event_json(event);
+  for (const record::RecordedEvent& event : events) text += (text.size() > 1 ? "," : "") + record::event_json(event);
   events.clear();
   return text + "]";
 }
@@ -271,9 +270,7 @@ std::string Live::hash() const {
   return text.data();
 }
 
-std::string Live::result_json() const {
-  return record::result_json(run().simulation->result());
-}
+std::string Live::result_json() const { return record::result_json(run().simulation->result()); }
 
 std::uint64_t Live::seed() const { return run().configuration.scenario.seed; }
 std::string Live::name() const { return run().configuration.scenario.name; }

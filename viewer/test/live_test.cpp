@@ -68,7 +68,8 @@ TEST(Frame, ThePageNamesTheColumnsThatTheSimulationPacks) {
 
 TEST_F(LiveTest, ItsFrameIsTheWorld) {
   live.step(40);
-  world::World world(config::parse_configuration("rooms.toml", file("scenarios/rooms.toml"), algorithms()).configuration.scenario);
+  world::World world(
+      config::parse_configuration("rooms.toml", file("scenarios/rooms.toml"), algorithms()).configuration.scenario);
   for (int t = 0; t < 40; ++t) world.step();
   EXPECT_EQ(live.hash(), hexadecimal(world.hash()));
   record::Frame frame;

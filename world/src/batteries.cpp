@@ -21,27 +21,36 @@ Batteries::Batteries(const Scenario& scenario, std::size_t robots)
   }
 }
 
-// Share of a full battery, per second. It counts what the wheels are told to do, whether or not something is in the way.
+// Share of a full battery, per second. It counts what the wheels are told to do, whether or not something is in the
+// way.
 double Batteries::drawn_per_s(const Velocity& motion) const noexcept {
   const double forward = static_cast<double>(motion.forward_m_s);
-  const double speed = std::sqrt(forward * forward + static_cast<double>(motion.sideways_m_s) * static_cast<double>(motion.sideways_m_s));
+  const double speed = std::sqrt(forward * forward +
+                                 static_cast<double>(motion.sideways_m_s) * static_cast<double>(motion.sideways_m_s));
   const double turn = std::fabs(static_cast<double>(motion.turn_rad_s));
   if (model_.model == Battery::Model::power) {
     const double part = 0.5 * static_cast<double>(motion.turn_rad_s) * wheel_distance_m_;
-    const auto wheel = [&](double side) { return std::min(std::fabs(holonomic_ ? speed : forward + side * part), wheel_limit_m_s_); };
-    return (model_.idle_w + model_.computing_w + model_.radio_w + model_.drive_w_per_m_s * (wheel(-1.0) + wheel(1.0))) / model_.capacity_j;
+    const auto wheel = [&](double side) {
+      return std::min(std::fabs(holonomic_ ? speed : forward + side * part), wheel_limit_m_s_);
+    };
+    return (model_.idle_w + model_.computing_w + model_.radio_w + model_.drive_w_per_m_s * (wheel(-1.0) + wheel(1.0))) /
+           model_.capacity_j;
   }
   const double standing = model_.model == Battery::Model::motion ? 0.0 : model_.charge_per_s;
-  const double moving = model_.model == Battery::Model::time ? 0.0 : model_.charge_per_m * speed + model_.charge_per_rad * turn;
+  const double moving =
+      model_.model == Battery::Model::time ? 0.0 : model_.charge_per_m * speed + model_.charge_per_rad * turn;
   return standing + moving;
 }
 
-// A robot keeps its slot until it is full or leaves; a free slot goes to the emptiest robot in reach, then to the first.
+// A robot keeps its slot until it is full or leaves; a free slot goes to the emptiest robot in reach, then to the
+// first.
 void Batteries::give_slots(std::span<const Vec2> positions, std::span<const std::uint8_t> alive) {
   const double reach2 = model_.reach_m * model_.reach_m;
   for (std::size_t p = 0; p < model_.places.size(); ++p) {
     const auto place = static_cast<std::int32_t>(p);
-    const auto in_reach = [&](std::size_t i) { return alive[i] != 0 && levels_[i] < 1.0 && squared_norm(positions[i] - model_.places[p]) <= reach2; };
+    const auto in_reach = [&](std::size_t i) {
+      return alive[i] != 0 && levels_[i] < 1.0 && squared_norm(positions[i] - model_.places[p]) <= reach2;
+    };
     std::size_t free = model_.slots;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       if (places_[i] != place) continue;
@@ -58,7 +67,8 @@ void Batteries::give_slots(std::span<const Vec2> positions, std::span<const std:
   }
 }
 
-std::size_t Batteries::pass(double seconds, std::span<const Velocity> moving, std::span<const Vec2> positions, std::span<const std::uint8_t> alive) {
+std::size_t Batteries::pass(double seconds, std::span<const Velocity> moving, std::span<const Vec2> positions,
+                            std::span<const std::uint8_t> alive) {
   if (!on()) return 0;
   give_slots(positions, alive);
   std::size_t empty = 0;

@@ -18,9 +18,10 @@ class Batteries {
   Batteries(const Scenario& scenario, std::size_t robots);
 
   [[nodiscard]] bool on() const noexcept { return model_.on(); }
-  // `seconds` of this motion go by: first the slots are given out, then charge flows. Returns how many of the living are
-  // empty now.
-  std::size_t pass(double seconds, std::span<const Velocity> moving, std::span<const Vec2> positions, std::span<const std::uint8_t> alive);
+  // `seconds` of this motion go by: first the slots are given out, then charge flows. Returns how many of the living
+  // are empty now.
+  std::size_t pass(double seconds, std::span<const Velocity> moving, std::span<const Vec2> positions,
+                   std::span<const std::uint8_t> alive);
 
   // Shares of a full battery, per robot; empty if there are no batteries.
   [[nodiscard]] std::span<const double> levels() const noexcept { return levels_; }

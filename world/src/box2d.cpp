@@ -77,8 +77,13 @@ struct Momentum {
 class Box2d final : public Bodies {
  public:
   Box2d(const Scenario& scenario, std::size_t robots)
-      : robot_{scenario.robot}, obstacles_{scenario.obstacles}, seed_{scenario.seed}, momentum_(robots), body_(robots),
-        path_(robots), gone_(robots, 0) {
+      : robot_{scenario.robot},
+        obstacles_{scenario.obstacles},
+        seed_{scenario.seed},
+        momentum_(robots),
+        body_(robots),
+        path_(robots),
+        gone_(robots, 0) {
     substeps_ = std::max(1, static_cast<int>(std::ceil(scenario.tick_s / longest_substep_s - 1e-9)));
     h_ = scenario.tick_s / substeps_;
     mass_.mass = static_cast<float>(robot_.mass_kg);
@@ -191,12 +196,12 @@ class Box2d final : public Bodies {
   int substeps_ = 1;
   double h_ = 0.01;
   b2MassData mass_{};
-  float force_step_ = 0.0F;   // largest impulse of the motors in a sub-step
+  float force_step_ = 0.0F;  // largest impulse of the motors in a sub-step
   float torque_step_ = 0.0F;
   std::vector<Momentum> momentum_;
   std::vector<b2Body*> body_;  // of the tick under way
   std::vector<Path> path_;
-  std::vector<std::uint8_t> gone_;   // 1: no body any more; follows from which robots are alive, so not in the hash
+  std::vector<std::uint8_t> gone_;  // 1: no body any more; follows from which robots are alive, so not in the hash
 };
 
 }  // namespace

@@ -84,8 +84,9 @@ void World::Impl::wake(Executor& executor) {
         inbox.sensed[k].steps = clocked[i].told;
         if (clocked[i].told) {
           const Clocked& robot = clocked[i];
-          sense(i, {static_cast<float>(robot.shift.x), static_cast<float>(robot.shift.y), static_cast<float>(robot.turn)}, inbox.seen[k],
-                inbox.sensed[k].senses);
+          sense(i,
+                {static_cast<float>(robot.shift.x), static_cast<float>(robot.shift.y), static_cast<float>(robot.turn)},
+                inbox.seen[k], inbox.sensed[k].senses);
           collect(i, inbox.packets);
         }
         if (alive[i] == 0) clocked[i].waiting.clear();
@@ -117,7 +118,8 @@ void World::Impl::collect(std::size_t i, std::vector<Packet>& packets) {
   const std::size_t begin = packets.size();
   for (auto packet = robot.waiting.begin(); packet != arrived; ++packet) {
     const Vec2 now = rotate_back(turned, packet->position - robot.shift);
-    packets.push_back({.sender = packet->sender, .age_ticks = static_cast<std::uint32_t>(moment - packet->composed),
+    packets.push_back({.sender = packet->sender,
+                       .age_ticks = static_cast<std::uint32_t>(moment - packet->composed),
                        .position = {static_cast<float>(now.x), static_cast<float>(now.y)}});
   }
   const auto slots = static_cast<std::size_t>(scenario.radio.slots);

@@ -18,10 +18,8 @@ namespace without_to_chars {
 namespace {
 
 template <class Float> Float read(const char* text) noexcept {
-  if constexpr (sizeof(Float) == sizeof(double))
-    return std::strtod(text, nullptr);
-  else
-    return std::strtof(text, nullptr);
+  if constexpr (sizeof(Float) == sizeof(double)) return std::strtod(text, nullptr);
+  else return std::strtof(text, nullptr);
 }
 
 // 0.d1d2d3... x 10^point

@@ -22,7 +22,8 @@ class Disks final : public Bodies {
             std::span<Odometry> odometry) override {
     for (std::size_t i = 0; i < command.size(); ++i) {
       odometry[i] = {};
-      if (command[i].forward_m_s != 0.0F || command[i].turn_rad_s != 0.0F) roll(i, command[i], tick, poses, odometry[i]);
+      if (command[i].forward_m_s != 0.0F || command[i].turn_rad_s != 0.0F)
+        roll(i, command[i], tick, poses, odometry[i]);
     }
     separate(near, poses);
     if (!obstacles_.empty())
@@ -37,7 +38,8 @@ class Disks final : public Bodies {
   [[nodiscard]] std::uint64_t hash(std::uint64_t h) const noexcept override { return h; }  // poses are all there is
 
  private:
-  void roll(std::size_t i, const Velocity& command, std::uint64_t tick, Poses& poses, Odometry& odometry) const noexcept {
+  void roll(std::size_t i, const Velocity& command, std::uint64_t tick, Poses& poses,
+            Odometry& odometry) const noexcept {
     const Twist twist = wheel_twist(robot_, command, seed_, i, tick);
     const double arc_m = twist.forward_m_s * tick_s_;
     const double turn = twist.turn_rad_s * tick_s_;

@@ -26,9 +26,8 @@ bool may_last_until(const Scenario& scenario, double time_s) {
   const auto deadly = [](const Event& event) {
     return std::holds_alternative<Die>(event.action) || std::holds_alternative<Kill>(event.action);
   };
-  return scenario.mission.stop_when_complete &&
-         (time_s < time_limit_s(scenario) + scenario.mission.settle_s ||
-          std::any_of(scenario.events.begin(), scenario.events.end(), deadly));
+  return scenario.mission.stop_when_complete && (time_s < time_limit_s(scenario) + scenario.mission.settle_s ||
+                                                 std::any_of(scenario.events.begin(), scenario.events.end(), deadly));
 }
 
 // Checks that what an event refers to exists when it happens.
@@ -38,10 +37,10 @@ class CheckEventFits {
       : list_(list), scenario_(scenario), key_(element("events", index)), robots_(robots), before_(before) {
     const Event& event = scenario.events[index];
     if (const double limit_s = time_limit_s(scenario); event.time_s >= limit_s)
-      list.warn(key_ + ".time_s", (may_last_until(scenario, event.time_s)
-                                       ? "happens only if the run goes on after its limit of "
-                                       : "the run ends before: its limit is ") +
-                                      short_text(limit_s) + " s");
+      list.warn(key_ + ".time_s",
+                (may_last_until(scenario, event.time_s) ? "happens only if the run goes on after its limit of "
+                                                        : "the run ends before: its limit is ") +
+                    short_text(limit_s) + " s");
     std::visit(*this, event.action);
   }
   void operator()(const Die& die) const { robot(die.robot); }
@@ -144,7 +143,9 @@ std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
   const std::size_t last = scenario.events.size() - 1;
   if (scenario.events[last].when != Event::When::time)
     list.fail(element("events", last) + ".when", "what somebody does happens now");
-  CheckEventFits(list, scenario, last, robots, {now->targets, 0, 0, {}, now->obstacles});  // NOLINT(bugprone-unused-raii): its constructor is the check
+  CheckEventFits(
+      list, scenario, last, robots,
+      {now->targets, 0, 0, {}, now->obstacles});  // NOLINT(bugprone-unused-raii): its constructor is the check
   return list.take();
 }
 

@@ -36,8 +36,7 @@ class EventQueue {
   // Takes out the next event that is due at `now_s`; none if there is none yet.
   [[nodiscard]] std::optional<Entry> take(double now_s);
   // What take(now_s) will return, in that order.
-  template <class Visit>
-  void each_due(double now_s, const Visit& visit) const {
+  template <class Visit> void each_due(double now_s, const Visit& visit) const {
     for (auto entry = due_.rbegin(); entry != due_.rend() && entry->due_s <= now_s; ++entry) visit(entry->event);
   }
   // Puts back one that was taken and acts again at its due_s. No allocation: there is room for all.

@@ -101,23 +101,22 @@ template <class... Functions> Overloaded(Functions...) -> Overloaded<Functions..
 }  // namespace
 
 void World::Impl::apply(const EventQueue::Entry& entry) {
-  std::visit(Overloaded{
-                 [&](const Die& e) { die(e.robot); },
-                 [&](const Freeze& e) {
-                   frozen_until[e.robot] = e.duration_s > 0.0 ? tick_after(e.duration_s) : forever;
-                 },
-                 [&](const SetLoss& e) { loss = e.loss; },
-                 [&](const MoveTarget& e) { move_target(e.target, e.position, e.speed_m_s); },
-                 [&](const AddTarget& e) { assign_target(e.position); },
-                 [&](const Kill& e) { kill(e, entry); },
-                 [&](const Blackout& e) { silent_until = std::max(silent_until, tick_after(e.duration_s)); },
-                 [&](const RemoveTarget& e) { give_up(e.target); },
-                 [&](const SetLineOfSight& e) { set_line_of_sight(e.line_of_sight); },
-                 [&](const MoveObstacle&) { change_obstacles(entry.event.action); },
-                 [&](const AddObstacle&) { change_obstacles(entry.event.action); },
-                 [&](const RemoveObstacle&) { change_obstacles(entry.event.action); },
-             },
-             entry.event.action);
+  std::visit(
+      Overloaded{
+          [&](const Die& e) { die(e.robot); },
+          [&](const Freeze& e) { frozen_until[e.robot] = e.duration_s > 0.0 ? tick_after(e.duration_s) : forever; },
+          [&](const SetLoss& e) { loss = e.loss; },
+          [&](const MoveTarget& e) { move_target(e.target, e.position, e.speed_m_s); },
+          [&](const AddTarget& e) { assign_target(e.position); },
+          [&](const Kill& e) { kill(e, entry); },
+          [&](const Blackout& e) { silent_until = std::max(silent_until, tick_after(e.duration_s)); },
+          [&](const RemoveTarget& e) { give_up(e.target); },
+          [&](const SetLineOfSight& e) { set_line_of_sight(e.line_of_sight); },
+          [&](const MoveObstacle&) { change_obstacles(entry.event.action); },
+          [&](const AddObstacle&) { change_obstacles(entry.event.action); },
+          [&](const RemoveObstacle&) { change_obstacles(entry.event.action); },
+      },
+      entry.event.action);
 }
 
 std::uint64_t World::Impl::tick_after(double duration_s) const noexcept {
@@ -157,14 +156,10 @@ void World::Impl::kill(const Kill& event, EventQueue::Entry entry) {
 bool World::Impl::among(Kill::Of of, std::size_t i) const noexcept {
   if (alive[i] == 0) return false;
   switch (of) {
-    case Kill::Of::robots:
-      return true;
-    case Kill::Of::connectors:
-      return reports[i].role == Role::connector;
-    case Kill::Of::root:
-      return reports[i].role == Role::root;
-    default:
-      return reports[i].role == Role::worker;
+    case Kill::Of::robots: return true;
+    case Kill::Of::connectors: return reports[i].role == Role::connector;
+    case Kill::Of::root: return reports[i].role == Role::root;
+    default: return reports[i].role == Role::worker;
   }
 }
 
@@ -199,7 +194,9 @@ void World::Impl::move_target(std::size_t target, Vec2 position, double speed_m_
 // as long as any robot may serve it.
 void World::Impl::assign_target(Vec2 position) {
   std::size_t best = alive.size();
-  const auto key = [&](std::size_t i) { return std::pair(reports[i].role != Role::spare, squared_norm(poses.position[i] - position)); };
+  const auto key = [&](std::size_t i) {
+    return std::pair(reports[i].role != Role::spare, squared_norm(poses.position[i] - position));
+  };
   for (std::size_t i = 0; i < alive.size(); ++i) {
     if (alive[i] == 0 || is_worker(i) || reports[i].role == Role::root || target_of[i] >= 0) continue;
     if (best == alive.size() || key(i) < key(best)) best = i;
@@ -256,7 +253,8 @@ void World::Impl::add_events(Digest& digest) const noexcept {
     if (!obstacles_changed && center == center_of(scenario.obstacles[k])) continue;
     digest.add(k);
     digest.add(center);
-    if (const Disc* disc = std::get_if<Disc>(&obstacles[k]); obstacles_changed && disc != nullptr) digest.add(disc->radius_m);
+    if (const Disc* disc = std::get_if<Disc>(&obstacles[k]); obstacles_changed && disc != nullptr)
+      digest.add(disc->radius_m);
   }
   const bool half_way_counts = event_queue.waits_for(Event::When::half_way);
   for (std::size_t t = 0; t < targets.size(); ++t) {

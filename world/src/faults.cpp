@@ -118,11 +118,14 @@ void check_values(FaultList& list, const Scenario& scenario) {
   if (scenario.algorithms == nullptr)
     list.fail("mission.algorithm", "the program has given no list of algorithms to choose from");
   else
-    for (const auto& [name, value] : scenario.mission.parameters) check_parameter(list, *scenario.algorithms, name, value);
+    for (const auto& [name, value] : scenario.mission.parameters)
+      check_parameter(list, *scenario.algorithms, name, value);
   check_layout(list, scenario.swarm);
   if (const auto* listed = std::get_if<std::vector<Vec2>>(&scenario.targets))
     list.check_length("targets.positions_m", listed->size(), most("targets.count"));
-  if (scenario.battery.places.size() > 100) list.fail("battery.places_m", "has " + std::to_string(scenario.battery.places.size()) + " places; at most 100 are possible");
+  if (scenario.battery.places.size() > 100)
+    list.fail("battery.places_m",
+              "has " + std::to_string(scenario.battery.places.size()) + " places; at most 100 are possible");
   if (scenario.battery.start_spread >= scenario.battery.start_charge)
     list.fail("battery.start_spread", "must be below battery.start_charge, else robots would start empty");
   if (scenario.robot.body == BodyModel::box2d && !has_box2d())
@@ -143,7 +146,8 @@ void check_values(FaultList& list, const Scenario& scenario) {
 // ---- Round two: how they fit ----
 
 std::string target_key(const Scenario& scenario, std::size_t i) {
-  if (const std::size_t targets = mission_targets(scenario).size(); i >= targets) return element("battery.places_m", i - targets);
+  if (const std::size_t targets = mission_targets(scenario).size(); i >= targets)
+    return element("battery.places_m", i - targets);
   return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions_m", i) : "targets";
 }
 
@@ -163,8 +167,8 @@ void check_platform(FaultList& list, const Scenario& scenario) {
   if (const std::string text = algorithm_of(scenario).fault(setup_of(scenario)); !text.empty())
     list.fail("mission.parameters", text);
   if (scenario.mission.link_redundancy > 1 && !algorithm_of(scenario).knows_redundancy())
-    list.fail("mission.link_redundancy", "is " + std::to_string(scenario.mission.link_redundancy) + ", but " + scenario.mission.algorithm +
-                                             " keeps one path; convoy keeps more");
+    list.fail("mission.link_redundancy", "is " + std::to_string(scenario.mission.link_redundancy) + ", but " +
+                                             scenario.mission.algorithm + " keeps one path; convoy keeps more");
 }
 
 // Visits every pair nearer than `reach` once, by a sweep along x.
@@ -215,9 +219,8 @@ void check_listed_cluster(FaultList& list, const Scenario& scenario) {
   Groups groups(p.size());
   each_pair(p, std::max(range, touch), [&](std::size_t i, std::size_t j, double d) {
     if (d < touch)
-      list.fail(element("swarm.start.positions_m", j), "overlaps position " + std::to_string(i) + ": " +
-                                                           short_text(d) + " m apart, two radii are " +
-                                                           short_text(touch) + " m");
+      list.fail(element("swarm.start.positions_m", j), "overlaps position " + std::to_string(i) + ": " + short_text(d) +
+                                                           " m apart, two radii are " + short_text(touch) + " m");
     if (d < range) groups.join(i, j);
   });
   if (groups.count() > 1)
@@ -280,8 +283,8 @@ void check_placed(FaultList& list, const Scenario& scenario) {
     if (std::none_of(scenario.obstacles.begin(), scenario.obstacles.end(), cuts)) groups.join(i, j);
   });
   if (groups.count() > 1)
-    list.fail("swarm.start", "the start is not connected: obstacles cut it into " + std::to_string(groups.count()) +
-                                 " groups");
+    list.fail("swarm.start",
+              "the start is not connected: obstacles cut it into " + std::to_string(groups.count()) + " groups");
 }
 
 // A start given by a layout.
@@ -307,10 +310,8 @@ void check_swarm_fits(FaultList& list, const Scenario& scenario) {
   if (scenario.swarm.root && *scenario.swarm.root >= robots)
     list.fail("swarm.root", "there is no robot " + std::to_string(*scenario.swarm.root) + "; the last one is " +
                                 std::to_string(robots - 1));
-  if (scenario.swarm.start.layout == Layout::list)
-    check_listed_cluster(list, scenario);
-  else
-    check_laid_out(list, scenario);
+  if (scenario.swarm.start.layout == Layout::list) check_listed_cluster(list, scenario);
+  else check_laid_out(list, scenario);
 }
 
 void check_targets_fit(FaultList& list, const Scenario& scenario) {

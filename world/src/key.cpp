@@ -33,14 +33,10 @@ std::string range_text(const Range& range, std::string_view unit) {
   std::string text;
   if (low && range.above)
     text = "above " + number_text(range.minimum) + (high ? ", at most " + number_text(range.maximum) : "");
-  else if (low && high)
-    text = number_text(range.minimum) + " to " + number_text(range.maximum);
-  else if (low)
-    text = "at least " + number_text(range.minimum);
-  else if (high)
-    text = "at most " + number_text(range.maximum);
-  else
-    return "any finite number";
+  else if (low && high) text = number_text(range.minimum) + " to " + number_text(range.maximum);
+  else if (low) text = "at least " + number_text(range.minimum);
+  else if (high) text = "at most " + number_text(range.maximum);
+  else return "any finite number";
   return unit.empty() ? text : text + " " + std::string(unit);
 }
 

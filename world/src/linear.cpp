@@ -42,8 +42,7 @@ Vec2 noisy(const RobotModel& robot, const Velocity& command, std::uint64_t seed,
   for (std::uint64_t axis = 0; axis < 2; ++axis) {
     if (robot.wheel_noise > 0.0)
       v[axis] *= 1.0 + robot.wheel_noise * to_normal(bits(seed, Purpose::wheel_noise, i, axis, tick));
-    if (robot.wheel_bias > 0.0)
-      v[axis] *= 1.0 + robot.wheel_bias * to_normal(bits(seed, Purpose::wheel_bias, i, axis));
+    if (robot.wheel_bias > 0.0) v[axis] *= 1.0 + robot.wheel_bias * to_normal(bits(seed, Purpose::wheel_bias, i, axis));
   }
   return {v[0], v[1]};
 }
@@ -56,9 +55,13 @@ Vec2 shortened(Vec2 v, double limit) noexcept {
 class Linear final : public Bodies {
  public:
   Linear(const Scenario& scenario, std::size_t robots)
-      : robot_{scenario.robot}, obstacles_{scenario.obstacles}, seed_{scenario.seed}, h_{scenario.tick_s},
+      : robot_{scenario.robot},
+        obstacles_{scenario.obstacles},
+        seed_{scenario.seed},
+        h_{scenario.tick_s},
         a_{{{1, 0, h_, 0}, {0, 1, 0, h_}, {0, 0, 1, 0}, {0, 0, 0, 1}}},
-        b_{{{0, 0, h_ * h_ / 2, 0}, {0, 0, 0, h_ * h_ / 2}, {0, 0, h_, 0}, {0, 0, 0, h_}}}, velocity_(robots) {}
+        b_{{{0, 0, h_ * h_ / 2, 0}, {0, 0, 0, h_ * h_ / 2}, {0, 0, h_, 0}, {0, 0, 0, h_}}},
+        velocity_(robots) {}
 
   [[nodiscard]] std::unique_ptr<Bodies> clone() const override { return std::make_unique<Linear>(*this); }
 

@@ -17,7 +17,9 @@ class Losses {
   explicit Losses(const Scenario& scenario);
 
   // Nothing is lost by `loss` as it is now.
-  [[nodiscard]] bool none(double loss) const noexcept { return radio_.model == RadioModel::Model::disc && !(loss > 0.0); }
+  [[nodiscard]] bool none(double loss) const noexcept {
+    return radio_.model == RadioModel::Model::disc && !(loss > 0.0);
+  }
   // `way`: from receiver to sender; `loss`: radio.loss as it is now.
   [[nodiscard]] bool lost(std::uint64_t receiver, std::uint64_t sender, std::uint64_t moment, Vec2 way,
                           double loss) const noexcept {

@@ -3,13 +3,13 @@
 // sight. A robot that moves tests all its pairs against their witnesses, four at a time in single precision; the exact
 // test decides where that leaves a doubt. One that stands still tests those whose other or witness has moved.
 //
-// For all other bodies a verdict comes with a margin: how far robots may move before one of them could change it. Clocks
-// add up the largest distance that any robot around the first has moved in each tick, and that of the line of sight; when
-// the clock has passed the margin, the pair is decided anew. Margins are rounded down and clocks up, so that a verdict is
-// always the one that the exact test would give at this moment. A point of the line moves no farther than the end that
-// moves more: so that is at most the largest once more, and at most the distances of both ends together. Which of the
-// two clocks will be the slower one is guessed from the last tick: the first where most robots move, the second where
-// most stand.
+// For all other bodies a verdict comes with a margin: how far robots may move before one of them could change it.
+// Clocks add up the largest distance that any robot around the first has moved in each tick, and that of the line of
+// sight; when the clock has passed the margin, the pair is decided anew. Margins are rounded down and clocks up, so
+// that a verdict is always the one that the exact test would give at this moment. A point of the line moves no farther
+// than the end that moves more: so that is at most the largest once more, and at most the distances of both ends
+// together. Which of the two clocks will be the slower one is guessed from the last tick: the first where most robots
+// move, the second where most stand.
 #include "banyan/world/radio.hpp"
 
 #include <algorithm>
@@ -26,10 +26,10 @@
 namespace banyan::world {
 namespace {
 
-constexpr std::size_t few_cells = 15;   // so few, and scanning all robots beats the grid
-constexpr float far_away = 1e18F;        // its square is finite
-constexpr float none_near = 1e30F;      // less than that
-constexpr double skin_share = 0.1;      // of the range
+constexpr std::size_t few_cells = 15;  // so few, and scanning all robots beats the grid
+constexpr float far_away = 1e18F;      // its square is finite
+constexpr float none_near = 1e30F;     // less than that
+constexpr double skin_share = 0.1;     // of the range
 
 // Four at a time. Compilers vectorise loops themselves, but not all of the following ones.
 using Four = float __attribute__((vector_size(16)));
@@ -42,7 +42,9 @@ Four load(const float* from) noexcept {
   return v;
 }
 void store(Four v, float* to) noexcept { std::memcpy(to, &v, sizeof v); }
-Four magnitude(Four v) noexcept { return std::bit_cast<Four>(std::bit_cast<FourWhole>(v) & four(std::numeric_limits<std::int32_t>::max())); }
+Four magnitude(Four v) noexcept {
+  return std::bit_cast<Four>(std::bit_cast<FourWhole>(v) & four(std::numeric_limits<std::int32_t>::max()));
+}
 Four smaller(Four a, Four b) noexcept { return a < b ? a : b; }
 // Not by a < b: a compiler that finds that comparison twice shares it, and takes no instruction for either any more.
 Four larger(Four a, Four b) noexcept { return a > b ? a : b; }
@@ -185,9 +187,11 @@ void Radio::note_places(std::span<const Vec2> positions, Vec2 low, Vec2 high) {
     places_[i] = {static_cast<float>(p.x), static_cast<float>(p.y)};
   }
   // The difference of two places: each is rounded by half of the last of 24 bits, and so is the difference.
-  rounding_m_ = static_cast<float>(1e-6 + 2.0 * std::numeric_limits<float>::epsilon() * std::max(high.x - low.x, high.y - low.y));
+  rounding_m_ =
+      static_cast<float>(1e-6 + 2.0 * std::numeric_limits<float>::epsilon() * std::max(high.x - low.x, high.y - low.y));
   limits_.area_m2 = 8.0F * static_cast<float>(reach_m_) * rounding_m_;
-  limits_.edge_m4 = 4.0F * static_cast<float>(1.0 + radius_m_) * limits_.area_m2 * (static_cast<float>(radius_m_ * reach_m_) + limits_.area_m2);
+  limits_.edge_m4 = 4.0F * static_cast<float>(1.0 + radius_m_) * limits_.area_m2 *
+                    (static_cast<float>(radius_m_ * reach_m_) + limits_.area_m2);
 }
 
 // Cells are as wide as a row reaches, so that every robot within reach is in the same cell or one beside it.
@@ -240,7 +244,8 @@ void Radio::sort_into_cells() {
   cell_start_.assign(columns_ * lines_ + 1, 0);
   for (const std::uint32_t cell : cell_of_) ++cell_start_[cell + 1];
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
-  for (std::size_t i = cell_of_.size(); i-- > 0;) sorted_[--cell_start_[cell_of_[i] + 1]] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = cell_of_.size(); i-- > 0;)
+    sorted_[--cell_start_[cell_of_[i] + 1]] = static_cast<std::uint32_t>(i);
   // The loop has moved every start one cell up: cell c now begins at cell_start_[c + 1].
 }
 
@@ -277,8 +282,9 @@ void Radio::gather(std::size_t i, std::span<const Vec2> positions, Scratch& s) c
   }
   const auto begin = s.index.begin();
   if (dead_vanish_)
-    size = static_cast<std::size_t>(
-        std::remove_if(begin, begin + static_cast<std::ptrdiff_t>(size), [&](std::uint32_t j) { return alive_[j] == 0; }) - begin);
+    size = static_cast<std::size_t>(std::remove_if(begin, begin + static_cast<std::ptrdiff_t>(size),
+                                                   [&](std::uint32_t j) { return alive_[j] == 0; }) -
+                                    begin);
   // The grid hands out neighbours cell by cell.
   if (use_grid_) std::sort(begin, begin + static_cast<std::ptrdiff_t>(size));
   s.size = size;
@@ -297,7 +303,8 @@ bool Radio::write_row(std::size_t i, std::span<const Vec2> positions, Scratch& s
   s.old.clear();
   if (valid) s.old.insert(s.old.end(), pairs_.of(i).begin(), pairs_.of(i).end());
   s.rebuild |= !valid;
-  row.known = lower_.resize(i, static_cast<std::size_t>(first - begin)) && pairs_.resize(i, static_cast<std::size_t>(end - first));
+  row.known = lower_.resize(i, static_cast<std::size_t>(first - begin)) &&
+              pairs_.resize(i, static_cast<std::size_t>(end - first));
   if (!row.known) {
     s.rebuild = s.no_room = true;
     return false;
@@ -331,10 +338,12 @@ void Radio::make_room(std::span<const Vec2> positions) {
   const auto count = [&](std::size_t i) {
     gather(i, positions, s);
     const auto begin = s.index.begin();
-    const auto first = std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(s.size), static_cast<std::uint32_t>(i));
+    const auto first =
+        std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(s.size), static_cast<std::uint32_t>(i));
     return static_cast<std::size_t>(first - begin);
   };
-  lower_.lay_out([&](std::size_t i) { return !rows_[i].known ? std::max(count(i), lower_.of(i).size()) : lower_.of(i).size(); });
+  lower_.lay_out(
+      [&](std::size_t i) { return !rows_[i].known ? std::max(count(i), lower_.of(i).size()) : lower_.of(i).size(); });
   pairs_.lay_out([&](std::size_t i) {
     if (rows_[i].known) return pairs_.of(i).size();
     const std::size_t below = count(i);
@@ -350,7 +359,8 @@ void Radio::make_room(std::span<const Vec2> positions) {
   const auto each = [&](auto of) {
     const Pair* const pair = site.pairs.data() + begin;
     using One = decltype(of(*pair));
-    return std::conditional_t<std::is_same_v<One, float>, Four, FourWhole>{of(pair[0]), of(pair[1]), of(pair[2]), of(pair[3])};
+    return std::conditional_t<std::is_same_v<One, float>, Four, FourWhole>{of(pair[0]), of(pair[1]), of(pair[2]),
+                                                                           of(pair[3])};
   };
   const auto whole = [](std::uint32_t v) { return static_cast<std::int32_t>(v); };
   const FourWhole words = each([](const Pair& pair) { return word_of(pair); });
@@ -376,9 +386,11 @@ void Radio::make_room(std::span<const Vec2> positions) {
   const FourWhole is_blocked = has({.blocked = 1});
   const FourWhole blocks = (beside < none) & (along > none) & (along < d2);
   const FourWhole by_body = is_blocked & (witness < four(whole(nobody_)));
-  const FourWhole changed = ((beyond_range < none) ^ (is_blocked | has({.linked = 1}))) | ((beyond_near < none) ^ has({.near = 1})) | (blocks ^ by_body);
-  const FourWhole unclear = (magnitude(beyond_range) < area) | (magnitude(beyond_near) < area) |
-                            ((beside < edge) & ((magnitude(beside) < edge) | (magnitude(along) < area) | (magnitude(along - d2) < area)));
+  const FourWhole changed = ((beyond_range < none) ^ (is_blocked | has({.linked = 1}))) |
+                            ((beyond_near < none) ^ has({.near = 1})) | (blocks ^ by_body);
+  const FourWhole unclear =
+      (magnitude(beyond_range) < area) | (magnitude(beyond_near) < area) |
+      ((beside < edge) & ((magnitude(beside) < edge) | (magnitude(along) < area) | (magnitude(along - d2) < area)));
   return changed | unclear | (left <= four(0));
 }
 
@@ -424,7 +436,8 @@ void Radio::note(std::size_t i, const Pair& before, const Pair& now, Scratch& s)
   const int link = static_cast<int>(now.linked) - static_cast<int>(before.linked);
   const int near = static_cast<int>(now.near) - static_cast<int>(before.near);
   if (link == 0 && near == 0) return;
-  if (s.changes.size() < s.changes.capacity()) s.changes.push_back({{static_cast<std::uint32_t>(i), now.other}, link, near});
+  if (s.changes.size() < s.changes.capacity())
+    s.changes.push_back({{static_cast<std::uint32_t>(i), now.other}, link, near});
   else s.rebuild = true;  // so many that all rows are rebuilt
 }
 
@@ -435,7 +448,8 @@ bool Radio::still_holds(const Site& site, const Pair& pair) const noexcept {
   const double d2 = squared_norm(d);
   const bool in_range = d2 < range_m_ * range_m_ && alive_[site.i] != 0 && alive_[pair.other] != 0;
   if (in_range != ((pair.linked | pair.blocked) != 0) || (d2 < near_m_ * near_m_) != (pair.near != 0)) return false;
-  return pair.witness == nobody_ || disc_blocks(site.positions[pair.witness] - site.here, d, d2, radius_m_) == (pair.blocked != 0);
+  return pair.witness == nobody_ ||
+         disc_blocks(site.positions[pair.witness] - site.here, d, d2, radius_m_) == (pair.blocked != 0);
 }
 
 // Decides a pair, and for how long.
@@ -458,8 +472,8 @@ void Radio::decide(Site& site, Pair& pair) const {
   note(site.i, before, pair, site.s);
 }
 
-// Whether there is a line of sight, of robots so far apart. Returns how far bodies other than the witness, and obstacles,
-// are from changing that.
+// Whether there is a line of sight, of robots so far apart. Returns how far bodies other than the witness, and
+// obstacles, are from changing that.
 double Radio::judge_sight(Site& site, Pair& pair, Vec2 d, double d2) const {
   const Vec2 there = site.positions[pair.other];
   const auto hides = [&](const Obstacle* o) { return blocks(*o, site.here, there); };
@@ -499,7 +513,8 @@ void Radio::look_around(Site& site) const {
   const auto put = [&](std::size_t count, auto other) {
     std::size_t k = 0;
     for (; k + lanes <= count; k += lanes, x += lanes, y += lanes) {
-      const std::array<Place, lanes> at{places_[other(k)], places_[other(k + 1)], places_[other(k + 2)], places_[other(k + 3)]};
+      const std::array<Place, lanes> at{places_[other(k)], places_[other(k + 1)], places_[other(k + 2)],
+                                        places_[other(k + 3)]};
       store(Four{at[0].x, at[1].x, at[2].x, at[3].x} - four(here.x), x);
       store(Four{at[0].y, at[1].y, at[2].y, at[3].y} - four(here.y), y);
     }
@@ -527,25 +542,27 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double lengt
   const auto target = lower + static_cast<std::size_t>(&pair - site.pairs.data());
   const auto body = [&](std::size_t at) { return at < lower ? site.lower[at] : site.pairs[at - lower].other; };
   const auto length = static_cast<float>(length_m);
-  const bool has_direction = length > 1e-3F;                  // if not, all bodies are tested
+  const bool has_direction = length > 1e-3F;  // if not, all bodies are tested
   const Four ux = four(has_direction ? static_cast<float>(d.x) / length : 0.0F);
   const Four uy = four(has_direction ? static_cast<float>(d.y) / length : 0.0F);
   const Four end = four(length);
-  const float rounding = 1e-4F * (length + 1.0F) + 4.0F * rounding_m_;   // far above it
+  const float rounding = 1e-4F * (length + 1.0F) + 4.0F * rounding_m_;  // far above it
   const float beside = static_cast<float>(radius_m_) + rounding;
   const float beside2 = has_direction ? beside * beside : none_near;
-  const auto distance2 = [&](std::size_t at) {                // of four bodies, from the segment
+  const auto distance2 = [&](std::size_t at) {  // of four bodies, from the segment
     const Four x = load(s.x.data() + at);
     const Four y = load(s.y.data() + at);
     const Four across = x * uy - y * ux;
     const Four along = x * ux + y * uy;
-    const Four out = along - smaller(larger(along, four(0.0F)), end);   // beyond the ends
+    const Four out = along - smaller(larger(along, four(0.0F)), end);  // beyond the ends
     return across * across + out * out;
   };
   const auto place_bits = static_cast<std::int32_t>(std::bit_ceil(size + chunk) - 1);
   const FourWhole kept = four(~place_bits);
-  const auto with_place = [&](Four gap2, FourWhole place) { return std::bit_cast<Four>((std::bit_cast<FourWhole>(gap2) & kept) | place); };
-  const float aside = std::exchange(s.x[target], far_away);   // the other itself is not in the way
+  const auto with_place = [&](Four gap2, FourWhole place) {
+    return std::bit_cast<Four>((std::bit_cast<FourWhole>(gap2) & kept) | place);
+  };
+  const float aside = std::exchange(s.x[target], far_away);  // the other itself is not in the way
   TwoLeast even, odd;
   FourWhole place{0, 1, 2, 3};
   for (std::size_t begin = 0; begin < size; begin += chunk) {
@@ -556,12 +573,16 @@ Radio::View Radio::look(const Site& site, const Pair& pair, Vec2 d, double lengt
   s.x[target] = aside;
   even.offer(odd);
   const TwoLeast two = even.joined();
-  const auto rounded_down = [&](float gap2) { return std::bit_cast<float>(std::bit_cast<std::int32_t>(gap2) & ~place_bits); };
+  const auto rounded_down = [&](float gap2) {
+    return std::bit_cast<float>(std::bit_cast<std::int32_t>(gap2) & ~place_bits);
+  };
   const float least = rounded_down(two.least[0]);
   const bool none = two.least[0] >= none_near;
   const auto nearest = none ? size : static_cast<std::size_t>(std::bit_cast<std::int32_t>(two.least[0]) & place_bits);
   View view{false, none ? nobody_ : body(nearest), 0.0F};
-  const auto blocks = [&](std::size_t at) { return at != target && disc_blocks(site.positions[body(at)] - site.here, d, squared_norm(d), radius_m_); };
+  const auto blocks = [&](std::size_t at) {
+    return at != target && disc_blocks(site.positions[body(at)] - site.here, d, squared_norm(d), radius_m_);
+  };
   if (least < beside2) {
     // The body nearest to the line is deepest in the way, and will stay there longest.
     view.blocked = !none && blocks(nearest);
@@ -598,7 +619,7 @@ void Radio::look_over(std::size_t i, std::span<const Vec2> positions, Scratch& s
 bool Radio::looks_over(const Site& site, const Pair& pair) const {
   const bool here = raised_[site.i] != 0;
   const bool there = raised_[pair.other] != 0;
-  if (pair.witness == nobody_ || !(here || there)) return false;   // without a witness an obstacle is in the way
+  if (pair.witness == nobody_ || !(here || there)) return false;  // without a witness an obstacle is in the way
   const Vec2 d = site.positions[pair.other] - site.here;
   const double d2 = squared_norm(d);
   const auto stops = [&](std::uint32_t body) {
@@ -672,10 +693,12 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> Radio::blocked() const {
 
 std::size_t Radio::memory_bytes() const noexcept {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };  // NOLINT(bugprone-sizeof-expression)
-  std::size_t total = bytes(last_) + bytes(alive_) + bytes(raised_) + lower_.memory_bytes() + pairs_.memory_bytes() + bytes(path_) + bytes(step_) + bytes(around_) + bytes(rows_) +
-                      bytes(cell_of_) + bytes(cell_start_) + bytes(sorted_) + bytes(motion_) + bytes(across_) + links_.memory_bytes() +
+  std::size_t total = bytes(last_) + bytes(alive_) + bytes(raised_) + lower_.memory_bytes() + pairs_.memory_bytes() +
+                      bytes(path_) + bytes(step_) + bytes(around_) + bytes(rows_) + bytes(cell_of_) +
+                      bytes(cell_start_) + bytes(sorted_) + bytes(motion_) + bytes(across_) + links_.memory_bytes() +
                       bytes(count_) + bytes(near_);
-  for (const Scratch& s : scratch_) total += bytes(s.index) + bytes(s.old) + bytes(s.x) + bytes(s.y) + bytes(s.changes) + bytes(s.obstacles);
+  for (const Scratch& s : scratch_)
+    total += bytes(s.index) + bytes(s.old) + bytes(s.x) + bytes(s.y) + bytes(s.changes) + bytes(s.obstacles);
   return total;
 }
 

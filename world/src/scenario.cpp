@@ -69,11 +69,14 @@ std::size_t robots_for(double x) noexcept { return static_cast<std::size_t>(std:
 
 }  // namespace
 
-std::vector<Vec2> mission_targets(const Scenario& scenario) { return std::visit(TargetPositions{scenario}, scenario.targets); }
+std::vector<Vec2> mission_targets(const Scenario& scenario) {
+  return std::visit(TargetPositions{scenario}, scenario.targets);
+}
 
 std::vector<Vec2> target_positions(const Scenario& scenario) {
   std::vector<Vec2> positions = mission_targets(scenario);
-  if (scenario.battery.on()) positions.insert(positions.end(), scenario.battery.places.begin(), scenario.battery.places.end());
+  if (scenario.battery.on())
+    positions.insert(positions.end(), scenario.battery.places.begin(), scenario.battery.places.end());
   return positions;
 }
 
@@ -111,7 +114,9 @@ double time_limit_s(const Scenario& scenario) {
   return 10.0 * farthest / scenario.robot.wheel_limit_m_s;
 }
 
-const Algorithm& algorithm_of(const Scenario& scenario) { return *scenario.algorithms->find(scenario.mission.algorithm); }
+const Algorithm& algorithm_of(const Scenario& scenario) {
+  return *scenario.algorithms->find(scenario.mission.algorithm);
+}
 
 Setup setup_of(const Scenario& scenario) {
   Setup setup;
@@ -136,8 +141,8 @@ std::size_t least_robots(const std::vector<Vec2>& targets, double tolerance_m, d
   for (const Vec2 a : targets)
     for (const Vec2 b : targets) longest = std::max(longest, distance(a, b));
   const double count = static_cast<double>(targets.size());
-  const double links = std::max(longest - 2.0 * tolerance_m,
-                                0.8241 * spanning_tree_length(targets) - count * tolerance_m) / range_m;
+  const double links =
+      std::max(longest - 2.0 * tolerance_m, 0.8241 * spanning_tree_length(targets) - count * tolerance_m) / range_m;
   return robots_for(links) + 1;
 }
 

@@ -35,24 +35,15 @@ template <class... Alternatives> struct NamesOf<std::variant<Alternatives...>> {
 
 template <> struct Parts<Scenario> {
   template <class Part> static Part* find(Scenario& s) noexcept {
-    if constexpr (std::is_same_v<Part, Scenario>)
-      return &s;
-    else if constexpr (std::is_same_v<Part, Mission>)
-      return &s.mission;
-    else if constexpr (std::is_same_v<Part, SwarmModel>)
-      return &s.swarm;
-    else if constexpr (std::is_same_v<Part, Start>)
-      return &s.swarm.start;
-    else if constexpr (std::is_same_v<Part, RobotModel>)
-      return &s.robot;
-    else if constexpr (std::is_same_v<Part, RadioModel>)
-      return &s.radio;
-    else if constexpr (std::is_same_v<Part, Clocks>)
-      return &s.clocks;
-    else if constexpr (std::is_same_v<Part, Battery>)
-      return &s.battery;
-    else
-      return std::get_if<Part>(&s.targets);
+    if constexpr (std::is_same_v<Part, Scenario>) return &s;
+    else if constexpr (std::is_same_v<Part, Mission>) return &s.mission;
+    else if constexpr (std::is_same_v<Part, SwarmModel>) return &s.swarm;
+    else if constexpr (std::is_same_v<Part, Start>) return &s.swarm.start;
+    else if constexpr (std::is_same_v<Part, RobotModel>) return &s.robot;
+    else if constexpr (std::is_same_v<Part, RadioModel>) return &s.radio;
+    else if constexpr (std::is_same_v<Part, Clocks>) return &s.clocks;
+    else if constexpr (std::is_same_v<Part, Battery>) return &s.battery;
+    else return std::get_if<Part>(&s.targets);
   }
 };
 template <> struct Parts<Obstacle> {
@@ -60,10 +51,8 @@ template <> struct Parts<Obstacle> {
 };
 template <> struct Parts<Event> {
   template <class Part> static Part* find(Event& e) noexcept {
-    if constexpr (std::is_same_v<Part, Event>)
-      return &e;
-    else
-      return std::get_if<Part>(&e.action);
+    if constexpr (std::is_same_v<Part, Event>) return &e;
+    else return std::get_if<Part>(&e.action);
   }
 };
 
@@ -102,9 +91,9 @@ std::vector<double>* headings_of(Scenario& s) noexcept { return is_listed(s) ? &
 std::vector<Vec2>* listed_targets_of(Scenario& s) noexcept { return std::get_if<std::vector<Vec2>>(&s.targets); }
 Obstacle* itself(Obstacle& o) noexcept { return &o; }
 
-constexpr double world_size = 1e4;        // m; beyond it single precision on robots loses the millimetre
+constexpr double world_size = 1e4;   // m; beyond it single precision on robots loses the millimetre
 constexpr double most_ids = nobody;  // ids are 16 bits, the last one means nobody
-constexpr double long_time = 1e7;       // s
+constexpr double long_time = 1e7;    // s
 constexpr Range any_value;
 constexpr Range anywhere{-world_size, world_size};
 constexpr Range any_length{0.0, world_size, true};
@@ -132,8 +121,8 @@ constexpr Section section_list[] = {
      "One obstacle each: repeat `[[obstacles]]` as often as needed. They block motion and, with "
      "`radio.line_of_sight`, the radio. Robots see them only within `robot.proximity_m`.",
      "kind", true},
-    {"events", "What happens at a given time or moment of the mission: repeat `[[events]]` as often as needed.",
-     "kind", true},
+    {"events", "What happens at a given time or moment of the mission: repeat `[[events]]` as often as needed.", "kind",
+     true},
 };
 
 // A row: key, member, unit, range, meaning, and further properties.
@@ -147,7 +136,8 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"seed", of<&Scenario::seed>, "", any_seed, "determines everything random; the same seed gives the same run",
      {.only_in_files = true}},
 
-    {"mission.algorithm", word<&Mission::algorithm, algorithm_names>, "", any_value, "how the robots keep together on the way"},
+    {"mission.algorithm", word<&Mission::algorithm, algorithm_names>, "", any_value,
+        "how the robots keep together on the way"},
     {"mission.reading", word<&Mission::reading, reading_names>, "", any_value,
      "the paper as printed (literal), or with its gaps closed (corrected)"},
     {"mission.scale", of<&Mission::scale>, "", {0.0, 1000.0, true},
@@ -264,23 +254,27 @@ constexpr Key<Scenario> scenario_rows[] = {
      "each robot starts with up to this share less, drawn from the seed"},
     {"battery.idle_w", by<battery_of<&Battery::idle_w, Draws::power>>, "W", {0.0, 1e6},
      "drawn at all times by sensors and everything without a key of its own"},
-    {"battery.computing_w", by<battery_of<&Battery::computing_w, Draws::power>>, "W", {0.0, 1e6}, "drawn by the computer"},
+    {"battery.computing_w", by<battery_of<&Battery::computing_w, Draws::power>>, "W", {0.0, 1e6},
+        "drawn by the computer"},
     {"battery.radio_w", by<battery_of<&Battery::radio_w, Draws::power>>, "W", {0.0, 1e6}, "drawn by the radio"},
     {"battery.drive_w_per_m_s", by<battery_of<&Battery::drive_w_per_m_s, Draws::power>>, "W s/m", {0.0, 1e6},
      "drawn by each wheel, times its speed"},
     {"battery.charge_per_s", by<battery_of<&Battery::charge_per_s, Draws::time, Draws::time_motion>>, "1/s", {0.0, 1.0},
      "share of a full battery that each second takes"},
-    {"battery.charge_per_m", by<battery_of<&Battery::charge_per_m, Draws::motion, Draws::time_motion>>, "1/m", {0.0, 1.0},
+    {"battery.charge_per_m", by<battery_of<&Battery::charge_per_m, Draws::motion, Draws::time_motion>>, "1/m", {0.0,
+        1.0},
      "share that each metre takes"},
     {"battery.charge_per_rad", by<battery_of<&Battery::charge_per_rad, Draws::motion, Draws::time_motion>>, "1/rad",
      {0.0, 1.0}, "share that each radian of turning takes"},
     {"battery.noise", by<battery_of<&Battery::noise>>, "", any_share, "sigma of the measured charge"},
     {"battery.places_m", by<battery_of<&Battery::places>>, "m", anywhere,
      "charging places, one [x, y] each; the swarm holds them like targets"},
-    {"battery.slots", by<battery_of<&Battery::slots>>, "", {1.0, 1000.0}, "robots that a place charges at the same time"},
+    {"battery.slots", by<battery_of<&Battery::slots>>, "", {1.0, 1000.0},
+        "robots that a place charges at the same time"},
     {"battery.reach_m", by<battery_of<&Battery::reach_m>>, "m", {0.0, 100.0, true},
      "a place charges robots no farther from it than this"},
-    {"battery.charge_w", by<battery_of<&Battery::charge_w>>, "W", {0.0, 1e6, true}, "power into each robot that is charged"},
+    {"battery.charge_w", by<battery_of<&Battery::charge_w>>, "W", {0.0, 1e6, true},
+        "power into each robot that is charged"},
 
     {"targets.layout", of<&Scenario::targets>, "", any_value,
      "a list of positions, equal angles on a circle, or random in an annulus"},
@@ -323,7 +317,8 @@ constexpr Key<Event> event_rows[] = {
      "index of the target, counted from 0", {.required = true}},
     {"events.obstacle", of<&MoveObstacle::obstacle, &RemoveObstacle::obstacle>, "", {0.0, 1e6},
      "index of the obstacle, counted from 0 among those there at that time", {.required = true}},
-    {"events.position_m", of<&MoveTarget::position, &AddTarget::position, &MoveObstacle::position, &AddObstacle::position>, "m", anywhere,
+    {"events.position_m", of<&MoveTarget::position, &AddTarget::position, &MoveObstacle::position,
+        &AddObstacle::position>, "m", anywhere,
      "where the target is from then on, or drives to; where the centre of the obstacle is (of a wall, its middle)",
      {.required = true}},
     {"events.radius_m", of<&AddObstacle::radius_m>, "m", any_length, "radius of the disc", {.required = true}},

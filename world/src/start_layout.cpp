@@ -55,7 +55,9 @@ constexpr bool farther(const Cell& a, const Cell& b) noexcept {
   return std::tie(a.distance2, a.row, a.column) > std::tie(b.distance2, b.row, b.column);
 }
 
-struct Step { std::int32_t row, column; };
+struct Step {
+  std::int32_t row, column;
+};
 constexpr std::array<Step, 6> hexagonal_steps{{{0, 1}, {1, 0}, {1, -1}, {0, -1}, {-1, 0}, {-1, 1}}};
 constexpr std::array<Step, 4> grid_steps{{{0, 1}, {1, 0}, {0, -1}, {-1, 0}}};
 
@@ -148,9 +150,8 @@ std::vector<Vec2> bridge(std::size_t count, const Start& start, double pitch, do
     points.push_back(start.center + cluster[i] - Vec2{half + edge, 0.0});
     if (points.size() < count) points.push_back(start.center - cluster[i] + Vec2{half + edge, 0.0});
   }
-  std::stable_sort(points.begin(), points.end(), [&](Vec2 a, Vec2 b) {
-    return squared_norm(a - start.center) < squared_norm(b - start.center);
-  });
+  std::stable_sort(points.begin(), points.end(),
+                   [&](Vec2 a, Vec2 b) { return squared_norm(a - start.center) < squared_norm(b - start.center); });
   return points;
 }
 
@@ -171,7 +172,9 @@ class Spaced {
   void add(Vec2 p) { squares_[key_of(index(p.y), index(p.x))].push_back(p); }
 
  private:
-  [[nodiscard]] std::int32_t index(double x) const noexcept { return static_cast<std::int32_t>(std::clamp(std::floor(x / least_), -2e9, 2e9)); }
+  [[nodiscard]] std::int32_t index(double x) const noexcept {
+    return static_cast<std::int32_t>(std::clamp(std::floor(x / least_), -2e9, 2e9));
+  }
   double least_;
   std::unordered_map<std::uint64_t, std::vector<Vec2>> squares_;  // looked up, never iterated
 };

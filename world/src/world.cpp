@@ -10,12 +10,12 @@
 #include <string>
 #include <utility>
 
+#include "antennas.hpp"
 #include "banyan/controller/core/digest.hpp"
 #include "banyan/world/obstacles.hpp"
 #include "banyan/world/placement.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/threads.hpp"
-#include "antennas.hpp"
 #include "world_impl.hpp"
 
 namespace banyan::world {
@@ -57,7 +57,8 @@ Scenario checked(Scenario scenario, const Algorithm& own) {
 
 std::vector<Member> members_of(const Assignment& assignment, std::size_t n) {
   std::vector<Member> members(n);
-  for (std::size_t i = 0; i < n; ++i) members[i] = {.id = static_cast<RobotId>(i), .worker = false, .root = i == assignment.root};
+  for (std::size_t i = 0; i < n; ++i)
+    members[i] = {.id = static_cast<RobotId>(i), .worker = false, .root = i == assignment.root};
   for (const std::size_t worker : assignment.worker) members[worker].worker = true;
   return members;
 }
@@ -104,18 +105,48 @@ World::Impl::Impl(const Scenario& s, const Algorithm& algorithm_)
 }
 
 World::Impl::Impl(const Impl& o)
-    : scenario(o.scenario), algorithm(o.algorithm), losses(o.losses), loss(o.loss),
-      line_of_sight(o.line_of_sight), obstacles(o.obstacles), obstacles_changed(o.obstacles_changed), tick(o.tick), poses(o.poses),
-      bodies(o.bodies->clone()), radio(o.radio), proximity(o.proximity), batteries(o.batteries), targets(o.targets), courses(o.courses), alive(o.alive), raised(o.raised), frozen_until(o.frozen_until),
-      target_of(o.target_of), given_up(o.given_up), swarm(o.swarm->clone()), reports(o.reports), tree_parts(o.tree_parts), commands(o.commands),
-      moving(o.moving), odometry(o.odometry), event_queue(o.event_queue), silent_until(o.silent_until), deaths(o.deaths), emptied(o.emptied), mission_target_count(o.mission_target_count),
-      last_death(o.last_death), flights(o.flights), arriving(o.arriving), clocked(o.clocked),
-      received(o.received), sent(o.sent) {}
+    : scenario(o.scenario),
+      algorithm(o.algorithm),
+      losses(o.losses),
+      loss(o.loss),
+      line_of_sight(o.line_of_sight),
+      obstacles(o.obstacles),
+      obstacles_changed(o.obstacles_changed),
+      tick(o.tick),
+      poses(o.poses),
+      bodies(o.bodies->clone()),
+      radio(o.radio),
+      proximity(o.proximity),
+      batteries(o.batteries),
+      targets(o.targets),
+      courses(o.courses),
+      alive(o.alive),
+      raised(o.raised),
+      frozen_until(o.frozen_until),
+      target_of(o.target_of),
+      given_up(o.given_up),
+      swarm(o.swarm->clone()),
+      reports(o.reports),
+      tree_parts(o.tree_parts),
+      commands(o.commands),
+      moving(o.moving),
+      odometry(o.odometry),
+      event_queue(o.event_queue),
+      silent_until(o.silent_until),
+      deaths(o.deaths),
+      emptied(o.emptied),
+      mission_target_count(o.mission_target_count),
+      last_death(o.last_death),
+      flights(o.flights),
+      arriving(o.arriving),
+      clocked(o.clocked),
+      received(o.received),
+      sent(o.sent) {}
 
 // ---- One tick ----
 
 void World::step(Executor& executor) {
-  impl_->happen();               // events of the scenario
+  impl_->happen();  // events of the scenario
   if (impl_->scenario.clocks.asynchronous) {
     impl_->step_by_clocks(executor);
   } else {
@@ -131,7 +162,8 @@ void World::Impl::act() {
   for (std::size_t i = 0; i < commands.size(); ++i)
     moving[i] = alive[i] != 0 && frozen_until[i] <= tick ? commands[i] : Velocity{};
   bodies->step(moving, radio.near(), tick, poses, odometry);
-  if (batteries.on()) run_down(scenario.clocks.asynchronous ? scenario.tick_s / scenario.clocks.substeps : scenario.tick_s);
+  if (batteries.on())
+    run_down(scenario.clocks.asynchronous ? scenario.tick_s / scenario.clocks.substeps : scenario.tick_s);
 }
 
 // A robot without charge is dead where it stands.
@@ -197,7 +229,8 @@ void World::Impl::think(Executor& executor) {
     // for those sent now.
     std::swap(arriving, *flight);
     flight->offsets.assign(1, 0);
-    for (std::size_t i = 0; i < n; ++i) flight->offsets.push_back(flight->offsets.back() + static_cast<std::uint32_t>(radio.links(i).size()));
+    for (std::size_t i = 0; i < n; ++i)
+      flight->offsets.push_back(flight->offsets.back() + static_cast<std::uint32_t>(radio.links(i).size()));
     flight->count.assign(n, 0);
     flight->packets.resize(flight->offsets.back());
   }
@@ -208,7 +241,8 @@ void World::Impl::think(Executor& executor) {
     for (std::size_t first = begin; first < end; first += Inbox::batch_size) {
       const std::size_t count = std::min(Inbox::batch_size, end - first);
       std::size_t room = 0;
-      for (std::size_t i = first; i < first + count; ++i) room += std::max<std::size_t>(radio.links(i).size(), arriving.count.empty() ? 0 : arriving.count[i]);
+      for (std::size_t i = first; i < first + count; ++i)
+        room += std::max<std::size_t>(radio.links(i).size(), arriving.count.empty() ? 0 : arriving.count[i]);
       if (inbox.packets.size() < room) inbox.packets.resize(room + room / 4);
       std::size_t size = 0;
       for (std::size_t k = 0; k < count; ++k) {
@@ -248,7 +282,8 @@ std::size_t World::Impl::gather(std::size_t i, std::span<Packet> room, Flight* f
 
 void World::Impl::step_batch(std::size_t first, std::size_t count, Inbox& inbox) {
   for (std::size_t k = 0; k < count; ++k)
-    inbox.sensed[k].packets = std::span<const Packet>(inbox.packets).subspan(inbox.begin[k], inbox.begin[k + 1] - inbox.begin[k]);
+    inbox.sensed[k].packets =
+        std::span<const Packet>(inbox.packets).subspan(inbox.begin[k], inbox.begin[k + 1] - inbox.begin[k]);
   swarm->step(first, std::span<const Sensed>(inbox.sensed).first(count), std::span(commands).subspan(first, count),
               std::span(reports).subspan(first, count));
 }
@@ -259,9 +294,11 @@ void World::Impl::sense(std::size_t i, const Odometry& moved, Proximity::Seen& s
   senses.orders = {.sent = target_of[i] >= 0, .target = {}, .given_up = std::exchange(given_up[i], nobody)};
   senses.charge = charge_of(i);
   if (target_of[i] >= 0) {
-    const auto place = static_cast<std::size_t>(target_of[i]) - mission_target_count;  // wraps for the mission's targets
+    const auto place =
+        static_cast<std::size_t>(target_of[i]) - mission_target_count;  // wraps for the mission's targets
     senses.orders.charging_place = scenario.battery.on() && place < scenario.battery.places.size();
-    const Vec2 d = rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
+    const Vec2 d =
+        rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);
     senses.orders.target = {static_cast<float>(d.x), static_cast<float>(d.y)};
   }
   senses.obstacles = std::span<const banyan::Vec2>(seen).first(proximity.sense(poses, i, seen));
@@ -303,11 +340,14 @@ banyan::Vec2 World::Impl::blurred(std::size_t i, std::uint32_t sender, Vec2 d) c
   const RadioModel& model = scenario.radio;
   if (model.range_noise_m > 0.0) {
     const double range = norm(d);
-    const double noisy = std::max(0.01, range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, moment)));
+    const double noisy = std::max(
+        0.01, range + model.range_noise_m * to_normal(bits(scenario.seed, Purpose::range_noise, i, sender, moment)));
     d *= range > 0.0 ? noisy / range : 0.0;
   }
   if (model.bearing_noise_rad > 0.0)
-    d = rotate(unit_vector(model.bearing_noise_rad * to_normal(bits(scenario.seed, Purpose::bearing_noise, i, sender, moment))), d);
+    d = rotate(unit_vector(model.bearing_noise_rad *
+                           to_normal(bits(scenario.seed, Purpose::bearing_noise, i, sender, moment))),
+               d);
   return {static_cast<float>(d.x), static_cast<float>(d.y)};
 }
 
@@ -317,8 +357,10 @@ World::World(const Scenario& scenario) {
   const Scenario sound = checked(scenario);  // before its algorithm is looked up
   impl_ = std::make_unique<Impl>(sound, algorithm_of(sound));
 }
-World::World(const Scenario& scenario, const Algorithm& algorithm) : impl_(std::make_unique<Impl>(checked(scenario, algorithm), algorithm)) {}
-World::World(const Scenario& scenario, const Algorithm& algorithm, std::unique_ptr<Bodies> bodies) : World(scenario, algorithm) {
+World::World(const Scenario& scenario, const Algorithm& algorithm)
+    : impl_(std::make_unique<Impl>(checked(scenario, algorithm), algorithm)) {}
+World::World(const Scenario& scenario, const Algorithm& algorithm, std::unique_ptr<Bodies> bodies)
+    : World(scenario, algorithm) {
   impl_->bodies = std::move(bodies);
 }
 World::World(const World& o) : impl_(std::make_unique<Impl>(*o.impl_)) {}
@@ -339,9 +381,7 @@ void World::decide() { impl_->swarm->decide(impl_->commands, impl_->reports); }
 
 std::vector<Fault> World::faults_now(const Event& event) const {
   Present present{impl_->targets.size(), impl_->obstacles};
-  impl_->event_queue.each_due(time_s() + 1e-9, [&](const Event& sooner) {
-    change(present.obstacles, sooner.action);
-  });
+  impl_->event_queue.each_due(time_s() + 1e-9, [&](const Event& sooner) { change(present.obstacles, sooner.action); });
   std::vector<Fault> found = event_faults(impl_->with(event), &present);
   std::erase_if(found, [](const Fault& fault) { return fault.warning; });
   return found;
@@ -414,15 +454,15 @@ std::uint64_t World::hash() const noexcept {
 
 std::size_t World::memory_bytes() const noexcept {
   const Impl& w = *impl_;
-  const std::size_t per_robot = sizeof(Report) + sizeof(RobotId) + 2 * sizeof(Velocity) + sizeof(Odometry) + 2 * sizeof(Vec2) +
-                                sizeof(std::uint8_t) + sizeof(std::uint64_t) + sizeof(std::int32_t);
-  std::size_t total = sizeof(Impl) + w.swarm->memory_bytes() + w.raised.capacity() + w.alive.size() * per_robot + w.radio.memory_bytes();
+  const std::size_t per_robot = sizeof(Report) + sizeof(RobotId) + 2 * sizeof(Velocity) + sizeof(Odometry) +
+                                2 * sizeof(Vec2) + sizeof(std::uint8_t) + sizeof(std::uint64_t) + sizeof(std::int32_t);
+  std::size_t total = sizeof(Impl) + w.swarm->memory_bytes() + w.raised.capacity() + w.alive.size() * per_robot +
+                      w.radio.memory_bytes();
   for (const Flight& flight : w.flights)
     total += flight.packets.capacity() * sizeof(Packet) +
              (flight.offsets.capacity() + flight.count.capacity()) * sizeof(std::uint32_t);
   for (const Clocked& robot : w.clocked) total += sizeof(Clocked) + robot.waiting.capacity() * sizeof(Waiting);
-  for (const auto& inbox : w.inboxes)
-    total += sizeof inbox + inbox.packets.capacity() * sizeof(Packet);
+  for (const auto& inbox : w.inboxes) total += sizeof inbox + inbox.packets.capacity() * sizeof(Packet);
   return total;
 }
 

@@ -15,10 +15,10 @@
 #include "banyan/world/radio.hpp"
 #include "banyan/world/random.hpp"
 #include "banyan/world/tree_parts.hpp"
-#include "losses.hpp"
 #include "banyan/world/world.hpp"
 #include "batteries.hpp"
 #include "event_queue.hpp"
+#include "losses.hpp"
 #include "proximity.hpp"
 
 namespace banyan::world {
@@ -31,25 +31,25 @@ struct Flight {
 
 // The motion of a target, and the distance that its worker had to it.
 struct Course {
-  double start_m = 0.0;     // how far its worker was from it at the start
-  Vec2 goal{};              // where it drives
-  double speed_m_s = 0.0;   // 0: it stands
+  double start_m = 0.0;    // how far its worker was from it at the start
+  Vec2 goal{};             // where it drives
+  double speed_m_s = 0.0;  // 0: it stands
 };
 
 // Robots with clocks of their own (clocks.cpp).
-struct Waiting {              // a packet that has been sent to a robot and waits for its next step
+struct Waiting {  // a packet that has been sent to a robot and waits for its next step
   std::uint32_t sender = 0;
-  std::uint64_t composed = 0; // the substep in which its sender stepped
-  Vec2 position{};            // of the sender, in the receiver's frame at its last step before the measurement, m
-  std::uint64_t heard = 0;    // the substep in which it arrives
+  std::uint64_t composed = 0;  // the substep in which its sender stepped
+  Vec2 position{};             // of the sender, in the receiver's frame at its last step before the measurement, m
+  std::uint64_t heard = 0;     // the substep in which it arrives
 };
 struct Clocked {
-  double phase = 0.0;         // of its clock at the start, in periods
+  double phase = 0.0;  // of its clock at the start, in periods
   double rate = 1.0;
-  bool told = false;          // it stepped in the last substep: its message travels in this one
-  Vec2 shift{};               // odometry since its last step, in the frame of that step, m
-  double turn = 0.0;          // rad
-  std::vector<Waiting> waiting;   // ascending by `heard`
+  bool told = false;             // it stepped in the last substep: its message travels in this one
+  Vec2 shift{};                  // odometry since its last step, in the frame of that step, m
+  double turn = 0.0;             // rad
+  std::vector<Waiting> waiting;  // ascending by `heard`
 };
 
 struct World::Impl {
@@ -57,7 +57,7 @@ struct World::Impl {
   Impl(const Impl& o);
 
   // The phases of a tick, in order.
-  void happen();                               // events.cpp
+  void happen();  // events.cpp
   void act();
   void run_down(double seconds);
   void broadcast(Executor& executor);
@@ -66,8 +66,7 @@ struct World::Impl {
   void carry_waiting(std::size_t i, const Flight& fresh) noexcept;
 
   std::size_t receive(std::size_t i, std::span<Packet> packets) const noexcept;
-  template <class P>
-  std::size_t keep_slots(std::size_t i, std::span<P> packets, std::size_t count) const noexcept;
+  template <class P> std::size_t keep_slots(std::size_t i, std::span<P> packets, std::size_t count) const noexcept;
   [[nodiscard]] bool lost(std::size_t i, std::uint32_t sender) const noexcept;
   void make_inboxes(const Executor& executor);
   std::size_t gather(std::size_t i, std::span<Packet> room, Flight* flight, bool silence);
@@ -100,26 +99,28 @@ struct World::Impl {
   void give_up(std::size_t target);
   void set_line_of_sight(bool on);
   void change_obstacles(const Action& action);
-  [[nodiscard]] Scenario with(const Event& event) const;   // the scenario, and this happening now
+  [[nodiscard]] Scenario with(const Event& event) const;  // the scenario, and this happening now
   [[nodiscard]] double remaining_m(std::size_t target) const noexcept;
   [[nodiscard]] bool half_way() const noexcept;
   [[nodiscard]] bool complete();
 
-  void add_events(Digest& digest) const noexcept;   // what is hashed of all this
+  void add_events(Digest& digest) const noexcept;  // what is hashed of all this
 
   [[nodiscard]] std::optional<Charge> charge_of(std::size_t i) const noexcept;
-  [[nodiscard]] bool is_worker(std::size_t i) const noexcept { return reports[i].serves != nobody && given_up[i] == nobody; }
+  [[nodiscard]] bool is_worker(std::size_t i) const noexcept {
+    return reports[i].serves != nobody && given_up[i] == nobody;
+  }
   [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
 
   Scenario scenario;
   const Algorithm* algorithm;
   Losses losses;
-  double loss;                                 // radio.loss, now
-  bool line_of_sight;                          // now, and so are
-  std::vector<Obstacle> obstacles;             // these; radio, proximity and bodies have copies
-  bool obstacles_changed = false;              // some were added or taken away
+  double loss;                      // radio.loss, now
+  bool line_of_sight;               // now, and so are
+  std::vector<Obstacle> obstacles;  // these; radio, proximity and bodies have copies
+  bool obstacles_changed = false;   // some were added or taken away
   std::uint64_t tick = 0;
-  std::uint64_t moment = 0;                    // what is drawn now is drawn for: the tick, or the substep
+  std::uint64_t moment = 0;  // what is drawn now is drawn for: the tick, or the substep
 
   Poses poses;
   std::unique_ptr<Bodies> bodies;
@@ -127,26 +128,26 @@ struct World::Impl {
   Proximity proximity;
   Batteries batteries;
   std::vector<Target> targets;
-  std::vector<Course> courses;                 // one per target
+  std::vector<Course> courses;  // one per target
   std::vector<std::uint8_t> alive;
-  std::vector<std::uint8_t> raised;            // antennas; empty unless sight leaks
-  std::vector<std::uint64_t> frozen_until;     // tick; 0: not frozen
-  std::vector<std::int32_t> target_of;         // per robot, -1: none
-  std::vector<RobotId> given_up;               // per robot: the target that it is told to serve no more, until it steps
+  std::vector<std::uint8_t> raised;         // antennas; empty unless sight leaks
+  std::vector<std::uint64_t> frozen_until;  // tick; 0: not frozen
+  std::vector<std::int32_t> target_of;      // per robot, -1: none
+  std::vector<RobotId> given_up;            // per robot: the target that it is told to serve no more, until it steps
   std::unique_ptr<Swarm> swarm;
-  std::vector<Report> reports;                 // of the last step
-  TreeParts tree_parts;                        // workspace
-  std::vector<Velocity> commands, moving;      // as ordered, and as the bodies get them
+  std::vector<Report> reports;             // of the last step
+  TreeParts tree_parts;                    // workspace
+  std::vector<Velocity> commands, moving;  // as ordered, and as the bodies get them
   std::vector<Odometry> odometry;
   EventQueue event_queue;
-  std::uint64_t silent_until = 0;              // tick; no packet is heard before
+  std::uint64_t silent_until = 0;  // tick; no packet is heard before
   std::size_t deaths = 0;
-  std::size_t emptied = 0;                     // of these, for want of charge
-  std::size_t mission_target_count = 0;        // of the start; the charging places come after them
-  std::optional<std::uint64_t> last_death;     // tick
-  std::vector<Flight> flights;                 // ring of latency_ticks - 1
-  Flight arriving;                             // taken out of the ring: heard this tick
-  std::vector<Clocked> clocked;                // one per robot; none if they step together
+  std::size_t emptied = 0;                  // of these, for want of charge
+  std::size_t mission_target_count = 0;     // of the start; the charging places come after them
+  std::optional<std::uint64_t> last_death;  // tick
+  std::vector<Flight> flights;              // ring of latency_ticks - 1
+  Flight arriving;                          // taken out of the ring: heard this tick
+  std::vector<Clocked> clocked;             // one per robot; none if they step together
   // What the robots of one batch receive and sense. They step together.
   struct Inbox {
     static constexpr std::size_t batch_size = 16;
@@ -156,8 +157,8 @@ struct World::Impl {
     std::array<Sensed, batch_size> sensed;
   };
   void step_batch(std::size_t first, std::size_t count, Inbox& inbox);
-  std::vector<Inbox> inboxes;                  // one per thread
-  std::vector<std::uint64_t> received_by;      // packets, per thread
+  std::vector<Inbox> inboxes;              // one per thread
+  std::vector<std::uint64_t> received_by;  // packets, per thread
   std::uint64_t received = 0, sent = 0;
 };
 

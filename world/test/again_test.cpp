@@ -18,7 +18,9 @@ TEST(Again, ATargetThatWasGivenUpIsHeldOnceAnotherHasEnded) {
   s.events.push_back({.time_s = 250.0, .action = RemoveTarget{0}});
   World world(s);
   const auto far = static_cast<RobotId>(world.targets()[1].worker);
-  const auto is_served = [&] { return std::ranges::any_of(world.reports(), [&](const Report& r) { return r.serves == far; }); };
+  const auto is_served = [&] {
+    return std::ranges::any_of(world.reports(), [&](const Report& r) { return r.serves == far; });
+  };
   while (world.time_s() < 250.0) world.step();
   EXPECT_TRUE(world.holder(0));
   EXPECT_FALSE(is_served()) << "given up";

@@ -113,8 +113,11 @@ TEST(Batteries, ChargeRisesOnlyInASlotInReachAndSlotsAreNeverOverfilled) {
       const bool charged = world.charged_at()[i] >= 0;
       used += charged ? 1 : 0;
       ASSERT_TRUE(world.charge()[i] >= 0.0 && world.charge()[i] <= 1.0);
-      if (charged) { ASSERT_LE(norm(world.positions()[i]), s.battery.reach_m + 1e-12); }
-      else { ASSERT_LE(world.charge()[i], before[i]) << "robot " << i << " at tick " << t; }
+      if (charged) {
+        ASSERT_LE(norm(world.positions()[i]), s.battery.reach_m + 1e-12);
+      } else {
+        ASSERT_LE(world.charge()[i], before[i]) << "robot " << i << " at tick " << t;
+      }
       before[i] = world.charge()[i];
     }
     ASSERT_LE(used, s.battery.slots);

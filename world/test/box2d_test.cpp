@@ -22,7 +22,9 @@ struct Box2dBench {
   std::uint64_t tick = 0;
 
   Box2dBench(const Scenario& s, Poses start)
-      : poses{std::move(start)}, command(poses.position.size()), odometry(poses.position.size()),
+      : poses{std::move(start)},
+        command(poses.position.size()),
+        odometry(poses.position.size()),
         bodies{make_box2d(s, poses)} {}
   Box2dBench(const Box2dBench& o)
       : poses{o.poses}, command{o.command}, odometry{o.odometry}, bodies{o.bodies->clone()}, tick{o.tick} {}
@@ -132,11 +134,10 @@ TEST(Box2d, BodiesHardlyPenetrate) {
     for (std::size_t i = 0; i < 40; ++i) {
       travelled += distance(before[i], bench.poses.position[i]);
       for (const Obstacle& o : scenario.obstacles)
-        deepest_obstacle =
-            std::max(deepest_obstacle, scenario.robot.radius_m - clearance(o, bench.poses.position[i]));
+        deepest_obstacle = std::max(deepest_obstacle, scenario.robot.radius_m - clearance(o, bench.poses.position[i]));
       for (std::size_t j = 0; j < i; ++j)
-        deepest = std::max(deepest, 2 * scenario.robot.radius_m -
-                                        distance(bench.poses.position[i], bench.poses.position[j]));
+        deepest =
+            std::max(deepest, 2 * scenario.robot.radius_m - distance(bench.poses.position[i], bench.poses.position[j]));
     }
   }
   EXPECT_LT(deepest, 0.003);

@@ -40,9 +40,7 @@ TEST(Clocks, EachStrikesOncePerPeriodOfItsOwn) {
 
 TEST(Clocks, WithoutLossEverybodyInLinkHearsEveryMessageOnceItSteps) {
   Scenario s = clocked(0.0);
-  for (std::size_t i = 0; i < 16; ++i) {
-    s.events.push_back({.action = Freeze{i}});
-  }
+  for (std::size_t i = 0; i < 16; ++i) { s.events.push_back({.action = Freeze{i}}); }
   s.radio.range_m = 2.0;
   World world(s);
   run_until(world, 20);

@@ -21,7 +21,10 @@ struct Floor {
   std::uint64_t tick = 0;
 
   Floor(const Scenario& s, Poses start)
-      : scenario{s}, poses{std::move(start)}, command(poses.position.size()), odometry(poses.position.size()),
+      : scenario{s},
+        poses{std::move(start)},
+        command(poses.position.size()),
+        odometry(poses.position.size()),
         bodies{make_disks(s, poses.position.size())} {}
   void step() {
     near.clear();
@@ -149,7 +152,8 @@ TEST(Disks, ObstaclesAreNotEntered) {
     const double turn = to_uniform(bits(1, Purpose::loss, static_cast<std::uint64_t>(t) / 20)) - 0.5;
     floor.command[0] = {0.2F, 0, static_cast<float>(2 * turn)};
     floor.step();
-    for (const Obstacle& obstacle : s.obstacles) ASSERT_GE(clearance(obstacle, floor.poses.position[0]), s.robot.radius_m - 1e-9) << t;
+    for (const Obstacle& obstacle : s.obstacles)
+      ASSERT_GE(clearance(obstacle, floor.poses.position[0]), s.robot.radius_m - 1e-9) << t;
   }
 }
 

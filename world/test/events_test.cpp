@@ -81,7 +81,8 @@ TEST(Events, ARootThatIsFrozenDoesNotKeepTheOthersFromTheirTargets) {
     s.events = {event(frozen_s, Freeze{root})};
     World world(s);
     for (int t = 0; t < 1500; ++t) world.step();
-    for (const Target& target : world.targets()) EXPECT_LT(distance(world.positions()[target.worker], target.position), s.mission.target_tolerance_m) << frozen_s;
+    for (const Target& target : world.targets())
+      EXPECT_LT(distance(world.positions()[target.worker], target.position), s.mission.target_tolerance_m) << frozen_s;
     EXPECT_LT(norm(world.positions()[root]), 6.0);
     EXPECT_FALSE(world.links(root).empty());
   }
@@ -145,7 +146,9 @@ TEST(Events, ANewTargetGoesToTheNearestSpare) {
   std::size_t expected = world.size();
   for (std::size_t i = 0; i < world.size(); ++i) {
     if (world.reports()[i].role != Role::spare) continue;
-    if (expected == world.size() || distance(world.positions()[i], where) < distance(world.positions()[expected], where)) expected = i;
+    if (expected == world.size() ||
+        distance(world.positions()[i], where) < distance(world.positions()[expected], where))
+      expected = i;
   }
   ASSERT_LT(expected, world.size());
   world.step();
@@ -160,7 +163,8 @@ TEST(Events, WithNobodyLeftANewTargetIsNotAssigned) {
   Scenario s = ring("outwards", 4, 2, 1.5, 1);
   const World probe(s);
   std::size_t free_robot = 0;
-  while (tree_state(probe.swarm(), free_robot).is_worker || probe.reports()[free_robot].role == Role::root) ++free_robot;
+  while (tree_state(probe.swarm(), free_robot).is_worker || probe.reports()[free_robot].role == Role::root)
+    ++free_robot;
   s.events = {event(0.2, Die{free_robot}), event(0.5, AddTarget{{0.0, 1.0}})};
   World world(s);
   for (int t = 0; t < 10; ++t) world.step();
@@ -169,8 +173,7 @@ TEST(Events, WithNobodyLeftANewTargetIsNotAssigned) {
 
 TEST(Events, EqualTimesActInFileOrderAndOrderInTheFileDoesNotMatterOtherwise) {
   Scenario s = ring("outwards", 16, 2, 4.0, 1);
-  s.events = {event(2.0, MoveTarget{0, {1, 1}, 0.0}), event(1.0, Die{3}),
-              event(2.0, MoveTarget{0, {2, 2}, 0.0})};
+  s.events = {event(2.0, MoveTarget{0, {1, 1}, 0.0}), event(1.0, Die{3}), event(2.0, MoveTarget{0, {2, 2}, 0.0})};
   World world(s);
   for (int t = 0; t < 11; ++t) world.step();
   EXPECT_EQ(world.alive()[3], 0);

@@ -49,21 +49,39 @@ const std::vector<Case>& cases() {
       {"mission.time_limit_s", "inf", [](Scenario& s) { s.mission.time_limit_s = infinity; }},
       {"mission.settle_s", "-1", [](Scenario& s) { s.mission.settle_s = -1; }},
       {"mission.time_limit_s", "must be given",
-       [](Scenario& s) { s.swarm.robots = 9, s.targets = RingTargets{3, 0.0, 0, {}}; }},
+       [](Scenario& s) {
+         s.swarm.robots = 9, s.targets = RingTargets{3, 0.0, 0, {}};
+       }},
       {"mission.parameters.target_gian", "did you mean target_gain?",
-       [](Scenario& s) { s.mission.parameters = {{"target_gian", 0.4}}; }},
-      {"mission.parameters.target_gain", "-1", [](Scenario& s) { s.mission.parameters = {{"target_gain", -1}}; }},
-      {"mission.parameters.target_gain", "nan", [](Scenario& s) { s.mission.parameters = {{"target_gain", nan}}; }},
+       [](Scenario& s) {
+         s.mission.parameters = {{"target_gian", 0.4}};
+       }},
+      {"mission.parameters.target_gain", "-1",
+       [](Scenario& s) {
+         s.mission.parameters = {{"target_gain", -1}};
+       }},
+      {"mission.parameters.target_gain", "nan",
+       [](Scenario& s) {
+         s.mission.parameters = {{"target_gain", nan}};
+       }},
       {"mission.parameters.target_gain", "1e+300",
-       [](Scenario& s) { s.mission.parameters = {{"target_gain", 1e300}}; }},
+       [](Scenario& s) {
+         s.mission.parameters = {{"target_gain", 1e300}};
+       }},
       {"mission.parameters.tick_s", "follows from the key tick_s",
-       [](Scenario& s) { s.mission.parameters = {{"tick_s", 0.1}}; }},
+       [](Scenario& s) {
+         s.mission.parameters = {{"tick_s", 0.1}};
+       }},
       {"mission.parameters.communication_range_m", "radio.range_m",
-       [](Scenario& s) { s.mission.parameters = {{"communication_range_m", 2}}; }},
+       [](Scenario& s) {
+         s.mission.parameters = {{"communication_range_m", 2}};
+       }},
       {"mission.parameters", "delta", [](Scenario& s) { s.mission.algorithm = "outwards", s.radio.range_m = 1.0; }},
       {"swarm.redundancy", "is 0; allowed: above 0", [](Scenario& s) { s.swarm.redundancy = 0; }},
       {"swarm.redundancy", "robots; at most",
-       [](Scenario& s) { s.swarm.redundancy = 1000, s.targets = RingTargets{60, 6000, 0, {}}; }},
+       [](Scenario& s) {
+         s.swarm.redundancy = 1000, s.targets = RingTargets{60, 6000, 0, {}};
+       }},
       {"swarm.robots", "is 1; allowed: 2 to 65535", [](Scenario& s) { s.swarm.robots = 1; }},
       {"swarm.robots", "is 65536", [](Scenario& s) { s.swarm.robots = 65536; }},
       {"swarm.robots", "3 robots cannot serve 3 targets", [](Scenario& s) { s.swarm.robots = 3; }},
@@ -72,19 +90,43 @@ const std::vector<Case>& cases() {
        [](Scenario& s) { s.swarm.start.center.x = nan; }},
       {"swarm.start.pitch_m", "robots do not fit", [](Scenario& s) { s.swarm.start.pitch_m = 0.15; }},
       {"swarm.start.pitch_m", "not be connected", [](Scenario& s) { s.swarm.start.pitch_m = 1.97; }},
-      {"swarm.start.positions_m", "needs swarm.start.layout", [](Scenario& s) { s.swarm.start.positions = {{0, 0}}; }},
+      {"swarm.start.positions_m", "needs swarm.start.layout",
+       [](Scenario& s) {
+         s.swarm.start.positions = {{0, 0}};
+       }},
       {"swarm.start.positions_m", "must have 1 to 65535 entries, not 0", [](Scenario& s) { use_list(s, {}); }},
-      {"swarm.start.positions_m", "2 groups", [](Scenario& s) { use_list(s, {{0, 0}, {1, 0}, {3.1, 0}}); }},
+      {"swarm.start.positions_m", "2 groups",
+       [](Scenario& s) {
+         use_list(s, {{0, 0}, {1, 0}, {3.1, 0}});
+       }},
       {"swarm.start.positions_m[2]", "overlaps position 0",
-       [](Scenario& s) { use_list(s, {{0, 0}, {1, 0}, {0.1, 0}}); }},
-      {"swarm.start.positions_m[1][0]", "is inf", [](Scenario& s) { use_list(s, {{0, 0}, {infinity, 0}}); }},
+       [](Scenario& s) {
+         use_list(s, {{0, 0}, {1, 0}, {0.1, 0}});
+       }},
+      {"swarm.start.positions_m[1][0]", "is inf",
+       [](Scenario& s) {
+         use_list(s, {{0, 0}, {infinity, 0}});
+       }},
       {"swarm.start.positions_m[1]", "touches an obstacle",
-       [](Scenario& s) { use_list(s, {{0, 0}, {0.5, 0}}), s.obstacles = {Disc{{0.6, 0}, 0.05}}; }},
+       [](Scenario& s) {
+         use_list(s, {{0, 0}, {0.5, 0}}), s.obstacles = {Disc{{0.6, 0}, 0.05}};
+       }},
       {"swarm.start.headings_deg", "one entry per position",
-       [](Scenario& s) { use_list(s, {{0, 0}, {0.5, 0}}), s.swarm.start.headings_rad = {0}; }},
-      {"swarm.robots", "is 5, but", [](Scenario& s) { use_list(s, {{0, 0}, {0.5, 0}}), s.swarm.robots = 5; }},
-      {"swarm.robots", "1 robots cannot", [](Scenario& s) { use_list(s, {{0, 0}}); }},
-      {"swarm.start.center_m", "no room", [](Scenario& s) { s.obstacles = {Disc{{0.1, 0}, 0.05}}; }},
+       [](Scenario& s) {
+         use_list(s, {{0, 0}, {0.5, 0}}), s.swarm.start.headings_rad = {0};
+       }},
+      {"swarm.robots", "is 5, but",
+       [](Scenario& s) {
+         use_list(s, {{0, 0}, {0.5, 0}}), s.swarm.robots = 5;
+       }},
+      {"swarm.robots", "1 robots cannot",
+       [](Scenario& s) {
+         use_list(s, {{0, 0}});
+       }},
+      {"swarm.start.center_m", "no room",
+       [](Scenario& s) {
+         s.obstacles = {Disc{{0.1, 0}, 0.05}};
+       }},
       {"swarm.start", "robots fit",
        [](Scenario& s) {
          s.swarm.robots = 94;
@@ -110,29 +152,67 @@ const std::vector<Case>& cases() {
       {"targets.positions_m", "must have 1 to 10000 entries, not 0",
        [](Scenario& s) { s.targets = std::vector<Vec2>{}; }},
       {"targets.positions_m[1][1]", "is -inf",
-       [](Scenario& s) { s.targets = std::vector<Vec2>{{1, 1}, {1, -infinity}}; }},
+       [](Scenario& s) {
+         s.targets = std::vector<Vec2>{{1, 1}, {1, -infinity}};
+       }},
       {"targets.positions_m[1]", "inside an obstacle",
-       [](Scenario& s) { s.targets = std::vector<Vec2>{{3, 0}, {0, 3}}, s.obstacles = {Box{{0, 3}, {1, 1}, 0.3}}; }},
+       [](Scenario& s) {
+         s.targets = std::vector<Vec2>{{3, 0}, {0, 3}}, s.obstacles = {Box{{0, 3}, {1, 1}, 0.3}};
+       }},
       {"targets.positions_m[0]", "no robot of radius",
        [](Scenario& s) {
          s.targets = std::vector<Vec2>{{3, 0}, {0, 3}};
          s.mission.target_tolerance_m = 0.05;
          s.obstacles = {Wall{{3.01, -1}, {3.01, 1}}};
        }},
-      {"targets", "target 0 at (3, 0) lies inside", [](Scenario& s) { s.obstacles = {Disc{{3, 0}, 0.5}}; }},
+      {"targets", "target 0 at (3, 0) lies inside",
+       [](Scenario& s) {
+         s.obstacles = {Disc{{3, 0}, 0.5}};
+       }},
       {"targets", "inside an obstacle",
-       [](Scenario& s) { s.targets = RandomTargets{1, 1, {5, 0}}, s.obstacles = {Disc{{5, 0}, 1.5}}; }},
-      {"targets.count", "is 0", [](Scenario& s) { s.targets = RingTargets{0, 3, 0, {}}; }},
-      {"targets.count", "1000000000", [](Scenario& s) { s.targets = RingTargets{1000000000, 3, 0, {}}; }},
-      {"targets.radius_m", "nan", [](Scenario& s) { s.targets = RingTargets{3, nan, 0, {}}; }},
-      {"targets.phase_deg", "inf", [](Scenario& s) { s.targets = RingTargets{3, 3, infinity, {}}; }},
-      {"targets.center_m[0]", "is nan", [](Scenario& s) { s.targets = RandomTargets{3, 3, {nan, 0}}; }},
-      {"obstacles[0].radius_m", "is 0", [](Scenario& s) { s.obstacles = {Disc{{5, 5}, 0}}; }},
+       [](Scenario& s) {
+         s.targets = RandomTargets{1, 1, {5, 0}}, s.obstacles = {Disc{{5, 0}, 1.5}};
+       }},
+      {"targets.count", "is 0",
+       [](Scenario& s) {
+         s.targets = RingTargets{0, 3, 0, {}};
+       }},
+      {"targets.count", "1000000000",
+       [](Scenario& s) {
+         s.targets = RingTargets{1000000000, 3, 0, {}};
+       }},
+      {"targets.radius_m", "nan",
+       [](Scenario& s) {
+         s.targets = RingTargets{3, nan, 0, {}};
+       }},
+      {"targets.phase_deg", "inf",
+       [](Scenario& s) {
+         s.targets = RingTargets{3, 3, infinity, {}};
+       }},
+      {"targets.center_m[0]", "is nan",
+       [](Scenario& s) {
+         s.targets = RandomTargets{3, 3, {nan, 0}};
+       }},
+      {"obstacles[0].radius_m", "is 0",
+       [](Scenario& s) {
+         s.obstacles = {Disc{{5, 5}, 0}};
+       }},
       {"obstacles[1].size_m[1]", "is -1",
-       [](Scenario& s) { s.obstacles = {Disc{{5, 5}, 1}, Box{{5, 5}, {1, -1}, 0}}; }},
-      {"obstacles[0].angle_deg", "nan", [](Scenario& s) { s.obstacles = {Box{{5, 5}, {1, 1}, nan}}; }},
-      {"obstacles[0].to_m", "must differ", [](Scenario& s) { s.obstacles = {Wall{{5, 5}, {5, 5}}}; }},
-      {"obstacles[0].from_m[0]", "is nan", [](Scenario& s) { s.obstacles = {Wall{{nan, 5}, {5, 5}}}; }},
+       [](Scenario& s) {
+         s.obstacles = {Disc{{5, 5}, 1}, Box{{5, 5}, {1, -1}, 0}};
+       }},
+      {"obstacles[0].angle_deg", "nan",
+       [](Scenario& s) {
+         s.obstacles = {Box{{5, 5}, {1, 1}, nan}};
+       }},
+      {"obstacles[0].to_m", "must differ",
+       [](Scenario& s) {
+         s.obstacles = {Wall{{5, 5}, {5, 5}}};
+       }},
+      {"obstacles[0].from_m[0]", "is nan",
+       [](Scenario& s) {
+         s.obstacles = {Wall{{nan, 5}, {5, 5}}};
+       }},
       {"obstacles[1].size_m", "too thin for robot.body = \"box2d\": at (5, 5) both sides must be at least 0.000406",
        [](Scenario& s) {
          s.robot.body = BodyModel::box2d;
@@ -144,16 +224,26 @@ const std::vector<Case>& cases() {
          s.obstacles = {Box{{5, 5}, {2, 0.005}, 0}};
          s.events = {event(MoveObstacle{0, {9000, 9000}})};
        }},
-      {"tick_s", "pass through an obstacle", [](Scenario& s) { s.obstacles = {Disc{{5, 5}, 1}}, s.tick_s = 0.5; }},
+      {"tick_s", "pass through an obstacle",
+       [](Scenario& s) {
+         s.obstacles = {Disc{{5, 5}, 1}}, s.tick_s = 0.5;
+       }},
       {"events[0].time_s", "-1", [](Scenario& s) { s.events = {event(Die{0}, -1)}; }},
       {"events[0].robot", "there is no robot 99", [](Scenario& s) { s.events = {event(Die{99})}; }},
       {"events[1].robot", "there is no robot 12",
-       [](Scenario& s) { s.swarm.robots = 12, s.events = {event(Die{11}), event(Freeze{12})}; }},
+       [](Scenario& s) {
+         s.swarm.robots = 12, s.events = {event(Die{11}), event(Freeze{12})};
+       }},
       {"events[0].target", "there is no target 3", [](Scenario& s) { s.events = {event(MoveTarget{3})}; }},
       {"events[0].target", "at that time",
-       [](Scenario& s) { s.events = {event(MoveTarget{3}, 1), event(AddTarget{}, 2)}; }},
+       [](Scenario& s) {
+         s.events = {event(MoveTarget{3}, 1), event(AddTarget{}, 2)};
+       }},
       {"events[0].loss", "7", [](Scenario& s) { s.events = {event(SetLoss{7})}; }},
-      {"events[0].duration_s", "-1", [](Scenario& s) { s.events = {event(Freeze{0, -1})}; }},
+      {"events[0].duration_s", "-1",
+       [](Scenario& s) {
+         s.events = {event(Freeze{0, -1})};
+       }},
       {"events[0].target", "there is no target 3", [](Scenario& s) { s.events = {event(RemoveTarget{3})}; }},
       {"events[0].obstacle", "there is no obstacle 0", [](Scenario& s) { s.events = {event(MoveObstacle{0})}; }},
       {"events[0].obstacle", "there is no obstacle 2; the last one is 1",
@@ -172,16 +262,22 @@ const std::vector<Case>& cases() {
          s.obstacles = {Disc{{5, 5}, 1}};
        }},
       {"events[0].when", "not the text \"\"",
-       [](Scenario& s) { s.events = {{1.0, static_cast<Event::When>(99), Die{}}}; }},
-      {"events[0].speed_m_s", "-1", [](Scenario& s) { s.events = {event(MoveTarget{0, {}, -1})}; }},
+       [](Scenario& s) {
+         s.events = {{1.0, static_cast<Event::When>(99), Die{}}};
+       }},
+      {"events[0].speed_m_s", "-1",
+       [](Scenario& s) {
+         s.events = {event(MoveTarget{0, {}, -1})};
+       }},
       {"events[0].duration_s", "above 0", [](Scenario& s) { s.events = {event(Blackout{})}; }},
-      {"events[0].share", "not both",
-       [](Scenario& s) { s.events = {event(Kill{.share = 0.5, .count = 2})}; }},
+      {"events[0].share", "not both", [](Scenario& s) { s.events = {event(Kill{.share = 0.5, .count = 2})}; }},
       {"events[0].share", "1.1", [](Scenario& s) { s.events = {event(Kill{.share = 1.1})}; }},
       {"events[0].count", "is 0", [](Scenario& s) { s.events = {event(Kill{.count = 0})}; }},
       {"events[0].every_s", "nan", [](Scenario& s) { s.events = {event(Kill{.every_s = nan})}; }},
       {"events[0].position_m[0]", "is nan",
-       [](Scenario& s) { s.events = {event(AddTarget{{nan, 0}})}; }},
+       [](Scenario& s) {
+         s.events = {event(AddTarget{{nan, 0}})};
+       }},
       {"events[0].position_m", "inside an obstacle",
        [](Scenario& s) {
          s.events = {event(AddTarget{{5, 5}})};
@@ -199,11 +295,17 @@ const std::vector<Case>& cases() {
       {"events[0].time_s", "happens only if the run goes on after its limit of 150 s",
        [](Scenario& s) { s.events = {event(Die{0}, 1e6)}; }, true},  // a complete run waits for it
       {"events[0].time_s", "happens only if the run goes on",
-       [](Scenario& s) { s.events = {event(AddTarget{}, 200), event(Die{0}, 1)}; }, true},  // recovers until then
+       [](Scenario& s) {
+         s.events = {event(AddTarget{}, 200), event(Die{0}, 1)};
+       },
+       true},  // recovers until then
       {"events[0].time_s", "happens only if the run goes on",
        [](Scenario& s) { s.mission.settle_s = 100, s.events = {event(AddTarget{}, 200)}; }, true},
       {"targets", "out of reach",
-       [](Scenario& s) { s.swarm.robots = 5, s.targets = std::vector<Vec2>{{-9, 0}, {9, 0}}; }, true},
+       [](Scenario& s) {
+         s.swarm.robots = 5, s.targets = std::vector<Vec2>{{-9, 0}, {9, 0}};
+       },
+       true},
   };
   return list;
 }

@@ -9,7 +9,8 @@ namespace {
 
 int roots(const World& world) {
   int count = 0;
-  for (std::size_t i = 0; i < world.size(); ++i) count += world.alive()[i] != 0 && world.reports()[i].role == Role::root ? 1 : 0;
+  for (std::size_t i = 0; i < world.size(); ++i)
+    count += world.alive()[i] != 0 && world.reports()[i].role == Role::root ? 1 : 0;
   return count;
 }
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 #include <random>
+#include <set>
 #include <string>
 
 #include "banyan/world/obstacles.hpp"
@@ -216,7 +216,8 @@ TEST(Intervene, IsHashedWhileItLasts) {
   EXPECT_NE(a.hash(), b.hash());
 
   std::set<std::uint64_t> hashes;
-  for (const Action& action : {Action(SetLoss{}), Action(AddObstacle{{60.0, 50.0}, 0.3}), Action(AddObstacle{{60.0, 50.0}, 0.4}), Action(RemoveObstacle{0})}) {
+  for (const Action& action : {Action(SetLoss{}), Action(AddObstacle{{60.0, 50.0}, 0.3}),
+                               Action(AddObstacle{{60.0, 50.0}, 0.4}), Action(RemoveObstacle{0})}) {
     World world(s);
     world.intervene({.action = action});
     world.step();

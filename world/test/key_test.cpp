@@ -32,10 +32,8 @@ template <> struct NamesOf<std::variant<Engine, Sail>> {
 };
 template <> struct Parts<Boat> {
   template <class Part> static Part* find(Boat& boat) noexcept {
-    if constexpr (std::is_same_v<Part, Boat>)
-      return &boat;
-    else
-      return std::get_if<Part>(&boat.drive);
+    if constexpr (std::is_same_v<Part, Boat>) return &boat;
+    else return std::get_if<Part>(&boat.drive);
   }
 };
 

@@ -20,7 +20,10 @@ struct LinearBench {
   std::uint64_t tick = 0;
 
   LinearBench(const Scenario& s, Poses start)
-      : scenario{s}, poses{std::move(start)}, command(poses.position.size()), odometry(poses.position.size()),
+      : scenario{s},
+        poses{std::move(start)},
+        command(poses.position.size()),
+        odometry(poses.position.size()),
         bodies{make_linear(s, poses.position.size())} {}
   void step() { bodies->step(command, {}, tick++, poses, odometry); }
 };

@@ -54,9 +54,7 @@ TEST(Obstacles, BlockWhenAPointOfTheLineOfSightIsInside) {
       sampled = trial % 2 == 0 ? inside(std::get<Disc>(obstacle), p) : inside(std::get<Box>(obstacle), p);
     }
     blocked += sampled;
-    if (sampled) {
-      EXPECT_TRUE(blocks(obstacle, a, b)) << "trial " << trial;
-    }
+    if (sampled) { EXPECT_TRUE(blocks(obstacle, a, b)) << "trial " << trial; }
     knife_edge += !sampled && blocks(obstacle, a, b);  // a chord shorter than the sampling step
   }
   EXPECT_GT(blocked, 500);

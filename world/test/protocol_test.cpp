@@ -26,7 +26,9 @@ std::string title(const testing::TestParamInfo<Conditions>& info) {
   return c.algorithm + "_" + c.reading + (c.loss > 0.0 ? "_lossy" : "") + (c.line_of_sight ? "_occluded" : "");
 }
 
-void PrintTo(const Conditions& c, std::ostream* out) { *out << c.algorithm << ", " << c.reading << ", loss " << c.loss << (c.line_of_sight ? ", occluded" : ""); }
+void PrintTo(const Conditions& c, std::ostream* out) {
+  *out << c.algorithm << ", " << c.reading << ", loss " << c.loss << (c.line_of_sight ? ", occluded" : "");
+}
 
 std::vector<Conditions> all_conditions() {
   std::vector<Conditions> all;
@@ -43,7 +45,8 @@ Scenario random_scenario(const Conditions& c, std::uint64_t seed) {
   const auto draw = [&](std::uint64_t k) { return to_uniform(bits(seed, Purpose::targets, 1000, k)); };
   const std::size_t targets = 2 + static_cast<std::size_t>(3 * draw(0));
   const double radius_m = 2.0 + 5.0 * draw(1);
-  const auto robots = static_cast<std::size_t>((1.2 + 2.5 * draw(2)) * static_cast<double>(targets) * radius_m / 1.54) + targets + 1;
+  const auto robots =
+      static_cast<std::size_t>((1.2 + 2.5 * draw(2)) * static_cast<double>(targets) * radius_m / 1.54) + targets + 1;
   Scenario s = ring(c.algorithm, robots, targets, radius_m, seed);
   s.mission.reading = c.reading;
   s.radio.loss = c.loss;
@@ -75,7 +78,8 @@ std::vector<TreeState> memories(const World& world) {
 // All whom the message of robot i names as their part in the tree.
 std::vector<RobotId> named(const World& world, std::size_t i) {
   const TreeMessage& m = tree_message(world.swarm(), i);
-  std::vector<RobotId> ids{m.parent, m.old_parent, m.flood_parent, m.grant, m.request, m.inserted_child, m.new_root, m.root.id};
+  std::vector<RobotId> ids{m.parent,  m.old_parent,     m.flood_parent, m.grant,
+                           m.request, m.inserted_child, m.new_root,     m.root.id};
   if (world.algorithm().name() == "convoy") ids.push_back(swarm_as<ConvoySwarm>(world.swarm()).message(i).warned);
   return ids;
 }
@@ -83,8 +87,7 @@ std::vector<RobotId> named(const World& world, std::size_t i) {
 class Protocol : public testing::TestWithParam<Conditions> {
  protected:
   // Calls check(world) after every tick of many random worlds.
-  template <class Check>
-  static void watch(Check check, std::uint64_t few = 8, int ticks = 700) {
+  template <class Check> static void watch(Check check, std::uint64_t few = 8, int ticks = 700) {
     const std::uint64_t seeds = long_search() ? 40 * few : few;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       World world(random_scenario(GetParam(), seed));
@@ -111,7 +114,8 @@ TEST_P(Protocol, ParentsNeverFormACycleAndAreAheadOfTheirChildren) {
         ASSERT_FALSE(parent.is_worker) << chain(world, i);
       }
       ASSERT_GE(parent.epoch, child.epoch) << chain(world, i);
-      const bool ahead = parent.seqno > child.seqno || (parent.seqno == child.seqno && parent.label_cm < child.label_cm);
+      const bool ahead =
+          parent.seqno > child.seqno || (parent.seqno == child.seqno && parent.label_cm < child.label_cm);
       ASSERT_TRUE(parent.epoch > child.epoch || ahead) << chain(world, i);
       std::size_t top = i;
       std::size_t hops = 0;
@@ -123,22 +127,24 @@ TEST_P(Protocol, ParentsNeverFormACycleAndAreAheadOfTheirChildren) {
 
 TEST_P(Protocol, GossipOnlyGrows) {
   std::vector<TreeState> before;
-  watch([&](const World& world) {
-    const std::vector<TreeState> states = memories(world);
-    if (world.tick() == 1) before = states;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      const TreeState& now = states[i];
-      ASSERT_GE(now.epoch, before[i].epoch) << i;
-      if (now.epoch == before[i].epoch) {
-        ASSERT_GE(now.phase, before[i].phase) << i;
-        ASSERT_GE(now.seqno, before[i].seqno) << i;
-        // Within an epoch nobody falls back behind what it has sent.
-        ASSERT_TRUE(now.seqno > before[i].seqno || now.label_cm <= before[i].label_cm) << i;
-      }
-      ASSERT_FALSE(newer(before[i].root, now.root)) << i;
-    }
-    before = states;
-  }, 4);
+  watch(
+      [&](const World& world) {
+        const std::vector<TreeState> states = memories(world);
+        if (world.tick() == 1) before = states;
+        for (std::size_t i = 0; i < states.size(); ++i) {
+          const TreeState& now = states[i];
+          ASSERT_GE(now.epoch, before[i].epoch) << i;
+          if (now.epoch == before[i].epoch) {
+            ASSERT_GE(now.phase, before[i].phase) << i;
+            ASSERT_GE(now.seqno, before[i].seqno) << i;
+            // Within an epoch nobody falls back behind what it has sent.
+            ASSERT_TRUE(now.seqno > before[i].seqno || now.label_cm <= before[i].label_cm) << i;
+          }
+          ASSERT_FALSE(newer(before[i].root, now.root)) << i;
+        }
+        before = states;
+      },
+      4);
 }
 
 // During a hand-over the old root still believes in itself until it hears its heir; losses and
@@ -154,8 +160,10 @@ TEST_P(Protocol, ThereIsOneRootExceptDuringAHandOver) {
       const auto links = world.links(s.id);
       return s.new_root != nobody && std::find(links.begin(), links.end(), s.new_root) == links.end();
     };
-    const auto believers = std::count_if(states.begin(), states.end(), [](const TreeState& s) { return s.role == Role::root; });
-    const auto roots = std::count_if(states.begin(), states.end(), [&](const TreeState& s) { return s.role == Role::root && !has_lost_heir(s); });
+    const auto believers =
+        std::count_if(states.begin(), states.end(), [](const TreeState& s) { return s.role == Role::root; });
+    const auto roots = std::count_if(states.begin(), states.end(),
+                                     [&](const TreeState& s) { return s.role == Role::root && !has_lost_heir(s); });
     ASSERT_GE(believers, 1);
     ASSERT_LE(calm ? roots : believers, calm ? 2 : 5);
     several = believers > 1 ? several + 1 : 0;
@@ -166,21 +174,24 @@ TEST_P(Protocol, ThereIsOneRootExceptDuringAHandOver) {
 }
 
 TEST_P(Protocol, MessagesNameRobotsThatExist) {
-  watch([](const World& world) {
-    const auto n = static_cast<RobotId>(world.size());
-    for (std::size_t i = 0; i < n; ++i) {
-      const TreeMessage& m = tree_message(world.swarm(), i);
-      ASSERT_EQ(m.id, i);
-      for (const RobotId id : named(world, i)) ASSERT_TRUE(id == nobody || (id < n && (id != i || m.root.id == i))) << i;
-      ASSERT_NE(m.parent, m.id);
-      ASSERT_NE(m.old_parent, m.id);
-      ASSERT_EQ(m.role == Role::root, m.root.id == i) << i;
-      inside(world.swarm(), [&](const auto& swarm) {
-        const auto wire = decode_fields<std::decay_t<decltype(swarm.message(i))>>(said(world, i));
-        ASSERT_TRUE(wire && *wire == swarm.message(i)) << i;
-      });
-    }
-  }, 2);
+  watch(
+      [](const World& world) {
+        const auto n = static_cast<RobotId>(world.size());
+        for (std::size_t i = 0; i < n; ++i) {
+          const TreeMessage& m = tree_message(world.swarm(), i);
+          ASSERT_EQ(m.id, i);
+          for (const RobotId id : named(world, i))
+            ASSERT_TRUE(id == nobody || (id < n && (id != i || m.root.id == i))) << i;
+          ASSERT_NE(m.parent, m.id);
+          ASSERT_NE(m.old_parent, m.id);
+          ASSERT_EQ(m.role == Role::root, m.root.id == i) << i;
+          inside(world.swarm(), [&](const auto& swarm) {
+            const auto wire = decode_fields<std::decay_t<decltype(swarm.message(i))>>(said(world, i));
+            ASSERT_TRUE(wire && *wire == swarm.message(i)) << i;
+          });
+        }
+      },
+      2);
 }
 
 // With both ends limiting their motion, no edge of the corrected reading outgrows delta; an edge
@@ -193,28 +204,31 @@ TEST_P(Guarded, TheGuardBoundsEveryEdgeOfTheTree) {
   constexpr double slack_m = 0.002;   // bodies push each other; single precision
   std::vector<RobotId> parents;
   std::vector<double> taken_at_m;
-  watch([&](const World& world) {
-    if (world.tick() == 1) {
-      parents.assign(world.size(), nobody);
-      taken_at_m.assign(world.size(), 0.0);
-    }
-    const double delta_m = static_cast<double>(tree_params(world.swarm()).ideal_distance_m);
-    for (std::size_t i = 0; i < world.size(); ++i) {
-      const Report& s = world.reports()[i];
-      const bool taken = s.parent != parents[i];
-      parents[i] = s.parent;
-      if (s.parent == nobody || s.role == Role::spare) continue;
-      const double d = distance(world.positions()[i], world.positions()[s.parent]);
-      if (taken) taken_at_m[i] = d;
-      ASSERT_LE(d, std::max(delta_m, taken_at_m[i] + unaware_m) + slack_m) << i << " -> " << s.parent;
-    }
-  }, 12);
+  watch(
+      [&](const World& world) {
+        if (world.tick() == 1) {
+          parents.assign(world.size(), nobody);
+          taken_at_m.assign(world.size(), 0.0);
+        }
+        const double delta_m = static_cast<double>(tree_params(world.swarm()).ideal_distance_m);
+        for (std::size_t i = 0; i < world.size(); ++i) {
+          const Report& s = world.reports()[i];
+          const bool taken = s.parent != parents[i];
+          parents[i] = s.parent;
+          if (s.parent == nobody || s.role == Role::spare) continue;
+          const double d = distance(world.positions()[i], world.positions()[s.parent]);
+          if (taken) taken_at_m[i] = d;
+          ASSERT_LE(d, std::max(delta_m, taken_at_m[i] + unaware_m) + slack_m) << i << " -> " << s.parent;
+        }
+      },
+      12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Runs, Protocol, testing::ValuesIn(all_conditions()), title);
 // With losses or occlusion an end may not know how long its edge is, and literal has no guard.
 INSTANTIATE_TEST_SUITE_P(Runs, Guarded,
-                         testing::Values(Conditions{"outwards", "corrected", 0.0, false}, Conditions{"inwards", "corrected", 0.0, false}),
+                         testing::Values(Conditions{"outwards", "corrected", 0.0, false},
+                                         Conditions{"inwards", "corrected", 0.0, false}),
                          title);
 
 }  // namespace

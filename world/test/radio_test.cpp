@@ -16,7 +16,9 @@ namespace banyan::world {
 namespace {
 
 using Real = long double;
-struct Point { Real x, y; };
+struct Point {
+  Real x, y;
+};
 Point point(Vec2 v) { return {v.x, v.y}; }
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 Real dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
@@ -75,7 +77,8 @@ Margin box_between(const Box& box, Point a, Point b) {
 }
 
 Margin obstacle_between(const Obstacle& obstacle, Point a, Point b) {
-  if (const auto* disc = std::get_if<Disc>(&obstacle)) return static_cast<Real>(disc->radius_m) - distance_to_segment(point(disc->center), a, b);
+  if (const auto* disc = std::get_if<Disc>(&obstacle))
+    return static_cast<Real>(disc->radius_m) - distance_to_segment(point(disc->center), a, b);
   if (const auto* wall = std::get_if<Wall>(&obstacle)) return segments_cross(a, b, point(wall->from), point(wall->to));
   return box_between(std::get<Box>(obstacle), a, b);
 }
@@ -94,7 +97,9 @@ struct Crowd {
 
 // 1 to 300 robots in a square, from sparse to overlapping, some dead, with and without obstacles and leaks.
 Crowd crowd(std::uint64_t seed) {
-  const auto draw = [&](std::uint64_t a, std::uint64_t b = 0) { return to_uniform(bits(seed, Purpose::placement, a, b)); };
+  const auto draw = [&](std::uint64_t a, std::uint64_t b = 0) {
+    return to_uniform(bits(seed, Purpose::placement, a, b));
+  };
   Crowd c;
   const std::size_t robots = 1 + static_cast<std::size_t>(300 * draw(0) * draw(1));
   const double side_m = std::sqrt(static_cast<double>(robots)) * (0.12 + 1.5 * draw(2) * draw(3));
@@ -113,7 +118,8 @@ Crowd crowd(std::uint64_t seed) {
       const Vec2 at{side_m * (draw(20, k) - 0.5), side_m * (draw(21, k) - 0.5)};
       const Vec2 to{side_m * (draw(22, k) - 0.5), side_m * (draw(23, k) - 0.5)};
       if (k % 3 == 0) c.scenario.obstacles.push_back(Disc{at, 0.05 + 0.3 * draw(24, k)});
-      if (k % 3 == 1) c.scenario.obstacles.push_back(Box{at, {0.1 + draw(24, k), 0.1 + draw(25, k)}, 6.0 * draw(26, k)});
+      if (k % 3 == 1)
+        c.scenario.obstacles.push_back(Box{at, {0.1 + draw(24, k), 0.1 + draw(25, k)}, 6.0 * draw(26, k)});
       if (k % 3 == 2) c.scenario.obstacles.push_back(Wall{at, to});
     }
   }
@@ -134,10 +140,8 @@ Margin hidden_between(const Crowd& c, std::uint32_t i, std::uint32_t j) {
     const Real nearer_to_a = length(b - body) - length(body - a);
     const bool is_over = nearer_to_a > 0 ? raised(i) : raised(j);
     if (between > 0 && raised(i) != raised(j) && std::fabs(nearer_to_a) < 1e-8L) return 0;
-    if (!is_over)
-      hidden = std::max(hidden, between);
-    else if (std::fabs(between) < 1e-9L)
-      return 0;
+    if (!is_over) hidden = std::max(hidden, between);
+    else if (std::fabs(between) < 1e-9L) return 0;
   }
   for (const Obstacle& obstacle : c.scenario.obstacles) hidden = std::max(hidden, obstacle_between(obstacle, a, b));
   return hidden;
@@ -166,7 +170,8 @@ void compare(const Crowd& c, const Radio& radio, std::uint64_t seed) {
       if (c.scenario.radio.line_of_sight && in_range > 0) hidden = hidden_between(c, i, j);
       if (std::fabs(in_range) < edge || std::fabs(hidden) < edge) continue;
       ASSERT_EQ(heard, in_range > 0 && hidden < 0) << "seed " << seed << ": " << i << " - " << j << " of " << n;
-      ASSERT_EQ(blocked.contains({i, j}), in_range > 0 && hidden > 0) << "seed " << seed << ": " << i << " - " << j << " of " << n;
+      ASSERT_EQ(blocked.contains({i, j}), in_range > 0 && hidden > 0)
+          << "seed " << seed << ": " << i << " - " << j << " of " << n;
     }
   }
 }
@@ -192,7 +197,8 @@ TEST(Radio, AgreesWithPlainGeometryWhileRobotsMoveAndDie) {
       ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed));
       for (std::size_t i = 0; i < c.positions.size(); ++i) {
         const double far = tick % 4 == 3 ? 2.0 : 0.05;  // now and then everybody jumps
-        c.positions[i] += Vec2{far * (to_uniform(bits(seed, Purpose::loss, i, 0, tick)) - 0.5), far * (to_uniform(bits(seed, Purpose::loss, i, 1, tick)) - 0.5)};
+        c.positions[i] += Vec2{far * (to_uniform(bits(seed, Purpose::loss, i, 0, tick)) - 0.5),
+                               far * (to_uniform(bits(seed, Purpose::loss, i, 1, tick)) - 0.5)};
         if (to_uniform(bits(seed, Purpose::loss, i, 2, tick)) < 0.02) c.alive[i] = 0;
       }
     }
@@ -213,13 +219,14 @@ TEST(Radio, AgreesWithPlainGeometryInAWideWorld) {
       c.show(radio, executor);
       ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed));
       for (std::size_t i = 0; i < c.positions.size(); ++i)
-        c.positions[i] += Vec2{0.04 * (to_uniform(bits(seed, Purpose::loss, i, 0, tick)) - 0.5), 0.04 * (to_uniform(bits(seed, Purpose::loss, i, 1, tick)) - 0.5)};
+        c.positions[i] += Vec2{0.04 * (to_uniform(bits(seed, Purpose::loss, i, 0, tick)) - 0.5),
+                               0.04 * (to_uniform(bits(seed, Purpose::loss, i, 1, tick)) - 0.5)};
     }
   }
 }
 
-// A crowd in which many stand, some creep, some drive and a few are fast, each on its own way to and fro; in every third
-// crowd nearly all drive.
+// A crowd in which many stand, some creep, some drive and a few are fast, each on its own way to and fro; in every
+// third crowd nearly all drive.
 class Traffic {
  public:
   explicit Traffic(std::uint64_t seed) : crowd(world::crowd(seed)), seed_(seed), heading_(crowd.positions.size()) {
@@ -229,14 +236,18 @@ class Traffic {
 
   // True if robot i has just died.
   bool move(std::size_t i, std::uint64_t tick) {
-    constexpr double mixed[] = {0.0, 0.0, 0.0, 0.0, 1e-9, 1e-5, 1e-3, 0.02, 0.02, 0.1};   // m per tick
+    constexpr double mixed[] = {0.0, 0.0, 0.0, 0.0, 1e-9, 1e-5, 1e-3, 0.02, 0.02, 0.1};  // m per tick
     constexpr double alike[] = {0.0, 0.01, 0.02, 0.02, 0.02, 0.02, 0.02, 0.02, 0.02, 0.02};
     const auto& speeds = seed_ % 3 == 0 ? alike : mixed;
-    if (!crowd.raised.empty() && draw(15, i, tick) < 0.2) crowd.raised[i] ^= 1;            // also while everybody rests
+    if (!crowd.raised.empty() && draw(15, i, tick) < 0.2) crowd.raised[i] ^= 1;  // also while everybody rests
     if (draw(3, i, tick) < 0.02) heading_[i] = unit_vector(6.2831853 * draw(4, i, tick));
     const bool everybody_rests = draw(5, tick / 8) < 0.2;
-    if (!everybody_rests) crowd.positions[i] += heading_[i] * speeds[static_cast<std::size_t>(10 * draw(6, i, tick / 30))];
-    if (draw(7, i, tick) < 0.0005) crowd.positions[i] = crowd.positions[static_cast<std::size_t>(draw(8, i, tick) * static_cast<double>(heading_.size()))] + Vec2{0.2, 0.1};
+    if (!everybody_rests)
+      crowd.positions[i] += heading_[i] * speeds[static_cast<std::size_t>(10 * draw(6, i, tick / 30))];
+    if (draw(7, i, tick) < 0.0005)
+      crowd.positions[i] =
+          crowd.positions[static_cast<std::size_t>(draw(8, i, tick) * static_cast<double>(heading_.size()))] +
+          Vec2{0.2, 0.1};
     if (crowd.alive[i] == 0 || draw(9, i, tick) >= 0.0003) return false;
     crowd.alive[i] = 0;
     return true;
@@ -246,7 +257,8 @@ class Traffic {
     Scenario& s = crowd.scenario;
     if (draw(10, tick) < 0.02) radio.set_line_of_sight(s.radio.line_of_sight = !s.radio.line_of_sight);
     if (s.obstacles.empty() || draw(11, tick) >= 0.05) return;
-    Obstacle& obstacle = s.obstacles[static_cast<std::size_t>(draw(12, tick) * static_cast<double>(s.obstacles.size()))];
+    Obstacle& obstacle =
+        s.obstacles[static_cast<std::size_t>(draw(12, tick) * static_cast<double>(s.obstacles.size()))];
     obstacle = moved(obstacle, center_of(obstacle) + Vec2{0.3 * draw(13, tick) - 0.15, 0.3 * draw(14, tick) - 0.15});
     radio.set_obstacles(s.obstacles);
   }
@@ -281,9 +293,7 @@ TEST(Radio, WhatItKeepsFromTickToTickIsWhatItWouldFindAnew) {
       Radio anew(c.scenario, robots);
       c.show(anew, alone);
       ASSERT_NO_FATAL_FAILURE(expect_same(radio, anew, robots)) << "seed " << seed << ", tick " << tick;
-      if (tick % 50 == 49 && c.scenario.robot.dead_bodies) {
-        ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed));
-      }
+      if (tick % 50 == 49 && c.scenario.robot.dead_bodies) { ASSERT_NO_FATAL_FAILURE(compare(c, radio, seed)); }
       traffic.change_settings(radio, tick);
       for (std::size_t i = 0; i < robots; ++i)
         if (traffic.move(i, tick) && !c.scenario.robot.dead_bodies) radio.forget(static_cast<std::uint32_t>(i));
@@ -296,7 +306,8 @@ TEST(Radio, WhatItKeepsFromTickToTickIsWhatItWouldFindAnew) {
 TEST(Radio, WhoHasBeenAwayForLongIsSeenAgain) {
   Scenario scenario;
   scenario.radio.range_m = 2.0;
-  const double reach_m = 1.1 * scenario.radio.range_m + scenario.robot.radius_m + 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s;
+  const double reach_m =
+      1.1 * scenario.radio.range_m + scenario.robot.radius_m + 4.0 * scenario.robot.wheel_limit_m_s * scenario.tick_s;
   const std::vector<std::uint8_t> alive(3, 1);
   Executor executor(1);
   for (double away_m = 0.0; away_m < 6.0; away_m += 0.25) {
@@ -321,7 +332,8 @@ TEST(Radio, NearPairsAreAllPairsThatCouldTouch) {
     const Crowd c = crowd(seed);
     Radio radio(c.scenario, c.positions.size());
     radio.update(c.positions, c.alive, executor);
-    const double near_m = 2 * c.scenario.robot.radius_m + 4 * c.scenario.robot.wheel_limit_m_s * c.scenario.tick_s + 0.01;
+    const double near_m =
+        2 * c.scenario.robot.radius_m + 4 * c.scenario.robot.wheel_limit_m_s * c.scenario.tick_s + 0.01;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
     for (std::uint32_t i = 0; i < c.positions.size(); ++i)
       for (std::uint32_t j = i + 1; j < c.positions.size(); ++j)

@@ -16,7 +16,9 @@ namespace {
 // Parts that the links make which both ends say they keep, counted by plain search.
 std::size_t parts_by_kept_links(const World& world) {
   const auto reports = world.reports();
-  const auto has = [&](std::size_t i, std::size_t j) { return world.alive()[i] && world.alive()[j] && keeps(reports[i], static_cast<RobotId>(j)); };
+  const auto has = [&](std::size_t i, std::size_t j) {
+    return world.alive()[i] && world.alive()[j] && keeps(reports[i], static_cast<RobotId>(j));
+  };
   std::vector<std::size_t> part(world.size());
   std::iota(part.begin(), part.end(), std::size_t{0});
   for (bool changed = true; changed;) {
@@ -33,9 +35,11 @@ std::size_t parts_by_kept_links(const World& world) {
   return count;
 }
 
-constexpr double longest = 0.85;  // of C: in trying(), what is left is for links that are stretched by who knows it late
+constexpr double longest =
+    0.85;  // of C: in trying(), what is left is for links that are stretched by who knows it late
 
-// Parts of the living that no link is left between which a robot would make: 5 % shorter than the longest that it keeps.
+// Parts of the living that no link is left between which a robot would make: 5 % shorter than the longest that it
+// keeps.
 std::size_t parts_in_reach(const World& world) {
   const double reach_m = 0.95 * longest * world.scenario().radio.range_m;
   std::vector<std::size_t> todo, parts(world.size(), 0);
@@ -57,8 +61,8 @@ std::size_t parts_in_reach(const World& world) {
 }
 
 // Clocks that run apart, packets that come late or not at all, long ticks. What a designer has to fit to that is: how
-// long a neighbour may be silent, how far and how fast a link may be stretched by who knows its length late, and how long
-// a tree takes.
+// long a neighbour may be silent, how far and how fast a link may be stretched by who knows its length late, and how
+// long a tree takes.
 Scenario trying(const std::string& algorithm, std::uint64_t seed) {
   Scenario s = ring(algorithm, 14 + seed % 7, 2 + seed % 3, 2.5 + 0.5 * static_cast<double>(seed % 3), seed);
   constexpr double ticks_s[] = {0.1, 0.05, 0.2, 0.15};
@@ -68,18 +72,23 @@ Scenario trying(const std::string& algorithm, std::uint64_t seed) {
   s.clocks.asynchronous = seed % 3 != 0;
   s.clocks.drift = s.clocks.asynchronous ? 0.1 : 0.0;
   const double late_s = s.tick_s * (s.radio.latency_ticks + 1);
-  s.mission.parameters = {{"liveness_period_s", 20.0 * s.tick_s + late_s}, {"guard_rate_per_s", std::min(1.0, 0.2 / late_s)},
-                          {"build_timeout_s", 25.0 + 100.0 * late_s}, {"longest_link", longest}};
+  s.mission.parameters = {{"liveness_period_s", 20.0 * s.tick_s + late_s},
+                          {"guard_rate_per_s", std::min(1.0, 0.2 / late_s)},
+                          {"build_timeout_s", 25.0 + 100.0 * late_s},
+                          {"longest_link", longest}};
   return s;
 }
 std::uint64_t worlds(std::uint64_t few, std::uint64_t many) { return long_search() ? many : few; }
-void run_for(World& world, double seconds) { run_until(world, world.tick() + static_cast<std::uint64_t>(seconds / world.scenario().tick_s)); }
+void run_for(World& world, double seconds) {
+  run_until(world, world.tick() + static_cast<std::uint64_t>(seconds / world.scenario().tick_s));
+}
 
 // All in the list that are not over the tree.
 std::vector<std::string> rivals() {
   std::vector<std::string> names;
   for (const Algorithm* algorithm : algorithms())
-    if (algorithm != &outwards() && algorithm != &inwards() && algorithm != &convoy()) names.emplace_back(algorithm->name());
+    if (algorithm != &outwards() && algorithm != &inwards() && algorithm != &convoy())
+      names.emplace_back(algorithm->name());
   return names;
 }
 class Rival : public testing::TestWithParam<std::string> {};
@@ -99,7 +108,10 @@ TEST_P(KeptLinks, WhatIsKeptJoinsAllAndNoKeptLinkOutgrowsTheRadio) {
       ASSERT_EQ(parts_by_kept_links(world), 1U) << GetParam() << ", seed " << seed << ", tick " << world.tick();
       for (std::size_t i = 0; i < world.size(); ++i)
         for (const RobotId other : world.reports()[i].kept)
-          if (other != nobody) { ASSERT_LT(distance(world.positions()[i], world.positions()[other]), s.radio.range_m) << seed << ", tick " << world.tick(); }
+          if (other != nobody) {
+            ASSERT_LT(distance(world.positions()[i], world.positions()[other]), s.radio.range_m)
+                << seed << ", tick " << world.tick();
+          }
     }
   }
 }

@@ -128,8 +128,8 @@ TEST(Scenario, TheAlgorithmsValuesAreItsTableScaledAndThenTheScenariosOwn) {
 
 TEST(Scenario, LeastRobotsHoldsForAStraightLineAndAStar) {
   EXPECT_EQ(least_robots({{0, 0}}, 0.2, 2.0), 1U);
-  EXPECT_EQ(least_robots({{-9, 0}, {9, 0}}, 0.2, 2.0), 10U);   // (18 - 0.4) / 2 = 8.8 links
-  EXPECT_EQ(least_robots({{-9, 0}, {9, 0}}, 0.0, 2.0), 10U);   // 9 links exactly
+  EXPECT_EQ(least_robots({{-9, 0}, {9, 0}}, 0.2, 2.0), 10U);  // (18 - 0.4) / 2 = 8.8 links
+  EXPECT_EQ(least_robots({{-9, 0}, {9, 0}}, 0.0, 2.0), 10U);  // 9 links exactly
   // Four corners: the tree through three sides needs 0.8241 * 30 / 2 links, more than a diagonal's 7.07.
   EXPECT_EQ(least_robots({{0, 0}, {10, 0}, {10, 10}, {0, 10}}, 0.0, 2.0), 14U);
 }

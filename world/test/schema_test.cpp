@@ -18,10 +18,8 @@ namespace {
 
 // With the algorithms that a scenario may name.
 template <class Owner> Owner blank() {
-  if constexpr (std::is_same_v<Owner, Scenario>)
-    return plain_scenario();
-  else
-    return {};
+  if constexpr (std::is_same_v<Owner, Scenario>) return plain_scenario();
+  else return {};
 }
 
 // A value that a key may have, another for each k.
@@ -30,22 +28,14 @@ template <class Owner> Value sample(const Key<Owner>& key, std::size_t k) {
   const double high = std::isfinite(key.range.maximum) ? std::min(key.range.maximum, low + 1000.0) : 100.0;
   const double x = low + (high - low) * static_cast<double>(k + 1) / 100.0;
   switch (key.access.type) {
-    case Type::truth:
-      return k % 2 == 0;
-    case Type::whole:
-      return static_cast<std::int64_t>(low) + static_cast<std::int64_t>(k % 50) + 1;
-    case Type::number:
-      return x;
-    case Type::name:
-      return std::string(key.access.names(blank<Owner>())[k % key.access.names(blank<Owner>()).size()]);
-    case Type::text:
-      return "text " + std::to_string(k);
-    case Type::point:
-      return Vec2{x, -x};
-    case Type::points:
-      return std::vector<Vec2>{{x, 1.0}, {x, 2.0}};
-    case Type::numbers:
-      return std::vector<double>{x, 2.0};
+    case Type::truth: return k % 2 == 0;
+    case Type::whole: return static_cast<std::int64_t>(low) + static_cast<std::int64_t>(k % 50) + 1;
+    case Type::number: return x;
+    case Type::name: return std::string(key.access.names(blank<Owner>())[k % key.access.names(blank<Owner>()).size()]);
+    case Type::text: return "text " + std::to_string(k);
+    case Type::point: return Vec2{x, -x};
+    case Type::points: return std::vector<Vec2>{{x, 1.0}, {x, 2.0}};
+    case Type::numbers: return std::vector<double>{x, 2.0};
   }
   return {};
 }

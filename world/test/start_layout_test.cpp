@@ -177,7 +177,11 @@ TEST(StartLayout, PitchAsAShareFollowsTheRange) {
 }
 
 TEST(StartLayout, WhatDoesNotFitOrHoldTogetherIsRefused) {
-  struct Case { const char* error; Layout layout; void (*change)(Scenario&); };
+  struct Case {
+    const char* error;
+    Layout layout;
+    void (*change)(Scenario&);
+  };
   const Case cases[] = {
       {"swarm.start.pitch_share: the start would not be connected", Layout::ring,
        [](Scenario& s) { s.swarm.start.pitch_share = 0.999, s.swarm.start.jitter_m = 0.01; }},
@@ -192,15 +196,25 @@ TEST(StartLayout, WhatDoesNotFitOrHoldTogetherIsRefused) {
       {"swarm.start.bridge_robots: is 19 of 20 robots; at least one must be left", Layout::bridge,
        [](Scenario& s) { s.swarm.start.bridge_robots = 19; }},
       {"swarm.start: only 19 of 20 robots fit", Layout::ring,
-       [](Scenario& s) { s.obstacles = {Disc{place(s).position[3], 0.1}}; }},
+       [](Scenario& s) {
+         s.obstacles = {Disc{place(s).position[3], 0.1}};
+       }},
       {"swarm.start: only 19 of 20 robots fit", Layout::bridge,
-       [](Scenario& s) { s.obstacles = {Disc{place(s).position[0], 0.1}}; }},
+       [](Scenario& s) {
+         s.obstacles = {Disc{place(s).position[0], 0.1}};
+       }},
       {"swarm.start: the start is not connected: obstacles cut it into 2 groups", Layout::bridge,
-       [](Scenario& s) { s.obstacles = {Wall{{3.5, -10.0}, {3.5, 10.0}}}; }},
+       [](Scenario& s) {
+         s.obstacles = {Wall{{3.5, -10.0}, {3.5, 10.0}}};
+       }},
       {"swarm.start: only 3 of 20 robots fit", Layout::line,
-       [](Scenario& s) { s.obstacles = {Wall{{2.5, -3.0}, {2.5, 0.0}}, Wall{{3.5, -3.0}, {3.5, 0.0}}}; }},
+       [](Scenario& s) {
+         s.obstacles = {Wall{{2.5, -3.0}, {2.5, 0.0}}, Wall{{3.5, -3.0}, {3.5, 0.0}}};
+       }},
       {"swarm.start.center_m: there is no room", Layout::random,
-       [](Scenario& s) { s.obstacles = {Disc{{3.0, -2.0}, 0.1}}; }},
+       [](Scenario& s) {
+         s.obstacles = {Disc{{3.0, -2.0}, 0.1}};
+       }},
       {"swarm.start: reaches to", Layout::line,
        [](Scenario& s) { s.swarm.robots = 20000, s.swarm.start.pitch_share = 0.9; }},
   };

@@ -22,7 +22,9 @@ struct ConnectedStart {
   double loss;
 };
 
-void PrintTo(const ConnectedStart& c, std::ostream* out) { *out << c.start << ", " << c.algorithm << ", loss " << c.loss; }
+void PrintTo(const ConnectedStart& c, std::ostream* out) {
+  *out << c.start << ", " << c.algorithm << ", loss " << c.loss;
+}
 
 std::vector<ConnectedStart> connected_starts() {
   std::vector<ConnectedStart> all;
@@ -34,7 +36,8 @@ std::vector<ConnectedStart> connected_starts() {
       all.push_back({"bridge", Layout::bridge, 0.16, 35, algorithm, loss});
       all.push_back({"random", Layout::random, 0.3, 40, algorithm, loss});
       all.push_back({"loose", Layout::hexagonal, 0.93, 37, algorithm, loss});
-      all.push_back({"nearly_broken", Layout::hexagonal, 0.975, 19, algorithm, loss});  // drawn together before anybody leaves
+      all.push_back(
+          {"nearly_broken", Layout::hexagonal, 0.975, 19, algorithm, loss});  // drawn together before anybody leaves
     }
   return all;
 }
@@ -79,9 +82,11 @@ TEST_P(EveryStart, StaysInOnePiece) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllStarts, EveryStart, testing::ValuesIn(connected_starts()), [](const testing::TestParamInfo<ConnectedStart>& info) {
-  return info.param.start + "_" + info.param.algorithm + (info.param.loss > 0.0 ? "_lossy" : "");
-});
+INSTANTIATE_TEST_SUITE_P(AllStarts, EveryStart, testing::ValuesIn(connected_starts()),
+                         [](const testing::TestParamInfo<ConnectedStart>& info) {
+                           return info.param.start + "_" + info.param.algorithm +
+                                  (info.param.loss > 0.0 ? "_lossy" : "");
+                         });
 
 }  // namespace
 }  // namespace banyan::world

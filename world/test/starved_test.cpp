@@ -36,7 +36,8 @@ Scenario scenario_of(const Mission& m) {
 double straight_drive_s(const World& world) {
   double longest_m = 0.0;
   for (const Target& t : world.targets())
-    longest_m = std::max(longest_m, distance(world.positions()[t.worker], t.position) - world.scenario().mission.target_tolerance_m);
+    longest_m = std::max(
+        longest_m, distance(world.positions()[t.worker], t.position) - world.scenario().mission.target_tolerance_m);
   return longest_m / world.scenario().robot.wheel_limit_m_s;
 }
 
@@ -66,12 +67,13 @@ TEST_P(Starved, NobodyWaitsForASpareForLong) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Missions, Starved,
-                         testing::Values(Mission{4037996777, 10, 7.69, 73, 0.17, false},   // 2.99 times the straight drive
-                                         Mission{67568779, 8, 8.36, 63, 0.16, false},      // 2.27
-                                         Mission{3229455640, 4, 5.31, 17, 0.16, true},     // 2.00
-                                         Mission{573739842, 12, 8.60, 176, 0.06, false},   // 1.97
-                                         Mission{925947508, 8, 8.16, 175, 0.22, true},     // 1.76
-                                         Mission{1985480412, 3, 5.24, 49, 0.27, true}));   // 1.63
+                         testing::Values(Mission{4037996777, 10, 7.69, 73, 0.17,
+                                                 false},                                // 2.99 times the straight drive
+                                         Mission{67568779, 8, 8.36, 63, 0.16, false},   // 2.27
+                                         Mission{3229455640, 4, 5.31, 17, 0.16, true},  // 2.00
+                                         Mission{573739842, 12, 8.60, 176, 0.06, false},  // 1.97
+                                         Mission{925947508, 8, 8.16, 175, 0.22, true},    // 1.76
+                                         Mission{1985480412, 3, 5.24, 49, 0.27, true}));  // 1.63
 
 }  // namespace
 }  // namespace banyan::world

@@ -87,7 +87,8 @@ TEST(Threads, NeverChangeTheHash) {
       }
       hashes.push_back(world.packets_received());
       if (expected.empty()) expected = hashes;
-      EXPECT_EQ(hashes, expected) << threads << " threads, " << s.mission.algorithm << ", " << *s.swarm.robots << " robots";
+      EXPECT_EQ(hashes, expected) << threads << " threads, " << s.mission.algorithm << ", " << *s.swarm.robots
+                                  << " robots";
     }
   }
 }

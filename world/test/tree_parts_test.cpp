@@ -26,7 +26,8 @@ struct Net {
   }
   [[nodiscard]] std::uint32_t parts() const {
     TreeParts counter(alive.size());
-    return counter.count(alive, reports, [this](std::size_t i) -> const auto& { return links[i]; });
+    return counter.count(
+        alive, reports, [this](std::size_t i) -> const auto& { return links[i]; });
   }
 };
 

@@ -38,7 +38,9 @@ Scenario fixed(const Scenario& s, bool moved) {
   return list;
 }
 
-Vec2 seen(const World& world, std::size_t i, Vec2 p) { return rotate_back(world.headings()[i], p - world.positions()[i]); }
+Vec2 seen(const World& world, std::size_t i, Vec2 p) {
+  return rotate_back(world.headings()[i], p - world.positions()[i]);
+}
 
 const HealingMessage& message_of(const World& world, std::size_t i) {
   return world.algorithm().name() == "outwards" ? swarm_as<CorrectedSwarm<outwards_step>>(world.swarm()).message(i)
@@ -51,12 +53,13 @@ void expect_near(Vec2 a, Vec2 b, const char* what) {
 }
 
 // All that a robot gets from the world, and what it makes of it.
-void expect_same(const World& here, const World& there, const std::vector<Vec2>& last_here, const std::vector<Vec2>& last_there,
-                 std::size_t i) {
+void expect_same(const World& here, const World& there, const std::vector<Vec2>& last_here,
+                 const std::vector<Vec2>& last_there, std::size_t i) {
   const auto links = here.links(i);
   const auto other_links = there.links(i);
   ASSERT_TRUE(std::equal(links.begin(), links.end(), other_links.begin(), other_links.end())) << "hears others";
-  for (const std::uint32_t j : links) expect_near(seen(here, i, here.positions()[j]), seen(there, i, there.positions()[j]), "neighbour");
+  for (const std::uint32_t j : links)
+    expect_near(seen(here, i, here.positions()[j]), seen(there, i, there.positions()[j]), "neighbour");
   for (std::size_t t = 0; t < here.targets().size(); ++t) {
     ASSERT_EQ(here.targets()[t].worker, there.targets()[t].worker);
     if (here.targets()[t].worker == i)
@@ -114,7 +117,8 @@ TEST_P(Truth, IsSeenByNobody) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Algorithms, Truth, testing::Values("outwards", "inwards"), [](const auto& algorithm) { return std::string(algorithm.param); });
+INSTANTIATE_TEST_SUITE_P(Algorithms, Truth, testing::Values("outwards", "inwards"),
+                         [](const auto& algorithm) { return std::string(algorithm.param); });
 
 }  // namespace
 }  // namespace banyan::world

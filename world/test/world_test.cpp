@@ -18,9 +18,7 @@ namespace {
 // Nobody moves: all robots are frozen from the start.
 Scenario statue(std::size_t robots, std::uint64_t seed = 1) {
   Scenario s = ring("outwards", robots, 2, 3.0, seed);
-  for (std::size_t i = 0; i < robots; ++i) {
-    s.events.push_back({.action = Freeze{i}});
-  }
+  for (std::size_t i = 0; i < robots; ++i) { s.events.push_back({.action = Freeze{i}}); }
   return s;
 }
 
@@ -29,8 +27,7 @@ Vec2 truth(const World& world, std::size_t receiver, std::size_t sender) {
 }
 
 // Calls visit(receiver, k) for every entry that was heard in the last tick.
-template <class Visit>
-void for_each_heard(const World& world, Visit visit) {
+template <class Visit> void for_each_heard(const World& world, Visit visit) {
   for (std::size_t i = 0; i < world.size(); ++i) {
     const TreeTable& table = tree_state(world.swarm(), i).neighbors;
     for (int k = 0; k < table.size(); ++k)
@@ -114,7 +111,7 @@ TEST(World, LatencyIsExact) {
     s.radio.loss = 0.2;
     World world(s);
     const auto swarm = [&]() -> const auto& { return swarm_as<CorrectedSwarm<outwards_step>>(world.swarm()); };
-    std::vector<std::vector<HealingMessage>> said;      // [tick][robot]
+    std::vector<std::vector<HealingMessage>> said;  // [tick][robot]
     std::vector<std::vector<Vec2>> positions, headings;
     const auto note = [&] {
       said.emplace_back();
@@ -167,7 +164,8 @@ TEST(World, SlotsLimitWhatARobotHearsAndTreatAllSendersAlike) {
     const auto links = world.links(i);
     ASSERT_GT(links.size(), 5U);
     const double share = 5.0 / static_cast<double>(links.size());
-    for (const std::uint32_t j : links) EXPECT_NEAR(heard[i][j] / double{ticks}, share, 5 * std::sqrt(share / ticks)) << i << " hears " << j;
+    for (const std::uint32_t j : links)
+      EXPECT_NEAR(heard[i][j] / double{ticks}, share, 5 * std::sqrt(share / ticks)) << i << " hears " << j;
   }
 }
 
@@ -308,7 +306,10 @@ TEST(World, AnImpossibleScenarioIsRefusedWithAllItsFaults) {
 }
 
 TEST(World, NeedsAtMostNineAndAHalfKilobytesPerRobot) {
-  for (const auto& [algorithm, reading, most] : {std::tuple{"outwards", "literal", 8'704U}, {"outwards", "corrected", 8'704U}, {"inwards", "corrected", 8'704U}, {"convoy", "corrected", 9'728U}})
+  for (const auto& [algorithm, reading, most] : {std::tuple{"outwards", "literal", 8'704U},
+                                                 {"outwards", "corrected", 8'704U},
+                                                 {"inwards", "corrected", 8'704U},
+                                                 {"convoy", "corrected", 9'728U}})
     for (const std::size_t robots : {94U, 1000U}) {
       Scenario s = ring(algorithm, robots, 4, 9.0, 1);
       s.mission.reading = reading;

@@ -25,7 +25,8 @@ inline bool long_search() {
 }
 
 // The paper's conditions (Sec. IV-B): a compact cluster of robots, targets on a ring.
-inline Scenario ring(const std::string& algorithm, std::size_t robots, std::size_t targets, double radius_m, std::uint64_t seed) {
+inline Scenario ring(const std::string& algorithm, std::size_t robots, std::size_t targets, double radius_m,
+                     std::uint64_t seed) {
   Scenario s = plain_scenario();
   s.mission.algorithm = algorithm;
   s.swarm.robots = robots;

@@ -34,14 +34,17 @@ Polygon polygon_of(const world::Disc& disc) {
 Polygon polygon_of(const world::Box& box) {
   const Vec2 along = Vec2{std::cos(box.angle_rad), std::sin(box.angle_rad)} * (0.5 * box.size.x);
   const Vec2 across = Vec2{-std::sin(box.angle_rad), std::cos(box.angle_rad)} * (0.5 * box.size.y);
-  return {box.center - along - across, box.center + along - across, box.center + along + across, box.center - along + across};
+  return {box.center - along - across, box.center + along - across, box.center + along + across,
+          box.center - along + across};
 }
 Polygon polygon_of(const world::Wall& wall) { return {wall.from, wall.to}; }
 
 bool crosses_wall(Vec2 a, Vec2 b, Vec2 from, Vec2 to) {
-  const double a_side = side(from, to, a), b_side = side(from, to, b), from_side = side(a, b, from), to_side = side(a, b, to);
-  return std::min(std::abs(a_side), std::abs(b_side)) > touch_m && std::min(std::abs(from_side), std::abs(to_side)) > touch_m &&
-         (a_side > 0.0) != (b_side > 0.0) && (from_side > 0.0) != (to_side > 0.0);
+  const double a_side = side(from, to, a), b_side = side(from, to, b), from_side = side(a, b, from),
+               to_side = side(a, b, to);
+  return std::min(std::abs(a_side), std::abs(b_side)) > touch_m &&
+         std::min(std::abs(from_side), std::abs(to_side)) > touch_m && (a_side > 0.0) != (b_side > 0.0) &&
+         (from_side > 0.0) != (to_side > 0.0);
 }
 
 // Whether a piece of the way lies within (Cyrus and Beck: what is left of it, cut by one edge after the other).

@@ -29,7 +29,9 @@ class Isolated {
   [[nodiscard]] Verdict wait();
 
   // Whether it is a mission that took longer than `most_s`.
-  [[nodiscard]] static bool has_no_end(const Finding& finding) { return finding.kind == "crash" && finding.text.starts_with("no end"); }
+  [[nodiscard]] static bool has_no_end(const Finding& finding) {
+    return finding.kind == "crash" && finding.text.starts_with("no end");
+  }
 
   static constexpr double most_s = 1800.0;
 

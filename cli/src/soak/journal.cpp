@@ -22,8 +22,7 @@
 namespace banyan::cli::soak {
 namespace {
 
-constexpr const char* header =
-    "seed,index,kind,robots,targets,complete,complete_s,bound_s,time_s,hash,findings\n";
+constexpr const char* header = "seed,index,kind,robots,targets,complete,complete_s,bound_s,time_s,hash,findings\n";
 
 std::string line_of(std::uint64_t seed, const Row& row) {
   return format("%" PRIu64 ",%" PRIu64 ",\"%s\",%zu,%zu,%s,%.1f,%.3f,%.1f,%016" PRIx64 ",%s\n", seed, row.index,
@@ -49,7 +48,8 @@ std::optional<std::pair<std::uint64_t, Row>> row_from(const std::string& line) {
   if (f.size() != 11) return std::nullopt;
   const auto whole = [&](std::size_t k, int base = 10) { return std::strtoull(f[k].c_str(), nullptr, base); };
   const auto number = [&](std::size_t k) { return std::strtod(f[k].c_str(), nullptr); };
-  const Row row{whole(1), f[2], whole(3), whole(4), f[5] == "true", number(6), number(7), number(8), whole(9, 16), f[10]};
+  const Row row{whole(1),  f[2],      whole(3),  whole(4),     f[5] == "true",
+                number(6), number(7), number(8), whole(9, 16), f[10]};
   if (line_of(whole(0), row) != line + '\n') return std::nullopt;
   return std::pair{whole(0), row};
 }
@@ -59,7 +59,9 @@ int lock_of(const std::string& path) {
     return record::open_locked(path, O_RDWR | O_CREAT | O_CLOEXEC);
   } catch (const record::FileBusy&) {
     throw CommandError(exit_lost, "another soak is writing to " + path);
-  } catch (const record::FileError& e) { throw CommandError(exit_lost, std::string("cannot write ") + path + ": " + e.what()); }
+  } catch (const record::FileError& e) {
+    throw CommandError(exit_lost, std::string("cannot write ") + path + ": " + e.what());
+  }
 }
 
 // The smallest that at least this share of them do not exceed.
@@ -78,7 +80,8 @@ std::string line_of_kind(const std::string& kind, const std::vector<const Row*>&
   }
   std::sort(ratios.begin(), ratios.end());
   std::string text = format("  %-18s %8zu %9zu %9zu", kind.c_str(), rows.size(), complete, findings);
-  if (!ratios.empty()) text += format(" %10.2f %7.2f %7.2f", quantile(ratios, 0.5), quantile(ratios, 0.95), ratios.back());
+  if (!ratios.empty())
+    text += format(" %10.2f %7.2f %7.2f", quantile(ratios, 0.5), quantile(ratios, 0.95), ratios.back());
   return text + "\n";
 }
 
@@ -86,12 +89,22 @@ std::string line_of_kind(const std::string& kind, const std::vector<const Row*>&
 
 Row row_of(std::uint64_t index, const world::Scenario& scenario, const Verdict& outcome) {
   std::string findings;
-  for (const Finding& f : outcome.findings) findings += (findings.empty() ? "" : " ") + format("%s@%.1f", f.kind.c_str(), f.time_s);
-  return {index, text_of(traits_of(scenario)), world::robot_count(scenario), world::target_positions(scenario).size(),
-          outcome.complete, outcome.complete_s, outcome.bound_s, outcome.time_s, outcome.hash, findings};
+  for (const Finding& f : outcome.findings)
+    findings += (findings.empty() ? "" : " ") + format("%s@%.1f", f.kind.c_str(), f.time_s);
+  return {index,
+          text_of(traits_of(scenario)),
+          world::robot_count(scenario),
+          world::target_positions(scenario).size(),
+          outcome.complete,
+          outcome.complete_s,
+          outcome.bound_s,
+          outcome.time_s,
+          outcome.hash,
+          findings};
 }
 
-SoakJournal::SoakJournal(const std::string& path, std::uint64_t seed, bool force) : path_(path), seed_{seed}, lock_(path) {
+SoakJournal::SoakJournal(const std::string& path, std::uint64_t seed, bool force)
+    : path_(path), seed_{seed}, lock_(path) {
   std::error_code error;
   if (force) std::filesystem::resize_file(path, 0, error);
   std::ifstream in(path);
@@ -105,7 +118,9 @@ SoakJournal::SoakJournal(const std::string& path, std::uint64_t seed, bool force
   std::getline(lines, line);
   for (std::size_t number = 2; std::getline(lines, line); ++number) {
     const auto row = row_from(line);
-    if (!row) throw CommandError(exit_usage, format("%s:%zu: this is no mission of a soak; --force begins the journal anew", path.c_str(), number));
+    if (!row)
+      throw CommandError(exit_usage, format("%s:%zu: this is no mission of a soak; --force begins the journal anew",
+                                            path.c_str(), number));
     if (row->first == seed) rows_[row->second.index] = row->second;
   }
   std::filesystem::resize_file(path, text.size(), error);
@@ -134,7 +149,8 @@ std::string table_of(const std::map<std::uint64_t, Row>& rows) {
     std::istringstream kinds(row.kind);
     for (std::string kind; std::getline(kinds >> std::ws, kind, ',');) by_kind[kind].push_back(&row);
   }
-  std::string text = format("  %-18s %8s %9s %9s %10s %7s %7s\n", "kind", "missions", "complete", "findings", "time/bound", "95 %", "worst");
+  std::string text = format("  %-18s %8s %9s %9s %10s %7s %7s\n", "kind", "missions", "complete", "findings",
+                            "time/bound", "95 %", "worst");
   for (const auto& [kind, of_kind] : by_kind) text += line_of_kind(kind, of_kind);
   return text + line_of_kind("all", all);
 }

@@ -48,8 +48,7 @@ void draw_start(Dice& dice, Scenario& s) {
   start.jitter_m = 0.01;
   start.link_share = rounded(dice.between(0.7, 0.95), 0.01);
   start.bridge_robots = 1 + dice.below(6);
-  if (kind == 1)
-    start.pitch_share = 0.93;
+  if (kind == 1) start.pitch_share = 0.93;
   else if (start.layout != Layout::random && start.layout != Layout::bridge)
     start.pitch_share = rounded(dice.between(0.2, 0.94), 0.01);
 }
@@ -58,10 +57,8 @@ void draw_targets(Dice& dice, Scenario& s, bool plain) {
   const bool many = !plain && dice.once_in(16);  // 5 % of all
   const std::size_t count = many ? 13 + dice.below(88) : 1 + dice.below(12);
   const double radius = rounded(dice.between(1.0, 4.5) * s.radio.range_m, 0.01);
-  if (dice.once_in(3))
-    s.targets = RingTargets{count, radius, dice.between(0.0, 6.28), {}};
-  else
-    s.targets = RandomTargets{count, radius, {}};
+  if (dice.once_in(3)) s.targets = RingTargets{count, radius, dice.between(0.0, 6.28), {}};
+  else s.targets = RandomTargets{count, radius, {}};
   s.swarm.redundancy = rounded(dice.between(1.5, 8.0) * 2.0 / s.radio.range_m, 0.01);
   s.swarm.robots = std::clamp(robot_count(s), count + 1, std::max(most_robots, count + 1));
 }
@@ -91,12 +88,10 @@ void draw_obstacles(Dice& dice, Scenario& s, double reach) {
   for (std::size_t left = 1 + dice.below(6); left > 0; --left) {
     const Vec2 center = dice.around({}, 0.2 * reach, reach);
     const std::size_t shape = dice.below(3);
-    if (shape == 0)
-      s.obstacles.emplace_back(Disc{center, dice.between(0.1, 0.6)});
+    if (shape == 0) s.obstacles.emplace_back(Disc{center, dice.between(0.1, 0.6)});
     else if (shape == 1)
       s.obstacles.emplace_back(Box{center, {dice.between(0.2, 2.0), dice.between(0.2, 1.0)}, dice.between(0.0, 3.0)});
-    else
-      s.obstacles.emplace_back(Wall{center, dice.around(center, 0.5, 3.0)});
+    else s.obstacles.emplace_back(Wall{center, dice.around(center, 0.5, 3.0)});
   }
 }
 
@@ -106,10 +101,8 @@ void draw_deaths(Dice& dice, Scenario& s, double limit_s) {
                                Kill::Of::worker_and_parent};
   kill.of = whom[dice.below(std::size(whom))];
   const bool share = kill.of == Kill::Of::robots || kill.of == Kill::Of::connectors;
-  if (share && dice.once_in(2))
-    kill.share = rounded(dice.between(0.05, 0.4), 0.01);
-  else
-    kill.count = 1 + dice.below(3);
+  if (share && dice.once_in(2)) kill.share = rounded(dice.between(0.05, 0.4), 0.01);
+  else kill.count = 1 + dice.below(3);
   if (dice.once_in(2)) kill.every_s = rounded(dice.between(0.5, 20.0), 0.1);
   const double time_s = rounded(dice.between(0.0, 0.4 * limit_s), 0.1);
   s.events.push_back({time_s, dice.once_in(2) ? Event::When::time : Event::When::half_way, kill});
@@ -123,10 +116,8 @@ void draw_changes(Dice& dice, Scenario& s, double reach, double limit_s, std::si
     s.events.push_back(
         {time_s, Event::When::time,
          MoveTarget{dice.below(targets), dice.around({}, 0.3 * reach, reach), dice.once_in(2) ? 0.0 : 0.05}});
-  else if (what == 1)
-    s.events.push_back({time_s, Event::When::time, AddTarget{dice.around({}, 0.3 * reach, reach)}});
-  else if (what == 2 && targets > 1)
-    s.events.push_back({time_s, Event::When::time, RemoveTarget{dice.below(targets)}});
+  else if (what == 1) s.events.push_back({time_s, Event::When::time, AddTarget{dice.around({}, 0.3 * reach, reach)}});
+  else if (what == 2 && targets > 1) s.events.push_back({time_s, Event::When::time, RemoveTarget{dice.below(targets)}});
   else
     s.events.push_back(
         {time_s, Event::When::time, Freeze{dice.below(*s.swarm.robots), rounded(dice.between(1.0, 30.0), 0.1)}});

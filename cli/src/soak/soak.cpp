@@ -162,7 +162,10 @@ class Soak {
     for (const auto& [kind, count] : counts_)
       text += format("  %-16s %5zu %s", kind.c_str(), count.all,
                      count.promised > 0 ? format("(%zu promised not to happen)\n", count.promised).c_str() : "\n");
-    text += format("All of this seed in %s/soak.csv; time over the longest drive of a worker to its target, past obstacles: median, 95 %%, worst:\n", directory_.c_str());
+    text += format(
+        "All of this seed in %s/soak.csv; time over the longest drive of a worker to its target, past obstacles: "
+        "median, 95 %%, worst:\n",
+        directory_.c_str());
     text += table_of(journal_.rows());
     text += format("Again, one alone: banyan soak --seed %" PRIu64 " --from N --missions 1 --out DIR\n", options_.seed);
     print(text);

@@ -133,7 +133,9 @@ class Watch {
     if (traits_.deaths) return;
     // A robot that freezes, or cannot reach its target past an obstacle, may rightly be replaced.
     const bool held_up = traits_.changes || traits_.obstacles;
-    if (replaced > 0) find("replaced", held_up ? "a living worker is replaced; it may have been held up" : "a living worker is replaced");
+    if (replaced > 0)
+      find("replaced",
+           held_up ? "a living worker is replaced; it may have been held up" : "a living worker is replaced");
     if (elected > 0) find("elected", "a root is elected although it lives");
   }
 

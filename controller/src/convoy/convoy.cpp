@@ -25,9 +25,9 @@
 namespace banyan {
 namespace {
 
-constexpr int silence_ticks = 2;      // a parent silent for so long counts as hidden
-constexpr float asks_sooner = 2.0F;   // times the spread of ranges: so much earlier an edge asks for spares and calls
-constexpr float tight = 0.6F;         // of `clearance`: enough for a spare in the way, since joining the edge clears it
+constexpr int silence_ticks = 2;     // a parent silent for so long counts as hidden
+constexpr float asks_sooner = 2.0F;  // times the spread of ranges: so much earlier an edge asks for spares and calls
+constexpr float tight = 0.6F;        // of `clearance`: enough for a spare in the way, since joining the edge clears it
 
 // ---- Select Parent: branches grow from the workers, as in inwards, by short edges in sight (rule 1) ----
 
@@ -41,9 +41,9 @@ bool is_drained_spare(const ConvoyRobot& robot, int k) noexcept {
   return robot.power != nullptr && robot.table().message(k).role == Role::spare && !is_charged(*robot.power, k);
 }
 
-// Once all workers below have arrived, the tree keeps its edges, also to a robot that has to leave: it is relieved where
-// it stands. Otherwise short first edges come first, then edges that need no spare, then the nearest. A link that may soon
-// be blocked counts as a long one, one worse as longer yet.
+// Once all workers below have arrived, the tree keeps its edges, also to a robot that has to leave: it is relieved
+// where it stands. Otherwise short first edges come first, then edges that need no spare, then the nearest. A link that
+// may soon be blocked counts as a long one, one worse as longer yet.
 struct Preference {
   int rank;
   float key;
@@ -56,7 +56,8 @@ struct Preference {
       return;
     }
     float range_m = robot.table().range(k);
-    if (!sees_clearly(robot, k, p.clearance_m)) range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? 5.0F * c : 10.0F * c;
+    if (!sees_clearly(robot, k, p.clearance_m))
+      range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? 5.0F * c : 10.0F * c;
     if (is_leaving(robot, k)) range_m += 4.0F * c;
     if (is_drained_spare(robot, k)) range_m += 8.0F * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather a robot that is not leaving
@@ -77,14 +78,17 @@ bool is_better_parent(const ConvoyRobot& robot, int a, int b) noexcept {
 bool is_anchored(const ConvoyRobot& robot) noexcept {
   if (robot.table().message(robot.parent).role != Role::worker || robot.self.want_m == 0.0F) return false;
   if (robot.target != nullptr) return !reaches_target_from(robot, robot.parent);
-  return stands_at_target(robot, robot.parent) && robot.self.want_m > robot.params.ideal_distance_m - robot.table().range(robot.parent);
+  return stands_at_target(robot, robot.parent) &&
+         robot.self.want_m > robot.params.ideal_distance_m - robot.table().range(robot.parent);
 }
 
 // The root and junctions are towed late (towing.cpp), so their edges may stay just short of call_distance and slow.
 bool is_held_by_junction(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
-  const bool junction = robot.table().message(robot.parent).role == Role::root || robot.convoy_of(robot.parent).child_count > 1;
-  return junction && robot.table().range(robot.parent) > p.recruitment_distance_m && robot.self.unserved_ticks > p.ticks(2.0F * p.call_after_s);
+  const bool junction =
+      robot.table().message(robot.parent).role == Role::root || robot.convoy_of(robot.parent).child_count > 1;
+  return junction && robot.table().range(robot.parent) > p.recruitment_distance_m &&
+         robot.self.unserved_ticks > p.ticks(2.0F * p.call_after_s);
 }
 
 // On batteries: my edge wants a spare that takes my place, or one that gives slack to a relief.
@@ -100,7 +104,8 @@ bool needs_spare(const ConvoyRobot& robot) noexcept {
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
   const TreeStanding& parent = robot.table().message(robot.parent);
-  const bool wanted = robot.self.want_m > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want_cm > 0);
+  const bool wanted =
+      robot.self.want_m > 0.0F || is_held_back(robot) || (parent.role == Role::worker && parent.want_cm > 0);
   return (d > robot.params.recruitment_distance_m - asks_sooner * robot.table().spread_m() && wanted) ||
          ((hidden || robot.self.corners.pinned || is_anchored(robot)) && d > robot.params.shortest_split_m);
 }
@@ -121,8 +126,10 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const TreeTable& table = robot.table();
   const float reach_m = p.ideal_distance_m - p.join_margin_m;
   const float clearance_m = p.clearance_m;
-  if (is_leaving(robot, owner)) return may_relieve(*robot.power, owner, parent, [&](int k) { return sees_clearly(robot, k, tight * clearance_m); });
-  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || (robot.has_bursts() && !robot.is_sure(parent))) return false;
+  if (is_leaving(robot, owner))
+    return may_relieve(*robot.power, owner, parent, [&](int k) { return sees_clearly(robot, k, tight * clearance_m); });
+  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || (robot.has_bursts() && !robot.is_sure(parent)))
+    return false;
   const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
   const float room_m = in_the_way ? tight * clearance_m : clearance_m;
   return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
@@ -193,8 +200,8 @@ ConvoyParams convoy_defaults() noexcept {
   return p;
 }
 
-// A robot beside another reaches as far as that one only if edges have some slack. And chains from target to target would
-// make the ways to a charging place longer.
+// A robot beside another reaches as far as that one only if edges have some slack. And chains from target to target
+// would make the ways to a charging place longer.
 ConvoyParams with_room_for_relief(ConvoyParams params) noexcept {
   params.merge_distance_m = std::min(params.merge_distance_m, params.relief_edge_m);
   params.compact_distance_m = std::min(params.compact_distance_m, params.relief_edge_m);
@@ -231,12 +238,14 @@ void begin_tick(ConvoyRobot& robot, const Inputs<Heard>& inputs) noexcept {
     self.convoy_standings[k] = static_cast<const ConvoyStanding&>(m);
     if (robot.power != nullptr) robot.power->power.standings[k] = static_cast<const PowerStanding&>(powered_message(m));
   }
-  forget_silent(robot, [&](int k) { return may_be_tied(robot, k) || stands_in_for(robot, k); }, [&](int k, int size) {
-    close_gap(self.healing_standings, k, size);
-    close_gap(self.corners.standings, k, size);
-    close_gap(self.convoy_standings, k, size);
-    if (robot.power != nullptr) close_gap(robot.power->power.standings, k, size);
-  });
+  forget_silent(
+      robot, [&](int k) { return may_be_tied(robot, k) || stands_in_for(robot, k); },
+      [&](int k, int size) {
+        close_gap(self.healing_standings, k, size);
+        close_gap(self.corners.standings, k, size);
+        close_gap(self.convoy_standings, k, size);
+        if (robot.power != nullptr) close_gap(robot.power->power.standings, k, size);
+      });
   follow_orders(robot, inputs.senses().orders);
 }
 
@@ -246,65 +255,71 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   ConvoyState& state = robot.self;
   begin_tick(robot, inputs);
   if (robot.power != nullptr) hand_over_target(*robot.power);
-  estimate_loss(robot);                                // how long neighbours may be silent
-  listen_among_fragments(robot);                       // the largest epoch, phase and root token heard
-  accept_offered_root(robot);                          // Select Root, the heir's side
-  follow_heartbeat(robot);                             // is there a root at all,
-  claim_root(robot);                                   // and if not, should I become it?
-  watch_tasks(robot);                                  // does every target have its worker?
-  index_neighbors(robot);                              // who are my parent and children
+  estimate_loss(robot);           // how long neighbours may be silent
+  listen_among_fragments(robot);  // the largest epoch, phase and root token heard
+  accept_offered_root(robot);     // Select Root, the heir's side
+  follow_heartbeat(robot);        // is there a root at all,
+  claim_root(robot);              // and if not, should I become it?
+  watch_tasks(robot);             // does every target have its worker?
+  index_neighbors(robot);         // who are my parent and children
   remember_corners(robot, state.corners);
-  watch_branch(robot);                                 // has the last robot below me died?
+  watch_branch(robot);  // has the last robot below me died?
   update_role(robot);
-  advance_and_count(robot, state.subtree_workers >= state.flood_workers, may_reconstruct(robot));   // the root's barriers
-  update_label(robot, {.waits_for_anybody = false});   // Start Tree
-  select_parent(robot, {.may_join = state.is_worker || is_named_parent(robot),                      // Select Parent, repair
+  advance_and_count(robot, state.subtree_workers >= state.flood_workers,
+                    may_reconstruct(robot));                                    // the root's barriers
+  update_label(robot, {.waits_for_anybody = false});                            // Start Tree
+  select_parent(robot, {.may_join = state.is_worker || is_named_parent(robot),  // Select Parent, repair
                         .workers_relay = true,
                         .accepts = [](int) { return true; },
                         .prefers = [&](int a, int b) { return is_better_parent(robot, a, b); }});
   if (robot.power != nullptr) {
-    watch_charge(*robot.power, inputs.senses());     // must I be relieved?
-    watch_relief(*robot.power);                        // whom do I relieve?
+    watch_charge(*robot.power, inputs.senses());  // must I be relieved?
+    watch_relief(*robot.power);                   // whom do I relieve?
   }
-  take_part_in_plan(robot);                            // chains from target to target
-  take_shortcuts(robot);                               // what changes between reconstructions
+  take_part_in_plan(robot);  // chains from target to target
+  take_shortcuts(robot);     // what changes between reconstructions
   state.corners.pinned = is_pinned(robot, state.corners, params.pull_start_m);
   // A worker lags behind a moving target: the tree must follow before the worker is out of tolerance.
-  take_census(robot, 0.4F * params.arrival_distance_m, own_want_m(robot));                          // Alg. 1 and 2
-  select_root(robot, [&](int k) { return may_inherit(robot, k); }, is_leaving(robot));              // Select Root, the root's side
-  find_hold(robot);                                    // what ties me to the others while I have no parent
-  manage_spares(robot, {.needs_spare = [&] { return needs_spare(robot); },                          // Grow Tree
+  take_census(robot, 0.4F * params.arrival_distance_m, own_want_m(robot));  // Alg. 1 and 2
+  select_root(
+      robot, [&](int k) { return may_inherit(robot, k); }, is_leaving(robot));  // Select Root, the root's side
+  find_hold(robot);  // what ties me to the others while I have no parent
+  manage_spares(robot, {.needs_spare = [&] { return needs_spare(robot); },  // Grow Tree
                         .may_call = [&] { return may_call(robot); },
                         .count_waiting = [&](bool unserved) { count_waiting(robot, unserved, is_left_waiting(robot)); },
                         .may_insert = [&](int owner, int parent) { return may_insert(robot, owner, parent); }});
-  keep_company(robot);                                 // mission.link_redundancy
+  keep_company(robot);  // mission.link_redundancy
   if (robot.power != nullptr) {
     if (asks_for_relief(robot)) call_for_relief(*robot.power);
     tend_battery(*robot.power);
   }
-  find_gap(robot);                                     // is a part of the network there that does not hear me?
+  find_gap(robot);  // is a part of the network there that does not hear me?
   const bool regroups = is_left_waiting(robot);
   const bool retreats = is_retreating(robot, regroups);
   Vec2 u;
-  if (!closes_gap(robot, u) && !awaits_others(robot, u)) u = retreats ? retreat_motion(robot, regroups, true) : state.role == Role::spare ? waiting_motion(robot) : towed_motion(robot);
+  if (!closes_gap(robot, u) && !awaits_others(robot, u))
+    u = retreats                    ? retreat_motion(robot, regroups, true)
+        : state.role == Role::spare ? waiting_motion(robot)
+                                    : towed_motion(robot);
   if (awaits_the_unheard(robot)) u = {};
   Guard guard;
   guard_edges(robot, retreats, guard);
   guard_links(robot, retreats, guard);
-  keep_off(robot, guard);                              // obstacles
+  keep_off(robot, guard);  // obstacles
   keep_sight(robot, state.corners, guard);
   push_nobody(robot, guard);
 
   write_convoy(robot, message);
   const float pace = robot.power != nullptr && !retreats ? leisure(*robot.power, params.clearance_m) : 1.0F;
   const Vec2 v = allowed(pace < 1.0F ? clamped(u, 1.0F) * pace : u, guard, params);
-  watch_progress(robot, retreats, v);                  // does the worker make progress?
+  watch_progress(robot, retreats, v);  // does the worker make progress?
   Velocity motion = drive(v, guard, params);
   if (pace < 1.0F) motion.turn_rad_s *= std::min(1.0F, norm(v) / params.wheel_limit_m_s);
   return motion;
 }
 
-Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, const Inputs<Heard>& inputs) noexcept {
+Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state,
+                                  const Inputs<Heard>& inputs) noexcept {
   ConvoyRobot robot(params, state, inputs);
   Output<ConvoyMessage> output;
   output.velocity = tick(robot, inputs, output.message);
@@ -317,7 +332,8 @@ Report convoy_report(const ConvoyState& s) noexcept {
   return report;
 }
 
-Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, const Inputs<Heard>& inputs) noexcept {
+Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state,
+                                                 const Inputs<Heard>& inputs) noexcept {
   ConvoyRobot robot(params, state, inputs);
   const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
   PowerRobot power{robot, state.power, params, child_count};

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "banyan/controller/convoy/towing.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {
@@ -24,23 +24,27 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   const TreeTable& table = robot.table();
   const TreeStanding& m = table.message(k);
   const float c = p.communication_range_m;
-  if (k == robot.parent || table.age(k) > 0 || !robot.is_sure(k) || table.range(k) > robot.parent_range_m()) return impossible;
-  const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody && m.epoch == robot.self.epoch &&
-                     m.tree_hops != unreachable && (robot.convoy_of(k).below == nobody || robot.table().age(robot.parent) > 1);
+  if (k == robot.parent || table.age(k) > 0 || !robot.is_sure(k) || table.range(k) > robot.parent_range_m())
+    return impossible;
+  const bool spare = m.role == Role::spare && m.parent == nobody && m.request == nobody &&
+                     m.epoch == robot.self.epoch && m.tree_hops != unreachable &&
+                     (robot.convoy_of(k).below == nobody || robot.table().age(robot.parent) > 1);
   if (!spare && !is_rooted(robot, k)) return impossible;
   if (robot.power != nullptr && (is_leaving(robot, k) || (spare && !is_charged(*robot.power, k)))) return impossible;
   const bool clear = sees_clearly(robot, k, p.clearance_m);
   if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance_m))) return impossible;
   const Vec2 at = table.position(k);
   const bool leaves = m.role == Role::worker && robot.self.want_m > 0.0F;  // it cannot be towed
-  return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare || leaves ? c : 0.0F) + (clear ? 0.0F : 2.0F * c);
+  return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare || leaves ? c : 0.0F) +
+         (clear ? 0.0F : 2.0F * c);
 }
 
 // Companions come and go beside the robots of a branch that has arrived, and make way themselves. A link that they are
 // near to is not about to be cut for long, and to change the tree for it would send them to other places again.
 bool sees_past_companions(const ConvoyRobot& robot, int k, float clearance_m) noexcept {
   const bool rests = has_companions(robot.params) && has_arrived(robot);
-  return sees_clearly(robot, robot.self.corners, k, clearance_m, [&](int j) { return rests && companion_of(robot, j) != nobody; });
+  return sees_clearly(robot, robot.self.corners, k, clearance_m,
+                      [&](int j) { return rests && companion_of(robot, j) != nobody; });
 }
 
 }  // namespace
@@ -54,7 +58,8 @@ Outlook outlook(const ConvoyRobot& robot) noexcept {
   const ConvoyMessage* parent = robot.parent_message();
   const bool warned = parent != nullptr && parent->warned == robot.self.id;
   const bool endangered = hidden || warned || !sees_past_companions(robot, robot.parent, danger * clearance_m);
-  return {endangered, endangered && (hidden || warned || !sees_past_companions(robot, robot.parent, urgency * clearance_m))};
+  return {endangered,
+          endangered && (hidden || warned || !sees_past_companions(robot, robot.parent, urgency * clearance_m))};
 }
 
 // Takes the best new parent that is ahead of me, a spare only when it is urgent. If there is none, my sequence
@@ -101,7 +106,8 @@ RobotId child_to_warn(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   for (const int k : robot.children)
-    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_past_companions(robot, k, danger * p.clearance_m))
+    if (table.message(k).role != Role::spare && table.age(k) == 0 &&
+        !sees_past_companions(robot, k, danger * p.clearance_m))
       return table.id(k);
   return nobody;
 }

@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <utility>
 
-#include "banyan/controller/core/search.hpp"
-#include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
 
 namespace banyan {
 namespace {
 
-constexpr float plan_limit_s = 30.0F;     // what has not been built by then is given up
+constexpr float plan_limit_s = 30.0F;  // what has not been built by then is given up
 constexpr float plan_period_s = 40.0F;
 constexpr float thrifty_limit_s = 26.0F;
 constexpr float thrifty_period_s = 25.0F;
@@ -42,7 +42,8 @@ void withdraw(ConvoyState& self) noexcept { self.hosts.fill(nobody); }
 
 // The shortest tree through the targets that are held, seen from one of them.
 struct TargetTree {
-  std::array<std::int16_t, task_capacity> host{};   // the next target on the way to the first; -1: the first, or not held
+  std::array<std::int16_t, task_capacity>
+      host{};  // the next target on the way to the first; -1: the first, or not held
   std::array<std::uint8_t, task_capacity> level{};  // targets on that way
   int deepest = 0;                                  // of the levels
   int robots = 0;                                   // that it takes, with edges as long as compaction makes them
@@ -104,7 +105,8 @@ void make_plan(ConvoyRobot& robot, int targets) noexcept {
   self.plan_targets = static_cast<std::uint8_t>(targets);
   self.plan_levels = static_cast<std::uint8_t>(saves ? tree.deepest : 0);
   self.plan_level = tree.level;
-  for (int k = 0; k < self.task_count; ++k) self.planned[k] = saves && tree.host[k] >= 0 ? self.tasks[tree.host[k]].serves : nobody;
+  for (int k = 0; k < self.task_count; ++k)
+    self.planned[k] = saves && tree.host[k] >= 0 ? self.tasks[tree.host[k]].serves : nobody;
 }
 
 // Once all workers have arrived, the plan covers one more level each period. With thrift from its leaves inwards: the
@@ -128,8 +130,10 @@ void command(ConvoyRobot& robot) noexcept {
   const int period = p.ticks(thrifty ? thrifty_period_s : plan_period_s);
   // Not before I know of all targets.
   const auto known = tasks(self);
-  const int targets = static_cast<int>(std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; }));
-  const bool may = self.subtree_workers <= targets && !has_companions(p) && !self.forgets && p.plan_after_s > 0.0F && since >= 0 && self.settled_ticks < UINT16_MAX;
+  const int targets =
+      static_cast<int>(std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; }));
+  const bool may = self.subtree_workers <= targets && !has_companions(p) && !self.forgets && p.plan_after_s > 0.0F &&
+                   since >= 0 && self.settled_ticks < UINT16_MAX;
   if (!may || (thrifty ? since < self.plan_steps * period : since % period >= robot.elapsed_ticks)) return;
   if (!thrifty) {
     const int levels = 1 + since / period;
@@ -147,8 +151,8 @@ void command(ConvoyRobot& robot) noexcept {
 
 // ---- The root: too few robots (rule 15) ----
 
-// Of the targets not yet reached, the one without which the shortest tree takes fewest robots; while one is tried again,
-// only that one: no other is lost for it.
+// Of the targets not yet reached, the one without which the shortest tree takes fewest robots; while one is tried
+// again, only that one: no other is lost for it.
 RobotId least_worth(ConvoyRobot& robot) noexcept {
   RobotId worst = nobody;
   int fewest = INT16_MAX;
@@ -179,9 +183,11 @@ void shed(ConvoyRobot& robot) noexcept {
   }
   constexpr int hand_cm = 10;
   const auto all = tasks(self);
-  const auto reached = static_cast<std::uint8_t>(std::count_if(all.begin(), all.end(), [](const Task& t) { return t.holder != nobody && t.reached; }));
+  const auto reached = static_cast<std::uint8_t>(
+      std::count_if(all.begin(), all.end(), [](const Task& t) { return t.holder != nobody && t.reached; }));
   const int want_cm = static_cast<int>(self.want_m * 100.0F);
-  const bool is_short = robot.params.shed_after_s > 0.0F && !self.forgets && self.want_m > robot.params.arrival_distance_m && self.call_hops != nobody_calls;
+  const bool is_short = robot.params.shed_after_s > 0.0F && !self.forgets &&
+                        self.want_m > robot.params.arrival_distance_m && self.call_hops != nobody_calls;
   if (want_cm == 0 || (self.short_ticks == 0 && !is_short)) return void(self.short_ticks = 0);
   if (self.short_ticks == 0 || want_cm < self.short_want_cm - hand_cm || reached > self.short_reached) {
     self.short_ticks = 0;
@@ -201,12 +207,15 @@ void shed(ConvoyRobot& robot) noexcept {
 int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
   float gap_m = far_m;
   for (const Task& other : tasks(robot.self))
-    if (other.holder != nobody) gap_m = std::min(gap_m, norm(nearest_on_segment(other.target - task.target, -task.target)));
-  return gap_m < far_m ? static_cast<int>((gap_m - robot.params.arrival_distance_m) / robot.params.ideal_distance_m) + 1 : 1;
+    if (other.holder != nobody)
+      gap_m = std::min(gap_m, norm(nearest_on_segment(other.target - task.target, -task.target)));
+  return gap_m < far_m ? static_cast<int>((gap_m - robot.params.arrival_distance_m) / robot.params.ideal_distance_m) + 1
+                       : 1;
 }
 
 // Once all others are held and spares may suffice, a target that was put off is tried again: soon if there are more
-// spares than ever before, else after a pause that doubles with each time. If nobody sets out for it, it is put off again.
+// spares than ever before, else after a pause that doubles with each time. If nobody sets out for it, it is put off
+// again.
 void retry(ConvoyRobot& robot) noexcept {
   constexpr float first_pause_s = 30.0F;
   constexpr float settled_s = 5.0F;
@@ -214,12 +223,16 @@ void retry(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   const int spares = self.root_size - self.subtree;
   const bool none_held = !banyan::any_of(tasks(self), [](const Task& t) { return t.holder != nobody; });
-  const bool settled = self.phase == Phase::grow_tree && !self.forgets && (none_held || self.settled_ticks > robot.params.ticks(settled_s));
+  const bool settled = self.phase == Phase::grow_tree && !self.forgets &&
+                       (none_held || self.settled_ticks > robot.params.ticks(settled_s));
   Task* next = nullptr;
   int fewest = spares + 1;
   for (Task& task : tasks(self)) {
-    if ((is_tried_again(task) || task.serves == self.shed) && task.holder != nobody && task.age_ticks > robot.params.ticks(unclaimed_s)) return put_off(robot, task);
-    const int pause_ticks = robot.params.ticks(first_pause_s) << (spares > self.tried_with ? 1 : int{task.times_put_off});
+    if ((is_tried_again(task) || task.serves == self.shed) && task.holder != nobody &&
+        task.age_ticks > robot.params.ticks(unclaimed_s))
+      return put_off(robot, task);
+    const int pause_ticks = robot.params.ticks(first_pause_s)
+                            << (spares > self.tried_with ? 1 : int{task.times_put_off});
     if (!settled || !is_put_off(task) || task.unlocated || task.age_ticks <= pause_ticks) continue;
     if (const int robots = least_robots(robot, task); robots < fewest) next = &task, fewest = robots;
   }
@@ -252,10 +265,14 @@ void look_down(ConvoyRobot& robot) noexcept {
 // The target where my branch is to begin, if I am its topmost robot.
 RobotId lead_of(const ConvoyRobot& robot) noexcept {
   const ConvoyState& self = robot.self;
-  if (self.phase != Phase::grow_tree || self.role != Role::connector || self.below == nobody || !robot.parent_alive() || !has_arrived(robot)) return nobody;
+  if (self.phase != Phase::grow_tree || self.role != Role::connector || self.below == nobody || !robot.parent_alive() ||
+      !has_arrived(robot))
+    return nobody;
   if (robot.convoy_of(robot.parent).below == self.below) return nobody;  // the parent leads
   const Task* served = find_active(robot, self.below);
-  const Task* host = served == nullptr ? nullptr : find_active(robot, self.hosts[static_cast<std::size_t>(served - self.tasks.data())]);
+  const Task* host = served == nullptr
+                         ? nullptr
+                         : find_active(robot, self.hosts[static_cast<std::size_t>(served - self.tasks.data())]);
   if (host == nullptr || host == served || self.above == host->serves) return nobody;
   return host->serves;
 }

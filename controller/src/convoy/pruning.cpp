@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
+#include "banyan/controller/convoy/plan.hpp"
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
-#include "banyan/controller/convoy/plan.hpp"
 
 namespace banyan {
 namespace {
 
 constexpr float merge_period_s = 2.0F;
-constexpr float shorter_by = 0.1F;       // of C: an edge so much shorter is worth a change of parent
+constexpr float shorter_by = 0.1F;  // of C: an edge so much shorter is worth a change of parent
 
 // Whether neighbour k may carry a branch that has arrived: at rest itself, and not about to leave the tree.
 bool can_carry(const ConvoyRobot& robot, int k) noexcept {
@@ -77,7 +77,8 @@ void want_next_step(ConvoyRobot& robot) noexcept {
   float best_m = distance(table.position(robot.parent), goal) - shorter_by * c;
   for (int k = 0; k < table.size(); ++k) {
     const float d = distance(table.position(k), goal);
-    if (d >= best_m || table.range(k) > thrifty_m(robot.params, robot.params.merge_distance_m) || !can_carry(robot, k)) continue;
+    if (d >= best_m || table.range(k) > thrifty_m(robot.params, robot.params.merge_distance_m) || !can_carry(robot, k))
+      continue;
     best = k;
     best_m = d;
   }
@@ -96,7 +97,9 @@ void prune(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int period = std::max(1, p.ticks(merge_period_s));
   const TreeStanding& parent = robot.table().message(robot.parent);
-  if ((self.phase_ticks + self.id) % period >= robot.elapsed_ticks || parent.need == Need::await || parent.inserted_child != nobody) return;
+  if ((self.phase_ticks + self.id) % period >= robot.elapsed_ticks || parent.need == Need::await ||
+      parent.inserted_child != nobody)
+    return;
   const int turn = self.phase_ticks / period;
   const float c = p.communication_range_m;
   if (!saves_parent(robot)) want_parent(robot, robot.table().range(robot.parent) - shorter_by * c, turn);

@@ -7,8 +7,8 @@
 #include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
 
 namespace banyan {
 namespace {
@@ -19,8 +19,8 @@ constexpr float releases_later = 3.0F;  // times the spread of ranges: else the 
 void release(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const TreeStanding& parent = table.message(robot.parent);
-  if (parent.role != Role::connector || robot.convoy_of(robot.parent).child_count != 1 || parent.parent == nobody || parent.need == Need::await ||
-      parent.inserted_child != nobody)
+  if (parent.role != Role::connector || robot.convoy_of(robot.parent).child_count != 1 || parent.parent == nobody ||
+      parent.need == Need::await || parent.inserted_child != nobody)
     return;
   const int k = table.find(parent.parent);
   if (k < 0 || (table.message(k).role == Role::worker && !is_relay(robot, k))) return;
@@ -34,7 +34,9 @@ void release(ConvoyRobot& robot) noexcept {
 }
 
 // A worker that stands still and from which I can reach my target: neither of us has to be towed.
-bool is_enough(const ConvoyRobot& robot, int k) noexcept { return stands_at_target(robot, k) && reaches_target_from(robot, k); }
+bool is_enough(const ConvoyRobot& robot, int k) noexcept {
+  return stands_at_target(robot, k) && reaches_target_from(robot, k);
+}
 
 // For an edge that would need a spare: a nearer robot of the tree, or a worker from which I can reach my target.
 void take_nearer(ConvoyRobot& robot) noexcept {
@@ -70,7 +72,9 @@ void take_inner(ConvoyRobot& robot) noexcept {
   const int parent_depth = table.message(robot.parent).depth;
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
-    if (table.message(k).role == Role::worker || table.message(k).depth >= parent_depth || !may_be_parent(robot, k, robot.parent_range_m())) continue;
+    if (table.message(k).role == Role::worker || table.message(k).depth >= parent_depth ||
+        !may_be_parent(robot, k, robot.parent_range_m()))
+      continue;
     if (best < 0 || table.message(k).depth < table.message(best).depth) best = k;
   }
   if (best >= 0) take_parent(robot, best);
@@ -81,7 +85,8 @@ void take_inner(ConvoyRobot& robot) noexcept {
 bool stands_at_target(const ConvoyRobot& robot, int k) noexcept {
   if (robot.table().message(k).role != Role::worker) return false;
   const Task* task = find_task(robot.self, robot.served_by(k));
-  return task != nullptr && !task->unlocated && distance(robot.table().position(k), task->target) < robot.params.arrival_distance_m;
+  return task != nullptr && !task->unlocated &&
+         distance(robot.table().position(k), task->target) < robot.params.arrival_distance_m;
 }
 
 bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept {
@@ -97,8 +102,8 @@ bool reaches_target_from(const ConvoyRobot& robot, int k) noexcept {
 bool is_rooted(const ConvoyRobot& robot, int k) noexcept {
   const TreeTable& table = robot.table();
   const TreeStanding& m = table.message(k);
-  return table.age(k) <= 1 && robot.is_sure(k) && m.role != Role::spare && m.parent != robot.self.id && m.old_parent != robot.self.id &&
-         m.depth != invalid_depth;
+  return table.age(k) <= 1 && robot.is_sure(k) && m.role != Role::spare && m.parent != robot.self.id &&
+         m.old_parent != robot.self.id && m.depth != invalid_depth;
 }
 
 bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept {
@@ -106,7 +111,8 @@ bool is_rooted_in_sight(const ConvoyRobot& robot, int k) noexcept {
 }
 
 bool may_be_parent(const ConvoyRobot& robot, int k, float range_m) noexcept {
-  return robot.table().range(k) <= range_m && !is_leaving(robot, k) && is_ahead(robot, k) && is_rooted_in_sight(robot, k);
+  return robot.table().range(k) <= range_m && !is_leaving(robot, k) && is_ahead(robot, k) &&
+         is_rooted_in_sight(robot, k);
 }
 
 void take_shortcuts(ConvoyRobot& robot) noexcept {

@@ -2,37 +2,37 @@
 // How convoy moves (docs/convoy.md, rules 2, 6, 7 and 8).
 #include <algorithm>
 
-#include "banyan/controller/core/search.hpp"
-#include "banyan/controller/obstacles/bypass.hpp"
-#include "banyan/controller/convoy/towing.hpp"
-#include "banyan/controller/core/edge_frame.hpp"
-#include "banyan/controller/healing/healing.hpp"
-#include "banyan/controller/tree/motion.hpp"
-#include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/convoy/plan.hpp"
 #include "banyan/controller/convoy/shortcut.hpp"
-#include "banyan/controller/redundancy/companions.hpp"
+#include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/core/search.hpp"
+#include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
+#include "banyan/controller/redundancy/companions.hpp"
+#include "banyan/controller/tree/motion.hpp"
+#include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
 
 namespace banyan {
 namespace {
 
-constexpr float compact_gain = 0.8F;   // the strength with which a branch that has arrived contracts
-constexpr float compact_width = 0.05F; // of C: full strength when so far from compact_distance
-constexpr float follow_spare = 0.25F;  // of C: how far it stays behind a spare that leads it to the tree
-constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
+constexpr float compact_gain = 0.8F;         // the strength with which a branch that has arrived contracts
+constexpr float compact_width = 0.05F;       // of C: full strength when so far from compact_distance
+constexpr float follow_spare = 0.25F;        // of C: how far it stays behind a spare that leads it to the tree
+constexpr float follow_tree = 0.5F;          // and behind a robot of the tree
 constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
 constexpr float called_follow_tree = 0.75F;
 constexpr float called_follow_thin = 0.9F;  // where no crowd is, and packets get lost
-constexpr int lost_hops = 12;  // without contact to the tree, tree_hops counts up by one a tick
+constexpr int lost_hops = 12;               // without contact to the tree, tree_hops counts up by one a tick
 constexpr float pinned_start_m = 0.25F;
 constexpr float pinned_width_m = 0.10F;
 constexpr float up_start_m = 0.05F;  // beside a junction that is handed on
 constexpr float up_width_m = 0.20F;
 
-constexpr float tows_sooner = 4.0F;  // times the spread of ranges
+constexpr float tows_sooner = 4.0F;        // times the spread of ranges
 constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
 constexpr int slack_reach_hops = 8;
 
@@ -56,7 +56,8 @@ bool tows_past(const ConvoyRobot& robot, int k) noexcept {
 // The pull that neighbour k has sent me, its parent.
 Vec2 pull_of(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
-  return from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, robot.table().position(k));
+  return from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit},
+                         robot.table().position(k));
 }
 
 // Past child k, a worker at its target; round it, if I am stuck behind it, since its body is in the way.
@@ -82,7 +83,8 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   // While spares are short, a child that is almost there does not tow: the slack is left to others.
-  const auto least_cm = is_short_of_robots(robot) ? static_cast<int>(as_good_as_there * p.arrival_distance_m * 100.0F) : 0;
+  const auto least_cm =
+      is_short_of_robots(robot) ? static_cast<int>(as_good_as_there * p.arrival_distance_m * 100.0F) : 0;
   const auto tows = [&](int k) {
     const TreeStanding& m = table.message(k);
     return m.role != Role::spare && m.want_cm > least_cm && up_of(m) == robot.self.id;
@@ -107,7 +109,8 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
       return;
     }
     // A child at a corner needs its parent there before it can go round.
-    const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m) : ramp(table.range(k), start_m, p.pull_width_m);
+    const float weight = robot.corner_of(k).pinned ? ramp(table.range(k), pinned_start_m, pinned_width_m)
+                                                   : ramp(table.range(k), start_m, p.pull_width_m);
     u += unit(table.position(k)) * weight;
   };
   for (const IndexList* below : {&robot.children, &robot.old_children})
@@ -115,8 +118,7 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
   return u;
 }
 
-template <class Visit>
-void for_each_edge(const ConvoyRobot& robot, Visit visit) noexcept {
+template <class Visit> void for_each_edge(const ConvoyRobot& robot, Visit visit) noexcept {
   const TreeTable& table = robot.table();
   if (robot.parent >= 0) visit(robot.parent);
   else if (robot.old_parent >= 0) visit(robot.old_parent);
@@ -138,8 +140,9 @@ Vec2 tension(const ConvoyRobot& robot) noexcept {
 bool goes_to_child(const ConvoyRobot& robot) noexcept {
   constexpr float on_the_way_m = 1.0F;
   return is_in_large_swarm(robot) && robot.self.want_m > on_the_way_m && banyan::any_of(robot.children, [&](int k) {
-    return robot.table().message(k).role != Role::spare && (tows_past(robot, k) || is_held_by_branches(robot, k));
-  });
+           return robot.table().message(k).role != Role::spare &&
+                  (tows_past(robot, k) || is_held_by_branches(robot, k));
+         });
 }
 
 // While spares are short, long edges take slack from short ones.
@@ -169,8 +172,7 @@ Vec2 repulsion(const ConvoyRobot& robot) noexcept {
 }
 
 // Calls visit(a, b) for tree edges, and old ones during a reconstruction, that are not mine and whose ends I know.
-template <class Visit>
-void for_each_other_edge(const ConvoyRobot& robot, Visit visit) noexcept {
+template <class Visit> void for_each_other_edge(const ConvoyRobot& robot, Visit visit) noexcept {
   const TreeTable& table = robot.table();
   table.members.for_each([&](int k) {
     if (!table.alive(k)) return;
@@ -231,7 +233,9 @@ Vec2 sliding(const ConvoyRobot& robot, int way) noexcept {
   for (int turn = 0; turn < 2; ++turn)
     for (const int k : robot.children) {
       if (k == way || table.message(k).role == Role::spare) continue;
-      const float slack = std::clamp((thrifty_m(p, p.compact_distance_m) - table.range(k)) / (compact_width * p.communication_range_m), -1.0F, 1.0F);
+      const float slack =
+          std::clamp((thrifty_m(p, p.compact_distance_m) - table.range(k)) / (compact_width * p.communication_range_m),
+                     -1.0F, 1.0F);
       const Vec2 away = -unit(table.position(k));
       if (const float too_fast = dot(u, away) - slack; too_fast > 0.0F) u += away * -too_fast;
     }
@@ -240,8 +244,8 @@ Vec2 sliding(const ConvoyRobot& robot, int way) noexcept {
 
 // Rule 9: a connector whose workers have arrived moves until its longest other edge is stretched. So the
 // slack of a branch gathers at one end, where a robot becomes superfluous. Not with more targets than a robot
-// remembers: if a robot of so large a tree dies, its neighbours soon meet again only if their edges are not stretched. In
-// a large swarm the slack is wanted all the same, since spares are minutes away.
+// remembers: if a robot of so large a tree dies, its neighbours soon meet again only if their edges are not stretched.
+// In a large swarm the slack is wanted all the same, since spares are minutes away.
 Vec2 compaction(const ConvoyRobot& robot) noexcept {
   if (robot.self.forgets && !is_counted_large(robot)) return {};
   const ConvoyParams& p = robot.params;
@@ -251,7 +255,8 @@ Vec2 compaction(const ConvoyRobot& robot) noexcept {
   if (way < 0) return {};
   int longest = -1;
   for (const int k : robot.children)
-    if (k != way && table.message(k).role != Role::spare && (longest < 0 || table.range(k) > table.range(longest))) longest = k;
+    if (k != way && table.message(k).role != Role::spare && (longest < 0 || table.range(k) > table.range(longest)))
+      longest = k;
   if (longest < 0) return robot.is_root() ? unit(table.position(way)) * compact_gain : Vec2{};
   if (p.thrift > 0.0F) return sliding(robot, way);
   const float slack = std::clamp((p.compact_distance_m / c - table.range(longest) / c) / compact_width, -1.0F, 1.0F);
@@ -266,7 +271,8 @@ bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
   if (!robot.params.line_of_sight || robot.self.corners.landmarks.size == 0) return false;
   if (up >= 0 && table.alive(up) && table.age(up) >= silent_ticks) return true;
   if (robot.self.childless_ticks > 0) return true;
-  return banyan::any_of(robot.children, [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
+  return banyan::any_of(robot.children,
+                        [&](int k) { return table.message(k).role != Role::spare && table.age(k) >= silent_ticks; });
 }
 
 // A worker's pull, or along the obstacle in its way.
@@ -301,7 +307,8 @@ Vec2 before_tree(const ConvoyRobot& robot) noexcept {
   const Vec2 on = pull_past_obstacles(robot) + repulsion(robot);
   if (robot.hold < 0) return on;
   const float c = p.communication_range_m;
-  const float back = ramp(robot.table().range(robot.hold), p.recruitment_distance_m - 0.5F * hold_width * c, hold_width * c);
+  const float back =
+      ramp(robot.table().range(robot.hold), p.recruitment_distance_m - 0.5F * hold_width * c, hold_width * c);
   return on * (1.0F - back) + unit(robot.table().position(robot.hold)) * back;
 }
 
@@ -311,7 +318,9 @@ int followed_by(const ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   // In a crowd, a called spare might wait for others to move while the tree goes away.
   if (const int home = self.called && robot.hold >= 0 ? table.find(nearest_reference(robot)) : -1; home >= 0) {
-    const float home_c = is_thin(self) ? called_follow_thin : table.message(home).role == Role::spare ? called_follow_spare : called_follow_tree;
+    const float home_c = is_thin(self)                             ? called_follow_thin
+                         : table.message(home).role == Role::spare ? called_follow_spare
+                                                                   : called_follow_tree;
     if (table.range(home) > home_c * robot.params.communication_range_m) return home;
   }
   return table.find(self.parent != nobody ? self.parent : self.reference);
@@ -330,11 +339,13 @@ Vec2 way_round(const ConvoyRobot& robot, int k) noexcept {
 
 bool passes_pull_on(const ConvoyRobot& robot, Vec2& pull) noexcept {
   const ConvoyState& self = robot.self;
-  if (!self.is_worker || robot.target == nullptr || norm(*robot.target) >= robot.params.arrival_distance_m) return false;
+  if (!self.is_worker || robot.target == nullptr || norm(*robot.target) >= robot.params.arrival_distance_m)
+    return false;
   const TreeTable& table = robot.table();
   int best = -1;
   for (const int k : robot.children)
-    if (table.message(k).role != Role::spare && table.message(k).want_cm > (best < 0 ? 0 : table.message(best).want_cm)) best = k;
+    if (table.message(k).role != Role::spare && table.message(k).want_cm > (best < 0 ? 0 : table.message(best).want_cm))
+      best = k;
   if (best < 0) return false;
   // My parent is to come to where that child can take it as its own, and the child may have to go elsewhere.
   pull = is_stuck(robot) ? unit(table.position(best)) : pull_of(robot, best);
@@ -353,7 +364,8 @@ bool is_relay(const ConvoyRobot& robot, int k) noexcept {
 }
 
 // A point beside the first robot of the tree that stands in the way of a spare to `goal`, on the side on which the way
-// passes it; else `goal`. Straight on, the spare would be pushed back, and lose sight of the robot that it is to relieve.
+// passes it; else `goal`. Straight on, the spare would be pushed back, and lose sight of the robot that it is to
+// relieve.
 static Vec2 past_bodies(const ConvoyRobot& robot, Vec2 goal) noexcept {
   const TreeTable& table = robot.table();
   const float room_m = 2.0F * robot.params.clearance_m;
@@ -362,7 +374,9 @@ static Vec2 past_bodies(const ConvoyRobot& robot, Vec2 goal) noexcept {
   table.members.for_each([&](int k) {
     const Vec2 at = table.position(k);
     const Vec2 off = nearest_on_segment(-at, goal - at);
-    if (!table.alive(k) || norm(off) >= room_m || distance(at, goal) < room_m || (first >= 0 && table.range(k) >= table.range(first))) return;
+    if (!table.alive(k) || norm(off) >= room_m || distance(at, goal) < room_m ||
+        (first >= 0 && table.range(k) >= table.range(first)))
+      return;
     first = k;
     side = norm(off) > same_spot_m ? unit(off) : left_of(unit(goal));
   });
@@ -381,10 +395,12 @@ static bool relief_motion(const ConvoyRobot& robot, Vec2& u) noexcept {
 Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
-  if (lost_sight(robot, up)) return norm(robot.self.corners.seen_from) > 0.02F ? unit(robot.self.corners.seen_from) : Vec2{};
+  if (lost_sight(robot, up))
+    return norm(robot.self.corners.seen_from) > 0.02F ? unit(robot.self.corners.seen_from) : Vec2{};
   if (up >= 0 && !robot.is_linked(up)) return bypass(robot, robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
-  if (is_orphan(robot)) return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
+  if (is_orphan(robot))
+    return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   // The first tree takes time to build, and a target may be added in mid-mission: a worker does not go without a tree.
   if (up < 0 && !robot.is_root()) return before_tree(robot);
   if (Vec2 u; relief_motion(robot, u)) return u;
@@ -392,15 +408,20 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   // before the target is out of tolerance.
   constexpr float fading = 0.1F;
   const float give = std::clamp((as_good_as_there * p.target_gain - norm(robot.self.pull)) / fading, 0.0F, 1.0F);
-  // A successor hurries: the tree stands there already. It has been told where its target is and may be wrong by a hand,
-  // and the dead worker may lie there: so it gets as near as it can, and pushes nobody (link_guard.hpp).
+  // A successor hurries: the tree stands there already. It has been told where its target is and may be wrong by a
+  // hand, and the dead worker may lie there: so it gets as near as it can, and pushes nobody (link_guard.hpp).
   const bool succeeds = goes_by_memory(robot.self) && robot.power == nullptr;
-  if (robot.self.is_worker) return pull_past_obstacles(robot) * (succeeds ? 1.0F : worker_pace(p)) + clamped(shared_slack(robot), give) + (succeeds ? Vec2{} : repulsion(robot));
+  if (robot.self.is_worker)
+    return pull_past_obstacles(robot) * (succeeds ? 1.0F : worker_pace(p)) + clamped(shared_slack(robot), give) +
+           (succeeds ? Vec2{} : repulsion(robot));
   if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
   if (holds_still(robot)) return {};
   if (Vec2 way; steps_aside(robot, way)) return way + repulsion(robot);
-  const Vec2 along = robot.self.lead_to != nobody ? lead(robot) : has_arrived(robot) ? compaction(robot) : clamped(tow(robot), 1.0F);
-  return along + tension(robot) + shared_slack(robot) + repulsion(robot) + make_way(robot, p.corridor_width_m) + clear_sight(robot, robot.self.corners);
+  const Vec2 along = robot.self.lead_to != nobody ? lead(robot)
+                     : has_arrived(robot)         ? compaction(robot)
+                                                  : clamped(tow(robot), 1.0F);
+  return along + tension(robot) + shared_slack(robot) + repulsion(robot) + make_way(robot, p.corridor_width_m) +
+         clear_sight(robot, robot.self.corners);
 }
 
 Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
@@ -418,15 +439,18 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   if (const int of = self.accompanies == nobody ? -1 : robot.table().find(self.accompanies); of >= 0)
     return past(robot, companion_motion(robot, of), companion_way_m(robot, of));
   // No robot near has heard the tree for a while: it has gone behind an obstacle.
-  if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m) return bypass(robot, self.corners.seen_from) + repulsion(robot);
+  if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m)
+    return bypass(robot, self.corners.seen_from) + repulsion(robot);
   // The root is about to go round a corner, and waits for spares.
   const int root = robot.table().find(self.root.id);
   if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
     return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   if (holds_still(robot)) return {};
   // Whoever is charged makes room at the place, and whoever needs it drives through the crowd: the others step aside.
-  if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away)) return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
-  if (robot.power != nullptr && is_at_place(*robot.power)) return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+  if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away))
+    return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
+  if (robot.power != nullptr && is_at_place(*robot.power))
+    return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   const int k = followed_by(robot);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
@@ -441,12 +465,12 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
     return past(robot, bypass(robot, norm(way) < p.avoidance_range_m ? left_of(unit(way)) : way), way_m);
   }
   if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
-  if (d > reach_m)
-    return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+  if (d > reach_m) return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
   // It is there, but cannot hear the edge that calls, hidden or too far: it goes round the robot that passed on the
   // call. Not where many edges meet: spares wait on the far side, too, and it would only cross lines of sight.
   const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= 3);
-  if (self.called && roomy && d > 0.0F) return bypass(robot, way_round(robot, k)) + repulsion(robot) + make_way(robot, way_m);
+  if (self.called && roomy && d > 0.0F)
+    return bypass(robot, way_round(robot, k)) + repulsion(robot) + make_way(robot, way_m);
   return repulsion(robot) + make_way(robot, p.corridor_width_m);
 }
 

@@ -13,7 +13,8 @@ namespace {
 Vec2 aim(Vec2 v, float speed, const Guard& guard) noexcept {
   constexpr float inwards = 0.05F;  // rad
   for (int k = 0; k < guard.size; ++k)
-    if (const Guard::HalfPlane& plane = guard.planes[k]; speed * plane.x > plane.limit_m_s) v -= plane.away() * (speed * inwards);
+    if (const Guard::HalfPlane& plane = guard.planes[k]; speed * plane.x > plane.limit_m_s)
+      v -= plane.away() * (speed * inwards);
   return v;
 }
 

@@ -13,7 +13,8 @@ constexpr int sentries = 1;    // entries from which noise is noticed at first
 void Neighbors::prefetch(std::size_t entries) const noexcept {
   entries = std::min<std::size_t>(entries, neighbor_capacity);
   const auto fetch = [&](const auto& array) { prefetch_lines(array.data(), entries * sizeof array[0]); };
-  prefetch_lines(this, static_cast<std::size_t>(reinterpret_cast<const char*>(positions_.data()) - reinterpret_cast<const char*>(this)));
+  prefetch_lines(this, static_cast<std::size_t>(reinterpret_cast<const char*>(positions_.data()) -
+                                                reinterpret_cast<const char*>(this)));
   fetch(ids_);
   fetch(by_id_);
   fetch(measurements_);
@@ -111,7 +112,8 @@ int Neighbors::evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noex
 }
 
 // Only silent neighbours are dead-reckoned: one heard just now has a fresh position.
-int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps, int kept_ticks) noexcept {
+int Neighbors::remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps,
+                           int kept_ticks) noexcept {
   liveness_ticks_ = static_cast<std::int16_t>(std::max(liveness_ticks, kept_ticks));
   for (int k = from, size = size_; k < size; ++k) {
     if (ages_[k] == 0) continue;

@@ -10,8 +10,9 @@ namespace {
 constexpr float wander = 4.0F;           // the random walk, in longest ways of a tick: a course lasts a second or two
 constexpr float explained = 1.25F;       // of that way: what motion explains of an innovation, and odometry's own error
 constexpr float newest = 1.0F / 256.0F;  // weight of an innovation: what counts are the last few hundred
-constexpr float noticed = 1.0F / 32.0F;  // of the walk: a shove in a crowd that odometry does not see is forgotten at once
-constexpr float surely = 0.99F;          // and what it explains whatever the roundings
+constexpr float noticed =
+    1.0F / 32.0F;                // of the walk: a shove in a crowd that odometry does not see is forgotten at once
+constexpr float surely = 0.99F;  // and what it explains whatever the roundings
 constexpr float shortest_lever_m = 0.5F;  // nearer, a neighbour's own motion turns its bearing by much
 
 float squared_excess(float innovation, float explained_by_motion) noexcept {
@@ -54,7 +55,8 @@ Vec2 PositionFilter::fuse(Vec2 predicted, Vec2 measured, int ticks, int measurem
 void PositionFilter::learn(Vec2 predicted, Vec2 measured, int ticks) noexcept {
   const float by_motion_m = explained * way_m_ * static_cast<float>(ticks);
   const float least_m = surely * by_motion_m;
-  if (!has_seen_noise() && squared_norm(measured - predicted) <= least_m * least_m) return;  // neither excess is above 0
+  if (!has_seen_noise() && squared_norm(measured - predicted) <= least_m * least_m)
+    return;  // neither excess is above 0
   const float expected_m = norm(predicted);
   const float range_m = norm(measured);
   if (!(expected_m > 0.0F) || !(range_m > 0.0F)) return;

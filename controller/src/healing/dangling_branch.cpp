@@ -26,7 +26,8 @@ void watch_children(HealingRobot& robot) noexcept {
     self.dangling_ticks = static_cast<std::uint16_t>(robot.params.ticks(robot.params.pursue_for_s));
   } else if (self.dangling_ticks > 0) {
     const bool there = norm(self.lost_child) < near_enough * robot.params.communication_range_m;
-    self.dangling_ticks = there ? std::uint16_t{0} : static_cast<std::uint16_t>(std::max(self.dangling_ticks - robot.elapsed_ticks, 0));
+    self.dangling_ticks =
+        there ? std::uint16_t{0} : static_cast<std::uint16_t>(std::max(self.dangling_ticks - robot.elapsed_ticks, 0));
   }
 }
 

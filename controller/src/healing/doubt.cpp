@@ -15,17 +15,19 @@ constexpr float well_in_range = 0.85F;  // of C: a worker farther away may only 
 bool takes_charge(const HealingRobot& robot, const Task& task) noexcept {
   const TreeTable& table = robot.table();
   const int holder = table.find(task.holder);
-  if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range * robot.params.communication_range_m) return false;
+  if (holder < 0 || !fades(robot, holder) || table.range(holder) > well_in_range * robot.params.communication_range_m)
+    return false;
   const int parent = table.find(up_of(table.message(holder)));
   return parent < 0 || fades(robot, parent) || table.message(parent).subtree_workers > task_capacity;
 }
 
-// The worker stood at its target, in range, and nobody is in between: there is nothing to wait for, and less of an answer
-// to be expected. Where packets get lost, silence alone says less.
+// The worker stood at its target, in range, and nobody is in between: there is nothing to wait for, and less of an
+// answer to be expected. Where packets get lost, silence alone says less.
 bool has_witnessed(const HealingRobot& robot, const Task& task) noexcept {
   const int holder = robot.table().find(task.holder);
   return holder >= 0 && robot.tie_ticks == 0 && task.reached && fades(robot, holder) &&
-         robot.table().range(holder) <= longest_link * robot.params.communication_range_m && is_in_the_clear(robot, holder);
+         robot.table().range(holder) <= longest_link * robot.params.communication_range_m &&
+         is_in_the_clear(robot, holder);
 }
 
 // The child has taken another parent, and its workers along, or serves none any more.
@@ -36,8 +38,8 @@ bool has_left(const HealingRobot& robot, int child) noexcept {
   return up != robot.self.id && (up != nobody || m.role == Role::spare);
 }
 
-// While I waited the worker, if it lives, has gone on counting: what others heard of it before that is no answer. Half of
-// these ticks, since clocks and steps differ.
+// While I waited the worker, if it lives, has gone on counting: what others heard of it before that is no answer. Half
+// of these ticks, since clocks and steps differ.
 void raise_doubt(const HealingRobot& robot, Task& task) noexcept {
   task.beat = static_cast<Serial>(task.beat + std::max(0, task.age_ticks - robot.liveness_ticks()) / 2);
   begin_doubt(robot, task);

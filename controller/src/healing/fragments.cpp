@@ -51,7 +51,8 @@ void listen_among_fragments(HealingRobot& robot) noexcept {
   const EpochPhase newest = newest_phase(robot);
   // Only robots that had another root can be ahead of this one: it opens an epoch for them, too.
   const bool ahead = is_newer(newest.epoch, self.epoch) && robot.params.heals();
-  if (robot.is_root() && (contested || ahead)) return enter(robot, static_cast<Serial>(newest.epoch + 1), Phase::start_tree);
+  if (robot.is_root() && (contested || ahead))
+    return enter(robot, static_cast<Serial>(newest.epoch + 1), Phase::start_tree);
   follow_phase(robot, newest);
 }
 
@@ -63,7 +64,8 @@ void advance_and_count(HealingRobot& robot, bool tree_complete, bool may_reconst
   HealingState& self = robot.self;
   const Phase before = self.phase;
   advance(robot, tree_complete, may_reconstruct, barrier_patience_ticks(robot));
-  if (before == Phase::start_tree && self.phase == Phase::select_parent && robot.is_root()) self.root_size = self.flood_robots;
+  if (before == Phase::start_tree && self.phase == Phase::select_parent && robot.is_root())
+    self.root_size = self.flood_robots;
 }
 
 }  // namespace banyan

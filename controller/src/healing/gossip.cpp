@@ -28,14 +28,13 @@ int next_heard(const TreeTable& table, int turn) noexcept {
 
 // The target that my message is about, and who is told where it is: the robot above me, or all in turn.
 struct Topic {
-  int task = -1;     // -1: none
-  int turn = 0;      // whose turn it is
+  int task = -1;  // -1: none
+  int turn = 0;   // whose turn it is
   bool upwards = false;
 };
 
 // Each pair of a neighbour and a target for which `counts` holds has its turn; robots begin at different targets.
-template <class Counts>
-Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
+template <class Counts> Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
   const auto end = self.tasks.begin() + self.task_count;
   const auto among = static_cast<int>(std::count_if(self.tasks.begin(), end, counts));
   if (among == 0) return {-1, turn};

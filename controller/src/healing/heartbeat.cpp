@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/tree/epoch.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/healing/tie.hpp"
+#include "banyan/controller/tree/epoch.hpp"
 
 namespace banyan {
 namespace {
@@ -30,7 +30,9 @@ void hear_heartbeat(HealingRobot& robot) noexcept {
     self.heart = self.root;
     self.heartbeat = m.heartbeat;
     self.root_size = m.root_size;
-    if (self.usual_silence > 0) self.usual_silence = static_cast<std::uint8_t>(std::clamp<int>(self.silence_ticks - robot.elapsed_ticks, self.usual_silence, longest_silence_ticks));
+    if (self.usual_silence > 0)
+      self.usual_silence = static_cast<std::uint8_t>(
+          std::clamp<int>(self.silence_ticks - robot.elapsed_ticks, self.usual_silence, longest_silence_ticks));
     self.silence_ticks = 0;
   }
 }
@@ -69,7 +71,8 @@ bool outlives_root(const HealingRobot& robot) noexcept {
 // Several robots far from each other may claim; one token wins.
 bool misses_first_root(const HealingRobot& robot) noexcept {
   constexpr float first_root_s = 20.0F;  // by then the first token has travelled 200 hops
-  constexpr int fetched_later = 3;       // in a thin start where packets get lost, part of the network may have to be fetched first
+  constexpr int fetched_later =
+      3;  // in a thin start where packets get lost, part of the network may have to be fetched first
   const TreeTable& table = robot.table();
   const int patience_ticks = robot.params.ticks(first_root_s) * (is_thin(robot.self) ? fetched_later : 1);
   if (robot.self.silence_ticks <= patience_ticks || hears_nobody(robot)) return false;

@@ -23,8 +23,10 @@ float cost(const HealingRobot& robot, int k, int hops) noexcept {
   constexpr float strained = 0.85F;  // of C: beyond, the guard slows both ends down
   const float range = robot.table().range(k) / robot.params.communication_range_m;
   const bool another = hops >= 0 && robot.table().id(k) != robot.self.hold;
-  if (range > longest_link) return 8192.0F + 1024.0F * range + (another ? 10.0F : 0.0F) + static_cast<float>(hops) / unreachable;
-  return (hops == unreachable ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) + hop_cost * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
+  if (range > longest_link)
+    return 8192.0F + 1024.0F * range + (another ? 10.0F : 0.0F) + static_cast<float>(hops) / unreachable;
+  return (hops == unreachable ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) +
+         hop_cost * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
 }
 
 // The best neighbour that is ahead of me, -1 if there is none; `wish` is the best one, whether or not it is ahead. Most
@@ -37,7 +39,9 @@ int best_hold(const HealingRobot& robot, int& wish) noexcept {
   float wish_cost = hold_cost;
   const auto consider = [&](int k) {
     const TreeStanding& m = table.message(k);
-    if (!(table.id(k) == robot.held ? robot.is_linked(k) : robot.is_sure(k)) || m.epoch != robot.self.epoch || is_untied(m)) return;
+    if (!(table.id(k) == robot.held ? robot.is_linked(k) : robot.is_sure(k)) || m.epoch != robot.self.epoch ||
+        is_untied(m))
+      return;
     const int hops = hops_to_tree(m);
     if (hop_cost * static_cast<float>(hops) >= hold_cost) return;  // nor is it a better wish
     const bool ahead = is_ahead(robot, k);
@@ -49,7 +53,8 @@ int best_hold(const HealingRobot& robot, int& wish) noexcept {
   };
   float others = 0.0F;  // that have not been looked at cost at least so much
   for (const Rows* const rows : {&table.members, &table.nearest, &table.all()}) {
-    if (rows == &table.all()) hold_cost = wish_cost = std::numeric_limits<float>::max();  // of those that cost as much the first
+    if (rows == &table.all())
+      hold_cost = wish_cost = std::numeric_limits<float>::max();  // of those that cost as much the first
     rows->for_each(consider);
     if (hold_cost < others) break;
     others = hop_cost * static_cast<float>(table.least_hops + 1);
@@ -76,7 +81,8 @@ void find_hold(HealingRobot& robot) noexcept {
     }
     // A spare adopts the sequence number of the hold it would like best, which is ahead of it then, like the rest
     // of the tree. A spare that is about to join an edge stays behind.
-    if (wish >= 0 && self.role == Role::spare && self.phase >= Phase::grow_tree && self.request == nobody) keep_up(robot, wish);
+    if (wish >= 0 && self.role == Role::spare && self.phase >= Phase::grow_tree && self.request == nobody)
+      keep_up(robot, wish);
   }
   self.hold = robot.hold < 0 ? nobody : table.id(robot.hold);
 }

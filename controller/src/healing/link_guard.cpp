@@ -10,9 +10,9 @@
 namespace banyan {
 namespace {
 
-// No longer than that, less by how far neighbour k may be from where it was measured. Where packets get lost many in a row
-// it may come back from there, and whoever does not hear it need not drive to it, only stay. But far away it may be silent
-// because the signal has faded: up to where that is rare it comes nearer.
+// No longer than that, less by how far neighbour k may be from where it was measured. Where packets get lost many in a
+// row it may come back from there, and whoever does not hear it need not drive to it, only stay. But far away it may be
+// silent because the signal has faded: up to where that is rare it comes nearer.
 void guard_link(const HealingRobot& robot, int k, float longest_m, Guard& guard) noexcept {
   constexpr float near = 0.77F;  // of C
   const TreeTable& table = robot.table();
@@ -29,7 +29,8 @@ void guard_edges(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
   lets_go = lets_go && !robot.has_bursts();
   for_each_tree_neighbor(robot, [&](int k) {
     // The way back to a robot that went out of sight leads round the obstacle, not straight to it.
-    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty())) guard_link(robot, k, robot.params.ideal_distance_m, guard);
+    if (robot.table().alive(k) || (!lets_go && robot.obstacles.empty()))
+      guard_link(robot, k, robot.params.ideal_distance_m, guard);
   });
 }
 
@@ -55,7 +56,8 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
   for (const int k : {robot.hold, robot.gap})
     if (k >= 0) rows.set(k, true);
   rows.for_each([&](int k) {
-    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k)) return;
+    if (k == robot.parent || k == robot.old_parent || table.range(k) + strayed_m(robot, k) <= limited_m || !holds_me(k))
+      return;
     guard_link(robot, k, longest_m, guard);
   });
 }

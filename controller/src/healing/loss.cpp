@@ -7,8 +7,8 @@
 namespace banyan {
 namespace {
 
-constexpr float fading = 0.99F;           // per tick: about the last hundred ticks count
-constexpr float prior_packets = 2.0F;     // counted as heard before the first one
+constexpr float fading = 0.99F;        // per tick: about the last hundred ticks count
+constexpr float prior_packets = 2.0F;  // counted as heard before the first one
 constexpr float silent_by_chance = 1e-5F;
 
 // So long a living neighbour may be silent by chance.
@@ -20,8 +20,8 @@ bool is_in_reach(const HealingRobot& robot, int k) noexcept {
   return robot.table().range(k) <= longest_link * robot.params.communication_range_m && is_in_the_clear(robot, k);
 }
 
-// A neighbour that was heard a tick ago, is in range and in the clear is silent; -1 if there is none. One such neighbour
-// is looked at in a step: where packets get lost, there will soon be another.
+// A neighbour that was heard a tick ago, is in range and in the clear is silent; -1 if there is none. One such
+// neighbour is looked at in a step: where packets get lost, there will soon be another.
 int missed(const HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const float range_m = longest_link * robot.params.communication_range_m;
@@ -49,8 +49,8 @@ void note_silence(HealingRobot& robot) noexcept {
   else if (self.turn % fading_turns == 0) --self.usual_silence;
 }
 
-// A neighbour comes back after a silence that lost packets alone do not explain: they get lost many in a row. Every robot
-// watches one silent neighbour at a time, and passes on the longest such silence that it knows of.
+// A neighbour comes back after a silence that lost packets alone do not explain: they get lost many in a row. Every
+// robot watches one silent neighbour at a time, and passes on the longest such silence that it knows of.
 void note_burst(HealingRobot& robot) noexcept {
   constexpr int beyond_chance = 2;  // times as long as a silence by chance
   constexpr int fading_turns = 16;  // to be a tick shorter
@@ -69,7 +69,8 @@ void note_burst(HealingRobot& robot) noexcept {
     const bool back = k >= 0 && table.age(k) == 0;
     const int silent_ticks = ticks - robot.elapsed_ticks;
     const int least_ticks = std::max<int>(self.burst_ticks, beyond_chance * by_chance_ticks(robot));
-    if (back && silent_ticks > least_ticks && is_in_reach(robot, k)) self.burst_ticks = static_cast<std::uint8_t>(silent_ticks);
+    if (back && silent_ticks > least_ticks && is_in_reach(robot, k))
+      self.burst_ticks = static_cast<std::uint8_t>(silent_ticks);
     if (back || self.watched_ticks > longest_silence_ticks) self.watched = nobody;
   }
   // One that has missed nothing (note_silence) need not look again.

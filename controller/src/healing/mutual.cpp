@@ -15,7 +15,9 @@ constexpr float fetched_to = 0.2F;  // of C: so near to a robot that does not he
 constexpr float called_to = 0.45F;  // of C: so near to a robot that calls
 constexpr int call_ticks = 10;      // a call that is not repeated ends
 
-int caller_of(const HealingRobot& robot) noexcept { return robot.self.called_ticks == 0 ? -1 : robot.table().find(robot.self.caller); }
+int caller_of(const HealingRobot& robot) noexcept {
+  return robot.self.called_ticks == 0 ? -1 : robot.table().find(robot.self.caller);
+}
 
 }  // namespace
 
@@ -67,7 +69,8 @@ void find_gap(HealingRobot& robot) noexcept {
   self.called_ticks = static_cast<std::uint8_t>(std::max(self.called_ticks - robot.elapsed_ticks, 0));
   // A call is passed on away from the root only: it would never end if two robots called each other.
   const int caller = caller_of(robot);
-  self.calls = robot.gap >= 0 || (caller >= 0 && is_ahead(robot, caller) && table.range(caller) > called_to * robot.params.communication_range_m);
+  self.calls = robot.gap >= 0 || (caller >= 0 && is_ahead(robot, caller) &&
+                                  table.range(caller) > called_to * robot.params.communication_range_m);
 }
 
 bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
@@ -80,16 +83,17 @@ bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
 
 // Not inlined: it is for the first seconds only (and the firmware is smaller).
 [[gnu::noinline]] bool awaits_others(HealingRobot& robot, Vec2& u) noexcept {
-  constexpr int look_ticks = 10;     // by then the neighbours have been heard, whatever is lost
-  constexpr int end_ticks = 150;     // so long the end of a thin start stays
+  constexpr int look_ticks = 10;  // by then the neighbours have been heard, whatever is lost
+  constexpr int end_ticks = 150;  // so long the end of a thin start stays
   constexpr int few = 4;
-  constexpr float apart = 0.4F;      // of C: so few in a crowd are nearer
-  constexpr float stretched = 0.72F; // of C: the nearer to whoever may be beyond this end
+  constexpr float apart = 0.4F;       // of C: so few in a crowd are nearer
+  constexpr float stretched = 0.72F;  // of C: the nearer to whoever may be beyond this end
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   const float c = robot.params.communication_range_m;
   const int size = table.size();
-  if (self.turn == look_ticks && size <= few && table.range(0) > apart * c) self.neighbors_at_start = static_cast<std::uint8_t>(size);
+  if (self.turn == look_ticks && size <= few && table.range(0) > apart * c)
+    self.neighbors_at_start = static_cast<std::uint8_t>(size);
   if (self.neighbors_at_start == 0 || self.missed_in_the_clear + self.usual_silence == 0) return false;
   if (self.phase != Phase::init && (self.neighbors_at_start != 1 || size > 1 || self.turn >= end_ticks)) return false;
   if (size == 1 && table.range(0) < stretched * c) u = -table.position(0);

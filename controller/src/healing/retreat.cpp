@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/tree/motion.hpp"
 
 namespace banyan {
 namespace {
 
 constexpr float regroup_for_s = 40.0F;  // at most, then it waits again
-constexpr int lost_ticks = 22;  // an orphan that has found no hold for so long has none in reach
+constexpr int lost_ticks = 22;          // an orphan that has found no hold for so long has none in reach
 
 bool is_cut_off(const HealingRobot& robot) noexcept {
-  return robot.self.silence_ticks > robot.params.ticks(robot.params.retreat_after_s) + 2 * std::max(robot.liveness_ticks(), robot.tie_ticks);
+  return robot.self.silence_ticks >
+         robot.params.ticks(robot.params.retreat_after_s) + 2 * std::max(robot.liveness_ticks(), robot.tie_ticks);
 }
 
 // A robot that hears no other keeps none connected and may search: a root left alone or hidden among bodies, or a
@@ -20,13 +21,14 @@ bool is_cut_off(const HealingRobot& robot) noexcept {
 // comes, since after a short radio failure all should be where they were. One that has never heard any waits, too.
 bool is_alone(const HealingRobot& robot) noexcept {
   const HealingState& self = robot.self;
-  return self.silence_ticks > robot.params.ticks(robot.params.regroup_after_s) && self.expected_packets > 0.0F && hears_nobody(robot);
+  return self.silence_ticks > robot.params.ticks(robot.params.regroup_after_s) && self.expected_packets > 0.0F &&
+         hears_nobody(robot);
 }
 
 // A spiral around the place where the others were. It needs no compass.
 Vec2 search(const HealingRobot& robot) noexcept {
-  constexpr float pitch = 0.08F;    // of C, a turn's growth of the radius over 2 pi: turns are C/2 apart
-  constexpr float stride = 0.25F;   // of C: how far ahead it looks for a way past obstacles
+  constexpr float pitch = 0.08F;   // of C, a turn's growth of the radius over 2 pi: turns are C/2 apart
+  constexpr float stride = 0.25F;  // of C: how far ahead it looks for a way past obstacles
   const Vec2 in = robot.self.root_at;
   const float c = robot.params.communication_range_m;
   const Vec2 along = Vec2{in.y, -in.x} - unit(in) * (pitch * c);
@@ -39,7 +41,9 @@ int way_home(const HealingRobot& robot, bool workers_relay) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (!table.alive(k) || (m.role == Role::worker && !workers_relay) || m.tree_hops == unreachable || m.parent == robot.self.id) continue;
+    if (!table.alive(k) || (m.role == Role::worker && !workers_relay) || m.tree_hops == unreachable ||
+        m.parent == robot.self.id)
+      continue;
     if (best < 0 || table.range(k) < table.range(best)) best = k;
   }
   return best;
@@ -63,7 +67,8 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept {
   }
   const int after_ticks = robot.params.ticks(robot.params.regroup_after_s);
   if (self.unserved_ticks >= robot.params.ticks(robot.params.regroup_after_s + regroup_for_s)) self.unserved_ticks = 0;
-  else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks) robot.add_elapsed(self.unserved_ticks);
+  else if (regroups || self.unserved_ticks < after_ticks || self.stalled_ticks >= after_ticks)
+    robot.add_elapsed(self.unserved_ticks);
 }
 
 bool is_retreating(const HealingRobot& robot, bool regroups) noexcept {

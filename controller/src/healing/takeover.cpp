@@ -8,23 +8,23 @@ namespace banyan {
 
 namespace {
 
-constexpr int takeover_beats = 60;  // a successor's count starts so far ahead of the news under way
-constexpr int rival_beats = 30;     // a count farther behind mine is that of a dead worker
+constexpr int takeover_beats = 60;          // a successor's count starts so far ahead of the news under way
+constexpr int rival_beats = 30;             // a count farther behind mine is that of a dead worker
 constexpr std::uint8_t pass_on_ticks = 40;  // how long news has priority
 constexpr float second_try_s = 40.0F;
-constexpr float news_hop = 0.7F;      // of C
-constexpr int per_tick = 16;     // units of news_gap
-constexpr int gap_memory = 64;   // pieces of news
-constexpr int gap_patience = 2;  // times as long as other news was missing of late
+constexpr float news_hop = 0.7F;  // of C
+constexpr int per_tick = 16;      // units of news_gap
+constexpr int gap_memory = 64;    // pieces of news
+constexpr int gap_patience = 2;   // times as long as other news was missing of late
 
 // What the sender says of a target.
 struct TaskNews {
   RobotId serves;
   RobotId holder;
   Serial beat;
-  bool reached;           // the holder is at the target
-  bool silent;            // in doubt
-  RobotId via;            // my child at or above the holder; nobody: the sender is no child, or denies it
+  bool reached;  // the holder is at the target
+  bool silent;   // in doubt
+  RobotId via;   // my child at or above the holder; nobody: the sender is no child, or denies it
 };
 
 TaskNews news_in(const HealingRobot& robot, const HealingMessage& m) noexcept {
@@ -79,10 +79,13 @@ constexpr float trust = 0.2F;  // weight of what a robot says that only remember
 // remember is best. Where targets are handed over all the time, the holder and the worker first sent there know best.
 void locate(const HealingRobot& robot, Task& task, RobotId sender, const TaskNews& news, Vec2 told) noexcept {
   constexpr int stale_ticks = 3;
-  const bool silent = robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
+  const bool silent =
+      robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
   const bool by_memory = silent || task.holder != task.serves;
   const bool knows_best = robot.passes_targets_on && (sender == task.holder || sender == task.serves);
-  const auto is_fresh = [&] { return ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks); };
+  const auto is_fresh = [&] {
+    return ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks);
+  };
   if (task.unlocated) set_place(task, told);
   else if (knows_best || (!by_memory && is_fresh())) task.target = told;
   else if (by_memory) task.target += (told - task.target) * trust;
@@ -94,8 +97,11 @@ void measure_gap(HealingState& self, const Task& task) noexcept {
   self.news_gap = static_cast<std::uint16_t>(std::max(gap, std::min<int>(task.age_ticks * per_tick, UINT16_MAX)));
 }
 
-// A count so little later than the one last heard is no proof of life: it was on another way when the worker fell silent.
-bool proves_life(const HealingRobot& robot, Serial later, Serial missed) noexcept { return ahead_by(later, missed) > robot.liveness_ticks() / 2; }
+// A count so little later than the one last heard is no proof of life: it was on another way when the worker fell
+// silent.
+bool proves_life(const HealingRobot& robot, Serial later, Serial missed) noexcept {
+  return ahead_by(later, missed) > robot.liveness_ticks() / 2;
+}
 
 // A later sign of life, or another holder.
 void renew(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
@@ -137,7 +143,8 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
   const bool newer = is_news(news.beat, task->beat, task->age_ticks);
   if (newer) renew(robot, *task, news);
   if (news.silent && !task->silent) {
-    if (proves_life(robot, task->beat, news.beat)) task->urgent_ticks = pass_on_ticks;  // I know of a later sign of life
+    if (proves_life(robot, task->beat, news.beat))
+      task->urgent_ticks = pass_on_ticks;  // I know of a later sign of life
     else begin_doubt(robot, *task);
   }
 }
@@ -172,7 +179,9 @@ void hear_of_tasks(HealingRobot& robot) noexcept {
     // robot, and nothing new about where in the tree its holder is.
     const Task* task = m.told == me ? nullptr : index.find(m.task_serves);
     const bool below = m.task_below && up_of(m) == me;
-    if (task != nullptr && !m.task_silent && (task->via == m.id) == below && !is_news(m.task_beat, task->beat, task->age_ticks) && (!self.is_worker || self.serves != m.task_serves)) continue;
+    if (task != nullptr && !m.task_silent && (task->via == m.id) == below &&
+        !is_news(m.task_beat, task->beat, task->age_ticks) && (!self.is_worker || self.serves != m.task_serves))
+      continue;
     Vec2 target;
     const bool told = m.told == self.id && robot.read_point(h, m.task_x_cm, m.task_y_cm, target);
     hear_of_task(robot, m.id, news_in(robot, m), told ? &target : nullptr);
@@ -230,7 +239,8 @@ int way_of_news_ticks(const HealingRobot& robot, const Task& task) noexcept {
   const HealingState& self = robot.self;
   const float in_m = self.root_known ? distance(self.root_at, task.target) : 0.0F;
   const float out_m = static_cast<float>(self.label_cm) * 0.01F;
-  return static_cast<int>((in_m + out_m) / (news_hop * robot.params.communication_range_m) * static_cast<float>(self.task_count));
+  return static_cast<int>((in_m + out_m) / (news_hop * robot.params.communication_range_m) *
+                          static_cast<float>(self.task_count));
 }
 
 // Where robots forget, an answer comes straight from near the target, in turn with all that is urgent, which has every
@@ -238,7 +248,8 @@ int way_of_news_ticks(const HealingRobot& robot, const Task& task) noexcept {
 int way_of_answer_ticks(const HealingRobot& robot, const Task& task) noexcept {
   constexpr float hop = 0.5F;  // of C
   const HealingState& self = robot.self;
-  const auto urgent = std::count_if(self.tasks.begin(), self.tasks.begin() + self.task_count, [](const Task& t) { return is_urgent(t); });
+  const auto urgent = std::count_if(self.tasks.begin(), self.tasks.begin() + self.task_count,
+                                    [](const Task& t) { return is_urgent(t); });
   const float hops = norm(task.target) / (hop * robot.params.communication_range_m);
   const int spread_ticks = robot.params.ticks(robot.params.succession_spread_s_m * norm(task.target));
   return std::max(0, static_cast<int>(hops * 2.0F * static_cast<float>(urgent)) - spread_ticks);
@@ -253,10 +264,12 @@ void succeed(HealingRobot& robot) noexcept {
   if (!free || self.is_worker || robot.is_root() || self.silence_ticks > least_ticks) return;
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
-    if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent)) continue;
+    if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent))
+      continue;
     const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first
     const int way_ticks = self.forgets ? way_of_answer_ticks(robot, task) : way_of_news_ticks(robot, task);
-    const int patience_ticks = least_ticks + way_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
+    const int patience_ticks =
+        least_ticks + way_ticks + p.ticks(p.succession_after_s + p.succession_spread_s_m * norm(task.target) + again_s);
     const int rare_ticks = self.forgets ? 0 : gap_patience * self.news_gap / per_tick;  // doubt has waited already
     if (task.age_ticks > std::max(patience_ticks, rare_ticks)) return take_over(robot, task);
   }
@@ -313,7 +326,8 @@ void watch_tasks(HealingRobot& robot) noexcept {
   succeed(robot);
   // A successor has its target from the task list, not from the mission.
   if (!self.is_worker || robot.target != nullptr) return;
-  if (const Task* task = find_task(self, self.serves); task != nullptr && !task->unlocated) robot.target = &task->target;
+  if (const Task* task = find_task(self, self.serves); task != nullptr && !task->unlocated)
+    robot.target = &task->target;
 }
 
 }  // namespace banyan

@@ -24,7 +24,8 @@ HealingState initial_healing_state(RobotId id, bool worker, bool root) noexcept 
 void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
   HealingState& self = robot.self;
   const bool called_back = self.was_sent && (!orders.sent || orders.given_up == self.id);
-  if (self.is_worker && ((called_back && self.serves == self.id) || (orders.given_up != nobody && self.serves == orders.given_up))) {
+  if (self.is_worker &&
+      ((called_back && self.serves == self.id) || (orders.given_up != nobody && self.serves == orders.given_up))) {
     self.is_worker = false;
     self.serves = nobody;
   }
@@ -45,7 +46,8 @@ void follow_orders(HealingRobot& robot, const Orders& orders) noexcept {
   if (orders.target) {
     const float off_m = self.target_known ? distance(*orders.target, self.target) : 0.0F;
     if (off_m > target_moved_m) self.progress = {};
-    robot.target_strays = off_m > straying * robot.params.wheel_limit_m_s * robot.params.tick_s * static_cast<float>(robot.elapsed_ticks);
+    robot.target_strays =
+        off_m > straying * robot.params.wheel_limit_m_s * robot.params.tick_s * static_cast<float>(robot.elapsed_ticks);
     self.target = *orders.target;
     self.target_known = true;
   }
@@ -73,7 +75,8 @@ void begin_tick(HealingRobot& robot, const Inputs<Heard>& inputs) noexcept {
       if (!names_another(robot, h)) note_hears(robot, h);
     }
   }
-  forget_silent(robot, [&](int k) { return may_be_tied(robot, k); }, [&](int k, int size) { close_gap(kept, k, size); });
+  forget_silent(
+      robot, [&](int k) { return may_be_tied(robot, k); }, [&](int k, int size) { close_gap(kept, k, size); });
   follow_orders(robot, inputs.senses().orders);
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr float keep_m = 0.04F;           // between body and obstacle while driving along it
 constexpr float same_obstacle_m = 0.20F;  // the contact point moves on by less in a tick
 constexpr float progress_m = 0.05F;
-constexpr float first_span = 0.35F;        // of C
+constexpr float first_span = 0.35F;  // of C
 constexpr float goal_moved_m = 0.30F;
 
 // ---- One obstacle point: which directions it leaves free ----
@@ -116,7 +116,9 @@ void carry_detour(Detour& detour, const Carry& carry) noexcept {
 Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
   const Vec2 straight = unit(goal);
   // It has left the area that it searched, or has another goal.
-  if (detour.last_side != 0 && detour.side == 0 && (norm(detour.origin) > detour.span_m || distance(goal, detour.goal) > goal_moved_m)) detour = {};
+  if (detour.last_side != 0 && detour.side == 0 &&
+      (norm(detour.origin) > detour.span_m || distance(goal, detour.goal) > goal_moved_m))
+    detour = {};
   if (robot.obstacles.empty()) {
     end(detour);
     return straight;

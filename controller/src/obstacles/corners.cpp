@@ -14,24 +14,26 @@
 namespace banyan {
 namespace {
 
-constexpr float sight_margin_m = 0.03F;   // own motion brings no line of sight nearer to a corner than this
-constexpr float sight_width_m = 0.12F;    // robots make room for lines nearer to a corner than this
-constexpr float hinge_width_m = 0.30F;    // the parent is told of a corner so near to the edge
+constexpr float sight_margin_m = 0.03F;  // own motion brings no line of sight nearer to a corner than this
+constexpr float sight_width_m = 0.12F;   // robots make room for lines nearer to a corner than this
+constexpr float hinge_width_m = 0.30F;   // the parent is told of a corner so near to the edge
 constexpr float pin_width_m = 0.06F;
-constexpr float pin_shortest_m = 0.30F;   // a parent nearer than this need not come up
-constexpr float spacing_m = 0.06F;        // between remembered points
-constexpr float least_lever = 0.1F;       // with less, my motion hardly moves the line there;
-constexpr float least_lever_body = 0.02F; // but the body of a former parent lies beside the robot that is the parent now
-constexpr float forget = 1.0F;            // of C: points farther away are forgotten, since no edge is longer
+constexpr float pin_shortest_m = 0.30F;  // a parent nearer than this need not come up
+constexpr float spacing_m = 0.06F;       // between remembered points
+constexpr float least_lever = 0.1F;      // with less, my motion hardly moves the line there;
+constexpr float least_lever_body =
+    0.02F;                      // but the body of a former parent lies beside the robot that is the parent now
+constexpr float forget = 1.0F;  // of C: points farther away are forgotten, since no edge is longer
 
-// Calls visit(o, r): points of obstacles with r = 0, centres of bodies with their radius. One loop, so that the firmware
-// has the visitor's code once.
-template <class Visit>
-void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit visit) noexcept {
+// Calls visit(o, r): points of obstacles with r = 0, centres of bodies with their radius. One loop, so that the
+// firmware has the visitor's code once.
+template <class Visit> void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit visit) noexcept {
   const std::size_t sensed = robot.obstacles.size();
   const std::size_t points = sensed + corners.landmarks.size;
   for (std::size_t k = 0; k < points + corners.bodies.size; ++k) {
-    const Vec2& o = k < sensed ? robot.obstacles[k] : k < points ? corners.landmarks.points[k - sensed] : corners.bodies.centers[k - points];
+    const Vec2& o = k < sensed   ? robot.obstacles[k]
+                    : k < points ? corners.landmarks.points[k - sensed]
+                                 : corners.bodies.centers[k - points];
     visit(o, k < points ? 0.0F : body_m(robot));
   }
 }
@@ -40,10 +42,10 @@ void for_each_obstacle(const TreeRobot& robot, const Corners& corners, Visit vis
 
 // An obstacle point beside the segment from me to a neighbour.
 struct Threat {
-  Vec2 towards;   // unit, from the segment to the point
-  float across_m; // the distance of its surface from the segment
-  float lever;    // how far the segment moves there when I move by 1
-  bool is_body;   // not a point of an obstacle
+  Vec2 towards;    // unit, from the segment to the point
+  float across_m;  // the distance of its surface from the segment
+  float lever;     // how far the segment moves there when I move by 1
+  bool is_body;    // not a point of an obstacle
 };
 
 template <class Visit>
@@ -60,8 +62,7 @@ void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighb
   });
 }
 
-template <class Visit>
-void for_each_edge_of_both_trees(const TreeRobot& robot, Visit visit) noexcept {
+template <class Visit> void for_each_edge_of_both_trees(const TreeRobot& robot, Visit visit) noexcept {
   const TreeTable& table = robot.table();
   if (robot.parent_alive()) visit(robot.parent);
   if (robot.old_parent_alive() && robot.old_parent != robot.parent) visit(robot.old_parent);
@@ -74,7 +75,9 @@ void for_each_edge_of_both_trees(const TreeRobot& robot, Visit visit) noexcept {
 // How far a point is from the nearest of my tree edges: the farther, the less it matters.
 float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
   float nearest_m = norm(p);
-  for_each_edge_of_both_trees(robot, [&](int k) { nearest_m = std::min(nearest_m, norm(nearest_on_segment(-p, robot.table().position(k) - p))); });
+  for_each_edge_of_both_trees(robot, [&](int k) {
+    nearest_m = std::min(nearest_m, norm(nearest_on_segment(-p, robot.table().position(k) - p)));
+  });
   return nearest_m;
 }
 
@@ -186,7 +189,9 @@ bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
   constexpr float well_inside = 0.5F;  // of the radius: what is remembered drifts
   const TreeTable& table = robot.table();
   for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == 0 && norm(nearest_on_segment(-center, table.position(k) - center)) < well_inside * body_m(robot)) return true;
+    if (table.age(k) == 0 &&
+        norm(nearest_on_segment(-center, table.position(k) - center)) < well_inside * body_m(robot))
+      return true;
   return false;
 }
 
@@ -197,7 +202,8 @@ void forget_bodies(const TreeRobot& robot, Bodies& bodies) noexcept {
   const auto is_wrong = [&](std::size_t k) {
     const float d = norm(bodies.centers[k]);
     const int place = robot.table().find(bodies.ids[k]);
-    return d > forget * robot.params.communication_range_m || d - body_m(robot) < nearest_m - spacing_m || (place >= 0 && robot.table().age(place) == 0) || is_heard_through(robot, bodies.centers[k]);
+    return d > forget * robot.params.communication_range_m || d - body_m(robot) < nearest_m - spacing_m ||
+           (place >= 0 && robot.table().age(place) == 0) || is_heard_through(robot, bodies.centers[k]);
   };
   std::uint8_t kept = 0;
   for (std::size_t k = 0; k < bodies.size; ++k) {
@@ -213,7 +219,8 @@ void note_body(const TreeRobot& robot, Corners& corners, int k) noexcept {
   constexpr float clear_m = 0.16F;  // of other robots, which may have moved since it was heard
   const TreeTable& table = robot.table();
   Bodies& bodies = corners.bodies;
-  if (table.range(k) > longest_link * robot.params.communication_range_m || !sees_clearly(robot, corners, k, clear_m)) return;
+  if (table.range(k) > longest_link * robot.params.communication_range_m || !sees_clearly(robot, corners, k, clear_m))
+    return;
   const auto begin = bodies.ids.begin();
   if (banyan::any_of(begin, begin + bodies.size, [&](RobotId id) { return id == table.id(k); })) return;
   if (bodies.size == body_capacity) {  // the oldest makes room
@@ -238,7 +245,8 @@ void note_silent(const TreeRobot& robot, Corners& corners) noexcept {
 
 void carry_corners(Corners& corners, const Carry& carry) noexcept {
   corners.seen_from = carry.point(corners.seen_from);
-  for (std::size_t k = 0; k < corners.bodies.size; ++k) corners.bodies.centers[k] = carry.point(corners.bodies.centers[k]);
+  for (std::size_t k = 0; k < corners.bodies.size; ++k)
+    corners.bodies.centers[k] = carry.point(corners.bodies.centers[k]);
   for (int k = 0; k < corners.landmarks.size; ++k) {
     Vec2& point = corners.landmarks.points[static_cast<std::size_t>(k)];
     point = carry.point(point);
@@ -303,7 +311,8 @@ bool is_pinned(const TreeRobot& robot, const Corners& corners, float towing_star
     return k >= 0 && robot.table().range(k) > pin_shortest_m;
   }
   if (!robot.parent_alive() || (!robot.self.is_worker && !is_towed(robot, corners, towing_start_m))) return false;
-  return robot.table().range(robot.parent) > pin_shortest_m && room_beside(robot, corners, robot.table().position(robot.parent)) < pin_width_m;
+  return robot.table().range(robot.parent) > pin_shortest_m &&
+         room_beside(robot, corners, robot.table().position(robot.parent)) < pin_width_m;
 }
 
 bool is_free(const TreeRobot& robot, const Corners& corners, Vec2 a, Vec2 b, float clearance_m) noexcept {

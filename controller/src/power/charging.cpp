@@ -10,21 +10,21 @@ namespace {
 
 constexpr float full_charge = 0.98F;
 constexpr float level_unit = 254.0F;
-constexpr float charge_smoothing = 0.1F;      // per step, of a measured charge
+constexpr float charge_smoothing = 0.1F;  // per step, of a measured charge
 constexpr std::uint8_t farthest_place = 250;
-constexpr float at_place = 0.2F;       // of C, from the robot that keeps the place
-constexpr float in_slot = 0.3F;        // while it is charged
-constexpr float per_hop = 0.05F;       // of a full battery
+constexpr float at_place = 0.2F;  // of C, from the robot that keeps the place
+constexpr float in_slot = 0.3F;   // while it is charged
+constexpr float per_hop = 0.05F;  // of a full battery
 constexpr int near_hops = 2;
 constexpr int farther_hops = 6;
-constexpr float way_per_hop = 0.02F;   // of a full battery: what the way takes
+constexpr float way_per_hop = 0.02F;  // of a full battery: what the way takes
 constexpr int most_hops_counted = 12;
-constexpr int waits_within = 2;        // hops of a place: there charged spares wait
-constexpr float leaves_sooner = 0.35F; // of a full battery, at most
-constexpr std::uint8_t calls_end = 60; // hops
+constexpr int waits_within = 2;         // hops of a place: there charged spares wait
+constexpr float leaves_sooner = 0.35F;  // of a full battery, at most
+constexpr std::uint8_t calls_end = 60;  // hops
 constexpr int turns = 16;
-constexpr float urgent_level = 0.5F;   // whoever has less is let through to the place
-constexpr float place_room = 0.4F;     // of C: kept free round it by those that are charged
+constexpr float urgent_level = 0.5F;  // whoever has less is let through to the place
+constexpr float place_room = 0.4F;    // of C: kept free round it by those that are charged
 
 void measure_charge(PowerRobot& me, const Senses& senses) noexcept {
   PowerState& power = me.power;
@@ -37,22 +37,27 @@ void measure_charge(PowerRobot& me, const Senses& senses) noexcept {
   }
   // A successor is not told that its target is a charging place: it notices.
   const HealingState& self = me.robot.self;
-  power.keeps_place = self.is_worker && (power.keeps_place || power.charging || (senses.orders.charging_place && self.serves == self.id));
+  power.keeps_place = self.is_worker &&
+                      (power.keeps_place || power.charging || (senses.orders.charging_place && self.serves == self.id));
 }
 
 // Hops from robot to robot, as for calls (protocol 7): the keeper of a place counts 0.
 void follow_places(PowerRobot& me) noexcept {
   const HealingRobot& robot = me.robot;
   const TreeTable& table = robot.table();
-  const bool there = me.power.keeps_place && robot.target != nullptr && norm(*robot.target) <= robot.params.arrival_distance_m;
+  const bool there =
+      me.power.keeps_place && robot.target != nullptr && norm(*robot.target) <= robot.params.arrival_distance_m;
   std::uint8_t hops = no_place;
   for (int k = 0; k < table.size() && !there; ++k)
     if (table.alive(k)) hops = std::min(hops, me.standing(k).place_hops);
-  me.power.said.place_hops = there ? std::uint8_t{0} : hops < farthest_place ? static_cast<std::uint8_t>(hops + 1) : no_place;
+  me.power.said.place_hops = there                   ? std::uint8_t{0}
+                             : hops < farthest_place ? static_cast<std::uint8_t>(hops + 1)
+                                                     : no_place;
 }
 
-// Hops of a call that has ended count up, and the slower the more neighbours are hidden now and then: spares followed such
-// calls to nowhere for minutes. So only what has just been heard counts, and no call goes farther than a relief may be.
+// Hops of a call that has ended count up, and the slower the more neighbours are hidden now and then: spares followed
+// such calls to nowhere for minutes. So only what has just been heard counts, and no call goes farther than a relief
+// may be.
 void listen_for_calls(PowerRobot& me) noexcept {
   HealingRobot& robot = me.robot;
   const TreeTable& table = robot.table();
@@ -67,7 +72,9 @@ void listen_for_calls(PowerRobot& me) noexcept {
 int hops_counted(const PowerRobot& me) noexcept { return std::min<int>(me.power.said.place_hops, most_hops_counted); }
 
 // What a robot of the tree needs while it waits to be relieved, and for its way to the place.
-float least_charge(const PowerRobot& me) noexcept { return me.params.relieve_below + way_per_hop * static_cast<float>(hops_counted(me)); }
+float least_charge(const PowerRobot& me) noexcept {
+  return me.params.relieve_below + way_per_hop * static_cast<float>(hops_counted(me));
+}
 
 // All have started full, and are not to leave at once. Who has been charged since then has a turn of its own.
 float leave_below(const PowerRobot& me) noexcept {
@@ -93,7 +100,8 @@ void decide_to_leave(PowerRobot& me) noexcept {
   // One that has set out may use up on its way what it would not need there: turning back would be in vain.
   constexpr float margin = 0.05F;
   const bool under_way = !in_tree && (me.robot.self.called || me.robot.self.request != nobody);
-  power.ready = power.level >= (under_way ? std::min(least_charge(me) + margin, me.params.ready_above) : me.params.ready_above);
+  power.ready =
+      power.level >= (under_way ? std::min(least_charge(me) + margin, me.params.ready_above) : me.params.ready_above);
 }
 
 // How far the place is through neighbour k, in half hops: spares move themselves.
@@ -117,7 +125,7 @@ int way_to_place(const PowerRobot& me) noexcept {
 // Bodies hide the robots ahead again and again. Whoever turned to another one each time would get nowhere: it drives to
 // where the robot was that it has chosen, until it is there or hears one that is nearer to the place.
 void choose_way(PowerRobot& me) noexcept {
-  constexpr float reached = 0.18F;   // of C
+  constexpr float reached = 0.18F;  // of C
   constexpr float patience_s = 10.0F;
   PowerState& power = me.power;
   const HealingRobot& robot = me.robot;
@@ -130,7 +138,8 @@ void choose_way(PowerRobot& me) noexcept {
     if (half_hops(me, now) > power.way_hops) power.way_id = nobody;
   }
   const bool there = norm(power.way) < reached * robot.params.communication_range_m && power.way_hops > 0;
-  if (k >= 0 && (power.way_id == nobody || there || power.way_ticks > robot.params.ticks(patience_s) || half_hops(me, k) < power.way_hops)) {
+  if (k >= 0 && (power.way_id == nobody || there || power.way_ticks > robot.params.ticks(patience_s) ||
+                 half_hops(me, k) < power.way_hops)) {
     power.way = table.position(k);
     power.way_hops = static_cast<std::uint8_t>(half_hops(me, k));
     power.way_id = table.id(k);
@@ -142,7 +151,8 @@ void choose_way(PowerRobot& me) noexcept {
 bool may_go(const PowerRobot& me, int k) noexcept {
   const TreeTable& table = me.robot.table();
   const TreeStanding& m = table.message(k);
-  return table.alive(k) && me.is_spare(k) && m.parent == nobody && m.request == nobody && m.call_hops <= me.robot.call_hops + 1 && is_charged(me, k);
+  return table.alive(k) && me.is_spare(k) && m.parent == nobody && m.request == nobody &&
+         m.call_hops <= me.robot.call_hops + 1 && is_charged(me, k);
 }
 
 // A crowd on its way to one call wastes charge and hides edges: only the nearest that I know of goes.
@@ -167,7 +177,9 @@ bool lets_through(const PowerRobot& me) noexcept {
   const TreeTable& table = me.robot.table();
   if (me.power.charging || me.power.level < urgent_level) return false;
   for (int k = 0; k < table.size(); ++k)
-    if (me.is_spare(k) && table.alive(k) && static_cast<float>(me.standing(k).level) < urgent_level * level_unit && table.range(k) < place_room * me.robot.params.communication_range_m) return true;
+    if (me.is_spare(k) && table.alive(k) && static_cast<float>(me.standing(k).level) < urgent_level * level_unit &&
+        table.range(k) < place_room * me.robot.params.communication_range_m)
+      return true;
   return false;
 }
 
@@ -201,8 +213,8 @@ void tend_battery(PowerRobot& me) noexcept {
 }
 
 void call_for_relief(PowerRobot& me) noexcept {
-  constexpr float urgent_at = 0.1F;       // of a full battery
-  constexpr float hops_of_battery = 20.0F; // a full one can wait as if it were so much farther away
+  constexpr float urgent_at = 0.1F;         // of a full battery
+  constexpr float hops_of_battery = 20.0F;  // a full one can wait as if it were so much farther away
   TreeState& self = me.robot.self;
   if (self.call_hops != 0) return;
   const float waits = (me.power.level - urgent_at) * hops_of_battery - static_cast<float>(hops_counted(me));
@@ -213,7 +225,9 @@ void call_for_relief(PowerRobot& me) noexcept {
 bool leaves_place(const PowerRobot& me, Vec2& away) noexcept {
   const TreeTable& table = me.robot.table();
   const float room_m = place_room * me.robot.params.communication_range_m;
-  if ((me.power.seeks && !lets_through(me)) || (me.robot.self.called && !me.power.travels) || me.robot.self.request != nobody) return false;
+  if ((me.power.seeks && !lets_through(me)) || (me.robot.self.called && !me.power.travels) ||
+      me.robot.self.request != nobody)
+    return false;
   for (int k = 0; k < table.size(); ++k) {
     if (!table.alive(k) || me.standing(k).place_hops != 0 || table.range(k) >= room_m) continue;
     away = unit(table.position(k)) * -1.0F;
@@ -228,7 +242,7 @@ bool is_charged(const PowerRobot& me, int k) noexcept {
 }
 
 bool may_inherit_root(const PowerRobot& me, int k) noexcept {
-  constexpr float urgent = 0.38F;   // of a full battery
+  constexpr float urgent = 0.38F;  // of a full battery
   constexpr float more = 0.06F;
   constexpr float spare_charge = 0.3F;
   if (is_charged(me, k)) return true;
@@ -241,7 +255,8 @@ bool may_inherit_root(const PowerRobot& me, int k) noexcept {
 
 bool is_at_place(const PowerRobot& me) noexcept {
   const PowerState& power = me.power;
-  return power.seeks && power.way_id != nobody && power.way_hops == 0 && norm(power.way) <= (power.charging ? in_slot : at_place) * me.robot.params.communication_range_m;
+  return power.seeks && power.way_id != nobody && power.way_hops == 0 &&
+         norm(power.way) <= (power.charging ? in_slot : at_place) * me.robot.params.communication_range_m;
 }
 
 }  // namespace banyan

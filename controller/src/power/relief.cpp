@@ -10,13 +10,13 @@
 namespace banyan {
 namespace {
 
-constexpr float in_place = 0.05F;      // of C: near enough to its spot
-constexpr float slack_below = 0.6F;    // of C: an edge this short has slack
-constexpr float beside = 0.12F;        // of C: how far from the robot that it relieves a spare takes its place
-constexpr float relief_reach = 0.2F;    // of C: from there it may
-constexpr float longest_taken = 0.925F;        // of C: longest edge that a reliever takes on
-constexpr float side_by_side = 0.8F;   // of the distance between the wheels: two robots at one target
-constexpr float surely_there = 0.9F;   // of the tolerance
+constexpr float in_place = 0.05F;        // of C: near enough to its spot
+constexpr float slack_below = 0.6F;      // of C: an edge this short has slack
+constexpr float beside = 0.12F;          // of C: how far from the robot that it relieves a spare takes its place
+constexpr float relief_reach = 0.2F;     // of C: from there it may
+constexpr float longest_taken = 0.925F;  // of C: longest edge that a reliever takes on
+constexpr float side_by_side = 0.8F;     // of the distance between the wheels: two robots at one target
+constexpr float surely_there = 0.9F;     // of the tolerance
 
 // A neighbour that leaves and has me as parent, in whose place I am or will be.
 int relieved(const PowerRobot& me) noexcept {
@@ -38,14 +38,15 @@ bool is_parent_relieved(const PowerRobot& me) noexcept {
   return k >= 0 && me.standing(k).relieves == me.robot.self.parent;
 }
 
-// Of two robots of an edge that have to leave, the lower one goes first unless the upper one is clearly emptier: a place
-// that both left at once would be empty. If it were always the emptier one, two with equal charge would take turns to
-// ask, and no call would last long enough to be heard.
+// Of two robots of an edge that have to leave, the lower one goes first unless the upper one is clearly emptier: a
+// place that both left at once would be empty. If it were always the emptier one, two with equal charge would take
+// turns to ask, and no call would last long enough to be heard.
 bool is_first(const PowerRobot& me, int k) noexcept {
   constexpr int clearly = 20;  // of 254
   const PowerStanding& other = me.standing(k);
   if (!other.leaving || !me.robot.table().alive(k)) return true;
-  return k == me.robot.parent ? me.power.said.level <= other.level + clearly : me.power.said.level + clearly < other.level;
+  return k == me.robot.parent ? me.power.said.level <= other.level + clearly
+                              : me.power.said.level + clearly < other.level;
 }
 
 // It has a child that I do not hear: it hides it from me.
@@ -64,13 +65,14 @@ bool hides_child(const PowerRobot& me, int leaver) noexcept {
 int leaver_of(const PowerRobot& me) noexcept {
   const HealingRobot& robot = me.robot;
   int k = relieved(me);
-  if (k < 0 && robot.self.role == Role::spare && robot.self.spare_state == SpareState::extend_edge && robot.self.request != nobody)
+  if (k < 0 && robot.self.role == Role::spare && robot.self.spare_state == SpareState::extend_edge &&
+      robot.self.request != nobody)
     k = robot.table().find(robot.self.request);
   return k >= 0 && me.standing(k).leaving ? k : -1;
 }
 
-// A child that I do not hear is right behind the robot that leaves, seen from here. That is remembered for a while: if it
-// were behind it from wherever I go, every spot that I come near would seem a bad one, and I would go to and fro.
+// A child that I do not hear is right behind the robot that leaves, seen from here. That is remembered for a while: if
+// it were behind it from wherever I go, every spot that I come near would seem a bad one, and I would go to and fro.
 void remember_unseen_child(PowerRobot& me) noexcept {
   constexpr float remembered_s = 5.0F;
   PowerState& power = me.power;
@@ -116,7 +118,8 @@ void choose_relieved(PowerRobot& me) noexcept {
 void settle_in(PowerRobot& me) noexcept {
   PowerStanding& said = me.power.said;
   Vec2 spot;
-  const bool there = said.relieves != nobody && find_relief_spot(me, spot) && norm(spot) <= in_place * me.robot.params.communication_range_m &&
+  const bool there = said.relieves != nobody && find_relief_spot(me, spot) &&
+                     norm(spot) <= in_place * me.robot.params.communication_range_m &&
                      !hides_child(me, me.robot.table().find(said.relieves));
   said.in_place = said.relieves != nobody && (said.in_place || there);
   const bool waits = me.robot.parent >= 0 && me.standing(me.robot.parent).leaving && is_parent_relieved(me);
@@ -129,28 +132,34 @@ void choose_heir(PowerRobot& me) noexcept {
   const HealingRobot& robot = me.robot;
   PowerStanding& said = me.power.said;
   said.heir = nobody;
-  if (!said.leaving || !robot.self.is_worker || robot.target == nullptr || !has_reliever(me) || robot.table().age(robot.parent) > 0) return;
+  if (!said.leaving || !robot.self.is_worker || robot.target == nullptr || !has_reliever(me) ||
+      robot.table().age(robot.parent) > 0)
+    return;
   const float off_m = distance(robot.table().position(robot.parent), *robot.target);
   if (off_m <= surely_there * robot.params.arrival_distance_m) said.heir = robot.self.parent;
 }
 
-// Of the spots round the robot that leaves, the one from which the farthest of its tree neighbours is nearest, among those
-// from where it hides none of them, and rather on my side of its edges: to cross one is to hide it for a moment.
+// Of the spots round the robot that leaves, the one from which the farthest of its tree neighbours is nearest, among
+// those from where it hides none of them, and rather on my side of its edges: to cross one is to hide it for a moment.
 Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const TreeTable& table = me.robot.table();
   const Vec2 at = table.position(leaver);
   const RobotId id = table.id(leaver);
   // While it is mine already, its former parent is my parent.
-  const RobotId above = table.message(leaver).parent == me.robot.self.id ? me.robot.self.parent : table.message(leaver).parent;
+  const RobotId above =
+      table.message(leaver).parent == me.robot.self.id ? me.robot.self.parent : table.message(leaver).parent;
   const int parent = above == nobody ? -1 : table.find(above);
-  const Vec2 axis = parent >= 0 && distance(table.position(parent), at) > 0.0F ? unit(table.position(parent) - at) : Vec2{1.0F, 0.0F};
+  const Vec2 axis =
+      parent >= 0 && distance(table.position(parent), at) > 0.0F ? unit(table.position(parent) - at) : Vec2{1.0F, 0.0F};
   const float range_m = me.robot.params.communication_range_m;
   const float apart_m = beside * range_m;
   const bool hides = me.power.unseen_ticks > 0;
   constexpr float diagonal = 0.70710678F;
   constexpr float costs_crossing = 0.5F;
   constexpr float hidden_behind = 0.6F;  // of the distance to it: its body is so near to the line of sight
-  constexpr Vec2 directions[] = {{0.0F, 1.0F}, {0.0F, -1.0F}, {diagonal, diagonal}, {diagonal, -diagonal}, {-diagonal, diagonal}, {-diagonal, -diagonal}, {1.0F, 0.0F}, {-1.0F, 0.0F}};
+  constexpr Vec2 directions[] = {{0.0F, 1.0F},          {0.0F, -1.0F},         {diagonal, diagonal},
+                                 {diagonal, -diagonal}, {-diagonal, diagonal}, {-diagonal, -diagonal},
+                                 {1.0F, 0.0F},          {-1.0F, 0.0F}};
   Vec2 best = at;
   float best_cost = 1e9F;
   for (const Vec2 d : directions) {
@@ -166,7 +175,9 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
     if (parent >= 0) look_at(parent);
     if (hides && norm(nearest_on_segment(off, me.power.unseen - at)) < hidden_behind * apart_m) hidden_m += range_m;
     for (int k = 0; k < table.size(); ++k)  // its children, and those that have changed to me already
-      if (k != leaver && !me.is_spare(k) && (table.message(k).parent == id || up_of(table.message(k)) == me.robot.self.id)) look_at(k);
+      if (k != leaver && !me.is_spare(k) &&
+          (table.message(k).parent == id || up_of(table.message(k)) == me.robot.self.id))
+        look_at(k);
     const float cost = farthest_m + hidden_m + 0.1F * norm(at + off);
     if (cost < best_cost) best = at + off, best_cost = cost;
   }
@@ -188,14 +199,18 @@ void hand_over_target(PowerRobot& me) noexcept {
   const auto served_target = [&](int k) { return robot.self.healing_standings[static_cast<std::size_t>(k)].serves; };
   if (robot.self.is_worker) {
     const int k = me.power.said.heir == nobody ? -1 : table.find(me.power.said.heir);
-    if (k >= 0 && table.age(k) == 0 && table.message(k).role == Role::worker && served_target(k) == robot.self.serves) yield_task(robot, table.id(k));
+    if (k >= 0 && table.age(k) == 0 && table.message(k).role == Role::worker && served_target(k) == robot.self.serves)
+      yield_task(robot, table.id(k));
     return;
   }
   const int k = me.power.said.relieves == nobody ? -1 : table.find(me.power.said.relieves);
-  if (k >= 0 && table.age(k) == 0 && me.standing(k).heir == robot.self.id && table.message(k).role == Role::worker) inherit_task(robot, served_target(k));
+  if (k >= 0 && table.age(k) == 0 && me.standing(k).heir == robot.self.id && table.message(k).role == Role::worker)
+    inherit_task(robot, served_target(k));
 }
 
-bool is_relieved(const PowerRobot& me) noexcept { return me.power.said.leaving && has_reliever(me) && me.robot.table().age(me.robot.parent) <= 1; }
+bool is_relieved(const PowerRobot& me) noexcept {
+  return me.power.said.leaving && has_reliever(me) && me.robot.table().age(me.robot.parent) <= 1;
+}
 
 bool wants_relief(const PowerRobot& me) noexcept {
   const HealingRobot& robot = me.robot;
@@ -206,16 +221,21 @@ bool wants_relief(const PowerRobot& me) noexcept {
 bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(int)> in_sight) noexcept {
   const TreeTable& table = me.robot.table();
   const float c = me.robot.params.communication_range_m;
-  if (hides_child(me, leaver) || table.range(leaver) > relief_reach * c || table.range(parent) > longest_taken * c || !in_sight(parent)) return false;
+  if (hides_child(me, leaver) || table.range(leaver) > relief_reach * c || table.range(parent) > longest_taken * c ||
+      !in_sight(parent))
+    return false;
   for (int k = 0; k < table.size(); ++k)
-    if (table.message(k).parent == table.id(leaver) && !me.is_spare(k) && (table.range(k) > longest_taken * c || !in_sight(k))) return false;
+    if (table.message(k).parent == table.id(leaver) && !me.is_spare(k) &&
+        (table.range(k) > longest_taken * c || !in_sight(k)))
+      return false;
   return true;
 }
 
 bool is_stuck(const PowerRobot& me) noexcept {
   constexpr float patience_s = 6.0F;
   const HealingRobot& robot = me.robot;
-  return me.power.stuck_ticks > robot.params.ticks(patience_s) && robot.parent >= 0 && robot.table().range(robot.parent) > slack_below * robot.params.communication_range_m;
+  return me.power.stuck_ticks > robot.params.ticks(patience_s) && robot.parent >= 0 &&
+         robot.table().range(robot.parent) > slack_below * robot.params.communication_range_m;
 }
 
 int successor_of_parent(const PowerRobot& me, FunctionRef<bool(int)> may_be_parent) noexcept {
@@ -237,7 +257,8 @@ bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept {
   if (k < 0) return false;
   const Task* task = find_task(robot.self, robot.self.healing_standings[static_cast<std::size_t>(k)].serves);
   const bool at_target = table.message(k).role == Role::worker && task != nullptr && !task->unlocated;
-  spot = at_target && robot.self.role != Role::spare ? task->target - unit(table.position(k)) * apart_m : spot_beside(me, k);
+  spot = at_target && robot.self.role != Role::spare ? task->target - unit(table.position(k)) * apart_m
+                                                     : spot_beside(me, k);
   return true;
 }
 

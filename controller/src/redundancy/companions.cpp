@@ -15,23 +15,25 @@
 namespace banyan {
 namespace {
 
-constexpr float short_for_s = 10.0F;   // an edge in need has called for so long: its tree comes before companions
+constexpr float short_for_s = 10.0F;      // an edge in need has called for so long: its tree comes before companions
 constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for companions
-constexpr int lacks_after_ticks = 3;   // it may just not have heard its companion
-constexpr int stand_in = 3;            // times the silence after which a robot counts as dead: so long its companion stays
-constexpr float aside = 1.3F;          // of `clearance`: so far out of a line a robot steps that is in the way
-constexpr float edge_room = 1.4F;      // of `clearance`: how near to edges a companion in its place comes, since it may have to cross
-constexpr int places = 12;             // around the robot of the tree
-constexpr float bridged = 0.75F;      // of C: two tree neighbours of a robot so near to each other do without it,
-constexpr float bridged_on_way = 0.4F; // and for some time to come while a worker below still has to travel
-constexpr float reach = 0.97F;         // of C: a companion relies on no longer link
-constexpr float unheard_at = 0.9F;     // of C: so far away a tree neighbour that is not heard is supposed to be
-constexpr float hides = 0.6F;          // of `clearance`: a robot so near to a link hides it
-constexpr float near_place = 0.05F;    // of C: within it the companion slows down
-constexpr float even = 0.5F;           // of companion_distance: of two companions none is the nearer by less
-constexpr float costs_way = 0.15F;     // of a metre by which a place is better: the way there, so that it does not change its mind
-constexpr float costs_hidden = 0.5F;   // of C: what a hidden neighbour weighs against the distance of others
-constexpr float costs_crowd = 0.25F;   // of C: likewise a robot at that place, or an edge through it
+constexpr int lacks_after_ticks = 3;      // it may just not have heard its companion
+constexpr int stand_in = 3;    // times the silence after which a robot counts as dead: so long its companion stays
+constexpr float aside = 1.3F;  // of `clearance`: so far out of a line a robot steps that is in the way
+constexpr float edge_room =
+    1.4F;  // of `clearance`: how near to edges a companion in its place comes, since it may have to cross
+constexpr int places = 12;              // around the robot of the tree
+constexpr float bridged = 0.75F;        // of C: two tree neighbours of a robot so near to each other do without it,
+constexpr float bridged_on_way = 0.4F;  // and for some time to come while a worker below still has to travel
+constexpr float reach = 0.97F;          // of C: a companion relies on no longer link
+constexpr float unheard_at = 0.9F;      // of C: so far away a tree neighbour that is not heard is supposed to be
+constexpr float hides = 0.6F;           // of `clearance`: a robot so near to a link hides it
+constexpr float near_place = 0.05F;     // of C: within it the companion slows down
+constexpr float even = 0.5F;            // of companion_distance: of two companions none is the nearer by less
+constexpr float costs_way =
+    0.15F;  // of a metre by which a place is better: the way there, so that it does not change its mind
+constexpr float costs_hidden = 0.5F;  // of C: what a hidden neighbour weighs against the distance of others
+constexpr float costs_crowd = 0.25F;  // of C: likewise a robot at that place, or an edge through it
 
 // The tree neighbours of neighbour `of` that I know.
 IndexList neighbors_of(const ConvoyRobot& robot, int of) noexcept {
@@ -156,7 +158,9 @@ RobotId nearest_alone(const ConvoyRobot& robot) noexcept {
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     if (best >= 0 && table.range(k) >= table.range(best)) continue;
-    if (!table.alive(k) || !needs_companion(robot, k) || count_companions(robot, table.id(k)) >= welcome_companions(robot, k)) continue;
+    if (!table.alive(k) || !needs_companion(robot, k) ||
+        count_companions(robot, table.id(k)) >= welcome_companions(robot, k))
+      continue;
     if (table.message(k).call_hops == companion_call || is_nearest_spare(robot, k)) best = k;
   }
   return best < 0 ? nobody : table.id(best);
@@ -287,7 +291,8 @@ float cost_of(const ConvoyRobot& robot, const Ends& ends, int of, Vec2 place) no
   const float c = robot.params.communication_range_m;
   float longest_m = 0.0F;
   for (const Vec2 end : ends.all()) longest_m = std::max(longest_m, distance(place, end));
-  return longest_m + (longest_m > reach * c ? c : 0.0F) + costs_way * norm(place) + obstruction_of(robot, ends, of, place);
+  return longest_m + (longest_m > reach * c ? c : 0.0F) + costs_way * norm(place) +
+         obstruction_of(robot, ends, of, place);
 }
 
 }  // namespace
@@ -315,7 +320,8 @@ void keep_company(ConvoyRobot& robot) noexcept {
   if (!has_companions(robot.params)) return;
   // The hops of a call that is over count up. It is to die out before it hides others, or looks like one of them.
   const std::uint8_t hops = robot.self.call_hops;
-  if ((hops < companion_call ? hops : hops - companion_call) > call_reach_hops_each) robot.self.call_hops = nobody_calls;
+  if ((hops < companion_call ? hops : hops - companion_call) > call_reach_hops_each)
+    robot.self.call_hops = nobody_calls;
   if (robot.self.role == Role::spare) return choose_whom(robot);
   robot.self.accompanies = nobody;
   call(robot);
@@ -372,7 +378,8 @@ Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {
   const float slow = std::min(1.0F, d / (near_place * p.communication_range_m));
   // Not through the robot itself.
   const float room_m = 0.8F * p.companion_distance_m;
-  const Vec2 off = table.range(of) < room_m ? -unit(center) * (room_m / std::max(table.range(of), 0.05F) - 1.0F) : Vec2{};
+  const Vec2 off =
+      table.range(of) < room_m ? -unit(center) * (room_m / std::max(table.range(of), 0.05F) - 1.0F) : Vec2{};
   return bypass(robot, best) * slow + off;
 }
 

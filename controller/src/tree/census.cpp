@@ -9,10 +9,10 @@ namespace banyan {
 namespace {
 
 struct Sums {
-  Vec2 a;                      // accumulator of Alg. 1
+  Vec2 a;  // accumulator of Alg. 1
   std::uint32_t robots = 1;
   std::uint32_t workers = 0;
-  std::uint32_t counts = 0;    // of Alg. 2
+  std::uint32_t counts = 0;  // of Alg. 2
   int children = 0;
   Vec2 pull;
   int pulling = 0;
@@ -32,7 +32,8 @@ void add_child(const TreeRobot& robot, int k, bool counts, Sums& sums) noexcept 
     ++sums.children;
   }
   if (m.role == Role::spare) return;
-  sums.pull += from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, sender);
+  sums.pull +=
+      from_edge_frame({static_cast<float>(m.pull_x) / pull_unit, static_cast<float>(m.pull_y) / pull_unit}, sender);
   ++sums.pulling;
   sums.want_m = std::max(sums.want_m, static_cast<float>(m.want_cm) * 0.01F);
 }
@@ -58,7 +59,9 @@ void watch_progress(const TreeRobot& robot) noexcept {
   }
 }
 
-std::uint16_t saturate(std::uint32_t v) noexcept { return static_cast<std::uint16_t>(std::min<std::uint32_t>(v, UINT16_MAX)); }
+std::uint16_t saturate(std::uint32_t v) noexcept {
+  return static_cast<std::uint16_t>(std::min<std::uint32_t>(v, UINT16_MAX));
+}
 
 // Turned into the edge frame, a component grows by up to sqrt 2.
 Vec2 sendable(Vec2 q) noexcept {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/tree/epoch.hpp"
 
-
 namespace banyan {
 namespace {
 
@@ -88,7 +87,8 @@ void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int pat
   const TreeParams& p = robot.params;
   if (!robot.is_root()) return;
   if (self.phase == Phase::init) return enter(robot, 1, Phase::start_tree);
-  self.done_ticks = barrier_holds(robot, tree_complete) ? static_cast<std::uint16_t>(self.done_ticks + 1) : std::uint16_t{0};
+  self.done_ticks =
+      barrier_holds(robot, tree_complete) ? static_cast<std::uint16_t>(self.done_ticks + 1) : std::uint16_t{0};
   const bool timeout = self.phase_ticks >= patience_ticks;
   switch (self.phase) {
     case Phase::start_tree:
@@ -96,7 +96,8 @@ void advance(TreeRobot& robot, bool tree_complete, bool may_reconstruct, int pat
       enter(robot, self.epoch, Phase::select_parent);
       break;
     case Phase::select_parent:
-      if ((self.done_ticks > 0 && self.phase_ticks >= settle_ticks) || timeout) enter(robot, self.epoch, Phase::grow_tree);
+      if ((self.done_ticks > 0 && self.phase_ticks >= settle_ticks) || timeout)
+        enter(robot, self.epoch, Phase::grow_tree);
       break;
     case Phase::grow_tree:
       if (self.phase_ticks >= p.ticks(p.reconfiguration_period_s) && may_reconstruct)

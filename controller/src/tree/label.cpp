@@ -12,7 +12,8 @@ bool somebody_between(const TreeRobot& robot, int k) noexcept {
   const float range_m = table.range(k);
   for (int j = 0; j < table.size(); ++j) {
     const TreeStanding& m = table.message(j);
-    if (!table.alive(j) || (m.epoch == robot.self.epoch && m.label_cm != unknown_label) || table.range(j) >= range_m) continue;
+    if (!table.alive(j) || (m.epoch == robot.self.epoch && m.label_cm != unknown_label) || table.range(j) >= range_m)
+      continue;
     if (distance(table.position(j), table.position(k)) < range_m) return true;
   }
   return false;
@@ -20,8 +21,8 @@ bool somebody_between(const TreeRobot& robot, int k) noexcept {
 
 // Fixed once an epoch: if recomputed every tick, motion would leave robots in local minima, with no candidate.
 void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
-  constexpr int wait_ticks = 2;       // gives nearer labelled neighbours time to be heard
-  constexpr int wait_far_ticks = 6;   // if all heard so far are near the edge of the range
+  constexpr int wait_ticks = 2;      // gives nearer labelled neighbours time to be heard
+  constexpr int wait_far_ticks = 6;  // if all heard so far are near the edge of the range
   TreeState& self = robot.self;
   const TreeTable& table = robot.table();
   int best = -1;
@@ -39,7 +40,9 @@ void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
   }
   if (best < 0) return;
   const bool far = nearest_m > 0.85F * robot.params.communication_range_m;
-  if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) && (rule.waits_for_anybody || somebody_between(robot, best))) return;
+  if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) &&
+      (rule.waits_for_anybody || somebody_between(robot, best)))
+    return;
   self.label_cm = best_label;
   self.flood_parent = table.id(best);
 }
@@ -77,7 +80,8 @@ std::uint16_t edge_cm(float range_m) noexcept {
 }
 
 std::uint16_t label_below(std::uint16_t label_cm, float range_m) noexcept {
-  return static_cast<std::uint16_t>(std::min<std::uint32_t>(std::uint32_t{label_cm} + edge_cm(range_m), unknown_label - 1));
+  return static_cast<std::uint16_t>(
+      std::min<std::uint32_t>(std::uint32_t{label_cm} + edge_cm(range_m), unknown_label - 1));
 }
 
 void update_label(TreeRobot& robot, const LabelRule& rule) noexcept {

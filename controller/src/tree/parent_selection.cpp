@@ -9,15 +9,17 @@
 namespace banyan {
 namespace {
 
-constexpr int patience_flood_ticks = 4;     // without a candidate, then the flood parent will do
-constexpr int patience_relabel_ticks = 7;   // then a childless robot may take a new place in the order
+constexpr int patience_flood_ticks = 4;    // without a candidate, then the flood parent will do
+constexpr int patience_relabel_ticks = 7;  // then a childless robot may take a new place in the order
 constexpr int orphan_still_ticks = 5;
 constexpr int orphan_attach_ticks = 20;
 constexpr int drafted_attach_ticks = 4;
 
 constexpr std::uint16_t largest_label = unknown_label - 1;  // where label_below() saturates
 
-bool may_relay(const ParentRule& rule, const TreeStanding& m) noexcept { return m.role != Role::worker || rule.workers_relay; }
+bool may_relay(const ParentRule& rule, const TreeStanding& m) noexcept {
+  return m.role != Role::worker || rule.workers_relay;
+}
 
 // The best candidate by the rule, -1 if none. `in_tree`: only committed robots that are not spares.
 int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) noexcept {
@@ -40,7 +42,8 @@ int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   if (k < 0 || !robot.is_sure(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= longest_link * robot.params.communication_range_m;
-  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k : -1;
+  return near && may_relay(rule, m) && m.epoch == self.epoch && m.label_cm < self.label_cm && is_ahead(robot, k) ? k
+                                                                                                                 : -1;
 }
 
 // Still none: a childless robot has no robot below it, so it may move behind any committed neighbour.
@@ -64,9 +67,7 @@ void join(TreeRobot& robot, const ParentRule& rule) noexcept {
     if (self.search_ticks < UINT16_MAX) ++self.search_ticks;
     if (self.search_ticks > patience_flood_ticks) k = flood_parent(robot, rule);
     const bool childless = robot.children.size == 0 && robot.old_children.size == 0;
-    if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) {
-      k = nearest_committed(robot, rule);
-    }
+    if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) { k = nearest_committed(robot, rule); }
   }
   if (k >= 0) take_parent(robot, k);
 }
@@ -119,7 +120,8 @@ void reattach_orphan(TreeRobot& robot, const ParentRule& rule) noexcept {
 // The order is still that of the old root: a robot that has handed over the token is ahead of its heir, and
 // would take as parent a robot that is below it in the tree.
 bool hangs_on_heir(const TreeRobot& robot) noexcept {
-  return robot.reading.keeps_links && robot.self.phase == Phase::select_root && robot.self.parent == nobody && robot.old_parent_alive();
+  return robot.reading.keeps_links && robot.self.phase == Phase::select_root && robot.self.parent == nobody &&
+         robot.old_parent_alive();
 }
 
 // A spare that has just joined my edge has its parent's sequence number of the last tick: I wait for it.
@@ -180,7 +182,8 @@ void update_tree_hops(TreeRobot& robot) noexcept {
   }
   self.tree_hops = nearest < 0 ? unreachable : static_cast<std::uint8_t>(hops + 1);
   // For an orphan that drafts this spare (in GROW TREE) it must be ahead; one about to join an edge stays behind.
-  if (nearest >= 0 && !robot.reading.keeps_links && self.phase >= Phase::grow_tree && self.request == nobody) keep_up(robot, nearest);
+  if (nearest >= 0 && !robot.reading.keeps_links && self.phase >= Phase::grow_tree && self.request == nobody)
+    keep_up(robot, nearest);
 }
 
 }  // namespace
@@ -188,9 +191,9 @@ void update_tree_hops(TreeRobot& robot) noexcept {
 bool is_candidate(const TreeRobot& robot, int k, bool workers_relay) noexcept {
   const TreeStanding& m = robot.table().message(k);
   // An edge that exists may be as long as the guard lets it grow.
-  const float range_m =
-      std::max(robot.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
-  return robot.is_sure(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch && m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
+  const float range_m = std::max(robot.parent_range_m(), k == robot.old_parent ? robot.params.ideal_distance_m : 0.0F);
+  return robot.is_sure(k) && (m.role != Role::worker || workers_relay) && m.epoch == robot.self.epoch &&
+         m.label_cm < robot.self.label_cm && is_ahead(robot, k) && robot.table().range(k) <= range_m;
 }
 
 bool is_ahead(const TreeRobot& robot, int k) noexcept {
@@ -214,7 +217,8 @@ void keep_up(TreeRobot& robot, int k) noexcept {
   // which there is no place.
   const std::uint16_t below_cm = label_below(m.label_cm, robot.table().range(k));
   const bool renews = robot.reading.renews_labels && self.phase >= Phase::grow_tree;
-  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm || (renews && self.label_cm > below_cm)) self.label_cm = below_cm;
+  if (self.label_cm == unknown_label || self.label_cm <= m.label_cm || (renews && self.label_cm > below_cm))
+    self.label_cm = below_cm;
 }
 
 void take_parent(TreeRobot& robot, int k) noexcept {

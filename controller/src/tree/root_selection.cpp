@@ -20,7 +20,9 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool
   int best = -1;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
-    if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || table.range(k) > reach_m || !may_inherit(k)) continue;
+    if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || table.range(k) > reach_m ||
+        !may_inherit(k))
+      continue;
     const float d = distance(table.position(k), place);
     if (d < best_m) {
       best_m = d;
@@ -37,7 +39,8 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool
 void hand_over(TreeRobot& robot, Serial held) noexcept {
   TreeState& self = robot.self;
   // The heir has taken the token, and may have passed it on already; or a rival has one of the same number.
-  const bool taken = self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != static_cast<Serial>(held + 1));
+  const bool taken =
+      self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != static_cast<Serial>(held + 1));
   const int heir = taken ? robot.table().find(self.new_root) : -1;
   if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) {
     self.old_parent = self.new_root;
@@ -57,7 +60,8 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
     if (!newer(offered, self.root)) continue;
     self.root = offered;
     accepted = &m;
-    self.centroid = from_edge_frame({static_cast<float>(m.centroid_x_cm) * 0.01F, static_cast<float>(m.centroid_y_cm) * 0.01F}, h.position);
+    self.centroid = from_edge_frame(
+        {static_cast<float>(m.centroid_x_cm) * 0.01F, static_cast<float>(m.centroid_y_cm) * 0.01F}, h.position);
     self.centroid_known = true;
     self.new_root = nobody;
     // The edge to the parent stays an edge of the tree until GROW TREE (protocol 8).
@@ -85,7 +89,8 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leav
   }
   if (self.new_root != nobody) {
     robot.add_elapsed(self.offer_ticks);
-    if (self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks())) return;
+    if (self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks()))
+      return;
     self.root.sequence = static_cast<std::uint16_t>(self.root.sequence + 2);  // beats an acceptance not heard
     self.new_root = nobody;
     return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);

@@ -35,8 +35,10 @@ void follow_grant(TreeRobot& robot) noexcept {
     take_parent(robot, k);
     return end_grant(self);
   }
-  const bool gone = self.grant_ticks > ungranted_limit_ticks(robot) && m.request != self.id && m.inserted_child != self.id;
-  const bool timeout = self.grant_ticks > robot.params.ticks(robot.params.insertion_timeout_s) + ungranted_limit_ticks(robot);
+  const bool gone =
+      self.grant_ticks > ungranted_limit_ticks(robot) && m.request != self.id && m.inserted_child != self.id;
+  const bool timeout =
+      self.grant_ticks > robot.params.ticks(robot.params.insertion_timeout_s) + ungranted_limit_ticks(robot);
   if (gone || timeout) end_grant(self);
 }
 
@@ -87,7 +89,8 @@ void own_edge(TreeRobot& robot, const EdgeRule& rule) noexcept {
 // ---- The spare: WAIT -> EXTEND EDGE -> connector, or ADJUST POSITION ----
 
 bool in_need(const TreeStanding& m, const TreeState& self) noexcept {
-  return m.need == Need::need && m.role != Role::spare && m.grant == nobody && m.parent != nobody && m.parent != self.id && m.epoch == self.epoch;
+  return m.need == Need::need && m.role != Role::spare && m.grant == nobody && m.parent != nobody &&
+         m.parent != self.id && m.epoch == self.epoch;
 }
 
 // The middle of the edge between entry k and its parent; false if that one is not heard.
@@ -121,7 +124,9 @@ RobotId nearest_caller(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   int best = -1;
   for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && table.message(k).call_hops == robot.call_hops && (best < 0 || table.range(k) < table.range(best))) best = k;
+    if (table.alive(k) && table.message(k).call_hops == robot.call_hops &&
+        (best < 0 || table.range(k) < table.range(best)))
+      best = k;
   return best < 0 ? nobody : table.id(best);
 }
 
@@ -134,9 +139,12 @@ bool spread_call(TreeRobot& robot, const EdgeRule& rule) noexcept {
   const bool steady = robot.call_hops < self.call_hops;
   const bool unserved = self.role != Role::spare && self.need == Need::need && self.phase == Phase::grow_tree;
   rule.count_waiting(unserved);
-  const auto in_vain = [&] { return self.unserved_ticks > 0 && self.unserved_ticks > robot.params.ticks(robot.params.call_after_s); };
+  const auto in_vain = [&] {
+    return self.unserved_ticks > 0 && self.unserved_ticks > robot.params.ticks(robot.params.call_after_s);
+  };
   if (robot.reading.calls_spares && in_vain() && rule.may_call()) self.call_hops = 0;
-  else self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
+  else
+    self.call_hops = robot.call_hops < call_reach_hops ? static_cast<std::uint8_t>(robot.call_hops + 1) : nobody_calls;
   return steady;
 }
 
@@ -153,7 +161,8 @@ void join_edge(TreeRobot& robot, int owner) noexcept {
   const TreeStanding& above = table.message(parent);
   auto label_cm = static_cast<std::uint16_t>((std::uint32_t{table.message(owner).label_cm} + above.label_cm) / 2);
   if (label_cm <= above.label_cm) label_cm = label_below(above.label_cm, 0.0F);
-  self.label_cm = is_newer(above.seqno, self.seqno) ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
+  self.label_cm =
+      is_newer(above.seqno, self.seqno) ? label_cm : std::min(label_cm, self.label_cm);  // never fall back (is_ahead)
   self.seqno = above.seqno;
   self.seqno_ticks = 0;
   take_parent(robot, parent);

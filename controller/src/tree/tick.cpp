@@ -39,7 +39,8 @@ void begin_tick(TreeRobot& robot, const Inputs<Heard>& inputs) noexcept {
   for (Heard& h : robot.heard)
     if (known.lacks(*h.message)) robot.news.push(h);
   robot.is_tree_news = true;
-  forget_silent(robot, [](int) { return false; }, [](int, int) {});
+  forget_silent(
+      robot, [](int) { return false; }, [](int, int) {});
   follow_orders(robot, inputs.senses().orders);
 }
 
@@ -48,9 +49,11 @@ void file_heard(TreeRobot& robot) noexcept {
   const RobotId me = self.id;
   TreeTable& table = robot.self.neighbors;
   const auto ties = [&](RobotId id, const TreeStanding& m) {
-    return id == self.parent || id == self.old_parent || m.parent == self.id || m.old_parent == self.id || hold_of(m) == self.id;
+    return id == self.parent || id == self.old_parent || m.parent == self.id || m.old_parent == self.id ||
+           hold_of(m) == self.id;
   };
-  table.begin(robot.elapsed_ticks, robot.reading.filters_positions ? robot.params.wheel_limit_m_s * robot.params.tick_s : 0.0F);
+  table.begin(robot.elapsed_ticks,
+              robot.reading.filters_positions ? robot.params.wheel_limit_m_s * robot.params.tick_s : 0.0F);
   const bool noisy = table.filter().has_seen_noise();
   for (Heard& h : robot.heard) {
     const TreeMessage& m = *h.message;
@@ -73,7 +76,9 @@ void file_heard(TreeRobot& robot) noexcept {
 
 void forget_silent(TreeRobot& robot, FunctionRef<bool(int)> is_tied, FunctionRef<void(int, int)> close) noexcept {
   TreeTable& table = robot.self.neighbors;
-  const auto keeps = [&](int k) { return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || is_tied(k); };
+  const auto keeps = [&](int k) {
+    return table.id(k) == robot.self.parent || table.id(k) == robot.self.old_parent || is_tied(k);
+  };
   const int liveness_ticks = robot.liveness_ticks();
   for (int k = 0; (k = table.remove_next(k, robot.carry, robot.forget_ticks, keeps, liveness_ticks)) >= 0;) {
     table.forget(k);
@@ -126,10 +131,12 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
 }
 
 Report tree_report(const TreeState& s) noexcept {
+  // clang-format off
   return {.role = s.role, .parent = s.parent, .old_parent = s.old_parent, .serves = s.is_worker ? s.id : nobody,
           .root = s.root.id, .root_sequence = s.root.sequence, .epoch = s.epoch, .phase = s.phase, .need = s.need,
           .spare_state = s.spare_state, .label_cm = s.label_cm == unknown_label ? -1 : s.label_cm, .depth = s.depth,
           .grant = s.grant, .request = s.request, .want_m = s.want_m, .tally = s.tally};
+  // clang-format on
 }
 
 void add_to(Digest& digest, const TreeMessage& message) noexcept {

@@ -45,9 +45,7 @@ class ConvoyChain : public ::testing::Test {
     root.committed = true;
     return root;
   }
-  Vec2 motion() {
-    return towed_motion(bench.tick());
-  }
+  Vec2 motion() { return towed_motion(bench.tick()); }
   RobotId parent_after_shortcuts() {
     auto robot = bench.tick();
     take_shortcuts(robot);

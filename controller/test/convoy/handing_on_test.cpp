@@ -110,9 +110,7 @@ class BranchOfAJunction : public ConvoyChain {
   }
 };
 
-TEST_F(BranchOfAJunction, TakesTheRobotThatHasComeUp) {
-  EXPECT_EQ(parent_after_shortcuts(), 9);
-}
+TEST_F(BranchOfAJunction, TakesTheRobotThatHasComeUp) { EXPECT_EQ(parent_after_shortcuts(), 9); }
 
 TEST_F(BranchOfAJunction, StaysInASmallSwarmOrWhereNobodyCallsOrWhileASpareJoins) {
   bench.state.root_size = 450;

@@ -74,7 +74,9 @@ float shortest_tree(const std::vector<Vec2>& points) {
 
 RC_GTEST_PROP(Plan, IsAShortestTreeThroughTheTargets, ()) {
   std::vector<Vec2> targets(*rc::gen::inRange<std::size_t>(2, task_capacity + 1));
-  for (Vec2& t : targets) t = {static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F, static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F};
+  for (Vec2& t : targets)
+    t = {static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F,
+         static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F};
   ConvoyBench bench = commander(targets, 1000);
   bench.state.settled_ticks = static_cast<std::uint16_t>(20 * 40 * 10);  // late: all levels are in the plan
   run(bench, ticks_until_plan(bench));
@@ -135,7 +137,10 @@ TEST(Plan, MayBeAskedForLaterThanItsPeriod) {
 TEST(Plan, GrowsLevelByLevel) {
   ConvoyBench bench = commander({{2, 0}, {4, 0}, {6, 0}, {8, 0}}, 60);
   run(bench, ticks_until_plan(bench));
-  const auto hosted = [&] { return std::count_if(bench.state.hosts.begin(), bench.state.hosts.end(), [](RobotId host) { return host != nobody; }); };
+  const auto hosted = [&] {
+    return std::count_if(bench.state.hosts.begin(), bench.state.hosts.end(),
+                         [](RobotId host) { return host != nobody; });
+  };
   EXPECT_EQ(hosted(), 1);
   run(bench, 400);
   EXPECT_EQ(hosted(), 2);

@@ -37,7 +37,8 @@ RC_GTEST_PROP(Convoy, ShortcutsKeepTheOrderOfTheTree, ()) {
   bench.state.seqno = static_cast<std::uint16_t>(40 + below(20));
   const int count = 2 + below(8);
   for (int k = 0; k < count; ++k) {
-    auto& m = bench.put(static_cast<RobotId>(2 + k), {static_cast<float>(below(360) - 180) * 0.01F, static_cast<float>(below(360) - 180) * 0.01F});
+    auto& m = bench.put(static_cast<RobotId>(2 + k),
+                        {static_cast<float>(below(360) - 180) * 0.01F, static_cast<float>(below(360) - 180) * 0.01F});
     m.role = static_cast<Role>(below(4));
     m.parent = below(3) == 0 ? nobody : static_cast<RobotId>(1 + below(count + 2));
     m.label_cm = static_cast<std::uint16_t>(below(300));

@@ -123,9 +123,7 @@ class SpareBesideAnEdge : public ::testing::Test {
     bench.put(2, {-0.8F, 0.2F}).role = Role::connector;
     bench.put(3, {0.8F, 0.2F}).role = Role::root;
   }
-  Vec2 motion() {
-    return waiting_motion(bench.tick());
-  }
+  Vec2 motion() { return waiting_motion(bench.tick()); }
   ConvoyBench bench = grown<Convoy>();
 };
 

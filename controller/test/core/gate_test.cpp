@@ -16,11 +16,16 @@ namespace {
 const Platform platform;  // C = 2 m, ticks of 0.1 s
 constexpr float limit_m = 20.0F;
 
-std::vector<Vec2> obstacles_of(const Gate& gate) { return {gate.senses().obstacles.begin(), gate.senses().obstacles.end()}; }
+std::vector<Vec2> obstacles_of(const Gate& gate) {
+  return {gate.senses().obstacles.begin(), gate.senses().obstacles.end()};
+}
 
 TEST(Gate, LetsPassWhatAWorkingSensorSays) {
   const std::vector<Vec2> obstacles{{0.1F, 0.2F}, {-0.3F, 0.0F}};
-  const Senses senses{.odometry = {0.02F, -0.01F, 0.3F}, .orders = {true, Vec2{9.0F, -4.0F}, 7}, .obstacles = obstacles, .elapsed_s = 0.1F};
+  const Senses senses{.odometry = {0.02F, -0.01F, 0.3F},
+                      .orders = {true, Vec2{9.0F, -4.0F}, 7},
+                      .obstacles = obstacles,
+                      .elapsed_s = 0.1F};
   const Gate gate(senses, platform);
   EXPECT_EQ(gate.rejected(), 0U);
   EXPECT_EQ(gate.senses().odometry.forward_m, 0.02F);
@@ -34,8 +39,10 @@ TEST(Gate, LetsPassWhatAWorkingSensorSays) {
 }
 
 TEST(Gate, ImpossibleOdometryCountsAsNoMotion) {
-  for (const Odometry& bad : {Odometry{nan_m, 0, 0}, Odometry{0, nan_m, 0}, Odometry{0, 0, nan_m}, Odometry{infinite_m, 0, 0}, Odometry{0, -infinite_m, 0},
-                              Odometry{0, 0, infinite_m}, Odometry{20.1F, 0, 0}, Odometry{0, -20.1F, 0}, Odometry{15, 15, 0}, Odometry{0, 0, -1001}}) {
+  for (const Odometry& bad :
+       {Odometry{nan_m, 0, 0}, Odometry{0, nan_m, 0}, Odometry{0, 0, nan_m}, Odometry{infinite_m, 0, 0},
+        Odometry{0, -infinite_m, 0}, Odometry{0, 0, infinite_m}, Odometry{20.1F, 0, 0}, Odometry{0, -20.1F, 0},
+        Odometry{15, 15, 0}, Odometry{0, 0, -1001}}) {
     const Gate gate({.odometry = bad}, platform);
     EXPECT_EQ(gate.rejected(), 1U);
     EXPECT_EQ(gate.senses().odometry.forward_m, 0.0F);
@@ -48,7 +55,8 @@ TEST(Gate, ImpossibleOdometryCountsAsNoMotion) {
 }
 
 TEST(Gate, AnImpossibleTargetCountsAsNotSensed) {
-  for (const Vec2 bad : {Vec2{nan_m, 0}, Vec2{0, nan_m}, Vec2{infinite_m, 0}, Vec2{0, -infinite_m}, Vec2{1.1e6F, 0}, Vec2{3e38F, 3e38F}}) {
+  for (const Vec2 bad : {Vec2{nan_m, 0}, Vec2{0, nan_m}, Vec2{infinite_m, 0}, Vec2{0, -infinite_m}, Vec2{1.1e6F, 0},
+                         Vec2{3e38F, 3e38F}}) {
     const Gate gate({.orders = {true, bad}}, platform);
     EXPECT_EQ(gate.rejected(), 1U);
     EXPECT_FALSE(gate.senses().orders.target.has_value());
@@ -63,7 +71,8 @@ TEST(Gate, AnImpossibleChargeCountsAsNotMeasured) {
     EXPECT_EQ(gate.rejected(), 1U) << bad;
     EXPECT_FALSE(gate.senses().charge.has_value()) << bad;
   }
-  for (const float good : {0.0F, 0.5F, 1.0F}) EXPECT_TRUE(Gate({.charge = Charge{good, true}}, platform).senses().charge.has_value()) << good;
+  for (const float good : {0.0F, 0.5F, 1.0F})
+    EXPECT_TRUE(Gate({.charge = Charge{good, true}}, platform).senses().charge.has_value()) << good;
 }
 
 TEST(Gate, CountsWholeTicksAndAtLeastOne) {
@@ -108,7 +117,8 @@ struct Measured {
 };
 
 TEST(Gate, DropsPacketsWhoseSenderCannotBeThere) {
-  std::vector<Measured> heard{{0, {1, 0}}, {1, {nan_m, 0}}, {2, {0, 19.9F}}, {3, {0, infinite_m}}, {4, {15, 15}}, {5, {-1, 0}}};
+  std::vector<Measured> heard{{0, {1, 0}},          {1, {nan_m, 0}}, {2, {0, 19.9F}},
+                              {3, {0, infinite_m}}, {4, {15, 15}},   {5, {-1, 0}}};
   Gate gate({}, platform);
   const std::span<Measured> passed = gate.packets(std::span<Measured>(heard), platform);
   std::vector<int> names;
@@ -118,7 +128,8 @@ TEST(Gate, DropsPacketsWhoseSenderCannotBeThere) {
 }
 
 TEST(Gate, DropsPacketsOfAnImpossibleAge) {
-  std::vector<Measured> heard{{0, {1, 0}, 0.05F}, {1, {1, 0}, nan_m}, {2, {1, 0}, -0.01F}, {3, {1, 0}, infinite_m}, {4, {1, 0}, 3600.0F}};
+  std::vector<Measured> heard{
+      {0, {1, 0}, 0.05F}, {1, {1, 0}, nan_m}, {2, {1, 0}, -0.01F}, {3, {1, 0}, infinite_m}, {4, {1, 0}, 3600.0F}};
   Gate gate({}, platform);
   const std::span<Measured> passed = gate.packets(std::span<Measured>(heard), platform);
   ASSERT_EQ(passed.size(), 2U);
@@ -136,7 +147,10 @@ RC_GTEST_PROP(Gate, NothingBeyondItsLimitsPassesWhateverTheSensorsSay, ()) {
   const Odometry odometry{garbage(), garbage(), garbage()};
   Gate gate({.odometry = odometry, .orders = {true, target}, .obstacles = obstacles, .elapsed_s = garbage()}, platform);
 
-  const auto within = [](Vec2 v, double limit) { return std::isfinite(v.x) && std::isfinite(v.y) && std::hypot(static_cast<double>(v.x), static_cast<double>(v.y)) <= limit * 1.000001; };
+  const auto within = [](Vec2 v, double limit) {
+    return std::isfinite(v.x) && std::isfinite(v.y) &&
+           std::hypot(static_cast<double>(v.x), static_cast<double>(v.y)) <= limit * 1.000001;
+  };
   const Senses& passed = gate.senses();
   RC_ASSERT(within({passed.odometry.forward_m, passed.odometry.sideways_m}, limit_m));
   RC_ASSERT(std::fabs(passed.odometry.turn_rad) <= 1000.0F);
@@ -144,7 +158,9 @@ RC_GTEST_PROP(Gate, NothingBeyondItsLimitsPassesWhateverTheSensorsSay, ()) {
   RC_ASSERT(gate.elapsed_ticks() >= 1 && gate.elapsed_ticks() <= 36000);
   for (const Vec2 o : passed.obstacles) RC_ASSERT(within(o, limit_m));
   RC_ASSERT(passed.obstacles.size() <= most_obstacles);
-  const auto good = std::count_if(heard.begin(), heard.end(), [&](const Measured& m) { return within(m.position, limit_m) && m.age_s >= 0.0F && m.age_s <= 3600.0F; });
+  const auto good = std::count_if(heard.begin(), heard.end(), [&](const Measured& m) {
+    return within(m.position, limit_m) && m.age_s >= 0.0F && m.age_s <= 3600.0F;
+  });
   RC_ASSERT(static_cast<long>(gate.packets(std::span<Measured>(heard), platform).size()) == good);
 }
 

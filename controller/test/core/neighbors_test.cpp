@@ -141,17 +141,18 @@ TEST(Neighbors, BeyondItsCapacityItKeepsTheNearest) {
 
 TEST(Neighbors, TreeNeighborsAreNeverEvicted) {
   Packets packets = crowd(neighbor_capacity, 0.2F);
-  packets.add(300, {1.9F, 0});               // my parent
-  packets.add(301, {1.9F, 0.1F});            // my old parent
-  packets.add(302, {1.8F, 0.2F}, me);        // a child
-  packets.add(303, {1.8F, 0.3F}, 7, me);     // an old child
-  packets.add(304, {1.85F, 0.3F}, 7, 8);     // far, and nobody to me
+  packets.add(300, {1.9F, 0});            // my parent
+  packets.add(301, {1.9F, 0.1F});         // my old parent
+  packets.add(302, {1.8F, 0.2F}, me);     // a child
+  packets.add(303, {1.8F, 0.3F}, 7, me);  // an old child
+  packets.add(304, {1.85F, 0.3F}, 7, 8);  // far, and nobody to me
   std::vector<Table::Packet> heard = packets.heard;
   for (int turn = 0; turn < 7; ++turn) {
     Table table;
     table.update(heard, Carry({}), 5, {300, 301});
     ASSERT_EQ(table.size(), neighbor_capacity);
-    for (const RobotId id : std::array<RobotId, 4>{300, 301, 302, 303}) EXPECT_GE(table.find(id), 0) << id << " in turn " << turn;
+    for (const RobotId id : std::array<RobotId, 4>{300, 301, 302, 303})
+      EXPECT_GE(table.find(id), 0) << id << " in turn " << turn;
     EXPECT_EQ(table.find(304), -1);
     std::rotate(heard.begin(), heard.begin() + 17, heard.end());
   }

@@ -106,7 +106,8 @@ RC_GTEST_PROP(PositionFilter, IsAboutAsGoodAsAKalmanFilterThatKnowsTheNoise, ())
   const auto seed = *rc::gen::inRange(1U, 100000U);
   const float sigma_m = static_cast<float>(*rc::gen::inRange(15, 70)) * 0.01F;
   const Errors e = errors(Neighbor(seed, *rc::gen::inRange(8, 25)), sigma_m, 0.0F);
-  RC_LOG() << sigma_m << ": raw " << e.raw << ", filtered " << e.filtered << ", Kalman " << e.kalman << ", spread " << e.spread_m;
+  RC_LOG() << sigma_m << ": raw " << e.raw << ", filtered " << e.filtered << ", Kalman " << e.kalman << ", spread "
+           << e.spread_m;
   RC_ASSERT(e.filtered < 0.8 * e.raw);
   RC_ASSERT(e.filtered < 1.2 * e.kalman);
   RC_ASSERT(e.spread_m > 0.7 * e.filtered);  // what the guard keeps free
@@ -132,7 +133,9 @@ TEST(PositionFilter, GainFollowsHowMuchIsKnown) {
     filter.learn({1.5F, 0.0F}, {std::max(0.01F, 1.5F + normal(random)), 0.0F}, 1);
   }
   filter.begin(way_m);
-  const auto gain = [&](int since, int measurements) { return filter.fuse({1.0F, 0.0F}, {2.0F, 0.0F}, since, measurements).x - 1.0F; };
+  const auto gain = [&](int since, int measurements) {
+    return filter.fuse({1.0F, 0.0F}, {2.0F, 0.0F}, since, measurements).x - 1.0F;
+  };
   EXPECT_NEAR(gain(1, 1), 0.5F, 1e-5F);
   EXPECT_NEAR(gain(1, 2), 1.0F / 3.0F, 1e-5F);
   EXPECT_NEAR(gain(1, 255), 0.08F / 0.48F, 0.02F);

@@ -18,7 +18,9 @@ double double_between(double low, double high) {
   constexpr int steps = 1 << 30;
   return low + (high - low) * static_cast<double>(*rc::gen::inRange(0, steps)) / steps;
 }
-Vec2 vector(double limit) { return {static_cast<float>(double_between(-limit, limit)), static_cast<float>(double_between(-limit, limit))}; }
+Vec2 vector(double limit) {
+  return {static_cast<float>(double_between(-limit, limit)), static_cast<float>(double_between(-limit, limit))};
+}
 
 TEST(Trig, UnitVectorAgreesWithTheLibraryInDoublePrecision) {
   double worst = 0.0;
@@ -89,7 +91,8 @@ RC_GTEST_PROP(EdgeFrame, AnArrowArrivesAsTheSameArrow, ()) {
     return Vec2{static_cast<float>(d.x), static_cast<float>(d.y)};
   };
   const W own = rotate_back(sender_heading, arrow);
-  const Vec2 sent = to_edge_frame({static_cast<float>(own.x), static_cast<float>(own.y)}, seen(sender_heading, sender_at, sender_at + edge));
+  const Vec2 sent = to_edge_frame({static_cast<float>(own.x), static_cast<float>(own.y)},
+                                  seen(sender_heading, sender_at, sender_at + edge));
   const Vec2 got = from_edge_frame(sent, seen(addressee_heading, sender_at + edge, sender_at));
   const W expected = rotate_back(addressee_heading, arrow);
   RC_ASSERT(std::fabs(got.x - expected.x) < 1e-4);

@@ -30,9 +30,10 @@ void fill(TreeMessage& m) {
   m.phase = static_cast<Phase>(*rc::gen::inRange(0, 5));
   m.need = static_cast<Need>(*rc::gen::inRange(0, 3));
   for (bool* field : {&m.flood_done, &m.committed, &m.parent_silent}) *field = flag();
-  for (std::uint16_t* field : {&m.epoch, &m.root.sequence, &m.root.id, &m.label_cm, &m.seqno, &m.depth, &m.parent, &m.old_parent, &m.flood_parent,
-                               &m.flood_robots, &m.flood_workers, &m.subtree, &m.subtree_workers, &m.count, &m.want_cm, &m.grant, &m.request,
-                               &m.inserted_child, &m.new_root})
+  for (std::uint16_t* field :
+       {&m.epoch, &m.root.sequence, &m.root.id, &m.label_cm, &m.seqno, &m.depth, &m.parent, &m.old_parent,
+        &m.flood_parent, &m.flood_robots, &m.flood_workers, &m.subtree, &m.subtree_workers, &m.count, &m.want_cm,
+        &m.grant, &m.request, &m.inserted_child, &m.new_root})
     *field = word();
   for (std::int16_t* field : {&m.pull_x, &m.pull_y, &m.centroid_x_cm, &m.centroid_y_cm}) *field = signed_word();
   m.tree_hops = byte();
@@ -42,7 +43,9 @@ void fill(TreeMessage& m) {
 void fill(HealingMessage& m) {
   fill(static_cast<TreeMessage&>(m));
   m.root_told = flag();
-  for (std::uint16_t* field : {&m.serves, &m.root_size, &m.heartbeat, &m.told, &m.task_serves, &m.task_holder, &m.task_beat}) *field = word();
+  for (std::uint16_t* field :
+       {&m.serves, &m.root_size, &m.heartbeat, &m.told, &m.task_serves, &m.task_holder, &m.task_beat})
+    *field = word();
   for (std::int16_t* field : {&m.root_x_cm, &m.root_y_cm, &m.task_x_cm, &m.task_y_cm}) *field = signed_word();
 }
 void fill(ConvoyMessage& m) {
@@ -54,22 +57,19 @@ void fill(ConvoyMessage& m) {
   for (RobotId* field : {&m.below, &m.warned, &m.above, &m.task_host}) *field = word();
 }
 
-template <class Message>
-Message arbitrary_message() {
+template <class Message> Message arbitrary_message() {
   Message m;
   fill(m);
   return m;
 }
 
-template <class Message>
-Message of_robot(RobotId id) {
+template <class Message> Message of_robot(RobotId id) {
   Message m;
   m.id = id;
   return m;
 }
 
-template <class Message>
-class Wire : public testing::Test {};
+template <class Message> class Wire : public testing::Test {};
 using Messages = testing::Types<TreeMessage, HealingMessage, ConvoyMessage>;
 TYPED_TEST_SUITE(Wire, Messages, );
 
@@ -89,7 +89,8 @@ TYPED_TEST(Wire, WhatIsWrittenIsAsLongAsItsType) {
   const bool holds = rc::check([] {
     std::vector<std::uint8_t> bytes(largest_wire + 8, 0xAA);
     RC_ASSERT(encode_fields(arbitrary_message<TypeParam>(), bytes) == wire_size<TypeParam>());
-    RC_ASSERT(std::all_of(bytes.begin() + wire_size<TypeParam>(), bytes.end(), [](std::uint8_t b) { return b == 0xAA; }));
+    RC_ASSERT(
+        std::all_of(bytes.begin() + wire_size<TypeParam>(), bytes.end(), [](std::uint8_t b) { return b == 0xAA; }));
   });
   EXPECT_TRUE(holds);
 }
@@ -127,7 +128,8 @@ TYPED_TEST(Wire, AcceptsNoOtherBytesThanItsOwn) {
 
 TYPED_TEST(Wire, RandomBytesOfTheRightLengthAreReadOrRefused) {
   const bool holds = rc::check([] {
-    auto bytes = *rc::gen::container<std::vector<std::uint8_t>>(wire_size<TypeParam>(), rc::gen::arbitrary<std::uint8_t>());
+    auto bytes =
+        *rc::gen::container<std::vector<std::uint8_t>>(wire_size<TypeParam>(), rc::gen::arbitrary<std::uint8_t>());
     if (flag()) bytes[0] = TypeParam::blocks | wire_version;
     const auto m = decode_fields<TypeParam>(bytes);
     if (!m) return;
@@ -143,7 +145,8 @@ TYPED_TEST(Wire, EveryOtherLengthIsRefused) {
   const auto good = encoded(of_robot<TypeParam>(7));
   // The vector holds exactly `size` bytes, so a sanitizer sees any read past the end.
   for (std::size_t size = 0; size <= 2 * good.size(); ++size) {
-    std::vector<std::uint8_t> bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(std::min(size, good.size())));
+    std::vector<std::uint8_t> bytes(good.begin(),
+                                    good.begin() + static_cast<std::ptrdiff_t>(std::min(size, good.size())));
     bytes.resize(size);
     EXPECT_EQ(decode_fields<TypeParam>(bytes).has_value(), size == good.size()) << size;
   }
@@ -179,8 +182,8 @@ TYPED_TEST(Wire, NobodyDoesNotSpeak) { EXPECT_FALSE(over_the_wire(TypeParam{}).h
 
 TYPED_TEST(Wire, NumbersThatWouldPoisonASumAreRefused) {
   auto m = of_robot<TypeParam>(7);
-  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
-                          1.001F * q_limit_m, -1.001F * q_limit_m}) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                          -std::numeric_limits<float>::infinity(), 1.001F * q_limit_m, -1.001F * q_limit_m}) {
     m.q = {bad, 0.0F};
     EXPECT_FALSE(over_the_wire(m).has_value()) << bad;
     m.q = {0.0F, bad};

@@ -62,7 +62,8 @@ struct Pair {
         end->hears = !end->hears || now == 0;
         end->left = end->hears ? below(30) : below(190);
       }
-      if (below(10) == 0) end->wish = unit(Vec2{static_cast<float>(below(201) - 100), static_cast<float>(below(200)) - 99.5F});
+      if (below(10) == 0)
+        end->wish = unit(Vec2{static_cast<float>(below(201) - 100), static_cast<float>(below(200)) - 99.5F});
     }
     const Vec2 of_parent = parent.step(child);
     const Vec2 of_child = child.step(parent);
@@ -71,8 +72,8 @@ struct Pair {
   }
 };
 
-// While neither hears the other, both could go round the place where the other was, in opposite directions. What each can
-// see to is that it stays as near to that place as it was, or as an edge may be long.
+// While neither hears the other, both could go round the place where the other was, in opposite directions. What each
+// can see to is that it stays as near to that place as it was, or as an edge may be long.
 RC_GTEST_PROP(Bursts, WhoHearsNothingGoesNoFartherFromWhereItHeardTheOther, ()) {
   Pair pair(0.01F * static_cast<float>(*rc::gen::inRange(20, 189)), *rc::gen::inRange(1U, 1000000U));
   std::array<Vec2, 2> there{pair.child.place, pair.parent.place};

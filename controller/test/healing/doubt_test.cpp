@@ -52,7 +52,9 @@ struct ForgetfulWatch : Watch {
 };
 
 // Until those in charge doubt that a silent worker lives.
-int doubt_ticks(const Watch& watch) { return watch.bench.params.ticks(watch.bench.params.liveness_period_s) + watch.bench.params.ticks(2.5F) + 1; }
+int doubt_ticks(const Watch& watch) {
+  return watch.bench.params.ticks(watch.bench.params.liveness_period_s) + watch.bench.params.ticks(2.5F) + 1;
+}
 
 TEST(Doubt, SilenceAloneIsNoDeathWhereRobotsForget) {
   for (const bool forgets : {false, true}) {
@@ -94,7 +96,10 @@ TEST(Doubt, AParentMissesItsChild) {
 
 // It stood at its target, and nobody is in between: the parent need not wait for somebody to move on.
 TEST(Doubt, ADeathThatIsWitnessedIsDoubtedAtOnce) {
-  struct Case { const char* what; bool reached, in_between, packets_get_lost, at_once; };
+  struct Case {
+    const char* what;
+    bool reached, in_between, packets_get_lost, at_once;
+  };
   for (const Case c : {Case{"at its target", true, false, false, true}, Case{"on its way", false, false, false, false},
                        Case{"hidden", true, true, false, false}, Case{"packets get lost", true, false, true, false}}) {
     ForgetfulWatch watch;
@@ -182,8 +187,13 @@ TEST(Doubt, AChildThatHangsElsewhereIsInTheChargeOfOthers) {
 
 // It may no longer speak of the worker: a spare speaks of none.
 TEST(Doubt, AChildThatNamesAnotherParentTakesItsWorkersAlong) {
-  struct Case { Role role; RobotId parent; bool doubts; };
-  for (const Case c : {Case{Role::connector, 30, false}, Case{Role::spare, nobody, false}, Case{Role::connector, nobody, true}}) {
+  struct Case {
+    Role role;
+    RobotId parent;
+    bool doubts;
+  };
+  for (const Case c :
+       {Case{Role::connector, 30, false}, Case{Role::spare, nobody, false}, Case{Role::connector, nobody, true}}) {
     ForgetfulWatch watch;
     watch.child_above_worker(20);
     watch.hear_root(5);
@@ -221,7 +231,8 @@ TEST(Doubt, WhereManyAskAnAnswerTakesLonger) {
     for (int k = 0; k < questions; ++k) {
       const auto id = static_cast<RobotId>(20 + k);
       // The others are far away, so that nobody here takes them over first.
-      watch.tell_of_target(id, {1.0F, 0.01F * static_cast<float>(k)}, {k == 0 ? away_m : 60.0F, 0.0F}, static_cast<RobotId>(worker_id + k), 10);
+      watch.tell_of_target(id, {1.0F, 0.01F * static_cast<float>(k)}, {k == 0 ? away_m : 60.0F, 0.0F},
+                           static_cast<RobotId>(worker_id + k), 10);
       watch.hear_root(2);
       watch.bench.say(id).task_silent = true;
     }
@@ -359,22 +370,21 @@ struct Places {
   std::vector<Vec2> targets;
 };
 
-// Each robot within reach of one before it, in another direction, so that all are connected and none in one place; `workers`
-// of them are sent out. `number(low, high)`: a random one below `high`.
-template <class Number>
-Places random_places(int others, int workers, Number number) {
+// Each robot within reach of one before it, in another direction, so that all are connected and none in one place;
+// `workers` of them are sent out. `number(low, high)`: a random one below `high`.
+template <class Number> Places random_places(int others, int workers, Number number) {
   const auto turn = [&](int low, int high) { return static_cast<float>(number(low, high)) * 1e-3F; };
   Places places{{{0.0F, 0.0F}}, {}};
   for (int i = 1; i < others + workers; ++i) {
     const Vec2 near = places.robots[static_cast<std::size_t>(number(0, i))];
     places.robots.push_back(near + unit_vector(2.4F * static_cast<float>(i) + turn(-500, 500)) * turn(400, 1500));
   }
-  for (int k = 0; k < workers; ++k) places.targets.push_back(unit_vector(turn(-3141, 3142)) * static_cast<float>(number(2, 20)));
+  for (int k = 0; k < workers; ++k)
+    places.targets.push_back(unit_vector(turn(-3141, 3142)) * static_cast<float>(number(2, 20)));
   return places;
 }
 
-template <class Number>
-Network random_network(Number number) {
+template <class Number> Network random_network(Number number) {
   const int workers = number(task_capacity + 1, 3 * task_capacity);
   const Places places = random_places(10, workers, number);
   const float loss = static_cast<float>(number(0, 4)) * 0.1F;
@@ -393,13 +403,16 @@ RC_GTEST_PROP(Doubt, NoLivingWorkerIsReplaced, ()) {
   // Two that are far apart may both have taken over; it takes the one a while to hear of the other.
   for (int k = 0; k < 12 && network.holders(static_cast<RobotId>(dead)) > 1; ++k) network.steps(100);
   RC_ASSERT(network.holders(static_cast<RobotId>(dead)) <= 1);
-  for (std::size_t i = network.first_worker(); i < dead; ++i) RC_ASSERT(network.states[i].is_worker && network.states[i].serves == i);
+  for (std::size_t i = network.first_worker(); i < dead; ++i)
+    RC_ASSERT(network.states[i].is_worker && network.states[i].serves == i);
 }
 
 // Not in all: where nobody in charge of it remembers a worker, nobody misses it (docs/limits.md).
 TEST(Doubt, ADeadWorkerIsReplacedInNearlyAllNetworks) {
   std::mt19937 random(1);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same networks each time
-  const auto number = [&](int low, int high) { return low + static_cast<int>(random() % static_cast<unsigned>(high - low)); };
+  const auto number = [&](int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low));
+  };
   constexpr int networks = 100;
   int with_spare = 0;
   int replaced = 0;
@@ -411,7 +424,8 @@ TEST(Doubt, ADeadWorkerIsReplacedInNearlyAllNetworks) {
     network.steps(300);
     const bool held = network.holders(static_cast<RobotId>(dead)) == 1;
     const auto living = std::span(network.states).first(dead);
-    const bool spare = std::any_of(living.begin(), living.end(), [](const ConvoyState& s) { return s.role == Role::spare; });
+    const bool spare =
+        std::any_of(living.begin(), living.end(), [](const ConvoyState& s) { return s.role == Role::spare; });
     with_spare += static_cast<int>(held || spare);
     replaced += static_cast<int>(held);
   }

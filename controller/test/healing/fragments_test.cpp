@@ -91,7 +91,8 @@ struct Network {
       for (std::size_t k = 0; k < states.size(); ++k) {
         std::vector<Heard> heard;
         for (std::size_t j = 0; j < states.size(); ++j)
-          if (j != k && said[j].id != nobody && distance(places[j], places[k]) < params.communication_range_m) heard.push_back({&said[j], places[j] - places[k]});
+          if (j != k && said[j].id != nobody && distance(places[j], places[k]) < params.communication_range_m)
+            heard.push_back({&said[j], places[j] - places[k]});
         next[k] = convoy_step(params, states[k], {heard, {}, params}).message;
       }
       said = next;

@@ -16,7 +16,10 @@ namespace {
 
 RC_GTEST_PROP(Gossip, APointArrivesWhereItIs, ()) {
   const auto number = [](int low, int high) { return static_cast<float>(*rc::gen::inRange(low, high)) * 0.001F; };
-  const auto rotation = [&] { const float a = number(-3141, 3142); return Vec2{std::cos(a), std::sin(a)}; };
+  const auto rotation = [&] {
+    const float a = number(-3141, 3142);
+    return Vec2{std::cos(a), std::sin(a)};
+  };
   // World coordinates: the sender writes at t, the reader has moved by `odometry` at t + 1.
   const Vec2 sender{number(300, 1800), number(-900, 900)};
   const Vec2 sender_heading = rotation();

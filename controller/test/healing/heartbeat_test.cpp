@@ -95,7 +95,8 @@ TEST(Election, NeitherTheFarNorWorkersNorWhoDoesNotHealClaim) {
   }
 }
 
-// It died before it could speak. Of those that hear each other the one with the smallest id claims; workers do not count.
+// It died before it could speak. Of those that hear each other the one with the smallest id claims; workers do not
+// count.
 TEST(Election, OfThoseWhoNeverHeardOfARootTheFirstClaims) {
   for (const RobotId other : {RobotId{0}, RobotId{5}})
     for (const bool worker : {false, true}) {

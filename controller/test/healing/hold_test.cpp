@@ -100,8 +100,9 @@ TEST(Hold, IsTheBestOfAllInWhateverOrderTheyAreHeard) {
       const int hops = m.role == Role::spare ? m.tree_hops : m.depth == 0 ? unreachable : -1;
       const double range = static_cast<double>(range_m) / 2.0;
       const bool another = hops >= 0 && id != bench.state.hold;
-      const double cost = range > 0.95 ? 8192 + 1024 * range + (another ? 10 : 0) + hops / 255.0
-                                       : (hops == 255 ? 4096 : 0) + (range > 0.85 ? 2048 : 0) + 4 * hops + (another ? 2 : 0) + range;
+      const double cost =
+          range > 0.95 ? 8192 + 1024 * range + (another ? 10 : 0) + hops / 255.0
+                       : (hops == 255 ? 4096 : 0) + (range > 0.85 ? 2048 : 0) + 4 * hops + (another ? 2 : 0) + range;
       if (cost >= least) continue;
       best = id;
       least = cost;

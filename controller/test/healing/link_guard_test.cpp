@@ -41,8 +41,13 @@ TEST(PushNobody, ElsewhereRobotsMay) {
 }
 
 TEST(PushNobody, AWorkerThatKnowsItsTargetFromOthersIsNotPushed) {
-  struct Case { Role role; RobotId serves; bool may; };
-  for (const Case c : {Case{Role::worker, 7, false}, Case{Role::worker, 5, true}, Case{Role::connector, nobody, true}}) {
+  struct Case {
+    Role role;
+    RobotId serves;
+    bool may;
+  };
+  for (const Case c :
+       {Case{Role::worker, 7, false}, Case{Role::worker, 5, true}, Case{Role::connector, nobody, true}}) {
     Jam jam;
     jam.ahead.role = c.role;
     jam.ahead.serves = c.serves;

@@ -20,7 +20,8 @@ RC_GTEST_PROP(Loss, LivenessFollowsTheShareOfPacketsLost, ()) {
   for (int tick = 0; tick < 500; ++tick) {
     for (RobotId id = 20; id < 40; ++id) {
       bench.silence(id);
-      if (static_cast<float>(random() % 10000) >= loss * 10000.0F) bench.put(id, {0.05F * static_cast<float>(id), 1.0F});
+      if (static_cast<float>(random() % 10000) >= loss * 10000.0F)
+        bench.put(id, {0.05F * static_cast<float>(id), 1.0F});
     }
     bench.step();
   }

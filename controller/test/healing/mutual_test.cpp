@@ -305,7 +305,8 @@ RC_GTEST_PROP(Mutual, WhoNamesAnotherNeitherHearsMeNorPassesMeOver, ()) {
   robot.self.neighbors.set_deaf(0, deaf_ticks);
   const bool skipped = names_another(robot, h);
   note_hears(robot, h);
-  const bool unchanged = robot.self.neighbors.deaf_ticks[0] == deaf_ticks && robot.self.caller == nobody && robot.self.called_ticks == 0;
+  const bool unchanged =
+      robot.self.neighbors.deaf_ticks[0] == deaf_ticks && robot.self.caller == nobody && robot.self.called_ticks == 0;
   RC_CLASSIFY(skipped);
   RC_ASSERT(!skipped || unchanged);
 }

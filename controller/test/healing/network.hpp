@@ -15,7 +15,8 @@ class Network {
   // Robot 0 is the root, the last `targets.size()` are workers. Everybody's frame is the world's.
   Network(std::vector<Vec2> places, std::vector<Vec2> targets, float loss, std::uint64_t seed)
       : places_(std::move(places)), targets_(std::move(targets)), loss_(loss), random_(seed) {
-    for (std::size_t i = 0; i < places_.size(); ++i) states.push_back(initial_convoy_state(static_cast<RobotId>(i), is_sent(i), i == 0));
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      states.push_back(initial_convoy_state(static_cast<RobotId>(i), is_sent(i), i == 0));
     params.give_up_after_s = 300.0F;
     alive_.assign(places_.size(), true);
     for (const ConvoyState& state : states) said_.emplace_back().id = state.id;
@@ -27,7 +28,9 @@ class Network {
       if (!alive_[i]) continue;
       heard_.clear();
       for (std::size_t j = 0; j < states.size(); ++j) {
-        if (j == i || !alive_[j] || distance(places_[i], places_[j]) >= params.communication_range_m || chance() < loss_) continue;
+        if (j == i || !alive_[j] || distance(places_[i], places_[j]) >= params.communication_range_m ||
+            chance() < loss_)
+          continue;
         heard_.push_back({&said_[j], places_[j] - places_[i]});
       }
       Senses senses;
@@ -52,7 +55,8 @@ class Network {
   // Living robots that serve that target.
   [[nodiscard]] int holders(RobotId serves) const {
     int count = 0;
-    for (std::size_t i = 0; i < states.size(); ++i) count += static_cast<int>(alive_[i] && states[i].is_worker && states[i].serves == serves);
+    for (std::size_t i = 0; i < states.size(); ++i)
+      count += static_cast<int>(alive_[i] && states[i].is_worker && states[i].serves == serves);
     return count;
   }
 

@@ -48,9 +48,11 @@ TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
     return ticks;
   };
   const int ticks = ticks_until(0, Phase::grow_tree);
-  EXPECT_EQ(ticks_until(30, Phase::grow_tree), ticks + 4 * 30 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
+  EXPECT_EQ(ticks_until(30, Phase::grow_tree),
+            ticks + 4 * 30 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
   EXPECT_EQ(ticks_until(0, Phase::start_tree), ticks);
-  EXPECT_EQ(ticks_until(30, Phase::start_tree), ticks + 2 * 100 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
+  EXPECT_EQ(ticks_until(30, Phase::start_tree),
+            ticks + 2 * 100 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
   EXPECT_EQ(ticks_until(0, Phase::grow_tree, true), ticks);
   EXPECT_EQ(ticks_until(30, Phase::grow_tree, true), ticks_until(30, Phase::start_tree));
 }

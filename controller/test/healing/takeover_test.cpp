@@ -78,7 +78,8 @@ TEST(Takeover, WhereNewsIsRareSilenceSaysLess) {
   EXPECT_EQ(watch.bench.state.tally.replacements, 1U);
 }
 
-// News from another branch goes in to the root, 1.8 m, and 26 m out to here, by steps of 0.7 C, and of three targets in turn.
+// News from another branch goes in to the root, 1.8 m, and 26 m out to here, by steps of 0.7 C, and of three targets in
+// turn.
 TEST(Takeover, FarFromTheRootASpareWaitsForNewsThatComesTheLongWay) {
   Watch watch;
   watch.bench.state.label_cm = 2600;
@@ -193,7 +194,8 @@ TEST(Takeover, WhereTargetsArePassedOnTheHolderAndTheWorkerFirstSentThereKnowBes
     return state.tasks[0].target.x;
   };
   for (const RobotId teller : {first, holder}) EXPECT_NEAR(believed_m(true, false, teller), 3.0F, 0.02F) << teller;
-  for (const RobotId teller : {first, holder, RobotId{20}}) EXPECT_NEAR(believed_m(false, false, teller), 2.2F, 0.02F) << teller;
+  for (const RobotId teller : {first, holder, RobotId{20}})
+    EXPECT_NEAR(believed_m(false, false, teller), 2.2F, 0.02F) << teller;
   EXPECT_NEAR(believed_m(true, false, 20), 2.2F, 0.02F) << "it only remembers";
   EXPECT_NEAR(believed_m(true, true, first), 2.2F, 0.02F);
   EXPECT_NEAR(believed_m(true, true, 20), 2.0F, 0.02F) << "no better than I";

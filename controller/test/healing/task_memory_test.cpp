@@ -15,7 +15,9 @@ namespace {
 
 Task& known(HealingState& self, RobotId serves) { return *find_task(self, serves); }
 
-Task* add(HealingState& self, RobotId serves, Vec2 target, Concern concern) { return add_task(self, serves, &target, concern); }
+Task* add(HealingState& self, RobotId serves, Vec2 target, Concern concern) {
+  return add_task(self, serves, &target, concern);
+}
 
 HealingState full(float away_m = 1.0F) {
   HealingState self = initial_healing_state(1, false, false);
@@ -92,7 +94,8 @@ RC_GTEST_PROP(TaskMemory, KeepsWhatMattersInAnyOrder, ()) {
     if (find_task(self, serves) != nullptr) continue;
     told.insert(serves);
     Concern least = Concern::own;
-    for (int k = 0; k < self.task_count; ++k) least = std::min(least, concern_of(self, self.tasks[static_cast<std::size_t>(k)]));
+    for (int k = 0; k < self.task_count; ++k)
+      least = std::min(least, concern_of(self, self.tasks[static_cast<std::size_t>(k)]));
     const bool was_full = self.task_count == task_capacity;
     Task* task = add(self, serves, {static_cast<float>(*rc::gen::inRange(1, 60)), 0.0F}, concern);
     if (!was_full || concern > least) RC_ASSERT(task != nullptr);

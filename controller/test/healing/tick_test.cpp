@@ -165,8 +165,7 @@ TEST(Orders, ASuccessorThatIsSentItselfServesItsOwn) {
 
 // ---- News: packets that say what the robot did not know ----
 
-template <class Kind>
-int news_of(const std::function<void(typename BenchOf<Kind>::Message&)>& say) {
+template <class Kind> int news_of(const std::function<void(typename BenchOf<Kind>::Message&)>& say) {
   BenchOf<Kind> bench(1);
   bench.state.epoch = 3;
   bench.state.phase = Phase::grow_tree;
@@ -185,8 +184,7 @@ int news_of(const std::function<void(typename BenchOf<Kind>::Message&)>& say) {
   return count;
 }
 
-template <class Kind>
-void expect_news() {
+template <class Kind> void expect_news() {
   using Message = typename BenchOf<Kind>::Message;
   EXPECT_EQ(news_of<Kind>([](Message&) {}), 0);
   EXPECT_EQ(news_of<Kind>([](Message& m) { m.root = {6, 8}; }), 1);

@@ -32,7 +32,8 @@ bool may_depend_on_me(bool tied, const Speech& speech, RobotId hold = nobody) {
 TEST(Tie, AChildDependsOnItsParentUnlessItIsASpare) {
   EXPECT_TRUE(may_depend_on_me(true, [](TreeMessage& m) { m.parent = 1; }));
   EXPECT_TRUE(may_depend_on_me(true, [](TreeMessage& m) { m.old_parent = 1; }));
-  EXPECT_FALSE(may_depend_on_me(true, [](TreeMessage& m) { m.parent = 1, m.role = Role::spare; })) << "another one will do";
+  EXPECT_FALSE(may_depend_on_me(true, [](TreeMessage& m) { m.parent = 1, m.role = Role::spare; }))
+      << "another one will do";
   EXPECT_FALSE(may_depend_on_me(false, [](TreeMessage& m) { m.parent = 1, m.role = Role::spare; }));
 }
 

@@ -114,7 +114,8 @@ RC_GTEST_PROP(Bypass, FindsTheGapInALongWall, ()) {
 }
 
 TEST(Bypass, LeavesAPocket) {
-  Walker walker{{{{1.0F, 0.5F}, {1.0F, -0.5F}}, {{0.3F, 0.5F}, {1.0F, 0.5F}}, {{0.3F, -0.5F}, {1.0F, -0.5F}}}, {0.0F, 0.05F}};
+  Walker walker{{{{1.0F, 0.5F}, {1.0F, -0.5F}}, {{0.3F, 0.5F}, {1.0F, 0.5F}}, {{0.3F, -0.5F}, {1.0F, -0.5F}}},
+                {0.0F, 0.05F}};
   EXPECT_TRUE(walker.reaches({2.0F, 0.0F}, 30.0F));
   EXPECT_GT(walker.nearest_m, body_m);
 }
@@ -122,8 +123,12 @@ TEST(Bypass, LeavesAPocket) {
 // Each side leads from body to body and looks like the way round for a while.
 TEST(Bypass, LeavesAFieldOfBodies) {
   for (const Vec2 start : {Vec2{0.72F, -0.60F}, Vec2{0.72F, -0.20F}, Vec2{1.0F, -0.5F}, Vec2{1.07F, 0.05F}}) {
-    Walker walker{{}, start, {{-0.15F, -0.77F}, {-0.14F, 0.41F}, {0.09F, -0.37F}, {0.36F, 0.0F}, {0.50F, 0.27F}, {0.71F, 0.87F},
-                              {0.86F, -0.74F}, {1.09F, -0.80F}, {1.24F, -0.53F}, {1.27F, 0.01F}, {1.43F, -0.27F}, {1.56F, 0.0F}}};
+    // clang-format off
+    Walker walker{{}, start, {{-0.15F, -0.77F}, {-0.14F, 0.41F}, {0.09F, -0.37F}, {0.36F, 0.0F}, {0.50F, 0.27F},
+        {0.71F, 0.87F},
+                              {0.86F, -0.74F}, {1.09F, -0.80F}, {1.24F, -0.53F}, {1.27F, 0.01F}, {1.43F, -0.27F},
+                                  {1.56F, 0.0F}}};
+    // clang-format on
     EXPECT_TRUE(walker.reaches({9.0F, 0.0F}, 20.0F)) << "from " << start.x << ", " << start.y;
     EXPECT_GT(walker.nearest_m, body_m);
   }

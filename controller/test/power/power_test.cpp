@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Batteries as robots know them: what passes the gate, what is sent, and that a swarm without them says nothing of them.
+// Batteries as robots know them: what passes the gate, what is sent, and that a swarm without them says nothing of
+// them.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -501,7 +502,7 @@ class CalledSpare : public ::testing::Test {
 TEST_F(CalledSpare, GoesUnlessAnotherChargedOneIsNearer) {
   EXPECT_TRUE(goes(1.7F, 250));
   EXPECT_FALSE(goes(1.0F, 250));
-  EXPECT_TRUE(goes(1.0F, 100));  // that one is not charged
+  EXPECT_TRUE(goes(1.0F, 100));      // that one is not charged
   EXPECT_FALSE(goes(1.0F, 250, 0));  // nor to an edge that holds workers back
 }
 

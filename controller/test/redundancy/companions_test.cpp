@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <rapidcheck/gtest.h>
+#include <cmath>
 
 #include "banyan/controller/convoy/towing.hpp"
 #include "bench.hpp"
@@ -142,8 +142,8 @@ TEST_F(SpareByAChain, StaysForAWhileWhenItsRobotHasDied) {
   EXPECT_EQ(chosen(), nobody);
 }
 
-// The worker is out of reach from here, so it is not opposite to the root, where it would be heard. The other side of the
-// chain hears both.
+// The worker is out of reach from here, so it is not opposite to the root, where it would be heard. The other side of
+// the chain hears both.
 TEST_F(SpareByAChain, GoesToTheSideFromWhichItHearsTheOneThatIsOutOfReach) {
   const auto way = [&] {
     auto robot = bench.tick();
@@ -197,7 +197,8 @@ RC_GTEST_FIXTURE_PROP(SpareByAChain, ItsPlaceHearsWhatItsRobotHears, ()) {
   for (int k = 0; k < 200; ++k) {
     put_chain(middle, along);
     auto robot = bench.tick();
-    middle -= clamped(companion_motion(robot, robot.table().find(2)), 1.0F) * 0.02F;  // it moves, seen from itself the chain does
+    middle -= clamped(companion_motion(robot, robot.table().find(2)), 1.0F) *
+              0.02F;  // it moves, seen from itself the chain does
   }
   const float c = bench.params.communication_range_m;
   RC_ASSERT(norm(middle - along * 1.8F) < 0.97F * c);

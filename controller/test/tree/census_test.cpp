@@ -34,7 +34,9 @@ struct Tree {
     for (int i = 0; i < size; ++i) {
       parent.push_back(i == 0 ? -1 : *rc::gen::inRange(std::max(0, i - 6), i));
       depth.push_back(i == 0 ? 1 : depth[static_cast<std::size_t>(parent.back())] + 1);
-      position.push_back(i == 0 ? W{draw(50), draw(50)} : position[static_cast<std::size_t>(parent.back())] + W{draw(1.2), draw(1.2)} + W{0.01, 0.02});
+      position.push_back(i == 0 ? W{draw(50), draw(50)}
+                                : position[static_cast<std::size_t>(parent.back())] + W{draw(1.2), draw(1.2)} +
+                                      W{0.01, 0.02});
       heading.push_back(unit_vector(draw(3.14)));
       TreeState s = initial_tree_state(static_cast<RobotId>(i), false, i == 0);
       s.is_worker = i > 0 && i % 7 == 0;
@@ -67,7 +69,8 @@ struct Tree {
       const Inputs<Heard> inputs(heard, {}, params);
       TreeRobot robot(params, literal_reading, s, inputs);
       file_heard(robot);
-      forget_silent(robot, [](int) { return false; }, [](int, int) {});
+      forget_silent(
+          robot, [](int) { return false; }, [](int, int) {});
       index_neighbors(robot);
       take_census(robot, params.arrival_distance_m);
       next[i] = message(i);

@@ -19,10 +19,10 @@ Bench starting() {
 
 TEST(Label, IsTheSmallestSumOfLabelAndRangeAndTakenOnce) {
   Bench bench = starting();
-  bench.put(9, {1.8F, 0}).label_cm = 0;       // 180
-  bench.put(5, {0.5F, 0}).label_cm = 100;     // 150
-  bench.put(6, {0.1F, 0}).label_cm = 190;     // 200
-  bench.put(7, {0.1F, 0.1F});                 // no label yet
+  bench.put(9, {1.8F, 0}).label_cm = 0;    // 180
+  bench.put(5, {0.5F, 0}).label_cm = 100;  // 150
+  bench.put(6, {0.1F, 0}).label_cm = 190;  // 200
+  bench.put(7, {0.1F, 0.1F});              // no label yet
   bench.step();
   EXPECT_EQ(bench.state.label_cm, unknown_label) << "nearer ones may still speak up";
   bench.steps(2);

@@ -36,7 +36,8 @@ RC_GTEST_PROP(Interaction, IsThePapersFormulaInCentimeters, ()) {
   const float d_m = number(0.15F, 3.0F);
   const double d = 100.0 * static_cast<double>(d_m);
   const double delta = 100.0 * static_cast<double>(p.ideal_distance_m);
-  const double expected = static_cast<double>(p.interaction_gain) / d * (std::pow(delta / d, 2) - std::pow(delta / d, 4));
+  const double expected =
+      static_cast<double>(p.interaction_gain) / d * (std::pow(delta / d, 2) - std::pow(delta / d, 4));
   RC_ASSERT(std::fabs(static_cast<double>(interaction(d_m, p)) - expected) <= 1e-4 * std::fabs(expected) + 1e-5);
 }
 
@@ -57,8 +58,7 @@ TEST(Avoidance, IsFiniteOnTheSameSpot) {
 }
 
 // u_tree,new + u_tree,old: as printed an edge of both trees counts twice, as corrected once.
-template <class Kind>
-float pull_of_an_edge(bool old_too) {
+template <class Kind> float pull_of_an_edge(bool old_too) {
   BenchOf<Kind> bench = grown<Kind>();
   bench.state.role = Role::connector;
   bench.state.parent = 5;
@@ -98,9 +98,9 @@ RC_GTEST_PROP(SafePart, CorrectedTakesTheAwayPartAlone, ()) {
   const Vec2 u = polar(number(0, 1), number(-3, 3));
   const Vec2 safe = safe_part(u, parent, p, corrected_reading);
   const Vec2 to = unit(parent);
-  RC_ASSERT(dot(safe, to) >= -1e-6F);                                   // never away
-  RC_ASSERT(std::fabs(cross(safe, to) - cross(u, to)) < 1e-6F);         // sideways untouched
-  if (dot(u, to) >= 0.0F) RC_ASSERT(distance(safe, u) < 1e-6F);         // towards untouched
+  RC_ASSERT(dot(safe, to) >= -1e-6F);                            // never away
+  RC_ASSERT(std::fabs(cross(safe, to) - cross(u, to)) < 1e-6F);  // sideways untouched
+  if (dot(u, to) >= 0.0F) RC_ASSERT(distance(safe, u) < 1e-6F);  // towards untouched
 }
 
 // ---- Guard ----
@@ -165,7 +165,8 @@ RC_GTEST_PROP(Guard, BothEndsTogetherKeepTheEdgeWithinDelta, ()) {
   for (int t = 0; t < 200; ++t) {
     const auto moved = [&](W here, W there) {
       Guard guard;
-      guard.add({static_cast<float>(there.x - here.x), static_cast<float>(there.y - here.y)}, p.ideal_distance_m, p.guard_rate_per_s);
+      guard.add({static_cast<float>(there.x - here.x), static_cast<float>(there.y - here.y)}, p.ideal_distance_m,
+                p.guard_rate_per_s);
       const Vec2 v = guard.apply(polar(0.2F, number(-3.14F, 3.14F)));
       return W{here.x + 0.1 * static_cast<double>(v.x), here.y + 0.1 * static_cast<double>(v.y)};
     };
@@ -292,7 +293,8 @@ TEST_F(Moving, StrangersWithinARepel) {
   bench.send({1e-3F, 0});
   bench.put(20, {0.2F, 0});
   const auto& p = bench.params;
-  EXPECT_NEAR(bench.step().velocity.forward_m_s, -0.2F * std::min(1.0F, p.avoidance_gain * (p.avoidance_range_m / 0.2F - 1)), 2e-3F);
+  EXPECT_NEAR(bench.step().velocity.forward_m_s,
+              -0.2F * std::min(1.0F, p.avoidance_gain * (p.avoidance_range_m / 0.2F - 1)), 2e-3F);
   bench.move(20, {p.avoidance_range_m + 0.01F, 0});
   EXPECT_NEAR(bench.step().velocity.forward_m_s, 0.0F, 2e-3F);
 }

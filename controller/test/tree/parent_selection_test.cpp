@@ -9,8 +9,7 @@
 namespace banyan {
 namespace {
 
-template <class Kind = Outwards>
-BenchOf<Kind> selecting() {
+template <class Kind = Outwards> BenchOf<Kind> selecting() {
   BenchOf<Kind> bench;
   bench.state.epoch = 1;
   bench.state.phase = Phase::select_parent;
@@ -20,8 +19,7 @@ BenchOf<Kind> selecting() {
 }
 
 // A neighbour in the tree.
-template <class Kind>
-auto& committed(BenchOf<Kind>& bench, RobotId id, Vec2 position, std::uint16_t label_cm) {
+template <class Kind> auto& committed(BenchOf<Kind>& bench, RobotId id, Vec2 position, std::uint16_t label_cm) {
   auto& m = bench.put(id, position);
   m.committed = true;
   m.role = Role::connector;
@@ -94,8 +92,10 @@ TEST(Label, ShrinksToTheWayAlongTheTreeWithANewerNumber) {
     return bench.state.label_cm;
   };
   EXPECT_EQ(label_after(selecting<Outwards>(), Phase::grow_tree, 11), 450);
-  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::grow_tree, 10), 5000) << "it would be ahead of where it was believed";
-  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::select_parent, 11), 5000) << "the labels of START TREE decide on the parents";
+  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::grow_tree, 10), 5000)
+      << "it would be ahead of where it was believed";
+  EXPECT_EQ(label_after(selecting<Outwards>(), Phase::select_parent, 11), 5000)
+      << "the labels of START TREE decide on the parents";
   EXPECT_EQ(label_after(selecting<OutwardsLiteral>(), Phase::grow_tree, 11), 5000);
 }
 
@@ -113,7 +113,7 @@ TEST(Outwards, TakesTheClosestCommittedCandidate) {
 
 TEST(Inwards, OnlyWorkersAndTheNamedJoinAndTheyTakeTheSmallestLabelWithinS) {
   BenchOf<Inwards> bench = selecting<Inwards>();
-  committed(bench, 5, {1.45F, 0}, 20);   // beyond S
+  committed(bench, 5, {1.45F, 0}, 20);  // beyond S
   committed(bench, 6, {1.3F, 0}, 60);
   committed(bench, 7, {0.2F, 0}, 180);
   bench.steps(3);
@@ -192,7 +192,7 @@ TEST(Orphan, StandsStillAndThenAttachesToWhoeverIsFresherAndNearestToTheTree) {
   bench.say(5).depth = invalid_depth;  // the chain broke above
   bench.say(5).seqno = 5;
   bench.say(5).tree_hops = unreachable;
-  bench.say(6).seqno = 4;              // stale: may be below me
+  bench.say(6).seqno = 4;  // stale: may be below me
   committed(bench, 7, {0.5F, 1.0F}, 700).seqno = 9;
   bench.steps(6);
   EXPECT_TRUE(is_orphan(bench.tick()));

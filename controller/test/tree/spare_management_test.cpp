@@ -13,8 +13,7 @@ namespace banyan {
 namespace {
 
 // A worker at the origin whose parent 5 is `range_m` away; its target is far.
-template <class Kind>
-class OwnerOf : public testing::Test {
+template <class Kind> class OwnerOf : public testing::Test {
  protected:
   void SetUp() override {
     bench.send({-5, 0});
@@ -151,8 +150,7 @@ TEST_F(Owner, PassesAChildsNeedUp) {
 }
 
 // A free spare at the origin; 7 owns a stretched edge to 5.
-template <class Kind>
-class SpareOf : public testing::Test {
+template <class Kind> class SpareOf : public testing::Test {
  protected:
   void SetUp() override {
     bench.params.drive = Drive::holonomic;

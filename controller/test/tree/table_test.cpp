@@ -63,8 +63,10 @@ RC_GTEST_PROP(TreeTable, ItsSetsAreThoseOfWhatNeighboursSaid, ()) {
     for (int k = 0; k < table.size(); ++k) least = std::min<int>(least, table.message(k).tree_hops);
     RC_ASSERT(table.least_hops == least);
     RC_ASSERT(visited(table.nearest) == those(table, [&](const TreeStanding& m) { return m.tree_hops == least; }));
-    RC_ASSERT(visited(table.below) == those(table, [](const TreeStanding& m) { return m.parent == 1 || m.old_parent == 1; }));
-    RC_ASSERT(visited(table.untied) == those(table, [](const TreeStanding& m) { return is_untied(m) || hold_of(m) == 1; }));
+    RC_ASSERT(visited(table.below) ==
+              those(table, [](const TreeStanding& m) { return m.parent == 1 || m.old_parent == 1; }));
+    RC_ASSERT(visited(table.untied) ==
+              those(table, [](const TreeStanding& m) { return is_untied(m) || hold_of(m) == 1; }));
     std::vector<int> deaf;
     for (int k = 0; k < table.size(); ++k)
       if (robot.is_deaf(k)) deaf.push_back(k);

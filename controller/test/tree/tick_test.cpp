@@ -46,14 +46,17 @@ Vec2 carried(const Path& path, Vec2 measured, float age_s, float elapsed_s) {
 }
 
 Path random_path() {
-  return {{static_cast<double>(number(-0.3F, 0.3F)), static_cast<double>(number(-0.3F, 0.3F))}, static_cast<double>(number(-4.0F, 4.0F)), static_cast<double>(number(0.1F, 0.6F))};
+  return {{static_cast<double>(number(-0.3F, 0.3F)), static_cast<double>(number(-0.3F, 0.3F))},
+          static_cast<double>(number(-4.0F, 4.0F)),
+          static_cast<double>(number(0.1F, 0.6F))};
 }
 
 RC_GTEST_PROP(HeardAge, APacketIsCarriedByTheOdometrySince, ()) {
   const Path path = random_path();
   const W sender{static_cast<double>(number(-2, 2)), static_cast<double>(number(-2, 2))};
   const double age_s = path.elapsed_s * static_cast<double>(number(0.0F, 1.0F));
-  const Vec2 now = carried(path, path.seen(sender, path.elapsed_s - age_s), static_cast<float>(age_s), static_cast<float>(path.elapsed_s));
+  const Vec2 now = carried(path, path.seen(sender, path.elapsed_s - age_s), static_cast<float>(age_s),
+                           static_cast<float>(path.elapsed_s));
   RC_ASSERT(distance(now, path.seen(sender, path.elapsed_s)) < 1e-4F);
 }
 
@@ -102,7 +105,9 @@ TEST(Table, LongerStepsAgeItFaster) {
   Bench bench;
   bench.put(2, {1.95F, 0});
   bench.step();
-  const auto silent_step = [&] { std::ignore = outwards_step(bench.params, bench.state, {{}, {.elapsed_s = 0.5F}, bench.params}); };
+  const auto silent_step = [&] {
+    std::ignore = outwards_step(bench.params, bench.state, {{}, {.elapsed_s = 0.5F}, bench.params});
+  };
   for (int k = 1; k <= 2; ++k) {
     silent_step();
     ASSERT_EQ(bench.state.neighbors.size(), 1);

@@ -92,16 +92,11 @@ void LoopFunctions::read_options(TConfigurationNode& node) {
   const std::string where = place_in_experiment(element) + ": <mission>";
   constexpr std::string_view known[] = {"scenario", "out", "robot", "controller", "obstacles", "force"};
   for (const Attribute& attribute : attributes_of_node(element)) {
-    if (attribute.name == "scenario")
-      options_.scenario = path_in_experiment(attribute.value);
-    else if (attribute.name == "out")
-      options_.out = path_in_experiment(attribute.value);
-    else if (attribute.name == "robot")
-      options_.robot = attribute.value;
-    else if (attribute.name == "controller")
-      options_.controller = attribute.value;
-    else if (attribute.name == "force")
-      options_.force = truth(attribute, where);
+    if (attribute.name == "scenario") options_.scenario = path_in_experiment(attribute.value);
+    else if (attribute.name == "out") options_.out = path_in_experiment(attribute.value);
+    else if (attribute.name == "robot") options_.robot = attribute.value;
+    else if (attribute.name == "controller") options_.controller = attribute.value;
+    else if (attribute.name == "force") options_.force = truth(attribute, where);
     else if (attribute.name == "obstacles") {
       constexpr std::string_view eyes[] = {"sensors", "world"};
       if (attribute.value != eyes[0] && attribute.value != eyes[1])
@@ -157,7 +152,7 @@ std::vector<std::string> LoopFunctions::assignments() const {
 void LoopFunctions::make_mission(const std::string& out) {
   try {
     mission_ = std::make_unique<MissionRun>(load_mission(options_.scenario, assignments(), algorithms()), out,
-                                         options_.force, placed_, *this);
+                                            options_.force, placed_, *this);
   } catch (const MissionError& error) { THROW_ARGOSEXCEPTION(error.what()); }
 }
 

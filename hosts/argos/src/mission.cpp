@@ -24,8 +24,7 @@ std::string event_fault(const world::Event& event) {
                       std::is_same_v<Action, world::MoveObstacle> || std::is_same_v<Action, world::AddObstacle> ||
                       std::is_same_v<Action, world::RemoveObstacle>)
           return std::string(Action::kind) + " cannot happen in ARGoS";
-        else
-          return {};
+        else return {};
       },
       event.action);
 }
@@ -105,8 +104,8 @@ config::Configuration load_mission(const std::string& file, const std::vector<st
   return std::move(loaded.configuration);
 }
 
-MissionRun::MissionRun(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed,
-                 Robots& robots)
+MissionRun::MissionRun(config::Configuration configuration, std::string out, bool force,
+                       const std::vector<Pose>& placed, Robots& robots)
     : configuration_(std::move(configuration)),
       out_(std::move(out)),
       robots_(robots),

@@ -15,8 +15,9 @@ namespace {
 
 // Attributes that are keys of scenarios, without their section.
 constexpr std::string_view scenario_paths[] = {
-    "mission.algorithm", "mission.reading",     "mission.scale",         "mission.target_tolerance_m", "mission.link_redundancy",
-    "radio.range_m",     "radio.line_of_sight", "robot.wheel_limit_m_s", "robot.wheel_distance_m"};
+    "mission.algorithm",          "mission.reading",         "mission.scale",
+    "mission.target_tolerance_m", "mission.link_redundancy", "radio.range_m",
+    "radio.line_of_sight",        "robot.wheel_limit_m_s",   "robot.wheel_distance_m"};
 constexpr std::string_view own_names[] = {"role", "target_m", "light_intensity_m"};
 constexpr std::string_view parts[] = {"spare", "worker", "root"};
 
@@ -121,7 +122,8 @@ class Reader {
       if (const auto value = number(attribute, key.range, key.unit)) world::set(key, scenario_, *value);
     } else if (key.access.type == world::Type::whole) {
       const auto value = number(attribute, key.range, key.unit);
-      if (value && *value != std::floor(*value)) return fail(attribute.name, "must be a whole number, not " + world::the_text(attribute.value));
+      if (value && *value != std::floor(*value))
+        return fail(attribute.name, "must be a whole number, not " + world::the_text(attribute.value));
       if (value) world::set(key, scenario_, static_cast<std::int64_t>(*value));
     } else if (key.access.type == world::Type::truth) {
       if (attribute.value != "true" && attribute.value != "false")

@@ -20,7 +20,8 @@ std::string fault_of(const std::vector<Attribute>& attributes) {
 world::Scenario paper_medium(const std::vector<std::string>& assignments) {
   std::vector<config::Override> overrides;
   for (const std::string& assignment : assignments) overrides.push_back({assignment, "test"});
-  auto loaded = config::load_configuration(std::string(BANYAN_SCENARIOS) + "/paper-medium.toml", algorithms(), overrides);
+  auto loaded =
+      config::load_configuration(std::string(BANYAN_SCENARIOS) + "/paper-medium.toml", algorithms(), overrides);
   EXPECT_TRUE(loaded.ok());
   return loaded.configuration.scenario;
 }
@@ -28,7 +29,8 @@ world::Scenario paper_medium(const std::vector<std::string>& assignments) {
 TEST(Settings, CarryAScenario) {
   for (const Algorithm* algorithm : algorithms()) {
     const std::string name(algorithm->name());
-    const world::Scenario scenario = paper_medium({"mission.algorithm=" + name, "radio.range_m=2.5", "robot.wheel_limit_m_s=0.15"});
+    const world::Scenario scenario =
+        paper_medium({"mission.algorithm=" + name, "radio.range_m=2.5", "robot.wheel_limit_m_s=0.15"});
     const Settings settings = read_settings(attributes_of(scenario), algorithms(), scenario.tick_s);
     EXPECT_EQ(settings.algorithm, algorithm);
     EXPECT_EQ(settings.algorithm->values(settings.setup), algorithm->values(world::setup_of(scenario))) << name;
@@ -60,7 +62,8 @@ TEST(Settings, RobotsMayBeToldHowTheyBegin) {
 TEST(Settings, CarryTwoPaths) {
   const world::Scenario scenario = paper_medium({"mission.algorithm=convoy", "mission.link_redundancy=2"});
   EXPECT_EQ(read_settings(attributes_of(scenario), algorithms(), scenario.tick_s).setup.link_redundancy, 2);
-  EXPECT_NE(fault_of({{"algorithm", "outwards"}, {"link_redundancy", "2"}}).find("outwards keeps one path"), std::string::npos);
+  EXPECT_NE(fault_of({{"algorithm", "outwards"}, {"link_redundancy", "2"}}).find("outwards keeps one path"),
+            std::string::npos);
   EXPECT_NE(fault_of({{"link_redundancy", "1.5"}}).find("must be a whole number"), std::string::npos);
   EXPECT_NE(fault_of({{"link_redundancy", "4"}}).find("link_redundancy"), std::string::npos);
 }

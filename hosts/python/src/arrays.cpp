@@ -9,16 +9,11 @@ namespace {
 
 py::dtype dtype_of(Item item) {
   switch (item) {
-    case Item::flag:
-      return py::dtype::of<bool>();
-    case Item::byte:
-      return py::dtype::of<std::uint8_t>();
-    case Item::small:
-      return py::dtype::of<std::int8_t>();
-    case Item::whole:
-      return py::dtype::of<std::int32_t>();
-    default:
-      return py::dtype::of<float>();
+    case Item::flag: return py::dtype::of<bool>();
+    case Item::byte: return py::dtype::of<std::uint8_t>();
+    case Item::small: return py::dtype::of<std::int8_t>();
+    case Item::whole: return py::dtype::of<std::int32_t>();
+    default: return py::dtype::of<float>();
   }
 }
 

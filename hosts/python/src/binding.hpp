@@ -70,10 +70,8 @@ class CtrlC {
  public:
   // Throws what Python raised, KeyboardInterrupt.
   void check() {
-    if (const auto now = Clock::now(); now < next_)
-      return;
-    else
-      next_ = now + std::chrono::milliseconds(50);
+    if (const auto now = Clock::now(); now < next_) return;
+    else next_ = now + std::chrono::milliseconds(50);
     const py::gil_scoped_acquire interpreter;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }

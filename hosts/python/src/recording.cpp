@@ -15,22 +15,14 @@ record::PictureOptions look_of(const py::kwargs& told) {
   look.width_px = 640.0;
   for (const auto& [name, value] : told) {
     const auto key = name.cast<std::string>();
-    if (key == "width")
-      look.width_px = value.cast<double>();
-    else if (key == "height")
-      look.height_px = value.cast<double>();
-    else if (key == "trail_s")
-      look.trail_s = value.cast<double>();
-    else if (key == "links")
-      look.links = value.cast<bool>();
-    else if (key == "blocked")
-      look.blocked_links = value.cast<bool>();
-    else if (key == "ids")
-      look.ids = value.cast<bool>();
-    else if (key == "legend")
-      look.legend = value.cast<bool>();
-    else if (key == "dark")
-      look.dark = value.cast<bool>();
+    if (key == "width") look.width_px = value.cast<double>();
+    else if (key == "height") look.height_px = value.cast<double>();
+    else if (key == "trail_s") look.trail_s = value.cast<double>();
+    else if (key == "links") look.links = value.cast<bool>();
+    else if (key == "blocked") look.blocked_links = value.cast<bool>();
+    else if (key == "ids") look.ids = value.cast<bool>();
+    else if (key == "legend") look.legend = value.cast<bool>();
+    else if (key == "dark") look.dark = value.cast<bool>();
     else
       throw py::type_error("a picture has no option \"" + key +
                            "\"; it has width, height, trail_s, links, blocked, ids, legend, dark");

@@ -80,10 +80,8 @@ PyScenario made_of(config::Loaded loaded, std::shared_ptr<const Algorithms> algo
   PyScenario made{std::move(loaded.configuration), std::move(algorithms), {}};
   std::string faults;
   for (const config::Problem& problem : loaded.problems) {
-    if (problem.warning)
-      made.warnings.push_back(to_string(problem));
-    else
-      faults += (faults.empty() ? "" : "\n") + to_string(problem);
+    if (problem.warning) made.warnings.push_back(to_string(problem));
+    else faults += (faults.empty() ? "" : "\n") + to_string(problem);
   }
   if (!faults.empty()) throw ScenarioFault(faults);
   return made;
@@ -162,10 +160,8 @@ std::vector<config::Override> overrides_of(const std::vector<std::pair<std::stri
   std::vector<config::Override> overrides;
   overrides.reserve(changes.size());
   for (const auto& [key, value] : changes) {
-    if (key.empty())
-      overrides.push_back({"", "with " + value, value});
-    else
-      overrides.push_back({key + "=" + value, key + " = " + value});
+    if (key.empty()) overrides.push_back({"", "with " + value, value});
+    else overrides.push_back({key + "=" + value, key + " = " + value});
   }
   return overrides;
 }

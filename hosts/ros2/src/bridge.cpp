@@ -53,7 +53,8 @@ class Bridge {
         std::to_string(options_.domain));
     while (caught_by_bridge == 0) {
       clock_.wait(descriptors(), next_look_s_);
-      node_.listen([&](Source source, std::size_t place, const StampedPose& sighting) { take(source, place, sighting); });
+      node_.listen(
+          [&](Source source, std::size_t place, const StampedPose& sighting) { take(source, place, sighting); });
       hand_on();
       if (bases_)
         bases_->listen(clock_.now_s(),

@@ -222,10 +222,8 @@ struct RosNode::Parts {
     const dds_entity_t writer =
         sound(dds_create_writer(participant, topic("ros_discovery_info", descriptor), qos.get(), nullptr),
               "ros_discovery_info");
-    if (options.humble)
-      introduce<OfHumble>(writer, participant, options.node, readers, writers);
-    else
-      introduce<OfNow>(writer, participant, options.node, readers, writers);
+    if (options.humble) introduce<OfHumble>(writer, participant, options.node, readers, writers);
+    else introduce<OfNow>(writer, participant, options.node, readers, writers);
   }
 
   void call() const noexcept {

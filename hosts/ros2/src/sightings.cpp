@@ -16,22 +16,14 @@ double norm_of(const Quaternion& q) noexcept { return std::sqrt(q.x * q.x + q.y 
 
 const char* name_of(Refusal refusal) noexcept {
   switch (refusal) {
-    case Refusal::not_finite:
-      return "not finite";
-    case Refusal::no_rotation:
-      return "of a quaternion that is no rotation";
-    case Refusal::tilted:
-      return "tilted by more than 45 degrees";
-    case Refusal::far_away:
-      return "farther than 100 km from the origin";
-    case Refusal::other_frame:
-      return "of another frame";
-    case Refusal::too_old:
-      return "too old";
-    case Refusal::early:
-      return "from the future";
-    case Refusal::overtaken:
-      return "not newer than the last";
+    case Refusal::not_finite: return "not finite";
+    case Refusal::no_rotation: return "of a quaternion that is no rotation";
+    case Refusal::tilted: return "tilted by more than 45 degrees";
+    case Refusal::far_away: return "farther than 100 km from the origin";
+    case Refusal::other_frame: return "of another frame";
+    case Refusal::too_old: return "too old";
+    case Refusal::early: return "from the future";
+    case Refusal::overtaken: return "not newer than the last";
   }
   return "";
 }

@@ -198,10 +198,8 @@ class Body {
   }
 
   void move(double seconds) {
-    if (choice_.stamped)
-      take_all<TwistStamped>(commands_, [&](const auto& message) { command_ = message.values; });
-    else
-      take_all<Twist>(commands_, [&](const auto& message) { command_ = message.values; });
+    if (choice_.stamped) take_all<TwistStamped>(commands_, [&](const auto& message) { command_ = message.values; });
+    else take_all<Twist>(commands_, [&](const auto& message) { command_ = message.values; });
     const double c = std::cos(at_.turn), s = std::sin(at_.turn);
     at_.x += (c * command_[0] - s * command_[1]) * seconds;
     at_.y += (s * command_[0] + c * command_[1]) * seconds;
@@ -234,24 +232,12 @@ class Body {
     PoseStamped message{header("map"), in_space(wrong)};
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     switch (kind) {
-      case 0:
-        message.pose.values[5] = nan;
-        break;
-      case 1:
-        message.header.frame_id = "camera";
-        break;
-      case 2:
-        message.header = header("map", 2.0);
-        break;
-      case 3:
-        message.pose.values = {wrong.x, wrong.y, 0.0, 0.0, 0.0, 0.0, 0.0};
-        break;
-      case 4:
-        message.pose.values = {wrong.x, wrong.y, 0.0, 0.7071068, 0.0, 0.0, 0.7071068};
-        break;
-      default:
-        message.pose.values[0] = std::numeric_limits<double>::infinity();
-        break;
+      case 0: message.pose.values[5] = nan; break;
+      case 1: message.header.frame_id = "camera"; break;
+      case 2: message.header = header("map", 2.0); break;
+      case 3: message.pose.values = {wrong.x, wrong.y, 0.0, 0.0, 0.0, 0.0, 0.0}; break;
+      case 4: message.pose.values = {wrong.x, wrong.y, 0.0, 0.7071068, 0.0, 0.0, 0.7071068}; break;
+      default: message.pose.values[0] = std::numeric_limits<double>::infinity(); break;
     }
     say(message);
   }
@@ -309,10 +295,8 @@ int play(const Choice& choice) {
     });
   }
   for (const std::string& line : discovery.lines()) std::printf("%s\n", line.c_str());
-  if (choice.humble)
-    print_nodes<24>(nodes, discovery);
-  else
-    print_nodes<16>(nodes, discovery);
+  if (choice.humble) print_nodes<24>(nodes, discovery);
+  else print_nodes<16>(nodes, discovery);
   for (const auto& [child, t] : frames)
     std::printf("tf %s %s %.3f %.3f %.3f\n", t.header.frame_id.c_str(), child.c_str(), t.values[0], t.values[1],
                 2.0 * std::atan2(t.values[5], t.values[6]));

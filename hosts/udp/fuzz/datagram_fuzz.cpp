@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes at all as what arrives on a socket: nothing is read beyond them, and what is accepted can be written and read
-// again. The first byte says as what they are read: payloads of datagrams, whole datagrams, lines of a tracker.
+// Any bytes at all as what arrives on a socket: nothing is read beyond them, and what is accepted can be written and
+// read again. The first byte says as what they are read: payloads of datagrams, whole datagrams, lines of a tracker.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -27,7 +27,9 @@ void Chart::take(std::size_t robot, const Account& account) {
   robots_[robot].age = 0;
 }
 
-bool Chart::is_fresh(std::size_t robot) const noexcept { return robots_[robot].account && robots_[robot].age <= fresh_ticks; }
+bool Chart::is_fresh(std::size_t robot) const noexcept {
+  return robots_[robot].account && robots_[robot].age <= fresh_ticks;
+}
 
 const Sighting* Chart::sighting(std::size_t from, std::size_t of) const noexcept {
   if (!is_fresh(from)) return nullptr;
@@ -54,7 +56,9 @@ void Chart::reckon(std::size_t i) {
   if (!poses_[i] || !robot.account) return;
   const OdometricPose& now = robot.account->odometry;
   const Point shift = turned(wide(robot.placed.inside(now.position)), poses_[i]->heading_rad);
-  poses_[i] = {poses_[i]->position + shift, std::remainder(poses_[i]->heading_rad + static_cast<double>(now.turn_rad - robot.placed.turn_rad), 2.0 * M_PI)};
+  poses_[i] = {
+      poses_[i]->position + shift,
+      std::remainder(poses_[i]->heading_rad + static_cast<double>(now.turn_rad - robot.placed.turn_rad), 2.0 * M_PI)};
   robot.placed = now;
 }
 

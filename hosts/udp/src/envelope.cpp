@@ -19,7 +19,8 @@ using Mac = std::array<std::uint8_t, mac_bytes>;
 Mac mac_of(ByteView bytes, const Key& key) noexcept {
   Mac mac{};
   // Fails for impossible sizes only, and those are checked above.
-  static_cast<void>(::crypto_generichash(mac.data(), mac.size(), bytes.data(), bytes.size(), key.secret.data(), key.secret.size()));
+  static_cast<void>(
+      ::crypto_generichash(mac.data(), mac.size(), bytes.data(), bytes.size(), key.secret.data(), key.secret.size()));
   return mac;
 }
 

@@ -15,7 +15,7 @@
 namespace banyan::udp {
 namespace {
 
-constexpr double turn_s = 0.02;         // of the wall
+constexpr double turn_s = 0.02;  // of the wall
 constexpr int most_hub_failures = 10;
 constexpr auto patience = std::chrono::seconds(2);  // from the wish that a process ends to force
 
@@ -44,7 +44,8 @@ Fleet::Fleet(Plan plan) : plan_(std::move(plan)), robots_(plan_.robots.size()) {
   const std::string here = plan_.namespaces ? bridge_address : "127.0.0.1";
   hub_address_ = with_free_port(here);
   if (plan_.way.any() && !plan_.netem)
-    relay_ = std::make_unique<Relay>(parse_address(here + ":0"), hub_address_, per_hop(plan_.way), plan_.seed, plan_.speed);
+    relay_ =
+        std::make_unique<Relay>(parse_address(here + ":0"), hub_address_, per_hop(plan_.way), plan_.seed, plan_.speed);
   try {
     start_hub(false);
     for (std::size_t i = 0; i < robots_.size(); ++i) start_robot(i);
@@ -77,7 +78,8 @@ void Fleet::start_robot(std::size_t i) {
 }
 
 void Fleet::ended(pid_t pid, int status) {
-  const auto again_at = Wall::now() + std::chrono::duration_cast<Wall::duration>(std::chrono::duration<double>(plan_.restart_after_s));
+  const auto again_at =
+      Wall::now() + std::chrono::duration_cast<Wall::duration>(std::chrono::duration<double>(plan_.restart_after_s));
   if (pid == hub_) {
     hub_ = 0;
     const bool killed = WIFSIGNALED(status);

@@ -175,7 +175,9 @@ void Hub::add_sight(TapeTick& entries) const {
   const std::string lines = tracker_->lines();
   for (std::size_t begin = 0; begin < lines.size();) {
     const std::size_t end = lines.size() - begin <= most ? lines.size() : lines.rfind('\n', begin + most) + 1;
-    entries.push_back({TapeEntry::tracker, {lines.begin() + static_cast<std::ptrdiff_t>(begin), lines.begin() + static_cast<std::ptrdiff_t>(end)}});
+    entries.push_back(
+        {TapeEntry::tracker,
+         {lines.begin() + static_cast<std::ptrdiff_t>(begin), lines.begin() + static_cast<std::ptrdiff_t>(end)}});
     begin = end;
   }
 }

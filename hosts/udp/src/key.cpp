@@ -26,7 +26,8 @@ std::optional<Key> parse_key(const std::string& line) {
   if (error != std::errc{} || end != number.data() + number.size()) return std::nullopt;
   std::size_t length = 0;
   const char* rest = nullptr;
-  const int status = ::sodium_hex2bin(key.secret.data(), key.secret.size(), digits.data(), digits.size(), nullptr, &length, &rest);
+  const int status =
+      ::sodium_hex2bin(key.secret.data(), key.secret.size(), digits.data(), digits.size(), nullptr, &length, &rest);
   if (status != 0 || length != key.secret.size() || rest != digits.data() + digits.size()) return std::nullopt;
   return key;
 }
@@ -86,9 +87,7 @@ std::string KeyFile::refresh(bool anyway) {
   try {
     keys_ = read_keys(path_);
     return "";
-  } catch (const KeyError& error) {
-    return std::string(error.what()) + "; the keys stay as they were";
-  }
+  } catch (const KeyError& error) { return std::string(error.what()) + "; the keys stay as they were"; }
 }
 
 std::string new_key_text() {

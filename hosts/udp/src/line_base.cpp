@@ -81,7 +81,8 @@ std::string in_decimals(float value) {
 int connect_to(const std::string& name) {
   const Address address = parse_address(name);
   const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0 || ::connect(descriptor, reinterpret_cast<const sockaddr*>(&address.raw), sizeof address.raw) != 0) {
+  if (descriptor < 0 ||
+      ::connect(descriptor, reinterpret_cast<const sockaddr*>(&address.raw), sizeof address.raw) != 0) {
     const int error = errno;
     if (descriptor >= 0) ::close(descriptor);
     throw BaseError("tcp:" + name + ": " + std::strerror(error));
@@ -136,7 +137,8 @@ std::optional<Velocity> parse_drive_line(std::string_view line) {
 }
 
 std::string base_pose_line(const OdometricPose& pose) {
-  return "pose " + in_decimals(pose.position.x) + " " + in_decimals(pose.position.y) + " " + in_decimals(pose.turn_rad) + "\n";
+  return "pose " + in_decimals(pose.position.x) + " " + in_decimals(pose.position.y) + " " +
+         in_decimals(pose.turn_rad) + "\n";
 }
 
 LineBase::~LineBase() { ::close(descriptor_); }
@@ -202,9 +204,7 @@ std::optional<double> LineBase::last_pose_s() const {
 std::unique_ptr<Driver> open_line_base(const std::string& name) {
   try {
     return std::make_unique<LineBase>(name.starts_with("tcp:") ? connect_to(name.substr(4)) : open_serial(name));
-  } catch (const SocketError& error) {
-    throw BaseError(error.what());
-  }
+  } catch (const SocketError& error) { throw BaseError(error.what()); }
 }
 
 }  // namespace banyan::udp

@@ -66,7 +66,8 @@ std::vector<std::size_t> Listener::wait_for(std::uint32_t tick, const Stopped& s
   if (!begin_s_) begin_s_ = clock_.now_s() - tick * options_.tick_s;
   const double due_s = *begin_s_ + tick * options_.tick_s;
   wait_until(due_s, stopped);
-  if (const double late_s = clock_.now_s() - due_s; late_s > options_.tick_s) *begin_s_ += late_s;  // it was held up itself
+  if (const double late_s = clock_.now_s() - due_s; late_s > options_.tick_s)
+    *begin_s_ += late_s;  // it was held up itself
   chart_.update();
   std::vector<std::size_t> dead;
   for (std::size_t i = 0; i < robots_.size(); ++i) {

@@ -55,7 +55,8 @@ void put(DatagramWriter& out, const Report& r) {
   out.put(r.label_cm);
   out.put(r.want_m);
   const Tally& t = r.tally;
-  for (const std::uint32_t n : {t.insertions, t.handovers, t.repairs, t.elections, t.replacements, t.rejected}) out.put(n);
+  for (const std::uint32_t n : {t.insertions, t.handovers, t.repairs, t.elections, t.replacements, t.rejected})
+    out.put(n);
 }
 
 template <class E> bool take_choice(DatagramReader& in, E& choice, E last) noexcept {
@@ -243,7 +244,8 @@ std::optional<Account> decode_account(ByteView bytes) {
   if (!in.ok() || !is_sound(account.odometry)) return std::nullopt;
   const auto finite = [](Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   const auto status = decode_status(in.take(in.left()));
-  if (!status || !finite(target) || !std::all_of(account.seen.begin(), account.seen.end(), [&](const Sighting& s) { return finite(s.position); }))
+  if (!status || !finite(target) ||
+      !std::all_of(account.seen.begin(), account.seen.end(), [&](const Sighting& s) { return finite(s.position); }))
     return std::nullopt;
   account.status = *status;
   return account;

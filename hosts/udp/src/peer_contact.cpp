@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Situated communication without anybody's help: the radio brings a message, the base's sensor says where its sender is.
-// A message counts only with a measurement that is young enough, and within C, as in the world.
+// Situated communication without anybody's help: the radio brings a message, the base's sensor says where its sender
+// is. A message counts only with a measurement that is young enough, and within C, as in the world.
 #include <cmath>
 #include <set>
 
@@ -35,7 +35,8 @@ class PeerContact final : public Contact {
     const auto target = ends_.driver.target();
     now_s_ = now_s;
     SensorFrame frame;
-    frame.tick = static_cast<std::uint32_t>(std::lround(now_s / static_cast<double>(ends_.options.setup.platform.tick_s))) + 1;
+    frame.tick =
+        static_cast<std::uint32_t>(std::lround(now_s / static_cast<double>(ends_.options.setup.platform.tick_s))) + 1;
     frame.root = ends_.options.root;
     frame.worker = ends_.options.worker;
     frame.sent = frame.has_target = frame.worker && target;
@@ -70,7 +71,8 @@ class PeerContact final : public Contact {
   [[nodiscard]] Account account_of(const Status& status) const {
     Account account{status, ends_.driver.pose_at(now_s_).value_or(OdometricPose{}), std::nullopt, {}};
     const auto here = [&](const Measured& measured) {
-      return account.odometry.inside(ends_.driver.pose_at(measured.s).value_or(account.odometry).outside(measured.position));
+      return account.odometry.inside(
+          ends_.driver.pose_at(measured.s).value_or(account.odometry).outside(measured.position));
     };
     if (const auto target = ends_.driver.target(); target && ends_.options.worker) account.target = here(*target);
     for (const Node other : others_)
@@ -81,8 +83,8 @@ class PeerContact final : public Contact {
 
   ContactEnds ends_;
   std::optional<Address> listener_;
-  std::set<Node> others_;      // that have been heard
-  double now_s_ = 0.0;         // of the last step
+  std::set<Node> others_;  // that have been heard
+  double now_s_ = 0.0;     // of the last step
   std::vector<Address> addresses_;
   Peers peers_;
   std::uint32_t heard_ = 0;  // messages, so that the newest of each sender is known

@@ -66,7 +66,9 @@ Peers::Taken Peers::take(const Envelope& envelope, double now_s, const KeyRing& 
   return taken;
 }
 
-Bytes Stopper::call(const KeyRing& keys) { return seal({Kind::hello, hub_node, everybody, boot_, 0, ++counter_, {}}, keys.signing()); }
+Bytes Stopper::call(const KeyRing& keys) {
+  return seal({Kind::hello, hub_node, everybody, boot_, 0, ++counter_, {}}, keys.signing());
+}
 
 Bytes Stopper::take(const Envelope& envelope, const KeyRing& keys) {
   if (envelope.receiver != hub_node || envelope.echo != boot_) return {};

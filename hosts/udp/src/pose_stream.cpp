@@ -32,8 +32,8 @@ bool is_sound(const TrackedPose& pose) noexcept {  // false for NaN, too
 }
 
 std::string pose_line(const PoseLine& line) {
-  return std::to_string(line.robot) + " " + in_words(line.pose.position.x) + " " + in_words(line.pose.position.y) + " " +
-         in_words(line.pose.heading_rad) + "\n";
+  return std::to_string(line.robot) + " " + in_words(line.pose.position.x) + " " + in_words(line.pose.position.y) +
+         " " + in_words(line.pose.heading_rad) + "\n";
 }
 
 std::optional<std::vector<PoseLine>> parse_poses(std::string_view datagram) {
@@ -41,7 +41,8 @@ std::optional<std::vector<PoseLine>> parse_poses(std::string_view datagram) {
   while (!datagram.empty()) {
     PoseLine line;
     const bool read = take_number(datagram, line.robot, ' ') && take_number(datagram, line.pose.position.x, ' ') &&
-                      take_number(datagram, line.pose.position.y, ' ') && take_number(datagram, line.pose.heading_rad, '\n');
+                      take_number(datagram, line.pose.position.y, ' ') &&
+                      take_number(datagram, line.pose.heading_rad, '\n');
     if (!read || !is_sound(line.pose)) return std::nullopt;
     lines.push_back(line);
   }

@@ -7,7 +7,13 @@
 namespace banyan::udp {
 
 Relay::Relay(const Address& listen, const Address& hub, const Impairment& hop, std::uint64_t seed, double speed)
-    : front_(listen), hub_(hub), hop_(hop), clock_(speed), speed_(speed), random_(seed), descriptors_{front_.descriptor()} {}
+    : front_(listen),
+      hub_(hub),
+      hop_(hop),
+      clock_(speed),
+      speed_(speed),
+      random_(seed),
+      descriptors_{front_.descriptor()} {}
 
 // SplitMix64.
 double Relay::draw() noexcept {
@@ -40,7 +46,8 @@ void Relay::impair(std::size_t side, bool to_hub, ByteView datagram) {
     const bool overtakes = draw() < hop_.reorder;
     const double delay_s = std::max(0.0, hop_.delay_s + hop_.jitter_s * (2.0 * draw() - 1.0));
     ++sides_[side].under_way[to_hub ? 1 : 0];
-    flights_.push({overtakes ? sent_s : sent_s + delay_s, taken_, side, to_hub, Bytes(datagram.begin(), datagram.end())});
+    flights_.push(
+        {overtakes ? sent_s : sent_s + delay_s, taken_, side, to_hub, Bytes(datagram.begin(), datagram.end())});
   }
 }
 

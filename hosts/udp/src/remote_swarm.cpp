@@ -6,7 +6,8 @@
 
 namespace banyan::udp {
 
-RemoteSwarm::RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, Link& link, std::uint32_t silence)
+RemoteSwarm::RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, Link& link,
+                         std::uint32_t silence)
     : local_(std::move(local)),
       history_(std::max<std::size_t>(1, setup.history)),
       silence_(silence),
@@ -83,7 +84,8 @@ SensorFrame RemoteSwarm::frame_of(Robot& robot, const Senses& senses) const {
   return frame;
 }
 
-void RemoteSwarm::step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) {
+void RemoteSwarm::step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
+                       std::span<Report> reports) {
   collect();
   for (std::size_t k = 0; k < sensed.size(); ++k) {
     Robot& robot = robots_[first + k];

@@ -6,13 +6,13 @@
 #include <array>
 #include <atomic>
 
-#include "banyan/hosts/udp/line_base.hpp"
 #include "banyan/hosts/udp/contact.hpp"
+#include "banyan/hosts/udp/line_base.hpp"
 
 namespace banyan::udp {
 namespace {
 
-std::atomic<int> caught{0};     // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): all that a handler can reach
+std::atomic<int> caught{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): all that a handler can reach
 std::atomic<bool> reread{false};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 void catch_signals() {
@@ -46,7 +46,8 @@ class Process {
       : options_(options),
         keys_(options.key_file),
         socket_(options.listen.empty() ? Address{} : parse_address(options.listen)),
-        driver_(options.base.empty() ? std::unique_ptr<Driver>(std::make_unique<SimulatedWheels>()) : open_line_base(options.base)),
+        driver_(options.base.empty() ? std::unique_ptr<Driver>(std::make_unique<SimulatedWheels>())
+                                     : open_line_base(options.base)),
         robot_(algorithm, options.setup, options.id, options.stop_after_s, static_cast<float>(options.radius_m)),
         contact_(make_contact({options_, socket_, *driver_, robot_, keys_.keys()})),
         clock_(options.speed),
@@ -57,7 +58,8 @@ class Process {
 
   int run() {
     const std::array<int, 2> descriptors{socket_.descriptor(), driver_->descriptor()};
-    while (caught == 0 && !driver_->lost() && (stopped_s_ < 0.0 || clock_.now_s() < stopped_s_ + linger_s * options_.speed)) {
+    while (caught == 0 && !driver_->lost() &&
+           (stopped_s_ < 0.0 || clock_.now_s() < stopped_s_ + linger_s * options_.speed)) {
       clock_.wait(descriptors, next_step_s_);
       if (reread.exchange(false)) refresh_keys(true);
       driver_->listen(clock_.now_s());
@@ -68,7 +70,9 @@ class Process {
   }
 
  private:
-  static std::unique_ptr<Contact> make_contact(const ContactEnds& ends) { return ends.options.peers.empty() ? contact_with_hub(ends) : contact_with_peers(ends); }
+  static std::unique_ptr<Contact> make_contact(const ContactEnds& ends) {
+    return ends.options.peers.empty() ? contact_with_hub(ends) : contact_with_peers(ends);
+  }
 
   void refresh_keys(bool anyway = false) {
     if (const std::string fault = keys_.refresh(anyway); !fault.empty())

@@ -32,14 +32,16 @@ timespec duration(double seconds) noexcept {
 
 Address parse_address(const std::string& text) {
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) throw SocketError("\"" + text + "\" is no address: one such as 192.168.1.10:4600 is");
+  if (colon == std::string::npos || colon == 0)
+    throw SocketError("\"" + text + "\" is no address: one such as 192.168.1.10:4600 is");
   const char* const end = text.data() + text.size();
   std::uint16_t port = 0;
   const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, port);
   Address address;
   address.raw.sin_family = AF_INET;
   address.raw.sin_port = htons(port);
-  if (error != std::errc{} || rest != end || ::inet_pton(AF_INET, text.substr(0, colon).c_str(), &address.raw.sin_addr) != 1)
+  if (error != std::errc{} || rest != end ||
+      ::inet_pton(AF_INET, text.substr(0, colon).c_str(), &address.raw.sin_addr) != 1)
     throw SocketError("\"" + text + "\" is no address: one such as 192.168.1.10:4600 is");
   return address;
 }
@@ -84,13 +86,15 @@ Socket::~Socket() {
 }
 
 void Socket::send(ByteView datagram, const Address& to) const noexcept {
-  static_cast<void>(::sendto(descriptor_, datagram.data(), datagram.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&to.raw), sizeof to.raw));
+  static_cast<void>(::sendto(descriptor_, datagram.data(), datagram.size(), MSG_NOSIGNAL,
+                             reinterpret_cast<const sockaddr*>(&to.raw), sizeof to.raw));
 }
 
 std::optional<ByteView> Socket::receive(std::span<std::uint8_t> room, Address& from) const noexcept {
   for (;;) {
     socklen_t length = sizeof from.raw;
-    const ssize_t size = ::recvfrom(descriptor_, room.data(), room.size(), 0, reinterpret_cast<sockaddr*>(&from.raw), &length);
+    const ssize_t size =
+        ::recvfrom(descriptor_, room.data(), room.size(), 0, reinterpret_cast<sockaddr*>(&from.raw), &length);
     if (size >= 0) return room.first(static_cast<std::size_t>(size));
     // What is left of an earlier send to somebody who was not there.
     if (errno != ECONNREFUSED && errno != EINTR) return std::nullopt;

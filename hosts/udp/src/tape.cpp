@@ -25,7 +25,10 @@ Bytes bytes_of(const std::string& path) {
 }  // namespace
 
 Tape::Tape(const std::string& path, std::uint64_t configuration, std::uint32_t mission, const std::string& start)
-    : path_(path), file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)), mission_(mission), start_(start) {
+    : path_(path),
+      file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)),
+      mission_(mission),
+      start_(start) {
   if (file_ < 0) throw TapeError(path + ": " + std::strerror(errno));
   Bytes begin(mark.begin(), mark.end());
   DatagramWriter out(begin);
@@ -55,7 +58,8 @@ std::size_t Tape::read(const std::string& path, std::uint64_t configuration) {
   const Bytes all = bytes_of(path);
   DatagramReader in(all);
   const ByteView begin = in.take(mark.size());
-  if (!std::equal(begin.begin(), begin.end(), mark.begin(), mark.end())) throw TapeError(path + ": is no tape of a hub");
+  if (!std::equal(begin.begin(), begin.end(), mark.begin(), mark.end()))
+    throw TapeError(path + ": is no tape of a hub");
   if (in.take<std::uint64_t>() != configuration) throw TapeError(path + ": is the tape of another configuration");
   mission_ = in.take<std::uint32_t>();
   const ByteView start = in.take(in.take<std::uint32_t>());

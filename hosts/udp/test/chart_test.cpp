@@ -29,7 +29,8 @@ Account told(const Truth& truth, const Truth& start, std::size_t i, double reach
   const Vec2 moved = in_body(start, i, truth.at[i]);
   account.odometry = {moved, static_cast<float>(std::remainder(truth.heading[i] - start.heading[i], 2.0 * M_PI))};
   for (std::size_t j = 0; j < truth.at.size(); ++j)
-    if (j != i && norm(truth.at[j] - truth.at[i]) < reach) account.seen.push_back({static_cast<RobotId>(j), in_body(truth, i, truth.at[j])});
+    if (j != i && norm(truth.at[j] - truth.at[i]) < reach)
+      account.seen.push_back({static_cast<RobotId>(j), in_body(truth, i, truth.at[j])});
   return account;
 }
 
@@ -57,8 +58,11 @@ void expect_charted(const Chart& chart, const Truth& truth, double within = 1e-4
   for (std::size_t i = 0; i < truth.at.size(); ++i) {
     ASSERT_TRUE(poses[i]) << i;
     for (std::size_t j = 0; j < i; ++j) {
-      EXPECT_NEAR(norm(poses[i]->position - poses[j]->position), norm(truth.at[i] - truth.at[j]), within) << i << " " << j;
-      EXPECT_NEAR(std::remainder(poses[i]->heading_rad - poses[j]->heading_rad - truth.heading[i] + truth.heading[j], 2.0 * M_PI), 0.0, within);
+      EXPECT_NEAR(norm(poses[i]->position - poses[j]->position), norm(truth.at[i] - truth.at[j]), within)
+          << i << " " << j;
+      EXPECT_NEAR(std::remainder(poses[i]->heading_rad - poses[j]->heading_rad - truth.heading[i] + truth.heading[j],
+                                 2.0 * M_PI),
+                  0.0, within);
     }
   }
 }
@@ -73,7 +77,8 @@ TEST(Chart, PlacesAllAlongPairsThatMeasureEachOther) {
     expect_charted(chart, truth);
     drive(truth, 0.02);
   }
-  EXPECT_NEAR(chart.poses()[0]->position.x, static_cast<double>(told(truth, start, 0, 1.5).odometry.position.x), 0.03);  // the anchor's frame
+  EXPECT_NEAR(chart.poses()[0]->position.x, static_cast<double>(told(truth, start, 0, 1.5).odometry.position.x),
+              0.03);  // the anchor's frame
 }
 
 TEST(Chart, KnowsNothingOfWhoIsMeasuredByNobodyOrFromOneSideOnly) {
@@ -98,7 +103,8 @@ TEST(Chart, GoesOnByOdometryWhereTheChainIsBrokenAndWithoutItsAnchor) {
   for (int tick = 0; tick < 60; ++tick) {
     for (std::size_t i = tick < 30 ? 0 : 1; i < 5; ++i) {  // robot 0, the anchor, falls silent
       Account account = told(truth, start, i, 1.5);
-      if (tick > 10) std::erase_if(account.seen, [&](const Sighting& s) { return (i == 4) != (s.robot == 4); });  // 4 is alone
+      if (tick > 10)
+        std::erase_if(account.seen, [&](const Sighting& s) { return (i == 4) != (s.robot == 4); });  // 4 is alone
       chart.take(i, account);
     }
     chart.update();
@@ -106,7 +112,8 @@ TEST(Chart, GoesOnByOdometryWhereTheChainIsBrokenAndWithoutItsAnchor) {
     const auto poses = chart.poses();
     for (std::size_t i = 1; i < 5; ++i)
       for (std::size_t j = 1; j < i; ++j)
-        EXPECT_NEAR(norm(poses[i]->position - poses[j]->position), norm(truth.at[i] - truth.at[j]), 1e-3) << i << " " << j;
+        EXPECT_NEAR(norm(poses[i]->position - poses[j]->position), norm(truth.at[i] - truth.at[j]), 1e-3)
+            << i << " " << j;
     drive(truth, 0.02);
   }
 }

@@ -42,7 +42,8 @@ struct Pair {
 
 TEST(Envelope, CarriesEverything) {
   const KeyRing keys = ring({9});
-  const Bytes datagram = seal({Kind::heard, 0x1234, 0x5678, 0x1122334455667788, 0x99AABBCCDDEEFF00, 0xCAFEBABE, payload}, keys.signing());
+  const Bytes datagram =
+      seal({Kind::heard, 0x1234, 0x5678, 0x1122334455667788, 0x99AABBCCDDEEFF00, 0xCAFEBABE, payload}, keys.signing());
   EXPECT_EQ(datagram.size(), header_bytes + payload.size() + mac_bytes);
   // As the header's table says, so that others can write it, too.
   const Bytes begin(datagram.begin(), datagram.begin() + 12);
@@ -69,7 +70,9 @@ TEST(Envelope, EveryChangedBitAndEveryCutIsNoticed) {
     EXPECT_TRUE(reason == Drop::forged || (reason == Drop::foreign && bit < 32)) << bit;
   }
   for (std::size_t size = 0; size < datagram.size(); ++size)
-    EXPECT_TRUE(dropped(pair.hub, Bytes(datagram.begin(), datagram.begin() + static_cast<std::ptrdiff_t>(size)), pair.keys)) << size;
+    EXPECT_TRUE(
+        dropped(pair.hub, Bytes(datagram.begin(), datagram.begin() + static_cast<std::ptrdiff_t>(size)), pair.keys))
+        << size;
   Bytes longer = datagram;
   longer.push_back(0);
   EXPECT_EQ(dropped(pair.hub, longer, pair.keys), Drop::forged);
@@ -86,7 +89,12 @@ TEST(Envelope, AnotherFleetIsForeign) {
 TEST(Envelope, KeysChangeWithoutAPause) {
   Pair pair;
   const KeyRing begun = ring({1, 2}), changed = ring({2, 1}), done = ring({2});
-  for (const auto& [robot, hub] : {std::pair{begun, ring({1})}, {begun, begun}, {changed, begun}, {changed, changed}, {done, changed}, {done, done}}) {
+  for (const auto& [robot, hub] : {std::pair{begun, ring({1})},
+                                   {begun, begun},
+                                   {changed, begun},
+                                   {changed, changed},
+                                   {done, changed},
+                                   {done, done}}) {
     EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, robot), hub), std::nullopt);
     EXPECT_EQ(dropped(pair.robot, pair.hub.seal(Kind::frame, payload, hub), robot), std::nullopt);
   }

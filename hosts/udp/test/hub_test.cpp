@@ -42,7 +42,8 @@ struct FakeRobot {
       EXPECT_LE(datagram->size(), largest_datagram);
       Drop reason{};
       const auto envelope = authenticate(*datagram, keys, reason);
-      if (envelope && !channel.admit(*envelope)) heard.emplace_back(envelope->kind, Bytes(envelope->payload.begin(), envelope->payload.end()));
+      if (envelope && !channel.admit(*envelope))
+        heard.emplace_back(envelope->kind, Bytes(envelope->payload.begin(), envelope->payload.end()));
     }
     return heard;
   }
@@ -54,8 +55,12 @@ struct FakeRobot {
 
 class HubAndRobots : public ::testing::Test {
  protected:
-  static HubSettings options() { return {.listen = anywhere, .tick_s = 0.1, .speed = 20.0, .dead_after_s = 1.0, .bundle = 1}; }
-  [[nodiscard]] std::uint64_t dropped(Drop reason) const { return hub_.counts().dropped[static_cast<std::size_t>(reason)]; }
+  static HubSettings options() {
+    return {.listen = anywhere, .tick_s = 0.1, .speed = 20.0, .dead_after_s = 1.0, .bundle = 1};
+  }
+  [[nodiscard]] std::uint64_t dropped(Drop reason) const {
+    return hub_.counts().dropped[static_cast<std::size_t>(reason)];
+  }
   // Both have been greeted and have answered; the next tick is 1.
   void greet() {
     a_.say(Kind::hello);
@@ -99,18 +104,19 @@ TEST_F(HubAndRobots, ForgedReplayedTruncatedAndForeignPacketsAreDroppedAndCounte
   static_cast<void>(hub_.wait_for(1, never));
   EXPECT_EQ(velocity(0), 0.1F);
   const Socket attacker(anywhere);
-  attacker.send(good, hub_.local());                                                      // replayed, from elsewhere
+  attacker.send(good, hub_.local());  // replayed, from elsewhere
   Bytes changed = good;
   changed[40] = static_cast<std::uint8_t>(changed[40] ^ 1U);
-  attacker.send(changed, hub_.local());                                                   // forged
-  attacker.send(ByteView(good).first(good.size() - 5), hub_.local());                     // truncated: forged, too
-  attacker.send(ByteView(good).first(20), hub_.local());                                  // truncated: foreign
-  attacker.send(Bytes(100, 0x55), hub_.local());                                          // foreign
-  attacker.send(Bytes(5000, 0x55), hub_.local());                                         // longer than any
+  attacker.send(changed, hub_.local());                                // forged
+  attacker.send(ByteView(good).first(good.size() - 5), hub_.local());  // truncated: forged, too
+  attacker.send(ByteView(good).first(20), hub_.local());               // truncated: foreign
+  attacker.send(Bytes(100, 0x55), hub_.local());                       // foreign
+  attacker.send(Bytes(5000, 0x55), hub_.local());                      // longer than any
   SecureChannel unknown(7, hub_node, 5000);
-  attacker.send(unknown.seal(Kind::hello, {}, fleet_keys()), hub_.local());               // no robot of this mission
-  attacker.send(SecureChannel(0, hub_node, 999).seal(Kind::hello, {}, fleet_keys()), hub_.local());  // from before its start
-  a_.say(Kind::status, {1, 2, 3});                                                        // authentic nonsense
+  attacker.send(unknown.seal(Kind::hello, {}, fleet_keys()), hub_.local());  // no robot of this mission
+  attacker.send(SecureChannel(0, hub_node, 999).seal(Kind::hello, {}, fleet_keys()),
+                hub_.local());      // from before its start
+  a_.say(Kind::status, {1, 2, 3});  // authentic nonsense
   static_cast<void>(hub_.wait_for(2, never));
   EXPECT_EQ(velocity(0), std::nullopt);
   EXPECT_EQ(dropped(Drop::replayed), 1U);
@@ -212,7 +218,10 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
     EXPECT_TRUE(hub.is_replaying(tick));
     static_cast<void>(hub.wait_for(tick, never));
     const auto status = hub.take(0);
-    if (tick > 0) { ASSERT_TRUE(status); EXPECT_EQ(status->velocity.forward_m_s, static_cast<float>(tick - 1)); }
+    if (tick > 0) {
+      ASSERT_TRUE(status);
+      EXPECT_EQ(status->velocity.forward_m_s, static_cast<float>(tick - 1));
+    }
     hub.deliver(0, {}, {});
   }
   EXPECT_EQ(hub.counts().sent, 0U);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A bad radio between real sockets, made by the relay and by the kernel: the same tests for both, in both directions. Those
-// of the kernel are skipped where it has no netem; ./check --full runs them in a kernel that has (test/in_another_kernel).
+// A bad radio between real sockets, made by the relay and by the kernel: the same tests for both, in both directions.
+// Those of the kernel are skipped where it has no netem; ./check --full runs them in a kernel that has
+// (test/in_another_kernel).
 #include "banyan/hosts/udp/impairment.hpp"
 
 #include <fcntl.h>
@@ -62,7 +63,8 @@ const Address some_port = parse_address("127.0.0.1:0");
 
 class ByRelay final : public Way {
  public:
-  ByRelay(const Impairment& hop, double speed) : Way(Socket(some_port), Socket(some_port)), relay_(some_port, hub().local(), hop, 5, speed) {}
+  ByRelay(const Impairment& hop, double speed)
+      : Way(Socket(some_port), Socket(some_port)), relay_(some_port, hub().local(), hop, 5, speed) {}
   void pass(double seconds) override { relay_.pump(seconds); }
   [[nodiscard]] Address hub_for_robot() const override { return relay_.local(); }
 
@@ -112,7 +114,8 @@ class FarEnd {
 
 class ByNetem final : public Way {
  public:
-  explicit ByNetem(std::unique_ptr<FarEnd> far) : Way(far->socket(), Socket(parse_address(std::string(bridge_address) + ":0"))), far_(std::move(far)) {}
+  explicit ByNetem(std::unique_ptr<FarEnd> far)
+      : Way(far->socket(), Socket(parse_address(std::string(bridge_address) + ":0"))), far_(std::move(far)) {}
   void pass(double seconds) override { ::usleep(static_cast<useconds_t>(seconds * 1e6)); }
   [[nodiscard]] Address hub_for_robot() const override { return hub().local(); }
 
@@ -146,7 +149,8 @@ class BadRadio : public testing::TestWithParam<Made> {
     return std::make_unique<ByRelay>(hop, speed);
   }
   // Numbered datagrams, in the order in which they arrive.
-  static std::vector<Arrival> sent_through(const Impairment& hop, std::size_t count, double wait_s, double speed = 1.0) {
+  static std::vector<Arrival> sent_through(const Impairment& hop, std::size_t count, double wait_s,
+                                           double speed = 1.0) {
     constexpr std::size_t bytes = 40;
     const auto way = make(hop, speed);
     const Address robot = way->robot_for_hub();
@@ -177,14 +181,20 @@ class BadRadio : public testing::TestWithParam<Made> {
     return arrivals;
   }
   // A machine that is held up makes everything late: what should be early has to be so in one of three tries.
-  template <class Early> static std::vector<Arrival> sent_early(const Early& early, const Impairment& hop, std::size_t count, double wait_s, double speed = 1.0) {
+  template <class Early>
+  static std::vector<Arrival> sent_early(const Early& early, const Impairment& hop, std::size_t count, double wait_s,
+                                         double speed = 1.0) {
     auto arrivals = sent_through(hop, count, wait_s, speed);
     for (int tries = 1; tries < 3 && !early(arrivals); ++tries) arrivals = sent_through(hop, count, wait_s, speed);
     EXPECT_TRUE(early(arrivals));
     return arrivals;
   }
-  static bool in_order(const std::vector<Arrival>& arrivals) { return std::ranges::is_sorted(arrivals, {}, &Arrival::number); }
-  static double shortest_s(const std::vector<Arrival>& arrivals) { return std::ranges::min(arrivals, {}, &Arrival::after_s).after_s; }
+  static bool in_order(const std::vector<Arrival>& arrivals) {
+    return std::ranges::is_sorted(arrivals, {}, &Arrival::number);
+  }
+  static double shortest_s(const std::vector<Arrival>& arrivals) {
+    return std::ranges::min(arrivals, {}, &Arrival::after_s).after_s;
+  }
   static double mean_s(const std::vector<Arrival>& arrivals) {
     double sum = 0.0;
     for (const Arrival& arrival : arrivals) sum += arrival.after_s;
@@ -201,19 +211,22 @@ TEST_P(BadRadio, LosesAndDoublesAsManyAsItShould) {
 }
 
 TEST_P(BadRadio, DelaysInOrder) {
-  const auto still = sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.05; }, {.delay_s = 0.03}, 100, 0.2);
+  const auto still =
+      sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.05; }, {.delay_s = 0.03}, 100, 0.2);
   ASSERT_EQ(still.size(), 100U);
   EXPECT_TRUE(in_order(still));
   EXPECT_GE(shortest_s(still), 0.03);
   // In a clock that is ten times as fast.
-  const auto fast = sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.08; }, {.delay_s = 0.5}, 10, 0.2, 10.0);
+  const auto fast =
+      sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.08; }, {.delay_s = 0.5}, 10, 0.2, 10.0);
   ASSERT_EQ(fast.size(), 10U);
   EXPECT_GE(shortest_s(fast), 0.05);
 }
 
 // What is uniform between 10 and 50 ms is 30 ms in the mean of 200, give or take three times 0.8 ms.
 TEST_P(BadRadio, VariesTheDelayAsMuchAsItShould) {
-  const auto jittered = sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.04; }, {.delay_s = 0.03, .jitter_s = 0.02}, 200, 0.2);
+  const auto jittered = sent_early([](const auto& arrivals) { return mean_s(arrivals) < 0.04; },
+                                   {.delay_s = 0.03, .jitter_s = 0.02}, 200, 0.2);
   ASSERT_EQ(jittered.size(), 200U);
   EXPECT_GE(shortest_s(jittered), 0.01);
   EXPECT_LT(shortest_s(jittered), 0.02);
@@ -233,19 +246,21 @@ TEST_P(BadRadio, LetsSomeOvertakeOthers) {
 
 // Of what datagrams contain: with their headers, 400 of 40 bytes would take twice as long.
 TEST_P(BadRadio, LimitsTheRate) {
-  const auto arrivals = sent_early([](const auto& all) { return all.back().at_s < 0.6; }, {.rate_bytes_s = 4e4}, 400, 0.9);
+  const auto arrivals =
+      sent_early([](const auto& all) { return all.back().at_s < 0.6; }, {.rate_bytes_s = 4e4}, 400, 0.9);
   ASSERT_EQ(arrivals.size(), 400U);
   EXPECT_TRUE(in_order(arrivals));
   EXPECT_GE(arrivals.back().at_s, 0.39);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, BadRadio,
-                         testing::Values(Made{"RelayToHub", false, true}, Made{"RelayFromHub", false, false}, Made{"NetemToHub", true, true},
-                                         Made{"NetemFromHub", true, false}),
+                         testing::Values(Made{"RelayToHub", false, true}, Made{"RelayFromHub", false, false},
+                                         Made{"NetemToHub", true, true}, Made{"NetemFromHub", true, false}),
                          [](const testing::TestParamInfo<Made>& info) { return info.param.name; });
 
 TEST(Impairment, TwoHopsMakeTheWay) {
-  const Impairment hop = per_hop({.loss = 0.3, .delay_s = 0.02, .jitter_s = 0.01, .duplicate = 0.1, .reorder = 0.0, .rate_bytes_s = 7.0});
+  const Impairment hop =
+      per_hop({.loss = 0.3, .delay_s = 0.02, .jitter_s = 0.01, .duplicate = 0.1, .reorder = 0.0, .rate_bytes_s = 7.0});
   EXPECT_NEAR((1.0 - hop.loss) * (1.0 - hop.loss), 0.7, 1e-12);
   EXPECT_NEAR((1.0 - hop.duplicate) * (1.0 - hop.duplicate), 0.9, 1e-12);
   EXPECT_EQ(hop.delay_s, 0.01);
@@ -255,8 +270,12 @@ TEST(Impairment, TwoHopsMakeTheWay) {
 
 TEST(Impairment, InTheWordsOfTc) {
   EXPECT_EQ(netem_words({}, 1.0), "netem limit 10000");
-  EXPECT_EQ(netem_words({.loss = 0.25, .delay_s = 0.02, .jitter_s = 0.01, .duplicate = 0.1, .reorder = 0.05, .rate_bytes_s = 1250.0}, 5.0),
-            "netem limit 10000 delay 4000us 2000us reorder 5.000000% loss random 25.000000% duplicate 10.000000% rate 50000bit -42");
+  EXPECT_EQ(
+      netem_words(
+          {.loss = 0.25, .delay_s = 0.02, .jitter_s = 0.01, .duplicate = 0.1, .reorder = 0.05, .rate_bytes_s = 1250.0},
+          5.0),
+      "netem limit 10000 delay 4000us 2000us reorder 5.000000% loss random 25.000000% duplicate 10.000000% rate "
+      "50000bit -42");
   EXPECT_EQ(netem_words({.reorder = 0.5}, 1.0), "netem limit 10000");  // nothing is delayed that could be overtaken
 }
 

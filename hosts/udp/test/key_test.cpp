@@ -25,9 +25,7 @@ class KeyFiles : public ::testing::Test {
   [[nodiscard]] std::string fault() const {
     try {
       static_cast<void>(read_keys(path_));
-    } catch (const KeyError& error) {
-      return error.what();
-    }
+    } catch (const KeyError& error) { return error.what(); }
     return "";
   }
   std::string path_;
@@ -66,7 +64,8 @@ TEST_F(KeyFiles, OthersMustNotReadIt) {
 
 TEST_F(KeyFiles, WhatIsWrongIsSaidWithItsLine) {
   const std::string line = path_ + ":1: must be a number from 0 to 255 and 64 hexadecimal digits";
-  for (const std::string& wrong : std::vector<std::string>{"1 " + a_ + "a", "1 " + a_.substr(1), "256 " + a_, "-1 " + a_, "1", "1 " + a_ + " x", "1 g" + a_.substr(1)}) {
+  for (const std::string& wrong : std::vector<std::string>{"1 " + a_ + "a", "1 " + a_.substr(1), "256 " + a_,
+                                                           "-1 " + a_, "1", "1 " + a_ + " x", "1 g" + a_.substr(1)}) {
     write(wrong + "\n");
     EXPECT_EQ(fault(), line) << wrong;
   }
@@ -87,9 +86,10 @@ TEST_F(KeyFiles, IsReadAgainWhenItHasChanged) {
   EXPECT_EQ(file.refresh(), "");
   EXPECT_EQ(file.keys().signing().number, 2);
   write("nonsense\n");
-  const std::string fault = path_ + ":1: must be a number from 0 to 255 and 64 hexadecimal digits; the keys stay as they were";
+  const std::string fault =
+      path_ + ":1: must be a number from 0 to 255 and 64 hexadecimal digits; the keys stay as they were";
   EXPECT_EQ(file.refresh(), fault);
-  EXPECT_EQ(file.refresh(), "");  // it is said once,
+  EXPECT_EQ(file.refresh(), "");         // it is said once,
   EXPECT_EQ(file.refresh(true), fault);  // or whenever it is asked for
   EXPECT_NE(file.keys().find(1), nullptr);
   std::filesystem::remove(path_);

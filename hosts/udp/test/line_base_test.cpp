@@ -46,10 +46,15 @@ TEST(BaseLine, NeighboursAndTarget) {
 }
 
 TEST(BaseLine, WhatIsNoneIsRefused) {
-  for (const char* line : {"", "pose", "pose 1 2", "pose 1 2 3 4", "pose 1 2 x", "pose 1 2 nan", "pose 1 2 inf", "pose 1 2 1e9",
-                           "pose  1 2 3", "seen 1", "seen 1 2 3", "drive 0 0 0", "Pose 1 2 3", "pose 1 2 3f", "seen 1,2", "near",
-                           "near 1 2", "near 0.5 1 0", "near -1 1 0", "near 65535 1 0", "near 1 -1 0", "near 1 1 1e9", "target 1",
+  // clang-format off
+  for (const char* line : {"", "pose", "pose 1 2", "pose 1 2 3 4", "pose 1 2 x", "pose 1 2 nan", "pose 1 2 inf",
+      "pose 1 2 1e9",
+                           "pose  1 2 3", "seen 1", "seen 1 2 3", "drive 0 0 0", "Pose 1 2 3", "pose 1 2 3f",
+                               "seen 1,2", "near",
+                           "near 1 2", "near 0.5 1 0", "near -1 1 0", "near 65535 1 0", "near 1 -1 0", "near 1 1 1e9",
+                               "target 1",
                            "target 1 2 3", "target nan 0"})
+    // clang-format on
     EXPECT_FALSE(parse_base_line(line)) << line;
   std::string many = "seen";
   for (std::size_t k = 0; k < most_seen; ++k) many += " 1 2";
@@ -65,7 +70,8 @@ TEST(BaseLine, TheBasesSide) {
   EXPECT_FLOAT_EQ(velocity->forward_m_s, 0.2F);
   EXPECT_FLOAT_EQ(velocity->sideways_m_s, -0.1F);
   EXPECT_FLOAT_EQ(velocity->turn_rad_s, -1.25F);
-  for (const char* line : {"", "drive", "drive 1 2", "drive 1 2 3 4", "drive 1 2 inf", "Drive 1 2 3", "pose 1 2 3", "drive 1  2"})
+  for (const char* line :
+       {"", "drive", "drive 1 2", "drive 1 2 3 4", "drive 1 2 inf", "Drive 1 2 3", "pose 1 2 3", "drive 1  2"})
     EXPECT_FALSE(parse_drive_line(line)) << line;
   EXPECT_EQ(base_pose_line({{1.5F, -0.25F}, 0.5F}), "pose 1.5000 -0.2500 0.5000\n");
 }
@@ -81,7 +87,9 @@ class WiredBase : public ::testing::Test {
   void TearDown() override {
     if (wire_ >= 0) ::close(wire_);
   }
-  void say(const std::string& text) const { ASSERT_EQ(::write(wire_, text.data(), text.size()), static_cast<ssize_t>(text.size())); }
+  void say(const std::string& text) const {
+    ASSERT_EQ(::write(wire_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  }
   std::unique_ptr<LineBase> base_;
   int wire_ = -1;
 };
@@ -138,7 +146,8 @@ struct Terminal {
   std::string path;
   Terminal() {
     std::array<char, 128> name{};
-    if (here >= 0 && ::grantpt(here) == 0 && ::unlockpt(here) == 0 && ::ptsname_r(here, name.data(), name.size()) == 0) path = name.data();
+    if (here >= 0 && ::grantpt(here) == 0 && ::unlockpt(here) == 0 && ::ptsname_r(here, name.data(), name.size()) == 0)
+      path = name.data();
   }
   ~Terminal() {
     if (here >= 0) ::close(here);
@@ -164,7 +173,8 @@ TEST(OpenLineBase, SetsASerialDeviceAndSpeaksOverIt) {
   EXPECT_EQ(::cfgetospeed(&settings), static_cast<speed_t>(B115200));
   EXPECT_EQ(settings.c_cflag & (CSIZE | PARENB | CSTOPB | CRTSCTS), static_cast<tcflag_t>(CS8));
 
-  const std::string_view said = "pose 1.5 0 0\r\n\x03\x04\x13pose 2 0 0\n";  // a terminal would take the odd ones as orders
+  const std::string_view said =
+      "pose 1.5 0 0\r\n\x03\x04\x13pose 2 0 0\n";  // a terminal would take the odd ones as orders
   ASSERT_EQ(::write(terminal.here, said.data(), said.size()), static_cast<ssize_t>(said.size()));
   base->listen(1.0);
   EXPECT_EQ(base->pose_at(1.0)->position.x, 1.5F) << "the second line is none";
@@ -172,7 +182,8 @@ TEST(OpenLineBase, SetsASerialDeviceAndSpeaksOverIt) {
   std::array<char, 128> room{};
   const ssize_t size = ::read(terminal.here, room.data(), room.size());
   ASSERT_GT(size, 0);
-  EXPECT_EQ(std::string(room.data(), static_cast<std::size_t>(size)), "drive 0.1000 0.0000 -0.5000\n") << "no echo, no other ends of lines";
+  EXPECT_EQ(std::string(room.data(), static_cast<std::size_t>(size)), "drive 0.1000 0.0000 -0.5000\n")
+      << "no echo, no other ends of lines";
 
   EXPECT_FALSE(base->lost());
   ::close(std::exchange(terminal.here, -1));

@@ -26,7 +26,9 @@ SensorFrame some_frame() {
   return frame;
 }
 
-HeardBundle some_heard() { return {99, {{0.5F, 1.0F}, -1.0F}, {{3, {1.0F, 2.0F}, {9, 8, 7}}, {8, {-1.0F, 0.0F}, Bytes(96, 5)}}}; }
+HeardBundle some_heard() {
+  return {99, {{0.5F, 1.0F}, -1.0F}, {{3, {1.0F, 2.0F}, {9, 8, 7}}, {8, {-1.0F, 0.0F}, Bytes(96, 5)}}};
+}
 
 Status some_status() {
   Status status;

@@ -100,7 +100,8 @@ TEST_F(PeersTest, StopsForAStopperThatIsThereNow) {
 
 TEST_F(PeersTest, WhatIsForOthersIsMisaddressed) {
   EXPECT_EQ(give(b_, seal({Kind::spoken, 1, 2, 1000, 0, 1, word_}, keys_.signing())).drop, Drop::misaddressed);
-  EXPECT_EQ(give(b_, seal({Kind::spoken, hub_node, everybody, 1000, 0, 1, word_}, keys_.signing())).drop, Drop::misaddressed);
+  EXPECT_EQ(give(b_, seal({Kind::spoken, hub_node, everybody, 1000, 0, 1, word_}, keys_.signing())).drop,
+            Drop::misaddressed);
   EXPECT_EQ(give(b_, seal({Kind::hello, 1, everybody, 1000, 0, 1, {}}, keys_.signing())).drop, Drop::misaddressed);
 }
 

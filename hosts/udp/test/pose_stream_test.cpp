@@ -27,8 +27,9 @@ TEST(PoseLines, AreWrittenAsTheyAreRead) {
 }
 
 TEST(PoseLines, OneThatIsWrongSpoilsAll) {
-  for (const char* wrong : {"0 1 2 3", "0 1 2\n", "0 1 2 3 4\n", "-1 1 2 3\n", "0 nan 2 3\n", "0 1 inf 3\n", "0 1 2 1e9\n", "0 1e9 2 3\n", "x\n", "\n",
-                            "0  1 2 3\n", "0 1 2 3\r\n", "0,1,2,3\n", "0 1 2 3\n0 1 2\n"})
+  for (const char* wrong :
+       {"0 1 2 3", "0 1 2\n", "0 1 2 3 4\n", "-1 1 2 3\n", "0 nan 2 3\n", "0 1 inf 3\n", "0 1 2 1e9\n", "0 1e9 2 3\n",
+        "x\n", "\n", "0  1 2 3\n", "0 1 2 3\r\n", "0,1,2,3\n", "0 1 2 3\n0 1 2\n"})
     EXPECT_FALSE(parse_poses(wrong)) << wrong;
   EXPECT_TRUE(parse_poses(""));
 }

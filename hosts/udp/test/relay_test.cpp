@@ -24,7 +24,7 @@ TEST(Relay, HandsOnAndBack) {
     ASSERT_TRUE(datagram);
     hub.send(Bytes{static_cast<std::uint8_t>(10 * (*datagram)[0])}, from[k]);
   }
-  EXPECT_FALSE(from[1] == from[2]);  // the hub knows them apart
+  EXPECT_FALSE(from[1] == from[2]);   // the hub knows them apart
   stranger.send(Bytes{99}, from[1]);  // only the hub may answer
   relay.pump(0.02);
   Address ignored;

@@ -17,17 +17,47 @@ std::vector<std::string> with(std::vector<std::string> more) {
 std::string fault(const std::vector<std::string>& arguments) {
   try {
     static_cast<void>(parse_robot_options(arguments));
-  } catch (const OptionError& error) {
-    return error.what();
-  }
+  } catch (const OptionError& error) { return error.what(); }
   return "";
 }
 
 TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
-  const auto arguments = with({"--base", "tcp:1.2.3.4:5", "--algorithm", "outwards", "--reading", "literal", "--scale", "0.7", "--range", "1.7",
-                               "--tick", "0.05", "--wheel-limit", "0.13", "--wheel-distance", "0.3", "--radius", "0.09", "--arrival", "0.1",
-                               "--link-redundancy", "2", "--holonomic", "--no-line-of-sight", "--set", "safe_range_m=1.4", "--set", "x=0.1", "--stop-after", "0.7", "--delay", "0.02",
-                               "--speed", "5"});
+  // clang-format off: option and value side by side
+  const auto arguments = with({"--base",
+                               "tcp:1.2.3.4:5",
+                               "--algorithm",
+                               "outwards",
+                               "--reading",
+                               "literal",
+                               "--scale",
+                               "0.7",
+                               "--range",
+                               "1.7",
+                               "--tick",
+                               "0.05",
+                               "--wheel-limit",
+                               "0.13",
+                               "--wheel-distance",
+                               "0.3",
+                               "--radius",
+                               "0.09",
+                               "--arrival",
+                               "0.1",
+                               "--link-redundancy",
+                               "2",
+                               "--holonomic",
+                               "--no-line-of-sight",
+                               "--set",
+                               "safe_range_m=1.4",
+                               "--set",
+                               "x=0.1",
+                               "--stop-after",
+                               "0.7",
+                               "--delay",
+                               "0.02",
+                               "--speed",
+                               "5"});
+  // clang-format on
   const RobotOptions options = parse_robot_options(arguments);
   EXPECT_EQ(to_arguments(options), arguments);
   EXPECT_EQ(options.id, 3);
@@ -40,8 +70,9 @@ TEST(RobotOptions, WhatIsWrittenIsReadAgain) {
 }
 
 TEST(RobotOptions, WithoutAHub) {
-  const std::vector<std::string> peers = {"--id", "3", "--peers", "10.0.0.255:4600", "--listen", "0.0.0.0:4600", "--root", "--worker", "--key", "k",
-                                          "--base", "tcp:1.2.3.4:5"};
+  const std::vector<std::string> peers = {
+      "--id",     "3",     "--peers", "10.0.0.255:4600", "--listen",     "0.0.0.0:4600", "--root",
+      "--worker", "--key", "k",       "--base",          "tcp:1.2.3.4:5"};
   const RobotOptions options = parse_robot_options(peers);
   EXPECT_EQ(to_arguments(options), peers);
   EXPECT_TRUE(options.root && options.worker && options.hub.empty());

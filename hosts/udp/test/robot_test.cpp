@@ -26,7 +26,8 @@ class Listener final : public Swarm {
   explicit Listener(Given& given) : given_(given) {}
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override { return std::make_unique<Listener>(given_); }
   [[nodiscard]] std::size_t size() const noexcept override { return 1; }
-  void step(std::size_t, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) override {
+  void step(std::size_t, std::span<const Sensed> sensed, std::span<Velocity> commands,
+            std::span<Report> reports) override {
     given_.packets.assign(sensed[0].packets.begin(), sensed[0].packets.end());
     given_.messages = received_;
     given_.senses = sensed[0].senses;
@@ -165,7 +166,7 @@ TEST_F(RobotAlone, OdometryComesWithPacketsAndNeverGoesBack) {
   static_cast<void>(robot_.step(10.0));
   robot_.take(HeardBundle{3, {{0.03F, 0.0F}, 0.0F}, {{3, {1.0F, 0.0F}, {4}}}});
   robot_.take(HeardBundle{2, {{0.01F, 0.0F}, 0.0F}, {{5, {1.0F, 0.0F}, {4}}}});  // overtaken
-  robot_.take(frame(2, {{0.01F, 0.0F}, 0.0F}), 10.08);                        // likewise
+  robot_.take(frame(2, {{0.01F, 0.0F}, 0.0F}), 10.08);                           // likewise
   static_cast<void>(robot_.step(10.1));
   EXPECT_NEAR(given_.senses.odometry.forward_m, 0.03F, 1e-6F);
   ASSERT_EQ(given_.packets.size(), 2U);

@@ -29,15 +29,16 @@ class ResultSink final : public Sink {
 }  // namespace
 
 std::unique_ptr<Sink> open_row(const std::string& path, const SinkOptions& options) {
-  return std::make_unique<ResultSink>(path, options, [](const std::string& to, const RunRow& row, const SinkOptions& o) {
-    write_run_csv(to, row, o.existing);
-  });
+  return std::make_unique<ResultSink>(
+      path, options,
+      [](const std::string& to, const RunRow& row, const SinkOptions& o) { write_run_csv(to, row, o.existing); });
 }
 
 std::unique_ptr<Sink> open_result(const std::string& path, const SinkOptions& options) {
-  return std::make_unique<ResultSink>(path, options, [](const std::string& to, const RunRow& row, const SinkOptions& o) {
-    write_run_json(to, row, o.provenance.config_json, o.existing);
-  });
+  return std::make_unique<ResultSink>(path, options,
+                                      [](const std::string& to, const RunRow& row, const SinkOptions& o) {
+                                        write_run_json(to, row, o.provenance.config_json, o.existing);
+                                      });
 }
 
 }  // namespace banyan::record

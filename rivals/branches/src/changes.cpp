@@ -223,9 +223,7 @@ void change_links(Robot& robot) noexcept {
     case no_change:
       if (!self.is_follower() && self.is_joined() && self.held_by == nobody) offer(robot);
       break;
-    case offered:
-      follow_offer(robot);
-      break;
+    case offered: follow_offer(robot); break;
     case made:
     case undone:
       if (change.ticks < pause_ticks(robot)) break;

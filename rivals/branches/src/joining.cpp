@@ -143,10 +143,8 @@ void join(Robot& robot) noexcept {
   self.root_ticks = self.is_root() ? robot.counted(self.root_ticks) : std::uint16_t{0};
   // Where a root is missing many call themselves so, and soon only one of them.
   const bool is_lasting_root = self.root_ticks > robot.params.ticks(robot.params.change_timeout_s);
-  if (self.is_leader())
-    self.connector = false;
-  else if (is_lasting_root || self.links.size() > 0)
-    self.connector = true;
+  if (self.is_leader()) self.connector = false;
+  else if (is_lasting_root || self.links.size() > 0) self.connector = true;
   if (self.is_follower()) return answer(robot);
   if (self.connector && self.is_joined() && !self.is_busy()) let_in(robot);
   if (!self.is_root()) find_root(robot);

@@ -102,10 +102,8 @@ void choose_team(Robot& robot) noexcept {
   }
   self.travels = false;
   self.team_age = best_age;
-  if (best < 0)
-    self.team = nobody;
-  else
-    self.team = table.message(best).leader ? table.id(best) : table.message(best).team;
+  if (best < 0) self.team = nobody;
+  else self.team = table.message(best).leader ? table.id(best) : table.message(best).team;
 }
 
 }  // namespace
@@ -131,10 +129,8 @@ void follow_team(Robot& robot) noexcept {
   std::uint8_t age = unknown_age;
   for (int k = 0; k < robot.table().size(); ++k) age = std::min(age, team_age(robot, k, self.team));
   self.team_age = self.team == nobody ? unknown_age : age;
-  if (self.team_age != unknown_age)
-    self.travels = false;
-  else if (!self.travels || self.needy != self.team)
-    choose_team(robot);
+  if (self.team_age != unknown_age) self.travels = false;
+  else if (!self.travels || self.needy != self.team) choose_team(robot);
 }
 
 }  // namespace banyan::rivals::branches

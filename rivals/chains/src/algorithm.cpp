@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/rivals/chains/chains.hpp"
 #include "banyan/rivals/common/algorithm.hpp"
+#include "banyan/rivals/chains/chains.hpp"
 
 namespace banyan::rivals::chains {
 

@@ -18,9 +18,7 @@ bool is_worker(const Message& m) noexcept { return m.worker == m.id; }
 bool names_as_parent(const Message& m, RobotId id) noexcept {
   return m.worker != nobody && (is_worker(m) ? lists(m.above, id) : m.above[0] == id);
 }
-Ids list_above(const Message& m) noexcept {
-  return with_first(m.id, is_base(m) ? no_ids() : m.above);
-}
+Ids list_above(const Message& m) noexcept { return with_first(m.id, is_base(m) ? no_ids() : m.above); }
 
 void leave(State& self) noexcept {
   self.worker = self.child = nobody;

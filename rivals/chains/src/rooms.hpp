@@ -8,8 +8,8 @@
 
 namespace banyan::rivals::chains {
 
-inline constexpr int fresh_ticks = 5;      // who was heard within these is where it is said to be
-inline constexpr float slack_m = 0.01F;    // a robot so near its place is there
+inline constexpr int fresh_ticks = 5;    // who was heard within these is where it is said to be
+inline constexpr float slack_m = 0.01F;  // a robot so near its place is there
 
 // A robot within its step.
 struct Robot {

@@ -78,9 +78,11 @@ TEST(Chains, ARelayGoesOnUntilItIsSoManySafeDistancesBeforeTheTargetAsLinksFromT
           ASSERT_EQ(relay.state().chains[0].parent, 0);
           const float v = relay.step(d, child_m, links, beyond_m, 0.0F).forward_m_s;
           const float missing_m = child_m + beyond_m - static_cast<float>(links + 1) * 1.12F;
-          if (d >= 1.28F) { EXPECT_NEAR(v, -guarded(p, child_m), 1e-4F) << d; }
-          else if (d >= 1.12F || missing_m < 0.005F) { EXPECT_EQ(v, 0.0F) << d << ' ' << missing_m; }
-          else {
+          if (d >= 1.28F) {
+            EXPECT_NEAR(v, -guarded(p, child_m), 1e-4F) << d;
+          } else if (d >= 1.12F || missing_m < 0.005F) {
+            EXPECT_EQ(v, 0.0F) << d << ' ' << missing_m;
+          } else {
             const float wanted = p.speed_gain_m_s * std::min(1.0F, missing_m / 0.2F);
             EXPECT_NEAR(v, std::min(guarded(p, d), wanted), 1e-4F) << d;
           }
@@ -97,7 +99,8 @@ TEST(Chains, TheBaseStaysWhereItIs) {
   senses.obstacles = obstacles;
   const Velocity v = Robots::step(net.params, net.states[0], {heard, senses, net.params}).velocity;
   EXPECT_TRUE(v.forward_m_s == 0.0F && v.sideways_m_s == 0.0F && v.turn_rad_s == 0.0F);
-  EXPECT_NE(Robots::step(net.params, net.states[1], {heard, senses, net.params}).velocity.forward_m_s, 0.0F) << "another would move";
+  EXPECT_NE(Robots::step(net.params, net.states[1], {heard, senses, net.params}).velocity.forward_m_s, 0.0F)
+      << "another would move";
 }
 
 // Robot 0 is the base, 1 a worker that stands `at`, with its target `target_m` from the base; the rest is free.

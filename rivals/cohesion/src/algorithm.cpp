@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "banyan/rivals/cohesion/cohesion.hpp"
 #include "banyan/rivals/common/algorithm.hpp"
+#include "banyan/rivals/cohesion/cohesion.hpp"
 
 namespace banyan::rivals::cohesion {
 

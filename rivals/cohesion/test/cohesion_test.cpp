@@ -179,7 +179,8 @@ TEST(Cohesion, ThicknessIsThatOfTheAuthorsFigure) {
   int same = 0;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
-      const Message& m = net.said[static_cast<std::size_t>(columns) * static_cast<std::size_t>(r) + static_cast<std::size_t>(c)];
+      const Message& m =
+          net.said[static_cast<std::size_t>(columns) * static_cast<std::size_t>(r) + static_cast<std::size_t>(c)];
       EXPECT_EQ(m.depth, depth[r][c] - '0') << r << ", " << c;
       same += m.thickness == figure(r, c) ? 1 : 0;
       if (m.thickness == figure(r, c)) continue;

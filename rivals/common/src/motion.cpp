@@ -28,7 +28,8 @@ void Assignment::follow(const Orders& orders, const Carry& carry) noexcept {
 
 Vec2 target_pull(const Assignment& assignment, const RivalParams& params) noexcept {
   if (!assignment.sent || !assignment.known) return {};
-  return unit(assignment.target) * (params.target_gain * std::min(1.0F, norm(assignment.target) / params.arrival_distance_m));
+  return unit(assignment.target) *
+         (params.target_gain * std::min(1.0F, norm(assignment.target) / params.arrival_distance_m));
 }
 
 Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles, const RivalParams& params) noexcept {

@@ -62,8 +62,7 @@ class Components {
 };
 
 // R: Robots of a rival (core/swarm_of.hpp). They turn as they like and do not move by themselves.
-template <class R>
-struct Net {
+template <class R> struct Net {
   typename R::Params params;
   std::vector<Vec2> at;
   std::vector<Vec2> facing;
@@ -83,7 +82,8 @@ struct Net {
   std::vector<std::vector<typename R::Message>> said_before;
   std::size_t ticks = 0;
 
-  Net(typename R::Params p, std::vector<Vec2> positions, std::uint64_t seed) : params(p), at(std::move(positions)), draw(seed) {
+  Net(typename R::Params p, std::vector<Vec2> positions, std::uint64_t seed)
+      : params(p), at(std::move(positions)), draw(seed) {
     for (std::size_t i = 0; i < at.size(); ++i) {
       states.push_back(R::initial(static_cast<RobotId>(i), false, i == 0));
       orders.emplace_back();
@@ -115,7 +115,8 @@ struct Net {
       if (static_cast<double>(ticks) - stepped[i] < every - 1e-6) continue;
       std::vector<typename R::Heard> heard;
       heard.reserve(waiting.size());
-      for (const auto& [j, message] : waiting) heard.push_back({&message, rotate_back(facing[i], at[j] - at[i] + noise())});
+      for (const auto& [j, message] : waiting)
+        heard.push_back({&message, rotate_back(facing[i], at[j] - at[i] + noise())});
       Senses senses;
       senses.orders = orders[i];
       const Vec2 way = rotate_back(facing[i], driven[i]);
@@ -145,7 +146,8 @@ struct Net {
 inline std::vector<Vec2> connected_places(std::size_t n, double side_m, double reach_m, Draw& draw) {
   std::vector<Vec2> places{{0.0F, 0.0F}};
   while (places.size() < n) {
-    const Vec2 p{static_cast<float>(draw(-0.5 * side_m, 0.5 * side_m)), static_cast<float>(draw(-0.5 * side_m, 0.5 * side_m))};
+    const Vec2 p{static_cast<float>(draw(-0.5 * side_m, 0.5 * side_m)),
+                 static_cast<float>(draw(-0.5 * side_m, 0.5 * side_m))};
     bool near = false, too_near = false;
     for (const Vec2 q : places) {
       near = near || distance(p, q) < static_cast<float>(reach_m);

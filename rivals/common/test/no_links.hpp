@@ -8,8 +8,7 @@
 
 namespace banyan::rivals {
 
-template <class R>
-void expect_no_links(Net<R> net) {
+template <class R> void expect_no_links(Net<R> net) {
   for (int t = 0; t < 20; ++t) net.tick();
   for (const typename R::State& s : net.states) {
     EXPECT_EQ(R::report(s).parent, nobody);

@@ -24,8 +24,7 @@ inline std::uint16_t word() { return *rc::gen::arbitrary<std::uint16_t>(); }
 inline std::uint8_t byte() { return *rc::gen::arbitrary<std::uint8_t>(); }
 inline RobotId sender() { return *rc::gen::inRange<std::uint16_t>(0, nobody); }
 
-template <class Robots>
-class Said : public testing::Test {
+template <class Robots> class Said : public testing::Test {
  public:
   using Message = typename Robots::Message;
   static Message drawn() {

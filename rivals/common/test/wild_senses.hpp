@@ -17,8 +17,9 @@ namespace banyan::rivals {
 // Robot 0 hears `wild`, from places that cannot be and from one that can, and robot 2. `after` each step it may be
 // looked at, and the message changed.
 template <class R>
-void expect_finite_motion(const Net<R>& net, typename R::Message wild, int steps,
-                          const std::function<void(const typename R::State&, typename R::Message&, int)>& after = nullptr) {
+void expect_finite_motion(
+    const Net<R>& net, typename R::Message wild, int steps,
+    const std::function<void(const typename R::State&, typename R::Message&, int)>& after = nullptr) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinite, -infinite, 0.0F, 1e30F}) {
     typename R::State s = net.states[0];

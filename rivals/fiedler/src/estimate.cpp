@@ -11,19 +11,19 @@ namespace {
 
 // Gains of the sources, scaled to one step a tick. Those of the iteration are in units of s = h lambda_2, the rate at
 // which its vector decays: what is slow in a long chain must not be corrected fast, or the correction oscillates.
-constexpr float deflation = 0.05F;          // k1
-constexpr float normalisation = 1.2F;       // k3
-constexpr float input_gain = 1.2F;          // gamma
-constexpr float least_mean_input = 0.02F;   // smallest gamma, of the mean
-constexpr float least_input = 0.05F;        // and of the other two, whose errors cancel in their quotient
-constexpr float proportional = 0.5F;        // K_P
-constexpr float integral = 0.4F;            // K_I
-constexpr float least_fading = 0.01F;       // smallest s, in units of the iteration rate
-constexpr float most_fading = 0.5F;         // largest s
+constexpr float deflation = 0.05F;         // k1
+constexpr float normalisation = 1.2F;      // k3
+constexpr float input_gain = 1.2F;         // gamma
+constexpr float least_mean_input = 0.02F;  // smallest gamma, of the mean
+constexpr float least_input = 0.05F;       // and of the other two, whose errors cancel in their quotient
+constexpr float proportional = 0.5F;       // K_P
+constexpr float integral = 0.4F;           // K_I
+constexpr float least_fading = 0.01F;      // smallest s, in units of the iteration rate
+constexpr float most_fading = 0.5F;        // largest s
 
-constexpr float least_square = 1e-5F;       // smallest divisor
+constexpr float least_square = 1e-5F;  // smallest divisor
 constexpr float first_square = 0.3F;
-constexpr float faded = 0.02F;              // a mean square below this: the vector has vanished
+constexpr float faded = 0.02F;  // a mean square below this: the vector has vanished
 constexpr float largest_component = 100.0F;
 
 float limited(float v) noexcept { return std::clamp(v, -largest_real, largest_real); }
@@ -82,7 +82,8 @@ void iterate(Robot& robot) noexcept {
     product.add(w, self.product, m.product);
   }
   // lambda_2 of N robots is at most N / (N - 1) times the least degree (Fiedler 1973): a bound that does not lag.
-  const float bound = self.links > 0 ? robot.links.degree * static_cast<float>(self.links + 1) / static_cast<float>(self.links) : 0.0F;
+  const float bound =
+      self.links > 0 ? robot.links.degree * static_cast<float>(self.links + 1) / static_cast<float>(self.links) : 0.0F;
   self.lambda = std::clamp(self.product.value / std::max(self.square.value, least_square), 0.0F, bound);
   const float rate = robot.params.iteration_rate;
   const float h = rate * per_weight / static_cast<float>(std::max<int>(self.largest_degree, 1));

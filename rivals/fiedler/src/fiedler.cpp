@@ -8,9 +8,9 @@
 namespace banyan::rivals::fiedler {
 namespace {
 
-constexpr float least_margin = 1e-3F;  // lambda_2 - epsilon counts as at least this: coth is infinite at 0
+constexpr float least_margin = 1e-3F;     // lambda_2 - epsilon counts as at least this: coth is infinite at 0
 constexpr float least_to_divide = 0.02F;  // to divide by
-constexpr float most_control = 2.0F;   // twice the largest pull of a target; avoidance is to count, too
+constexpr float most_control = 2.0F;      // twice the largest pull of a target; avoidance is to count, too
 
 // csch^2 u = 4 q / (1 - q)^2, q = e^-2u, for u > 0.
 float csch_squared(float u) noexcept {
@@ -36,13 +36,24 @@ Vec2 connectivity_control(const Robot& robot) noexcept {
 }
 
 Message composed(const State& s) noexcept {
-  return {.id = s.id, .component = s.component, .mean = s.mean, .square = s.square, .product = s.product, .lambda = s.lambda,
-          .links = s.links, .largest_degree = s.largest_degree, .degree_age = s.degree_age, .root = s.root, .root_age = s.root_age};
+  return {.id = s.id,
+          .component = s.component,
+          .mean = s.mean,
+          .square = s.square,
+          .product = s.product,
+          .lambda = s.lambda,
+          .links = s.links,
+          .largest_degree = s.largest_degree,
+          .degree_age = s.degree_age,
+          .root = s.root,
+          .root_age = s.root_age};
 }
 
 }  // namespace
 
-Vec2 connectivity_gradient(const Params& params, const State& state) noexcept { return gradient(params, state, Links(params, state.neighbors)); }
+Vec2 connectivity_gradient(const Params& params, const State& state) noexcept {
+  return gradient(params, state, Links(params, state.neighbors));
+}
 
 State initial_state(RobotId id, bool worker, bool root) noexcept { return state_at_start<State>(id, worker, root); }
 

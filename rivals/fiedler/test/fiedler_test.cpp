@@ -30,15 +30,18 @@ Truth truth(const Swarm_& net) {
   Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
-      const auto d = static_cast<double>(distance(net.at[static_cast<std::size_t>(i)], net.at[static_cast<std::size_t>(j)]));
-      const bool linked = net.hears(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) && d < static_cast<double>(net.params.longest_link_m);
+      const auto d =
+          static_cast<double>(distance(net.at[static_cast<std::size_t>(i)], net.at[static_cast<std::size_t>(j)]));
+      const bool linked = net.hears(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) &&
+                          d < static_cast<double>(net.params.longest_link_m);
       if (!linked) continue;
       const double a = std::exp(-d * d / (2.0 * std::pow(static_cast<double>(net.params.weight_width_m), 2)));
       laplacian(i, j) = -a;
       laplacian(i, i) += a;
     }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(laplacian);
-  return {solver.eigenvalues()[1], n > 2 ? solver.eigenvalues()[2] : std::numeric_limits<double>::infinity(), solver.eigenvectors().col(1)};
+  return {solver.eigenvalues()[1], n > 2 ? solver.eigenvalues()[2] : std::numeric_limits<double>::infinity(),
+          solver.eigenvectors().col(1)};
 }
 
 // The largest relative error of any robot's estimate.
@@ -50,7 +53,8 @@ double error(const Swarm_& net, double lambda_2) {
 
 Eigen::VectorXd estimated(const Swarm_& net) {
   Eigen::VectorXd v(static_cast<Eigen::Index>(net.states.size()));
-  for (std::size_t i = 0; i < net.states.size(); ++i) v[static_cast<Eigen::Index>(i)] = static_cast<double>(net.states[i].component);
+  for (std::size_t i = 0; i < net.states.size(); ++i)
+    v[static_cast<Eigen::Index>(i)] = static_cast<double>(net.states[i].component);
   v.array() -= v.mean();
   return v.normalized();
 }
@@ -71,8 +75,10 @@ struct Case {
   int ticks;  // by then all robots are within 10 %, and stay there
 };
 class Static : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(All, Static, testing::Values(Case{2, 2.0, 30}, Case{3, 2.0, 200}, Case{5, 2.0, 200}, Case{10, 3.0, 300}, Case{20, 3.0, 300},
-                                                      Case{30, 6.0, 1000}, Case{40, 4.0, 600}, Case{60, 6.0, 1500}));
+INSTANTIATE_TEST_SUITE_P(All, Static,
+                         testing::Values(Case{2, 2.0, 30}, Case{3, 2.0, 200}, Case{5, 2.0, 200}, Case{10, 3.0, 300},
+                                         Case{20, 3.0, 300}, Case{30, 6.0, 1000}, Case{40, 4.0, 600},
+                                         Case{60, 6.0, 1500}));
 
 TEST_P(Static, TheEstimateComesToTheTruth) {
   const auto [robots, side_m, ticks] = GetParam();
@@ -86,12 +92,15 @@ TEST_P(Static, TheEstimateComesToTheTruth) {
       ASSERT_LT(error(net, t.lambda_2), 0.1) << "seed " << seed << ", tick " << ticks + tick;
     }
     EXPECT_LT(error(net, t.lambda_2), 0.05) << seed;
-    if (t.lambda_3 < 1.3 * t.lambda_2) continue;  // of nearly equal eigenvalues any mixture of vectors takes long to fade
+    if (t.lambda_3 < 1.3 * t.lambda_2)
+      continue;  // of nearly equal eigenvalues any mixture of vectors takes long to fade
     const Eigen::VectorXd v = estimated(net);
     const double sign = v.dot(t.vector) < 0.0 ? -1.0 : 1.0;
     EXPECT_GT(sign * v.dot(t.vector), 0.99) << seed;
     for (Eigen::Index i = 0; i < v.size(); ++i)
-      if (std::fabs(t.vector[i]) > 0.3 * t.vector.cwiseAbs().maxCoeff()) { EXPECT_GT(sign * v[i] * t.vector[i], 0.0) << "seed " << seed << ", robot " << i; }
+      if (std::fabs(t.vector[i]) > 0.3 * t.vector.cwiseAbs().maxCoeff()) {
+        EXPECT_GT(sign * v[i] * t.vector[i], 0.0) << "seed " << seed << ", robot " << i;
+      }
   }
 }
 
@@ -120,7 +129,8 @@ TEST(Fiedler, MovesUpTheGradientOfLambda2) {
       for (std::size_t j = 0; j < net.at.size(); ++j)
         at_the_limit = at_the_limit || std::fabs(distance(net.at[i], net.at[j]) - net.params.longest_link_m) < 2.0F * h;
       largest = std::max(largest, std::hypot(x, y));
-      if (!at_the_limit) worst = std::max(worst, std::hypot(x - static_cast<double>(g.x), y - static_cast<double>(g.y)));
+      if (!at_the_limit)
+        worst = std::max(worst, std::hypot(x - static_cast<double>(g.x), y - static_cast<double>(g.y)));
     }
     EXPECT_GT(largest, 0.01);
     EXPECT_LT(worst, 0.02 * largest) << seed;
@@ -140,7 +150,8 @@ TEST(Fiedler, TheEstimateFollowsRobotsThatDieAndCome) {
   ASSERT_GT(std::fabs(all.lambda_2 / rest.lambda_2 - 1.0), 0.2) << "the test says nothing";
   const auto error_of_first = [&](double lambda_2) {
     double worst = 0.0;
-    for (std::size_t i = 0; i < 8; ++i) worst = std::max(worst, std::fabs(static_cast<double>(net.states[i].lambda) / lambda_2 - 1.0));
+    for (std::size_t i = 0; i < 8; ++i)
+      worst = std::max(worst, std::fabs(static_cast<double>(net.states[i].lambda) / lambda_2 - 1.0));
     return worst;
   };
   for (int t = 0; t < 600; ++t) net.tick();

@@ -11,7 +11,8 @@ struct Sample : Robots {
   static constexpr const char* length_in_documents = "one of fiedler (\\d+)";
   static void fill(Message& m) {
     m.id = sender();
-    for (float* real : {&m.component, &m.mean.value, &m.mean.integral, &m.square.value, &m.square.integral, &m.product.value, &m.product.integral, &m.lambda})
+    for (float* real : {&m.component, &m.mean.value, &m.mean.integral, &m.square.value, &m.square.integral,
+                        &m.product.value, &m.product.integral, &m.lambda})
       *real = largest_real * (static_cast<float>(word()) / 32767.5F - 1.0F);
     m.links = byte();
     m.largest_degree = word();

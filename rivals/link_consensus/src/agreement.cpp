@@ -13,13 +13,13 @@
 namespace banyan::rivals::link_consensus {
 namespace {
 
-constexpr int detour_reach = 2;       // through a common neighbour
-constexpr int first_reach = 8;        // where there is none
-constexpr int longest_reach = 32;     // for the second attempt
-constexpr int lease_slack_steps = 10; // a lease lasts twice the reach and so many steps longer,
-constexpr int commit_margin = 4;      // and the owner acts on it only before its last quarter, since clocks may differ
+constexpr int detour_reach = 2;        // through a common neighbour
+constexpr int first_reach = 8;         // where there is none
+constexpr int longest_reach = 32;      // for the second attempt
+constexpr int lease_slack_steps = 10;  // a lease lasts twice the reach and so many steps longer,
+constexpr int commit_margin = 4;       // and the owner acts on it only before its last quarter, since clocks may differ
 constexpr int longest_lease_ticks = 20000;  // so that three times as many fit into 16 bits
-constexpr int rest_ticks = 20;        // after a round of bids that all failed
+constexpr int rest_ticks = 20;              // after a round of bids that all failed
 
 Bid received(const Message& m) noexcept {
   Bid bid = m.bid;
@@ -84,7 +84,8 @@ Bid nominate(Robot& robot) noexcept {
   for (int l = 0; l < self.links.size(); ++l) {
     const Link& link = self.links[l];
     const int k = table.find(link.to);
-    if (!link.kept || k < 0 || link.to < self.id || link.to == self.parent || table.message(k).parent == self.id) continue;
+    if (!link.kept || k < 0 || link.to < self.id || link.to == self.parent || table.message(k).parent == self.id)
+      continue;
     const auto length_cm = to_fixed<std::uint16_t>(table.range(k), per_cm);
     if (length_cm >= self.tried_cm) continue;
     if (table.range(k) < robot.params.nominate_distance_m && !is_detoured(robot, k)) continue;
@@ -103,7 +104,8 @@ Bid nominate(Robot& robot) noexcept {
 void open_bid(Robot& robot, Bid bid) noexcept {
   State& self = robot.self;
   bid.serial = ++self.serial;
-  self.own_lease_ticks = static_cast<std::uint16_t>(std::min((2 * bid.reach + lease_slack_steps) * robot.step_ticks, longest_lease_ticks));
+  self.own_lease_ticks =
+      static_cast<std::uint16_t>(std::min((2 * bid.reach + lease_slack_steps) * robot.step_ticks, longest_lease_ticks));
   bid.lease_ticks = self.own_lease_ticks;
   self.bid = bid;
 }
@@ -113,7 +115,8 @@ void open_bid(Robot& robot, Bid bid) noexcept {
 bool is_open(const Robot& robot, int k) noexcept {
   const State& self = robot.self;
   const Message& m = robot.table().message(k);
-  return is_kept(robot, k) && !(m.bid.owner == self.id && m.bid.other == m.id) && !(m.bid.owner == m.id && m.bid.other == self.id);
+  return is_kept(robot, k) && !(m.bid.owner == self.id && m.bid.other == m.id) &&
+         !(m.bid.owner == m.id && m.bid.other == self.id);
 }
 
 void agree(Robot& robot) noexcept {

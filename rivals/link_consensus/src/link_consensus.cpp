@@ -33,11 +33,19 @@ Vec2 desired_motion(const Robot& robot, std::span<const Vec2> obstacles) noexcep
 void guard_links(const Robot& robot, Guard& guard) noexcept {
   for (int l = 0; l < robot.self.links.size(); ++l)
     if (const int k = robot.table().find(robot.self.links[l].to); k >= 0)
-      guard.add(robot.table().position(k), robot.params.longest_link_m - robot.table().spread_m(), robot.params.guard_rate_per_s);
+      guard.add(robot.table().position(k), robot.params.longest_link_m - robot.table().spread_m(),
+                robot.params.guard_rate_per_s);
 }
 
 Message composed(const State& self) noexcept {
-  Message m{.id = self.id, .root = self.root, .beat = self.beat, .way = self.way, .parent = self.parent, .links = no_links(), .bid = self.bid, .agrees = self.agrees};
+  Message m{.id = self.id,
+            .root = self.root,
+            .beat = self.beat,
+            .way = self.way,
+            .parent = self.parent,
+            .links = no_links(),
+            .bid = self.bid,
+            .agrees = self.agrees};
   for (int l = 0; l < self.links.size(); ++l) m.links[static_cast<std::size_t>(l)] = self.links[l].to;
   return m;
 }
@@ -77,7 +85,8 @@ void add_to(Digest& digest, const State& s) noexcept {
   add(s.id, s.assignment.sent, s.assignment.known, s.assignment.target, s.ticks.left());
   add(s.root, s.beat, s.way, s.parent, s.silent_ticks, s.lost_root, s.lost_beat, s.lost_ticks);
   add(s.links.size(), s.given_up);
-  for (int l = 0; l < s.links.size(); ++l) add(s.links[l].to, s.links[l].kept, s.links[l].repairs, s.links[l].offered_steps);
+  for (int l = 0; l < s.links.size(); ++l)
+    add(s.links[l].to, s.links[l].kept, s.links[l].repairs, s.links[l].offered_steps);
   add_bid(s.bid);
   add_bid(s.last_bid);
   add(s.agrees, s.serial, s.own_lease_ticks, s.insists, s.tried_cm, s.rest_ticks);

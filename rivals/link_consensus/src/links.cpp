@@ -9,8 +9,8 @@
 namespace banyan::rivals::link_consensus {
 namespace {
 
-constexpr int offer_steps = 10;         // an offer that is not taken up is withdrawn
-constexpr float room_to_move = 0.97F;   // of the longest link: a new link must not be too long at once
+constexpr int offer_steps = 10;        // an offer that is not taken up is withdrawn
+constexpr float room_to_move = 0.97F;  // of the longest link: a new link must not be too long at once
 
 void drop_lost(Robot& robot) noexcept {
   State& self = robot.self;
@@ -68,7 +68,9 @@ int way_back(const Robot& robot) noexcept {
   const Table<Message>& table = robot.table();
   int nearest = -1;
   for (int k = 0; k < table.size(); ++k) {
-    if (table.age(k) > 0 || !(table.range(k) < room_to_move * robot.params.longest_link_m) || !stands_better(robot, table.message(k))) continue;
+    if (table.age(k) > 0 || !(table.range(k) < room_to_move * robot.params.longest_link_m) ||
+        !stands_better(robot, table.message(k)))
+      continue;
     if (nearest < 0 || table.range(k) < table.range(nearest)) nearest = k;
   }
   return nearest;

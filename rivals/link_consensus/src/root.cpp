@@ -50,7 +50,9 @@ RobotId best_root(const Robot& robot) noexcept {
 void take_path(Robot& robot) noexcept {
   State& self = robot.self;
   const Table<Message>& table = robot.table();
-  const auto tells = [&](int k) { return table.message(k).root == self.root && names_a_root(self, table.message(k)) && is_kept(robot, k); };
+  const auto tells = [&](int k) {
+    return table.message(k).root == self.root && names_a_root(self, table.message(k)) && is_kept(robot, k);
+  };
   Serial newest = self.beat;
   for (int k = 0; k < table.size(); ++k)
     if (tells(k) && is_newer(table.message(k).beat, newest)) newest = table.message(k).beat;

@@ -50,7 +50,9 @@ struct Case {
 };
 
 class Agreement : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(All, Agreement, testing::Values(Case{8, 3.0, 0.0}, Case{20, 4.0, 0.0}, Case{20, 5.0, 0.3}, Case{40, 6.0, 0.1}));
+INSTANTIATE_TEST_SUITE_P(All, Agreement,
+                         testing::Values(Case{8, 3.0, 0.0}, Case{20, 4.0, 0.0}, Case{20, 5.0, 0.3},
+                                         Case{40, 6.0, 0.1}));
 
 // All who want to be rid of all links: what is left at the end is a spanning tree, and on the way there the kept links
 // never fall into parts.
@@ -88,7 +90,8 @@ TEST(LinkConsensus, WhoVouchesForABidVouchesForNoOtherBeforeItsLeaseIsOver) {
     return step(net.params, middle, {heard, {}, net.params}).message.bid;
   };
   EXPECT_EQ(hears({0, 7, 160, 1, 5, 20}, {}), (Bid{0, 7, 160, 1, 4, 19}));
-  for (int t = 18; t > 0; --t) EXPECT_EQ(hears({}, {2, 8, 180, 1, 5, 99}), (Bid{0, 7, 160, 1, 4, static_cast<std::uint8_t>(t)}));
+  for (int t = 18; t > 0; --t)
+    EXPECT_EQ(hears({}, {2, 8, 180, 1, 5, 99}), (Bid{0, 7, 160, 1, 4, static_cast<std::uint8_t>(t)}));
   EXPECT_EQ(hears({0, 7, 160, 1, 5, 20}, {}), Bid{}) << "nor for the same bid again";
   EXPECT_EQ(hears({}, {2, 8, 180, 1, 5, 99}), (Bid{2, 8, 180, 1, 4, 98}));
 }
@@ -141,7 +144,8 @@ TEST(LinkConsensus, KeepsRobotsTogetherThatWanderWithinTheirLinks) {
         if (t % 40 == 0) course[i] = unit_vector(static_cast<float>(draw(-3.1, 3.1))) * 0.012F;
         ways[i] = course[i];
         for (std::size_t j = 0; j < 24; ++j)  // nobody outruns a link
-          if (net.states[i].links.find(static_cast<RobotId>(j)) >= 0 && distance(net.at[i] + ways[i], net.at[j]) > 1.8F) ways[i] = {};
+          if (net.states[i].links.find(static_cast<RobotId>(j)) >= 0 && distance(net.at[i] + ways[i], net.at[j]) > 1.8F)
+            ways[i] = {};
       }
       net.tick(ways);
       given_up += kept_links(net) < links ? links - kept_links(net) : 0;
@@ -175,7 +179,8 @@ TEST(LinkConsensus, NewLinksAreThoseOfTheRelativeNeighborhoodGraph) {
         const float d = distance(net.at[i], net.at[j]);
         bool relative = d < net.params.add_distance_m;
         for (std::size_t k = 0; k < 25; ++k)
-          if (k != i && k != j && std::max(distance(net.at[i], net.at[k]), distance(net.at[j], net.at[k])) < d - 1e-4F) relative = false;
+          if (k != i && k != j && std::max(distance(net.at[i], net.at[k]), distance(net.at[j], net.at[k])) < d - 1e-4F)
+            relative = false;
         EXPECT_EQ(keep_each_other(net, i, j), relative) << seed << ": " << i << "-" << j;
       }
   }
@@ -283,7 +288,8 @@ TEST(LinkConsensus, ARepairIsALinkThatWasTakenUp) {
 std::vector<Vec2> circle(std::size_t robots) {
   std::vector<Vec2> places;
   const float angle = 6.2831853F / static_cast<float>(robots);
-  for (std::size_t i = 0; i < robots; ++i) places.push_back(unit_vector(angle * static_cast<float>(i)) * (1.0F / angle));
+  for (std::size_t i = 0; i < robots; ++i)
+    places.push_back(unit_vector(angle * static_cast<float>(i)) * (1.0F / angle));
   return places;
 }
 
@@ -303,8 +309,8 @@ TEST(LinkConsensus, LongStepsGiveUpLinksToo) {
   }
 }
 
-// Clocks that run apart, steps that do not fit into ticks, packets that take long or get lost: the kept links never fall
-// into parts while everybody wants to be rid of them.
+// Clocks that run apart, steps that do not fit into ticks, packets that take long or get lost: the kept links never
+// fall into parts while everybody wants to be rid of them.
 TEST(LinkConsensus, NoClockAndNoDelayMakesAnAgreementCutTheNetwork) {
   const std::uint64_t seeds = long_search() ? 400 : 12;
   std::size_t given_up = 0, spare = 0;

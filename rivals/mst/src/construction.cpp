@@ -14,7 +14,7 @@ namespace {
 
 constexpr float per_mm = 1000.0F;
 constexpr float most_units = 65000.0F;  // largest length; 16 bits hold 65,535
-constexpr float room_to_move = 0.97F;  // of the longest link: a new edge must not be too long at once
+constexpr float room_to_move = 0.97F;   // of the longest link: a new edge must not be too long at once
 
 bool comes_first(const Edge& a, const Edge& b) noexcept {
   if (a.from == nobody || b.from == nobody) return b.from == nobody && a.from != nobody;
@@ -29,8 +29,12 @@ std::uint16_t units(const Robot& robot, float length_m) noexcept {
   return to_fixed<std::uint16_t>(length_m, std::min(per_mm, most_units / robot.params.communication_range_m));
 }
 
-bool names(const Message& m, RobotId id) noexcept { return std::find(m.branches.begin(), m.branches.end(), id) != m.branches.end(); }
-bool is_fellow(const State& self, const Message& m) noexcept { return m.epoch == self.epoch && m.level == self.level && m.fragment == self.fragment; }
+bool names(const Message& m, RobotId id) noexcept {
+  return std::find(m.branches.begin(), m.branches.end(), id) != m.branches.end();
+}
+bool is_fellow(const State& self, const Message& m) noexcept {
+  return m.epoch == self.epoch && m.level == self.level && m.fragment == self.fragment;
+}
 
 void enter_level(State& self, int level, RobotId leader, RobotId up) noexcept {
   self.level = static_cast<std::uint8_t>(level);
@@ -68,7 +72,8 @@ void join_next_level(Robot& robot) noexcept {
     if (m == nullptr || m->epoch != self.epoch || !names(*m, self.id)) continue;
     if (m->level > self.level) return enter_level(self, m->level, m->fragment, end);
     const bool mine = self.decided && self.choice.from == self.id && self.choice.to == end;
-    const bool mutual = mine && m->level == self.level && m->decided && m->choice.from == end && m->choice.to == self.id;
+    const bool mutual =
+        mine && m->level == self.level && m->decided && m->choice.from == end && m->choice.to == self.id;
     if (mutual && self.id > end && self.level < 255) return enter_level(self, self.level + 1, self.id, nobody);
   }
 }
@@ -143,14 +148,17 @@ void refuse(State& self, RobotId end) noexcept {
   self.failed = true;
 }
 
-std::uint16_t grown(std::uint16_t ticks, const Robot& robot) noexcept { return static_cast<std::uint16_t>(std::min(ticks + robot.elapsed_ticks, 0xFFFF)); }
+std::uint16_t grown(std::uint16_t ticks, const Robot& robot) noexcept {
+  return static_cast<std::uint16_t>(std::min(ticks + robot.elapsed_ticks, 0xFFFF));
+}
 
 // If both ends agreed about lengths, one chosen edge would have been chosen from both sides, and one of its ends would
 // lead the next level. If that takes too long, any leader starts it: fragments joined to mine by a chosen edge follow.
 // Leaders wait for different times, so that one of them is first.
 bool is_stuck(const Robot& robot) noexcept {
   const State& self = robot.self;
-  const int patience = robot.params.ticks(robot.params.liveness_period_s) + robot.params.ticks(robot.params.countdown_s);
+  const int patience =
+      robot.params.ticks(robot.params.liveness_period_s) + robot.params.ticks(robot.params.countdown_s);
   const auto more = static_cast<int>((self.id * 7919U + self.level * 104729U) % static_cast<unsigned>(patience + 1));
   return self.decided_ticks > patience + more && self.level < 255;
 }
@@ -184,7 +192,9 @@ void give_up_refused(Robot& robot) noexcept {
   for (Ends* ends : {&self.branches, &self.tree, &self.old}) ends->remove(self.choice.to);
 }
 
-bool is_short(const Robot& robot, int k) noexcept { return robot.table().range(k) < robot.params.longest_link_m * room_to_move; }
+bool is_short(const Robot& robot, int k) noexcept {
+  return robot.table().range(k) < robot.params.longest_link_m * room_to_move;
+}
 
 // No third robot is nearer to both ends, as with every edge of the minimum spanning tree when all robots are in range.
 bool is_narrow(const Table<Message>& table, int k) noexcept {
@@ -204,7 +214,8 @@ void begin_construction(Robot& robot) noexcept {
   const auto earlier = self.candidates;
   const int earlier_count = self.done ? 0 : self.candidate_count;
   const auto is_held = [&](RobotId id) {
-    const bool narrow = std::any_of(earlier.begin(), earlier.begin() + earlier_count, [&](const Candidate& c) { return c.to == id && c.narrow; });
+    const bool narrow = std::any_of(earlier.begin(), earlier.begin() + earlier_count,
+                                    [&](const Candidate& c) { return c.to == id && c.narrow; });
     return narrow || self.holds(id);
   };
   self.done = self.failed = false;
@@ -224,7 +235,9 @@ void drop_old_edges(Robot& robot) noexcept {
   const Ends all = self.old;
   for (const RobotId end : all) {
     const Message* m = robot.said_by(end);
-    if (m == nullptr || self.tree.has(end) || (self.done && m->done && m->epoch == self.epoch && m->fragment == self.fragment)) self.old.remove(end);
+    if (m == nullptr || self.tree.has(end) ||
+        (self.done && m->done && m->epoch == self.epoch && m->fragment == self.fragment))
+      self.old.remove(end);
   }
 }
 

@@ -33,7 +33,8 @@ void guard_tree(const Robot& robot, Guard& guard) noexcept {
   const State& self = robot.self;
   const auto add = [&](RobotId end) {
     if (const int k = robot.table().find(end); k >= 0)
-      guard.add(robot.table().position(k), robot.params.longest_link_m - robot.table().spread_m(), robot.params.guard_rate_per_s);
+      guard.add(robot.table().position(k), robot.params.longest_link_m - robot.table().spread_m(),
+                robot.params.guard_rate_per_s);
   };
   for (const RobotId end : self.tree) add(end);
   for (const RobotId end : self.old) add(end);
@@ -44,8 +45,20 @@ void guard_tree(const Robot& robot, Guard& guard) noexcept {
 }
 
 Message composed(const State& s) noexcept {
-  return {.id = s.id, .epoch = s.epoch, .next = s.next, .countdown = s.countdown, .level = s.level, .fragment = s.fragment, .up = s.up,
-          .ready = s.ready, .decided = s.decided, .done = s.done, .full = s.is_full(), .best = s.best, .choice = s.choice, .root = s.least,
+  return {.id = s.id,
+          .epoch = s.epoch,
+          .next = s.next,
+          .countdown = s.countdown,
+          .level = s.level,
+          .fragment = s.fragment,
+          .up = s.up,
+          .ready = s.ready,
+          .decided = s.decided,
+          .done = s.done,
+          .full = s.is_full(),
+          .best = s.best,
+          .choice = s.choice,
+          .root = s.least,
           .branches = s.branches.all()};
 }
 
@@ -88,7 +101,8 @@ void add_to(Digest& digest, const State& s) noexcept {
   add_ends(s.tree);
   add_ends(s.old);
   add(s.has_tree, s.parent, s.root, s.tree_epoch, s.epoch, s.next, s.countdown, s.epoch_ticks);
-  add(s.level, s.fragment, s.up, s.ready, s.decided, s.done, s.failed, s.least, s.least_by, s.unanswered_ticks, s.decided_ticks);
+  add(s.level, s.fragment, s.up, s.ready, s.decided, s.done, s.failed, s.least, s.least_by, s.unanswered_ticks,
+      s.decided_ticks);
   for (const Edge& e : {s.best, s.choice}) add(e.from, e.to, e.length);
   add_ends(s.branches);
   add_ends(s.refused);

@@ -6,15 +6,24 @@ namespace {
 
 constexpr Parameter<Params> of_mst[] = {
     {{"trigger_distance", "", "C", "mst: a tree edge longer than this asks for a new tree",
-      "Shorter asks more often: the tree fits better, and constructions hold the robots up.", "mst", 0.05F, 1.0F, Scaling::range}, &Params::trigger_distance_m},
-    {{"least_period_s", "", "s", "mst: time between two trees", "More than a construction takes.", "mst", 1.0F, 3600.0F}, &Params::least_period_s},
+      "Shorter asks more often: the tree fits better, and constructions hold the robots up.", "mst", 0.05F, 1.0F,
+      Scaling::range},
+     &Params::trigger_distance_m},
+    {{"least_period_s", "", "s", "mst: time between two trees", "More than a construction takes.", "mst", 1.0F,
+      3600.0F},
+     &Params::least_period_s},
     {{"countdown_s", "", "s", "mst: from the first word of a new tree to its construction",
-      "More than news takes through the whole network, so that all measure their links at the same time; at most 255 ticks.", "mst", 0.1F, 25.0F},
+      "More than news takes through the whole network, so that all measure their links at the same time; at most 255 "
+      "ticks.",
+      "mst", 0.1F, 25.0F},
      &Params::countdown_s},
     {{"build_timeout_s", "", "s", "mst: a construction that takes longer is begun anew",
-      "More than log2 N rounds through the longest chain.", "mst", 1.0F, 3600.0F}, &Params::build_timeout_s},
-    {{"consensus_gain", "", "1/m", "mst: a robot without a target goes to the mean of its tree neighbours, this much per metre",
-      "Larger follows more closely and comes to rest later.", "mst", 0.0F, 100.0F}, &Params::consensus_gain},
+      "More than log2 N rounds through the longest chain.", "mst", 1.0F, 3600.0F},
+     &Params::build_timeout_s},
+    {{"consensus_gain", "", "1/m",
+      "mst: a robot without a target goes to the mean of its tree neighbours, this much per metre",
+      "Larger follows more closely and comes to rest later.", "mst", 0.0F, 100.0F},
+     &Params::consensus_gain},
 };
 
 }  // namespace

@@ -29,8 +29,10 @@ Pairs kruskal(const Swarm_& net) {
   std::vector<Link> links;
   for (std::size_t i = 0; i < net.at.size(); ++i)
     for (std::size_t j = i + 1; j < net.at.size(); ++j)
-      if (const float d = distance(net.at[i], net.at[j]); net.hears(i, j) && d < 0.97F * net.params.longest_link_m) links.push_back({static_cast<int>(std::lround(d * 1000.0F)), i, j});
-  std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) { return std::tie(a.mm, a.i, a.j) < std::tie(b.mm, b.i, b.j); });
+      if (const float d = distance(net.at[i], net.at[j]); net.hears(i, j) && d < 0.97F * net.params.longest_link_m)
+        links.push_back({static_cast<int>(std::lround(d * 1000.0F)), i, j});
+  std::sort(links.begin(), links.end(),
+            [](const Link& a, const Link& b) { return std::tie(a.mm, a.i, a.j) < std::tie(b.mm, b.i, b.j); });
   Components parts(net.at.size());
   Pairs tree;
   for (const Link& link : links)
@@ -58,12 +60,16 @@ std::size_t held_parts(const Swarm_& net) {
   Components parts(net.at.size());
   for (std::size_t i = 0; i < net.at.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (keeps(report(net.states[i]), static_cast<RobotId>(j)) && keeps(report(net.states[j]), static_cast<RobotId>(i))) parts.join(i, j);
+      if (keeps(report(net.states[i]), static_cast<RobotId>(j)) &&
+          keeps(report(net.states[j]), static_cast<RobotId>(i)))
+        parts.join(i, j);
   return parts.count();
 }
 
 bool all_done(const Swarm_& net) {
-  return std::all_of(net.states.begin(), net.states.end(), [&](const State& s) { return s.done && s.tree_epoch == net.states[0].tree_epoch && s.tree_epoch > 0; });
+  return std::all_of(net.states.begin(), net.states.end(), [&](const State& s) {
+    return s.done && s.tree_epoch == net.states[0].tree_epoch && s.tree_epoch > 0;
+  });
 }
 
 struct Case {
@@ -73,8 +79,10 @@ struct Case {
   bool occluded;
 };
 class Tree : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(All, Tree, testing::Values(Case{2, 2.0, 0.0, false}, Case{10, 4.0, 0.0, false}, Case{30, 6.0, 0.0, false},
-                                                    Case{30, 3.0, 0.3, false}, Case{60, 10.0, 0.0, false}, Case{40, 6.0, 0.2, true}));
+INSTANTIATE_TEST_SUITE_P(All, Tree,
+                         testing::Values(Case{2, 2.0, 0.0, false}, Case{10, 4.0, 0.0, false}, Case{30, 6.0, 0.0, false},
+                                         Case{30, 3.0, 0.3, false}, Case{60, 10.0, 0.0, false},
+                                         Case{40, 6.0, 0.2, true}));
 
 // Robots within 5 cm of the straight line between two others hide them from each other.
 void hide_behind_bodies(Swarm_& net) {
@@ -102,7 +110,8 @@ TEST_P(Tree, IsThatOfKruskalOverTheTrueGraph) {
     for (int t = 0; t < 1000 && !all_done(net); ++t) net.tick();
     ASSERT_TRUE(all_done(net)) << seed;
     const Pairs tree = kruskal(net);
-    EXPECT_EQ(kept(net), tree) << "seed " << seed << ": " << length_of(net, kept(net)) << " m instead of " << length_of(net, tree);
+    EXPECT_EQ(kept(net), tree) << "seed " << seed << ": " << length_of(net, kept(net)) << " m instead of "
+                               << length_of(net, tree);
     EXPECT_EQ(kept(net, false), tree) << seed;
     for (int t = 0; t < 40; ++t) net.tick();
     for (const State& s : net.states) EXPECT_EQ(s.old.size(), 0U) << "nothing is held longer than needed";
@@ -117,8 +126,8 @@ TEST_P(Tree, IsThatOfKruskalOverTheTrueGraph) {
   }
 }
 
-// Robots drift as far as their edges let them; trees follow one another, and at every tick the edges that both ends keep
-// join all robots.
+// Robots drift as far as their edges let them; trees follow one another, and at every tick the edges that both ends
+// keep join all robots.
 TEST(Mst, OneTreeFollowsTheOtherWithoutAGap) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     constexpr std::size_t n = 24;
@@ -139,7 +148,8 @@ TEST(Mst, OneTreeFollowsTheOtherWithoutAGap) {
           const bool holds = s.tree.has(id) || s.old.has(id) || s.branches.has(id) ||
                              std::any_of(s.candidates.begin(), s.candidates.begin() + s.candidate_count,
                                          [&](const Candidate& c) { return c.to == id && c.narrow && !s.done; });
-          if (holds && distance(net.at[i] + ways[i], net.at[j]) > std::max(1.8F, distance(net.at[i], net.at[j]))) ways[i] = {};
+          if (holds && distance(net.at[i] + ways[i], net.at[j]) > std::max(1.8F, distance(net.at[i], net.at[j])))
+            ways[i] = {};
         }
       }
       net.tick(ways);
@@ -222,7 +232,8 @@ TEST(Mst, NetworksThatMeetAtAnyMomentBecomeOneTree) {
   const int cases = long_search() ? 2000 : 40;
   for (int k = 0; k < cases; ++k) {
     const int moment = k % 40;
-    Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {6, 0.1F}, {7, 0}, {8, 0.2F}}, static_cast<std::uint64_t>(k));
+    Swarm_ net(Params{}, {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {6, 0.1F}, {7, 0}, {8, 0.2F}},
+               static_cast<std::uint64_t>(k));
     net.loss = 0.2 * (moment % 2);
     net.params.liveness_period_s = 3.0F;
     net.hidden = [](std::size_t i, std::size_t j) { return i / 3 != j / 3; };
@@ -236,8 +247,8 @@ TEST(Mst, NetworksThatMeetAtAnyMomentBecomeOneTree) {
   }
 }
 
-// Two ends that measure different lengths may choose edges in a circle, which is none of a tree. It takes a while longer,
-// but no second construction.
+// Two ends that measure different lengths may choose edges in a circle, which is none of a tree. It takes a while
+// longer, but no second construction.
 TEST(Mst, EndsThatDisagreeAboutLengthsFindATreeAllTheSame) {
   constexpr std::uint64_t seeds = 40;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
@@ -268,7 +279,8 @@ TEST(Mst, ParentsLeadToTheRoot) {
       std::size_t at = i;
       for (std::size_t hop = 0; hop < net.states.size() && report(net.states[at]).parent != nobody; ++hop) {
         const RobotId up = report(net.states[at]).parent;
-        ASSERT_TRUE(net.states[at].tree.has(up) && net.states[up].tree.has(static_cast<RobotId>(at))) << at << " to " << up;
+        ASSERT_TRUE(net.states[at].tree.has(up) && net.states[up].tree.has(static_cast<RobotId>(at)))
+            << at << " to " << up;
         at = up;
       }
       EXPECT_EQ(at, mine.root) << "from " << i << ", seed " << seed;
@@ -281,7 +293,9 @@ TEST(Mst, ParentsLeadToTheRoot) {
 TEST(Mst, WhoHasNoRoomForAnotherEdgeIsNotPromisedOne) {
   for (const std::size_t rays : {12U, 13U, 20U}) {
     std::vector<Vec2> places{{0, 0}};
-    for (std::size_t i = 0; i < rays; ++i) places.push_back(unit_vector(6.28F * static_cast<float>(i) / static_cast<float>(rays)) * (1.0F + 0.01F * static_cast<float>(i)));
+    for (std::size_t i = 0; i < rays; ++i)
+      places.push_back(unit_vector(6.28F * static_cast<float>(i) / static_cast<float>(rays)) *
+                       (1.0F + 0.01F * static_cast<float>(i)));
     Swarm_ net(Params{}, places, 1);
     net.hidden = [](std::size_t i, std::size_t j) { return i != 0 && j != 0; };
     for (int t = 0; t < 300; ++t) net.tick();

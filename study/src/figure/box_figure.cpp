@@ -228,8 +228,7 @@ void draw_misses(Script& script, const BoxFigure& figure, const BoxLayout& layou
       const BoxRuns& box = figure.panels[panel].boxes[g][s];
       if (box.missed == 0) continue;
       const double x = area.left + layout.center(g, s, figure.series.size());
-      if (bars)
-        draw_miss_bar(script, box, look_of(figure, s), x, area.top - 2.0, layout.box_width());
+      if (bars) draw_miss_bar(script, box, look_of(figure, s), x, area.top - 2.0, layout.box_width());
       else
         script.label(miss_text(box), {x, area.top - (level ? 3.0 + line_pt / 2.0 : 2.5)},
                      level ? Align::center : Align::left, level ? 0 : 90, strip.size);

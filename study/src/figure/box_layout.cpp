@@ -82,10 +82,8 @@ std::vector<char> labelled_panels(const BoxFigure& figure, std::size_t columns) 
 }
 
 void choose_heights(BoxLayout& layout, bool page) {
-  if (layout.columns == 1)
-    layout.panel_height = layout.rows == 1 ? (page ? 170.0 : 125.0) : 82.0;
-  else
-    layout.panel_height = layout.rows == 1 ? (layout.columns == 2 ? 135.0 : 115.0) : 88.0;
+  if (layout.columns == 1) layout.panel_height = layout.rows == 1 ? (page ? 170.0 : 125.0) : 82.0;
+  else layout.panel_height = layout.rows == 1 ? (layout.columns == 2 ? 135.0 : 115.0) : 88.0;
 }
 
 // Left of the panels: the label of the measure, those of the ticks, and for misses their word.
@@ -199,10 +197,8 @@ std::vector<Span> spans_of(const BoxFigure& figure, std::size_t level) {
     bool same = g > 0;
     for (std::size_t l = level; same && l < figure.outer.size(); ++l)
       same = figure.outer[l].labels[g] == figure.outer[l].labels[g - 1];
-    if (same)
-      spans.back().last = g;
-    else
-      spans.push_back({g, g, ""});
+    if (same) spans.back().last = g;
+    else spans.push_back({g, g, ""});
   }
   return spans;
 }

@@ -24,7 +24,7 @@ struct AxisTick {
 
 struct FigureAxis {
   double low = 0.0, high = 1.0;  // low < high
-  std::vector<AxisTick> ticks;       // ascending, from low to high
+  std::vector<AxisTick> ticks;   // ascending, from low to high
   Scale scale = Scale::linear;   // logarithmic: low > 0
 
   [[nodiscard]] std::string tick_list(bool labels = true) const;  // for gnuplot, ("0" 0, "0.5" 0.5)

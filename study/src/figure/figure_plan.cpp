@@ -24,10 +24,8 @@ class FigureReader {
     plan_.part = table.text("part", study.parts.front().name);
     const auto at =
         std::find_if(study.parts.begin(), study.parts.end(), [&](const Part& p) { return p.name == plan_.part; });
-    if (at == study.parts.end())
-      table.report("part", "\"" + plan_.part + "\" is no part of this study");
-    else
-      part_ = &*at;
+    if (at == study.parts.end()) table.report("part", "\"" + plan_.part + "\" is no part of this study");
+    else part_ = &*at;
     known_ = axis_names(part_ ? std::span<const Part>(part_, 1) : std::span<const Part>(study.parts));
   }
 

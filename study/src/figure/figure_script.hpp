@@ -87,7 +87,7 @@ class Legend {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const std::size_t row = i / columns_;
       const PanelPoint at{center_x - (lefts_.back() - gap_pt) / 2.0 + lefts_[i % columns_],
-                     top + (static_cast<double>(row) + 0.5) * row_pt};
+                          top + (static_cast<double>(row) + 0.5) * row_pt};
       draw_sample(script, i, at);
       script.label(names_[i], {at.x + sample_ + space_pt, at.y}, Align::left);
     }

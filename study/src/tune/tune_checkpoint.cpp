@@ -83,8 +83,9 @@ void check_owner(const std::string& path, const Json& head, const TunePlan& plan
 
 void save_checkpoint(const std::string& path, const TunePlan& plan, const Checkpoint& checkpoint) {
   const std::string body = body_of(checkpoint).dump();
-  const Json head{{"format", checkpoint_format}, {"format_version", checkpoint_format_version}, {"version", version},
-                  {"git", git_id()},       {"digest", tune_digest(plan)},      {"body", hexadecimal(digest_of(body))}};
+  const Json head{{"format", checkpoint_format}, {"format_version", checkpoint_format_version},
+                  {"version", version},          {"git", git_id()},
+                  {"digest", tune_digest(plan)}, {"body", hexadecimal(digest_of(body))}};
   record::write_file(path, head.dump() + "\n" + body + "\n", record::Existing::replace);
 }
 

@@ -24,10 +24,8 @@ struct Evaluator::Batch {
     const auto outcome = decode_outcome(result);
     const auto trial = outcome.error.empty() ? trial_of(outcome.row) : std::nullopt;
     const std::lock_guard lock(mutex);
-    if (trial)
-      trials[index] = *trial;
-    else if (error.empty())
-      error = outcome.error.empty() ? "a worker sent a row that cannot be read" : outcome.error;
+    if (trial) trials[index] = *trial;
+    else if (error.empty()) error = outcome.error.empty() ? "a worker sent a row that cannot be read" : outcome.error;
     --missing;
     news.notify_all();
   }

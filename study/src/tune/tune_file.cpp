@@ -198,7 +198,8 @@ class Reader {
       table.report("population", is + "nsga2 takes multiples of 4, at least 8");
     if (cmaes && o.population < 5) table.report("population", is + "cmaes needs at least 5");
     const auto meaningless = [&](std::string_view name) {
-      if (says_itself(table, name)) table.report(name, "has no meaning with algorithm = " + in_quotes(name_of(o.search)));
+      if (says_itself(table, name))
+        table.report(name, "has no meaning with algorithm = " + in_quotes(name_of(o.search)));
     };
     if (cmaes) {
       meaningless("crossover_probability");
@@ -215,10 +216,8 @@ class Reader {
   static void collect(const Node& table, const std::string& prefix, Changes& changes) {
     for (const auto& [name, node] : *table.table()) {
       const std::string key = prefix.empty() ? name : prefix + "." + name;
-      if (node.table())
-        collect(node, key, changes);
-      else
-        changes.emplace_back(key, config::as_option(node));
+      if (node.table()) collect(node, key, changes);
+      else changes.emplace_back(key, config::as_option(node));
     }
   }
   // The [set] of the file or of one world.
@@ -315,8 +314,7 @@ class Reader {
     auto point = untuned_point(plan_);
     for (std::size_t i = 0; i < point.size(); ++i) {
       const auto& bound = plan_.bounds[i];
-      if (const auto given = table.number(bound.parameter, {bound.low, bound.high}))
-        point[i] = *given;
+      if (const auto given = table.number(bound.parameter, {bound.low, bound.high})) point[i] = *given;
       else if (!table.has(bound.parameter) && !(point[i] >= bound.low && point[i] <= bound.high))
         table.report("", bound.parameter + " is missing, and the scenario's own, " + number_text(point[i]) +
                              ", is outside of [bounds]");

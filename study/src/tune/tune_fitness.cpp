@@ -37,13 +37,16 @@ std::optional<double> disorder(const Algorithm& algorithm, const Setup& setup) {
   const auto rows = algorithm.parameters();
   const auto values = algorithm.values(setup);
   const auto value = [&](std::string_view key) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const ParameterInfo* info) { return info->key == key; });
-    return row == rows.end() ? std::numeric_limits<float>::quiet_NaN() : values[static_cast<std::size_t>(row - rows.begin())];
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const ParameterInfo* info) { return info->key == key; });
+    return row == rows.end() ? std::numeric_limits<float>::quiet_NaN()
+                             : values[static_cast<std::size_t>(row - rows.begin())];
   };
-  constexpr std::string_view ascending[] = {"avoidance_range_m", "recruitment_distance_m", "safe_range_m", "ideal_distance_m",
-                                            "communication_range_m"};
+  constexpr std::string_view ascending[] = {"avoidance_range_m", "recruitment_distance_m", "safe_range_m",
+                                            "ideal_distance_m", "communication_range_m"};
   std::vector<std::pair<float, float>> ordered;
-  for (std::size_t k = 1; k < std::size(ascending); ++k) ordered.emplace_back(value(ascending[k - 1]), value(ascending[k]));
+  for (std::size_t k = 1; k < std::size(ascending); ++k)
+    ordered.emplace_back(value(ascending[k - 1]), value(ascending[k]));
   const float range_m = value("communication_range_m");
   std::optional<double> sum;
   for (const auto& [smaller, larger] : ordered) {

@@ -89,8 +89,7 @@ Algorithm make_algorithm(const TuneOptimizer& o, unsigned seed) {
       constexpr double automatic = -1.0, never = 0.0;
       return pagmo::cmaes(1, automatic, automatic, automatic, automatic, o.step, never, never, true, true, seed);
     }
-    case Search::sga:
-      break;
+    case Search::sga: break;
   }
   return pagmo::sga(1, o.crossover_probability, crossover_index, o.mutation_probability, mutation_index, tournament,
                     "sbx", "polynomial", "tournament", seed);

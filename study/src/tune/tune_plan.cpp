@@ -11,12 +11,9 @@ using Json = nlohmann::ordered_json;
 
 std::string_view name_of(Search search) noexcept {
   switch (search) {
-    case Search::sga:
-      return "sga";
-    case Search::nsga2:
-      return "nsga2";
-    case Search::cmaes:
-      return "cmaes";
+    case Search::sga: return "sga";
+    case Search::nsga2: return "nsga2";
+    case Search::cmaes: return "cmaes";
   }
   return "?";
 }

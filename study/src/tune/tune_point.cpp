@@ -28,10 +28,8 @@ world::Scenario with_parameters(world::Scenario scenario, const std::vector<Tune
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     const auto found = std::find_if(parameters.begin(), parameters.end(),
                                     [&](const auto& p) { return p.first == bounds[i].parameter; });
-    if (found != parameters.end())
-      found->second = point[i];
-    else
-      parameters.emplace_back(bounds[i].parameter, point[i]);
+    if (found != parameters.end()) found->second = point[i];
+    else parameters.emplace_back(bounds[i].parameter, point[i]);
   }
   return scenario;
 }

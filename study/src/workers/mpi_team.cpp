@@ -240,10 +240,8 @@ void MpiTeam::follow() {
     auto message = receive();
     if (message && message->tag == control_tag) break;
     if (message) accept(std::move(*message));
-    if (message || went)
-      idle.over();
-    else
-      idle.pause();
+    if (message || went) idle.over();
+    else idle.pause();
   }
   for (Sending& last : sending) last.finish();
   const std::lock_guard lock(mutex_);

@@ -66,10 +66,8 @@ TEST(FigureNumbers, HoldForRandomSets) {
     const double reach = 1.5 * (box.upper - box.lower);
     std::size_t beyond = 0;
     for (const double v : values) {
-      if (v < box.lower - reach || v > box.upper + reach)
-        ++beyond;
-      else
-        EXPECT_TRUE(v >= box.low && v <= box.high) << "neither point nor within the whiskers";
+      if (v < box.lower - reach || v > box.upper + reach) ++beyond;
+      else EXPECT_TRUE(v >= box.low && v <= box.high) << "neither point nor within the whiskers";
     }
     EXPECT_EQ(box.outliers.size(), beyond);
   }
@@ -85,10 +83,8 @@ TEST(FigureNumbers, MissesAreBeyondAllValues) {
     all.insert(all.end(), missed, 1e12);
     const BoxNumbers with = numbers_of(values, missed), far = numbers_of(all);
     const auto expect = [&](double is, double stands_for) {
-      if (stands_for > 1e6)
-        EXPECT_TRUE(std::isinf(is)) << is << " " << stands_for;
-      else
-        EXPECT_DOUBLE_EQ(is, stands_for);
+      if (stands_for > 1e6) EXPECT_TRUE(std::isinf(is)) << is << " " << stands_for;
+      else EXPECT_DOUBLE_EQ(is, stands_for);
     };
     expect(with.lower, far.lower);
     expect(with.median, far.median);

@@ -61,10 +61,8 @@ TEST_F(Illustrations, BoxesHoldTheRunsOfTheTableAndItsMisses) {
         for (const TableRow& row : table()) {
           if (row.at("line_of_sight") != (p == 0 ? "false" : "true") || row.at("r") != (g == 0 ? "1.5" : "1")) continue;
           if (row.at("algorithm") != drawn.series[s].name) continue;
-          if (row.at("complete") == "true")
-            times.push_back(std::stod(row.at("normalized_time")));
-          else
-            ++missed;
+          if (row.at("complete") == "true") times.push_back(std::stod(row.at("normalized_time")));
+          else ++missed;
         }
         EXPECT_EQ(sorted(drawn.panels[p].boxes[g][s].values), sorted(times));
         EXPECT_EQ(drawn.panels[p].boxes[g][s].missed, missed);
@@ -115,8 +113,7 @@ TEST_F(Illustrations, RatiosAreOfPairs) {
             continue;
           if (a.at("complete") == "true")
             expected.push_back(std::stod(a.at("normalized_time")) / std::stod(b.at("normalized_time")));
-          else
-            ++missed;
+          else ++missed;
         }
       }
       EXPECT_EQ(sorted(drawn.panels[0].boxes[g][s].values), sorted(expected));

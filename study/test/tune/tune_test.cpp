@@ -162,7 +162,8 @@ class Tune : public ::testing::Test {
     path_ = std::getenv("PATH");
     ::setenv("PATH", home_.c_str(), 1);
     write("world.toml",
-          "name = \"world\"\n[mission]\nalgorithm = \"outwards\"\ntime_limit_s = 10.0\n[swarm]\nrobots = 5\n[targets]\ncount = 2\nradius_m = "
+          "name = \"world\"\n[mission]\nalgorithm = \"outwards\"\ntime_limit_s = 10.0\n[swarm]\nrobots = "
+          "5\n[targets]\ncount = 2\nradius_m = "
           "1.0\n");
   }
   void TearDown() override {
@@ -239,7 +240,8 @@ TEST_F(Tune, ReadsJsonToTheSamePlan) {
   const auto loaded =
       parse_tune((home_ / "tune.json").string(),
                  R"({"worlds": [{"scenario": "world.toml"}], "seeds": {"training": "1-2", "test": [11, 12, 13]},
-                                     "optimizer": {"generations": 3}, "bounds": {"target_gain": [0.1, 1.1]}})", algorithms());
+                                     "optimizer": {"generations": 3}, "bounds": {"target_gain": [0.1, 1.1]}})",
+                 algorithms());
   ASSERT_TRUE(loaded.ok());
   EXPECT_EQ(tune_json(loaded.plan), tune_json(toml));
   EXPECT_EQ(tune_digest(loaded.plan), tune_digest(toml));
@@ -470,7 +472,8 @@ TEST_F(Tune, WhateverDoesNotFitHasASlopeThatLeadsBack) {
     for (auto& world : p.worlds) world.scenario.mission.algorithm = algorithm;
     p.bounds = bounds;
   };
-  look("mst", {{"trigger_distance", 0.5, 1.0}, {"longest_link", 0.5, 1.0}});  // the first below the second; by default 0.8 and 0.95
+  look("mst", {{"trigger_distance", 0.5, 1.0},
+               {"longest_link", 0.5, 1.0}});  // the first below the second; by default 0.8 and 0.95
   const auto at = [&](double a, double b) { return infeasibility(p, std::vector{a, b}); };
   EXPECT_EQ(at(0.8, 0.9), 0.0);
   double before = 0.0;
@@ -675,8 +678,8 @@ TEST_F(Tune, BestTomlIsAFragmentOfAScenario) {
   const auto directory = folder("out");
   const auto workers = thread_workers(bowl, 2);
   const auto result = tune(p, *workers, directory);
-  const auto loaded = config::parse_configuration("with-best.toml",
-                                                  contents(home_ / "world.toml") + contents(directory + "/best.toml"), algorithms());
+  const auto loaded = config::parse_configuration(
+      "with-best.toml", contents(home_ / "world.toml") + contents(directory + "/best.toml"), algorithms());
   ASSERT_TRUE(loaded.ok());
   const auto& parameters = loaded.configuration.scenario.mission.parameters;
   ASSERT_EQ(parameters.size(), 2U);
@@ -703,7 +706,8 @@ TEST_F(Tune, NsgaTwoLeavesAFrontInWhichNobodyBeatsAnother) {
   std::istringstream table(contents(directory + "/front.csv"));
   std::string line;
   std::getline(table, line);
-  EXPECT_EQ(line, "island,disconnected_time_ratio,normalized_time,held,disconnected,committed,target_gain,avoidance_gain");
+  EXPECT_EQ(line,
+            "island,disconnected_time_ratio,normalized_time,held,disconnected,committed,target_gain,avoidance_gain");
   double last_apart = -1.0, last_time = 2.0;
   std::size_t rows = 0;
   for (char comma = 0; std::getline(table, line); ++rows) {
@@ -735,8 +739,8 @@ TEST_F(Tune, TheGradedFrontIsOfTimeAndAllTheRest) {
   for (char comma = 0; std::getline(table, line); ++rows) {
     std::istringstream cells(line);
     double island = 0.0, cost = 0.0, time = 0.0, held = 0.0, disconnected = 0.0, committed = 0.0, gain = 0.0;
-    cells >> island >> comma >> cost >> comma >> time >> comma >> held >> comma >> disconnected >> comma >>
-        committed >> comma >> gain;
+    cells >> island >> comma >> cost >> comma >> time >> comma >> held >> comma >> disconnected >> comma >> committed >>
+        comma >> gain;
     EXPECT_NEAR(cost, (0.3 * (1.0 - held) + 0.2 * disconnected + 0.1 * committed) / 0.6, 1e-9);
     EXPECT_EQ(held, 1.0);
     EXPECT_NEAR(disconnected, 0.4 * gain, 1e-4);

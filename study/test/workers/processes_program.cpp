@@ -161,10 +161,8 @@ int main(int count, char** arguments) {
     const std::string_view what = count > 1 ? arguments[1] : "all";
     Processes processes;
     own_rank = processes.rank();
-    if (own_rank == 0)
-      lead(processes, what);
-    else if (what != "desert" || own_rank != 1)
-      processes.serve(work, what == "all" ? 2 : 1);
+    if (own_rank == 0) lead(processes, what);
+    else if (what != "desert" || own_rank != 1) processes.serve(work, what == "all" ? 2 : 1);
     return 0;
   } catch (const std::exception& error) {
     std::cout << error.what() << std::endl;

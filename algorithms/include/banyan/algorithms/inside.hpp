@@ -10,14 +10,12 @@
 namespace banyan {
 
 // A swarm as its own type; throws std::bad_cast if it is of another type.
-template <class Algorithm>
-[[nodiscard]] const SwarmOf<Algorithm>& swarm_as(const Swarm& swarm) {
+template <class Algorithm> [[nodiscard]] const SwarmOf<Algorithm>& swarm_as(const Swarm& swarm) {
   return dynamic_cast<const SwarmOf<Algorithm>&>(swarm);
 }
 
 // Calls look(swarm) with a swarm of a tree algorithm as its own type; throws std::bad_cast if it is none.
-template <class Look>
-decltype(auto) inside(const Swarm& swarm, Look look) {
+template <class Look> decltype(auto) inside(const Swarm& swarm, Look look) {
   if (const auto* s = dynamic_cast<const SwarmOf<CorrectedSwarm<outwards_step>>*>(&swarm)) return look(*s);
   if (const auto* s = dynamic_cast<const SwarmOf<CorrectedSwarm<inwards_step>>*>(&swarm)) return look(*s);
   if (const auto* s = dynamic_cast<const SwarmOf<ConvoySwarm>*>(&swarm)) return look(*s);

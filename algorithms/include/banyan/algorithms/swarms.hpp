@@ -26,9 +26,11 @@ struct TreeSwarm {
 template <auto step_function>
 using LiteralSwarm = TreeSwarm<TreeParams, TreeState, TreeMessage, initial_tree_state, step_function, tree_report>;
 template <auto step_function>
-using CorrectedSwarm = TreeSwarm<HealingParams, HealingState, HealingMessage, initial_healing_state, step_function, healing_report>;
-using ConvoySwarm = TreeSwarm<ConvoyParams, ConvoyState, ConvoyMessage, initial_convoy_state, convoy_step, convoy_report>;
-using PoweredConvoySwarm =
-    TreeSwarm<ConvoyParams, PoweredConvoyState, PoweredConvoyMessage, initial_powered_state, powered_convoy_step, powered_report>;
+using CorrectedSwarm =
+    TreeSwarm<HealingParams, HealingState, HealingMessage, initial_healing_state, step_function, healing_report>;
+using ConvoySwarm =
+    TreeSwarm<ConvoyParams, ConvoyState, ConvoyMessage, initial_convoy_state, convoy_step, convoy_report>;
+using PoweredConvoySwarm = TreeSwarm<ConvoyParams, PoweredConvoyState, PoweredConvoyMessage, initial_powered_state,
+                                     powered_convoy_step, powered_report>;
 
 }  // namespace banyan

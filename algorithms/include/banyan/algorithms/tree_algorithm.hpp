@@ -21,8 +21,7 @@ namespace banyan {
 }
 
 // An algorithm of an A (core/swarm_of.hpp) with these parameters.
-template <class A>
-class TreeAlgorithmOf : public AlgorithmOf<A> {
+template <class A> class TreeAlgorithmOf : public AlgorithmOf<A> {
  public:
   using typename AlgorithmOf<A>::Params;
   constexpr TreeAlgorithmOf(std::string_view name, std::string_view summary, Params (*defaults)() noexcept,

@@ -26,8 +26,8 @@ struct Loaded {
 [[nodiscard]] Loaded load_configuration(const std::string& path, const AlgorithmList& algorithms,
                                         const std::vector<Override>& overrides = {});
 // The same for text that is already in memory.
-[[nodiscard]] Loaded parse_configuration(const std::string& path, std::string_view text, const AlgorithmList& algorithms,
-                                         const std::vector<Override>& overrides = {});
+[[nodiscard]] Loaded parse_configuration(const std::string& path, std::string_view text,
+                                         const AlgorithmList& algorithms, const std::vector<Override>& overrides = {});
 
 // The steps in between, for who changes the tree himself: the tree of a scenario file (of the
 // configuration in a run.json); throws DocumentError. And from a tree to a Configuration, with

@@ -5,8 +5,8 @@
 
 #include "banyan/controller/core/gate.hpp"
 #include "banyan/controller/core/output.hpp"
-#include "banyan/controller/healing/state.hpp"
 #include "banyan/controller/healing/params.hpp"
+#include "banyan/controller/healing/state.hpp"
 
 namespace banyan {
 
@@ -16,7 +16,9 @@ namespace banyan {
 // One tick of one robot. `inputs`: every packet received since the last step, in any order, duplicates allowed
 // (the last counts); what they are in is worked on. Changes `state` only; allocates nothing; same arguments, same
 // result on every machine. As printed, and as corrected (docs/algorithms.md).
-[[nodiscard]] Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& state, const Inputs<Heard>& inputs) noexcept;
-[[nodiscard]] Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& state, const Inputs<Heard>& inputs) noexcept;
+[[nodiscard]] Output<TreeMessage> inwards_literal_step(const TreeParams& params, TreeState& state,
+                                                       const Inputs<Heard>& inputs) noexcept;
+[[nodiscard]] Output<HealingMessage> inwards_step(const HealingParams& params, HealingState& state,
+                                                  const Inputs<Heard>& inputs) noexcept;
 
 }  // namespace banyan

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the paper's two algorithms have in common: one tick of one robot, as printed and as corrected (docs/algorithms.md).
+// What the paper's two algorithms have in common: one tick of one robot, as printed and as corrected
+// (docs/algorithms.md).
 #pragma once
 
 #include "banyan/controller/core/gate.hpp"
@@ -18,7 +19,7 @@ struct Growth {
 // are in is worked on. Changes `state` only; allocates nothing; same arguments, same result on every machine.
 [[nodiscard]] Output<TreeMessage> literal_step(const Growth& growth, const TreeParams& params, TreeState& state,
                                                const Inputs<Heard>& inputs) noexcept;
-[[nodiscard]] Output<HealingMessage> corrected_step(const Growth& growth, const HealingParams& params, HealingState& state,
-                                                    const Inputs<Heard>& inputs) noexcept;
+[[nodiscard]] Output<HealingMessage> corrected_step(const Growth& growth, const HealingParams& params,
+                                                    HealingState& state, const Inputs<Heard>& inputs) noexcept;
 
 }  // namespace banyan

@@ -27,7 +27,8 @@ class DisjointPaths {
 
  private:
   // From `source` to the ends: to one end as often as there is a way, to several once each.
-  std::uint32_t paths(const Graph& graph, std::uint32_t source, std::span<const std::uint32_t> ends, std::uint32_t most);
+  std::uint32_t paths(const Graph& graph, std::uint32_t source, std::span<const std::uint32_t> ends,
+                      std::uint32_t most);
   bool augment(const Graph& graph);
   void visit(std::uint32_t state, std::uint32_t from);
   void turn_over(std::uint32_t last, std::uint32_t end);

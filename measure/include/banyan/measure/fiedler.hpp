@@ -32,7 +32,10 @@ class Fiedler {
 
   // Connected components; for a connected graph also the eccentricity of node 0. O(n + m), no
   // allocation once it has seen a graph of this size.
-  struct Components { std::uint32_t count = 0; std::uint32_t eccentricity = 0; };
+  struct Components {
+    std::uint32_t count = 0;
+    std::uint32_t eccentricity = 0;
+  };
   Components components(const Graph& graph);
   // The hops of each node from node 0, as the last call of any of these found them. Of a connected graph.
   [[nodiscard]] std::span<const std::uint32_t> hops() const noexcept { return level_; }

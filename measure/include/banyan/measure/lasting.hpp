@@ -20,12 +20,13 @@ class Lasting {
   // Of the living, now, as shares of a full battery; -1: none, or no batteries.
   [[nodiscard]] double least_charge() const noexcept { return least_; }
   [[nodiscard]] double mean_charge() const noexcept { return mean_; }
-  // A swap: a robot of the tree that had to leave became a spare. It is broken if meanwhile an edge to or from it, or to
-  // or from the robot that takes its place, was broken: from the moment that robot joined, or the first at which the
+  // A swap: a robot of the tree that had to leave became a spare. It is broken if meanwhile an edge to or from it, or
+  // to or from the robot that takes its place, was broken: from the moment that robot joined, or the first at which the
   // leaver is a spare, until a second after it.
   [[nodiscard]] std::uint64_t swaps() const noexcept { return swaps_; }
   [[nodiscard]] std::uint64_t broken_swaps() const noexcept { return broken_swaps_; }
-  // A trip: a spare sets out to be charged, and is charged or dies. One that is called to the tree meanwhile makes none.
+  // A trip: a spare sets out to be charged, and is charged or dies. One that is called to the tree meanwhile makes
+  // none.
   [[nodiscard]] std::uint64_t trips() const noexcept { return arrived_ + lost_; }
   [[nodiscard]] std::uint64_t trips_arrived() const noexcept { return arrived_; }
   // At the end: for how long the charge lasts, if the living go on drawing what they drew on average and as many as can
@@ -40,7 +41,7 @@ class Lasting {
     bool broken = false;
     bool travels = false;
     std::uint32_t left_ticks = 0;
-    double level = 0.0;   // at the last tick
+    double level = 0.0;  // at the last tick
   };
   void mark_broken(const world::World& world);
   void follow_swap(const world::World& world, std::size_t i);
@@ -48,11 +49,11 @@ class Lasting {
 
   double range_m_;
   std::uint32_t after_ticks_;
-  std::vector<Course> courses_;              // by robot; empty: no batteries
-  std::vector<std::uint8_t> touched_;        // by robot: an end of a broken edge
-  std::vector<std::uint8_t> relieved_;       // by robot: another takes its place
+  std::vector<Course> courses_;         // by robot; empty: no batteries
+  std::vector<std::uint8_t> touched_;   // by robot: an end of a broken edge
+  std::vector<std::uint8_t> relieved_;  // by robot: another takes its place
   double least_ = -1.0, mean_ = -1.0, level_sum_ = 0.0;
-  double drawn_ = 0.0, drawn_s_ = 0.0;       // by robots that were not charged
+  double drawn_ = 0.0, drawn_s_ = 0.0;  // by robots that were not charged
   std::uint64_t swaps_ = 0, broken_swaps_ = 0, arrived_ = 0, lost_ = 0;
 };
 

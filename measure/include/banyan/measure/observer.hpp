@@ -30,7 +30,7 @@ class Observer {
   // the swarm has recovered (recovery.hpp); a run not complete at its limit ends there, or
   // once that is decided for the last death so far.
   [[nodiscard]] bool finished() const noexcept;
-  [[nodiscard]] Run result(const world::World& world) const;   // run() with hash and means filled in
+  [[nodiscard]] Run result(const world::World& world) const;  // run() with hash and means filled in
 
  private:
   struct Impl;

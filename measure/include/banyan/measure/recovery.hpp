@@ -33,7 +33,7 @@ class Recovery {
   std::uint64_t limit_ticks_;
   std::uint64_t hold_ticks_;
   std::uint64_t deaths_ = 0;
-  std::uint64_t ticks_ = 0;       // since the last death, that of the first observation included
+  std::uint64_t ticks_ = 0;        // since the last death, that of the first observation included
   std::uint64_t whole_since_ = 0;  // of these, the first from which on it has been whole: ticks_ if it is not
   bool recovered_ = false;
 };

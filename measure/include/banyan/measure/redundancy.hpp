@@ -11,9 +11,9 @@
 namespace banyan::measure {
 
 // Its graph is the radio graph as simulated of the living robots of the network: those of the tree, and spares that say
-// that they keep links (Report::kept). No other spare counts, since nothing keeps it where it is. Its terminals are, for
-// each active target, the nearest living worker that serves it, and the newest living root; whatever of these is dead
-// and not replaced yet is left out. With one path it looks at nothing and costs nothing.
+// that they keep links (Report::kept). No other spare counts, since nothing keeps it where it is. Its terminals are,
+// for each active target, the nearest living worker that serves it, and the newest living root; whatever of these is
+// dead and not replaced yet is left out. With one path it looks at nothing and costs nothing.
 class Redundancy {
  public:
   // `paths`: k. What is counted begins 10 s after the first completion.
@@ -44,9 +44,9 @@ class Redundancy {
   double restored_s_ = -1.0;
   DisjointPaths search_;
   Graph graph_;
-  std::vector<std::uint32_t> number_;      // by robot, in the graph
-  std::vector<std::uint32_t> terminals_;   // the root last, if there is one
-  std::vector<std::uint32_t> of_target_;   // by active target: its terminal
+  std::vector<std::uint32_t> number_;     // by robot, in the graph
+  std::vector<std::uint32_t> terminals_;  // the root last, if there is one
+  std::vector<std::uint32_t> of_target_;  // by active target: its terminal
   std::vector<double> nearest_;
   bool has_root_ = false;
 };

@@ -19,6 +19,7 @@ struct RedundancyBound {
 // is no worker. Obstacles and line of sight are ignored. For one path this is robots_bound(). See docs/model.md for the
 // proof. `exact`, which is looked for with up to nine targets: a ring through the targets, or as many Steiner trees of
 // relays as there are to be paths, has no more. Pure; some milliseconds.
-[[nodiscard]] RedundancyBound redundancy_bound(const std::vector<world::Vec2>& targets, double tolerance_m, double range_m, std::uint32_t paths);
+[[nodiscard]] RedundancyBound redundancy_bound(const std::vector<world::Vec2>& targets, double tolerance_m,
+                                               double range_m, std::uint32_t paths);
 
 }  // namespace banyan::measure

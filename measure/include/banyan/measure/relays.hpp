@@ -19,9 +19,9 @@ namespace banyan::measure {
 
 // A network of targets and relays. Nodes: the targets in their order, then the relays.
 struct RelayTree {
-  std::vector<world::Vec2> relays;                              // metres
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;   // a tree
-  bool exact = false;                                           // no network has fewer relays
+  std::vector<world::Vec2> relays;                             // metres
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  // a tree
+  bool exact = false;                                          // no network has fewer relays
 };
 
 // The Steiner tree with minimum number of Steiner points and bounded edge length (Lin & Xue 1999): the fewest relays

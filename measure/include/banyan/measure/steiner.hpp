@@ -9,9 +9,9 @@
 namespace banyan::measure {
 
 struct SteinerLength {
-  double lower_m = 0.0;   // certified: no network is shorter
-  double upper_m = 0.0;   // length of a network that exists
-  bool exact = false;     // lower == upper up to 1e-6 relative
+  double lower_m = 0.0;  // certified: no network is shorter
+  double upper_m = 0.0;  // length of a network that exists
+  bool exact = false;    // lower == upper up to 1e-6 relative
 };
 
 // Euclidean Steiner minimal tree of the terminals; equal ones count once. Exact (Smith 1992:

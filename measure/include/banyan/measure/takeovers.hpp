@@ -17,22 +17,25 @@ class Takeovers {
   // `tick_s` > 0.
   explicit Takeovers(double tick_s) : tick_s_{tick_s} {}
 
-  // Once per tick. `holders`: by target, the living worker that holds it, or `nobody`. Targets may be added, never removed.
-  void observe(std::span<const RobotId> holders, std::span<const world::Target> targets, std::span<const std::uint8_t> alive);
+  // Once per tick. `holders`: by target, the living worker that holds it, or `nobody`. Targets may be added, never
+  // removed.
+  void observe(std::span<const RobotId> holders, std::span<const world::Target> targets,
+               std::span<const std::uint8_t> alive);
 
   // How often a worker died at its target while the target was active.
   [[nodiscard]] std::uint32_t lost() const noexcept { return lost_; }
   // From such a death until the target was held again, median; a target that still waits counts as longer than all that
-  // are held again, one that was deactivated meanwhile does not count. -1: none died, or half of them or more still wait.
+  // are held again, one that was deactivated meanwhile does not count. -1: none died, or half of them or more still
+  // wait.
   [[nodiscard]] double median_s() const;
 
  private:
   struct Course {
-    RobotId holder = nobody;       // at the last tick, or the one that died
-    std::uint32_t waits_ticks = 0; // 1 and the ticks without a holder since it died; 0: it has not died
+    RobotId holder = nobody;        // at the last tick, or the one that died
+    std::uint32_t waits_ticks = 0;  // 1 and the ticks without a holder since it died; 0: it has not died
   };
   double tick_s_;
-  std::vector<Course> courses_;           // by target
+  std::vector<Course> courses_;            // by target
   std::vector<std::uint32_t> held_again_;  // ticks without a holder, in the order in which it ended
   std::uint32_t lost_ = 0;
 };

@@ -26,10 +26,10 @@ struct Viewport {
 [[nodiscard]] Viewport joined(const Viewport& a, const Viewport& b) noexcept;
 
 struct PictureOptions {
-  double width_px = 1000.0;    // 200 to 20000
-  double height_px = 0.0;      // 0: as high as the map needs; else exactly that, 150 to 20000
-  std::optional<Viewport> view;    // what is shown; default view_of(), with the trails
-  double trail_s = 10.0;       // how far back trails go; 0: none. Recordings only
+  double width_px = 1000.0;      // 200 to 20000
+  double height_px = 0.0;        // 0: as high as the map needs; else exactly that, 150 to 20000
+  std::optional<Viewport> view;  // what is shown; default view_of(), with the trails
+  double trail_s = 10.0;         // how far back trails go; 0: none. Recordings only
   bool links = true;
   bool blocked_links = false;  // in range, but no line of sight
   bool ids = false;            // robot numbers

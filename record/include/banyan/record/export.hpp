@@ -17,7 +17,7 @@ namespace banyan::record {
 struct TableOptions {
   double from_s = 0.0;
   double to_s = std::numeric_limits<double>::infinity();
-  std::size_t every = 1;       // every nth recorded frame
+  std::size_t every = 1;  // every nth recorded frame
 };
 
 // Gets the table in pieces of some 64 KiB, header first.

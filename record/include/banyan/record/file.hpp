@@ -48,8 +48,8 @@ class OutputFile {
   ~OutputFile();  // without commit(): closes, and removes the part unless keep_part()
 
   void write(std::string_view bytes);
-  void flush();                   // to the operating system
-  void commit();                  // flush, fsync, close, rename, fsync of the directory
+  void flush();   // to the operating system
+  void commit();  // flush, fsync, close, rename, fsync of the directory
   void keep_part() noexcept { keep_part_ = true; }
   [[nodiscard]] std::uint64_t position() const noexcept { return position_; }  // bytes written so far
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -66,7 +66,7 @@ class OutputFile {
   int descriptor_ = -1;
   Existing existing_;
   bool keep_part_ = false;
-  bool replaceable_ = true;       // false for devices and pipes: written in place, never renamed
+  bool replaceable_ = true;  // false for devices and pipes: written in place, never renamed
 };
 
 // The whole of `text` as the file `path`, atomically.

@@ -19,32 +19,32 @@ namespace banyan::record {
 using world::Vec2;
 
 struct RobotFrame {
-  Vec2 position;                 // m
-  double heading_rad = 0.0;      // (-pi, pi]
+  Vec2 position;             // m
+  double heading_rad = 0.0;  // (-pi, pi]
   Role role = Role::spare;
   Phase phase = Phase::init;
   Need need = Need::no_need;
   SpareState spare_state = SpareState::wait;
   bool alive = true;
-  bool connected = false;        // alive and in the radio component of the newest living root
+  bool connected = false;  // alive and in the radio component of the newest living root
   std::uint16_t epoch = 0;
-  std::int32_t label_cm = -1;    // -1: unknown
-  std::int32_t depth = 0;        // root 1; 0: not connected to the root by tree edges
-  std::int32_t parent = -1;      // robot index, -1: nobody; so are the next three
+  std::int32_t label_cm = -1;  // -1: unknown
+  std::int32_t depth = 0;      // root 1; 0: not connected to the root by tree edges
+  std::int32_t parent = -1;    // robot index, -1: nobody; so are the next three
   std::int32_t old_parent = -1;
   std::int32_t grant = -1;
   std::int32_t request = -1;
-  double want_m = 0.0;           // largest remaining worker distance below
-  std::int32_t target = -1;      // index of the target that it serves, sent there or in place of another; -1: none
-  double spent = 0.0;            // share of its battery that is used up; 0 without batteries
-  bool raised = false;           // where sight leaks: its antenna looks over the bodies near it
+  double want_m = 0.0;       // largest remaining worker distance below
+  std::int32_t target = -1;  // index of the target that it serves, sent there or in place of another; -1: none
+  double spent = 0.0;        // share of its battery that is used up; 0 without batteries
+  bool raised = false;       // where sight leaks: its antenna looks over the bodies near it
   friend bool operator==(const RobotFrame&, const RobotFrame&) = default;
 };
 
 struct TargetFrame {
   Vec2 position;
-  std::int32_t worker = -1;      // robot first sent there, -1: nobody; who serves it now has it as RobotFrame::target
-  bool active = true;            // false once it has been given up
+  std::int32_t worker = -1;  // robot first sent there, -1: nobody; who serves it now has it as RobotFrame::target
+  bool active = true;        // false once it has been given up
   friend bool operator==(const TargetFrame&, const TargetFrame&) = default;
 };
 
@@ -67,8 +67,8 @@ struct Setting {
   double radius_m = 0.07;
   double range_m = 2.0;
   bool line_of_sight = false;
-  double sight_leak = 0.0;       // radio.sight_leak
-  bool dead_bodies = true;       // the dead hide what is behind them; false: they vanish
+  double sight_leak = 0.0;  // radio.sight_leak
+  bool dead_bodies = true;  // the dead hide what is behind them; false: they vanish
   double target_tolerance_m = 0.2;
   double time_limit_s = 0.0;
   std::vector<world::Obstacle> obstacles;
@@ -81,7 +81,7 @@ struct Setting {
 
 // Reuses the memory of `frame`. O(robots + links).
 void capture(const world::World& world, Frame& frame);
-[[nodiscard]] Setting setting_of(const world::World& world);   // as it is now
+[[nodiscard]] Setting setting_of(const world::World& world);  // as it is now
 // Whether setting_of(world) would still be `setting`, which it was before. O(obstacles), no allocation.
 [[nodiscard]] bool still_holds(const Setting& setting, const world::World& world) noexcept;
 

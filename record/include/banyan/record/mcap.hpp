@@ -23,13 +23,13 @@ using Map = std::map<std::string, std::string>;
 struct Schema {
   std::uint16_t id = 0;
   std::string name;
-  std::string encoding;          // "jsonschema"
+  std::string encoding;  // "jsonschema"
   std::string data;
 };
 
 struct Channel {
   std::uint16_t id = 0;
-  std::uint16_t schema_id = 0;   // 0: none
+  std::uint16_t schema_id = 0;  // 0: none
   std::string topic;
   std::string message_encoding;  // "json"
   Map metadata;
@@ -40,7 +40,7 @@ struct Message {
   std::uint32_t sequence = 0;
   Nanoseconds log_time = 0;
   Nanoseconds publish_time = 0;
-  std::string_view data;         // valid during the call that hands it out
+  std::string_view data;  // valid during the call that hands it out
 };
 
 struct Metadata {
@@ -53,8 +53,8 @@ struct Metadata {
 struct WriterOptions {
   std::string profile;
   std::string library;
-  int compression_level = 1;             // zstd; 0: chunks are stored uncompressed
-  std::size_t chunk_bytes = 1 << 20;     // a chunk is closed when it exceeds this; a group's first ones are smaller
+  int compression_level = 1;          // zstd; 0: chunks are stored uncompressed
+  std::size_t chunk_bytes = 1 << 20;  // a chunk is closed when it exceeds this; a group's first ones are smaller
 };
 
 // Channels of one group share chunks, and no chunk holds channels of two groups: who wants the small
@@ -76,8 +76,8 @@ class Writer {
   void message(std::uint16_t channel_id, Nanoseconds time, std::string_view data);
   void metadata(const Metadata& metadata);  // in the file at once, before what the open chunks hold
   void attachment(std::string_view name, std::string_view media_type, Nanoseconds time, std::string_view data);
-  void end_chunks();                         // of all groups: what came so far survives a crash
-  void finish();                             // data end, summary, footer; once, nothing may follow
+  void end_chunks();  // of all groups: what came so far survives a crash
+  void finish();      // data end, summary, footer; once, nothing may follow
 
  private:
   struct Impl;
@@ -95,7 +95,7 @@ class Reader {
   ~Reader();
 
   [[nodiscard]] const std::string& path() const noexcept;
-  [[nodiscard]] bool indexed() const noexcept;           // the summary was sound
+  [[nodiscard]] bool indexed() const noexcept;                              // the summary was sound
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept;  // grows while reading
   [[nodiscard]] const std::map<std::uint16_t, Schema>& schemas() const noexcept;
   [[nodiscard]] const std::map<std::uint16_t, Channel>& channels() const noexcept;

@@ -40,10 +40,10 @@ inline constexpr OutputFormat output_formats[] = {
 // [output] of a scenario. Never changes what happens in a run.
 struct OutputSettings {
   std::array<bool, std::size(output_formats)> wanted = defaults();  // the formats with a key, by position
-  bool results = true;             // those without one
-  std::uint32_t record_every = 1;  // ticks, of the recording
-  bool messages = true;            // in it: what each robot broadcast
-  bool live = false;               // can be watched while it is written
+  bool results = true;                                              // those without one
+  std::uint32_t record_every = 1;                                   // ticks, of the recording
+  bool messages = true;                                             // in it: what each robot broadcast
+  bool live = false;                                                // can be watched while it is written
 
   // By key; throws std::out_of_range for what is none.
   [[nodiscard]] bool& operator[](std::string_view key);

@@ -26,7 +26,7 @@ inline constexpr Color tree{0x1A, 0x1A, 0x1A, "#1a1a1a"};       // parent edges
 inline constexpr Color old_tree{0xE6, 0x9F, 0x00, "#e69f00"};   // old parent edges: orange
 inline constexpr Color link{0xB8, 0xB8, 0xB8, "#b8b8b8"};       // radio links
 inline constexpr Color blocked{0x56, 0xB4, 0xE9, "#56b4e9"};    // in range, no line of sight: sky blue
-inline constexpr Color trail{0xB0, 0xA0, 0x10, "#b0a010"};     // of spares: their yellow, dark enough for a line
+inline constexpr Color trail{0xB0, 0xA0, 0x10, "#b0a010"};      // of spares: their yellow, dark enough for a line
 inline constexpr Color obstacle{0xA6, 0xA0, 0x98, "#a6a098"};
 }  // namespace palette
 

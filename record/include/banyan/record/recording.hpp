@@ -21,19 +21,19 @@ namespace banyan::record {
 
 // Where a result comes from; written into every output.
 struct Provenance {
-  std::string config_json;   // the whole configuration, as one JSON object
+  std::string config_json;  // the whole configuration, as one JSON object
   std::string version;
-  std::string git;           // commit id, "" if unknown
+  std::string git;  // commit id, "" if unknown
   std::uint64_t seed = 0;
 };
 
 struct RecorderOptions {
-  std::uint32_t every_ticks = 1;    // frames and messages; metrics and events are kept at every tick
-  bool messages = true;             // what each robot broadcast, at every recorded frame of a world
-  double scene_period_s = 0.5;      // 0: no /scene; stretched in proportion above 1000 robots
-  int compression_level = 1;        // zstd
+  std::uint32_t every_ticks = 1;  // frames and messages; metrics and events are kept at every tick
+  bool messages = true;           // what each robot broadcast, at every recorded frame of a world
+  double scene_period_s = 0.5;    // 0: no /scene; stretched in proportion above 1000 robots
+  int compression_level = 1;      // zstd
   std::size_t chunk_bytes = 1 << 20;
-  bool live = false;                // chunks end with every second of the wall clock: for those who read it while it grows
+  bool live = false;  // chunks end with every second of the wall clock: for those who read it while it grows
   Existing existing = Existing::keep;
 };
 
@@ -56,7 +56,7 @@ class Recorder {
   // its name. An interrupted run is a valid recording that says so.
   void finish(const measure::Run& run, bool interrupted = false);
 
-  [[nodiscard]] std::uint64_t bytes() const noexcept;   // of the file so far
+  [[nodiscard]] std::uint64_t bytes() const noexcept;  // of the file so far
   [[nodiscard]] const std::string& path() const noexcept;
   [[nodiscard]] const std::string& part_path() const noexcept;  // what stays if it is never finished
 
@@ -93,7 +93,7 @@ class Recording {
   [[nodiscard]] const std::map<std::string, std::string>& result() const noexcept;
 
   [[nodiscard]] std::size_t frames() const noexcept;
-  [[nodiscard]] double start_s() const noexcept;   // of the first and last frame; 0 without any
+  [[nodiscard]] double start_s() const noexcept;  // of the first and last frame; 0 without any
   [[nodiscard]] double end_s() const noexcept;
 
   // The last frame at or before `time_s`, the first one if there is none. Throws without frames.

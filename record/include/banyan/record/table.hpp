@@ -27,8 +27,8 @@ struct Identification {
   double sight_leak = 0.0;
   double loss = 0.0;
   std::uint64_t targets = 0;
-  double target_radius_m = 0.0;    // the farthest target from the centre of the start
-  double redundancy = 0.0;         // k as given, or the one that `robots` comes to
+  double target_radius_m = 0.0;  // the farthest target from the centre of the start
+  double redundancy = 0.0;       // k as given, or the one that `robots` comes to
   double range_m = 0.0;
   double tick_s = 0.0;
   std::uint64_t seed = 0;
@@ -46,13 +46,12 @@ struct RunRow {
 // A cell; monostate is "not available": an empty CSV field, null in JSON.
 using Cell = std::variant<std::monostate, bool, std::uint64_t, double, std::string>;
 
-template <class Row>
-struct Column {
-  std::string_view name;     // snake_case, with its unit
+template <class Row> struct Column {
+  std::string_view name;  // snake_case, with its unit
   std::string_view meaning;
-  int decimals;              // of a double
+  int decimals;  // of a double
   Cell (*cell)(const Row&);
-  int since = 1;             // format version of the table that was the first to have it
+  int since = 1;  // format version of the table that was the first to have it
 };
 [[nodiscard]] std::span<const Column<RunRow>> run_columns() noexcept;
 // The last of these: how the run went. Those before them identify it.

@@ -40,8 +40,8 @@ struct Measure {
   std::optional<double> share_confidence;  // values are 0 or 1: their share with Wilson's interval, no box
 };
 struct Panel {
-  std::string title;                    // "r = 3 m"
-  std::size_t measure = 0;              // of the figure's
+  std::string title;                        // "r = 3 m"
+  std::size_t measure = 0;                  // of the figure's
   std::vector<std::vector<BoxRuns>> boxes;  // [group][series]; no run: no box
 };
 // What several groups have in common, written below their labels: a label per group.

@@ -48,7 +48,8 @@ struct Gathered {
 [[nodiscard]] Gathered gather(const std::vector<std::string>& sources, const std::string& study);
 
 // Indices of the shard's runs that are not known yet; with `retry` those that have failed, too.
-[[nodiscard]] std::vector<std::size_t> runs_to_do(const Plan& plan, const Shard& shard, const Outcomes& known, bool retry);
+[[nodiscard]] std::vector<std::size_t> runs_to_do(const Plan& plan, const Shard& shard, const Outcomes& known,
+                                                  bool retry);
 
 // "0.1.0 (git 123abc)" of this program.
 [[nodiscard]] std::string this_build();

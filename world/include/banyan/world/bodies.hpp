@@ -17,7 +17,7 @@ namespace banyan::world {
 // Where the robots are: structure of arrays, one entry per robot, dead ones included.
 struct Poses {
   std::vector<Vec2> position;
-  std::vector<Vec2> heading;   // unit vectors
+  std::vector<Vec2> heading;  // unit vectors
 };
 
 // Robots so near to each other that they could touch within the next tick: i < j, ascending. The
@@ -34,7 +34,7 @@ class Bodies {
   virtual void step(std::span<const Velocity> command, NearPairs near, std::uint64_t tick, Poses& poses,
                     std::span<Odometry> odometry) = 0;
   // From now on robot i has no body and touches no other. Its command stays zero.
-  virtual void remove(std::size_t) {}   // where contacts are only those of `near` there is nothing to do
+  virtual void remove(std::size_t) {}  // where contacts are only those of `near` there is nothing to do
   // From the next step on these are the obstacles. A robot that is then inside one is pushed out of it.
   virtual void set_obstacles(std::span<const Obstacle> obstacles) = 0;
   // Adds what the model remembers beside the poses (velocities) to a running hash.

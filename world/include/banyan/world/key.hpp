@@ -124,19 +124,15 @@ template <class T> struct Conversion {
   static Names names() noexcept { return NamesOf<T>::list; }
   static Value get(const T& member) {
     std::size_t index = 0;
-    if constexpr (std::is_enum_v<T>)
-      index = static_cast<std::size_t>(member);
-    else
-      index = member.index();
+    if constexpr (std::is_enum_v<T>) index = static_cast<std::size_t>(member);
+    else index = member.index();
     return index < names().size() ? std::string(names()[index]) : std::string();
   }
   static void set(T& member, const Value& value) {
     const auto index = static_cast<std::size_t>(
         std::find(names().begin(), names().end(), std::get<std::string>(value)) - names().begin());
-    if constexpr (std::is_enum_v<T>)
-      member = static_cast<T>(index);
-    else
-      choose(member, index, std::make_index_sequence<std::variant_size_v<T>>());
+    if constexpr (std::is_enum_v<T>) member = static_cast<T>(index);
+    else choose(member, index, std::make_index_sequence<std::variant_size_v<T>>());
   }
   template <std::size_t... alternative>
   static void choose(T& member, std::size_t index, std::index_sequence<alternative...>) {

@@ -15,8 +15,8 @@ namespace banyan::world {
 [[nodiscard]] Poses place(const Scenario& scenario);
 
 struct Assignment {
-  std::vector<std::size_t> worker;   // per target: the nearest robot, distinct, in target order
-  std::size_t root = 0;              // scenario.swarm.root or a random robot that is not a worker
+  std::vector<std::size_t> worker;  // per target: the nearest robot, distinct, in target order
+  std::size_t root = 0;             // scenario.swarm.root or a random robot that is not a worker
 };
 // Needs more robots than targets (faults() checks). A given root is never a worker. O(N T).
 [[nodiscard]] Assignment assign(const Scenario& scenario, const Poses& poses, const std::vector<Vec2>& targets);

@@ -11,12 +11,14 @@
 
 namespace banyan::world {
 
+// clang-format off
 enum class Purpose : std::uint64_t {
   placement = 1, heading, root, targets, loss, range_noise, bearing_noise, wheel_noise, wheel_bias,
   odometry_noise, slots, kill, clock_phase, clock_rate, start,
   burst_end, path_loss, shadowing, one_way, antenna,
   start_charge, charge_noise
 };
+// clang-format on
 
 // SplitMix64's finaliser (Steele, Lea & Flood 2014): a bijection with full avalanche.
 constexpr std::uint64_t mix(std::uint64_t x) noexcept {
@@ -40,7 +42,10 @@ constexpr double deterministic_log(double x) noexcept {
   const std::uint64_t u = std::bit_cast<std::uint64_t>(x);
   int e = static_cast<int>((u >> 52) & 0x7FF) - 1023;
   double m = std::bit_cast<double>((u & 0x000FFFFFFFFFFFFFULL) | 0x3FF0000000000000ULL);  // [1, 2)
-  if (m > 1.4142135623730951) { m *= 0.5; ++e; }
+  if (m > 1.4142135623730951) {
+    m *= 0.5;
+    ++e;
+  }
   const double t = (m - 1.0) / (m + 1.0);
   const double z = t * t;
   double s = 1.0 / 17;

@@ -12,13 +12,14 @@
 
 namespace banyan::world {
 
-template <class T, std::size_t spare = 0>
-class Rows {
+template <class T, std::size_t spare = 0> class Rows {
  public:
   explicit Rows(std::size_t rows) : begin_(rows + 1, 0), size_(rows, 0) {}
 
   [[nodiscard]] std::span<T> of(std::size_t row) noexcept { return {items_.data() + begin_[row], size_[row]}; }
-  [[nodiscard]] std::span<const T> of(std::size_t row) const noexcept { return {items_.data() + begin_[row], size_[row]}; }
+  [[nodiscard]] std::span<const T> of(std::size_t row) const noexcept {
+    return {items_.data() + begin_[row], size_[row]};
+  }
 
   // Makes the row `size` long, whatever is in it then. False, and nothing has changed, if there is no room.
   [[nodiscard]] bool resize(std::size_t row, std::size_t size) noexcept {
@@ -48,8 +49,7 @@ class Rows {
 
   // Gives row r room for at least wanted(r) items, which is no less than its size. Keeps what is in the
   // rows. Takes from the heap only when all of them together are more than ever before.
-  template <class Wanted>
-  void lay_out(Wanted wanted) {
+  template <class Wanted> void lay_out(Wanted wanted) {
     const std::size_t rows = size_.size();
     std::size_t end = 0;
     for (std::size_t r = 0; r < rows; ++r) {  // all to the front, none behind where it was

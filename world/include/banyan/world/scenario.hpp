@@ -21,14 +21,14 @@ namespace banyan::world {
 using Vec2 = BasicVec2<double>;
 
 struct Mission {
-  std::string algorithm = "convoy";     // a name in Scenario::algorithms
-  std::string reading = "corrected";    // or "literal"
-  double scale = 1.0;                   // on Table I's lengths (paper Sec. IV-C, "rescaled")
+  std::string algorithm = "convoy";   // a name in Scenario::algorithms
+  std::string reading = "corrected";  // or "literal"
+  double scale = 1.0;                 // on Table I's lengths (paper Sec. IV-C, "rescaled")
   double target_tolerance_m = 0.20;
-  double time_limit_s = 0.0;            // 0: 10 r / v_max, r the farthest target from the start's centre
+  double time_limit_s = 0.0;  // 0: 10 r / v_max, r the farthest target from the start's centre
   bool stop_when_complete = true;
-  double settle_s = 0.0;                // with stop_when_complete: how long to go on after completion
-  std::size_t link_redundancy = 1;      // k: paths between any two targets that share no other robot
+  double settle_s = 0.0;            // with stop_when_complete: how long to go on after completion
+  std::size_t link_redundancy = 1;  // k: paths between any two targets that share no other robot
   std::vector<std::pair<std::string, double>> parameters;  // overrides, by their keys
 };
 
@@ -47,48 +47,48 @@ struct Start {
 };
 
 struct SwarmModel {
-  std::optional<std::size_t> robots;    // none: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
-  double redundancy = 2.0;              // k
+  std::optional<std::size_t> robots;  // none: from redundancy, ceil(k sum_i |p_i| / 1.540841) (protocol 2, row 10)
+  double redundancy = 2.0;            // k
   Start start;
-  std::optional<std::size_t> root;      // index; none: a random robot that is not a worker
+  std::optional<std::size_t> root;  // index; none: a random robot that is not a worker
 };
 
 enum class BodyModel : std::uint8_t { disks, box2d, linear };
 
 struct RobotModel {
   BodyModel body = BodyModel::disks;
-  double radius_m = 0.0704;             // Khepera IV
+  double radius_m = 0.0704;  // Khepera IV
   double wheel_distance_m = 0.1054;
   double wheel_limit_m_s = 0.2;
-  double wheel_noise = 0.0;             // sigma of the factor on each wheel's speed, drawn every tick
-  double wheel_bias = 0.0;              // sigma of a factor drawn once per wheel
-  double odometry_noise = 0.0;          // sigma of the factor on each odometry reading
-  double mass_kg = 0.4;                 // box2d
-  double max_force_n = 1.5;             // box2d
-  double max_torque_nm = 1.5;           // box2d
-  double max_acceleration_m_s2 = 1.0;   // linear: |u| <= this (paper II-A)
-  bool dead_bodies = true;              // the dead stay and block motion and sight; false: they vanish
-  double proximity_m = 0.30;            // reach of the proximity sensor from the robot's centre; 0: none
+  double wheel_noise = 0.0;            // sigma of the factor on each wheel's speed, drawn every tick
+  double wheel_bias = 0.0;             // sigma of a factor drawn once per wheel
+  double odometry_noise = 0.0;         // sigma of the factor on each odometry reading
+  double mass_kg = 0.4;                // box2d
+  double max_force_n = 1.5;            // box2d
+  double max_torque_nm = 1.5;          // box2d
+  double max_acceleration_m_s2 = 1.0;  // linear: |u| <= this (paper II-A)
+  bool dead_bodies = true;             // the dead stay and block motion and sight; false: they vanish
+  double proximity_m = 0.30;           // reach of the proximity sensor from the robot's centre; 0: none
 };
 
 struct RadioModel {
   // Which packets do not arrive, beside those that are out of range or sight.
   enum class Model : std::uint8_t { disc, bursts, path_loss, one_way };
   Model model = Model::disc;
-  double range_m = 2.0;                 // C: a link exists at distance < C (strict, symmetric)
-  bool line_of_sight = false;           // blocked by robots and obstacles
-  double sight_leak = 0.0;              // share of the lines of sight past one body over which packets get through
-  double loss = 0.0;                    // probability that a packet is lost, per packet and receiver
-  double range_noise_m = 0.0;           // sigma
-  double bearing_noise_rad = 0.0;       // sigma
-  int latency_ticks = 1;                // a message sent in tick t is heard in t + latency
-  double burst_s = 0.5;                 // bursts: mean length of a time in which nothing arrives over a link
-  double path_loss_exponent = 3.0;      // path_loss: n
-  double edge_loss = 0.5;               // path_loss: share of the packets lost at distance C, without shadowing
-  double shadowing_db = 3.0;            // path_loss: sigma of the shadowing of a pair
-  double shadowing_s = 5.0;             // path_loss: time after which it is drawn anew; 0: never
-  double one_way_share = 0.2;           // one_way: of the pairs of robots, those in which one never hears the other
-  int slots = 0;                        // packets a robot can receive in one tick; 0: no limit
+  double range_m = 2.0;             // C: a link exists at distance < C (strict, symmetric)
+  bool line_of_sight = false;       // blocked by robots and obstacles
+  double sight_leak = 0.0;          // share of the lines of sight past one body over which packets get through
+  double loss = 0.0;                // probability that a packet is lost, per packet and receiver
+  double range_noise_m = 0.0;       // sigma
+  double bearing_noise_rad = 0.0;   // sigma
+  int latency_ticks = 1;            // a message sent in tick t is heard in t + latency
+  double burst_s = 0.5;             // bursts: mean length of a time in which nothing arrives over a link
+  double path_loss_exponent = 3.0;  // path_loss: n
+  double edge_loss = 0.5;           // path_loss: share of the packets lost at distance C, without shadowing
+  double shadowing_db = 3.0;        // path_loss: sigma of the shadowing of a pair
+  double shadowing_s = 5.0;         // path_loss: time after which it is drawn anew; 0: never
+  double one_way_share = 0.2;       // one_way: of the pairs of robots, those in which one never hears the other
+  int slots = 0;                    // packets a robot can receive in one tick; 0: no limit
 };
 
 // What a robot runs on (docs/model.md). The defaults are a Khepera IV: 7.4 V times 3400 mAh; standing it lasts 8 h,
@@ -98,20 +98,20 @@ struct Battery {
   enum class Model : std::uint8_t { none, power, time, motion, time_motion };
   Model model = Model::none;
   double capacity_j = 90576.0;
-  double start_charge = 1.0;            // share of the capacity
-  double start_spread = 0.0;            // so much less at most, uniform
-  double idle_w = 1.4;                  // power: sensors, motor controllers and all that is not below
-  double computing_w = 1.25;            // its computer
+  double start_charge = 1.0;  // share of the capacity
+  double start_spread = 0.0;  // so much less at most, uniform
+  double idle_w = 1.4;        // power: sensors, motor controllers and all that is not below
+  double computing_w = 1.25;  // its computer
   double radio_w = 0.5;
-  double drive_w_per_m_s = 4.72;        // by each wheel
-  double charge_per_s = 1e-4;           // time: share of the capacity
-  double charge_per_m = 1e-3;           // motion
+  double drive_w_per_m_s = 4.72;  // by each wheel
+  double charge_per_s = 1e-4;     // time: share of the capacity
+  double charge_per_m = 1e-3;     // motion
   double charge_per_rad = 1e-3;
-  double noise = 0.0;                   // sigma of the measured charge, as a share of the capacity
-  std::vector<Vec2> places;             // where robots are charged; each is held like a target
-  std::size_t slots = 4;                // robots charged at one place at the same time
-  double reach_m = 0.6;                 // from a place to the robots that it charges
-  double charge_w = 25.0;               // into each of them
+  double noise = 0.0;        // sigma of the measured charge, as a share of the capacity
+  std::vector<Vec2> places;  // where robots are charged; each is held like a target
+  std::size_t slots = 4;     // robots charged at one place at the same time
+  double reach_m = 0.6;      // from a place to the robots that it charges
+  double charge_w = 25.0;    // into each of them
 
   [[nodiscard]] bool on() const noexcept { return model != Model::none; }
 };
@@ -146,7 +146,7 @@ struct Box {
   double angle_rad = 0.0;
   friend bool operator==(const Box&, const Box&) = default;
 };
-struct Wall {                            // a segment without thickness
+struct Wall {  // a segment without thickness
   static constexpr std::string_view kind = "wall";
   Vec2 from;
   Vec2 to;
@@ -162,7 +162,7 @@ struct Die {
 struct Freeze {
   static constexpr std::string_view kind = "freeze";
   std::size_t robot = 0;
-  double duration_s = 0.0;              // 0: for good
+  double duration_s = 0.0;  // 0: for good
 };
 struct SetLoss {
   static constexpr std::string_view kind = "set_loss";
@@ -172,7 +172,7 @@ struct MoveTarget {
   static constexpr std::string_view kind = "move_target";
   std::size_t target = 0;
   Vec2 position{};
-  double speed_m_s = 0.0;               // 0: it jumps
+  double speed_m_s = 0.0;  // 0: it jumps
 };
 struct AddTarget {
   static constexpr std::string_view kind = "add_target";
@@ -183,13 +183,13 @@ struct Kill {
   // Which robots it draws from: the living that broadcast the role when it acts.
   enum class Of : std::uint8_t { robots, connectors, root, worker, worker_and_parent };
   Of of = Of::robots;
-  std::optional<double> share{};        // of those it draws from when it begins, rounded; not beside count
-  std::optional<std::size_t> count{};   // how many; neither: one
-  double every_s = 0.0;                 // one by one, this long apart; 0: all at once
+  std::optional<double> share{};       // of those it draws from when it begins, rounded; not beside count
+  std::optional<std::size_t> count{};  // how many; neither: one
+  double every_s = 0.0;                // one by one, this long apart; 0: all at once
 };
-struct Blackout {                        // no robot hears anything
+struct Blackout {  // no robot hears anything
   static constexpr std::string_view kind = "blackout";
-  double duration_s = 0.0;              // above 0
+  double duration_s = 0.0;  // above 0
 };
 struct RemoveTarget {
   static constexpr std::string_view kind = "remove_target";
@@ -202,14 +202,14 @@ struct SetLineOfSight {
 struct MoveObstacle {
   static constexpr std::string_view kind = "move_obstacle";
   std::size_t obstacle = 0;
-  Vec2 position{};                      // of its centre, or of a wall's middle
+  Vec2 position{};  // of its centre, or of a wall's middle
 };
-struct AddObstacle {                     // a disc; it becomes the last obstacle
+struct AddObstacle {  // a disc; it becomes the last obstacle
   static constexpr std::string_view kind = "add_obstacle";
   Vec2 position{};
-  double radius_m = 0.0;                // above 0
+  double radius_m = 0.0;  // above 0
 };
-struct RemoveObstacle {                  // those after it move up
+struct RemoveObstacle {  // those after it move up
   static constexpr std::string_view kind = "remove_obstacle";
   std::size_t obstacle = 0;
 };
@@ -230,7 +230,7 @@ struct Event {
 // its period, and its own rate; bodies move and packets travel in `substeps` steps per tick.
 struct Clocks {
   bool asynchronous = false;
-  double drift = 0.0;                   // a clock's rate is 1 + uniform(-drift, drift), drawn once
+  double drift = 0.0;  // a clock's rate is 1 + uniform(-drift, drift), drawn once
   int substeps = 5;
 };
 
@@ -249,7 +249,7 @@ struct Scenario {
   Battery battery;
   Targets targets = RingTargets{};
   std::vector<Obstacle> obstacles;
-  std::vector<Event> events;            // any order; equal times act in file order
+  std::vector<Event> events;  // any order; equal times act in file order
 };
 
 // The functions below need a scenario without faults (faults.hpp; warnings do not matter).

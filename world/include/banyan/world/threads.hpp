@@ -11,7 +11,7 @@ namespace banyan::world {
 
 class Executor {
  public:
-  explicit Executor(int threads = 1);   // at least 1; the caller is one of them
+  explicit Executor(int threads = 1);  // at least 1; the caller is one of them
   ~Executor();
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
@@ -20,12 +20,14 @@ class Executor {
 
   // Calls f(begin, end, worker) for chunks that cover [0, n), worker in [0, threads). Returns when
   // all are done; rethrows nothing: f must not throw. No allocation.
-  template <class F>
-  void parallel_for(std::size_t n, F&& f) {
+  template <class F> void parallel_for(std::size_t n, F&& f) {
     if (threads_ == 1) return f(std::size_t{0}, n, 0);
-    run(n, [](void* context, std::size_t begin, std::size_t end, int worker) {
-      (*static_cast<std::remove_reference_t<F>*>(context))(begin, end, worker);
-    }, &f);
+    run(
+        n,
+        [](void* context, std::size_t begin, std::size_t end, int worker) {
+          (*static_cast<std::remove_reference_t<F>*>(context))(begin, end, worker);
+        },
+        &f);
   }
 
  private:

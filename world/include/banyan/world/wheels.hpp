@@ -17,21 +17,24 @@ struct Twist {
 
 // What the wheels make of a command: each within its limit, times its noise (drawn every tick) and
 // its bias (drawn once).
-[[nodiscard]] inline Twist wheel_twist(const RobotModel& robot, const Velocity& command, std::uint64_t seed, std::size_t i,
-                                       std::uint64_t tick) noexcept {
+[[nodiscard]] inline Twist wheel_twist(const RobotModel& robot, const Velocity& command, std::uint64_t seed,
+                                       std::size_t i, std::uint64_t tick) noexcept {
   const double turn_part = 0.5 * static_cast<double>(command.turn_rad_s) * robot.wheel_distance_m;
-  double wheel[2] = {static_cast<double>(command.forward_m_s) - turn_part, static_cast<double>(command.forward_m_s) + turn_part};
+  double wheel[2] = {static_cast<double>(command.forward_m_s) - turn_part,
+                     static_cast<double>(command.forward_m_s) + turn_part};
   for (std::uint64_t side = 0; side < 2; ++side) {
     wheel[side] = std::clamp(wheel[side], -robot.wheel_limit_m_s, robot.wheel_limit_m_s);
-    if (robot.wheel_noise > 0.0) wheel[side] *= 1.0 + robot.wheel_noise * to_normal(bits(seed, Purpose::wheel_noise, i, side, tick));
-    if (robot.wheel_bias > 0.0) wheel[side] *= 1.0 + robot.wheel_bias * to_normal(bits(seed, Purpose::wheel_bias, i, side));
+    if (robot.wheel_noise > 0.0)
+      wheel[side] *= 1.0 + robot.wheel_noise * to_normal(bits(seed, Purpose::wheel_noise, i, side, tick));
+    if (robot.wheel_bias > 0.0)
+      wheel[side] *= 1.0 + robot.wheel_bias * to_normal(bits(seed, Purpose::wheel_bias, i, side));
   }
   return {0.5 * (wheel[0] + wheel[1]), (wheel[1] - wheel[0]) / robot.wheel_distance_m};
 }
 
 // Odometry of a motion by `shift` (body frame of the tick's start, m) and `turn` (rad).
-[[nodiscard]] inline Odometry measured_odometry(const RobotModel& robot, Vec2 shift, double turn, std::uint64_t seed, std::size_t i,
-                                                std::uint64_t tick) noexcept {
+[[nodiscard]] inline Odometry measured_odometry(const RobotModel& robot, Vec2 shift, double turn, std::uint64_t seed,
+                                                std::size_t i, std::uint64_t tick) noexcept {
   if (robot.odometry_noise > 0.0) {
     shift *= 1.0 + robot.odometry_noise * to_normal(bits(seed, Purpose::odometry_noise, i, 0, tick));
     turn *= 1.0 + robot.odometry_noise * to_normal(bits(seed, Purpose::odometry_noise, i, 1, tick));

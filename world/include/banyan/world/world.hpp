@@ -22,8 +22,8 @@ class Executor;  // threads.hpp
 
 struct Target {
   Vec2 position{};
-  std::size_t worker = 0;   // index of the robot first sent there; its id is what `serves` names
-  bool active = true;       // false once it has been given up (RemoveTarget)
+  std::size_t worker = 0;  // index of the robot first sent there; its id is what `serves` names
+  bool active = true;      // false once it has been given up (RemoveTarget)
 };
 
 class World {
@@ -60,12 +60,12 @@ class World {
 
   [[nodiscard]] const Scenario& scenario() const noexcept;
   [[nodiscard]] const Algorithm& algorithm() const noexcept;
-  [[nodiscard]] const Swarm& swarm() const noexcept;      // to look into the robots; the world itself uses reports
-  [[nodiscard]] std::uint64_t tick() const noexcept;      // 0 before the first step
-  [[nodiscard]] double time_s() const noexcept;           // tick x tick_s
-  [[nodiscard]] std::size_t size() const noexcept;        // robots, dead ones included
+  [[nodiscard]] const Swarm& swarm() const noexcept;  // to look into the robots; the world itself uses reports
+  [[nodiscard]] std::uint64_t tick() const noexcept;  // 0 before the first step
+  [[nodiscard]] double time_s() const noexcept;       // tick x tick_s
+  [[nodiscard]] std::size_t size() const noexcept;    // robots, dead ones included
   [[nodiscard]] std::span<const Vec2> positions() const noexcept;
-  [[nodiscard]] std::span<const Vec2> headings() const noexcept;   // unit vectors
+  [[nodiscard]] std::span<const Vec2> headings() const noexcept;  // unit vectors
   // The report of each robot, as of its last step; of a dead one, as of its last step before it died.
   [[nodiscard]] std::span<const Report> reports() const noexcept;
   [[nodiscard]] std::span<const std::uint8_t> alive() const noexcept;  // 0: dead (its body stays)
@@ -78,8 +78,8 @@ class World {
   // Need not be targets()[target].worker: a spare may have taken over. None if no robot does, if the
   // target was given up or if there is no such target. O(N).
   [[nodiscard]] std::optional<std::size_t> holder(std::size_t target) const noexcept;
-  [[nodiscard]] std::size_t deaths() const noexcept;               // since the start
-  [[nodiscard]] std::size_t emptied() const noexcept;              // of these, robots whose battery was empty
+  [[nodiscard]] std::size_t deaths() const noexcept;   // since the start
+  [[nodiscard]] std::size_t emptied() const noexcept;  // of these, robots whose battery was empty
   // Per robot the charge as a share of a full battery, and the charging place in whose slot it is, -1: none. Empty if
   // robots do not run on batteries.
   [[nodiscard]] std::span<const double> charge() const noexcept;
@@ -90,7 +90,8 @@ class World {
   // wait for a moment of the mission included.
   [[nodiscard]] bool pending_kills() const noexcept;
   // Robots that robot i could hear and be heard by at the current poses: in range, both alive, line of sight free or,
-  // with radio.sight_leak, only with bodies in the way that antennas look over. Ascending. Packet loss is not considered.
+  // with radio.sight_leak, only with bodies in the way that antennas look over. Ascending. Packet loss is not
+  // considered.
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
   // 1: the robot's antenna looks over bodies (radio.sight_leak). Empty if sight does not leak.
   [[nodiscard]] std::span<const std::uint8_t> raised() const noexcept;
@@ -98,7 +99,7 @@ class World {
   // O(pairs in range).
   [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> blocked() const;
 
-  [[nodiscard]] std::uint64_t packets_received() const noexcept;   // since the start
+  [[nodiscard]] std::uint64_t packets_received() const noexcept;  // since the start
   [[nodiscard]] std::uint64_t packets_sent() const noexcept;
   // 64 bits over everything that can influence a later tick.
   [[nodiscard]] std::uint64_t hash() const noexcept;

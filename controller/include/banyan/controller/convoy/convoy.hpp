@@ -19,12 +19,14 @@ namespace banyan {
 [[nodiscard]] ConvoyState initial_convoy_state(RobotId id, bool worker, bool root) noexcept;
 
 // One tick of one robot, as outwards_step() (outwards.hpp).
-[[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state, const Inputs<Heard>& inputs) noexcept;
+[[nodiscard]] Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state,
+                                                const Inputs<Heard>& inputs) noexcept;
 
 // The same for robots that run on batteries (docs/lasting.md): their messages have one block more.
 [[nodiscard]] ConvoyParams with_room_for_relief(ConvoyParams params) noexcept;
 [[nodiscard]] PoweredConvoyState initial_powered_state(RobotId id, bool worker, bool root) noexcept;
-[[nodiscard]] Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state, const Inputs<Heard>& inputs) noexcept;
+[[nodiscard]] Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state,
+                                                               const Inputs<Heard>& inputs) noexcept;
 [[nodiscard]] Report powered_report(const PoweredConvoyState& state) noexcept;
 void add_to(Digest& digest, const PoweredConvoyState& state) noexcept;
 

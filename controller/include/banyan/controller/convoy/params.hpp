@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What only convoy reads (docs/convoy.md). The table has every length in units of C; here they are metres, those of C = 2 m.
+// What only convoy reads (docs/convoy.md). The table has every length in units of C; here they are metres, those of C =
+// 2 m.
 #pragma once
 
 #include "banyan/controller/power/params.hpp"
@@ -7,15 +8,15 @@
 namespace banyan {
 
 struct ConvoyParams : PowerParams {
-  float pull_start_m = 1.35F;        // a child farther than this pulls its parent along
-  float pull_width_m = 0.3F;         // and with full strength this much farther away
-  float tension_gain = 0.4F;         // edges are taut strings: straight chains, junctions of 120 degrees
+  float pull_start_m = 1.35F;  // a child farther than this pulls its parent along
+  float pull_width_m = 0.3F;   // and with full strength this much farther away
+  float tension_gain = 0.4F;   // edges are taut strings: straight chains, junctions of 120 degrees
   float tension_start_m = 0.3F;
   float tension_width_m = 0.3F;
-  float slack_gain = 2.0F;           // edges of a chain share their slack
-  float first_edge_m = 0.7F;         // the longest edge that is chosen while there is a choice
-  float clearance_m = 0.16F;         // a robot nearer than this to a segment blocks it, or soon may
-  float corridor_width_m = 0.7F;     // robots within it move out of a tree edge's line of sight
+  float slack_gain = 2.0F;        // edges of a chain share their slack
+  float first_edge_m = 0.7F;      // the longest edge that is chosen while there is a choice
+  float clearance_m = 0.16F;      // a robot nearer than this to a segment blocks it, or soon may
+  float corridor_width_m = 0.7F;  // robots within it move out of a tree edge's line of sight
   float corridor_gain = 0.5F;
   float join_margin_m = 0.1F;        // a spare joins an edge whose ends are nearer than delta minus this
   float shortest_split_m = 0.8F;     // shorter edges get no spare
@@ -27,8 +28,8 @@ struct ConvoyParams : PowerParams {
   float plan_after_s = 15.0F;        // all have arrived: the root plans chains from target to target; 0: never
   float shed_after_s = 90.0F;        // spares missed for so long without progress: the root gives a target up; 0: never
   float thrift = 0.0F;               // 0 to 1: how much robots count against time, once workers have arrived
-  float companion_distance_m = 0.3F; // how far beside its robot a companion stands
-  int link_redundancy = 1;           // the mission's k: each robot that the tree depends on has k - 1 companions
+  float companion_distance_m = 0.3F;  // how far beside its robot a companion stands
+  int link_redundancy = 1;            // the mission's k: each robot that the tree depends on has k - 1 companions
 };
 
 // A length between robots that have arrived: with thrift nearer to G, which no edge outgrows.
@@ -39,7 +40,8 @@ struct ConvoyParams : PowerParams {
 
 [[nodiscard]] std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept;
 
-// Besides tree_fault(): an edge pulls before it is as long as it may be, a spare can join one, and C has room for bodies.
+// Besides tree_fault(): an edge pulls before it is as long as it may be, a spare can join one, and C has room for
+// bodies.
 [[nodiscard]] std::string_view convoy_fault(const ConvoyParams& params) noexcept;
 
 }  // namespace banyan

@@ -15,26 +15,32 @@ namespace banyan {
 
 // What a robot of convoy hears is what robots of convoy say.
 inline const ConvoyMessage& convoy_message(const TreeMessage& m) noexcept {
-  return static_cast<const ConvoyMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  return static_cast<const ConvoyMessage&>(
+      m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
 }
 
 // And in a swarm on batteries, what such robots say.
 inline const PoweredConvoyMessage& powered_message(const ConvoyMessage& m) noexcept {
-  return static_cast<const PoweredConvoyMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  return static_cast<const PoweredConvoyMessage&>(
+      m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
 }
 
 struct ConvoyRobot : HealingRobot {
   ConvoyRobot(const ConvoyParams& params_, ConvoyState& self_, const Inputs<Heard>& inputs) noexcept
       : HealingRobot(params_, self_, inputs), params(params_), self(self_) {}
 
-  const ConvoyParams& params;   // the same objects as the tree's
+  const ConvoyParams& params;  // the same objects as the tree's
   ConvoyState& self;
   PowerRobot* power = nullptr;  // null: it does not run on a battery
 
-  [[nodiscard]] const ConvoyStanding& convoy_of(int k) const noexcept { return self.convoy_standings[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const ConvoyStanding& convoy_of(int k) const noexcept {
+    return self.convoy_standings[static_cast<std::size_t>(k)];
+  }
   [[nodiscard]] const CornerStanding& corner_of(int k) const noexcept { return self.corners.of(k); }
   // Neighbour k, a worker: the target it serves, by the robot first sent there.
-  [[nodiscard]] RobotId served_by(int k) const noexcept { return self.healing_standings[static_cast<std::size_t>(k)].serves; }
+  [[nodiscard]] RobotId served_by(int k) const noexcept {
+    return self.healing_standings[static_cast<std::size_t>(k)].serves;
+  }
   // What my parent has said this tick; null if I did not hear it.
   [[nodiscard]] const ConvoyMessage* parent_message() const noexcept {
     if (self.parent == nobody) return nullptr;
@@ -44,8 +50,12 @@ struct ConvoyRobot : HealingRobot {
 };
 
 // I have to be relieved; so has neighbour k.
-[[nodiscard]] inline bool is_leaving(const ConvoyRobot& robot) noexcept { return robot.power != nullptr && robot.power->power.said.leaving; }
-[[nodiscard]] inline bool is_leaving(const ConvoyRobot& robot, int k) noexcept { return robot.power != nullptr && robot.power->standing(k).leaving; }
+[[nodiscard]] inline bool is_leaving(const ConvoyRobot& robot) noexcept {
+  return robot.power != nullptr && robot.power->power.said.leaving;
+}
+[[nodiscard]] inline bool is_leaving(const ConvoyRobot& robot, int k) noexcept {
+  return robot.power != nullptr && robot.power->standing(k).leaving;
+}
 
 [[nodiscard]] inline bool sees_clearly(const ConvoyRobot& robot, int k, float clearance_m) noexcept {
   return sees_clearly(robot, robot.self.corners, k, clearance_m);

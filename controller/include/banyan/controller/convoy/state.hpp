@@ -13,35 +13,35 @@ namespace banyan {
 
 // Stands before the others' part, as HealingMemory does.
 struct ConvoyMemory {
-  std::uint16_t pending_ticks = 0;       // how long I have been waiting for pending_parent to get ahead of me
-  RobotId warned = nobody;               // the child that I am about to lose sight of
+  std::uint16_t pending_ticks = 0;  // how long I have been waiting for pending_parent to get ahead of me
+  RobotId warned = nobody;          // the child that I am about to lose sight of
 
   // Chains from target to target (plan.cpp)
-  RobotId above = nobody;                // the next worker above me in the tree, by its target
-  RobotId below = nobody;                // the only worker below me, by its target
-  RobotId lead_to = nobody;              // I lead my branch to that target
-  RobotId led_from = nobody;             // the parent it had then
-  std::uint16_t lead_ticks = 0;          // since its parent changed
-  std::uint16_t settled_ticks = 0;       // the root: since all workers arrived
-  std::uint16_t unsettled_ticks = 0;     // or since one no longer has
-  std::uint16_t plan_ticks = 0;          // of the plan that is being carried out
-  std::uint8_t plan_targets = 0;         // thrift, the root: for so many targets it has planned
-  std::uint8_t plan_levels = 0;          // of its plan; 0: there is none
-  std::uint8_t plan_steps = 0;           // begun so far
+  RobotId above = nobody;             // the next worker above me in the tree, by its target
+  RobotId below = nobody;             // the only worker below me, by its target
+  RobotId lead_to = nobody;           // I lead my branch to that target
+  RobotId led_from = nobody;          // the parent it had then
+  std::uint16_t lead_ticks = 0;       // since its parent changed
+  std::uint16_t settled_ticks = 0;    // the root: since all workers arrived
+  std::uint16_t unsettled_ticks = 0;  // or since one no longer has
+  std::uint16_t plan_ticks = 0;       // of the plan that is being carried out
+  std::uint8_t plan_targets = 0;      // thrift, the root: for so many targets it has planned
+  std::uint8_t plan_levels = 0;       // of its plan; 0: there is none
+  std::uint8_t plan_steps = 0;        // begun so far
   std::array<std::uint8_t, task_capacity> plan_level{};
   std::array<RobotId, task_capacity> planned = none();  // hosts of all levels
-  RobotId shed = nobody;                 // the root: the target that it is giving up, since robots are too few
-  std::uint16_t short_ticks = 0;         // spares have been missed for so long without progress:
-  std::uint16_t short_want_cm = 0;       // the least distance that was left since
-  std::uint8_t short_reached = 0;        // so many targets were reached
-  std::uint16_t tried_with = 0;          // the most spares with which a target was tried again
+  RobotId shed = nobody;            // the root: the target that it is giving up, since robots are too few
+  std::uint16_t short_ticks = 0;    // spares have been missed for so long without progress:
+  std::uint16_t short_want_cm = 0;  // the least distance that was left since
+  std::uint8_t short_reached = 0;   // so many targets were reached
+  std::uint16_t tried_with = 0;     // the most spares with which a target was tried again
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 
   // A second path (redundancy/companions.hpp)
-  RobotId accompanies = nobody;          // a spare: the robot of the tree that it stands beside
-  std::uint16_t alone_ticks = 0;         // for so long a companion has been missed here, or more urgently elsewhere
+  RobotId accompanies = nobody;   // a spare: the robot of the tree that it stands beside
+  std::uint16_t alone_ticks = 0;  // for so long a companion has been missed here, or more urgently elsewhere
 
-  Corners corners;                       // obstacles: lines of sight past them
+  Corners corners;                                                   // obstacles: lines of sight past them
   std::array<ConvoyStanding, neighbor_capacity> convoy_standings{};  // beside the neighbour table
 
  private:
@@ -55,7 +55,9 @@ struct ConvoyMemory {
 struct ConvoyState : ConvoyMemory, HealingState {
   void prefetch(std::size_t entries) const noexcept {
     HealingState::prefetch(entries = std::min<std::size_t>(entries, neighbor_capacity));
-    prefetch_lines(&pending_ticks, static_cast<std::size_t>(reinterpret_cast<const char*>(corners.standings.data() + entries) - reinterpret_cast<const char*>(&pending_ticks)));
+    prefetch_lines(&pending_ticks,
+                   static_cast<std::size_t>(reinterpret_cast<const char*>(corners.standings.data() + entries) -
+                                            reinterpret_cast<const char*>(&pending_ticks)));
     prefetch_lines(convoy_standings.data(), entries * sizeof(ConvoyStanding));
   }
 };
@@ -65,9 +67,9 @@ struct PoweredConvoyState : ConvoyState {
   PowerState power;
 };
 
-template <class Visitor, class State>
-constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
-  visit(s.pending_ticks), visit(s.warned), visit(s.above), visit(s.below), visit(s.lead_to), visit(s.led_from), visit(s.lead_ticks);
+template <class Visitor, class State> constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
+  visit(s.pending_ticks), visit(s.warned), visit(s.above), visit(s.below), visit(s.lead_to), visit(s.led_from),
+      visit(s.lead_ticks);
   visit(s.settled_ticks), visit(s.unsettled_ticks), visit(s.plan_ticks);
   for (int k = 0; k < s.task_count; ++k) visit(s.hosts[static_cast<std::size_t>(k)]);
   // Left out where they are not in use, so that hashes of runs without them are those of before.
@@ -76,16 +78,19 @@ constexpr void visit_convoy_state(Visitor& visit, State& s) noexcept {
   if (s.tried_with != 0) visit(s.tried_with);
   if (s.plan_targets != 0) {
     visit(s.plan_targets), visit(s.plan_levels), visit(s.plan_steps);
-    for (int k = 0; k < s.task_count; ++k) visit(s.planned[static_cast<std::size_t>(k)]), visit(s.plan_level[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < s.task_count; ++k)
+      visit(s.planned[static_cast<std::size_t>(k)]), visit(s.plan_level[static_cast<std::size_t>(k)]);
   }
   if (s.accompanies != nobody) visit(s.accompanies);
   if (s.alone_ticks != 0) visit(s.alone_ticks);
   visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
   for (int k = 0; k < s.corners.landmarks.size; ++k) visit(s.corners.landmarks.points[static_cast<std::size_t>(k)]);
-  for (std::size_t k = 0; k < s.corners.bodies.size; ++k) visit(s.corners.bodies.centers[k]), visit(s.corners.bodies.ids[k]);
+  for (std::size_t k = 0; k < s.corners.bodies.size; ++k)
+    visit(s.corners.bodies.centers[k]), visit(s.corners.bodies.ids[k]);
   for (int k = 0; k < s.neighbors.size(); ++k) {
     const auto n = static_cast<std::size_t>(k);
-    visit(s.corners.standings[n].hinge_x_cm), visit(s.corners.standings[n].hinge_y_cm), visit(s.corners.standings[n].pinned);
+    visit(s.corners.standings[n].hinge_x_cm), visit(s.corners.standings[n].hinge_y_cm),
+        visit(s.corners.standings[n].pinned);
     visit(s.convoy_standings[n].child_count), visit(s.convoy_standings[n].below);
   }
 }

@@ -26,13 +26,13 @@ struct Member {
 
 // What a swarm is made for.
 struct Setup {
-  std::string reading = "corrected";                        // or "literal" (docs/algorithms.md)
-  double scale = 1.0;                                       // on the lengths of Table I (paper Sec. IV-C, "rescaled")
+  std::string reading = "corrected";  // or "literal" (docs/algorithms.md)
+  double scale = 1.0;                 // on the lengths of Table I (paper Sec. IV-C, "rescaled")
   Platform platform;
-  double arrival_distance_m = 0.2;                          // the mission's tolerance
-  int link_redundancy = 1;                                  // paths between any two targets that share no other robot
-  std::vector<std::pair<std::string, double>> parameters;   // by key, in the units of the table
-  std::size_t history = 1;                                  // longest time from sending to hearing, ticks
+  double arrival_distance_m = 0.2;                         // the mission's tolerance
+  int link_redundancy = 1;                                 // paths between any two targets that share no other robot
+  std::vector<std::pair<std::string, double>> parameters;  // by key, in the units of the table
+  std::size_t history = 1;                                 // longest time from sending to hearing, ticks
 };
 
 class Algorithm {
@@ -88,9 +88,9 @@ class AlgorithmList {
   explicit AlgorithmList(std::vector<const Algorithm*> algorithms) : algorithms_(std::move(algorithms)) {
     for (const Algorithm* algorithm : algorithms_) names_.push_back(algorithm->name());
     // In the order of the longest table, so that the texts of configurations keep theirs.
-    const auto longest = std::max_element(algorithms_.begin(), algorithms_.end(), [](const Algorithm* a, const Algorithm* b) {
-      return a->parameters().size() < b->parameters().size();
-    });
+    const auto longest = std::max_element(
+        algorithms_.begin(), algorithms_.end(),
+        [](const Algorithm* a, const Algorithm* b) { return a->parameters().size() < b->parameters().size(); });
     if (longest != algorithms_.end()) add_parameters(**longest);
     for (const Algorithm* algorithm : algorithms_) add_parameters(*algorithm);
   }
@@ -109,7 +109,8 @@ class AlgorithmList {
  private:
   void add_parameters(const Algorithm& algorithm) {
     for (const ParameterInfo* info : algorithm.parameters())
-      if (std::none_of(parameters_.begin(), parameters_.end(), [&](const ParameterInfo& row) { return row.key == info->key; }))
+      if (std::none_of(parameters_.begin(), parameters_.end(),
+                       [&](const ParameterInfo& row) { return row.key == info->key; }))
         parameters_.push_back(*info);
   }
 

@@ -34,8 +34,7 @@ template <class Params, class... Tables>
 
 // What a designer meets of an algorithm. Its Params are derived from Platform, which the host fills in; an
 // arrival_distance_m among them is the mission's unless it is set.
-template <class P>
-struct Description {
+template <class P> struct Description {
   static P initial_values() noexcept { return {}; }
   static std::vector<BoundParameter> no_table(P&) { return {}; }
   static std::string_view no_fault(const P&) noexcept { return {}; }
@@ -43,8 +42,8 @@ struct Description {
   std::string_view name;     // as in mission.algorithm
   std::string_view summary;  // one sentence
   P (*defaults)() noexcept = initial_values;
-  std::vector<BoundParameter> (*bind)(P&) = no_table;             // in the order in which they are listed
-  std::string_view (*fault)(const P&) noexcept = no_fault;        // the first among values that depend on each other
+  std::vector<BoundParameter> (*bind)(P&) = no_table;       // in the order in which they are listed
+  std::string_view (*fault)(const P&) noexcept = no_fault;  // the first among values that depend on each other
   bool follows_range = false;  // lengths among the defaults stand for C = 2 m and grow with it; Table I's are absolute
 };
 
@@ -91,8 +90,7 @@ inline std::string range_fault(std::span<const float> values, std::span<const Bo
 
 }  // namespace algorithm_detail
 
-template <class A>
-class AlgorithmOf : public Algorithm {
+template <class A> class AlgorithmOf : public Algorithm {
  public:
   using Params = typename A::Params;
 

@@ -14,14 +14,15 @@ class Digest {
  public:
   constexpr explicit Digest(std::uint64_t seed = 0xCBF29CE484222325ULL) noexcept : h_(seed) {}
 
-  template <class T>
-  constexpr void add(T v) noexcept {
+  template <class T> constexpr void add(T v) noexcept {
     if constexpr (std::is_same_v<T, float>) absorb(std::bit_cast<std::uint32_t>(v));
     else if constexpr (std::is_same_v<T, double>) absorb(std::bit_cast<std::uint64_t>(v));
     else absorb(static_cast<std::uint64_t>(v));
   }
-  template <class T>
-  constexpr void add(BasicVec2<T> v) noexcept { add(v.x); add(v.y); }
+  template <class T> constexpr void add(BasicVec2<T> v) noexcept {
+    add(v.x);
+    add(v.y);
+  }
   [[nodiscard]] constexpr std::uint64_t value() const noexcept { return h_; }
 
  private:

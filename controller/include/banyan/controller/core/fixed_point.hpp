@@ -11,8 +11,7 @@ namespace banyan {
 inline constexpr float per_cm = 100.0F;  // units in a metre, for lengths in cm
 
 // `v` in units of 1 / `unit`, rounded, saturated.
-template <class Int>
-constexpr Int to_fixed(float v, float unit) noexcept {
+template <class Int> constexpr Int to_fixed(float v, float unit) noexcept {
   const float scaled = v * unit + (v < 0.0F ? -0.5F : 0.5F);
   constexpr auto low = static_cast<float>(std::numeric_limits<Int>::min());
   constexpr auto high = static_cast<float>(std::numeric_limits<Int>::max());

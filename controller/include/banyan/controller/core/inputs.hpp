@@ -21,7 +21,7 @@ inline constexpr RobotId nobody = 0xFFFF;
 struct Odometry {
   float forward_m = 0.0F;
   float sideways_m = 0.0F;
-  float turn_rad = 0.0F;   // to the left
+  float turn_rad = 0.0F;  // to the left
 };
 
 // What the mission tells a robot, over whatever channel the host has.
@@ -40,8 +40,8 @@ struct Orders {
 
 // What a robot knows of its battery.
 struct Charge {
-  float level = 1.0F;      // share of a full one
-  bool charging = false;   // it is being charged
+  float level = 1.0F;     // share of a full one
+  bool charging = false;  // it is being charged
 };
 
 struct Senses {
@@ -55,7 +55,7 @@ struct Senses {
   // paper gives in seconds, and every age and silence, grows by that time. What follows from how news travels, a hop
   // a message (a barrier that holds, an orphan without a parent, a question without an answer), counts steps, and
   // so do the root's and the workers' signs of life: robots that step less often than once a tick wait longer for them.
-  float elapsed_s = 0.0F;   // 0: one tick
+  float elapsed_s = 0.0F;  // 0: one tick
 };
 
 // What the motors are to do until the next step. A differential robot is never given `sideways_m_s`;

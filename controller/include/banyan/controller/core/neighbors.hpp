@@ -26,8 +26,7 @@ inline void prefetch_lines(const void* from, std::size_t bytes) noexcept {
 }
 
 // Moves the elements of one such array.
-template <class T>
-constexpr void close_gap(std::array<T, neighbor_capacity>& array, int k, int size) noexcept {
+template <class T> constexpr void close_gap(std::array<T, neighbor_capacity>& array, int k, int size) noexcept {
   std::move(array.begin() + k + 1, array.begin() + size, array.begin() + k);
 }
 
@@ -51,9 +50,10 @@ class Neighbors {
   // those that must not be lost stay (`must`: the sender; `ties(k)`: entry k), and of the others the nearest.
   int enter(RobotId id, Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
   // From entry `from` on: removes the first that is older than `liveness_ticks`, unless `keeps(k)`: its silence
-  // matters, and it counts as alive for `kept_ticks` if that is longer; those behind it move up by one. Its index; -1 if
-  // there is none.
-  int remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps, int kept_ticks = 0) noexcept;
+  // matters, and it counts as alive for `kept_ticks` if that is longer; those behind it move up by one. Its index; -1
+  // if there is none.
+  int remove_next(int from, const Carry& carry, int liveness_ticks, FunctionRef<bool(int)> keeps,
+                  int kept_ticks = 0) noexcept;
 
   // About `entries` entries are needed soon.
   void prefetch(std::size_t entries) const noexcept;
@@ -70,8 +70,10 @@ class Neighbors {
   [[nodiscard]] float range(int k) const noexcept { return ranges_m_[k]; }
   [[nodiscard]] const PositionFilter& filter() const noexcept { return filter_; }
   [[nodiscard]] float spread_m() const noexcept { return filter_.spread_m(); }
-  [[nodiscard]] int measurements(int k) const noexcept { return measurements_[k]; }  // that its position is made of, up to 255
-  [[nodiscard]] int age(int k) const noexcept { return ages_[k]; }            // ticks, 0: heard now
+  [[nodiscard]] int measurements(int k) const noexcept {
+    return measurements_[k];
+  }                                                                 // that its position is made of, up to 255
+  [[nodiscard]] int age(int k) const noexcept { return ages_[k]; }  // ticks, 0: heard now
   // Of those heard in the tick before: how many they were, and how many were not heard in this one.
   [[nodiscard]] int expected() const noexcept { return expected_; }
   [[nodiscard]] int missed() const noexcept { return missed_; }
@@ -94,8 +96,7 @@ class Neighbors {
   int evict(Vec2 position, bool must, FunctionRef<bool(int)> ties) noexcept;
   void remove(int k) noexcept;
 
-  template <class T>
-  using Array = std::array<T, neighbor_capacity>;
+  template <class T> using Array = std::array<T, neighbor_capacity>;
   std::int16_t size_ = 0;
   std::int16_t next_rank_ = 0;  // behind the packet filed last: from many hosts they come in the order of ids
   std::int16_t liveness_ticks_ = 0;
@@ -103,8 +104,8 @@ class Neighbors {
   std::int16_t missed_ = 0;
   std::int16_t elapsed_ticks_ = 1;
   std::int16_t returned_ = 0;
-  std::int16_t watched_ = 0;    // so many of the first entries are compared with where they were expected
-  Rows all_;                    // [0, size)
+  std::int16_t watched_ = 0;  // so many of the first entries are compared with where they were expected
+  Rows all_;                  // [0, size)
   PositionFilter filter_;
   Array<Vec2> positions_{};  // first, with the ranges: a chip loads floats from at most 1,020 bytes away
   Array<float> ranges_m_{};

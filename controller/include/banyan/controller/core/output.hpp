@@ -5,8 +5,7 @@
 
 namespace banyan {
 
-template <class Message>
-struct Output {
+template <class Message> struct Output {
   Message message;  // to broadcast
   Velocity velocity;
 };

@@ -9,11 +9,11 @@ namespace banyan {
 
 // What a length is measured in, and what it grows with.
 enum class Scaling : unsigned char {
-  none,       // a time, a gain, or a length that does not scale
-  mission,    // m; times mission.scale, and for algorithms made for any radio times C / 2 m
-  range,      // in units of C; in Params in metres
-  body,       // likewise; but bodies do not shrink with the radio: it is never shorter than where C is 2 m, for wheels
-              // farther apart or nearer in proportion
+  none,     // a time, a gain, or a length that does not scale
+  mission,  // m; times mission.scale, and for algorithms made for any radio times C / 2 m
+  range,    // in units of C; in Params in metres
+  body,     // likewise; but bodies do not shrink with the radio: it is never shorter than where C is 2 m, for wheels
+            // farther apart or nearer in proportion
 };
 
 // The radio for which lengths in Params have their defaults. For another radio, lengths
@@ -33,9 +33,6 @@ struct ParameterInfo {
 };
 
 // A row that knows where its number is.
-template <class Params>
-struct Parameter : ParameterInfo {
-  float Params::*member;
-};
+template <class Params> struct Parameter : ParameterInfo { float Params::*member; };
 
 }  // namespace banyan

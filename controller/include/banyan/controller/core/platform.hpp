@@ -14,7 +14,7 @@ struct Platform {
   float wheel_distance_m = 0.1054F;    // between the wheels
   bool line_of_sight = true;           // the radio does not go through obstacles and bodies
   Drive drive = Drive::differential;
-  bool battery = false;                // it may run down; Senses::charge says how far
+  bool battery = false;  // it may run down; Senses::charge says how far
 
   // The nearest number of whole ticks. In fifty places the division would take more of a robot's memory than a call.
   [[nodiscard, gnu::noinline]] int ticks(float seconds) const noexcept {

@@ -23,8 +23,7 @@ class PositionFilter {
   [[nodiscard]] float spread_m() const noexcept { return spread_m_; }
   [[nodiscard]] bool has_seen_noise() const noexcept { return range_ms_ > 0.0F || bearing_ms_ > 0.0F; }
 
-  template <class Visit>
-  void visit(Visit visit) const noexcept { visit(range_ms_), visit(bearing_ms_); }
+  template <class Visit> void visit(Visit visit) const noexcept { visit(range_ms_), visit(bearing_ms_); }
 
  private:
   // Mean squares of the innovations, as far as no motion explains them

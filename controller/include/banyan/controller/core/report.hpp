@@ -45,34 +45,37 @@ constexpr KeptLinks no_links() noexcept {
 
 struct Report {
   Role role = Role::spare;
-  RobotId parent = nobody;         // the edges that it promises to keep
+  RobotId parent = nobody;  // the edges that it promises to keep
   RobotId old_parent = nobody;
-  KeptLinks kept = no_links();     // the links that it promises to keep besides, then nobody: without a tree, or of a spare
-  RobotId serves = nobody;         // a worker: its target, by the robot first sent there
-  RobotId root = nobody;           // the robot that it believes to be root,
-  Serial root_sequence = 0;        // by a token with this number: the newest names the root
+  KeptLinks kept =
+      no_links();            // the links that it promises to keep besides, then nobody: without a tree, or of a spare
+  RobotId serves = nobody;   // a worker: its target, by the robot first sent there
+  RobotId root = nobody;     // the robot that it believes to be root,
+  Serial root_sequence = 0;  // by a token with this number: the newest names the root
 
   // Algorithms that build a tree again and again (paper Fig. 1, Fig. 5)
   Serial epoch = 0;
   Phase phase = Phase::init;
   Need need = Need::no_need;
   SpareState spare_state = SpareState::wait;
-  std::int32_t label_cm = -1;      // distance to the root along hops, -1: unknown
-  std::uint16_t depth = 0;         // in the tree, root 1; 0: no path of tree edges to the root
-  RobotId grant = nobody;          // the spare that it lets into the edge to its parent
-  RobotId request = nobody;        // the owner of the edge that it wants to join
-  float want_m = 0.0F;             // largest remaining way of a worker below
+  std::int32_t label_cm = -1;  // distance to the root along hops, -1: unknown
+  std::uint16_t depth = 0;     // in the tree, root 1; 0: no path of tree edges to the root
+  RobotId grant = nobody;      // the spare that it lets into the edge to its parent
+  RobotId request = nobody;    // the owner of the edge that it wants to join
+  float want_m = 0.0F;         // largest remaining way of a worker below
 
   // Algorithms for robots with batteries
-  bool leaves = false;             // it has to be relieved
-  bool seeks_charge = false;       // it is free, and on its way to a charging place or waits there to be full
-  RobotId relieves = nobody;       // the robot whose place it takes
+  bool leaves = false;        // it has to be relieved
+  bool seeks_charge = false;  // it is free, and on its way to a charging place or waits there to be full
+  RobotId relieves = nobody;  // the robot whose place it takes
 
   Tally tally;
 };
 
 // The robot at the upper end of its edge: the parent or, while trees are switched and there is none, the old one.
-constexpr RobotId up_of(const Report& r) noexcept { return r.role == Role::root ? nobody : r.parent != nobody ? r.parent : r.old_parent; }
+constexpr RobotId up_of(const Report& r) noexcept {
+  return r.role == Role::root ? nobody : r.parent != nobody ? r.parent : r.old_parent;
+}
 
 // Of two robots that believe in different roots, `a` knows the newer token.
 constexpr bool has_newer_root(const Report& a, const Report& b) noexcept {

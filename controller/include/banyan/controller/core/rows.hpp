@@ -13,10 +13,10 @@ inline constexpr int neighbor_capacity = 96;
 
 class Rows {
  public:
-  template <class Visit>
-  void for_each(Visit visit) const noexcept {
+  template <class Visit> void for_each(Visit visit) const noexcept {
     for (int n = 0; n < words; ++n)
-      for (Word left = words_[static_cast<std::size_t>(n)]; left != 0; left &= left - 1) visit(n * bits + std::countr_zero(left));
+      for (Word left = words_[static_cast<std::size_t>(n)]; left != 0; left &= left - 1)
+        visit(n * bits + std::countr_zero(left));
   }
   void set(int k, bool belongs) noexcept {
     Word& word = words_[static_cast<std::size_t>(k / bits)];

@@ -31,7 +31,7 @@ struct Packet {
 struct Sensed {
   std::span<const Packet> packets;  // in any order; of several of one sender the last counts
   Senses senses;
-  bool steps = true;                // false: dead or asleep. It repeats its last message.
+  bool steps = true;  // false: dead or asleep. It repeats its last message.
 };
 
 // A number in a message, for recordings and inspectors.
@@ -48,9 +48,10 @@ class Swarm {
   [[nodiscard]] virtual std::size_t size() const noexcept = 0;
 
   // One tick is step() for ranges that do not overlap and together are all robots, in any order and on any
-  // threads, then decide() and advance(). step() writes the command and the report of each robot that steps, and neither
-  // of one that does not; all spans are as long as `sensed`. No allocation after the first ticks.
-  virtual void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) = 0;
+  // threads, then decide() and advance(). step() writes the command and the report of each robot that steps, and
+  // neither of one that does not; all spans are as long as `sensed`. No allocation after the first ticks.
+  virtual void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
+                    std::span<Report> reports) = 0;
   virtual void advance() noexcept = 0;
   // For swarms whose robots are decided for all at once, by something that is no step: called on one thread, after all
   // ranges of a tick and before advance(), or between ticks (World::decide). May change the command and the report of

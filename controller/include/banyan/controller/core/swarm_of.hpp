@@ -28,22 +28,23 @@ namespace banyan {
 
 // Messages begin cache lines; large arrays lie in large pages where the system has them: states lie 9 KB
 // apart, so that in small pages every robot costs address translations of its own.
-template <class T>
-struct PageAllocator {
+template <class T> struct PageAllocator {
   using value_type = T;
   PageAllocator() = default;
-  template <class U>
-  explicit PageAllocator(const PageAllocator<U>&) noexcept {}
+  template <class U> explicit PageAllocator(const PageAllocator<U>&) noexcept {}
   static constexpr std::size_t page = 4096;
-  static constexpr std::size_t alignment(std::size_t n) noexcept { return n * sizeof(T) >= 64 * page ? page : alignof(T) > 64 ? alignof(T) : 64; }
+  static constexpr std::size_t alignment(std::size_t n) noexcept {
+    return n * sizeof(T) >= 64 * page ? page : alignof(T) > 64 ? alignof(T) : 64;
+  }
   T* allocate(std::size_t n) {
-    auto* const p = static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{alignment(n)}));
+    auto* const p = static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{alignment(n)}));
 #ifdef __linux__
-    if (alignment(n) == page) madvise(p, n * sizeof(T) / page * page, MADV_HUGEPAGE);  // a hint; failure changes nothing
+    if (alignment(n) == page)
+      madvise(p, n * sizeof(T) / page * page, MADV_HUGEPAGE);  // a hint; failure changes nothing
 #endif
     return p;
   }
-  void deallocate(T* p, std::size_t n) noexcept { ::operator delete(p, std::align_val_t{alignment(n)}); }
+  void deallocate(T* p, std::size_t n) noexcept { ::operator delete (p, std::align_val_t{alignment(n)}); }
   friend bool operator==(const PageAllocator&, const PageAllocator&) noexcept { return true; }
 };
 
@@ -63,21 +64,24 @@ struct Names {
 };
 struct Numbers {
   double* at;
-  template <class E> void choice(const char*, const char*, const E& v, int, E) noexcept { *at++ = static_cast<double>(v); }
+  template <class E> void choice(const char*, const char*, const E& v, int, E) noexcept {
+    *at++ = static_cast<double>(v);
+  }
   void flag(const char*, const char*, bool v) noexcept { *at++ = v ? 1.0 : 0.0; }
   template <class T> void number(const char*, const char*, const T& v) noexcept { *at++ = static_cast<double>(v); }
   template <class T> void known(const char*, const char*, const T& v) noexcept {
     *at++ = v == static_cast<T>(~T{}) ? -1.0 : static_cast<double>(v);
   }
   void robot(const char*, const char*, RobotId v) noexcept { *at++ = v == nobody ? -1.0 : static_cast<double>(v); }
-  template <class T> void scaled(const char*, const char*, const T& v, float unit) noexcept { *at++ = static_cast<double>(v) / static_cast<double>(unit); }
+  template <class T> void scaled(const char*, const char*, const T& v, float unit) noexcept {
+    *at++ = static_cast<double>(v) / static_cast<double>(unit);
+  }
   void real(const char*, const char*, float v, float) noexcept { *at++ = static_cast<double>(v); }
 };
 
 }  // namespace swarm_detail
 
-template <class A>
-class SwarmOf final : public Swarm {
+template <class A> class SwarmOf final : public Swarm {
  public:
   using Params = typename A::Params;
   using State = typename A::State;
@@ -100,7 +104,8 @@ class SwarmOf final : public Swarm {
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override { return std::make_unique<SwarmOf>(*this); }
   [[nodiscard]] std::size_t size() const noexcept override { return states_.size(); }
 
-  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) override {
+  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
+            std::span<Report> reports) override {
     static thread_local std::array<std::vector<Heard>, 2> of_thread;
     std::array<std::vector<Heard>, 2>& heard = of_thread;  // of this robot and of the next; looked up once
     auto& now = slots_[slot_];
@@ -170,7 +175,9 @@ class SwarmOf final : public Swarm {
 
  private:
   // Where the messages of `age` ticks ago are; those of this tick are written to slot_.
-  [[nodiscard]] std::size_t slot_of(std::size_t age) const noexcept { return (slot_ + slots_.size() - age) % slots_.size(); }
+  [[nodiscard]] std::size_t slot_of(std::size_t age) const noexcept {
+    return (slot_ + slots_.size() - age) % slots_.size();
+  }
   // Robot i is next: finds the messages that it hears, and asks for the memory that its step will touch while the
   // one before it computes. States lie too far apart for the processor to guess; in large swarms this is worth a third.
   void fetch(std::size_t i, const Sensed& sensed, std::vector<Heard>& heard) const {
@@ -181,10 +188,11 @@ class SwarmOf final : public Swarm {
     const Message* const last = slots_[slot_of(1)].data();
     Heard* to = heard.data();
     for (const Packet& packet : sensed.packets) {
-      const Message* message = packet.sender >= robots     ? &foreign_[packet.sender - robots]
+      const Message* message = packet.sender >= robots ? &foreign_[packet.sender - robots]
                                : packet.age_ticks == 1 ? last + packet.sender
                                                        : &slots_[slot_of(packet.age_ticks)][packet.sender];
-      for (std::size_t at = 0; at < sizeof(Message); at += line) __builtin_prefetch(reinterpret_cast<const char*>(message) + at);
+      for (std::size_t at = 0; at < sizeof(Message); at += line)
+        __builtin_prefetch(reinterpret_cast<const char*>(message) + at);
       *to++ = {message, packet.position, packet.age_s};
     }
   }

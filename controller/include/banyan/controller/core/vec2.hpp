@@ -6,14 +6,15 @@
 
 namespace banyan {
 
-template <class T>
-struct BasicVec2 {
+template <class T> struct BasicVec2 {
   T x{};
   T y{};
 
+  // clang-format off
   constexpr BasicVec2& operator+=(BasicVec2 o) noexcept { x += o.x; y += o.y; return *this; }
   constexpr BasicVec2& operator-=(BasicVec2 o) noexcept { x -= o.x; y -= o.y; return *this; }
   constexpr BasicVec2& operator*=(T s) noexcept { x *= s; y *= s; return *this; }
+  // clang-format on
   friend constexpr BasicVec2 operator+(BasicVec2 a, BasicVec2 b) noexcept { return {a.x + b.x, a.y + b.y}; }
   friend constexpr BasicVec2 operator-(BasicVec2 a, BasicVec2 b) noexcept { return {a.x - b.x, a.y - b.y}; }
   friend constexpr BasicVec2 operator-(BasicVec2 a) noexcept { return {-a.x, -a.y}; }
@@ -33,15 +34,13 @@ template <class T> T norm(BasicVec2<T> a) noexcept { return std::sqrt(squared_no
 template <class T> T distance(BasicVec2<T> a, BasicVec2<T> b) noexcept { return norm(b - a); }
 
 // a / |a|; the zero vector stays zero.
-template <class T>
-BasicVec2<T> unit(BasicVec2<T> a) noexcept {
+template <class T> BasicVec2<T> unit(BasicVec2<T> a) noexcept {
   const T n = norm(a);
   return n > T(0) ? a / n : BasicVec2<T>{};
 }
 
 // a, shortened to `limit` if it is longer.
-template <class T>
-BasicVec2<T> clamped(BasicVec2<T> a, T limit) noexcept {
+template <class T> BasicVec2<T> clamped(BasicVec2<T> a, T limit) noexcept {
   const T n = norm(a);
   return n > limit ? a * (limit / n) : a;
 }
@@ -50,8 +49,7 @@ BasicVec2<T> clamped(BasicVec2<T> a, T limit) noexcept {
 template <class T> constexpr BasicVec2<T> left_of(BasicVec2<T> v) noexcept { return {-v.y, v.x}; }
 
 // The point of segment a-b that is nearest to the origin.
-template <class T>
-constexpr BasicVec2<T> nearest_on_segment(BasicVec2<T> a, BasicVec2<T> b) noexcept {
+template <class T> constexpr BasicVec2<T> nearest_on_segment(BasicVec2<T> a, BasicVec2<T> b) noexcept {
   const BasicVec2<T> d = b - a;
   const T d2 = squared_norm(d);
   const T t = d2 > T(0) ? -dot(a, d) / d2 : T(0);
@@ -59,8 +57,7 @@ constexpr BasicVec2<T> nearest_on_segment(BasicVec2<T> a, BasicVec2<T> b) noexce
 }
 
 // The segment from the origin to `to` crosses the one from a to b.
-template <class T>
-constexpr bool crosses(BasicVec2<T> to, BasicVec2<T> a, BasicVec2<T> b) noexcept {
+template <class T> constexpr bool crosses(BasicVec2<T> to, BasicVec2<T> a, BasicVec2<T> b) noexcept {
   return cross(to, a) * cross(to, b) < T(0) && cross(b - a, -a) * cross(b - a, to - a) < T(0);
 }
 

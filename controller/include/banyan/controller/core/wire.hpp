@@ -27,7 +27,7 @@ namespace banyan {
 
 // The header byte: what a message is made of, and the version of the format.
 namespace block {
-inline constexpr std::uint8_t tree = 0;          // always there
+inline constexpr std::uint8_t tree = 0;  // always there
 inline constexpr std::uint8_t healing = 1U << 4;
 inline constexpr std::uint8_t obstacles = 1U << 5;
 inline constexpr std::uint8_t convoy = 1U << 6;
@@ -35,15 +35,14 @@ inline constexpr std::uint8_t wide_ids = 1U << 7;  // ids of 32 bits; no robot s
 // A message with blocks beyond these has a second byte, which names them.
 inline constexpr std::uint8_t power = 1U << 0;
 }  // namespace block
-inline constexpr std::uint8_t wire_version = 8;         // the low four bits
-inline constexpr std::uint8_t further_wire_version = 9; // of messages with a second byte
+inline constexpr std::uint8_t wire_version = 8;          // the low four bits
+inline constexpr std::uint8_t further_wire_version = 9;  // of messages with a second byte
 
-inline constexpr std::size_t largest_wire = 112;        // bytes, with further blocks
-inline constexpr std::size_t largest_plain_wire = 96;   // without
+inline constexpr std::size_t largest_wire = 112;       // bytes, with further blocks
+inline constexpr std::size_t largest_plain_wire = 96;  // without
 
 // The second byte of messages of this type; 0: they have none.
-template <class Message>
-constexpr std::uint8_t further_blocks_of() noexcept {
+template <class Message> constexpr std::uint8_t further_blocks_of() noexcept {
   if constexpr (requires { Message::further_blocks; }) return Message::further_blocks;
   else return 0;
 }
@@ -56,7 +55,9 @@ namespace wire {
 class BitWriter {
  public:
   explicit BitWriter(std::uint8_t* out) noexcept : out_(out) {}
-  template <class E> [[gnu::always_inline]] void choice(const char*, const char*, const E& v, int bits, E) noexcept { put(static_cast<unsigned>(v), bits); }
+  template <class E> [[gnu::always_inline]] void choice(const char*, const char*, const E& v, int bits, E) noexcept {
+    put(static_cast<unsigned>(v), bits);
+  }
   [[gnu::always_inline]] void flag(const char*, const char*, bool v) noexcept { put(v ? 1U : 0U, 1); }
   template <class T> [[gnu::always_inline]] void number(const char*, const char*, const T&) noexcept {}
   template <class T> [[gnu::always_inline]] void known(const char*, const char*, const T&) noexcept {}
@@ -124,8 +125,12 @@ class ByteWriter {
   template <class T> [[gnu::always_inline]] void number(const char*, const char*, const T& v) noexcept { put(v); }
   template <class T> [[gnu::always_inline]] void known(const char*, const char*, const T& v) noexcept { put(v); }
   [[gnu::always_inline]] void robot(const char*, const char*, RobotId v) noexcept { put(v); }
-  template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, const T& v, float) noexcept { put(v); }
-  [[gnu::always_inline]] void real(const char*, const char*, float v, float) noexcept { put(std::bit_cast<std::uint32_t>(v)); }
+  template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, const T& v, float) noexcept {
+    put(v);
+  }
+  [[gnu::always_inline]] void real(const char*, const char*, float v, float) noexcept {
+    put(std::bit_cast<std::uint32_t>(v));
+  }
   [[nodiscard]] std::uint8_t* end() const noexcept { return out_; }
 
  private:
@@ -145,7 +150,9 @@ class ByteReader {
   template <class T> [[gnu::always_inline]] void number(const char*, const char*, T& v) noexcept { v = take<T>(); }
   template <class T> [[gnu::always_inline]] void known(const char*, const char*, T& v) noexcept { v = take<T>(); }
   [[gnu::always_inline]] void robot(const char*, const char*, RobotId& v) noexcept { v = take<RobotId>(); }
-  template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, T& v, float) noexcept { v = take<T>(); }
+  template <class T> [[gnu::always_inline]] void scaled(const char*, const char*, T& v, float) noexcept {
+    v = take<T>();
+  }
   [[gnu::always_inline]] void real(const char*, const char*, float& v, float limit) noexcept {
     v = std::bit_cast<float>(take<std::uint32_t>());
     ok_ = ok_ && std::fabs(v) <= limit;  // false for NaN too
@@ -172,7 +179,9 @@ class Counter {
   constexpr void robot(const char*, const char*, RobotId) noexcept { bytes_ += sizeof(RobotId); }
   template <class T> constexpr void scaled(const char*, const char*, const T&, float) noexcept { bytes_ += sizeof(T); }
   constexpr void real(const char*, const char*, float, float) noexcept { bytes_ += sizeof(float); }
-  [[nodiscard]] constexpr std::size_t bytes() const noexcept { return 1 + static_cast<std::size_t>(bits_ + 7) / 8 + bytes_; }
+  [[nodiscard]] constexpr std::size_t bytes() const noexcept {
+    return 1 + static_cast<std::size_t>(bits_ + 7) / 8 + bytes_;
+  }
 
  private:
   int bits_ = 0;
@@ -182,8 +191,7 @@ class Counter {
 }  // namespace wire
 
 // Bytes of a message of this type.
-template <class Message>
-constexpr std::size_t wire_size() noexcept {
+template <class Message> constexpr std::size_t wire_size() noexcept {
   wire::Counter counter;
   const Message message{};
   visit_fields(counter, message);
@@ -191,14 +199,13 @@ constexpr std::size_t wire_size() noexcept {
 }
 
 // Its first byte.
-template <class Message>
-constexpr std::uint8_t header_of() noexcept {
-  return static_cast<std::uint8_t>(Message::blocks | (further_blocks_of<Message>() != 0 ? further_wire_version : wire_version));
+template <class Message> constexpr std::uint8_t header_of() noexcept {
+  return static_cast<std::uint8_t>(Message::blocks |
+                                   (further_blocks_of<Message>() != 0 ? further_wire_version : wire_version));
 }
 
 // Writes wire_size<Message>() bytes. `out` must have room for them.
-template <class Message>
-std::size_t encode_fields(const Message& message, std::span<std::uint8_t> out) noexcept {
+template <class Message> std::size_t encode_fields(const Message& message, std::span<std::uint8_t> out) noexcept {
   constexpr std::uint8_t further = further_blocks_of<Message>();
   out[0] = header_of<Message>();
   if constexpr (further != 0) out[1] = further;
@@ -211,8 +218,7 @@ std::size_t encode_fields(const Message& message, std::span<std::uint8_t> out) n
 
 // Nothing if the size, the version, the blocks, an enumerator, a reserved bit or a float is not one that
 // encode_fields() writes; never reads outside `bytes`.
-template <class Message>
-std::optional<Message> decode_fields(std::span<const std::uint8_t> bytes) noexcept {
+template <class Message> std::optional<Message> decode_fields(std::span<const std::uint8_t> bytes) noexcept {
   constexpr std::uint8_t further = further_blocks_of<Message>();
   if (bytes.size() != wire_size<Message>() || bytes[0] != header_of<Message>()) return std::nullopt;
   if constexpr (further != 0)

@@ -18,7 +18,8 @@ void estimate_loss(HealingRobot& robot) noexcept;
 
 // The sender, which is in the table, may have named me as one that it hears, or have passed me over.
 void note_hears(HealingRobot& robot, const Heard& h) noexcept;
-// It may have done neither, as in most messages: it has named one that comes, by ascending ids round and round, before me.
+// It may have done neither, as in most messages: it has named one that comes, by ascending ids round and round, before
+// me.
 [[nodiscard]] inline bool names_another(const HealingRobot& robot, const Heard& h) noexcept {
   const auto after = [&](RobotId id) { return static_cast<RobotId>(id - h.named_before - 1); };
   return after(robot.self.id) > after(h.message->count) && h.message->count != h.message->id;
@@ -30,12 +31,14 @@ void note_hears(HealingRobot& robot, const Heard& h) noexcept;
 void find_gap(HealingRobot& robot) noexcept;
 // Whether I come nearer to it, or to a robot that calls, by motion `u`.
 [[nodiscard]] bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept;
-// Where packets get lost in a thin start, another part of the network may hear me that I do not hear. So I stay as long as
-// I have heard of no root; at the end of such a start also for the first seconds, or go towards whoever may be there, by
-// motion `u`.
+// Where packets get lost in a thin start, another part of the network may hear me that I do not hear. So I stay as long
+// as I have heard of no root; at the end of such a start also for the first seconds, or go towards whoever may be
+// there, by motion `u`.
 [[nodiscard]] bool awaits_others(HealingRobot& robot, Vec2& u) noexcept;
 // Packets get lost, and few robots were heard at the start, all of them far away.
-[[nodiscard]] inline bool is_thin(const HealingState& self) noexcept { return self.usual_silence > 0 && self.neighbors_at_start > 0; }
+[[nodiscard]] inline bool is_thin(const HealingState& self) noexcept {
+  return self.usual_silence > 0 && self.neighbors_at_start > 0;
+}
 
 // ---- heartbeat.cpp: is there a root, and where? ----
 
@@ -61,7 +64,9 @@ inline void set_place(Task& task, Vec2 target) noexcept {
 
 // A doubt is a question to all, for a minute: later no answer will come, and no spare was free to take over.
 inline constexpr int question_ticks = 600;
-[[nodiscard]] inline bool is_asked_about(const Task& task) noexcept { return task.silent && task.holder != nobody && task.age_ticks <= question_ticks; }
+[[nodiscard]] inline bool is_asked_about(const Task& task) noexcept {
+  return task.silent && task.holder != nobody && task.age_ticks <= question_ticks;
+}
 // Every robot has to pass it on soon: a question, or news that has priority.
 [[nodiscard]] inline bool is_urgent(const Task& task) noexcept { return is_asked_about(task) || task.urgent_ticks > 0; }
 
@@ -89,7 +94,9 @@ void begin_doubt(const HealingRobot& robot, Task& task) noexcept;
 // takes over one whose worker has fallen silent.
 void watch_tasks(HealingRobot& robot) noexcept;
 // A worker that was not sent: others told it where its target is.
-[[nodiscard]] inline bool goes_by_memory(const HealingState& self) noexcept { return self.is_worker && self.serves != self.id; }
+[[nodiscard]] inline bool goes_by_memory(const HealingState& self) noexcept {
+  return self.is_worker && self.serves != self.id;
+}
 // Serves no target any more; does not say which robot does.
 void resign(HealingRobot& robot) noexcept;
 
@@ -103,15 +110,17 @@ void announce(Task& task, RobotId holder) noexcept;
 void put_off(const HealingRobot& robot, Task& task) noexcept;
 void try_again(const HealingRobot& robot, Task& task) noexcept;
 [[nodiscard]] inline bool is_put_off(const Task& task) noexcept { return task.holder == nobody && task.silent; }
-[[nodiscard]] inline bool is_tried_again(const Task& task) noexcept { return task.holder != nobody && task.times_put_off > 0 && !task.reached; }
+[[nodiscard]] inline bool is_tried_again(const Task& task) noexcept {
+  return task.holder != nobody && task.times_put_off > 0 && !task.reached;
+}
 // I serve that target from now on, as after its worker's death; it knows. Nothing if I do not know where it is.
 void inherit_task(HealingRobot& robot, RobotId serves) noexcept;
 
 // ---- progress.cpp: a worker that gets no nearer ----
 
-// At the end of a step, with the velocity that it is to have, m/s. A worker that has driven in vain for long (its motors or wheels do not do
-// what they are told, bodies or walls are in its way) resigns: its target goes to the next, as if it had died, and for
-// `second_try_s` longer not to itself.
+// At the end of a step, with the velocity that it is to have, m/s. A worker that has driven in vain for long (its
+// motors or wheels do not do what they are told, bodies or walls are in its way) resigns: its target goes to the next,
+// as if it had died, and for `second_try_s` longer not to itself.
 void watch_progress(HealingRobot& robot, bool retreats, Vec2 v) noexcept;
 
 // ---- dangling_branch.cpp: the end of a torn branch ----
@@ -135,7 +144,9 @@ void count_waiting(HealingRobot& robot, bool unserved, bool regroups) noexcept;
 [[nodiscard]] Vec2 retreat_motion(const HealingRobot& robot, bool regroups, bool workers_relay) noexcept;
 
 // How far this robot has to drive for a reason of its own, m: to where the last robot below it was.
-[[nodiscard]] inline float own_want_m(const HealingRobot& robot) noexcept { return robot.carries_on ? norm(robot.self.lost_child) : 0.0F; }
+[[nodiscard]] inline float own_want_m(const HealingRobot& robot) noexcept {
+  return robot.carries_on ? norm(robot.self.lost_child) : 0.0F;
+}
 
 // ---- fragments.cpp: two networks meet ----
 

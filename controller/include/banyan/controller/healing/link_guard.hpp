@@ -16,9 +16,9 @@ void guard_edges(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
 // those to robots that are untied.
 void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept;
 
-// A robot that is pushed does not notice, and is wrong about places from then on. So nobody drives against a worker that
-// knows its target only from others, nor does such a worker itself push; where robots hand their targets over all the
-// time (passes_targets_on), nobody pushes anybody.
+// A robot that is pushed does not notice, and is wrong about places from then on. So nobody drives against a worker
+// that knows its target only from others, nor does such a worker itself push; where robots hand their targets over all
+// the time (passes_targets_on), nobody pushes anybody.
 void push_nobody(const HealingRobot& robot, Guard& guard) noexcept;
 
 }  // namespace banyan

@@ -9,26 +9,26 @@
 namespace banyan {
 
 struct HealingStanding {
-  RobotId serves = nobody;            // worker: whose target this is, the id of the worker first sent there
+  RobotId serves = nobody;  // worker: whose target this is, the id of the worker first sent there
 
   friend bool operator==(const HealingStanding&, const HealingStanding&) = default;
 };
 
 struct HealingNews {
-  bool root_told = false;             // I know where the root is
-  std::uint16_t root_size = 0;        // robots that this root counted last; 0: none yet
-  Serial heartbeat = 0;               // gossip: the root's count of ticks
-  RobotId told = nobody;              // addressee of the vectors that follow
-  std::int16_t root_x_cm = 0;         // root - addressee, edge frame to `told`
+  bool root_told = false;       // I know where the root is
+  std::uint16_t root_size = 0;  // robots that this root counted last; 0: none yet
+  Serial heartbeat = 0;         // gossip: the root's count of ticks
+  RobotId told = nobody;        // addressee of the vectors that follow
+  std::int16_t root_x_cm = 0;   // root - addressee, edge frame to `told`
   std::int16_t root_y_cm = 0;
-  RobotId task_serves = nobody;       // a target, by its first worker; nobody: I know none
-  RobotId task_holder = nobody;       // gossip: the robot that serves it; nobody: it has been given up
-  Serial task_beat = 0;               // gossip: the holder's count of ticks
-  bool task_reached = false;          // gossip: its holder is there
-  bool task_silent = false;           // gossip: the robots that heard the holder last no longer hear it; without holder: put off
-  bool task_below = false;            // the holder is below me in the tree, or I am the holder
-  bool forgets = false;               // gossip: some robot has had no room for a target
-  std::int16_t task_x_cm = 0;         // target - addressee, edge frame to `told`
+  RobotId task_serves = nobody;  // a target, by its first worker; nobody: I know none
+  RobotId task_holder = nobody;  // gossip: the robot that serves it; nobody: it has been given up
+  Serial task_beat = 0;          // gossip: the holder's count of ticks
+  bool task_reached = false;     // gossip: its holder is there
+  bool task_silent = false;  // gossip: the robots that heard the holder last no longer hear it; without holder: put off
+  bool task_below = false;   // the holder is below me in the tree, or I am the holder
+  bool forgets = false;      // gossip: some robot has had no room for a target
+  std::int16_t task_x_cm = 0;  // target - addressee, edge frame to `told`
   std::int16_t task_y_cm = 0;
 
   friend bool operator==(const HealingNews&, const HealingNews&) = default;
@@ -39,19 +39,22 @@ struct HealingMessage : TreeMessage, HealingStanding, HealingNews {
   friend bool operator==(const HealingMessage&, const HealingMessage&) = default;
 };
 
-// Gossip: the longest burst of loss that the sender knows, ticks (loss.cpp). It travels in a field that only an offer of the
-// token needs, since a message has no byte left; robots that do not heal leave it 0.
-[[nodiscard]] constexpr int burst_of(const TreeMessage& m) noexcept { return m.new_root == nobody ? m.centroid_x_cm : 0; }
+// Gossip: the longest burst of loss that the sender knows, ticks (loss.cpp). It travels in a field that only an offer
+// of the token needs, since a message has no byte left; robots that do not heal leave it 0.
+[[nodiscard]] constexpr int burst_of(const TreeMessage& m) noexcept {
+  return m.new_root == nobody ? m.centroid_x_cm : 0;
+}
 constexpr void set_burst(TreeMessage& m, std::uint8_t ticks) noexcept {
   if (m.new_root == nobody) m.centroid_x_cm = ticks;
 }
 
 // The healing block, field by field (wire.hpp).
-template <class Visitor, class M>
-constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
+template <class Visitor, class M> constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
   visit.flag("root_told", "1: knows where the root is", m.root_told);
   visit.flag("task_reached", "1: the holder of `task` is at the target", m.task_reached);
-  visit.flag("task_silent", "1: the robots that heard the holder of `task` last no longer hear it; without holder, it is put off", m.task_silent);
+  visit.flag("task_silent",
+             "1: the robots that heard the holder of `task` last no longer hear it; without holder, it is put off",
+             m.task_silent);
   visit.flag("task_below", "1: the holder of `task` is the sender, or below it in the tree", m.task_below);
   visit.flag("forgets", "1: some robot has had no room for a target", m.forgets);
   visit.number("root_size", "robots that this root counted last, 0: none yet", m.root_size);
@@ -67,9 +70,11 @@ constexpr void visit_healing_block(Visitor& visit, M& m) noexcept {
   visit.number("task_y_cm", "the same, to the left of that edge", m.task_y_cm);
 }
 
-template <class Visitor>
-constexpr void visit_fields(Visitor& visit, HealingMessage& m) noexcept { visit_tree_block(visit, static_cast<TreeMessage&>(m), true), visit_healing_block(visit, m); }
-template <class Visitor>
-constexpr void visit_fields(Visitor& visit, const HealingMessage& m) noexcept { visit_tree_block(visit, static_cast<const TreeMessage&>(m), true), visit_healing_block(visit, m); }
+template <class Visitor> constexpr void visit_fields(Visitor& visit, HealingMessage& m) noexcept {
+  visit_tree_block(visit, static_cast<TreeMessage&>(m), true), visit_healing_block(visit, m);
+}
+template <class Visitor> constexpr void visit_fields(Visitor& visit, const HealingMessage& m) noexcept {
+  visit_tree_block(visit, static_cast<const TreeMessage&>(m), true), visit_healing_block(visit, m);
+}
 
 }  // namespace banyan

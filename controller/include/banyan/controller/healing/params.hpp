@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a designer sets about healing after deaths. Lengths that the table has in units of C are metres here, those of C = 2 m.
+// What a designer sets about healing after deaths. Lengths that the table has in units of C are metres here, those of C
+// = 2 m.
 #pragma once
 
 #include "banyan/controller/tree/params.hpp"

@@ -14,7 +14,10 @@ namespace banyan {
 // nearly always new.
 struct KnownOfHealing : KnownOfTree {
   KnownOfHealing(const HealingState& self, int elapsed_ticks) noexcept
-      : KnownOfTree(self), heartbeat(self.heartbeat), silence_ticks(self.silence_ticks + elapsed_ticks), has_heart(self.heart == self.root) {}
+      : KnownOfTree(self),
+        heartbeat(self.heartbeat),
+        silence_ticks(self.silence_ticks + elapsed_ticks),
+        has_heart(self.heart == self.root) {}
   [[nodiscard]] bool lacks(const HealingMessage& m) const noexcept {
     return m.told == id || m.id == root.id || !has_heart || is_news(m.heartbeat, heartbeat, silence_ticks);
   }
@@ -31,12 +34,12 @@ struct HealingRobot : TreeRobot {
 
   void take_patience() noexcept;  // what follows from the lost packets
 
-  const HealingParams& params;   // the same objects as the tree's
+  const HealingParams& params;  // the same objects as the tree's
   HealingState& self;
-  RobotId held;                  // the hold of the last step
-  int gap = -1;                  // index of a deaf neighbour that nothing ties me to (mutual.cpp)
-  int tie_ticks = 0;             // for so long a silent neighbour may be there and depend on me (tie.hpp); 0: no packets get lost
-  bool target_strays = false;    // it is not where it would be if it stood still and my wheels had not slipped
+  RobotId held;       // the hold of the last step
+  int gap = -1;       // index of a deaf neighbour that nothing ties me to (mutual.cpp)
+  int tie_ticks = 0;  // for so long a silent neighbour may be there and depend on me (tie.hpp); 0: no packets get lost
+  bool target_strays = false;      // it is not where it would be if it stood still and my wheels had not slipped
   bool passes_targets_on = false;  // robots hand their targets over to others again and again
 };
 
@@ -46,13 +49,18 @@ struct HealingRobot : TreeRobot {
   constexpr int notice_ticks = 2;
   return robot.liveness_ticks() - std::max(notice_ticks, robot.elapsed_ticks);
 }
-[[nodiscard]] inline bool fades(const HealingRobot& robot, int k) noexcept { return robot.table().age(k) > fading_ticks(robot); }
+[[nodiscard]] inline bool fades(const HealingRobot& robot, int k) noexcept {
+  return robot.table().age(k) > fading_ticks(robot);
+}
 
-[[nodiscard]] inline Vec2 bypass(const HealingRobot& robot, Vec2 goal) noexcept { return bypass(robot, robot.self.detour, goal); }
+[[nodiscard]] inline Vec2 bypass(const HealingRobot& robot, Vec2 goal) noexcept {
+  return bypass(robot, robot.self.detour, goal);
+}
 
 // What a healing robot hears is what healing robots say.
 inline const HealingMessage& healing_message(const TreeMessage& m) noexcept {
-  return static_cast<const HealingMessage&>(m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  return static_cast<const HealingMessage&>(
+      m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
 }
 inline const HealingMessage& said(const Heard& h) noexcept { return healing_message(*h.message); }
 

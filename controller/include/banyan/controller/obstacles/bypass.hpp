@@ -11,14 +11,14 @@ struct Guard;  // motion.hpp
 
 // A way round an obstacle that a robot is driving; vectors in its own frame, m.
 struct Detour {
-  std::int8_t side = 0;  // +1: the obstacle is to the right, -1: to the left, 0: no detour
+  std::int8_t side = 0;       // +1: the obstacle is to the right, -1: to the left, 0: no detour
   std::int8_t last_side = 0;  // of the one that ended near here; 0: none did
-  bool again = false;    // it continues one that ended in vain
-  Vec2 contact;          // where the obstacle was touched last
-  Vec2 origin;           // where the detour began
-  Vec2 goal;             // as it was then
-  float leave_m = 0.0F;  // the detour is over when the goal is nearer than this
-  float span_m = 0.0F;   // this far from the origin the other side is tried
+  bool again = false;         // it continues one that ended in vain
+  Vec2 contact;               // where the obstacle was touched last
+  Vec2 origin;                // where the detour began
+  Vec2 goal;                  // as it was then
+  float leave_m = 0.0F;       // the detour is over when the goal is nearer than this
+  float span_m = 0.0F;        // this far from the origin the other side is tried
 };
 
 // A body's radius is not among the parameters; the distance between the wheels is about 1.5 of it.

@@ -11,18 +11,19 @@ struct Guard;  // motion.hpp
 
 // What a robot broadcasts of this, and keeps of each neighbour.
 struct CornerStanding {
-  std::int16_t hinge_x_cm = 0;   // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
+  std::int16_t hinge_x_cm = 0;  // the corner nearest to the edge to my parent - parent, edge frame; 0, 0: none known
   std::int16_t hinge_y_cm = 0;
-  bool pinned = false;           // a corner is about to cut the edge to my parent, and I still have to travel
+  bool pinned = false;  // a corner is about to cut the edge to my parent, and I still have to travel
 
   friend bool operator==(const CornerStanding&, const CornerStanding&) = default;
 };
 
 // The obstacles block, field by field (wire.hpp).
-template <class Visitor, class M>
-constexpr void visit_corner_block(Visitor& visit, M& m) noexcept {
+template <class Visitor, class M> constexpr void visit_corner_block(Visitor& visit, M& m) noexcept {
   visit.flag("pinned", "1: a corner is about to cut the edge to the parent", m.pinned);
-  visit.number("hinge_x_cm", "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge", m.hinge_x_cm);
+  visit.number("hinge_x_cm",
+               "known obstacle point nearest to the edge to the parent, relative to the parent, along that edge",
+               m.hinge_x_cm);
   visit.number("hinge_y_cm", "the same, to the left of that edge; 0, 0: none", m.hinge_y_cm);
 }
 
@@ -33,8 +34,8 @@ struct Landmarks {
   std::uint8_t size = 0;
 };
 
-// Where tree neighbours fell silent in plain sight: their bodies have stayed there, between the robots that they joined.
-// Centres, own frame, m.
+// Where tree neighbours fell silent in plain sight: their bodies have stayed there, between the robots that they
+// joined. Centres, own frame, m.
 inline constexpr int body_capacity = 4;
 struct Bodies {
   std::array<Vec2, body_capacity> centers{};  // the first `size` are valid
@@ -45,8 +46,8 @@ struct Bodies {
 struct Corners {
   Landmarks landmarks;
   Bodies bodies;
-  Vec2 seen_from;                        // m, own frame: where I was when I last heard my parent; a spare: where the tree was
-  bool pinned = false;                   // a corner is about to cut the edge to my parent
+  Vec2 seen_from;       // m, own frame: where I was when I last heard my parent; a spare: where the tree was
+  bool pinned = false;  // a corner is about to cut the edge to my parent
   std::array<CornerStanding, neighbor_capacity> standings{};  // beside the neighbour table
 
   [[nodiscard]] const CornerStanding& of(int k) const noexcept { return standings[static_cast<std::size_t>(k)]; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a designer sets about batteries (docs/lasting.md). Charges are shares of a full battery; lengths are those of C = 2 m.
+// What a designer sets about batteries (docs/lasting.md). Charges are shares of a full battery; lengths are those of C
+// = 2 m.
 #pragma once
 
 #include "banyan/controller/healing/params.hpp"
@@ -7,10 +8,12 @@
 namespace banyan {
 
 struct PowerParams : HealingParams {
-  float relieve_below = 0.35F;   // a robot of the tree with less, and some more for each hop to a place, asks to be relieved
-  float charge_below = 0.85F;     // a spare with less drives to a charging place when nobody needs it
-  float ready_above = 0.8F;      // a spare with less joins no edge
-  float relief_edge_m = 1.65F;    // edges are compacted and merged up to this, so that a robot beside another reaches as far
+  float relieve_below =
+      0.35F;  // a robot of the tree with less, and some more for each hop to a place, asks to be relieved
+  float charge_below = 0.85F;  // a spare with less drives to a charging place when nobody needs it
+  float ready_above = 0.8F;    // a spare with less joins no edge
+  float relief_edge_m =
+      1.65F;  // edges are compacted and merged up to this, so that a robot beside another reaches as far
 };
 
 [[nodiscard]] std::span<const Parameter<PowerParams>> power_parameters() noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Batteries (docs/lasting.md): a robot of the tree that runs low is relieved before it leaves, and spares take turns at
-// the charging places. Nothing is planned and nobody is in charge: a robot knows its own charge and what its neighbours say.
+// the charging places. Nothing is planned and nobody is in charge: a robot knows its own charge and what its neighbours
+// say.
 #pragma once
 
 #include "banyan/controller/core/function_ref.hpp"
@@ -18,7 +19,9 @@ struct PowerRobot {
   const PowerParams& params;
   FunctionRef<int(int k)> child_count;  // that neighbour k has, as it says
 
-  [[nodiscard]] const PowerStanding& standing(int k) const noexcept { return power.standings[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] const PowerStanding& standing(int k) const noexcept {
+    return power.standings[static_cast<std::size_t>(k)];
+  }
   [[nodiscard]] bool is_spare(int k) const noexcept { return robot.table().message(k).role == Role::spare; }
 };
 
@@ -37,8 +40,10 @@ void watch_relief(PowerRobot& me) noexcept;
 // The edge to my parent wants a spare that takes my place.
 [[nodiscard]] bool wants_relief(const PowerRobot& me) noexcept;
 
-// A spare beside a robot that leaves may take its place above it, from where it is: it reaches the parent and all children.
-[[nodiscard]] bool may_relieve(const PowerRobot& me, int leaver, int parent, FunctionRef<bool(int k)> in_sight) noexcept;
+// A spare beside a robot that leaves may take its place above it, from where it is: it reaches the parent and all
+// children.
+[[nodiscard]] bool may_relieve(const PowerRobot& me, int leaver, int parent,
+                               FunctionRef<bool(int k)> in_sight) noexcept;
 
 // My parent leaves: the robot that takes its place, once that stands beside it and `may_be_parent`; -1: not yet.
 [[nodiscard]] int successor_of_parent(const PowerRobot& me, FunctionRef<bool(int k)> may_be_parent) noexcept;
@@ -49,8 +54,8 @@ void watch_relief(PowerRobot& me) noexcept;
 // I take part in a relief, and move for it: where to, own frame, m.
 [[nodiscard]] bool find_relief_spot(const PowerRobot& me, Vec2& spot) noexcept;
 
-// Calls for reliefs are farther off than those of edges that hold workers back, by so many hops and more: the less charge
-// is left, the nearer they seem.
+// Calls for reliefs are farther off than those of edges that hold workers back, by so many hops and more: the less
+// charge is left, the nearer they seem.
 inline constexpr int relief_call = 16;
 void call_for_relief(PowerRobot& me) noexcept;
 
@@ -63,8 +68,8 @@ void tend_battery(PowerRobot& me) noexcept;
 // Neighbour k has said that it has charge enough to join the tree.
 [[nodiscard]] bool is_charged(const PowerRobot& me, int k) noexcept;
 
-// Neighbour k may become root. If I am root and have to leave, and little charge is left, whoever has more will do: as a
-// connector I can be relieved, a root calls nobody.
+// Neighbour k may become root. If I am root and have to leave, and little charge is left, whoever has more will do: as
+// a connector I can be relieved, a root calls nobody.
 [[nodiscard]] bool may_inherit_root(const PowerRobot& me, int k) noexcept;
 
 // How fast a spare moves that nobody waits for, as a share of its speed: it only makes room for others.

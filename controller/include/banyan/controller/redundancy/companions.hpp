@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A second path (docs/lasting.md): beside each robot that the tree depends on stands a spare, its companion, which hears
-// the same tree neighbours. If either dies, what was below it is still joined to what was above, by physical links that
-// are there already; the tree takes the companion as the new parent within two ticks (link repair, docs/convoy.md, rule
-// 6). A companion stays a spare: it answers edges in need as others do. With mission.link_redundancy = k each such robot
-// has k - 1 companions, so any k - 1 robots may die at once. Messages do not grow: a spare says beside whom it stands in
-// the field `below`, which means nothing of spares otherwise, calls for companions share `call_hops`, and a robot of the
-// tree that lacks a companion says its own id in `request`, which means nothing of such robots otherwise.
+// A second path (docs/lasting.md): beside each robot that the tree depends on stands a spare, its companion, which
+// hears the same tree neighbours. If either dies, what was below it is still joined to what was above, by physical
+// links that are there already; the tree takes the companion as the new parent within two ticks (link repair,
+// docs/convoy.md, rule 6). A companion stays a spare: it answers edges in need as others do. With
+// mission.link_redundancy = k each such robot has k - 1 companions, so any k - 1 robots may die at once. Messages do
+// not grow: a spare says beside whom it stands in the field `below`, which means nothing of spares otherwise, calls for
+// companions share `call_hops`, and a robot of the tree that lacks a companion says its own id in `request`, which
+// means nothing of such robots otherwise.
 #pragma once
 
 #include "banyan/controller/convoy/robot.hpp"
@@ -37,8 +38,8 @@ namespace banyan {
 // long calls.
 void keep_company(ConvoyRobot& robot) noexcept;
 
-// Without line of sight: neighbour k is the robot that I accompany, and has not been silent for much longer than makes it
-// count as dead. I stay, since others are about to take me as their parent.
+// Without line of sight: neighbour k is the robot that I accompany, and has not been silent for much longer than makes
+// it count as dead. I stay, since others are about to take me as their parent.
 [[nodiscard]] bool stands_in_for(const ConvoyRobot& robot, int k) noexcept;
 
 // My only child could do without me, but I stand in its line of sight to my parent: which way I step aside.

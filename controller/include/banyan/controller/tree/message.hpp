@@ -18,7 +18,9 @@ namespace banyan {
 struct RootToken {
   Serial sequence = 0;
   RobotId id = nobody;
-  friend constexpr bool operator==(RootToken a, RootToken b) noexcept { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
+  friend constexpr bool operator==(RootToken a, RootToken b) noexcept {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+  }
 };
 constexpr bool newer(RootToken a, RootToken b) noexcept {
   return a.sequence != b.sequence ? is_newer(a.sequence, b.sequence) : a.id > b.id;
@@ -28,54 +30,57 @@ inline constexpr std::uint16_t unknown_label = 0xFFFF;
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
-inline constexpr std::uint8_t companion_call = 128;  // from here on: of calls for companions (redundancy/), which come last
+inline constexpr std::uint8_t companion_call =
+    128;  // from here on: of calls for companions (redundancy/), which come last
 
 // How a robot is tied to others. It seldom changes from one message to the next (table.hpp).
 struct TreeTies {
   RobotId parent = nobody;
   RobotId old_parent = nobody;
-  RobotId grant = nobody;             // the spare I let into the edge to my parent; without parent: my hold
+  RobotId grant = nobody;  // the spare I let into the edge to my parent; without parent: my hold
   Role role = Role::spare;
-  std::uint8_t tree_hops = unreachable;    // hops over unattached spares to the rooted tree, 0: in it
+  std::uint8_t tree_hops = unreachable;  // hops over unattached spares to the rooted tree, 0: in it
 
-  friend constexpr bool operator==(const TreeTies& a, const TreeTies& b) noexcept { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+  friend constexpr bool operator==(const TreeTies& a, const TreeTies& b) noexcept {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  }
 };
 
 // What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
 struct TreeStanding : TreeTies {
-  Vec2 q;                             // m, edge frame to `up`: Alg. 1's contribution
+  Vec2 q;  // m, edge frame to `up`: Alg. 1's contribution
   Phase phase = Phase::init;
   Need need = Need::no_need;
-  bool flood_done = false;      // START echo: my flood subtree is complete (protocol 4)
-  bool committed = false;       // I am in this epoch's tree
-  bool parent_silent = false;   // my parent has not been heard for longer than I
+  bool flood_done = false;                // START echo: my flood subtree is complete (protocol 4)
+  bool committed = false;                 // I am in this epoch's tree
+  bool parent_silent = false;             // my parent has not been heard for longer than I
   std::uint8_t call_hops = nobody_calls;  // hops to an edge whose need no spare has answered
   Serial epoch = 0;
   std::uint16_t label_cm = unknown_label;  // distance to the root along hops (label.hpp, keep_up)
-  Serial seqno = 0;                 // the root's count as it came down the tree: (seqno, label) orders the tree
+  Serial seqno = 0;                        // the root's count as it came down the tree: (seqno, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   RobotId flood_parent = nobody;
-  std::uint16_t flood_robots = 0;   // echo sums
+  std::uint16_t flood_robots = 0;  // echo sums
   std::uint16_t flood_workers = 0;
-  std::uint16_t subtree = 0;          // 1 + sum over children
+  std::uint16_t subtree = 0;  // 1 + sum over children
   std::uint16_t subtree_workers = 0;
   // Alg. 2's c_i, beside the sums above; nothing depends on it. So a robot that heals says here whom it hears
   // (healing/mutual.cpp); a field more would be too much for one message, and for the firmware.
   std::uint16_t count = 0;
-  std::uint16_t want_cm = 0;          // largest remaining worker distance below me
-  std::int16_t pull_x = 0;            // target pull, edge frame to `up`, 1 = pull_unit
+  std::uint16_t want_cm = 0;  // largest remaining worker distance below me
+  std::int16_t pull_x = 0;    // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
-  RobotId request = nobody;           // the owner whose edge I want to join
-  RobotId inserted_child = nobody;    // I have just been inserted above this robot
+  RobotId request = nobody;         // the owner whose edge I want to join
+  RobotId inserted_child = nobody;  // I have just been inserted above this robot
 
   friend bool operator==(const TreeStanding&, const TreeStanding&) = default;
 };
 
 // What a receiver uses only in the tick in which it is heard, or passes on.
 struct TreeNews {
-  RootToken root;                     // gossip: the newest root token I know
-  RobotId new_root = nobody;          // offer of the token root.sequence + 1
-  std::int16_t centroid_x_cm = 0;     // centroid - addressee, edge frame to `new_root`; with no offer: burst_of()
+  RootToken root;                  // gossip: the newest root token I know
+  RobotId new_root = nobody;       // offer of the token root.sequence + 1
+  std::int16_t centroid_x_cm = 0;  // centroid - addressee, edge frame to `new_root`; with no offer: burst_of()
   std::int16_t centroid_y_cm = 0;
 
   friend bool operator==(const TreeNews&, const TreeNews&) = default;
@@ -93,10 +98,10 @@ inline constexpr float pull_unit = 16384.0F;  // fixed point of pull_x, pull_y: 
 inline constexpr float q_limit_m = 1.0e9F;
 
 // The tree block, field by field (wire.hpp). `heals`: `count` is what a healing algorithm says in its place.
-template <class Visitor, class M>
-constexpr void visit_tree_block(Visitor& visit, M& m, bool heals = false) noexcept {
+template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit, M& m, bool heals = false) noexcept {
   visit.choice("role", "0 spare, 1 connector, 2 worker, 3 root", m.role, 2, Role::root);
-  visit.choice("phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", m.phase, 3, Phase::select_root);
+  visit.choice("phase", "0 init, 1 start_tree, 2 select_parent, 3 grow_tree, 4 select_root", m.phase, 3,
+               Phase::select_root);
   visit.choice("need", "of the edge to the parent: 0 no_need, 1 need, 2 await", m.need, 2, Need::await);
   visit.flag("committed", "1: in this epoch's tree", m.committed);
   visit.flag("flood_done", "1: all robots below in the flood have answered", m.flood_done);
@@ -117,25 +122,34 @@ constexpr void visit_tree_block(Visitor& visit, M& m, bool heals = false) noexce
   visit.number("flood_workers", "workers among them", m.flood_workers);
   visit.number("subtree", "1 + sum over the children", m.subtree);
   visit.number("subtree_workers", "workers among them", m.subtree_workers);
-  if (heals) visit.robot("hears", "a neighbour that the sender hears, by ascending ids; its own id: come nearer, -1: none", m.count);
+  if (heals)
+    visit.robot("hears", "a neighbour that the sender hears, by ascending ids; its own id: come nearer, -1: none",
+                m.count);
   else visit.number("count", "c of Alg. 2; no rule uses it", m.count);
   visit.number("want_cm", "largest remaining way of a worker below, 0: all have arrived", m.want_cm);
   visit.real("q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent", m.q.x, q_limit_m);
   visit.real("q_y_m", "the same, to the left of that edge", m.q.y, q_limit_m);
-  visit.scaled("pull_x", "attraction to the targets below, along the edge from the sender to its parent, -2 to 2", m.pull_x, pull_unit);
+  visit.scaled("pull_x", "attraction to the targets below, along the edge from the sender to its parent, -2 to 2",
+               m.pull_x, pull_unit);
   visit.scaled("pull_y", "the same, to the left of that edge", m.pull_y, pull_unit);
   visit.robot("grant", "the spare let into the edge to the parent; without a parent: the hold, -1: nobody", m.grant);
   visit.robot("request", "the owner of the edge a spare wants to join, -1: nobody", m.request);
-  visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody", m.inserted_child);
+  visit.robot("inserted_child", "the robot above which the sender has just been inserted, -1: nobody",
+              m.inserted_child);
   visit.robot("new_root", "the robot to which the root token is offered, -1: nobody", m.new_root);
-  visit.number("centroid_x_cm", "with the offer: centroid relative to that robot, along the edge to it; with none: the longest burst of loss known, ticks", m.centroid_x_cm);
+  visit.number("centroid_x_cm",
+               "with the offer: centroid relative to that robot, along the edge to it; with none: the longest burst of "
+               "loss known, ticks",
+               m.centroid_x_cm);
   visit.number("centroid_y_cm", "the same, to the left of that edge", m.centroid_y_cm);
 }
 
-template <class Visitor>
-constexpr void visit_fields(Visitor& visit, TreeMessage& m) noexcept { visit_tree_block(visit, m); }
-template <class Visitor>
-constexpr void visit_fields(Visitor& visit, const TreeMessage& m) noexcept { visit_tree_block(visit, m); }
+template <class Visitor> constexpr void visit_fields(Visitor& visit, TreeMessage& m) noexcept {
+  visit_tree_block(visit, m);
+}
+template <class Visitor> constexpr void visit_fields(Visitor& visit, const TreeMessage& m) noexcept {
+  visit_tree_block(visit, m);
+}
 
 // The tree neighbour that vectors of the census are addressed to: the parent or, during a switch
 // while there is none, the old parent.
@@ -143,9 +157,13 @@ constexpr RobotId up_of(const TreeTies& m) noexcept {
   return m.role == Role::root ? nobody : m.parent != nobody ? m.parent : m.old_parent;
 }
 // The hold of a robot without a parent: the robot that it stays with.
-constexpr RobotId hold_of(const TreeStanding& m) noexcept { return m.role == Role::root || up_of(m) != nobody ? nobody : m.grant; }
+constexpr RobotId hold_of(const TreeStanding& m) noexcept {
+  return m.role == Role::root || up_of(m) != nobody ? nobody : m.grant;
+}
 // Nothing leads from it to a root.
-constexpr bool is_untied(const TreeStanding& m) noexcept { return m.role != Role::root && up_of(m) == nobody && m.grant == nobody; }
+constexpr bool is_untied(const TreeStanding& m) noexcept {
+  return m.role != Role::root && up_of(m) == nobody && m.grant == nobody;
+}
 
 // One received packet. Its sender is in the receiver's body frame (x forward, y left; m), from range and
 // bearing: where it was `age_s` ago, in the frame of then; 0: as of now. `message` lives as long as the step.
@@ -155,8 +173,8 @@ struct Heard {
   Vec2 position;
   float age_s = 0.0F;
   // The step's own notes
-  Vec2 before{};            // where the sender was at the last step, in the frame of then; zero: not heard then
-  std::int16_t place = -1;  // where it stands in the neighbour table, until an entry is removed; -1: nowhere
+  Vec2 before{};                  // where the sender was at the last step, in the frame of then; zero: not heard then
+  std::int16_t place = -1;        // where it stands in the neighbour table, until an entry is removed; -1: nowhere
   RobotId named_before = nobody;  // what `count` was in the sender's last message
   Heard* next_news = nullptr;
 };

@@ -11,8 +11,7 @@ namespace banyan {
 inline constexpr float same_spot_m = 1e-6F;
 
 // Visits the index of every neighbour at the other end of an edge of mine, old or new, once: parents first.
-template <class Visit>
-void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
+template <class Visit> void for_each_tree_neighbor(const TreeRobot& robot, Visit visit) noexcept {
   if (robot.parent >= 0) visit(robot.parent);
   if (robot.old_parent >= 0 && robot.old_parent != robot.parent) visit(robot.old_parent);
   for (const int k : robot.children)

@@ -17,19 +17,36 @@ struct Reading {
   bool calls_spares;         // needs that no spare answers call spares from out of sight; printed: no such rule
   bool spares_stand_still;   // near their reference; printed: they orbit it
   bool avoids_obstacles;     // obstacle points repel, too; printed: no such rule
-  bool prefers_safe_parent;  // inwards: among candidates those within S first; printed: the smallest distance to the root
+  bool prefers_safe_parent;  // inwards: among candidates those within S first; printed: the smallest distance to the
+                             // root
   bool filters_positions;    // noisy measurements of neighbours are filtered; printed: no such rule
   bool counts_edges_once;    // an edge of both trees has one force; printed: u_tree,old + u_tree,new
   bool renews_labels;        // in GROW TREE a label that exceeds the way to the root shrinks; printed: it never does
 };
 
-inline constexpr Reading literal_reading{
-    .name = "literal", .keeps_margin = false, .keeps_links = false, .slides_beyond_safe = false, .asks_while_wanted = false,
-    .calls_spares = false, .spares_stand_still = false, .avoids_obstacles = false, .prefers_safe_parent = false, .filters_positions = false,
-    .counts_edges_once = false, .renews_labels = false};
-inline constexpr Reading corrected_reading{
-    .name = "corrected", .keeps_margin = true, .keeps_links = true, .slides_beyond_safe = true, .asks_while_wanted = true,
-    .calls_spares = true, .spares_stand_still = true, .avoids_obstacles = true, .prefers_safe_parent = true, .filters_positions = true,
-    .counts_edges_once = true, .renews_labels = true};
+inline constexpr Reading literal_reading{.name = "literal",
+                                         .keeps_margin = false,
+                                         .keeps_links = false,
+                                         .slides_beyond_safe = false,
+                                         .asks_while_wanted = false,
+                                         .calls_spares = false,
+                                         .spares_stand_still = false,
+                                         .avoids_obstacles = false,
+                                         .prefers_safe_parent = false,
+                                         .filters_positions = false,
+                                         .counts_edges_once = false,
+                                         .renews_labels = false};
+inline constexpr Reading corrected_reading{.name = "corrected",
+                                           .keeps_margin = true,
+                                           .keeps_links = true,
+                                           .slides_beyond_safe = true,
+                                           .asks_while_wanted = true,
+                                           .calls_spares = true,
+                                           .spares_stand_still = true,
+                                           .avoids_obstacles = true,
+                                           .prefers_safe_parent = true,
+                                           .filters_positions = true,
+                                           .counts_edges_once = true,
+                                           .renews_labels = true};
 
 }  // namespace banyan

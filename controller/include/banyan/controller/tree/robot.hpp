@@ -31,7 +31,10 @@ struct NewsList {
   struct Iterator {
     const Heard* at;
     const Heard& operator*() const noexcept { return *at; }
-    Iterator& operator++() noexcept { at = at->next_news; return *this; }
+    Iterator& operator++() noexcept {
+      at = at->next_news;
+      return *this;
+    }
     friend bool operator==(Iterator, Iterator) noexcept = default;
   };
   Heard* first = nullptr;
@@ -47,7 +50,8 @@ struct NewsList {
 
 // What a robot knows of the tree's gossip, at the beginning of a step.
 struct KnownOfTree {
-  explicit KnownOfTree(const TreeState& self) noexcept : id(self.id), root(self.root), epoch(self.epoch), phase(self.phase) {}
+  explicit KnownOfTree(const TreeState& self) noexcept
+      : id(self.id), root(self.root), epoch(self.epoch), phase(self.phase) {}
   [[nodiscard]] bool lacks(const TreeMessage& m) const noexcept {
     return m.root != root || m.epoch != epoch || m.phase != phase || m.new_root == id;
   }
@@ -62,15 +66,21 @@ inline constexpr float longest_link = 0.95F;
 
 struct TreeRobot {
   TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Inputs<Heard>& inputs) noexcept
-      : params(params_), reading(reading_), self(self_), heard(inputs.heard()), obstacles(inputs.senses().obstacles),
-        carry(inputs.senses().odometry), elapsed_ticks(inputs.elapsed_ticks()), forget_ticks(params_.ticks(params_.liveness_period_s)) {
+      : params(params_),
+        reading(reading_),
+        self(self_),
+        heard(inputs.heard()),
+        obstacles(inputs.senses().obstacles),
+        carry(inputs.senses().odometry),
+        elapsed_ticks(inputs.elapsed_ticks()),
+        forget_ticks(params_.ticks(params_.liveness_period_s)) {
     self.tally.rejected += inputs.rejected();
   }
 
   const TreeParams& params;
   const Reading& reading;
   TreeState& self;
-  const Vec2* target = nullptr;     // own frame, m; null unless a worker
+  const Vec2* target = nullptr;  // own frame, m; null unless a worker
   std::span<Heard> heard;
   NewsList news;
   bool is_tree_news = false;        // some of it is what KnownOfTree lacks
@@ -82,23 +92,27 @@ struct TreeRobot {
   bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
 
   // The index (tree_index.hpp)
-  int parent = -1;             // index of the parent in the table
+  int parent = -1;  // index of the parent in the table
   int old_parent = -1;
-  int hold = -1;               // without a parent: what ties me to the others (healing/hold.hpp)
-  IndexList children;          // living neighbours that name me as parent
-  IndexList old_children;      // living neighbours that name me as old parent and not as parent
+  int hold = -1;                          // without a parent: what ties me to the others (healing/hold.hpp)
+  IndexList children;                     // living neighbours that name me as parent
+  IndexList old_children;                 // living neighbours that name me as old parent and not as parent
   std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours
-  std::uint8_t useful_children = 0;  // living children (by parent or old parent) that are not spares
+  std::uint8_t useful_children = 0;       // living children (by parent or old parent) that are not spares
 
   // To a count of the ticks since something happened: those since the last step. It stays at its largest value.
-  void add_elapsed(std::uint16_t& ticks) const noexcept { ticks = static_cast<std::uint16_t>(std::min(ticks + elapsed_ticks, UINT16_MAX)); }
+  void add_elapsed(std::uint16_t& ticks) const noexcept {
+    ticks = static_cast<std::uint16_t>(std::min(ticks + elapsed_ticks, UINT16_MAX));
+  }
 
   // What is new of the tree's own gossip is among it, at most ticks nothing.
   [[nodiscard]] NewsList news_of_tree() const noexcept { return is_tree_news ? news : NewsList{}; }
   [[nodiscard]] const TreeTable& table() const noexcept { return self.neighbors; }
   [[nodiscard]] bool is_root() const noexcept { return self.root.id == self.id; }
   // I, and longer where packets are lost.
-  [[nodiscard]] int liveness_ticks() const noexcept { return std::max(params.ticks(params.liveness_period_s), loss_ticks); }
+  [[nodiscard]] int liveness_ticks() const noexcept {
+    return std::max(params.ticks(params.liveness_period_s), loss_ticks);
+  }
   // How long a connector waits for a child; one that has just chosen it may not have been heard yet.
   // A silent one counts as alive for long where packets get lost many in a row.
   [[nodiscard]] int patience_ticks() const noexcept {
@@ -124,14 +138,17 @@ struct TreeRobot {
   // Index of the robot that vectors of the census go to (up_of); -1 if it is not in the table.
   [[nodiscard]] int up() const noexcept { return self.parent != nobody ? parent : old_parent; }
   // I hear it, but it does not hear me.
-  [[nodiscard]] bool is_deaf(int k) const noexcept { return table().deaf_ticks[static_cast<std::size_t>(k)] > deaf_after_ticks; }
+  [[nodiscard]] bool is_deaf(int k) const noexcept {
+    return table().deaf_ticks[static_cast<std::size_t>(k)] > deaf_after_ticks;
+  }
   // We hear each other, as far as I know: only such a neighbour can be a parent or a hold.
   [[nodiscard]] bool is_linked(int k) const noexcept { return table().alive(k) && !is_deaf(k); }
   // Packets get lost many in a row (healing/loss.cpp).
   [[nodiscard]] bool has_bursts() const noexcept { return loss_ticks > forget_ticks; }
   // And it has heard me of late: only such a neighbour is taken as parent or hold, since it is to stay near.
   [[nodiscard]] bool is_sure(int k) const noexcept {
-    return has_bursts() ? table().age(k) <= forget_ticks && table().deaf_ticks[static_cast<std::size_t>(k)] == 0 : is_linked(k);
+    return has_bursts() ? table().age(k) <= forget_ticks && table().deaf_ticks[static_cast<std::size_t>(k)] == 0
+                        : is_linked(k);
   }
   [[nodiscard]] bool parent_alive() const noexcept { return parent >= 0 && is_linked(parent); }
   [[nodiscard]] bool old_parent_alive() const noexcept { return old_parent >= 0 && is_linked(old_parent); }

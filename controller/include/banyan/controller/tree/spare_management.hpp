@@ -10,10 +10,10 @@ namespace banyan {
 
 // What differs between the algorithms about edges and the spares that join them.
 struct EdgeRule {
-  FunctionRef<bool()> needs_spare;                       // the edge to my parent, or one below it, wants a spare
-  FunctionRef<bool()> may_call;                          // an unanswered need calls spares from afar (protocol 7)
-  FunctionRef<void(bool unserved)> count_waiting;        // keeps unserved_ticks
-  FunctionRef<bool(int owner, int parent)> may_insert;   // a spare whose edge is granted joins it from where it is
+  FunctionRef<bool()> needs_spare;                      // the edge to my parent, or one below it, wants a spare
+  FunctionRef<bool()> may_call;                         // an unanswered need calls spares from afar (protocol 7)
+  FunctionRef<void(bool unserved)> count_waiting;       // keeps unserved_ticks
+  FunctionRef<bool(int owner, int parent)> may_insert;  // a spare whose edge is granted joins it from where it is
 };
 
 void manage_spares(TreeRobot& robot, const EdgeRule& rule) noexcept;

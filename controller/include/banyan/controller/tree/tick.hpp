@@ -23,10 +23,11 @@ void carry_memory(TreeState& self, const Carry& carry) noexcept;
 
 // The neighbour table and the tree's array beside it are brought up to date in two steps: robots that were heard
 // are entered (Heard::place), and those silent for too long are removed. Algorithms that heal keep arrays of their
-// own in step, and write them in between. Beside the parents, those stay of which `is_tied(k)`. `close(k, size)`: entry k
-// is removed, and those behind it, up to `size`, move up by one.
+// own in step, and write them in between. Beside the parents, those stay of which `is_tied(k)`. `close(k, size)`: entry
+// k is removed, and those behind it, up to `size`, move up by one.
 void file_heard(TreeRobot& robot) noexcept;
-void forget_silent(TreeRobot& robot, FunctionRef<bool(int k)> is_tied, FunctionRef<void(int k, int size)> close) noexcept;
+void forget_silent(TreeRobot& robot, FunctionRef<bool(int k)> is_tied,
+                   FunctionRef<void(int k, int size)> close) noexcept;
 
 // The tree's part of the message, and what an observer may know of it.
 void write_tree(const TreeRobot& robot, TreeMessage& message) noexcept;

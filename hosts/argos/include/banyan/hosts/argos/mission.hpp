@@ -33,7 +33,7 @@ class MissionRun {
   // `out`: the directory of the results; "": none. Refuses to replace results unless `force`. With `placed`, robots
   // begin there instead of where the scenario has them. `robots` are not called before begin(). Throws MissionError.
   MissionRun(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed,
-          Robots& robots);
+             Robots& robots);
   MissionRun(const MissionRun&) = delete;
   MissionRun& operator=(const MissionRun&) = delete;
 

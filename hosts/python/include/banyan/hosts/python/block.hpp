@@ -16,9 +16,9 @@
 
 namespace banyan::python {
 
-inline constexpr std::size_t id_bytes = 2;                                // of the sender, in every message
-inline constexpr std::size_t largest_payload = largest_plain_wire - id_bytes;   // what is left of a message, bytes
-inline constexpr std::size_t most_seen = 8;                               // obstacles that a robot senses at once
+inline constexpr std::size_t id_bytes = 2;                                     // of the sender, in every message
+inline constexpr std::size_t largest_payload = largest_plain_wire - id_bytes;  // what is left of a message, bytes
+inline constexpr std::size_t most_seen = 8;                                    // obstacles that a robot senses at once
 
 struct Shape {
   std::size_t robots = 0;
@@ -26,11 +26,13 @@ struct Shape {
   std::size_t payload = 0;     // bytes of a message besides the id, at most largest_payload
 };
 
+// clang-format off
 enum class Field : std::uint8_t {
   worker, root, steps, sent, has_target, target, given_up, odometry, obstacles, obstacle_position,
   heard, sender, position, age, message, own_role, own_parent, suggested,
   velocity, broadcast, role, parent, serves, kept, count
 };
+// clang-format on
 inline constexpr std::size_t fields_count = static_cast<std::size_t>(Field::count);
 
 enum class Item : std::uint8_t { flag, byte, small, whole, real };  // bool, uint8, int8, int32, float32
@@ -47,8 +49,8 @@ struct FieldInfoOf {
   const char* meaning;
   Item item;
   std::array<FieldAxis, 2> axes;
-  bool decided;              // written by who decides, not sensed
-  std::int8_t blank = 0;     // while nothing else is known
+  bool decided;           // written by who decides, not sensed
+  std::int8_t blank = 0;  // while nothing else is known
 };
 // In the order of Field.
 [[nodiscard]] std::span<const FieldInfoOf> fields() noexcept;

@@ -37,8 +37,8 @@ class Sightings {
       : frames_(robots, frame), last_ns_(robots), max_age_s_(max_age_s) {}
 
   // Of the robot at that place of the list. Nothing: it was refused, by the reason in `why`.
-  [[nodiscard]] std::optional<udp::TrackedPose> take(std::size_t place, const StampedPose& sighting, std::int64_t now_ns,
-                                                     Refusal& why);
+  [[nodiscard]] std::optional<udp::TrackedPose> take(std::size_t place, const StampedPose& sighting,
+                                                     std::int64_t now_ns, Refusal& why);
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_; }
   [[nodiscard]] const std::array<std::uint64_t, refusals>& refused() const noexcept { return refused_; }
   [[nodiscard]] bool has_seen(std::size_t place) const noexcept { return last_ns_[place].has_value(); }

@@ -33,9 +33,9 @@ class Chart {
 
  private:
   struct Robot {
-    std::optional<Account> account;   // the newest
-    OdometricPose placed;             // its odometry when its pose was computed last
-    unsigned age = 0;                 // ticks since the account came
+    std::optional<Account> account;  // the newest
+    OdometricPose placed;            // its odometry when its pose was computed last
+    unsigned age = 0;                // ticks since the account came
   };
   [[nodiscard]] bool is_fresh(std::size_t robot) const noexcept;
   [[nodiscard]] const Sighting* sighting(std::size_t from, std::size_t of) const noexcept;

@@ -9,10 +9,9 @@
 //   4       2      sender: a robot's id, 0xFFFE the hub
 //   6       2      receiver, likewise; 0xFFFF everybody
 //   8       8      boot of the sender: grows whenever its program starts again
-//   16      8      boot of the receiver as the sender knows it; 0 in a hello, from a sender that does not, and to everybody
-//   24      4      counter: 1, 2, 3, ... to this receiver since the sender's boot
-//   28      n      payload
-//   28 + n  16     MAC: BLAKE2b with the fleet's key, over everything before
+//   16      8      boot of the receiver as the sender knows it; 0 in a hello, from a sender that does not, and to
+//   everybody 24      4      counter: 1, 2, 3, ... to this receiver since the sender's boot 28      n      payload 28 +
+//   n  16     MAC: BLAKE2b with the fleet's key, over everything before
 //
 // A packet is accepted once. It must carry the receiver's present boot, so what was recorded before the receiver
 // started is worthless; and the newest boot of its sender, so a robot that has started again is accepted and its old

@@ -21,24 +21,24 @@ namespace banyan::udp {
 class Fleet {
  public:
   struct Plan {
-    Arguments hub;                      // gets --listen ADDRESS, and --resume when it starts again
-    std::vector<Arguments> robots;      // get --hub ADDRESS
-    bool namespaces = false;            // after enter_network()
-    bool restart = true;                // robots that end unasked
-    double restart_after_s = 1.0;       // of the wall
-    Impairment way;                     // from robot to robot
-    bool netem = false;                 // by the wires of namespaces, after netem_fault(); otherwise by a relay
+    Arguments hub;                  // gets --listen ADDRESS, and --resume when it starts again
+    std::vector<Arguments> robots;  // get --hub ADDRESS
+    bool namespaces = false;        // after enter_network()
+    bool restart = true;            // robots that end unasked
+    double restart_after_s = 1.0;   // of the wall
+    Impairment way;                 // from robot to robot
+    bool netem = false;             // by the wires of namespaces, after netem_fault(); otherwise by a relay
     double speed = 1.0;
     std::uint64_t seed = 1;
   };
-  explicit Fleet(Plan plan);            // starts all; throws FleetError
-  ~Fleet();                             // ends all
+  explicit Fleet(Plan plan);  // starts all; throws FleetError
+  ~Fleet();                   // ends all
   Fleet(const Fleet&) = delete;
   Fleet& operator=(const Fleet&) = delete;
 
   // A moment of work. The hub's exit code once it has ended by itself.
   [[nodiscard]] std::optional<int> turn();
-  void interrupt(int signal);           // for the hub, which then stops all
+  void interrupt(int signal);  // for the hub, which then stops all
 
   [[nodiscard]] pid_t hub() const noexcept { return hub_; }
   [[nodiscard]] pid_t robot(std::size_t i) const noexcept { return robots_[i].pid; }  // 0: it is not running

@@ -22,19 +22,19 @@ namespace banyan::udp {
 struct HubSettings {
   Address listen{};
   double tick_s = 0.1;
-  double speed = 1.0;               // of its clock
-  double dead_after_s = 5.0;        // a robot that is silent for so long counts as dead
-  std::size_t bundle = 1;           // packets heard in one datagram, at most
+  double speed = 1.0;         // of its clock
+  double dead_after_s = 5.0;  // a robot that is silent for so long counts as dead
+  std::size_t bundle = 1;     // packets heard in one datagram, at most
 };
 
 // Of the account of a run.
 struct HubCounts {
-  std::uint64_t received = 0;       // datagrams, accepted
+  std::uint64_t received = 0;  // datagrams, accepted
   std::uint64_t sent = 0;
   DropCounts dropped{};
   std::uint64_t dropped_by_robots = 0;
-  std::uint64_t late_ticks = 0;     // that began more than a tick too late
-  Periods periods;                  // of the robots' steps
+  std::uint64_t late_ticks = 0;  // that began more than a tick too late
+  Periods periods;               // of the robots' steps
 };
 
 class Hub final : public Link {
@@ -61,7 +61,9 @@ class Hub final : public Link {
   void use(const KeyRing& keys) { keys_ = keys; }
 
   [[nodiscard]] const HubCounts& counts() const noexcept { return counts_; }
-  [[nodiscard]] bool is_replaying(std::uint32_t tick) const noexcept { return tape_ != nullptr && tick < tape_->recorded().size(); }
+  [[nodiscard]] bool is_replaying(std::uint32_t tick) const noexcept {
+    return tape_ != nullptr && tick < tape_->recorded().size();
+  }
   [[nodiscard]] Address local() const noexcept { return socket_.local(); }
 
   [[nodiscard]] std::optional<Status> take(std::size_t i) override;
@@ -72,15 +74,15 @@ class Hub final : public Link {
   struct Robot {
     explicit Robot(const SecureChannel& to) noexcept : channel(to) {}
     SecureChannel channel;
-    std::optional<Address> address;   // where it was heard from last
-    std::uint64_t boot = 0;           // of the newest status
-    std::uint32_t counter = 0;        // likewise
-    Bytes arrived;                    // that status; empty: taken
-    bool begun = false;               // it has taken part
+    std::optional<Address> address;  // where it was heard from last
+    std::uint64_t boot = 0;          // of the newest status
+    std::uint32_t counter = 0;       // likewise
+    Bytes arrived;                   // that status; empty: taken
+    bool begun = false;              // it has taken part
     bool dead = false;
     bool answered_stop = false;
-    std::uint32_t heard_tick = 0;     // when it was last heard
-    std::uint32_t dropped = 0;        // by itself, as it says
+    std::uint32_t heard_tick = 0;  // when it was last heard
+    std::uint32_t dropped = 0;     // by itself, as it says
   };
 
   void listen();
@@ -95,15 +97,15 @@ class Hub final : public Link {
   HubSettings options_;
   KeyRing keys_;
   Tape* tape_;
-  PoseStream* tracker_ = nullptr;     // none: bodies are simulated
+  PoseStream* tracker_ = nullptr;  // none: bodies are simulated
   std::function<void()> look_;
   Socket socket_;
   Clock clock_;
   std::uint32_t mission_;
   std::vector<Robot> robots_;
-  std::optional<double> begin_s_;     // when tick 0 began, or would have; none: not yet
+  std::optional<double> begin_s_;  // when tick 0 began, or would have; none: not yet
   std::uint32_t tick_ = 0;
-  bool muted_ = false;                // a tape is played
+  bool muted_ = false;  // a tape is played
   HubCounts counts_;
 };
 

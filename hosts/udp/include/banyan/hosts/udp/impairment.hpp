@@ -9,12 +9,12 @@ namespace banyan::udp {
 
 // Of one hop: from a robot to the hub, or back.
 struct Impairment {
-  double loss = 0.0;            // probability
+  double loss = 0.0;  // probability
   double delay_s = 0.0;
-  double jitter_s = 0.0;        // uniform in +- this
-  double duplicate = 0.0;       // probability
-  double reorder = 0.0;         // probability that a datagram is not delayed
-  double rate_bytes_s = 0.0;    // of each robot, either way, of what datagrams contain; 0: no limit
+  double jitter_s = 0.0;      // uniform in +- this
+  double duplicate = 0.0;     // probability
+  double reorder = 0.0;       // probability that a datagram is not delayed
+  double rate_bytes_s = 0.0;  // of each robot, either way, of what datagrams contain; 0: no limit
   [[nodiscard]] bool any() const noexcept {
     return loss > 0.0 || delay_s > 0.0 || jitter_s > 0.0 || duplicate > 0.0 || reorder > 0.0 || rate_bytes_s > 0.0;
   }

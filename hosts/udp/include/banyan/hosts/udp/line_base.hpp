@@ -4,10 +4,12 @@
 //
 //   robot to base   drive FORWARD SIDEWAYS TURN    velocities, m/s and rad/s, once a step; until the next such line
 //   base to robot   pose X Y TURN                  odometry since the base was switched on; at least ten times a second
-//                   seen X Y [X Y ...]             obstacle points, x forward, y to the left; replaces the last; "seen": none
-//                   near ID RANGE BEARING [...]    other robots that it measures, bearing counter-clockwise from forward, in
+//                   seen X Y [X Y ...]             obstacle points, x forward, y to the left; replaces the last;
+//                   "seen": none near ID RANGE BEARING [...]    other robots that it measures, bearing
+//                   counter-clockwise from forward, in
 //                                                  any number of lines; only without a hub
-//                   target X Y                     where its target is, in the body frame of now; "target": it has none, as in
+//                   target X Y                     where its target is, in the body frame of now; "target": it has
+//                   none, as in
 //                                                  the beginning; only without a hub
 //
 // A base that hears nothing for half a second must stop by itself: the wire may break.
@@ -80,8 +82,8 @@ class LineBase final : public Driver {
   };
   int descriptor_;
   bool lost_ = false;
-  std::string begun_;            // a line whose end has not come
-  std::deque<Moment> poses_;     // of the last second
+  std::string begun_;         // a line whose end has not come
+  std::deque<Moment> poses_;  // of the last second
   Seen seen_;
   std::map<RobotId, Measured> near_;
   std::optional<Measured> target_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What hub and robots tell each other, as payloads of datagrams (envelope.hpp). Numbers are little-endian, lengths in m,
-// angles in rad. Decoding returns nothing for bytes that encoding does not write, and never reads beyond them.
+// What hub and robots tell each other, as payloads of datagrams (envelope.hpp). Numbers are little-endian, lengths in
+// m, angles in rad. Decoding returns nothing for bytes that encoding does not write, and never reads beyond them.
 #pragma once
 
 #include <cstdint>
@@ -30,17 +30,17 @@ inline constexpr std::size_t most_seen = 64;  // obstacle points in a frame
 
 // Kind::frame, hub to robot, once a tick: the mission's orders and what the robot senses.
 struct SensorFrame {
-  std::uint32_t mission = 0;   // a hub that goes on with a mission after a restart keeps its number
+  std::uint32_t mission = 0;  // a hub that goes on with a mission after a restart keeps its number
   std::uint32_t tick = 0;
-  bool root = false;           // how a robot begins: the first root,
-  bool worker = false;         // one that will be sent to a target
-  bool begun = false;          // it has taken part before and has started again
-  bool sent = false;           // Orders
+  bool root = false;    // how a robot begins: the first root,
+  bool worker = false;  // one that will be sent to a target
+  bool begun = false;   // it has taken part before and has started again
+  bool sent = false;    // Orders
   bool has_target = false;
   bool line_of_sight = true;
-  OdometricPose odometry;      // a robot with a base of its own measures that itself
+  OdometricPose odometry;  // a robot with a base of its own measures that itself
   Vec2 target;
-  RobotId given_up = nobody;   // repeated until the robot's status has its serial
+  RobotId given_up = nobody;  // repeated until the robot's status has its serial
   std::uint8_t given_up_serial = 0;
   std::vector<Vec2> obstacles;
   friend bool operator==(const SensorFrame&, const SensorFrame&) = default;
@@ -62,9 +62,9 @@ struct HeardBundle {
 
 // Kind::status, robot to hub, once a step: what it broadcasts, how it wants to move, what it reports.
 struct Status {
-  std::uint32_t frame_tick = 0;       // of the newest frame that it has
-  std::uint32_t period_us = 0;        // since its last step
-  std::uint32_t dropped = 0;          // datagrams that it did not accept
+  std::uint32_t frame_tick = 0;  // of the newest frame that it has
+  std::uint32_t period_us = 0;   // since its last step
+  std::uint32_t dropped = 0;     // datagrams that it did not accept
   std::uint8_t given_up_serial = 0;
   Velocity velocity;
   Report report;

@@ -16,14 +16,15 @@ class Periods {
     longest_us_ = std::max(longest_us_, period_us);
   }
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-  // The period that this share of them does not exceed, ms, to 0.1 ms; those of a second and longer count as the longest.
-  // 0 without any.
+  // The period that this share of them does not exceed, ms, to 0.1 ms; those of a second and longer count as the
+  // longest. 0 without any.
   [[nodiscard]] double quantile_ms(double share) const noexcept {
     const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(count_));
     std::uint64_t below = 0;
     for (std::size_t k = 0; k + 1 < bins_.size(); ++k) {
       below += bins_[k];
-      if (below > wanted || (below == count_ && count_ > 0)) return std::min((static_cast<double>(k) + 0.5) * bin_us, static_cast<double>(longest_us_)) / 1000.0;
+      if (below > wanted || (below == count_ && count_ > 0))
+        return std::min((static_cast<double>(k) + 0.5) * bin_us, static_cast<double>(longest_us_)) / 1000.0;
     }
     return longest_us_ / 1000.0;
   }

@@ -2,7 +2,8 @@
 // Poses from a tracker (Vicon, OptiTrack, AprilTags, ...), as text in UDP datagrams, so that an adapter is thirty lines
 // (hosts/udp/examples/tracker.py). A datagram has one or more lines, each ended by a newline:
 //
-//   ROBOT X Y HEADING    id, position in m, heading in rad counter-clockwise from the x axis, separated by single spaces
+//   ROBOT X Y HEADING    id, position in m, heading in rad counter-clockwise from the x axis, separated by single
+//   spaces
 //
 // Numbers are decimal. The frame is the laboratory's, the one in which the scenario has its targets. A line that is
 // wrong makes its datagram worthless. Nothing is authenticated: take poses from this computer, or from a network of

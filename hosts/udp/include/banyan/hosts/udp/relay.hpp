@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A bad radio between real sockets, where the kernel's own cannot be had (network.hpp): takes datagrams of robots, loses,
-// delays, doubles and reorders them, and hands them to the hub; and those of the hub likewise.
+// A bad radio between real sockets, where the kernel's own cannot be had (network.hpp): takes datagrams of robots,
+// loses, delays, doubles and reorders them, and hands them to the hub; and those of the hub likewise.
 #pragma once
 
 #include <cstdint>
@@ -26,15 +26,15 @@ class Relay {
   [[nodiscard]] std::size_t under_way() const noexcept { return flights_.size(); }
 
  private:
-  struct Side {               // of one robot
+  struct Side {  // of one robot
     Address robot;
-    Socket socket;            // towards the hub, which so knows robots apart
-    double free_s[2] = {};    // when its line is free again, by direction: from the hub, to it
+    Socket socket;          // towards the hub, which so knows robots apart
+    double free_s[2] = {};  // when its line is free again, by direction: from the hub, to it
     std::size_t under_way[2] = {};
   };
   struct Flight {
     double due_s = 0.0;
-    std::uint64_t number = 0; // of equal moments the first comes first
+    std::uint64_t number = 0;  // of equal moments the first comes first
     std::size_t side = 0;
     bool to_hub = false;
     Bytes bytes;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Robots that are elsewhere, as a Swarm: the world keeps bodies, radio, obstacles and events, and everybody who observes
-// it stays as they are, while the controllers run in processes of their own. In a step each robot is sent what it
-// senses and hears, and what has arrived from it by then counts as what it does.
+// Robots that are elsewhere, as a Swarm: the world keeps bodies, radio, obstacles and events, and everybody who
+// observes it stays as they are, while the controllers run in processes of their own. In a step each robot is sent what
+// it senses and hears, and what has arrived from it by then counts as what it does.
 #pragma once
 
 #include <deque>
@@ -35,11 +35,13 @@ class RemoteSwarm final : public Swarm {
  public:
   // `local`: a swarm of the algorithm, which knows its messages. A robot that is silent for more than `silence` ticks
   // stands still. `link` must outlive it; a clone has none.
-  RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, Link& link, std::uint32_t silence);
+  RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, Link& link,
+              std::uint32_t silence);
 
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override;
   [[nodiscard]] std::size_t size() const noexcept override { return robots_.size(); }
-  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands, std::span<Report> reports) override;
+  void step(std::size_t first, std::span<const Sensed> sensed, std::span<Velocity> commands,
+            std::span<Report> reports) override;
   void advance() noexcept override;
   std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override;
   [[nodiscard]] std::size_t message_bytes() const noexcept override { return local_->message_bytes(); }
@@ -58,12 +60,12 @@ class RemoteSwarm final : public Swarm {
     OdometricPose odometry;
     Velocity velocity;
     Report report;
-    Bytes message;                    // the last
-    std::vector<double> numbers;      // of that
-    std::vector<Bytes> recent;        // a ring, by tick: what arrived in it; empty: nothing
+    Bytes message;                // the last
+    std::vector<double> numbers;  // of that
+    std::vector<Bytes> recent;    // a ring, by tick: what arrived in it; empty: nothing
     std::uint32_t silent_ticks = 0;
-    std::deque<RobotId> given_up;     // still to be announced; the first is being announced
-    std::uint8_t given_up_serial = 0; // of the last that it has confirmed
+    std::deque<RobotId> given_up;      // still to be announced; the first is being announced
+    std::uint8_t given_up_serial = 0;  // of the last that it has confirmed
   };
 
   RemoteSwarm(const RemoteSwarm& other);
@@ -76,9 +78,9 @@ class RemoteSwarm final : public Swarm {
   std::vector<Robot> robots_;
   std::size_t history_;
   std::uint32_t silence_;
-  Link* link_ = nullptr;              // null: a clone
+  Link* link_ = nullptr;  // null: a clone
   bool line_of_sight_;
-  bool collected_ = false;            // in this tick
+  bool collected_ = false;  // in this tick
   std::uint32_t tick_ = 0;
   std::vector<Hearing> heard_;
 };
@@ -86,7 +88,8 @@ class RemoteSwarm final : public Swarm {
 // An algorithm whose robots are elsewhere.
 class RemoteAlgorithm final : public AlgorithmElsewhere {
  public:
-  RemoteAlgorithm(const Algorithm& real, Link& link, std::uint32_t silence) noexcept : AlgorithmElsewhere(real), link_(link), silence_(silence) {}
+  RemoteAlgorithm(const Algorithm& real, Link& link, std::uint32_t silence) noexcept
+      : AlgorithmElsewhere(real), link_(link), silence_(silence) {}
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override;
 
  private:

@@ -19,7 +19,8 @@ namespace banyan::udp {
 
 class Robot {
  public:
-  // Stands still while its newest frame is older than `stop_after_s`. `radius_m`: of a body. `algorithm` must outlive it.
+  // Stands still while its newest frame is older than `stop_after_s`. `radius_m`: of a body. `algorithm` must outlive
+  // it.
   Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m);
 
   // What the hub has said. `at`: where the own odometry was when it was measured; nothing: the hub knows that itself.
@@ -30,13 +31,14 @@ class Robot {
   [[nodiscard]] bool is_guided(double now_s) const noexcept;
   // One step of the controller. Call it only if is_guided(). `pose` and `seen`: of a base that measures them itself;
   // what it sees where a robot was heard is that robot, and no obstacle.
-  [[nodiscard]] Status step(double now_s, const std::optional<OdometricPose>& pose = {}, std::span<const Vec2> seen = {});
+  [[nodiscard]] Status step(double now_s, const std::optional<OdometricPose>& pose = {},
+                            std::span<const Vec2> seen = {});
 
  private:
   struct Known {  // a packet that waits for the next step
     std::uint32_t tick = 0;
-    Vec2 position;  // in the frame of the odometry
-    Bytes message;  // empty: it has been given to the controller
+    Vec2 position;         // in the frame of the odometry
+    Bytes message;         // empty: it has been given to the controller
     double given_s = 0.0;  // when that was
   };
 
@@ -45,7 +47,8 @@ class Robot {
   [[nodiscard]] float elapsed_s(double now_s) const noexcept;
   [[nodiscard]] Senses sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s);
   void collect(const OdometricPose& pose, double now_s);
-  [[nodiscard]] std::span<const Vec2> without_neighbors(const OdometricPose& pose, std::span<const Vec2> seen, double now_s);
+  [[nodiscard]] std::span<const Vec2> without_neighbors(const OdometricPose& pose, std::span<const Vec2> seen,
+                                                        double now_s);
 
   const Algorithm& algorithm_;
   Setup setup_;
@@ -54,17 +57,17 @@ class Robot {
   float radius_m_;
   std::unique_ptr<Swarm> swarm_;  // of this robot alone; none before the first frame
 
-  SensorFrame frame_;                   // the newest
-  double frame_s_ = 0.0;          // when it came
-  OdometricPose odometry_;        // the newest that the hub has said, with whatever
+  SensorFrame frame_;       // the newest
+  double frame_s_ = 0.0;    // when it came
+  OdometricPose odometry_;  // the newest that the hub has said, with whatever
   std::uint32_t odometry_tick_ = 0;
-  Vec2 target_;                   // in the frame of the odometry
+  Vec2 target_;  // in the frame of the odometry
   std::map<RobotId, Known> known_;
 
-  OdometricPose pose_;            // at the last step
-  double step_s_ = 0.0;           // when that was
-  std::uint32_t step_tick_ = 0;   // and the newest tick that it knew
-  bool interrupted_ = false;      // it has been without guidance since
+  OdometricPose pose_;           // at the last step
+  double step_s_ = 0.0;          // when that was
+  std::uint32_t step_tick_ = 0;  // and the newest tick that it knew
+  bool interrupted_ = false;     // it has been without guidance since
   std::uint8_t given_up_serial_ = 0;
   std::vector<Packet> packets_;
   std::vector<Vec2> obstacles_, seen_, neighbors_;

@@ -13,20 +13,20 @@ namespace banyan::udp {
 
 struct RobotOptions {
   RobotId id = nobody;
-  std::string hub;               // ADDRESS:PORT; "": there is none, it has peers
-  std::string peers;             // ADDRESS:PORT[,ADDRESS:PORT...] of the other robots, or a broadcast address
-  std::string listen;            // ADDRESS:PORT where its peers find it
-  std::string tell;              // ADDRESS:PORT of who listens (banyan listen); "": nobody
-  bool root = false;             // without a hub: how it begins
+  std::string hub;     // ADDRESS:PORT; "": there is none, it has peers
+  std::string peers;   // ADDRESS:PORT[,ADDRESS:PORT...] of the other robots, or a broadcast address
+  std::string listen;  // ADDRESS:PORT where its peers find it
+  std::string tell;    // ADDRESS:PORT of who listens (banyan listen); "": nobody
+  bool root = false;   // without a hub: how it begins
   bool worker = false;
   std::string key_file;
   std::string algorithm = "convoy";
   Setup setup;
-  std::string base;              // "": simulated wheels; tcp:ADDRESS:PORT or a serial device
-  double radius_m = 0.0704;      // of a body; Khepera IV
-  double stop_after_s = 0.5;     // without a frame from the hub; without a hub, without a pose of its base
-  double delay_s = 0.0;          // from a measurement of the tracker to its arrival here; with a base only
-  double speed = 1.0;            // of its clock
+  std::string base;           // "": simulated wheels; tcp:ADDRESS:PORT or a serial device
+  double radius_m = 0.0704;   // of a body; Khepera IV
+  double stop_after_s = 0.5;  // without a frame from the hub; without a hub, without a pose of its base
+  double delay_s = 0.0;       // from a measurement of the tracker to its arrival here; with a base only
+  double speed = 1.0;         // of its clock
 };
 
 [[nodiscard]] std::string robot_usage();

@@ -58,7 +58,9 @@ class Socket {
 class Clock {
  public:
   explicit Clock(double speed = 1.0) noexcept : speed_(speed) {}
-  [[nodiscard]] double now_s() const noexcept { return speed_ * std::chrono::duration<double>(Wall::now() - start_).count(); }
+  [[nodiscard]] double now_s() const noexcept {
+    return speed_ * std::chrono::duration<double>(Wall::now() - start_).count();
+  }
   // Waits until a descriptor can be read, at most until that moment; signals end it, too. True: one can be read.
   bool wait(std::span<const int> descriptors, double until_s) const noexcept;
 

@@ -47,7 +47,7 @@ class Tape {
   [[nodiscard]] std::uint32_t mission() const noexcept { return mission_; }
   [[nodiscard]] const std::string& start() const noexcept { return start_; }
   [[nodiscard]] const std::vector<TapeTick>& recorded() const noexcept { return recorded_; }  // when it was opened
-  void append(std::uint32_t tick, const TapeTick& entries);  // throws TapeError
+  void append(std::uint32_t tick, const TapeTick& entries);                                   // throws TapeError
 
  private:
   std::size_t read(const std::string& path, std::uint64_t configuration);

@@ -20,7 +20,7 @@ struct Params : RivalParams {
   float request_timeout_s = 2.0F;
   float ignore_s = 10.0F;
   float gap_patience_s = 20.0F;
-  float side_offset_m = 0.6F;       // theirs: half as much
+  float side_offset_m = 0.6F;  // theirs: half as much
   float free_spacing_m = 0.32F;
 
   [[nodiscard]] int chains() const noexcept { return static_cast<int>(chains_per_target + 0.5F); }

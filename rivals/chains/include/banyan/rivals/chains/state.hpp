@@ -20,8 +20,8 @@ struct Place {
 // The way to the base.
 struct Chain {
   RobotId parent = nobody;
-  Ids above = no_ids();           // the parent that it has or had, then what that listed
-  RobotId asked = nobody;         // a free robot that is to become the parent
+  Ids above = no_ids();    // the parent that it has or had, then what that listed
+  RobotId asked = nobody;  // a free robot that is to become the parent
   std::uint16_t asked_ticks = 0;
 };
 
@@ -30,25 +30,25 @@ struct State : KnownRoot {
   Assignment assignment;
   Place base;
 
-  RobotId worker = nobody;        // of the chain; nobody: free
-  std::uint8_t number = 0;        // of the chain
+  RobotId worker = nobody;                  // of the chain; nobody: free
+  std::uint8_t number = 0;                  // of the chain
   std::array<Chain, most_chains> chains{};  // a relay has the first alone
   RobotId child = nobody;
-  bool linked = false;            // the child has named me as its parent
+  bool linked = false;  // the child has named me as its parent
   Place child_place;
-  Ids below = no_ids();           // the child that it has or had, then what that listed
-  std::uint8_t links = 0;         // to the worker
-  float beyond_m = 0.0F;          // along them and on to the target
-  float path_m = 0.0F;            // straight from the base to the target
+  Ids below = no_ids();    // the child that it has or had, then what that listed
+  std::uint8_t links = 0;  // to the worker
+  float beyond_m = 0.0F;   // along them and on to the target
+  float path_m = 0.0F;     // straight from the base to the target
   bool whole = false;
-  Place gap;                      // of a relay whose child fell silent: the place to take
-  Vec2 outwards;                  // from there to the next
-  std::uint16_t gap_ticks = 0;    // for how long there has been a gap; of a worker: a chain too few
-  std::uint16_t astray_ticks = 0; // how long it has been of no use to the chain
-  RobotId ignored = nobody;       // it did not answer
+  Place gap;                       // of a relay whose child fell silent: the place to take
+  Vec2 outwards;                   // from there to the next
+  std::uint16_t gap_ticks = 0;     // for how long there has been a gap; of a worker: a chain too few
+  std::uint16_t astray_ticks = 0;  // how long it has been of no use to the chain
+  RobotId ignored = nobody;        // it did not answer
   std::uint16_t ignored_ticks = 0;
 
-  Tally tally;                    // never read
+  Tally tally;  // never read
   Table<Message> neighbors;
 
   // About `entries` entries of the table are needed soon, and all the rest.

@@ -11,8 +11,7 @@
 namespace banyan::rivals {
 
 // The table: the rows that all rivals have, those that own_parameters() lists, and the platform's.
-template <class Params, auto own_parameters>
-[[nodiscard]] std::vector<BoundParameter> bind(Params& params) {
+template <class Params, auto own_parameters> [[nodiscard]] std::vector<BoundParameter> bind(Params& params) {
   return bind_all(params, common_parameters<Params>, own_parameters(), platform_parameters<Params>);
 }
 

@@ -24,7 +24,8 @@ struct Assignment {
 // Towards the target with magnitude tau, fading within the arrival distance; zero for all but workers.
 [[nodiscard]] Vec2 target_pull(const Assignment& assignment, const RivalParams& params) noexcept;
 // From robots and obstacles nearer than A.
-[[nodiscard]] Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles, const RivalParams& params) noexcept;
+[[nodiscard]] Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles,
+                             const RivalParams& params) noexcept;
 // What the motors do for u within the guard, u in units of K.
 [[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const RivalParams& params) noexcept;
 

@@ -17,8 +17,7 @@ class Algorithm;  // controller/core/algorithm.hpp; a robot needs none
 
 namespace banyan::rivals {
 
-template <class Message>
-struct HeardOf {
+template <class Message> struct HeardOf {
   const Message* message;
   Vec2 position;
   float age_s = 0.0F;
@@ -27,17 +26,18 @@ struct HeardOf {
 // The beginning of a step: packets are filed and orders are followed.
 // Those of which `ties(id)` is true stay in a full table.
 template <class State, class Message, class Ties>
-void begin_step(const RivalParams& params, State& state, const Inputs<HeardOf<Message>>& inputs, const Ties& ties) noexcept {
+void begin_step(const RivalParams& params, State& state, const Inputs<HeardOf<Message>>& inputs,
+                const Ties& ties) noexcept {
   const Senses& senses = inputs.senses();
   state.tally.rejected += inputs.rejected();
   const Carry carry(senses.odometry);
-  state.neighbors.renew(state.id, inputs.heard(), carry, inputs.elapsed_ticks(), params.ticks(params.liveness_period_s), params, ties);
+  state.neighbors.renew(state.id, inputs.heard(), carry, inputs.elapsed_ticks(), params.ticks(params.liveness_period_s),
+                        params, ties);
   state.assignment.follow(senses.orders, carry);
 }
 
 // The State with which a robot begins, so far as it is the same for all rivals.
-template <class State>
-[[nodiscard]] State state_at_start(RobotId id, bool worker, bool root) noexcept {
+template <class State> [[nodiscard]] State state_at_start(RobotId id, bool worker, bool root) noexcept {
   State state;
   state.id = id;
   state.assignment.sent = worker;
@@ -46,9 +46,10 @@ template <class State>
 }
 
 // What all rivals report. One that keeps no links has no more to say; the others add their parent and links.
-template <class State>
-[[nodiscard]] Report report_without_links(const State& s) noexcept {
-  return {.role = s.assignment.sent ? Role::worker : s.root == s.id ? Role::root : Role::connector,
+template <class State> [[nodiscard]] Report report_without_links(const State& s) noexcept {
+  return {.role = s.assignment.sent ? Role::worker
+                  : s.root == s.id  ? Role::root
+                                    : Role::connector,
           .serves = s.assignment.sent ? s.id : nobody,
           .root = s.root,
           .want_m = s.assignment.distance_m(),
@@ -56,14 +57,15 @@ template <class State>
 }
 
 // The four functions of an algorithm, for core/swarm_of.hpp.
-template <class P, class S, class M, auto initial_state, auto step_of, auto report_of, auto add>
-struct RobotsOf {
+template <class P, class S, class M, auto initial_state, auto step_of, auto report_of, auto add> struct RobotsOf {
   using Params = P;
   using State = S;
   using Message = M;
   using Heard = HeardOf<M>;
   static State initial(RobotId id, bool worker, bool root) { return initial_state(id, worker, root); }
-  static Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) { return step_of(params, state, inputs); }
+  static Output<Message> step(const Params& params, State& state, const Inputs<Heard>& inputs) {
+    return step_of(params, state, inputs);
+  }
   static Report report(const State& state) { return report_of(state); }
   static void add_to(Digest& digest, const State& state) { add(digest, state); }
 };

@@ -12,8 +12,7 @@
 
 namespace banyan::rivals {
 
-template <class Message>
-struct Table : Neighbors {
+template <class Message> struct Table : Neighbors {
   std::array<Message, neighbor_capacity> messages{};
 
   [[nodiscard]] const Message& message(int k) const noexcept { return messages[static_cast<std::size_t>(k)]; }
@@ -21,8 +20,8 @@ struct Table : Neighbors {
   // One tick: files what was heard and forgets robots silent for longer than `liveness_ticks`. If more are
   // heard than there is room for, those of which `ties(id)` is true stay, and of the others the nearest.
   template <class Heard, class Ties>
-  void renew(RobotId me, std::span<Heard> heard, const Carry& carry, int elapsed_ticks, int liveness_ticks, const Platform& platform,
-             const Ties& ties) noexcept {
+  void renew(RobotId me, std::span<Heard> heard, const Carry& carry, int elapsed_ticks, int liveness_ticks,
+             const Platform& platform, const Ties& ties) noexcept {
     begin(elapsed_ticks, platform.wheel_limit_m_s * platform.tick_s);
     for (Heard& h : heard) {
       const Message& m = *h.message;
@@ -32,7 +31,8 @@ struct Table : Neighbors {
       if (k < 0) k = enter(m.id, h.position, ties(m.id), [&](int j) { return ties(id(j)); });
       if (k >= 0) messages[static_cast<std::size_t>(k)] = m;
     }
-    for (int k = 0; (k = remove_next(k, carry, liveness_ticks, [](int) { return false; })) >= 0;) close_gap(messages, k, size() + 1);
+    for (int k = 0; (k = remove_next(k, carry, liveness_ticks, [](int) { return false; })) >= 0;)
+      close_gap(messages, k, size() + 1);
   }
 
   void add_to(Digest& digest) const noexcept {

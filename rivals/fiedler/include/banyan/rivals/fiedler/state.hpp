@@ -15,7 +15,7 @@ struct State : KnownRoot {
   RobotId id = nobody;
   Assignment assignment;
 
-  std::uint16_t ticks = 0;            // since the start, up to 65535
+  std::uint16_t ticks = 0;  // since the start, up to 65535
 
   // What spreads over the network (flood.cpp)
   std::uint8_t links = 0;
@@ -28,9 +28,9 @@ struct State : KnownRoot {
   Average square;
   Average product;
   float lambda = 0.0F;
-  std::uint32_t draws = 0;            // numbers drawn so far to begin anew with
+  std::uint32_t draws = 0;  // numbers drawn so far to begin anew with
 
-  Tally tally;                        // never read
+  Tally tally;  // never read
   Table<Message> neighbors;
 
   // About `entries` entries of the table are needed soon, and all the rest.

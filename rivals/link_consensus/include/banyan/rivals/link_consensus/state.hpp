@@ -16,7 +16,7 @@ namespace banyan::rivals::link_consensus {
 struct Link {
   RobotId to = nobody;
   bool kept = false;
-  bool repairs = false;            // it is the way back of a robot that was cut off
+  bool repairs = false;  // it is the way back of a robot that was cut off
   std::uint8_t offered_steps = 0;
 };
 
@@ -59,26 +59,26 @@ struct State {
   Serial beat = 0;
   std::uint16_t way = not_rooted;
   RobotId parent = nobody;
-  std::uint16_t silent_ticks = 0;   // since the root's count last grew
-  RobotId lost_root = nobody;       // the last root that fell silent,
-  Serial lost_beat = 0;             // its last count,
-  std::uint16_t lost_ticks = 0;     // and how long that is ago
+  std::uint16_t silent_ticks = 0;  // since the root's count last grew
+  RobotId lost_root = nobody;      // the last root that fell silent,
+  Serial lost_beat = 0;            // its last count,
+  std::uint16_t lost_ticks = 0;    // and how long that is ago
 
   // Links (links.cpp)
   Links links;
-  RobotId given_up = nobody;        // the link given up last, until its other end no longer lists it
+  RobotId given_up = nobody;  // the link given up last, until its other end no longer lists it
 
   // The agreement (agreement.cpp)
-  Bid bid;                          // vouched for
+  Bid bid;  // vouched for
   bool agrees = false;
-  Bid last_bid;                     // vouched for before that: not again
-  std::uint8_t serial = 0;          // of my last own bid
+  Bid last_bid;                       // vouched for before that: not again
+  std::uint8_t serial = 0;            // of my last own bid
   std::uint16_t own_lease_ticks = 1;  // its full length
-  bool insists = false;             // my next bid has the largest reach
-  std::uint16_t tried_cm = 0xFFFF;  // my next bid is about a link shorter than this
-  std::uint16_t rest_ticks = 0;     // time until my next bid
+  bool insists = false;               // my next bid has the largest reach
+  std::uint16_t tried_cm = 0xFFFF;    // my next bid is about a link shorter than this
+  std::uint16_t rest_ticks = 0;       // time until my next bid
 
-  Tally tally;                      // never read
+  Tally tally;  // never read
   Table<Message> neighbors;
 
   // About `entries` entries of the table are needed soon, and all the rest.

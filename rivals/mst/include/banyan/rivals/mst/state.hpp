@@ -42,7 +42,7 @@ class Ends {
 struct Candidate {
   RobotId to = nobody;
   std::uint16_t length = 0;  // as in an Edge
-  bool narrow = false;  // no third robot was nearer to both ends: it may well be in the tree
+  bool narrow = false;       // no third robot was nearer to both ends: it may well be in the tree
 };
 
 struct State {
@@ -50,35 +50,35 @@ struct State {
   Assignment assignment;
 
   // The tree that is kept
-  bool has_tree = false;             // or had one
+  bool has_tree = false;  // or had one
   Ends tree;
-  Ends old;                          // edges of earlier trees, until their other end is known to be in this one
-  RobotId parent = nobody;           // towards the root
-  RobotId root = nobody;             // the smallest id that is no worker
+  Ends old;                 // edges of earlier trees, until their other end is known to be in this one
+  RobotId parent = nobody;  // towards the root
+  RobotId root = nobody;    // the smallest id that is no worker
   Serial tree_epoch = 0;
 
   // When the next one is built (epoch.cpp)
   Serial epoch = 0;
   Serial next = 0;
   std::uint8_t countdown = 0;
-  std::uint16_t epoch_ticks = 0;     // since the construction began
+  std::uint16_t epoch_ticks = 0;  // since the construction began
 
   // Construction (construction.cpp)
   std::uint8_t level = 0;
-  RobotId fragment = nobody;         // nobody: none has begun yet
+  RobotId fragment = nobody;  // nobody: none has begun yet
   RobotId up = nobody;
   bool ready = false;
   bool decided = false;
   bool done = true;
-  bool failed = false;               // this construction cannot end
+  bool failed = false;  // this construction cannot end
   Edge best;
   Edge choice;
-  RobotId least = nobody;            // the smallest id below me that is no worker; of a complete tree of all
-  RobotId least_by = nobody;         // the branch in which it is; nobody: it is my own id
+  RobotId least = nobody;     // the smallest id below me that is no worker; of a complete tree of all
+  RobotId least_by = nobody;  // the branch in which it is; nobody: it is my own id
   Ends branches;
-  Ends refused;                      // they had no room for an edge to me: not chosen before there is a tree
+  Ends refused;                        // they had no room for an edge to me: not chosen before there is a tree
   std::uint16_t unanswered_ticks = 0;  // how long the other end of the edge that I chose has not named it
-  std::uint16_t decided_ticks = 0;   // a leader: since it chose
+  std::uint16_t decided_ticks = 0;     // a leader: since it chose
   std::array<Candidate, neighbor_capacity> candidates{};
   std::uint8_t candidate_count = 0;
 
@@ -92,7 +92,7 @@ struct State {
   }
   [[nodiscard]] bool is_full() const noexcept { return held().size() == most_kept_links; }
 
-  Tally tally;                       // never read
+  Tally tally;  // never read
   Table<Message> neighbors;
 
   // About `entries` entries of the table are needed soon, and all the rest.
