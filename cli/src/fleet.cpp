@@ -69,21 +69,10 @@ void choose_impairment(const FleetOptions& options, udp::Fleet::Plan& plan) {
 
 udp::Arguments hub_arguments(const FleetOptions& options, const std::string& key, const std::string& out,
                              const std::string& tape) {
-  // clang-format off: option and value side by side
-  udp::Arguments arguments{own_program(),
-                           "hub",
-                           options.run.scenario,
-                           "--key",
-                           key,
-                           "--out",
-                           out,
-                           "--force",
-                           "--tape",
-                           tape,
-                           "--speed",
-                           format("%g", options.speed),
-                           "--bundle",
-                           std::to_string(options.bundle)};
+  // Option and value side by side.
+  // clang-format off
+  udp::Arguments arguments{own_program(), "hub", options.run.scenario, "--key", key, "--out", out, "--force",
+                           "--tape", tape, "--speed", format("%g", options.speed), "--bundle", std::to_string(options.bundle)};
   // clang-format on
   for (const auto& override : options.run.overrides) {
     if (override.file.empty()) arguments.insert(arguments.end(), {"--set", override.assignment});

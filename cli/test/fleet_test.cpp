@@ -240,12 +240,11 @@ TEST_F(FleetProgram, NetemMakesTheRadioBadWhereItIs) {
   const bool there = std::system(
                          "unshare -n tc qdisc add dev lo root netem 2>/dev/null || unshare -rn tc qdisc add dev lo "
                          "root netem 2>/dev/null") == 0;
-  // clang-format off: option and value side by side
-  const Outcome outcome =
-      run({"fleet",        three_targets, "--speed",    "5",     "--set",       "mission.algorithm=convoy",
-           "--loss",       "0.3",         "--delay-ms", "20",    "--jitter-ms", "10",
-           "--duplicate",  "0.1",         "--reorder",  "0.1",   "--rate-kbit", "400",
-           "--impairment", "netem",       "--out",      "result"});
+  // Option and value side by side.
+  // clang-format off
+  const Outcome outcome = run({"fleet", three_targets, "--speed", "5", "--set", "mission.algorithm=convoy",
+                               "--loss", "0.3", "--delay-ms", "20", "--jitter-ms", "10", "--duplicate", "0.1",
+                               "--reorder", "0.1", "--rate-kbit", "400", "--impairment", "netem", "--out", "result"});
   // clang-format on
   EXPECT_EQ(exists("result"), there);
   EXPECT_EQ(outcome.code, there ? 0 : 2) << outcome.err;
@@ -519,22 +518,11 @@ class WithoutAHub : public FleetProgram {
     FleetProgram::TearDown();
   }
   void start_robot(int i, bool root) {
-    // clang-format off: option and value side by side
-    Arguments arguments{"robot",
-                        "--id",
-                        std::to_string(i),
-                        "--listen",
-                        address(i),
-                        "--peers",
-                        others_than(i),
-                        "--key",
-                        "fleet.key",
-                        "--speed",
-                        "5",
-                        "--base",
-                        "tcp:127.0.0.1:" + std::to_string(port_ + count + i),
-                        "--tell",
-                        address(3 * count)};
+    // Option and value side by side.
+    // clang-format off
+    Arguments arguments{"robot", "--id", std::to_string(i), "--listen", address(i), "--peers", others_than(i),
+                        "--key", "fleet.key", "--speed", "5",
+                        "--base", "tcp:127.0.0.1:" + std::to_string(port_ + count + i), "--tell", address(3 * count)};
     // clang-format on
     if (root) arguments.emplace_back("--root");
     if (i >= 1 && i <= 3) arguments.emplace_back("--worker");
