@@ -24,8 +24,8 @@ class RosLaboratory : public StartedProcesses {
     hub_address_ = "127.0.0.1:" + std::to_string(port);
     poses_ = "127.0.0.1:" + std::to_string(port + 1);
     first_base_ = port + 2;
-    const std::string domain =
-        std::to_string(91 + ::getpid() % 10);  // ports that neither free_port() nor the system hands out
+    // Ports that neither free_port() nor the system hands out.
+    const std::string domain = std::to_string(91 + ::getpid() % 10);
     bodies_ =
         shell(std::string(BANYAN_ROS2_PEER) + " 9 " + domain + " 5 " + peer_options + " >peer.txt 2>peer-errors.txt");
     bridge_ = shell(std::string(BANYAN_ROS2) + " --localhost --robots 9 --domain " + domain + " --poses " + poses_ +

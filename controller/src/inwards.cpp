@@ -19,14 +19,13 @@ void select_inner_parent(TreeRobot& robot) noexcept {
   const auto is_safe = [&](int k) {
     return robot.reading.prefers_safe_parent && table.range(k) <= robot.params.safe_range_m;
   };
+  const auto is_better = [&](int a, int b) {
+    return is_safe(a) != is_safe(b) ? is_safe(a) : table.message(a).label_cm < table.message(b).label_cm;
+  };
   select_parent(robot, {.may_join = may_join_inwards(robot),
                         .workers_relay = false,
                         .accepts = [](int) { return true; },
-                        .prefers =
-                            [&](int a, int b) {
-                              return is_safe(a) != is_safe(b) ? is_safe(a)
-                                                              : table.message(a).label_cm < table.message(b).label_cm;
-                            }});
+                        .prefers = is_better});
 }
 
 constexpr Growth inwards_growth{.all_counted = all_workers_counted, .select_parent = select_inner_parent};

@@ -37,7 +37,7 @@ Output<TreeMessage> literal_step(const Growth& growth, const TreeParams& params,
 
   Output<TreeMessage> output;
   write_tree(robot, output.message);
-  output.velocity = move(u, Guard{}, params);
+  output.velocity = drive(allowed(u, Guard{}, params), Guard{}, params);
   return output;
 }
 

@@ -294,8 +294,8 @@ void World::Impl::sense(std::size_t i, const Odometry& moved, Proximity::Seen& s
   senses.orders = {.sent = target_of[i] >= 0, .target = {}, .given_up = std::exchange(given_up[i], nobody)};
   senses.charge = charge_of(i);
   if (target_of[i] >= 0) {
-    const auto place =
-        static_cast<std::size_t>(target_of[i]) - mission_target_count;  // wraps for the mission's targets
+    // Wraps for the mission's targets.
+    const auto place = static_cast<std::size_t>(target_of[i]) - mission_target_count;
     senses.orders.charging_place = scenario.battery.on() && place < scenario.battery.places.size();
     const Vec2 d =
         rotate_back(poses.heading[i], targets[static_cast<std::size_t>(target_of[i])].position - poses.position[i]);

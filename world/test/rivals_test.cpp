@@ -35,8 +35,8 @@ std::size_t parts_by_kept_links(const World& world) {
   return count;
 }
 
-constexpr double longest =
-    0.85;  // of C: in trying(), what is left is for links that are stretched by who knows it late
+// Of C: in trying(), what is left is for links that are stretched by who knows it late.
+constexpr double longest = 0.85;
 
 // Parts of the living that no link is left between which a robot would make: 5 % shorter than the longest that it
 // keeps.

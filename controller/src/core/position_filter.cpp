@@ -10,9 +10,9 @@ namespace {
 constexpr float wander = 4.0F;           // the random walk, in longest ways of a tick: a course lasts a second or two
 constexpr float explained = 1.25F;       // of that way: what motion explains of an innovation, and odometry's own error
 constexpr float newest = 1.0F / 256.0F;  // weight of an innovation: what counts are the last few hundred
-constexpr float noticed =
-    1.0F / 32.0F;                // of the walk: a shove in a crowd that odometry does not see is forgotten at once
-constexpr float surely = 0.99F;  // and what it explains whatever the roundings
+// Of the walk: a shove in a crowd that odometry does not see is forgotten at once.
+constexpr float noticed = 1.0F / 32.0F;
+constexpr float surely = 0.99F;           // and what it explains whatever the roundings
 constexpr float shortest_lever_m = 0.5F;  // nearer, a neighbour's own motion turns its bearing by much
 
 float squared_excess(float innovation, float explained_by_motion) noexcept {

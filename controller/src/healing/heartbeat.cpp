@@ -71,8 +71,8 @@ bool outlives_root(const HealingRobot& robot) noexcept {
 // Several robots far from each other may claim; one token wins.
 bool misses_first_root(const HealingRobot& robot) noexcept {
   constexpr float first_root_s = 20.0F;  // by then the first token has travelled 200 hops
-  constexpr int fetched_later =
-      3;  // in a thin start where packets get lost, part of the network may have to be fetched first
+  // In a thin start where packets get lost, part of the network may have to be fetched first.
+  constexpr int fetched_later = 3;
   const TreeTable& table = robot.table();
   const int patience_ticks = robot.params.ticks(first_root_s) * (is_thin(robot.self) ? fetched_later : 1);
   if (robot.self.silence_ticks <= patience_ticks || hears_nobody(robot)) return false;

@@ -21,8 +21,8 @@ constexpr float pin_width_m = 0.06F;
 constexpr float pin_shortest_m = 0.30F;  // a parent nearer than this need not come up
 constexpr float spacing_m = 0.06F;       // between remembered points
 constexpr float least_lever = 0.1F;      // with less, my motion hardly moves the line there;
-constexpr float least_lever_body =
-    0.02F;                      // but the body of a former parent lies beside the robot that is the parent now
+// But the body of a former parent lies beside the robot that is the parent now.
+constexpr float least_lever_body = 0.02F;
 constexpr float forget = 1.0F;  // of C: points farther away are forgotten, since no edge is longer
 
 // Calls visit(o, r): points of obstacles with r = 0, centres of bodies with their radius. One loop, so that the

@@ -20,8 +20,8 @@ constexpr int call_reach_hops_each = 40;  // of calls by edges, and of those for
 constexpr int lacks_after_ticks = 3;      // it may just not have heard its companion
 constexpr int stand_in = 3;    // times the silence after which a robot counts as dead: so long its companion stays
 constexpr float aside = 1.3F;  // of `clearance`: so far out of a line a robot steps that is in the way
-constexpr float edge_room =
-    1.4F;  // of `clearance`: how near to edges a companion in its place comes, since it may have to cross
+// Of `clearance`: how near to edges a companion in its place comes, since it may have to cross.
+constexpr float edge_room = 1.4F;
 constexpr int places = 12;              // around the robot of the tree
 constexpr float bridged = 0.75F;        // of C: two tree neighbours of a robot so near to each other do without it,
 constexpr float bridged_on_way = 0.4F;  // and for some time to come while a worker below still has to travel
@@ -30,8 +30,8 @@ constexpr float unheard_at = 0.9F;      // of C: so far away a tree neighbour th
 constexpr float hides = 0.6F;           // of `clearance`: a robot so near to a link hides it
 constexpr float near_place = 0.05F;     // of C: within it the companion slows down
 constexpr float even = 0.5F;            // of companion_distance: of two companions none is the nearer by less
-constexpr float costs_way =
-    0.15F;  // of a metre by which a place is better: the way there, so that it does not change its mind
+// Of a metre by which a place is better: the way there, so that it does not change its mind.
+constexpr float costs_way = 0.15F;
 constexpr float costs_hidden = 0.5F;  // of C: what a hidden neighbour weighs against the distance of others
 constexpr float costs_crowd = 0.25F;  // of C: likewise a robot at that place, or an edge through it
 

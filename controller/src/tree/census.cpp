@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/core/fixed_point.hpp"
 
 namespace banyan {
 namespace {
@@ -59,10 +60,6 @@ void watch_progress(const TreeRobot& robot) noexcept {
   }
 }
 
-std::uint16_t saturate(std::uint32_t v) noexcept {
-  return static_cast<std::uint16_t>(std::min<std::uint32_t>(v, UINT16_MAX));
-}
-
 // Turned into the edge frame, a component grows by up to sqrt 2.
 Vec2 sendable(Vec2 q) noexcept {
   constexpr float limit_m = 0.5F * q_limit_m;
@@ -97,9 +94,9 @@ void take_census(TreeRobot& robot, float rest_distance_m, float own_want_m) noex
   else if (self.is_worker) sums.want_m = std::max(sums.want_m, robot.params.communication_range_m);
   sums.want_m = std::max(sums.want_m, own_want_m);
 
-  self.subtree = saturate(sums.robots);
-  self.subtree_workers = saturate(sums.workers);
-  self.count = saturate(algorithm2_count(sums.children, sums.counts, self.depth));
+  self.subtree = saturated(sums.robots);
+  self.subtree_workers = saturated(sums.workers);
+  self.count = saturated(algorithm2_count(sums.children, sums.counts, self.depth));
   self.want_m = sums.want_m;
   watch_progress(robot);
   self.pull = sums.pulling > 0 ? sums.pull / static_cast<float>(sums.pulling) : Vec2{};

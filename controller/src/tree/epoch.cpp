@@ -6,13 +6,7 @@ namespace {
 
 void begin_epoch(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  // A robot that has only an old parent keeps it: this edge is its only tie to the tree.
-  if (self.parent != nobody) {
-    self.old_parent = self.parent;
-    robot.old_parent = robot.parent;
-  }
-  self.parent = nobody;
-  robot.parent = -1;
+  robot.retire_parent();
   self.committed = false;
   self.label_cm = unknown_label;
   self.label_wait_ticks = 0;
@@ -33,8 +27,7 @@ void begin_epoch(TreeRobot& robot) noexcept {
 // until it has one: otherwise the branch would drift out of range before it could re-attach.
 void forget_old_tree(TreeRobot& robot) noexcept {
   if (robot.self.parent == nobody && robot.self.role != Role::spare && !robot.is_root()) return;
-  robot.self.old_parent = nobody;
-  robot.old_parent = -1;
+  robot.drop_old_parent();
 }
 
 // The barrier of the root's phase: whether the root may open the next one.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "banyan/controller/core/fixed_point.hpp"
+
 namespace banyan {
 namespace {
 
@@ -55,8 +57,8 @@ void echo(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
   const TreeTable& table = robot.table();
   bool done = true;
-  int robots = 1;
-  int workers = self.is_worker ? 1 : 0;
+  std::uint32_t robots = 1;
+  std::uint32_t workers = self.is_worker ? 1 : 0;
   for (int k = 0; k < table.size(); ++k) {
     if (table.age(k) > echo_silence_ticks) continue;
     const TreeStanding& m = table.message(k);
@@ -69,8 +71,8 @@ void echo(TreeRobot& robot) noexcept {
     }
   }
   self.flood_done = done;
-  self.flood_robots = static_cast<std::uint16_t>(std::min<int>(robots, UINT16_MAX));
-  self.flood_workers = static_cast<std::uint16_t>(std::min<int>(workers, UINT16_MAX));
+  self.flood_robots = saturated(robots);
+  self.flood_workers = saturated(workers);
 }
 
 }  // namespace

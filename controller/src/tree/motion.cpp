@@ -109,8 +109,4 @@ Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept {
   return clamped(guard.apply(clamped(u, 1.0F) * params.speed_gain_m_s), params.wheel_limit_m_s);
 }
 
-Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept {
-  return drive(allowed(u, guard, params), guard, params);
-}
-
 }  // namespace banyan

@@ -49,14 +49,12 @@ int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
 // Still none: a childless robot has no robot below it, so it may move behind any committed neighbour.
 int nearest_committed(const TreeRobot& robot, const ParentRule& rule) noexcept {
   const TreeTable& table = robot.table();
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
+  return least_of(table.size(), not_counted, [&](int k) {
     const TreeStanding& m = table.message(k);
-    if (!robot.is_sure(k) || !may_relay(rule, m) || m.epoch != robot.self.epoch || !m.committed) continue;
-    if (m.label_cm == unknown_label || !is_ahead(robot, k) || table.range(k) > robot.parent_range_m()) continue;
-    if (best < 0 || table.range(k) < table.range(best)) best = k;
-  }
-  return best;
+    const bool may = robot.is_sure(k) && may_relay(rule, m) && m.epoch == robot.self.epoch && m.committed &&
+                     m.label_cm != unknown_label && is_ahead(robot, k) && table.range(k) <= robot.parent_range_m();
+    return may ? table.range(k) : not_counted;
+  });
 }
 
 void join(TreeRobot& robot, const ParentRule& rule) noexcept {
@@ -67,7 +65,7 @@ void join(TreeRobot& robot, const ParentRule& rule) noexcept {
     if (self.search_ticks < UINT16_MAX) ++self.search_ticks;
     if (self.search_ticks > patience_flood_ticks) k = flood_parent(robot, rule);
     const bool childless = robot.children.size == 0 && robot.old_children.size == 0;
-    if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) { k = nearest_committed(robot, rule); }
+    if (k < 0 && childless && self.search_ticks > patience_relabel_ticks) k = nearest_committed(robot, rule);
   }
   if (k >= 0) take_parent(robot, k);
 }
@@ -223,8 +221,7 @@ void keep_up(TreeRobot& robot, int k) noexcept {
 
 void take_parent(TreeRobot& robot, int k) noexcept {
   TreeState& self = robot.self;
-  self.parent = robot.table().id(k);
-  robot.parent = k;
+  robot.set_parent(k);
   self.committed = true;
   self.search_ticks = 0;
   self.pending_parent = nobody;
@@ -232,16 +229,13 @@ void take_parent(TreeRobot& robot, int k) noexcept {
   // A robot without a label that is as fresh as its parent must not be ahead of it.
   if (robot.reading.keeps_links && self.label_cm == unknown_label)
     self.label_cm = label_below(robot.table().message(k).label_cm, robot.table().range(k));
-  if (self.phase >= Phase::grow_tree) {
-    self.old_parent = nobody;
-    robot.old_parent = -1;
-  }
+  if (self.phase >= Phase::grow_tree) robot.drop_old_parent();
 }
 
 void leave_tree(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  self.parent = self.old_parent = nobody;
-  robot.parent = robot.old_parent = -1;
+  robot.drop_parent();
+  robot.drop_old_parent();
   self.committed = false;
   self.need = Need::no_need;
   self.grant = nobody;
@@ -255,8 +249,7 @@ bool is_orphan(const TreeRobot& robot) noexcept { return robot.self.orphan_ticks
 void select_parent(TreeRobot& robot, const ParentRule& rule) noexcept {
   TreeState& self = robot.self;
   if (robot.is_root()) {
-    self.parent = nobody;
-    robot.parent = -1;
+    robot.drop_parent();
     self.committed = true;
   } else if (self.phase >= Phase::select_parent && !hangs_on_heir(robot)) {
     if (self.parent == nobody) join(robot, rule);

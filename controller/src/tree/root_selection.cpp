@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/tree/epoch.hpp"
 
 namespace banyan {
@@ -16,20 +17,13 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool
   const TreeTable& table = robot.table();
   const float reach_m = robot.params.communication_range_m * (robot.reading.keeps_links ? longest_link : 1.0F);
   const Vec2 place = leaves ? Vec2{} : self.centroid;
-  float best_m = leaves ? reach_m : norm(place) - robot.params.centroid_margin_m;
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
+  const float limit_m = leaves ? reach_m : norm(place) - robot.params.centroid_margin_m;
+  return least_of(table.size(), limit_m, [&](int k) {
     const TreeStanding& m = table.message(k);
-    if (table.age(k) > 0 || m.role == Role::worker || m.epoch != self.epoch || table.range(k) > reach_m ||
-        !may_inherit(k))
-      continue;
-    const float d = distance(table.position(k), place);
-    if (d < best_m) {
-      best_m = d;
-      best = k;
-    }
-  }
-  return best;
+    const bool may = table.age(k) == 0 && m.role != Role::worker && m.epoch == self.epoch &&
+                     table.range(k) <= reach_m && may_inherit(k);
+    return may ? distance(table.position(k), place) : limit_m;
+  });
 }
 
 }  // namespace
@@ -42,10 +36,7 @@ void hand_over(TreeRobot& robot, Serial held) noexcept {
   const bool taken =
       self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != static_cast<Serial>(held + 1));
   const int heir = taken ? robot.table().find(self.new_root) : -1;
-  if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) {
-    self.old_parent = self.new_root;
-    robot.old_parent = heir;
-  }
+  if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) robot.set_old_parent(heir);
   self.new_root = nobody;
 }
 
@@ -60,17 +51,10 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
     if (!newer(offered, self.root)) continue;
     self.root = offered;
     accepted = &m;
-    self.centroid = from_edge_frame(
-        {static_cast<float>(m.centroid_x_cm) * 0.01F, static_cast<float>(m.centroid_y_cm) * 0.01F}, h.position);
+    self.centroid = from_edge_frame({metres(m.centroid_x_cm), metres(m.centroid_y_cm)}, h.position);
     self.centroid_known = true;
     self.new_root = nobody;
-    // The edge to the parent stays an edge of the tree until GROW TREE (protocol 8).
-    if (self.parent != nobody) {
-      self.old_parent = self.parent;
-      robot.old_parent = robot.parent;
-    }
-    self.parent = nobody;
-    robot.parent = -1;
+    robot.retire_parent();  // their edge stays an edge of the tree until GROW TREE (protocol 8)
     ++self.tally.handovers;
   }
   return accepted;

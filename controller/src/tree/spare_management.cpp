@@ -15,7 +15,6 @@ namespace {
 int ungranted_limit_ticks(const TreeRobot& robot) noexcept { return std::max(14, robot.loss_ticks); }
 
 constexpr std::uint8_t call_reach_hops = 250;
-constexpr float infinite_m = 1e9F;
 
 // ---- The owner of an edge: NO NEED -> NEED -> AWAIT ----
 
@@ -46,18 +45,12 @@ void follow_grant(TreeRobot& robot) noexcept {
 RobotId best_request(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const Vec2 midpoint = table.position(robot.parent) * 0.5F;
-  RobotId best = nobody;
-  float best_m = infinite_m;
-  for (int k = 0; k < table.size(); ++k) {
+  const int best = least_of(table.size(), not_counted, [&](int k) {
     const TreeStanding& m = table.message(k);
-    if (m.request != robot.self.id || !table.alive(k) || m.role != Role::spare) continue;
-    const float d = distance(table.position(k), midpoint);
-    if (d < best_m) {
-      best_m = d;
-      best = table.id(k);
-    }
-  }
-  return best;
+    const bool asks = m.request == robot.self.id && table.alive(k) && m.role == Role::spare;
+    return asks ? distance(table.position(k), midpoint) : not_counted;
+  });
+  return best < 0 ? nobody : table.id(best);
 }
 
 void own_edge(TreeRobot& robot, const EdgeRule& rule) noexcept {
@@ -104,29 +97,20 @@ bool midpoint_above(const TreeTable& table, int k, Vec2& midpoint) noexcept {
 // The owner in need whose midpoint is nearest; both ends must be heard.
 RobotId nearest_edge_in_need(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  RobotId best = nobody;
-  float best_m = infinite_m;
-  table.members.for_each([&](int k) {
-    if (!in_need(table.message(k), robot.self) || !table.alive(k)) return;
+  const int best = least_of(table.members, not_counted, [&](int k) {
     Vec2 midpoint;
-    if (!midpoint_above(table, k, midpoint)) return;
-    const float d = norm(midpoint);
-    if (d < best_m) {
-      best_m = d;
-      best = table.id(k);
-    }
+    const bool open = in_need(table.message(k), robot.self) && table.alive(k) && midpoint_above(table, k, midpoint);
+    return open ? norm(midpoint) : not_counted;
   });
-  return best;
+  return best < 0 ? nobody : table.id(best);
 }
 
 // The neighbour through which an unanswered need is nearest.
 RobotId nearest_caller(const TreeRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k)
-    if (table.alive(k) && table.message(k).call_hops == robot.call_hops &&
-        (best < 0 || table.range(k) < table.range(best)))
-      best = k;
+  const int best = least_of(table.size(), not_counted, [&](int k) {
+    return table.alive(k) && table.message(k).call_hops == robot.call_hops ? table.range(k) : not_counted;
+  });
   return best < 0 ? nobody : table.id(best);
 }
 

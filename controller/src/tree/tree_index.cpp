@@ -30,25 +30,18 @@ void index_neighbors(TreeRobot& robot) noexcept {
 
 void update_role(TreeRobot& robot) noexcept {
   TreeState& self = robot.self;
-  if (robot.is_root()) {
-    self.role = Role::root;
-    self.childless_ticks = 0;
-  } else if (self.is_worker) {
-    self.role = Role::worker;
-    self.childless_ticks = 0;
-  } else if (robot.useful_children > 0 || self.inserted_child != nobody || robot.carries_on) {
-    self.role = Role::connector;
-    self.childless_ticks = 0;
-  } else if (self.role != Role::spare) {
-    self.role = Role::connector;  // so is a root that has handed over
-    // Patience: a child may only have been silent, or be about to name me (protocol 3).
-    robot.add_elapsed(self.childless_ticks);
-    if (self.childless_ticks > robot.patience_ticks()) {
-      self.role = Role::spare;
-      self.childless_ticks = 0;
-      if (robot.children.size == 0) leave_tree(robot);
-    }
-  }
+  const bool joins = robot.useful_children > 0 || self.inserted_child != nobody || robot.carries_on;
+  if (robot.is_root()) self.role = Role::root;
+  else if (self.is_worker) self.role = Role::worker;
+  else if (joins || self.role != Role::spare) self.role = Role::connector;  // so is a root that has handed over
+  else return;
+  // Patience: a child may only have been silent, or be about to name me (protocol 3).
+  if (self.role == Role::connector && !joins) robot.add_elapsed(self.childless_ticks);
+  else self.childless_ticks = 0;
+  if (self.childless_ticks <= robot.patience_ticks()) return;
+  self.role = Role::spare;
+  self.childless_ticks = 0;
+  if (robot.children.size == 0) leave_tree(robot);
 }
 
 }  // namespace banyan

@@ -28,8 +28,8 @@ namespace {
 constexpr double obstacle_height_m = 0.5;
 constexpr double wall_thickness_m = 0.02;  // ARGoS has no walls without any
 
-constexpr double light_height_m =
-    0.01;  // that of the bodies' origins, from which ARGoS measures: so the distance is that on the ground
+// That of the bodies' origins, from which ARGoS measures: so the distance is that on the ground.
+constexpr double light_height_m = 0.01;
 
 std::string exact(double value) {
   char text[32];

@@ -44,8 +44,8 @@ void forget_lost(Robot& robot) noexcept {
   if (self.lost == nobody) return;
   self.lost_ticks = robot.counted(self.lost_ticks);
   const bool rejoined = self.is_joined() && self.root == self.lost_root;
-  const bool gone =
-      self.lost_ticks > robot.params.ticks(robot.params.liveness_period_s);  // for all who were linked with it
+  // For all who were linked with it.
+  const bool gone = self.lost_ticks > robot.params.ticks(robot.params.liveness_period_s);
   const bool lives = robot.said_by(self.lost) != nullptr || (gone && is_named(robot, self.lost));
   const bool there = norm(self.lost_at) < robot.params.arrival_distance_m;
   const bool waited = !self.has_lost_parent() && self.lost_ticks > robot.params.ticks(robot.params.join_patience_s);

@@ -18,6 +18,11 @@ template <class Int> constexpr Int to_fixed(float v, float unit) noexcept {
   return static_cast<Int>(std::clamp(scaled, low, high));
 }
 
+// A count in 16 bits.
+constexpr std::uint16_t saturated(std::uint32_t count) noexcept {
+  return static_cast<std::uint16_t>(std::min<std::uint32_t>(count, UINT16_MAX));
+}
+
 // A length in cm, in m.
 constexpr float metres(std::int16_t cm) noexcept { return static_cast<float>(cm) * 0.01F; }
 

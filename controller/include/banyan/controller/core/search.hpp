@@ -24,4 +24,22 @@ template <class Range, class Is> [[nodiscard]] constexpr bool all_of(const Range
   return !banyan::any_of(range, [&](const auto& element) { return !is(element); });
 }
 
+inline constexpr float not_counted = 1e9F;  // what does not count measures this
+
+// The number from 0 to size - 1 whose measure is least and below the limit, the first of several; -1 if there is none.
+template <class Measure> [[nodiscard]] constexpr int least_of(int size, float limit, Measure measure) {
+  int least = -1;
+  for (int k = 0; k < size; ++k)
+    if (const float m = measure(k); m < limit) limit = m, least = k;
+  return least;
+}
+// Likewise of those in a set (rows.hpp).
+template <class Set, class Measure> [[nodiscard]] int least_of(const Set& set, float limit, Measure measure) {
+  int least = -1;
+  set.for_each([&](int k) {
+    if (const float m = measure(k); m < limit) limit = m, least = k;
+  });
+  return least;
+}
+
 }  // namespace banyan

@@ -30,8 +30,8 @@ inline constexpr std::uint16_t unknown_label = 0xFFFF;
 inline constexpr std::uint16_t invalid_depth = 0;
 inline constexpr std::uint8_t unreachable = 0xFF;
 inline constexpr std::uint8_t nobody_calls = 0xFF;
-inline constexpr std::uint8_t companion_call =
-    128;  // from here on: of calls for companions (redundancy/), which come last
+// From here on: of calls for companions (redundancy/), which come last.
+inline constexpr std::uint8_t companion_call = 128;
 
 // How a robot is tied to others. It seldom changes from one message to the next (table.hpp).
 struct TreeTies {

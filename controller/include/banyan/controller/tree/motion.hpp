@@ -38,7 +38,4 @@ template <class Visit> void for_each_tree_neighbor(const TreeRobot& robot, Visit
 // The velocity (m/s, own frame) nearest to `u`, in units of speed_gain, within the guard and the wheels' limits.
 [[nodiscard]] Vec2 allowed(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;
 
-// The command to the motors for it.
-[[nodiscard]] Velocity move(Vec2 u, const Guard& guard, const TreeParams& params) noexcept;
-
 }  // namespace banyan

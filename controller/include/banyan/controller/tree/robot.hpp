@@ -100,6 +100,17 @@ struct TreeRobot {
   std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours
   std::uint8_t useful_children = 0;       // living children (by parent or old parent) that are not spares
 
+  // The parent, old or new, and its index.
+  void set_parent(int k) noexcept { self.parent = table().id(k), parent = k; }
+  void set_old_parent(int k) noexcept { self.old_parent = table().id(k), old_parent = k; }
+  void drop_parent() noexcept { self.parent = nobody, parent = -1; }
+  void drop_old_parent() noexcept { self.old_parent = nobody, old_parent = -1; }
+  // What was the parent becomes the old one. A robot without a parent keeps an old one: it is its only tie to the tree.
+  void retire_parent() noexcept {
+    if (self.parent != nobody) self.old_parent = self.parent, old_parent = parent;
+    drop_parent();
+  }
+
   // To a count of the ticks since something happened: those since the last step. It stays at its largest value.
   void add_elapsed(std::uint16_t& ticks) const noexcept {
     ticks = static_cast<std::uint16_t>(std::min(ticks + elapsed_ticks, UINT16_MAX));
