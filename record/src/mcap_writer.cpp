@@ -87,6 +87,67 @@ void put_channel(std::string& out, const Channel& channel) {
   put_map(out, channel.metadata);
 }
 
+void put_chunk_index(std::string& out, const ChunkEntry& c, std::string_view compression) {
+  const RecordScope record(out, Op::chunk_index);
+  put(out, c.start);
+  put(out, c.end);
+  put(out, c.offset);
+  put(out, c.length);
+  {
+    const LengthScope length(out);
+    for (const auto& [id, offset] : c.index_offsets) {
+      put(out, id);
+      put(out, offset);
+    }
+  }
+  put(out, c.index_length);
+  put_string(out, compression);
+  put(out, c.compressed);
+  put(out, c.uncompressed);
+}
+
+void put_attachment_index(std::string& out, const AttachmentEntry& a) {
+  const RecordScope record(out, Op::attachment_index);
+  put(out, a.offset);
+  put(out, a.length);
+  put(out, a.time);
+  put(out, a.time);
+  put(out, a.size);
+  put_string(out, a.name);
+  put_string(out, a.media_type);
+}
+
+void put_metadata_index(std::string& out, const MetadataEntry& m) {
+  const RecordScope record(out, Op::metadata_index);
+  put(out, m.offset);
+  put(out, m.length);
+  put_string(out, m.name);
+}
+
+// The records of one kind in the summary: where they begin and end in it.
+struct SummaryGroup {
+  Op op;
+  std::uint64_t begin, end;
+};
+
+// Where each group is, and the footer, behind a summary that begins at `start` of the file.
+void put_end(std::string& out, std::uint64_t start, const std::vector<SummaryGroup>& groups) {
+  const std::uint64_t offsets_start = start + out.size();
+  for (const SummaryGroup& g : groups) {
+    const RecordScope record(out, Op::summary_offset);
+    put(out, static_cast<std::uint8_t>(g.op));
+    put(out, start + g.begin);
+    put(out, g.end - g.begin);
+  }
+  // The footer by hand: its CRC covers the summary and its own bytes up to the CRC itself.
+  put(out, static_cast<std::uint8_t>(Op::footer));
+  put(out, std::uint64_t{20});
+  put(out, start);
+  put(out, offsets_start);
+  put(out, crc32(out));
+  out.append(magic);
+}
+
 }  // namespace
 
 std::uint32_t crc32(std::string_view bytes, std::uint32_t seed) noexcept {
@@ -137,6 +198,7 @@ struct Writer::Impl {
   std::string_view compress(std::string_view records);
   void end(OpenChunk& chunk);
   void write_index(OpenChunk& chunk, ChunkEntry& entry);
+  void put_statistics(std::string& out) const;
   [[nodiscard]] std::string summary(std::uint64_t start) const;
 };
 
@@ -292,86 +354,41 @@ void Writer::attachment(std::string_view name, std::string_view media_type, Nano
 }
 
 // Groups of one kind of record each, then where each group is.
+void Writer::Impl::put_statistics(std::string& out) const {
+  const RecordScope record(out, Op::statistics);
+  std::uint64_t messages = 0;
+  for (const std::uint32_t n : sequences) messages += n;
+  put(out, messages);
+  put(out, static_cast<std::uint16_t>(schemas.size()));
+  put(out, static_cast<std::uint32_t>(channels.size()));
+  put(out, static_cast<std::uint32_t>(attachments.size()));
+  put(out, static_cast<std::uint32_t>(metadata.size()));
+  put(out, static_cast<std::uint32_t>(chunks.size()));
+  put(out, first);
+  put(out, last);
+  const LengthScope length(out);
+  for (std::size_t id = 0; id < sequences.size(); ++id) {
+    put(out, static_cast<std::uint16_t>(id));
+    put(out, std::uint64_t{sequences[id]});
+  }
+}
+
 std::string Writer::Impl::summary(std::uint64_t start) const {
   std::string out;
-  struct Group {
-    Op op;
-    std::uint64_t begin, end;
-  };
-  std::vector<Group> groups;
+  std::vector<SummaryGroup> groups;
   const auto group = [&](Op op, const auto& items, const auto& put_item) {
     const std::uint64_t begin = out.size();
-    for (const auto& item : items) put_item(item);
+    for (const auto& item : items) put_item(out, item);
     if (out.size() > begin) groups.push_back({op, begin, out.size()});
   };
-  group(Op::schema, schemas, [&](const Schema& s) { put_schema(out, s); });
-  group(Op::channel, channels, [&](const Channel& c) { put_channel(out, c); });
-  group(Op::statistics, std::array{0}, [&](int) {
-    const RecordScope record(out, Op::statistics);
-    std::uint64_t messages = 0;
-    for (const std::uint32_t n : sequences) messages += n;
-    put(out, messages);
-    put(out, static_cast<std::uint16_t>(schemas.size()));
-    put(out, static_cast<std::uint32_t>(channels.size()));
-    put(out, static_cast<std::uint32_t>(attachments.size()));
-    put(out, static_cast<std::uint32_t>(metadata.size()));
-    put(out, static_cast<std::uint32_t>(chunks.size()));
-    put(out, first);
-    put(out, last);
-    const LengthScope length(out);
-    for (std::size_t id = 0; id < sequences.size(); ++id) {
-      put(out, static_cast<std::uint16_t>(id));
-      put(out, std::uint64_t{sequences[id]});
-    }
-  });
-  group(Op::chunk_index, chunks, [&](const ChunkEntry& c) {
-    const RecordScope record(out, Op::chunk_index);
-    put(out, c.start);
-    put(out, c.end);
-    put(out, c.offset);
-    put(out, c.length);
-    {
-      const LengthScope length(out);
-      for (const auto& [id, offset] : c.index_offsets) {
-        put(out, id);
-        put(out, offset);
-      }
-    }
-    put(out, c.index_length);
-    put_string(out, options.compression_level == 0 ? "" : "zstd");
-    put(out, c.compressed);
-    put(out, c.uncompressed);
-  });
-  group(Op::attachment_index, attachments, [&](const AttachmentEntry& a) {
-    const RecordScope record(out, Op::attachment_index);
-    put(out, a.offset);
-    put(out, a.length);
-    put(out, a.time);
-    put(out, a.time);
-    put(out, a.size);
-    put_string(out, a.name);
-    put_string(out, a.media_type);
-  });
-  group(Op::metadata_index, metadata, [&](const MetadataEntry& m) {
-    const RecordScope record(out, Op::metadata_index);
-    put(out, m.offset);
-    put(out, m.length);
-    put_string(out, m.name);
-  });
-  const std::uint64_t offsets_start = start + out.size();
-  for (const Group& g : groups) {
-    const RecordScope record(out, Op::summary_offset);
-    put(out, static_cast<std::uint8_t>(g.op));
-    put(out, start + g.begin);
-    put(out, g.end - g.begin);
-  }
-  // The footer by hand: its CRC covers the summary and its own bytes up to the CRC itself.
-  put(out, static_cast<std::uint8_t>(Op::footer));
-  put(out, std::uint64_t{20});
-  put(out, start);
-  put(out, offsets_start);
-  put(out, crc32(out));
-  out.append(magic);
+  group(Op::schema, schemas, put_schema);
+  group(Op::channel, channels, put_channel);
+  group(Op::statistics, std::array{this}, [](std::string& to, const Impl* w) { w->put_statistics(to); });
+  const std::string_view compression = options.compression_level == 0 ? "" : "zstd";
+  group(Op::chunk_index, chunks, [&](std::string& to, const ChunkEntry& c) { put_chunk_index(to, c, compression); });
+  group(Op::attachment_index, attachments, put_attachment_index);
+  group(Op::metadata_index, metadata, put_metadata_index);
+  put_end(out, start, groups);
   return out;
 }
 
