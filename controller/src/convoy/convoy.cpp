@@ -308,9 +308,10 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   keep_off(robot, guard);  // obstacles
   keep_sight(robot, state.corners, guard);
   push_nobody(robot, guard);
+  float pace = robot.power != nullptr ? give_way(*robot.power, params.clearance_m, guard) : 1.0F;
+  if (retreats) pace = 1.0F;
 
   write_convoy(robot, message);
-  const float pace = robot.power != nullptr && !retreats ? leisure(*robot.power, params.clearance_m) : 1.0F;
   const Vec2 v = allowed(pace < 1.0F ? clamped(u, 1.0F) * pace : u, guard, params);
   watch_progress(robot, retreats, v);  // does the worker make progress?
   Velocity motion = drive(v, guard, params);

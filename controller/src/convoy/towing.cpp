@@ -403,7 +403,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
     return up >= 0 && robot.table().range(up) > p.safe_range_m ? unit(robot.table().position(up)) : Vec2{};
   // The first tree takes time to build, and a target may be added in mid-mission: a worker does not go without a tree.
   if (up < 0 && !robot.is_root()) return before_tree(robot);
-  if (Vec2 u; relief_motion(robot, u)) return u;
+  if (Vec2 u; relief_motion(robot, u)) return holds_still(robot) ? Vec2{} : u;
   // At its target a worker may give way a little, if that lets another one reach its own; this fades out
   // before the target is out of tolerance.
   constexpr float fading = 0.1F;
@@ -436,7 +436,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
     return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
-  if (const int of = self.accompanies == nobody ? -1 : robot.table().find(self.accompanies); of >= 0)
+  if (const int of = robot.table().find(self.accompanies); of >= 0)
     return past(robot, companion_motion(robot, of), companion_way_m(robot, of));
   // No robot near has heard the tree for a while: it has gone behind an obstacle.
   if (self.tree_hops > lost_hops && norm(self.corners.seen_from) > p.arrival_distance_m)
@@ -445,7 +445,9 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const int root = robot.table().find(self.root.id);
   if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
     return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
-  if (holds_still(robot)) return {};
+  // On batteries spares travel all the time: one that a reconstruction has stopped between two robots gets out of
+  // there.
+  if (holds_still(robot)) return robot.power != nullptr ? make_way(robot, p.clearance_m) : Vec2{};
   // Whoever is charged makes room at the place, and whoever needs it drives through the crowd: the others step aside.
   if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away))
     return away + repulsion(robot) + make_way(robot, p.corridor_width_m);

@@ -60,7 +60,7 @@ void doubt(HealingRobot& robot) noexcept {
   const int doubt_ticks = robot.liveness_ticks() + robot.params.ticks(hesitate_s);
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[static_cast<std::size_t>(k)];
-    int child = task.via == nobody ? -1 : robot.table().find(task.via);
+    int child = robot.table().find(task.via);
     if (has_left(robot, child)) task.via = nobody;
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;
     if (has_witnessed(robot, task)) {

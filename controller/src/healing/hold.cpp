@@ -75,7 +75,7 @@ void find_hold(HealingRobot& robot) noexcept {
     // that epoch's tree is dropped: by the new labels a robot that depends on me through them may be ahead.
     const bool relied_on = self.phase < Phase::grow_tree && robot.children.size + robot.old_children.size > 0;
     if (const bool unlabelled = self.label_cm == unknown_label; unlabelled || relied_on) {
-      const int last = self.hold == nobody ? -1 : table.find(self.hold);
+      const int last = table.find(self.hold);
       if (last >= 0 && robot.is_linked(last)) robot.hold = last;
       else if (unlabelled) robot.hold = -1;
     }

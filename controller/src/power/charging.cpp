@@ -132,7 +132,7 @@ void choose_way(PowerRobot& me) noexcept {
   const TreeTable& table = robot.table();
   const int k = way_to_place(me);
   robot.add_elapsed(power.way_ticks);
-  const int now = power.way_id == nobody ? -1 : table.find(power.way_id);
+  const int now = table.find(power.way_id);
   if (now >= 0 && table.age(now) == 0) {
     power.way = table.position(now);
     if (half_hops(me, now) > power.way_hops) power.way_id = nobody;

@@ -1,25 +1,57 @@
 // SPDX-License-Identifier: MIT
-// How robots on batteries move: spares that wait save their charge.
+// How robots on batteries move: out of the lines of sight of those that change places, and spares that wait save their
+// charge.
 #include <algorithm>
 
 #include "banyan/controller/power/power.hpp"
 
 namespace banyan {
+namespace {
 
-float leisure(const PowerRobot& me, float clearance_m) noexcept {
+// Neighbour k takes another robot's place, or another one takes its place or is on its way to do so.
+bool changes_places(const PowerRobot& me, int k) noexcept {
+  const PowerStanding& said = me.standing(k);
+  return said.relieves != nobody ||
+         (said.leaving && (me.robot.table().message(k).grant != nobody || has_reliever(me, k)));
+}
+
+}  // namespace
+
+float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept {
   constexpr float slow = 0.25F;
-  constexpr float room = 1.5F;  // times the clearance: whoever is nearer to an edge hurries
-  const TreeState& self = me.robot.self;
-  const TreeTable& table = me.robot.table();
-  if (self.role != Role::spare || self.parent != nobody || self.request != nobody || self.called || me.power.travels)
-    return 1.0F;
+  constexpr float room = 1.5F;        // times the clearance: whoever is nearer to an edge hurries
+  constexpr float hides_m = 0.07F;    // from body to line of sight
+  constexpr float to_pass_m = 0.10F;  // for those that take part
+  constexpr float to_move_m = 0.18F;  // for others, since robots that change places move
+  constexpr float hesitates_s = 8.0F;
+  const HealingRobot& robot = me.robot;
+  const TreeState& self = robot.self;
+  const TreeTable& table = robot.table();
+  const bool free = self.role == Role::spare && self.parent == nobody;
+  const int leaver = table.find(me.power.said.relieves);
+  if (!free && leaver < 0) return 1.0F;
+  const bool joins = leaver >= 0 || self.spare_state == SpareState::extend_edge;
+  const bool pushes = leaver < 0 && self.request_ticks > robot.params.ticks(hesitates_s);
+  float nearest_m = self.request != nobody || self.called || me.power.travels ? 0.0F : room * clearance_m;
+  const auto keep_apart = [&](Vec2 to) {
+    const float d = norm(to);
+    if (d > hides_m) guard.add_limit(to / d, (d - (joins ? to_pass_m : to_move_m)) * robot.params.guard_rate_per_s);
+  };
   for (int k = 0; k < table.size(); ++k) {
-    const RobotId up = me.is_spare(k) ? nobody : table.message(k).parent;
-    const int parent = up == nobody ? -1 : table.find(up);
-    if (parent >= 0 && norm(nearest_on_segment(table.position(k), table.position(parent))) < room * clearance_m)
-      return 1.0F;
+    if (k == leaver || me.is_spare(k)) continue;
+    const Vec2 at = table.position(k);
+    const RobotId id = up_of(table.message(k));
+    if (leaver >= 0 && robot.is_tree_neighbor(k)) {
+      const Vec2 body = table.position(leaver);
+      keep_apart(-nearest_on_segment(-body, at - body));
+    }
+    const int up = id == self.id ? -1 : table.find(id);
+    if (up < 0) continue;
+    const Vec2 to = nearest_on_segment(at, table.position(up));
+    nearest_m = std::min(nearest_m, norm(to));
+    if (!pushes && table.id(k) != self.request && (changes_places(me, k) || changes_places(me, up))) keep_apart(to);
   }
-  return slow;
+  return free && nearest_m == room * clearance_m ? slow : 1.0F;
 }
 
 }  // namespace banyan

@@ -21,7 +21,7 @@ constexpr float surely_there = 0.9F;     // of the tolerance
 // A neighbour that leaves and has me as parent, in whose place I am or will be.
 int relieved(const PowerRobot& me) noexcept {
   const TreeTable& table = me.robot.table();
-  const int k = me.power.said.relieves == nobody ? -1 : table.find(me.power.said.relieves);
+  const int k = table.find(me.power.said.relieves);
   return k >= 0 && table.alive(k) && me.standing(k).leaving ? k : -1;
 }
 
@@ -32,10 +32,8 @@ bool has_reliever(const PowerRobot& me) noexcept {
 
 // Another robot takes my parent's place.
 bool is_parent_relieved(const PowerRobot& me) noexcept {
-  const TreeTable& table = me.robot.table();
-  const RobotId above = table.message(me.robot.parent).parent;
-  const int k = above == nobody ? -1 : table.find(above);
-  return k >= 0 && me.standing(k).relieves == me.robot.self.parent;
+  const int k = me.robot.parent;
+  return k >= 0 && me.standing(k).leaving && has_reliever(me, k);
 }
 
 // Of two robots of an edge that have to leave, the lower one goes first unless the upper one is clearly emptier: a
@@ -112,6 +110,10 @@ void choose_relieved(PowerRobot& me) noexcept {
     best_m = range_m;
     said.relieves = table.id(k);
   }
+  // Not while somebody drives through one of my edges.
+  if (before != nobody) return;
+  for (int k = 0; k < table.size(); ++k)
+    if (robot.is_tree_neighbor(k) && table.age(k) > 0) said.relieves = nobody;
 }
 
 // Its children may change to me only once I stand still.
@@ -122,8 +124,7 @@ void settle_in(PowerRobot& me) noexcept {
                      norm(spot) <= in_place * me.robot.params.communication_range_m &&
                      !hides_child(me, me.robot.table().find(said.relieves));
   said.in_place = said.relieves != nobody && (said.in_place || there);
-  const bool waits = me.robot.parent >= 0 && me.standing(me.robot.parent).leaving && is_parent_relieved(me);
-  if (said.relieves != nobody || waits) me.robot.add_elapsed(me.power.stuck_ticks);
+  if (said.relieves != nobody || is_parent_relieved(me)) me.robot.add_elapsed(me.power.stuck_ticks);
   else me.power.stuck_ticks = 0;
 }
 
@@ -148,7 +149,7 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   // While it is mine already, its former parent is my parent.
   const RobotId above =
       table.message(leaver).parent == me.robot.self.id ? me.robot.self.parent : table.message(leaver).parent;
-  const int parent = above == nobody ? -1 : table.find(above);
+  const int parent = table.find(above);
   const Vec2 axis =
       parent >= 0 && distance(table.position(parent), at) > 0.0F ? unit(table.position(parent) - at) : Vec2{1.0F, 0.0F};
   const float range_m = me.robot.params.communication_range_m;
@@ -157,26 +158,23 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   constexpr float diagonal = 0.70710678F;
   constexpr float costs_crossing = 0.5F;
   constexpr float hidden_behind = 0.6F;  // of the distance to it: its body is so near to the line of sight
-  constexpr Vec2 directions[] = {{0.0F, 1.0F},          {0.0F, -1.0F},         {diagonal, diagonal},
-                                 {diagonal, -diagonal}, {-diagonal, diagonal}, {-diagonal, -diagonal},
-                                 {1.0F, 0.0F},          {-1.0F, 0.0F}};
   Vec2 best = at;
   float best_cost = 1e9F;
-  for (const Vec2 d : directions) {
-    const Vec2 off = (axis * d.x + left_of(axis) * d.y) * apart_m;
+  Vec2 off = left_of(axis) * apart_m;
+  for (int turn = 0; turn < 8; ++turn, off = (off + left_of(off)) * diagonal) {
     float farthest_m = 0.0F;
     float hidden_m = 0.0F;
     const auto look_at = [&](int k) {
       const Vec2 other = table.position(k) - at;
       farthest_m = std::max(farthest_m, distance(off, other));
-      if (crosses(at + off, at, at + other)) hidden_m += costs_crossing * range_m;
+      if (crosses(at + off, at - other, at + other)) hidden_m += costs_crossing * range_m;
       if (norm(nearest_on_segment(off, other)) < hidden_behind * apart_m) hidden_m += range_m;
     };
     if (parent >= 0) look_at(parent);
     if (hides && norm(nearest_on_segment(off, me.power.unseen - at)) < hidden_behind * apart_m) hidden_m += range_m;
     for (int k = 0; k < table.size(); ++k)  // its children, and those that have changed to me already
       if (k != leaver && !me.is_spare(k) &&
-          (table.message(k).parent == id || up_of(table.message(k)) == me.robot.self.id))
+          (up_of(table.message(k)) == id || up_of(table.message(k)) == me.robot.self.id))
         look_at(k);
     const float cost = farthest_m + hidden_m + 0.1F * norm(at + off);
     if (cost < best_cost) best = at + off, best_cost = cost;
@@ -185,6 +183,11 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
 }
 
 }  // namespace
+
+bool has_reliever(const PowerRobot& me, int k) noexcept {
+  const int up = me.robot.table().find(up_of(me.robot.table().message(k)));
+  return up >= 0 && me.standing(up).relieves == me.robot.table().id(k);
+}
 
 void watch_relief(PowerRobot& me) noexcept {
   choose_relieved(me);
@@ -198,12 +201,12 @@ void hand_over_target(PowerRobot& me) noexcept {
   const TreeTable& table = robot.table();
   const auto served_target = [&](int k) { return robot.self.healing_standings[static_cast<std::size_t>(k)].serves; };
   if (robot.self.is_worker) {
-    const int k = me.power.said.heir == nobody ? -1 : table.find(me.power.said.heir);
+    const int k = table.find(me.power.said.heir);
     if (k >= 0 && table.age(k) == 0 && table.message(k).role == Role::worker && served_target(k) == robot.self.serves)
       yield_task(robot, table.id(k));
     return;
   }
-  const int k = me.power.said.relieves == nobody ? -1 : table.find(me.power.said.relieves);
+  const int k = table.find(me.power.said.relieves);
   if (k >= 0 && table.age(k) == 0 && me.standing(k).heir == robot.self.id && table.message(k).role == Role::worker)
     inherit_task(robot, served_target(k));
 }
@@ -240,8 +243,8 @@ bool is_stuck(const PowerRobot& me) noexcept {
 
 int successor_of_parent(const PowerRobot& me, FunctionRef<bool(int)> may_be_parent) noexcept {
   const HealingRobot& robot = me.robot;
-  if (robot.parent < 0 || !me.standing(robot.parent).leaving || !is_parent_relieved(me)) return -1;
-  const int k = robot.table().find(robot.table().message(robot.parent).parent);
+  if (!is_parent_relieved(me)) return -1;
+  const int k = robot.table().find(up_of(robot.table().message(robot.parent)));
   return me.standing(k).in_place && may_be_parent(k) ? k : -1;
 }
 

@@ -276,7 +276,7 @@ float obstruction_of(const ConvoyRobot& robot, const Ends& ends, int of, Vec2 pl
     if (k != of && distance(place, at) < p.spare_avoidance_m) count += costs_crowd;
     // It is to hide no edge.
     const TreeStanding& m = table.message(k);
-    const int up = m.role == Role::spare || up_of(m) == nobody ? -1 : table.find(up_of(m));
+    const int up = m.role == Role::spare ? -1 : table.find(up_of(m));
     if (up >= 0 && distance_to_segment(place, at, table.position(up)) < p.clearance_m) count += costs_crowd;
     if (up >= 0 && p.line_of_sight && crosses(place, at, table.position(up))) count += costs_crowd;
     if (!p.line_of_sight) continue;

@@ -38,7 +38,7 @@ int choose_parent(const TreeRobot& robot, const ParentRule& rule, bool in_tree) 
 // is ahead.
 int flood_parent(const TreeRobot& robot, const ParentRule& rule) noexcept {
   const TreeState& self = robot.self;
-  const int k = self.flood_parent == nobody ? -1 : robot.table().find(self.flood_parent);
+  const int k = robot.table().find(self.flood_parent);
   if (k < 0 || !robot.is_sure(k)) return -1;
   const TreeStanding& m = robot.table().message(k);
   const bool near = robot.table().range(k) <= longest_link * robot.params.communication_range_m;
@@ -124,7 +124,7 @@ bool hangs_on_heir(const TreeRobot& robot) noexcept {
 
 // A spare that has just joined my edge has its parent's sequence number of the last tick: I wait for it.
 bool awaits_inserted(const TreeRobot& robot) noexcept {
-  const int k = robot.self.grant == nobody ? -1 : robot.table().find(robot.self.grant);
+  const int k = robot.table().find(robot.self.grant);
   return k >= 0 && robot.table().alive(k) && robot.table().message(k).inserted_child == robot.self.id;
 }
 

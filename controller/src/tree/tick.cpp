@@ -121,7 +121,7 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
     m.pull_x = to_fixed<std::int16_t>(pull.x, pull_unit);
     m.pull_y = to_fixed<std::int16_t>(pull.y, pull_unit);
   }
-  const int heir = self.new_root == nobody ? -1 : robot.table().find(self.new_root);
+  const int heir = robot.table().find(self.new_root);
   if (heir < 0) return;
   const Vec2 addressee = robot.table().position(heir);
   const Vec2 centroid = to_edge_frame(self.centroid - addressee, addressee);

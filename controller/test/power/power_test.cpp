@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -518,11 +519,111 @@ TEST(Power, ASpareThatWaitsIsSlowUnlessItHidesAnEdge) {
     auto robot = bench.tick();
     bench.state.called = called;
     PowerState power;
-    return leisure(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance_m);
+    Guard guard;
+    return give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance_m, guard);
   };
   EXPECT_LT(pace(0.6F, false), 0.5F);
   EXPECT_EQ(pace(0.1F, false), 1.0F);
   EXPECT_EQ(pace(0.6F, true), 1.0F);
+}
+
+// How fast a spare may drive towards an edge so far ahead of it, at 0.2 m/s if nothing limits it.
+float speed_towards_edge(float ahead_m, bool leaving, RobotId grant, bool joins = false) {
+  auto bench = grown<Convoy>();
+  bench.state.role = Role::spare;
+  bench.put(9, {-0.8F, ahead_m}).role = Role::connector;
+  auto& child = bench.put(2, {0.8F, ahead_m});
+  child.role = Role::connector;
+  child.parent = 9;
+  child.grant = grant;
+  auto robot = bench.tick();
+  if (joins) bench.state.spare_state = SpareState::extend_edge;
+  PowerState power;
+  power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = leaving;
+  Guard guard;
+  std::ignore = give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance_m, guard);
+  return guard.apply({0.0F, 0.2F}).y;
+}
+
+TEST(Power, NoSpareDrivesIntoAnEdgeOfRobotsThatChangePlaces) {
+  EXPECT_EQ(speed_towards_edge(0.18F, false, nobody), 0.2F) << "nobody leaves";
+  EXPECT_EQ(speed_towards_edge(0.18F, true, nobody), 0.2F) << "nobody comes to relieve it";
+  EXPECT_NEAR(speed_towards_edge(0.18F, true, 7), 0.0F, 1e-3F);
+  EXPECT_LT(speed_towards_edge(0.12F, true, 7), -0.05F) << "it makes room";
+  EXPECT_EQ(speed_towards_edge(0.05F, true, 7), 0.2F) << "it is in there already";
+  EXPECT_GT(speed_towards_edge(0.18F, true, 7, true), 0.1F) << "one that joins an edge needs less room";
+}
+
+TEST_F(AboveALeaver, BeginsOnlyWhileItHearsAllItsTreeNeighbours) {
+  leaver.leaving = false;
+  relieved(0.9F);
+  leaver.leaving = true;
+  bench.silence(9);
+  EXPECT_EQ(relieved(0.9F), nobody);
+  bench.put(9, {-1.5F, 0.0F}).role = Role::root;
+  EXPECT_EQ(relieved(0.9F), 2);
+  bench.silence(9);
+  EXPECT_EQ(relieved(0.9F), 2) << "begun, it goes on";
+}
+
+TEST_F(AboveALeaver, DoesNotGoWhereTheLeaverHidesItsParent) {
+  bench.move(2, {-0.2F, 0.11F});
+  relieved(0.9F);
+  auto robot = bench.tick();
+  Guard guard;
+  std::ignore = give_way(PowerRobot{robot, power, bench.params, no_children}, bench.params.clearance_m, guard);
+  EXPECT_LT(guard.apply({0.0F, 0.2F}).y, 0.05F);
+  EXPECT_EQ(guard.apply({0.0F, -0.2F}).y, -0.2F);
+}
+
+TEST(Power, TheSpotBesideALeaverIsOnThisSideOfWhereItHidesAChild) {
+  auto bench = grown<Convoy>();
+  bench.state.role = Role::connector;
+  bench.state.parent = 9;
+  bench.put(9, {0.0F, 1.6F}).role = Role::root;
+  bench.put_child(2, {0.3F, 0.1F}, Role::connector);
+  bench.put_child(3, {1.7F, 0.1F}, Role::connector);
+  auto robot = bench.tick();
+  PowerState power;
+  power.said.relieves = 2;
+  power.standings[static_cast<std::size_t>(robot.table().find(2))].leaving = true;
+  Vec2 spot;
+  ASSERT_TRUE(find_relief_spot(PowerRobot{robot, power, bench.params, no_children}, spot));
+  EXPECT_LT(spot.y, 0.1F);
+}
+
+TEST(Power, ASpareThatAReconstructionStopsBetweenTwoRobotsGetsOutOfThere) {
+  const auto motion = [](float off_m, bool powered) {
+    auto bench = grown<Convoy>();
+    bench.state.role = Role::spare;
+    bench.state.phase = Phase::start_tree;
+    bench.put(9, {-0.8F, off_m}).role = Role::connector;
+    auto& child = bench.put(2, {0.8F, off_m});
+    child.role = Role::connector;
+    child.old_parent = 9;
+    auto robot = bench.tick();
+    PowerState power;
+    PowerRobot me{robot, power, bench.params, no_children};
+    if (powered) robot.power = &me;
+    return waiting_motion(robot);
+  };
+  EXPECT_LT(motion(0.05F, true).y, -0.1F);
+  EXPECT_EQ(motion(0.05F, false), Vec2{});
+  EXPECT_EQ(motion(0.3F, true), Vec2{}) << "it hides nobody";
+}
+
+TEST_F(AboveALeaver, StaysWhereItIsWhileTheTreeIsReconstructed) {
+  bench.move(2, {0.35F, 0.1F});
+  relieved(0.9F);
+  const auto motion = [&](Phase phase) {
+    bench.state.phase = phase;
+    auto robot = bench.tick();
+    PowerRobot me{robot, power, bench.params, no_children};
+    robot.power = &me;
+    return towed_motion(robot);
+  };
+  EXPECT_NE(motion(Phase::grow_tree), Vec2{});
+  EXPECT_EQ(motion(Phase::select_parent), Vec2{});
 }
 
 TEST(Power, ARootThatHasToLeaveTakesAnyHeirWithMoreChargeOnlyWhenItIsUrgent) {

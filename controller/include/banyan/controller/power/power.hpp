@@ -37,6 +37,9 @@ void watch_relief(PowerRobot& me) noexcept;
 // My parent takes my place, and I hear it.
 [[nodiscard]] bool is_relieved(const PowerRobot& me) noexcept;
 
+// The robot above neighbour k takes its place.
+[[nodiscard]] bool has_reliever(const PowerRobot& me, int k) noexcept;
+
 // The edge to my parent wants a spare that takes my place.
 [[nodiscard]] bool wants_relief(const PowerRobot& me) noexcept;
 
@@ -72,8 +75,10 @@ void tend_battery(PowerRobot& me) noexcept;
 // a connector I can be relieved, a root calls nobody.
 [[nodiscard]] bool may_inherit_root(const PowerRobot& me, int k) noexcept;
 
-// How fast a spare moves that nobody waits for, as a share of its speed: it only makes room for others.
-[[nodiscard]] float leisure(const PowerRobot& me, float clearance_m) noexcept;
+// While robots change places, spares do not drive into their lines of sight, nor does the robot that takes the place;
+// and it does not go where the one that leaves would hide its tree neighbours from it. Returns how fast a spare moves
+// that nobody waits for, as a share of its speed: it only makes room for others.
+[[nodiscard]] float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept;
 
 // Near enough to a charging place: it stays there.
 [[nodiscard]] bool is_at_place(const PowerRobot& me) noexcept;
