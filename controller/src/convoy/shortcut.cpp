@@ -8,6 +8,7 @@
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
+#include "banyan/controller/redundancy/companions.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
 
 namespace banyan {
@@ -142,8 +143,8 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   if (is_left_waiting(robot)) take_inner(robot);
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);
-  else if (self.lead_to == nobody) release(robot);
-  if (may_save) prune(robot);
+  else if (self.lead_to == nobody && !rests(robot)) release(robot);
+  if (may_save && !rests(robot)) prune(robot);
 }
 
 }  // namespace banyan

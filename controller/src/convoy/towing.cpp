@@ -417,6 +417,8 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
   if (holds_still(robot)) return {};
   if (Vec2 way; steps_aside(robot, way)) return way + repulsion(robot);
+  if (rests(robot))
+    return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m) + clear_sight(robot, robot.self.corners);
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot)
                      : has_arrived(robot)         ? compaction(robot)
                                                   : clamped(tow(robot), 1.0F);

@@ -143,6 +143,20 @@ TEST_F(Arrived, ReleasesItsParentForAGrandparentInReach) {
   EXPECT_EQ(bench.state.parent, 6);
 }
 
+// With a second path and line of sight a branch that has arrived rests, since each change hides companions.
+TEST_F(Arrived, RestsWhereCompanionsCouldBeHidden) {
+  bench.params.link_redundancy = 2;
+  bench.params.line_of_sight = true;
+  member(21, {0, -1.8F}, 300, 55);                    // would be taken to merge
+  member(6, {1.84F, 0.2F}, 500, 52).child_count = 2;  // or this one, to release the parent
+  bench.move(5, {1.0F, -0.4F});
+  count({5, 6, 21}, 40);
+  EXPECT_EQ(bench.state.parent, 5);
+  bench.params.line_of_sight = false;
+  count({5, 6, 21}, 3);
+  EXPECT_NE(bench.state.parent, 5);
+}
+
 // A connector between parent 5 and worker 7.
 TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
   ConvoyBench bench = grown<Convoy>();
@@ -165,6 +179,11 @@ TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
   bench.steps(2);
   auto robot = bench.tick();
   ASSERT_TRUE(has_arrived(robot));
+  EXPECT_GT(towed_motion(robot).x, 0.5F);
+  bench.params.link_redundancy = 2;
+  bench.params.line_of_sight = true;
+  EXPECT_NEAR(norm(towed_motion(robot)), 0.0F, 0.1F);  // it rests beside its companion
+  bench.params.link_redundancy = 1;
   EXPECT_GT(towed_motion(robot).x, 0.5F);
   bench.state.forgets = true;  // there are more targets than a robot remembers
   EXPECT_NEAR(towed_motion(robot).x, 0.0F, 0.1F);

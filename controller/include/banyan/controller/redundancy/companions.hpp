@@ -42,6 +42,10 @@ void keep_company(ConvoyRobot& robot) noexcept;
 // it count as dead. I stay, since others are about to take me as their parent.
 [[nodiscard]] bool stands_in_for(const ConvoyRobot& robot, int k) noexcept;
 
+// With line of sight a branch that has arrived rests: it neither contracts nor merges nor releases robots, and is not
+// drawn straight. Each such change hides edges, and sends companions to other places.
+[[nodiscard]] bool rests(const ConvoyRobot& robot) noexcept;
+
 // My only child could do without me, but I stand in its line of sight to my parent: which way I step aside.
 [[nodiscard]] bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept;
 
