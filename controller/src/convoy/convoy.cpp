@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/convoy/plan.hpp"
 #include "banyan/controller/convoy/shortcut.hpp"
 #include "banyan/controller/convoy/towing.hpp"
@@ -263,6 +264,7 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   watch_tasks(robot);             // does every target have its worker?
   index_neighbors(robot);         // who are my parent and children
   remember_corners(robot, state.corners);
+  robot.meets_at_the_dead = has_many_targets(robot);
   watch_branch(robot);  // has the last robot below me died?
   update_role(robot);
   advance_and_count(robot, state.subtree_workers >= state.flood_workers,

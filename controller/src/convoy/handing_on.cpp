@@ -6,9 +6,12 @@
 
 namespace banyan {
 
+bool has_many_targets(const ConvoyRobot& robot) noexcept {
+  return robot.self.forgets && robot.self.root_size != 0 && !is_counted_large(robot);
+}
+
 bool is_in_large_swarm(const ConvoyRobot& robot) noexcept {
-  const bool many_targets = robot.self.forgets && robot.self.root_size != 0;
-  return (is_counted_large(robot) || many_targets) && !robot.is_root();
+  return (is_counted_large(robot) || has_many_targets(robot)) && !robot.is_root();
 }
 
 bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept {

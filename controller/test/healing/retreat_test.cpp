@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "watch.hpp"
 
@@ -55,6 +56,48 @@ TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
             ticks + 2 * 100 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
   EXPECT_EQ(ticks_until(0, Phase::grow_tree, true), ticks);
   EXPECT_EQ(ticks_until(30, Phase::grow_tree, true), ticks_until(30, Phase::start_tree));
+}
+
+// With more targets than a robot remembers the straight way to the root may lead past the rest of the tree.
+TEST(Retreat, WithManyTargetsAnOrphanFirstSeeksThePlaceOfItsParent) {
+  const auto course = [](bool many, float root_y, int ticks) {
+    Watch watch({-1.9F, root_y});
+    ConvoyBench& bench = watch.bench;
+    bench.state.turn = 200;
+    auto& m = bench.put(3, {1.5F, 0.0F});
+    m = bench.say(root_id);
+    m.id = 3;
+    m.role = Role::connector;
+    m.parent = root_id;
+    m.depth = 2;
+    m.label_cm = 10;
+    watch.hear_root(2);
+    auto& state = bench.state;
+    state.is_worker = true;
+    state.role = Role::worker;
+    state.parent = 3;
+    state.committed = true;
+    watch.hear_root(2);
+    state.root_at = {-6.0F, root_y};
+    bench.silence(3);
+    bench.silence(root_id);
+    state.forgets = many;
+    state.root_size = 300;
+    bench.steps(ticks);
+    state.parent = 3;
+    auto robot = bench.tick();
+    index_neighbors(robot);
+    robot.meets_at_the_dead = has_many_targets(robot);
+    EXPECT_TRUE(is_retreating(robot, false));
+    return retreat_motion(robot, false, true);
+  };
+  const int soon = convoy_defaults().ticks(5.0F);
+  EXPECT_LT(course(false, 1.0F, soon).x, -0.5F) << "else to the root";
+  const Vec2 left = course(true, 1.0F, soon);
+  EXPECT_GT(left.x, 0.5F);
+  EXPECT_GT(left.y, 0.2F) << "past the dead robot on the side of the root";
+  EXPECT_LT(course(true, -1.0F, soon).y, -0.2F);
+  EXPECT_LT(course(true, 1.0F, convoy_defaults().ticks(15.0F)).x, -0.5F) << "in vain";
 }
 
 TEST(Retreat, TheSilentHoldNobodyBack) {

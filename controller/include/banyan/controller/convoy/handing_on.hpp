@@ -15,8 +15,10 @@ namespace banyan {
   return robot.self.root_size > large_swarm;
 }
 
-// The same, or it has counted fewer, but there are more targets than a robot remembers. The root itself stays with the
-// spares.
+// It has counted fewer, but there are more targets than a robot remembers: the tree is large for its swarm.
+[[nodiscard]] bool has_many_targets(const ConvoyRobot& robot) noexcept;
+
+// Either of the two. The root itself stays with the spares.
 [[nodiscard]] bool is_in_large_swarm(const ConvoyRobot& robot) noexcept;
 
 // An edge above child k calls in vain, and k cannot follow it: it is a junction, or a worker with a branch of its own.
