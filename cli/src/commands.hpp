@@ -208,6 +208,7 @@ struct SoakOptions {
   double seconds = 0.0;                   // of wall time; 0: until it is stopped, or missions are done
   std::string out;                        // "": out/soak-<seed>
   int threads = 0;                        // missions at once; 0: all cores
+  bool whole = false;                     // missions with findings are kept as they are
   bool force = false;
   bool quiet = false;
 };

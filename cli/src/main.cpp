@@ -524,6 +524,7 @@ void add_soak(CLI::App& app, std::function<int()>& action) {
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
   command->add_flag("-f,--force", options->force, "start a new journal");
+  command->add_flag("--no-shrink", options->whole, "keep missions with findings whole, instead of making them smaller");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; findings only");
   command->callback([options, &action] { action = [options] { return soak_command(*options); }; });
 }

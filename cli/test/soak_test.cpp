@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "banyan/algorithms/algorithms.hpp"
 #include "banyan/config/config.hpp"
 #include "banyan/world/faults.hpp"
 #include "banyan/world/random.hpp"
@@ -129,6 +130,26 @@ TEST(SoakWatch, ADeathThatTearsTheLivingApartExcusesASplit) {
   EXPECT_FALSE(found(watch(s, false), "split"));
   s.events.push_back({.time_s = 5.0, .action = world::Die{3}});
   EXPECT_FALSE(found(watch(s, false), "split"));
+}
+
+// A death leaves robots 0 and 2 in range; half a second later an obstacle pushes them apart.
+bool finds_split_after_death(double apart_m) {
+  Scenario s = world::plain_scenario();
+  s.swarm.start.layout = world::Layout::list;
+  s.swarm.start.positions = {{0.0, 0.0}, {0.9, 0.9}, {apart_m, 0.0}};
+  s.targets = std::vector<world::Vec2>{{9.0, 0.0}};
+  s.obstacles = {world::Disc{{50.0, 50.0}, 1.0}};
+  for (std::size_t i = 0; i < 3; ++i) s.events.push_back({.action = world::Freeze{i}});
+  s.events.push_back({.time_s = 2.0, .action = world::Die{1}});
+  s.events.push_back({.time_s = 2.5, .action = world::MoveObstacle{0, {0.5 * apart_m, 0.0}}});
+  s.robot.dead_bodies = false;
+  s.mission.time_limit_s = 5.0;
+  return found(watch(s, false), "split");
+}
+
+TEST(SoakWatch, ALinkThatNobodyKeepsDoesNotCountAfterADeath) {
+  EXPECT_TRUE(finds_split_after_death(1.89));
+  EXPECT_FALSE(finds_split_after_death(1.96));
 }
 
 TEST(SoakWatch, ASplitWithoutADeathIsFound) {
@@ -252,7 +273,7 @@ std::string text_of_file(const std::string& path) {
 TEST(SoakCommand, KeepsAJournalThatDoesNotDependOnProcessesAndGoesOn) {
   const record::test::TemporaryDirectory directory;
   SoakOptions options;
-  options.seed = 22;  // two short missions, one of them with a finding
+  options.seed = 22;  // two short missions
   options.missions = 2;
   options.threads = 1;
   options.quiet = true;
@@ -275,6 +296,27 @@ TEST(SoakCommand, KeepsAJournalThatDoesNotDependOnProcessesAndGoesOn) {
   std::filesystem::resize_file(journal, std::filesystem::file_size(journal) - 5);
   static_cast<void>(soak_command(options));
   EXPECT_EQ(rows(journal), one);
+}
+
+TEST(SoakCommand, KeepsAMissionWholeIfAskedTo) {
+  const record::test::TemporaryDirectory directory;
+  SoakOptions options;
+  options.seed = 31;  // a mission with a finding
+  options.from = options.missions.emplace(1);
+  options.quiet = options.whole = true;
+  options.out = directory.file("whole");
+  static_cast<void>(soak_command(options));
+  std::size_t kept = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(options.out)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string stem = entry.path().stem().string();
+    const Scenario found = config::load_configuration(entry.path().string(), algorithms()).configuration.scenario;
+    const Scenario drawn = mission(options.seed, std::stoull(stem.substr(stem.rfind('-') + 1)));
+    EXPECT_EQ(world::robot_count(found), world::robot_count(drawn));
+    EXPECT_EQ(found.mission.time_limit_s, drawn.mission.time_limit_s);
+    ++kept;
+  }
+  EXPECT_GT(kept, 0U);
 }
 
 TEST(SoakCommand, NamesALineOfItsJournalThatIsNone) {

@@ -127,7 +127,7 @@ class Soak {
   }
 
   // Shrinks the first finding of each kind, and every one that breaks a promise: a known weakness only while
-  // there is time, and a mission that does not end not at all.
+  // there is time, and not at all a mission that does not end, or if none is to be shrunk.
   void keep(std::uint64_t index, const world::Scenario& scenario, const Finding& finding, bool promised) {
     const auto again = [&](const world::Scenario& s) {
       if (stop_signal() != 0 || (!promised && is_over())) return false;
@@ -136,21 +136,22 @@ class Soak {
     };
     config::Configuration small;
     const double until_s = finding.kind == "crash" ? world::time_limit_s(scenario) : finding.time_s;
-    small.scenario = shrink(scenario, until_s, again, Isolated::has_no_end(finding) ? 0 : shrinking_runs);
+    const bool whole = options_.whole || Isolated::has_no_end(finding);
+    small.scenario = shrink(scenario, until_s, again, whole ? 0 : shrinking_runs);
     small.scenario.name = finding.kind + "-" + std::to_string(index);
-    small.scenario.description =
-        format("banyan soak --seed %" PRIu64 ", mission %" PRIu64 ", made smaller: ", options_.seed, index) +
-        finding.text;
+    small.scenario.description = format("banyan soak --seed %" PRIu64 ", mission %" PRIu64 "%s: ", options_.seed, index,
+                                        whole ? "" : ", made smaller") +
+                                 finding.text;
     const std::string path = directory_ + "/" + small.scenario.name + ".toml";
     std::ofstream out(path);
     out << config::config_toml(small);
     if (!out.flush()) throw CommandError(exit_lost, "cannot write " + path);
     progress_.clear();
-    complain(format("%s%s in mission %" PRIu64 " (%s): %s; %s and %s are enough:\n  banyan soak %s",
+    complain(format("%s%s in mission %" PRIu64 " (%s): %s; %s and %s%s:\n  banyan soak %s",
                     promised ? "BROKEN PROMISE: " : "known weakness: ", finding.kind.c_str(), index,
                     text_of(traits_of(scenario)).c_str(), finding.text.c_str(),
                     plural(world::robot_count(small.scenario), "robot").c_str(),
-                    plural(target_count(small.scenario), "target").c_str(), path.c_str()));
+                    plural(target_count(small.scenario), "target").c_str(), whole ? "" : " are enough", path.c_str()));
   }
 
   void report() const {
