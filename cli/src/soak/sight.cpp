@@ -76,22 +76,19 @@ bool SightCheck::hidden(std::size_t i, std::size_t j) const noexcept {
 
 // Robots in order of x, so that only those within range in x are looked at; sight is asked for only
 // where it could join two components.
-std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_sight, double reach) const {
+std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_sight) const {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < counts.size(); ++i)
     if (counts[i]) order.push_back(i);
   const auto x = [this](std::size_t i) { return world_.positions()[i].x; };
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return x(i) < x(j); });
   Union parts(counts.size());
-  const double reach_m = reach * range_m() + rounding_m;
   std::size_t left = order.size();
   for (std::size_t a = 0; a < order.size(); ++a)
-    for (std::size_t b = a + 1; b < order.size() && x(order[b]) - x(order[a]) < reach_m; ++b) {
+    for (std::size_t b = a + 1; b < order.size() && x(order[b]) - x(order[a]) < range_m() + rounding_m; ++b) {
       const std::size_t i = order[a];
       const std::size_t j = order[b];
-      if (parts.top(i) == parts.top(j) || distance(world_.positions()[i], world_.positions()[j]) >= reach_m ||
-          (with_sight && hidden(i, j)))
-        continue;
+      if (parts.top(i) == parts.top(j) || !in_range(i, j) || (with_sight && hidden(i, j))) continue;
       parts.join(i, j);
       --left;
     }

@@ -20,8 +20,8 @@ class SightCheck {
   [[nodiscard]] bool hidden(std::size_t i, std::size_t j) const noexcept;
   [[nodiscard]] double range_m() const noexcept { return world_.scenario().radio.range_m; }
 
-  // Components of the robots that `counts` marks; over pairs within `reach` of C, and in sight if `with_sight`.
-  [[nodiscard]] std::size_t components(const std::vector<bool>& counts, bool with_sight, double reach = 1.0) const;
+  // Components of the robots that `counts` marks; over pairs in range, and in sight if `with_sight`.
+  [[nodiscard]] std::size_t components(const std::vector<bool>& counts, bool with_sight) const;
 
  private:
   const world::World& world_;

@@ -18,7 +18,6 @@ namespace {
 using namespace world;
 using world::Vec2;
 
-constexpr double longest_link = 0.96;      // of C: robots keep links of 0.95 C, which may rest there
 constexpr std::uint64_t hidden_ticks = 3;  // that an edge may be hidden
 constexpr double two_roots_s = 5.0;        // that a hand-over may take
 constexpr double after_completion_s = 10.0;
@@ -81,17 +80,17 @@ class Watch {
     }
   }
 
-  // Deaths that leave the living out of reach of each other excuse a split until they are reunited. Out of reach is
-  // more than a link may be long: nobody keeps a longer one.
+  // Deaths that leave the living out of range of each other excuse a split until they are reunited.
   void look_for_splits(const std::vector<std::uint8_t>& before) {
     std::vector<bool> living(world_.alive().begin(), world_.alive().end());
     const std::size_t parts = sight_.components(living, false);
     const bool deaths = !std::equal(before.begin(), before.end(), world_.alive().begin());
-    const auto are_apart = [&] { return parts > 1 || sight_.components(living, false, longest_link) > 1; };
-    if (deaths || excused_) excused_ = are_apart();
+    if (deaths && parts > 1) excused_ = true;
     if (parts > 1 && !excused_) find("split", format("the living robots are in %zu parts by distance", parts));
     const bool hides = parts == 1 && world_.line_of_sight();
     if (!hides) hidden_split_ = 0;
+    if (parts > 1) return;
+    excused_ = false;
     if (!hides) return;
     hidden_split_ = sight_.components(living, true) > 1 ? hidden_split_ + 1 : 0;
     if (hidden_split_ > hidden_ticks) find("hidden-split", "the living robots are in several parts by sight");
