@@ -333,13 +333,15 @@ bool stands_in_for(const ConvoyRobot& robot, int k) noexcept {
 }
 
 bool rests(const ConvoyRobot& robot) noexcept {
-  return has_companions(robot.params) && robot.params.line_of_sight && has_arrived(robot);
+  const ConvoyParams& p = robot.params;
+  const bool spares_suffice = robot.self.call_hops == nobody_calls;
+  return has_companions(p) && p.line_of_sight && p.thrift <= 0.0F && has_arrived(robot) && spares_suffice;
 }
 
 bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  if (!rests(robot)) return false;
+  if (!has_companions(p) || !p.line_of_sight || !has_arrived(robot)) return false;
   if (robot.self.role != Role::connector || robot.useful_children != 1 || robot.parent < 0) return false;
   const auto* const child = first_of(robot.children, [&](int k) { return table.message(k).role != Role::spare; });
   if (child == robot.children.end()) return false;

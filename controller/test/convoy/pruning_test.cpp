@@ -152,9 +152,19 @@ TEST_F(Arrived, RestsWhereCompanionsCouldBeHidden) {
   bench.move(5, {1.0F, -0.4F});
   count({5, 6, 21}, 40);
   EXPECT_EQ(bench.state.parent, 5);
-  bench.params.line_of_sight = false;
-  count({5, 6, 21}, 3);
-  EXPECT_NE(bench.state.parent, 5);
+  const auto changes_parent = [&, before = bench.state, params = bench.params](auto make_otherwise) {
+    bench.state = before;
+    bench.params = params;
+    make_otherwise();
+    count({5, 6, 21}, 3);
+    return bench.state.parent != 5;
+  };
+  EXPECT_FALSE(changes_parent([] {}));
+  EXPECT_TRUE(changes_parent([&] { bench.params.line_of_sight = false; }));
+  EXPECT_TRUE(changes_parent([&] { bench.params.thrift = 1.0F; })) << "robots are to be saved";
+  EXPECT_TRUE(changes_parent([&] {
+    member(21, {0, -1.8F}, 300, 55).call_hops = companion_call;
+  })) << "robots are missed";
 }
 
 // A connector between parent 5 and worker 7.
