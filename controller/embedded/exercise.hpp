@@ -102,19 +102,15 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
     for (const bool worker : {false, true}) {
       const auto as_tree = [&](const char* name, auto step, HealingParams params) {
         params.drive = drive;
-        report(name,
-               exercise<TreeMessage, TreeParams>(
-                   step, params,
-                   *new (&memory.tree) TreeState(initial_tree_state(
-                       0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
+        auto& state = *new (&memory.tree) TreeState(initial_tree_state(0, worker, false));
+        report(name, exercise<TreeMessage, TreeParams>(step, params, state));
       };
       const auto as_healing = [&](const char* name, auto step, HealingParams params) {
         params.drive = drive;
-        report(name,
-               exercise<HealingMessage>(
-                   step, params,
-                   *new (&memory.healing) HealingState(initial_healing_state(
-                       0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
+        auto& state = *new (&memory.healing) HealingState(initial_healing_state(0, worker, false));
+        report(name, exercise<HealingMessage>(step, params, state));
       };
       as_tree("outwards, literal", outwards_literal_step, outwards_defaults());
       as_healing("outwards", outwards_step, outwards_defaults());
@@ -122,11 +118,9 @@ inline void exercise_all(Memory& memory, void (*report)(const char* name, std::u
       as_healing("inwards", inwards_step, inwards_defaults());
       ConvoyParams params = convoy_defaults();
       params.drive = drive;
-      report("convoy",
-             exercise<ConvoyMessage>(
-                 convoy_step, params,
-                 *new (&memory.convoy) ConvoyState(initial_convoy_state(
-                     0, worker, false))));  // NOLINT(cppcoreguidelines-pro-type-union-access): one robot at a time
+      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
+      auto& state = *new (&memory.convoy) ConvoyState(initial_convoy_state(0, worker, false));
+      report("convoy", exercise<ConvoyMessage>(convoy_step, params, state));
     }
   }
 }

@@ -24,9 +24,8 @@ template <auto defaults_function, auto step_function> struct LiteralKind {
   using State = TreeState;
   using Message = TreeMessage;
   using Robot = TreeRobot;
-  static Params defaults() {
-    return defaults_function();
-  }  // NOLINT(cppcoreguidelines-slicing): the tree's share of them
+  // NOLINTNEXTLINE(cppcoreguidelines-slicing): the tree's share of them
+  static Params defaults() { return defaults_function(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
   static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) {
     return {params, literal_reading, state, inputs};

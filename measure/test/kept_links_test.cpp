@@ -25,8 +25,8 @@ struct Promise {
   RobotId parent = nobody;
   std::vector<RobotId> links;
 };
-std::vector<Promise>
-    promises;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): an algorithm has no other way to a test
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): an algorithm has no other way to a test
+std::vector<Promise> promises;
 
 struct Standing {
   using Params = Platform;

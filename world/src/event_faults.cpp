@@ -143,9 +143,8 @@ std::vector<Fault> event_faults(const Scenario& scenario, const Present* now) {
   const std::size_t last = scenario.events.size() - 1;
   if (scenario.events[last].when != Event::When::time)
     list.fail(element("events", last) + ".when", "what somebody does happens now");
-  CheckEventFits(
-      list, scenario, last, robots,
-      {now->targets, 0, 0, {}, now->obstacles});  // NOLINT(bugprone-unused-raii): its constructor is the check
+  // NOLINTNEXTLINE(bugprone-unused-raii): its constructor is the check
+  CheckEventFits(list, scenario, last, robots, {now->targets, 0, 0, {}, now->obstacles});
   return list.take();
 }
 

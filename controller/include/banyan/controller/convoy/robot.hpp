@@ -15,14 +15,14 @@ namespace banyan {
 
 // What a robot of convoy hears is what robots of convoy say.
 inline const ConvoyMessage& convoy_message(const TreeMessage& m) noexcept {
-  return static_cast<const ConvoyMessage&>(
-      m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  return static_cast<const ConvoyMessage&>(m);
 }
 
 // And in a swarm on batteries, what such robots say.
 inline const PoweredConvoyMessage& powered_message(const ConvoyMessage& m) noexcept {
-  return static_cast<const PoweredConvoyMessage&>(
-      m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  return static_cast<const PoweredConvoyMessage&>(m);
 }
 
 struct ConvoyRobot : HealingRobot {

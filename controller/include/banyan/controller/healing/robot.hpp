@@ -60,8 +60,8 @@ struct HealingRobot : TreeRobot {
 
 // What a healing robot hears is what healing robots say.
 inline const HealingMessage& healing_message(const TreeMessage& m) noexcept {
-  return static_cast<const HealingMessage&>(
-      m);  // NOLINT(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-static-cast-downcast): a swarm has one algorithm
+  return static_cast<const HealingMessage&>(m);
 }
 inline const HealingMessage& said(const Heard& h) noexcept { return healing_message(*h.message); }
 
