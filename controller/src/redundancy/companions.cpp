@@ -334,7 +334,7 @@ bool stands_in_for(const ConvoyRobot& robot, int k) noexcept {
 
 bool rests(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
-  const bool spares_suffice = robot.self.call_hops == nobody_calls;
+  const bool spares_suffice = robot.self.call_hops == nobody_calls && !robot.self.forgets;
   return has_companions(p) && p.line_of_sight && p.thrift <= 0.0F && has_arrived(robot) && spares_suffice;
 }
 

@@ -162,6 +162,7 @@ TEST_F(Arrived, RestsWhereCompanionsCouldBeHidden) {
   EXPECT_FALSE(changes_parent([] {}));
   EXPECT_TRUE(changes_parent([&] { bench.params.line_of_sight = false; }));
   EXPECT_TRUE(changes_parent([&] { bench.params.thrift = 1.0F; })) << "robots are to be saved";
+  EXPECT_TRUE(changes_parent([&] { bench.state.forgets = true; })) << "there are many targets";
   EXPECT_TRUE(changes_parent([&] {
     member(21, {0, -1.8F}, 300, 55).call_hops = companion_call;
   })) << "robots are missed";
