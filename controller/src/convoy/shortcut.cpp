@@ -6,6 +6,7 @@
 
 #include "banyan/controller/convoy/handing_on.hpp"
 #include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
@@ -59,25 +60,21 @@ void take_nearer(ConvoyRobot& robot) noexcept {
 // A worker goes its own way and cannot be towed: as long as I have to go on, any other robot is better.
 void leave_worker(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
-    if (table.message(k).role == Role::worker || !may_be_parent(robot, k, robot.parent_range_m())) continue;
-    if (best < 0 || table.range(k) < table.range(best)) best = k;
-  }
+  const int best = least_of(table.size(), not_counted, [&](int k) {
+    const bool may = table.message(k).role != Role::worker && may_be_parent(robot, k, robot.parent_range_m());
+    return may ? table.range(k) : not_counted;
+  });
   if (best >= 0) take_parent(robot, best);
 }
 
 // A robot that regroups takes any parent that is nearer to the root.
 void take_inner(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  const int parent_depth = table.message(robot.parent).depth;
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
-    if (table.message(k).role == Role::worker || table.message(k).depth >= parent_depth ||
-        !may_be_parent(robot, k, robot.parent_range_m()))
-      continue;
-    if (best < 0 || table.message(k).depth < table.message(best).depth) best = k;
-  }
+  const auto depth = [&](int k) { return static_cast<float>(table.message(k).depth); };
+  const int best = least_of(table.size(), depth(robot.parent), [&](int k) {
+    const bool may = table.message(k).role != Role::worker && may_be_parent(robot, k, robot.parent_range_m());
+    return may ? depth(k) : not_counted;
+  });
   if (best >= 0) take_parent(robot, best);
 }
 

@@ -35,6 +35,7 @@ int Neighbors::rank_of(RobotId id, int among) const noexcept {
 }
 
 int Neighbors::find(RobotId id) const noexcept {
+  if (id == nobody) return -1;  // often asked
   const int rank = rank_of(id, size_);
   return rank < size_ && ids_[by_id_[rank]] == id ? by_id_[rank] : -1;
 }

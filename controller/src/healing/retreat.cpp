@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/tree/motion.hpp"
@@ -38,15 +39,12 @@ Vec2 search(const HealingRobot& robot) noexcept {
 // The nearest neighbour that knows a way to the rooted tree and is no child of mine; -1 if there is none.
 int way_home(const HealingRobot& robot, bool workers_relay) noexcept {
   const TreeTable& table = robot.table();
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
+  return least_of(table.size(), not_counted, [&](int k) {
     const TreeStanding& m = table.message(k);
-    if (!table.alive(k) || (m.role == Role::worker && !workers_relay) || m.tree_hops == unreachable ||
-        m.parent == robot.self.id)
-      continue;
-    if (best < 0 || table.range(k) < table.range(best)) best = k;
-  }
-  return best;
+    const bool knows = table.alive(k) && (m.role != Role::worker || workers_relay) && m.tree_hops != unreachable &&
+                       m.parent != robot.self.id;
+    return knows ? table.range(k) : not_counted;
+  });
 }
 
 // In a large tree the straight way to the root leads past the rest of it. The robot above the dead one is near where

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How robots on batteries move: out of the lines of sight of those that change places, and spares that wait save their
 // charge.
-#include <algorithm>
-
 #include "banyan/controller/power/power.hpp"
 
 namespace banyan {
@@ -32,7 +30,7 @@ float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept {
   if (!free && leaver < 0) return 1.0F;
   const bool joins = leaver >= 0 || self.spare_state == SpareState::extend_edge;
   const bool pushes = leaver < 0 && self.request_ticks > robot.params.ticks(hesitates_s);
-  float nearest_m = self.request != nobody || self.called || me.power.travels ? 0.0F : room * clearance_m;
+  bool waits = free && self.request == nobody && !self.called && !me.power.travels;
   const auto keep_apart = [&](Vec2 to) {
     const float d = norm(to);
     if (d > hides_m) guard.add_limit(to / d, (d - (joins ? to_pass_m : to_move_m)) * robot.params.guard_rate_per_s);
@@ -48,10 +46,10 @@ float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept {
     const int up = id == self.id ? -1 : table.find(id);
     if (up < 0) continue;
     const Vec2 to = nearest_on_segment(at, table.position(up));
-    nearest_m = std::min(nearest_m, norm(to));
+    waits = waits && norm(to) >= room * clearance_m;
     if (!pushes && table.id(k) != self.request && (changes_places(me, k) || changes_places(me, up))) keep_apart(to);
   }
-  return free && nearest_m == room * clearance_m ? slow : 1.0F;
+  return waits ? slow : 1.0F;
 }
 
 }  // namespace banyan

@@ -143,12 +143,11 @@ bool another_is_nearer(const ConvoyRobot& robot, int k) noexcept {
 // in the same way, and so on towards the root, where the spares are; all of them drive at once.
 RobotId farther_out(const ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
-  int best = -1;
-  for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k) || up_of(table.message(k)) != robot.self.accompanies || !says_it_lacks(robot, k)) continue;
-    if (count_companions(robot, table.id(k)) >= wanted_companions(robot) || another_is_nearer(robot, k)) continue;
-    if (best < 0 || table.range(k) < table.range(best)) best = k;
-  }
+  const int best = least_of(table.size(), not_counted, [&](int k) {
+    const bool lacks = table.alive(k) && up_of(table.message(k)) == robot.self.accompanies && says_it_lacks(robot, k);
+    const bool mine = lacks && count_companions(robot, table.id(k)) < wanted_companions(robot);
+    return mine && !another_is_nearer(robot, k) ? table.range(k) : not_counted;
+  });
   return best < 0 ? robot.self.accompanies : table.id(best);
 }
 

@@ -11,8 +11,8 @@ void index_neighbors(TreeRobot& robot) noexcept {
   const TreeState& self = robot.self;
   const TreeTable& table = robot.table();
   const RobotId me = self.id;
-  robot.parent = self.parent == nobody ? -1 : table.find(self.parent);
-  robot.old_parent = self.old_parent == nobody ? -1 : table.find(self.old_parent);
+  robot.parent = table.find(self.parent);
+  robot.old_parent = table.find(self.old_parent);
   robot.children.size = robot.old_children.size = 0;
   robot.useful_children = 0;
   table.below.for_each([&](int k) {
