@@ -41,6 +41,7 @@ struct Cut {
     return 1 + static_cast<std::size_t>(std::floor((to_s - from_s) / step_s() + 1e-6));
   }
   [[nodiscard]] std::size_t held() const { return static_cast<std::size_t>(std::lround(hold_s * fps)); }
+  [[nodiscard]] std::size_t frames() const { return moving() + held(); }
   [[nodiscard]] double time_s(std::size_t k) const {
     return std::min(from_s + static_cast<double>(k) * step_s(), to_s);
   }
@@ -58,8 +59,11 @@ Cut make_cut(const record::Recording& recording, const FilmOptions& options, boo
   cut.from_s = std::max(options.from_s, recording.start_s());
   cut.to_s = std::min(options.to_s, recording.end_s());
   if (cut.from_s > cut.to_s) {
-    throw CommandError(exit_usage, format("nothing to show from %.6g s to %.6g s: the recording has %.6g s to %.6g s",
-                                          options.from_s, options.to_s, recording.start_s(), recording.end_s()));
+    const std::string wanted = std::isfinite(options.to_s)
+                                   ? format("from %.6g s to %.6g s", options.from_s, options.to_s)
+                                   : format("from %.6g s on", options.from_s);
+    throw CommandError(exit_usage, format("nothing to show %s: the recording has %.6g s to %.6g s", wanted.c_str(),
+                                          recording.start_s(), recording.end_s()));
   }
   cut.fps = options.fps > 0 ? options.fps : gif ? 15 : 30;
   cut.speed =
@@ -164,10 +168,11 @@ void shoot(record::Recording& recording, const Cut& cut, Studio& studio, Progres
       auto trails = log.trails(now);
       const record::Setting& setting = recording.setting_at(now.time_s);
       studio.draw(setting, std::move(now), std::move(trails));
-      if (!progress.due()) continue;
-      const double done = static_cast<double>(next) / static_cast<double>(cut.moving());
+      constexpr std::size_t warm = 10;  // before, the time of a frame says little about that of the others
+      if (next < warm || !progress.due()) continue;
+      const double done = static_cast<double>(next) / static_cast<double>(cut.frames());
       progress.show(done,
-                    format("frame %zu of %zu, %.0f frames/s", next, cut.moving(),
+                    format("frame %zu of %zu, %.0f frames/s", next, cut.frames(),
                            static_cast<double>(next) / progress.elapsed_s()),
                     false);
     }
@@ -205,7 +210,7 @@ int film_command(const FilmOptions& options) {
   Progress progress(!options.quiet);
   Ffmpeg ffmpeg(options.output, static_cast<int>(look.width_px), static_cast<int>(look.height_px), cut.fps,
                 options.force);
-  const std::size_t frames = cut.moving() + cut.held();
+  const std::size_t frames = cut.frames();
   const double length_s = static_cast<double>(frames) / cut.fps;
   if (!options.quiet) {
     complain(format("%.6g s to %.6g s at %.3gx: %.1f s of film, %zu frames of %.0f x %.0f", cut.from_s, cut.to_s,

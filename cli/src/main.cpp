@@ -226,6 +226,22 @@ void add_outputs(CLI::App& command, std::vector<Override>& overrides) {
   }
 }
 
+// A shell's empty variable is none.
+const CLI::Validator a_name([](const std::string& text) { return text.empty() ? "must not be empty" : std::string(); },
+                            "");
+
+// CLI::Range takes nan for any number, and speaks of a value that is not in range.
+CLI::Validator number_within(double least, double most) {
+  return {[=](const std::string& text) {
+            double value = 0.0;
+            const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return fits ? std::string()
+                        : "must be a number from " + number_text(least) + " to " + number_text(most) + ", not \"" +
+                              text + "\"";
+          },
+          ""};
+}
+
 void add_run(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<RunOptions>();
   auto* command = app.add_subcommand("run", "run a scenario and write its results")->group(command_group);
@@ -238,7 +254,8 @@ void add_run(CLI::App& app, std::function<int()>& action) {
   add_overrides(*command, options->overrides);
   add_seed(*command, options->overrides);
   command->add_option("-o,--out", options->out, "directory for the results, default out/<name>-<algorithm>-<seed>")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(a_name);
   command->add_flag("-f,--force", options->force, "replace results that are already there");
   command->add_flag("--json", options->json, "print the result as JSON on standard output, and nothing else there");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
@@ -255,7 +272,7 @@ void add_run(CLI::App& app, std::function<int()>& action) {
       ->add_option("-t,--threads", options->threads,
                    "threads within the run, default 1, or all cores from 500 robots on; never changes the result")
       ->type_name("N")
-      ->check(CLI::Range(1, 256).description(""));
+      ->check(number_within(1, 256));
   command->callback([options, &action] { action = [options] { return run_command(*options); }; });
 }
 
@@ -284,18 +301,6 @@ const CLI::Validator moment(
     },
     "");
 
-// The same for a range: CLI::Range takes nan for any number.
-CLI::Validator number_within(double least, double most) {
-  return {[=](const std::string& text) {
-            double value = 0.0;
-            const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-            return fits ? std::string()
-                        : "must be a number from " + number_text(least) + " to " + number_text(most) + ", not \"" +
-                              text + "\"";
-          },
-          ""};
-}
-
 void add_export(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<ExportOptions>();
   auto* command =
@@ -308,7 +313,7 @@ void add_export(CLI::App& app, std::function<int()>& action) {
   command->add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment);
   command->add_option("--every", options->every, "every Nth recorded tick only")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000000).description(""));
+      ->check(number_within(1, 1000000));
   command->add_flag("-f,--force", options->force, "replace the file if it exists");
   command->callback([options, &action] { action = [options] { return export_command(*options); }; });
 }
@@ -367,7 +372,7 @@ void add_film(CLI::App& app, std::function<int()>& action) {
       ->type_name("FILE");
   command->add_option("--fps", options->fps, "frames a second; default 30, for a GIF 15")
       ->type_name("N")
-      ->check(CLI::Range(1, 120).description(""));
+      ->check(number_within(1, 120));
   command->add_option("--speed", options->speed, "seconds of the run in a second of the film, 0.1 to 64")
       ->type_name("X")
       ->check(number_within(0.1, 64.0));
@@ -400,7 +405,7 @@ void add_view(CLI::App& app, std::function<int()>& action) {
   add_seed(*command, options->overrides);
   command->add_option("--port", options->port, "port on this machine; default any that is free")
       ->type_name("N")
-      ->check(CLI::Range(0, 65535).description(""));
+      ->check(number_within(0, 65535));
   command->add_flag("!--no-open", options->open, "only print the address");
   command->add_flag("--wait", options->wait, "wait for a recording that has not begun yet");
   command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or where it was installed")
@@ -441,12 +446,14 @@ void add_tune(CLI::App& app, std::function<int()>& action) {
       app.add_subcommand("tune", "search for better controller parameters by evolution")->group(command_group);
   command->footer(tune_footer);
   command->add_option("file", options->file, "a tune file (.toml or .json)")->required()->type_name("FILE");
-  command->add_option("-o,--out", options->out, "directory for the results, default out/<name>")->type_name("DIR");
+  command->add_option("-o,--out", options->out, "directory for the results, default out/<name>")
+      ->type_name("DIR")
+      ->check(a_name);
   command
       ->add_option("-t,--threads", options->threads,
                    "runs at once, default all cores; under mpirun per process, default 1; never changes the result")
       ->type_name("N")
-      ->check(CLI::Range(1, 256).description(""));
+      ->check(number_within(1, 256));
   command->add_flag("-f,--force", options->force, "start over, replacing what is there");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
   command->add_flag("-n,--dry-run", options->dry_run, "say what would be done, and do nothing");
@@ -457,8 +464,9 @@ void add_tune(CLI::App& app, std::function<int()>& action) {
 void add_study_options(CLI::App& command, StudyOptions& options) {
   command.add_option("study", options.file, "a study (.toml or .json)")->required()->type_name("FILE");
   add_overrides(command, options.overrides);
-  command.add_option("-o,--out", options.out, "directory for everything, default out/<name>")->type_name("DIR");
-  command.add_flag("-f,--force", options.force, "delete the results that are there and start over");
+  command.add_option("-o,--out", options.out, "directory for everything, default out/<name>")
+      ->type_name("DIR")
+      ->check(a_name);
   command.add_flag("--extend", options.extend,
                    "the study has changed since it finished: keep the runs that both versions have");
   command.add_flag("--mix-versions", options.mix_versions, "continue with results of another version of banyan");
@@ -471,13 +479,14 @@ void add_study(CLI::App& app, std::function<int()>& action) {
   auto* command = app.add_subcommand("study", "run a scenario many times over and compare")->group(command_group);
   command->footer(study_footer);
   add_study_options(*command, *options);
+  command->add_flag("-f,--force", options->force, "delete the results that are there and start over");
   command->add_flag("-n,--dry-run", options->dry_run, "print the plan and an estimate of its time, and start nothing");
   command->add_flag("--retry", options->retry, "also run failed runs again");
   command
       ->add_option("-t,--threads", options->threads,
                    "runs at once, default all cores; under mpirun per process, default 1")
       ->type_name("N")
-      ->check(CLI::Range(1, 256).description(""));
+      ->check(number_within(1, 256));
   command->add_option("--shard", options->shard, "do the i-th of n equal parts only; `banyan collect` merges them")
       ->type_name("I/N");
   command
@@ -486,7 +495,7 @@ void add_study(CLI::App& app, std::function<int()>& action) {
       ->type_name("FILE");
   command->add_option("--shards", options->shards, "tasks of that array, default 16")
       ->type_name("N")
-      ->check(CLI::Range(1, 100000).description(""));
+      ->check(number_within(1, 100000));
   command->callback([options, &action] { action = [options] { return study_command(*options); }; });
 }
 
@@ -496,6 +505,7 @@ void add_collect(CLI::App& app, std::function<int()>& action) {
       app.add_subcommand("collect", "merge the shards of a study into its tables and figures")->group(command_group);
   command->footer(collect_footer);
   add_study_options(*command, options->study);
+  command->add_flag("-f,--force", options->study.force, "replace tables that are there, of whatever study they are");
   command->add_option("folders", options->from, "more folders with results of this study")->type_name("DIR");
   command->add_flag("--partial", options->partial, "make the tables even if runs are missing");
   command->callback([options, &action] { action = [options] { return collect_command(*options); }; });
@@ -510,19 +520,20 @@ void add_soak(CLI::App& app, std::function<int()>& action) {
   command->add_option("file", options->file, "a scenario to watch, instead of random missions")->type_name("FILE");
   command->add_option("-s,--seed", options->seed, "seed of the missions, default 1")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9007199254740992}).description(""));
+      ->check(number_within(0, 9007199254740992));
   command->add_option("--from", options->from, "first mission, default 0")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{0}, most_missions).description(""));
+      ->check(number_within(0, most_missions));
   command->add_option("--missions", options->missions, "how many; default as many as there is time for")
       ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1}, most_missions).description(""));
+      ->check(number_within(1, most_missions));
   command->add_option("--seconds", options->seconds, "how long; default until Ctrl-C")->type_name("S")->check(moment);
   command->add_option("-o,--out", options->out, "directory for journal and findings, default out/soak-<seed>")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(a_name);
   command->add_option("-t,--threads", options->threads, "missions at once, default all cores")
       ->type_name("N")
-      ->check(CLI::Range(1, 256).description(""));
+      ->check(number_within(1, 256));
   command->add_flag("-f,--force", options->force, "start a new journal");
   command->add_flag("--no-shrink", options->whole, "keep missions with findings whole, instead of making them smaller");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; findings only");
@@ -540,7 +551,7 @@ void add_bench(CLI::App& app, std::function<int()>& action) {
   command->add_flag("--json", options->json, "print the figures as JSON");
   command->add_option("--windows", options->windows, "measured windows per layout, default 7")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000).description(""));
+      ->check(number_within(1, 1000));
   command
       ->add_option("--window", options->window_s,
                    "length of a window, s of wall time, default 0.7; a mission is measured whole")
@@ -554,7 +565,8 @@ void add_results(CLI::App& command, RunOptions& options) {
   add_overrides(command, options.overrides);
   add_seed(command, options.overrides);
   command.add_option("-o,--out", options.out, "directory for the results, default out/<name>-<algorithm>-<seed>")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(a_name);
   command.add_flag("-f,--force", options.force, "replace results that are already there");
   command.add_flag("--json", options.json, "print the result as JSON on standard output, and nothing else there");
   command.add_flag("-q,--quiet", options.quiet, "no progress and no summary; warnings and errors only");
@@ -583,7 +595,7 @@ template <class Options> void add_pace(CLI::App& command, Options& options) {
       ->check(number_within(0.01, 100.0));
   command.add_option("--bundle", options.bundle, "most packets in one datagram to a robot; default 1, as on a radio")
       ->type_name("N")
-      ->check(CLI::Range(1, 64).description(""));
+      ->check(number_within(1, 64));
 }
 
 void add_hub(CLI::App& app, std::function<int()>& action) {

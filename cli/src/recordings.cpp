@@ -93,7 +93,7 @@ int draw_command(const DrawOptions& options) {
   const auto told = recording.warnings();
   const double at_s = std::min(options.at_s, recording.end_s());
   if (std::isfinite(options.at_s) && options.at_s > recording.end_s() + 1e-9) {
-    complain(format("the recording ends at %s s; drawing that moment", number_text(recording.end_s()).c_str()));
+    complain(format("the recording ends at %.6g s; drawing that moment", recording.end_s()));
   }
   std::string picture = record::draw_svg(recording, at_s, chosen_look(options, png));
   if (png) {

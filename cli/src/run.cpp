@@ -39,6 +39,7 @@ std::string progress_text(const record::Simulation& simulation) {
   const double now_s = simulation.world().time_s(), limit_s = simulation.run().time_limit_s;
   const std::string limit = number_text(limit_s);
   const std::string of_limit = now_s < limit_s ? " of at most " + limit + " s" : ", after its limit of " + limit + " s";
+  if (simulation.run().ticks == 0) return "waiting for the first tick";
   return format("%.1f s", now_s) + of_limit +
          format(", %u of %u targets reached, farthest worker %.2f m off", tick.targets_reached, tick.active_targets,
                 tick.worst_target_distance_m);

@@ -315,8 +315,10 @@ int collect_command(const CollectOptions& options) {
   const StudyOptions& of = options.study;
   if (!prepare(of, prepared)) return exit_usage;
   const auto folder = folder_of(of, prepared.study);
-  if (!of.force) check_folder(folder, prepared, of);
   auto sources = sources_in(folder.path);
+  // A table that was kept without the rest is a source, and gather() refuses it if it is not of this study.
+  const bool table_kept = sources.size() == 1 && sources.front() == folder.table();
+  if (!of.force && !table_kept) check_folder(folder, prepared, of);
   for (const auto& from : options.from) {
     const auto more = sources_in(from);
     if (more.empty())
@@ -324,7 +326,7 @@ int collect_command(const CollectOptions& options) {
     sources.insert(sources.end(), more.begin(), more.end());
   }
   if (sources.empty())
-    throw CommandError(exit_usage, folder.path + " holds no results of a study; run banyan study first");
+    throw CommandError(exit_usage, folder.path + " holds no results of a study; first run it: banyan study " + of.file);
   const auto gathered = gather(sources, prepared.study.name);
   check_builds(gathered, of);
   const auto missing = runs_to_do(prepared.plan, {}, gathered.outcomes, false);
@@ -336,7 +338,7 @@ int collect_command(const CollectOptions& options) {
     if (!options.partial) return exit_lost;
   }
   make_directory(folder.path + "/journal");
-  if (!options.from.empty()) keep_collected(prepared, gathered, folder);
+  if (!options.from.empty() || table_kept) keep_collected(prepared, gathered, folder);
   return finish(prepared, gathered, folder, of.quiet);
 }
 

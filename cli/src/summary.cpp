@@ -55,15 +55,26 @@ std::string robots_text(const measure::Run& run) {
   std::string text = format("%u of %u committed; at least %u are needed", run.committed, run.robots, run.robots_bound);
   if (run.robots_bound > 0)
     text += format(" (%.2f times the bound)", static_cast<double>(run.committed) / run.robots_bound);
-  text += format(", an oracle has %s%u (%.2f times)", run.oracle_exact ? "" : "at most ", run.oracle_robots,
-                 run.oracle_ratio);
+  if (run.oracle_robots > 0)
+    text += format(", an oracle has %s%u (%.2f times)", run.oracle_exact ? "" : "at most ", run.oracle_robots,
+                   run.oracle_ratio);
   return text;
+}
+
+// The first few of what is separated by commas, and how many more there are.
+std::string first_few(const std::string& list) {
+  constexpr int few = 8;
+  std::size_t end = 0;
+  for (int k = 0; k < few && end != std::string::npos; ++k) end = list.find(", ", k == 0 ? 0 : end + 1);
+  if (end == std::string::npos) return list;
+  const auto more = std::count(list.begin() + static_cast<std::ptrdiff_t>(end), list.end(), ',');
+  return list.substr(0, end) + format(" and %td more (run.json)", more);
 }
 
 std::string targets_text(const measure::Run& run, std::size_t targets) {
   std::string text = format("%u of %zu held in the end", run.held_targets, targets);
-  if (!run.missed_targets.empty()) text += "; not: " + run.missed_targets;
-  if (run.oracle_targets < targets)
+  if (!run.missed_targets.empty()) text += "; not: " + first_few(run.missed_targets);
+  if (run.oracle_robots > 0 && run.oracle_targets < targets)
     text += format("; the %u robots are too few for all, an oracle holds %u", run.robots, run.oracle_targets);
   return text;
 }

@@ -156,9 +156,18 @@ void open_browser(const std::string& address) {
   ::posix_spawn_file_actions_destroy(&files);
 }
 
+// Before the page is asked for, which may have to be built first. Throws if there is no such file.
+void miss_absent(const ViewOptions& options) {
+  std::error_code ignored;
+  if (options.file.empty() || options.file == "-" || options.wait || is_link(options.file)) return;
+  if (const std::string file = present_name(options.file); !fs::exists(file, ignored))
+    const record::InputFile missing(file);
+}
+
 }  // namespace
 
 int view_command(const ViewOptions& options) {
+  miss_absent(options);
   PageContent content;
   content.page = page_folder(options);
   content.scenarios = scenarios_folder(options);

@@ -214,6 +214,27 @@ TEST_F(StudyProgram, ATableIsCollectedLikeAJournal) {
     EXPECT_EQ(read("from-earlier" + std::string(made)), read(wanted + made));
 }
 
+// The kept table in its own folder, as help and docs/studies.md have it, and a label with a line break.
+TEST_F(StudyProgram, AFolderOfWhichOnlyTheTableWasKeptIsCollected) {
+  const auto wanted = reference("s.toml");
+  write("kept/runs.csv", read(wanted + "/runs.csv"));
+  const auto outcome = run({"collect", "s.toml", "--out", "kept"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  expect_same_tables("kept", wanted);
+  expect_each_once("kept", 20);
+  EXPECT_EQ(run({"study", "s.toml", "--out", "kept"}).code, 0) << "nothing left to do";
+
+  std::string text = read("s.toml");
+  const auto axis = text.find("values = [");
+  ASSERT_NE(axis, std::string::npos);
+  text.insert(axis, "labels = [\"on the first\\nline\", \"b\"]\n");
+  write("broken.toml", text);
+  const auto broken = run({"study", "broken.toml", "--out", "lines"});
+  ASSERT_EQ(broken.code, 0) << broken.err;
+  write("lines-kept/runs.csv", read("lines/runs.csv"));
+  EXPECT_EQ(run({"collect", "broken.toml", "--out", "again", "lines-kept"}).code, 0);
+}
+
 TEST_F(StudyProgram, ATableThatIsNoneIsRefused) {
   const std::string table = read(reference("s.toml") + "/runs.csv");
   const auto collect = [&](const std::string& text) {

@@ -9,18 +9,24 @@ namespace {
 
 using world::Vec2;
 
-// Whether each place can have a robot of its own that is no farther than some distance (Kuhn's algorithm).
+constexpr std::size_t most_drives = 20'000'000;  // places times robots: some seconds, 320 MB
+
+// Whether each place can have a robot of its own that is no farther than some distance (Kuhn's algorithm). Whoever has
+// a place within a distance that is too short for all has one within a longer one, too: the search goes on from there.
 class Matching {
  public:
   Matching(const std::vector<double>& drives, std::size_t robots, std::size_t places)
-      : drives_{drives}, robots_{robots}, places_{places} {}
+      : drives_{drives}, robots_{robots}, places_{places}, seated_(robots, places) {}
 
   bool within(double most) {
     most_ = most;
-    place_of_.assign(robots_, places_);
-    for (std::size_t place = 0; place < places_; ++place) {
+    place_of_ = seated_;
+    for (std::size_t place = count_; place < places_; ++place) {
       asked_.assign(robots_, 0);
-      if (!seat(place)) return false;
+      if (seat(place)) continue;
+      seated_ = place_of_;
+      count_ = place;
+      return false;
     }
     return true;
   }
@@ -42,6 +48,8 @@ class Matching {
   std::size_t robots_, places_;
   double most_ = 0.0;
   std::vector<std::size_t> place_of_;  // by robot; places_: none
+  std::vector<std::size_t> seated_;    // the same, of the first count_ places within the longest distance too short
+  std::size_t count_ = 0;
   std::vector<char> asked_;
 };
 
@@ -68,6 +76,7 @@ std::vector<Vec2> worth_asking(const std::vector<Vec2>& robots, const std::vecto
 double bottleneck_m(const std::vector<Vec2>& all_robots, const std::vector<Vec2>& places) {
   if (places.empty()) return 0.0;
   if (all_robots.size() < places.size()) return -1.0;
+  if (places.size() > most_drives / all_robots.size()) return -1.0;
   const std::vector<Vec2> robots = worth_asking(all_robots, places);
   std::vector<double> drives;
   drives.reserve(robots.size() * places.size());

@@ -523,11 +523,13 @@ bool Observer::Impl::survivors_suffice(const world::World& world) const {
 }
 
 // The fewest robots, and the least time in which all workers and, from the nearest starts, relays can be at their
-// places. Asked once, at the end, since it takes some milliseconds and no tick needs it. Without any relay a root is
-// needed beside the workers, which has no place of its own.
+// places. Asked once, at the end, since no tick needs it. It takes milliseconds with few targets and some seconds with
+// a thousand; with more it is not asked. Without any relay a root is needed beside the workers, which has no place of
+// its own.
 void Observer::Impl::ask_oracle() {
-  if (std::exchange(oracle_asked, true)) return;
   constexpr double edge_share = 0.95;
+  constexpr std::size_t most = 1'000;
+  if (std::exchange(oracle_asked, true) || first_targets.size() > most) return;
   const RelayTree tree = fewest_relays(first_targets, edge_share * range_m);
   const std::size_t relays = std::max<std::size_t>(1, tree.relays.size());
   run.oracle_robots = static_cast<std::uint32_t>(first_targets.size() + relays);
@@ -535,7 +537,8 @@ void Observer::Impl::ask_oracle() {
   run.oracle_targets = run.robots >= run.oracle_robots ? static_cast<std::uint32_t>(first_targets.size())
                                                        : most_targets(first_targets, edge_share * range_m, run.robots);
   if (first_others.size() < relays) return;
-  run.oracle_time_s = std::max(run.time_bound_s, bottleneck_m(first_others, tree.relays) / speed_m_s);
+  const double longest_m = bottleneck_m(first_others, tree.relays);
+  if (longest_m >= 0.0) run.oracle_time_s = std::max(run.time_bound_s, longest_m / speed_m_s);
 }
 
 void Observer::Impl::sum_up_redundancy(const world::World& world, Run& result) {
@@ -654,7 +657,8 @@ Run Observer::result(const world::World& world) const {
   if (run.complete && run.time_bound_s > 0.0) run.time_ratio = run.completion_time_s / run.time_bound_s;
   run.committed_ratio = static_cast<double>(run.committed) / static_cast<double>(run.robots_bound);
   run.deployment_ratio = static_cast<double>(impl_->most_deploying) / static_cast<double>(run.robots_bound);
-  run.oracle_ratio = static_cast<double>(run.committed) / static_cast<double>(run.oracle_robots);
+  if (run.oracle_robots > 0)
+    run.oracle_ratio = static_cast<double>(run.committed) / static_cast<double>(run.oracle_robots);
   run.lost_holders = impl_->takeovers.lost();
   run.held_again_s = impl_->takeovers.median_s();
   impl_->sum_up_redundancy(world, run);

@@ -22,6 +22,12 @@ TEST(Bottleneck, NothingToDoAndTooFew) {
   EXPECT_EQ(bottleneck_m({{0, 0}, {3, 4}}, {{3, 0}}), 3.0);
 }
 
+TEST(Bottleneck, TooManyPairsAreNotAsked) {
+  const std::vector<Vec2> robots(20'000);
+  EXPECT_EQ(bottleneck_m(robots, std::vector<Vec2>(1'000)), 0.0);
+  EXPECT_EQ(bottleneck_m(robots, std::vector<Vec2>(1'001)), -1.0);
+}
+
 TEST(Bottleneck, TheNearestRobotMayBeNeededElsewhere) {
   // Each place is nearest to the robot at 0, which can have only one of them.
   EXPECT_EQ(bottleneck_m({{0, 0}, {-5, 0}}, {{1, 0}, {-1, 0}}), 4.0);

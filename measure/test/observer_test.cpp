@@ -207,6 +207,20 @@ TEST(Observer, KnowsTheBounds) {
   EXPECT_EQ(observer.run().robots, 20U);
 }
 
+TEST(Observer, DoesNotAskTheOracleForMoreThanAThousandTargets) {
+  Scenario s = chain(1'003, 0.2);
+  for (const std::size_t targets : {1'000U, 1'001U}) {
+    s.targets = world::RingTargets{.count = targets, .radius_m = 3.0, .phase_rad = 0.0, .center = {}};
+    World world(s);
+    Observer observer(world);
+    after(world, observer, 1);
+    const measure::Run run = observer.result(world);
+    EXPECT_EQ(run.oracle_robots > 0, targets == 1'000U);
+    EXPECT_EQ(run.oracle_time_s > 0.0, targets == 1'000U);
+    EXPECT_TRUE(std::isfinite(run.oracle_ratio));
+  }
+}
+
 // Robots on a line, 1 m apart, edges of at most 1.9 m: the worker at 0 drives to -2 m, the one at 5 to 8 m.
 TEST(Observer, AsksTheOracleForRobotsAndTime) {
   Scenario s = chain(6, 1.0);

@@ -21,6 +21,8 @@ using measure::Tick;
 // Distances that do not exist are negative in measure/; in a table they are empty.
 Cell if_known(double value) { return value < 0.0 ? Cell{} : Cell{value}; }
 Cell natural(std::uint64_t value) { return value; }
+// What the oracle says, if it was asked.
+Cell of_oracle(const measure::Run& run, Cell value) { return run.oracle_robots > 0 ? value : Cell{}; }
 
 std::string hexadecimal(std::uint64_t value) {
   constexpr std::string_view digits = "0123456789abcdef";
@@ -80,16 +82,18 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) -> Cell { return r.run.held_ratio; }, 3},
     {"robots_bound", "no fewer committed robots, a worker for each target among them, can connect the targets", 0,
      [](const Row& r) { return natural(r.run.robots_bound); }},
-    {"oracle_robots", "workers, and the fewest relays found for edges of 0.95 C", 0,
-     [](const Row& r) { return natural(r.run.oracle_robots); }, 2},
-    {"oracle_exact", "no such tree has fewer relays", 0, [](const Row& r) -> Cell { return r.run.oracle_exact; }, 2},
+    {"oracle_robots", "workers, and the fewest relays found for edges of 0.95 C; empty above 1,000 targets", 0,
+     [](const Row& r) { return of_oracle(r.run, natural(r.run.oracle_robots)); }, 2},
+    {"oracle_exact", "no such tree has fewer relays", 0,
+     [](const Row& r) { return of_oracle(r.run, r.run.oracle_exact); }, 2},
     {"oracle_targets", "targets at the start that the oracle holds with the robots there are", 0,
-     [](const Row& r) { return natural(r.run.oracle_targets); }, 6},
+     [](const Row& r) { return of_oracle(r.run, natural(r.run.oracle_targets)); }, 6},
     {"held_targets", "active targets held at the end by a worker that the tree joins to a root", 0,
      [](const Row& r) { return natural(r.run.held_targets); }, 6},
     {"missed_targets", "the other active targets, by index, each with the reason", 0,
      [](const Row& r) -> Cell { return r.run.missed_targets; }, 6},
-    {"oracle_time_s", "when straight drives can be over, the oracle's relays placed; empty if robots are too few", 4,
+    {"oracle_time_s",
+     "when straight drives can be over, the oracle's relays placed; empty if robots are too few or too many", 4,
      [](const Row& r) { return if_known(r.run.oracle_time_s); }, 2},
     {"steiner_length_m", "length of a shortest network of the targets, certified from below", 4,
      [](const Row& r) -> Cell { return r.run.steiner_length_m; }},
@@ -98,7 +102,8 @@ constexpr Column<Row> result_table[] = {
     {"committed", "robots in the tree at the end", 0, [](const Row& r) { return natural(r.run.committed); }},
     {"mean_committed", "mean over ticks", 4, [](const Row& r) -> Cell { return r.run.mean_committed; }},
     {"committed_ratio", "committed / robots_bound", 6, [](const Row& r) -> Cell { return r.run.committed_ratio; }},
-    {"oracle_ratio", "committed / oracle_robots", 6, [](const Row& r) -> Cell { return r.run.oracle_ratio; }, 2},
+    {"oracle_ratio", "committed / oracle_robots", 6, [](const Row& r) { return of_oracle(r.run, r.run.oracle_ratio); },
+     2},
     {"deployment_ratio", "most robots in the tree in a tick up to completion / robots_bound", 6,
      [](const Row& r) -> Cell { return r.run.deployment_ratio; }, 7},
     {"link_redundancy", "mission.link_redundancy, k", 0, [](const Row& r) { return natural(r.run.link_redundancy); },

@@ -175,6 +175,16 @@ static void gather_row(Gathered& gathered, const std::string& path, const std::v
   add_outcome(gathered, path, cells[columns.run], {error.empty() ? row : "", error, 0.0});
 }
 
+// The end of the line that begins there: a cell in quotes may hold line breaks.
+static std::size_t end_of_line(const std::string& text, std::size_t begin) {
+  bool quoted = false;
+  for (std::size_t k = begin; k < text.size(); ++k) {
+    if (text[k] == '"') quoted = !quoted;
+    if (text[k] == '\n' && !quoted) return k;
+  }
+  return text.size();
+}
+
 static void gather_table(Gathered& gathered, const std::string& path, const std::string& study) {
   const record::InputFile file(path);
   std::string text;
@@ -182,7 +192,7 @@ static void gather_table(Gathered& gathered, const std::string& path, const std:
   std::size_t number = 0;
   TableColumns columns;
   for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::size_t end = end_of_line(text, begin);
     const std::string line = text.substr(begin, end - begin);
     begin = end + 1;
     if (++number == 1) {

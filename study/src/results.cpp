@@ -20,7 +20,7 @@ struct RunColumn {
 };
 
 // The columns of a run and what they hold, from a row like any other.
-const std::vector<RunColumn>& run_columns() {
+const std::vector<RunColumn>& described_columns() {
   static const std::vector<RunColumn> columns = [] {
     const auto sample = record::RunRow{record::identify(world::Scenario{}, version, git_id()), {}, false};
     std::vector<RunColumn> list;
@@ -36,7 +36,7 @@ const std::vector<RunColumn>& run_columns() {
 }
 
 const RunColumn* find_column(std::string_view name) {
-  const auto& columns = run_columns();
+  const auto& columns = described_columns();
   const auto at = std::find_if(columns.begin(), columns.end(), [&](const RunColumn& c) { return c.name == name; });
   return at == columns.end() ? nullptr : &*at;
 }
@@ -56,7 +56,7 @@ std::vector<std::string> identity_of(const Plan& plan, const PlannedRun& run) {
   const auto scenario = configuration_of(plan, run).scenario;
   auto cells = record::csv_cells(record::run_csv_row({record::identify(scenario, version, git_id()), {}, false}));
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (!run_columns()[c].identifying) cells[c].clear();
+    if (!described_columns()[c].identifying) cells[c].clear();
   }
   return cells;
 }
@@ -80,7 +80,7 @@ bool is_identifying(std::string_view name) {
 
 std::vector<std::string_view> metrics() {
   std::vector<std::string_view> names;
-  for (const auto& column : run_columns()) {
+  for (const auto& column : described_columns()) {
     if (column.metric && !column.identifying) names.push_back(column.name);
   }
   return names;
@@ -114,7 +114,7 @@ const std::string& Results::label(std::size_t row, std::string_view axis) const 
 }
 
 Values Results::values(std::string_view column) const {
-  const auto& columns = run_columns();
+  const auto& columns = described_columns();
   const auto at = static_cast<std::size_t>(find_column(column) - columns.data());
   Values values;
   values.reserve(rows());
@@ -130,7 +130,7 @@ std::string Results::csv() const {
   std::string text = "study,part,run";
   for (const auto& axis : shown) text += "," + record::csv_quoted(axis);
   text += ",error";
-  for (const auto& column : run_columns()) text += "," + column.name;
+  for (const auto& column : described_columns()) text += "," + column.name;
   text += "\n";
   for (std::size_t row = 0; row < rows(); ++row) {
     const auto& p = planned(row);

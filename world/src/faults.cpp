@@ -171,7 +171,7 @@ void check_platform(FaultList& list, const Scenario& scenario) {
                                              scenario.mission.algorithm + " keeps one path; convoy keeps more");
 }
 
-// Visits every pair nearer than `reach` once, by a sweep along x.
+// Visits every pair nearer than `reach` once, by a sweep along x, until `visit` returns false.
 template <class Visit> void each_pair(const std::vector<Vec2>& p, double reach, const Visit& visit) {
   std::vector<std::size_t> order(p.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -182,7 +182,7 @@ template <class Visit> void each_pair(const std::vector<Vec2>& p, double reach, 
       const std::size_t i = std::min(order[a], order[b]);
       const std::size_t j = std::max(order[a], order[b]);
       const double d = distance(p[i], p[j]);
-      if (d < reach) visit(i, j, d);
+      if (d < reach && !visit(i, j, d)) return;
     }
   }
 }
@@ -216,14 +216,19 @@ void check_listed_cluster(FaultList& list, const Scenario& scenario) {
   const std::vector<Vec2>& p = scenario.swarm.start.positions;
   const double range = scenario.radio.range_m;
   const double touch = 2.0 * scenario.robot.radius_m;
+  constexpr int most_overlaps = 100;  // as many as anybody reads; where all overlap, pairs are too many to look at
+  int overlaps = 0;
   Groups groups(p.size());
   each_pair(p, std::max(range, touch), [&](std::size_t i, std::size_t j, double d) {
-    if (d < touch)
+    if (d < touch) {
+      ++overlaps;
       list.fail(element("swarm.start.positions_m", j), "overlaps position " + std::to_string(i) + ": " + short_text(d) +
                                                            " m apart, two radii are " + short_text(touch) + " m");
+    }
     if (d < range) groups.join(i, j);
+    return overlaps < most_overlaps;
   });
-  if (groups.count() > 1)
+  if (overlaps < most_overlaps && groups.count() > 1)
     list.fail("swarm.start.positions_m", "the start is not connected: " + std::to_string(groups.count()) +
                                              " groups are farther than radio.range_m = " + short_text(range) +
                                              " m from each other");
@@ -281,6 +286,7 @@ void check_placed(FaultList& list, const Scenario& scenario) {
   each_pair(p, scenario.radio.range_m, [&](std::size_t i, std::size_t j, double /*distance*/) {
     const auto cuts = [&](const Obstacle& o) { return blocks(o, p[i], p[j]); };
     if (std::none_of(scenario.obstacles.begin(), scenario.obstacles.end(), cuts)) groups.join(i, j);
+    return true;
   });
   if (groups.count() > 1)
     list.fail("swarm.start",

@@ -333,6 +333,18 @@ TEST(Faults, AProgramMayHaveASeedThatNoFileCanHold) {
 }
 
 // 2^53 + 1 is not a number that a file's reader in another language would see: it becomes 2^53.
+// 5,000 robots at one point are 12 million pairs.
+TEST(Faults, OfOverlapsAHundredAreNamed) {
+  Scenario s;
+  use_list(s, std::vector<Vec2>(5'000));
+  int overlaps = 0;
+  for (const Fault& fault : faults(s)) {
+    EXPECT_EQ(fault.text.find("not connected"), std::string::npos) << fault.text;
+    overlaps += fault.text.find("overlaps") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(overlaps, 100);
+}
+
 TEST(Faults, AWholeNumberIsCheckedToItsLastDigit) {
   const Range seeds{0, 0x1p53};
   constexpr std::int64_t most = std::int64_t{1} << 53;

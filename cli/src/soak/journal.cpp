@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cinttypes>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <optional>
@@ -138,7 +140,7 @@ void SoakJournal::add(const Row& row) {
 
 void SoakJournal::write(const std::string& text) {
   out_ << text << std::flush;
-  if (!out_) throw CommandError(exit_lost, "cannot write " + path_);
+  if (!out_) throw CommandError(exit_lost, "cannot write " + path_ + ": " + std::strerror(errno));
 }
 
 std::string table_of(const std::map<std::uint64_t, Row>& rows) {

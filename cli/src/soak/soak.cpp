@@ -3,8 +3,10 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cinttypes>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <thread>
@@ -145,7 +147,7 @@ class Soak {
     const std::string path = directory_ + "/" + small.scenario.name + ".toml";
     std::ofstream out(path);
     out << config::config_toml(small);
-    if (!out.flush()) throw CommandError(exit_lost, "cannot write " + path);
+    if (!out.flush()) throw CommandError(exit_lost, "cannot write " + path + ": " + std::strerror(errno));
     progress_.clear();
     complain(format("%s%s in mission %" PRIu64 " (%s): %s; %s and %s%s:\n  banyan soak %s",
                     promised ? "BROKEN PROMISE: " : "known weakness: ", finding.kind.c_str(), index,

@@ -2,7 +2,9 @@
 #include "tune_outputs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -63,13 +65,17 @@ std::string best_toml(const TunePlan& plan, const TuneCandidate& best) {
   const auto& o = plan.optimizer;
   const auto& mission = plan.worlds.front().scenario.mission;
   const auto number = [](auto n) { return std::to_string(n); };
+  const auto fitness = [&](const auto& seeds) {
+    std::array<char, 32> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.6g", plan.fitness.of(seeds.merit));
+    return std::string(digits.data());
+  };
   std::string text = "# The best parameters of the tuning " + plan.name + " for " + mission.algorithm + " (" +
                      mission.reading + "),\n";
   text += "# by " + std::string(name_of(o.search)) + ": " + number(o.generations) + " generations of " +
           number(o.population) + " individuals on " + number(o.islands) + " islands, seed " + number(o.seed) + ".\n";
-  text += "# Fitness (" + std::string(name_of(plan.fitness.judgement)) + ") " +
-          number_text(plan.fitness.of(best.training.merit)) + " on the training seeds, " +
-          number_text(plan.fitness.of(best.test.merit)) + " on the test seeds.\n";
+  text += "# Fitness (" + std::string(name_of(plan.fitness.judgement)) + ") " + fitness(best.training) +
+          " on the training seeds, " + fitness(best.test) + " on the test seeds.\n";
   text +=
       "# Banyan " + std::string(version) + " (git " + std::string(git_id()) + "), tuning " + tune_digest(plan) + ".\n";
   for (const auto& world : plan.worlds) text += "# Tuned in " + in_words(world.scenario) + "\n";

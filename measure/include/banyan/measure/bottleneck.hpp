@@ -9,7 +9,8 @@
 namespace banyan::measure {
 
 // The bottleneck assignment: over all ways to send one robot to each place, the least value of the longest straight
-// drive, in metres; 0 for no place, -1 for fewer robots than places. Positions in metres; obstacles and bodies are
+// drive, in metres; 0 for no place, -1 for fewer robots than places, or if places times robots are more than 20
+// million. Positions in metres; obstacles and bodies are
 // ignored. Of the robots only the p nearest of each of the p places are asked. A search over the distances, with a
 // matching for each (augmenting paths).
 [[nodiscard]] double bottleneck_m(const std::vector<world::Vec2>& robots, const std::vector<world::Vec2>& places);

@@ -54,13 +54,14 @@ struct Run {
   double held_ratio = 0.0;        // at the end, share of the active targets that are held; 1 without any
   double time_ratio = -1.0;       // completion time / bound; -1: not complete, or the bound is 0
   std::uint32_t robots = 0;
-  std::uint32_t robots_bound = 0;    // no fewer committed robots complete the mission (relays.hpp)
-  std::uint32_t oracle_robots = 0;   // workers and relays of the oracle: edges of 0.95 C, targets at the start
-  std::uint32_t oracle_targets = 0;  // targets at the start that the oracle can hold with the robots there are
+  std::uint32_t robots_bound = 0;  // no fewer committed robots complete the mission (relays.hpp)
+  // Of the oracle; 0: not asked, since there are more than a thousand targets.
+  std::uint32_t oracle_robots = 0;   // workers and relays: edges of 0.95 C, targets at the start
+  std::uint32_t oracle_targets = 0;  // targets at the start that it can hold with the robots there are
   std::uint32_t held_targets = 0;    // at the end, held by a worker that the tree joins to a root
   std::string missed_targets;        // the other active ones, by index and why, "2 given up, 5 3.10 m short"
   bool oracle_exact = false;         // no tree of such edges has fewer
-  double oracle_time_s = -1.0;       // straight drives, relays at their places as well; -1: too few robots
+  double oracle_time_s = -1.0;       // straight drives, relays at their places as well; -1: too few robots, or too many
   double steiner_length_m = 0.0;     // shortest network of the targets, certified from below
   double star_length_m = 0.0;        // of the shortest star of the targets, for comparison
   std::uint32_t committed = 0;       // at the end

@@ -31,7 +31,7 @@ namespace banyan::world {
 [[nodiscard]] inline std::string_view nearest_name(std::string_view word, std::span<const std::string_view> known) {
   word = word.substr(0, 100);  // a very long word is near none anyway
   std::string_view best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
+  std::size_t best_distance = std::max<std::size_t>(1, (word.size() + 1) / 3) + 1;
   for (const std::string_view name : known) {
     // A unit left out ("range" for "range_m") or a word cut short is a near miss, however long.
     const bool shortened = word.size() >= 3 && name.starts_with(word);
