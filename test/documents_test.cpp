@@ -206,7 +206,8 @@ TEST(Documents, EachAlgorithmsMessageIsAsLongAsTheTableSays) {
   const std::vector<std::pair<std::string, std::size_t>> rows{
       {"literal", banyan::wire_size<banyan::TreeMessage>()},
       {"corrected", banyan::wire_size<banyan::HealingMessage>()},
-      {"convoy", banyan::wire_size<banyan::ConvoyMessage>()}};
+      {"convoy", banyan::wire_size<banyan::ConvoyMessage>()},
+      {"batteries", banyan::wire_size<banyan::PoweredConvoyMessage>()}};
   for (const auto& [name, bytes] : rows) {
     const std::regex row("\\| .*" + name + " \\| [a-z, ]+ \\| " + std::to_string(bytes) + " \\|");
     std::size_t found = 0;

@@ -29,9 +29,10 @@ struct Row {
   std::array<Velocity, robots> commands{};
   std::array<Report, robots> reports{};
 
-  Row(const Algorithm& algorithm, const char* reading, std::size_t history = 1) {
+  Row(const Algorithm& algorithm, const char* reading, std::size_t history = 1, RobotId first_id = 10) {
     std::vector<Member> members;
-    for (std::size_t i = 0; i < robots; ++i) members.push_back({static_cast<RobotId>(10 + i), i + 1 == robots, i == 0});
+    for (std::size_t i = 0; i < robots; ++i)
+      members.push_back({static_cast<RobotId>(first_id + i), i + 1 == robots, i == 0});
     Setup setup;
     setup.reading = reading;
     setup.history = history;
@@ -110,6 +111,46 @@ TEST_P(EveryTree, AWorkerFindsItsWayIntoTheTree) {
   for (std::size_t i = 0; i < robots; ++i) {
     EXPECT_EQ(r.reports[i].root, 10);
     EXPECT_EQ(r.swarm->report(i).parent, r.reports[i].parent);
+  }
+}
+
+// Ids beyond 16 bits, where this build has them.
+constexpr std::uint32_t far_off = has_wide_ids ? 110'880 : 55'440;
+constexpr auto large_id = static_cast<RobotId>(10 + far_off);
+
+// A swarm with large ids does the same as one with small ones, if the difference is a multiple of all the periods in
+// which robots take turns by their ids.
+TEST_P(EveryTree, OnlyTheOrderOfIdsCounts) {
+  Row small = row();
+  Row large{*GetParam().algorithm, GetParam().reading, 1, large_id};
+  for (int t = 0; t < 60; ++t) {
+    small.tick();
+    large.tick();
+    for (std::size_t i = 0; i < robots; ++i) {
+      ASSERT_EQ(small.commands[i].forward_m_s, large.commands[i].forward_m_s) << t << ' ' << i;
+      ASSERT_EQ(small.commands[i].turn_rad_s, large.commands[i].turn_rad_s) << t << ' ' << i;
+    }
+  }
+  EXPECT_EQ(large.reports[robots - 1].serves, large_id + robots - 1);
+  EXPECT_EQ(large.reports[robots - 2].root, large_id);
+  EXPECT_EQ(large.reports[robots - 1].parent, small.reports[robots - 1].parent + far_off);
+}
+
+// Over the wire too, in messages that are longer only if ids are wide.
+TEST_P(EverySwarm, RobotsWithTheLargestIdsAreHeard) {
+  Row r{*GetParam().algorithm, GetParam().reading, 1, large_id};
+  r.tick();
+  std::array<std::uint8_t, largest_wire> bytes{};
+  const std::size_t size = r.swarm->send(1, bytes);
+  EXPECT_EQ((bytes[0] & block::wide_ids) != 0, has_wide_ids);
+  EXPECT_EQ(size > r.swarm->message_bytes(), has_wide_ids) << "of small ids";
+  const auto place = r.swarm->receive(std::span(bytes).first(size));
+  ASSERT_TRUE(place.has_value());
+  std::vector<double> numbers(r.swarm->message_fields().size());
+  r.swarm->message_numbers(*place, numbers);
+  EXPECT_EQ(r.number(1, "id"), large_id + 1.0);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (r.swarm->message_fields()[k].name == "id") { EXPECT_EQ(numbers[k], large_id + 1.0); }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "banyan/algorithms/algorithms.hpp"
+#include "banyan/hosts/udp/envelope.hpp"
 #include "banyan/hosts/udp/fleet.hpp"
 #include "banyan/hosts/udp/key.hpp"
 #include "banyan/hosts/udp/socket.hpp"
@@ -21,6 +22,9 @@ config::Configuration load_fleet(const std::string& scenario, const std::vector<
   if (loaded.configuration.scenario.battery.on())
     throw CommandError(exit_usage,
                        "battery: nobody tells a robot that is a process its charge yet; nothing was started");
+  if (const std::size_t robots = world::robot_count(loaded.configuration.scenario); robots > udp::most_fleet_robots)
+    throw CommandError(exit_usage, "swarm.robots: is " + std::to_string(robots) + "; a fleet has at most " +
+                                       std::to_string(udp::most_fleet_robots) + "; nothing was started");
   loaded.configuration.scenario.clocks = {};
   return loaded.configuration;
 }

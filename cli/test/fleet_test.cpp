@@ -632,6 +632,8 @@ TEST_F(FleetProgram, RefusesWhatCannotBe) {
   expect_refused({"fleet", three_targets, "--set", "radio.rnage_m=1"}, "rnage_m");
   expect_refused({"fleet", three_targets, "--set", "battery.model=power"},
                  "nobody tells a robot that is a process its charge");
+  expect_refused({"fleet", BANYAN_SCENARIOS "/three-targets.toml", "--set", "swarm.robots=65535"},
+                 "a fleet has at most 65534");
   expect_refused({"hub", three_targets}, "--key is missing");
   expect_refused({"hub", three_targets, "--key", "k", "--resume"}, "--resume needs --tape");
   write("loose.key", "1 " + std::string(64, 'a') + "\n");

@@ -72,7 +72,7 @@ std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, const Inpu
   Digest digest;
   const auto say = [&](std::size_t k, int tick) -> const TreeMessage* {
     speak_as(k, tick, said);
-    std::array<std::uint8_t, wire_size<Message>()> wire;
+    std::array<std::uint8_t, wire_size<Message>()> wire;  // ids are small
     encode_fields(said, wire);
     for (const std::uint8_t byte : wire) digest.add(byte);
     received[k] = decode_fields<Message>(wire);

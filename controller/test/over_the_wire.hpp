@@ -2,19 +2,17 @@
 // A message as bytes, and as its receiver reads it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "banyan/controller/core/wire.hpp"
 
 namespace banyan {
 
-template <class Message> using WireOf = std::array<std::uint8_t, wire_size<Message>()>;
-
-template <class Message> WireOf<Message> encoded(const Message& message) {
-  WireOf<Message> bytes{};
-  encode_fields(message, bytes);
+template <class Message> std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(longest_wire<Message>);
+  bytes.resize(encode_fields(message, bytes));
   return bytes;
 }
 

@@ -30,8 +30,9 @@ struct Field {
   bool optional = false;  // left out where it is 0 for all robots
 };
 
-constexpr double far = 1e12;  // m: beyond, a position is damage
-constexpr double most_robots = 4294967294.0;
+constexpr double far = 1e12;             // m: beyond, a position is damage
+constexpr double last_index = 999999.0;  // of a robot or a target, whatever ids this build has
+constexpr double most_of_event = 4294967294.0;
 
 template <auto member> double get(const RobotFrame& robot) { return static_cast<double>(robot.*member); }
 template <auto member> void set(RobotFrame& robot, double value) {
@@ -67,12 +68,12 @@ constexpr std::array<Field, 20> of_robot{{
     whole<&R::epoch>("epoch", 0, 65535, "counts the trees"),
     whole<&R::label_cm>("label_cm", -1, 65535, "distance to the root along hops when the epoch began, -1: unknown"),
     whole<&R::depth>("depth", 0, 65535, "in the tree, root 1; 0: no path of tree edges to the root"),
-    whole<&R::parent>("parent", -1, 65535, "robot index, -1: nobody"),
-    whole<&R::old_parent>("old_parent", -1, 65535, "in the old tree while trees are switched, -1: nobody"),
-    whole<&R::grant>("grant", -1, 65535, "the spare let into the edge to the parent, -1: nobody"),
-    whole<&R::request>("request", -1, 65535, "the owner of the edge a spare wants to join, -1: nobody"),
+    whole<&R::parent>("parent", -1, last_index, "robot index, -1: nobody"),
+    whole<&R::old_parent>("old_parent", -1, last_index, "in the old tree while trees are switched, -1: nobody"),
+    whole<&R::grant>("grant", -1, last_index, "the spare let into the edge to the parent, -1: nobody"),
+    whole<&R::request>("request", -1, last_index, "the owner of the edge a spare wants to join, -1: nobody"),
     real<&R::want_m>("want_m", 2, 0, far, "largest remaining worker distance below"),
-    whole<&R::target>("target", -1, 65535, "index of the target the robot serves, -1: none"),
+    whole<&R::target>("target", -1, last_index, "index of the target the robot serves, -1: none"),
     if_any(whole<&R::raised>("raised", 0, 1,
                              "where sight leaks, 1: the antenna looks over bodies; left out if none does")),
     if_any(real<&R::spent>("spent", 3, 0, 1,
@@ -345,7 +346,7 @@ std::vector<TargetFrame> read_targets(std::string_view text) {
   std::vector<TargetFrame> targets;
   for (std::size_t k = 0; k < x.size(); ++k) {
     targets.push_back({{number(x[k], "x_m", -far, far), number(y[k], "y_m", -far, far)},
-                       static_cast<std::int32_t>(number(worker[k], "worker", -1.0, 65535.0)),
+                       static_cast<std::int32_t>(number(worker[k], "worker", -1.0, last_index)),
                        active == nullptr || number((*active)[k], "active", 0.0, 1.0) != 0.0});
   }
   return targets;
@@ -408,8 +409,8 @@ RecordedEvent read_event(std::string_view text) {
   event.tick = count_of(o, "tick");
   event.time_s = number_of(o, "time_s", 0.0, 9e9);
   event.kind = text_of(o, "kind");
-  event.robot = static_cast<std::int64_t>(number_of(o, "robot", -1.0, most_robots));
-  event.target = static_cast<std::int64_t>(number_of(o, "target", -1.0, most_robots));
+  event.robot = static_cast<std::int64_t>(number_of(o, "robot", -1.0, most_of_event));
+  event.target = static_cast<std::int64_t>(number_of(o, "target", -1.0, most_of_event));
   event.text = text_of(o, "text");
   return event;
 }

@@ -69,6 +69,25 @@ TEST(Frames, HaveNoArrayOfAntennasWhereNoneIsRaised) {
   expect_only_if_any("raised", &RobotFrame::raised, true, "\"raised\":[0,1]");
 }
 
+// Whatever width ids have in this build.
+TEST(Frames, NameRobotsBeyondSixteenBits) {
+  Frame frame;
+  frame.robots.resize(2);
+  const auto survives = [&](std::int32_t parent) {
+    frame.robots[1].parent = parent;
+    Text text;
+    write_frame(text, frame);
+    Frame read;
+    read_frame(text.view(), read);
+    return read == frame;
+  };
+  EXPECT_TRUE(survives(65'534));
+  EXPECT_TRUE(survives(99'999));
+  EXPECT_TRUE(survives(999'999));
+  EXPECT_THROW((void)survives(1'000'000), std::runtime_error);
+  EXPECT_EQ(read_targets(R"({"tick":0,"time_s":0,"x_m":[1],"y_m":[3],"worker":[99999]})")[0].worker, 99'999);
+}
+
 TEST(Frames, HaveNoArrayOfChargesWithoutBatteries) {
   expect_only_if_any("spent", &RobotFrame::spent, 0.25, "\"spent\":[0.000,0.250]");
 }

@@ -4,13 +4,14 @@
 #include <banyan/controller/outwards.hpp>
 
 #include <array>
+#include <span>
 
 int main() {
   using Message = banyan::HealingMessage;
   const banyan::HealingParams params = banyan::outwards_defaults();
   banyan::HealingState state = banyan::initial_healing_state(7, false, true);
   const auto output = banyan::outwards_step(params, state, {{}, {}, params});
-  std::array<std::uint8_t, banyan::wire_size<Message>()> wire;
-  banyan::encode_fields(output.message, wire);
-  return output.message.id == 7 && banyan::decode_fields<Message>(wire) == output.message ? 0 : 1;
+  std::array<std::uint8_t, banyan::longest_wire<Message>> wire;
+  const std::span<const std::uint8_t> sent = std::span(wire).first(banyan::encode_fields(output.message, wire));
+  return output.message.id == 7 && banyan::decode_fields<Message>(sent) == output.message ? 0 : 1;
 }

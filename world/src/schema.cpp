@@ -91,10 +91,13 @@ std::vector<double>* headings_of(Scenario& s) noexcept { return is_listed(s) ? &
 std::vector<Vec2>* listed_targets_of(Scenario& s) noexcept { return std::get_if<std::vector<Vec2>>(&s.targets); }
 Obstacle* itself(Obstacle& o) noexcept { return &o; }
 
-constexpr double world_size = 1e4;   // m; beyond it single precision on robots loses the millimetre
-constexpr double most_ids = nobody;  // ids are 16 bits, the last one means nobody
-constexpr double long_time = 1e7;    // s
+constexpr double world_size = 1e4;  // m; beyond it single precision on robots loses the millimetre
+constexpr double long_time = 1e7;   // s
 constexpr Range any_value;
+constexpr std::string_view wider = has_wide_ids ? "" : "for more robots, build with -DBANYAN_ID_BITS=32";
+constexpr Range some_robots{1.0, most_robots, false, wider};
+constexpr Range robots_of_swarm{2.0, most_robots, false, wider};
+constexpr Range any_robot{0.0, most_robots - 1, false, wider};
 constexpr Range anywhere{-world_size, world_size};
 constexpr Range any_length{0.0, world_size, true};
 constexpr Range any_time{0.0, long_time};
@@ -154,12 +157,12 @@ constexpr Key<Scenario> scenario_rows[] = {
      "k: paths between any two targets that share no other robot, so that any k - 1 robots can die at once; above 1 "
      "with convoy only"},
 
-    {"swarm.robots", of<&SwarmModel::robots>, "", {2.0, most_ids}, "number of robots",
+    {"swarm.robots", of<&SwarmModel::robots>, "", robots_of_swarm, "number of robots",
      {.otherwise = "from redundancy, or the length of start.positions_m"}},
     {"swarm.redundancy", by<redundancy_of>, "", {0.0, 1000.0, true},
      "the paper's k: ceil(k * sum of target distances / 1.540841 m) robots",
      {.not_beside = "robots", .selector = "swarm.start.layout"}},
-    {"swarm.root", of<&SwarmModel::root>, "", {0.0, most_ids - 1},
+    {"swarm.root", of<&SwarmModel::root>, "", any_robot,
      "index of the first root, counted from 0 at the centre of the start",
      {.otherwise = "a random robot that is not a worker"}},
 
@@ -177,7 +180,7 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"swarm.start.jitter_m", by<jitter_of>, "m", {0.0, 1000.0}, "each robot is displaced from its point by up to this"},
     {"swarm.start.link_share", by<link_share_of>, "", any_part,
      "spacing of the bridge, or longest link over which a random start grows, as a share of radio.range_m"},
-    {"swarm.start.bridge_robots", by<bridge_robots_of>, "", {1.0, most_ids}, "robots between the two clusters"},
+    {"swarm.start.bridge_robots", by<bridge_robots_of>, "", some_robots, "robots between the two clusters"},
     {"swarm.start.positions_m", by<positions_of>, "m", anywhere, "one [x, y] per robot", {.required = true}},
     {"swarm.start.headings_deg", by<headings_of>, "deg", any_angle,
      "one angle per robot, counter-clockwise from the x axis", {.otherwise = "random"}},
@@ -306,7 +309,7 @@ constexpr Key<Event> event_rows[] = {
      "complete, all targets are held at once for the first time, by a tree in one piece. An event whose moment never "
      "comes never happens"},
     {"events.kind", of<&Event::action>, "", any_value, "what happens", {.required = true}},
-    {"events.robot", of<&Die::robot, &Freeze::robot>, "", {0.0, most_ids - 1},
+    {"events.robot", of<&Die::robot, &Freeze::robot>, "", any_robot,
      "index of the robot, counted from 0", {.required = true}},
     {"events.duration_s", of<&Freeze::duration_s, &Blackout::duration_s>, "s", any_time,
      "how long the robot stands still (freeze; 0: for good) or no robot hears anything (blackout; above 0)"},
@@ -330,7 +333,7 @@ constexpr Key<Event> event_rows[] = {
     {"events.share", of<&Kill::share>, "", any_share,
      "how many die: this share of the robots they are drawn from when the event begins, rounded",
      {.otherwise = "count counts", .not_beside = "count"}},
-    {"events.count", of<&Kill::count>, "", {1.0, most_ids}, "how many die; not beside share", {.otherwise = "1"}},
+    {"events.count", of<&Kill::count>, "", some_robots, "how many die; not beside share", {.otherwise = "1"}},
     {"events.every_s", of<&Kill::every_s>, "s", any_time, "they die one by one, this long apart; 0: all at once"},
 };
 // clang-format on

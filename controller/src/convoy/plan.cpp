@@ -101,7 +101,7 @@ TargetTree best_tree(const ConvoyRobot& robot) noexcept {
 void make_plan(ConvoyRobot& robot, int targets) noexcept {
   ConvoyState& self = robot.self;
   const TargetTree tree = best_tree(robot);
-  const bool saves = tree.robots < self.subtree;
+  const bool saves = tree.robots < static_cast<int>(self.subtree);
   self.plan_targets = static_cast<std::uint8_t>(targets);
   self.plan_levels = static_cast<std::uint8_t>(saves ? tree.deepest : 0);
   self.plan_level = tree.level;
@@ -132,15 +132,15 @@ void command(ConvoyRobot& robot) noexcept {
   const auto known = tasks(self);
   const int targets =
       static_cast<int>(std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; }));
-  const bool may = self.subtree_workers <= targets && !has_companions(p) && !self.forgets && p.plan_after_s > 0.0F &&
-                   since >= 0 && self.settled_ticks < UINT16_MAX;
+  const bool may = static_cast<int>(self.subtree_workers) <= targets && !has_companions(p) && !self.forgets &&
+                   p.plan_after_s > 0.0F && since >= 0 && self.settled_ticks < UINT16_MAX;
   if (!may || (thrifty ? since < self.plan_steps * period : since % period >= robot.elapsed_ticks)) return;
   if (!thrifty) {
     const int levels = 1 + since / period;
     const TargetTree tree = best_tree(robot);
     for (int k = 0; k < self.task_count; ++k)
       self.hosts[k] = tree.host[k] < 0 || tree.level[k] > levels ? nobody : self.tasks[tree.host[k]].serves;
-    if (tree.robots >= self.subtree) withdraw(self);
+    if (tree.robots >= static_cast<int>(self.subtree)) withdraw(self);
     return;
   }
   if (self.plan_levels == 0 || targets != self.plan_targets) make_plan(robot, targets);
@@ -221,7 +221,8 @@ void retry(ConvoyRobot& robot) noexcept {
   constexpr float settled_s = 5.0F;
   constexpr float unclaimed_s = 60.0F;
   ConvoyState& self = robot.self;
-  const int spares = self.root_size - self.subtree;
+  const int spares = static_cast<int>(self.root_size) - static_cast<int>(self.subtree);
+  const int tried_with = static_cast<int>(self.tried_with);
   const bool none_held = !banyan::any_of(tasks(self), [](const Task& t) { return t.holder != nobody; });
   const bool settled = self.phase == Phase::grow_tree && !self.forgets &&
                        (none_held || self.settled_ticks > robot.params.ticks(settled_s));
@@ -231,14 +232,13 @@ void retry(ConvoyRobot& robot) noexcept {
     if ((is_tried_again(task) || task.serves == self.shed) && task.holder != nobody &&
         task.age_ticks > robot.params.ticks(unclaimed_s))
       return put_off(robot, task);
-    const int pause_ticks = robot.params.ticks(first_pause_s)
-                            << (spares > self.tried_with ? 1 : int{task.times_put_off});
+    const int pause_ticks = robot.params.ticks(first_pause_s) << (spares > tried_with ? 1 : int{task.times_put_off});
     if (!settled || !is_put_off(task) || task.unlocated || task.age_ticks <= pause_ticks) continue;
     if (const int robots = least_robots(robot, task); robots < fewest) next = &task, fewest = robots;
   }
   if (next == nullptr) return;
   try_again(robot, *next);
-  self.tried_with = static_cast<std::uint16_t>(std::max<int>(self.tried_with, spares));
+  self.tried_with = static_cast<RobotCount>(std::max(tried_with, spares));
 }
 
 // ---- Every robot ----

@@ -97,7 +97,7 @@ void prune(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int period = std::max(1, p.ticks(merge_period_s));
   const TreeStanding& parent = robot.table().message(robot.parent);
-  if ((self.phase_ticks + self.id) % period >= robot.elapsed_ticks || parent.need == Need::await ||
+  if (static_cast<int>((self.phase_ticks + self.id) % period) >= robot.elapsed_ticks || parent.need == Need::await ||
       parent.inserted_child != nobody)
     return;
   const int turn = self.phase_ticks / period;

@@ -179,7 +179,9 @@ ConvoyBench starving() {
   bench.say(5).want_cm = 200;
   return bench;
 }
-bool gives_up(const ConvoyBench& bench, int k) { return bench.state.hosts[static_cast<std::size_t>(k)] == 100 + k; }
+bool gives_up(const ConvoyBench& bench, int k) {
+  return bench.state.hosts[static_cast<std::size_t>(k)] == static_cast<RobotId>(100 + k);
+}
 int given_up(const ConvoyBench& bench) {
   int count = 0;
   for (int k = 0; k < bench.state.task_count; ++k) count += gives_up(bench, k) ? 1 : 0;

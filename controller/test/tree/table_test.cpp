@@ -71,7 +71,7 @@ RC_GTEST_PROP(TreeTable, ItsSetsAreThoseOfWhatNeighboursSaid, ()) {
     for (int k = 0; k < table.size(); ++k)
       if (robot.is_deaf(k)) deaf.push_back(k);
     RC_ASSERT(visited(table.deaf) == deaf);
-    const auto id = static_cast<RobotId>(below(8) == 0 ? int{nobody} : below(robots));
+    const auto id = below(8) == 0 ? nobody : static_cast<RobotId>(below(robots));
     RC_ASSERT(table.next_heard(id, robot.liveness_ticks()) == next_alive(table, id));
   }
 }

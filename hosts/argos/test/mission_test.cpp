@@ -134,6 +134,7 @@ TEST_F(MissionTest, SaysWhatArgosDoesNotDo) {
       fault({"radio.latency_ticks=3", "radio.model=bursts", "robot.wheel_noise=0.1", "tick_s=0.3", "seed=0"});
   for (const char* word : {"latency_ticks", "radio.model", "wheel_noise", "tick_s", "seed"})
     EXPECT_NE(many.find(word), std::string::npos) << word;
+  EXPECT_NE(fault({"swarm.robots=70000"}).find("swarm.robots"), std::string::npos);
   EXPECT_NE(fault({"radio.lost=0.3"}).find("radio.loss"), std::string::npos) << "the nearest name";
   auto scenario = load_mission(scenario_file("three-targets.toml"), {}, algorithms()).scenario;
   scenario.events.push_back({.time_s = 1.0, .action = world::Blackout{2.0}});

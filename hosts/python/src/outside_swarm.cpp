@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 namespace banyan::python {
 namespace {
@@ -12,7 +13,7 @@ constexpr std::int32_t nobody_here = -1;
 constexpr std::int32_t own_target = -2;
 constexpr float rounding = 1.00001F;  // a speed beyond the limit by less than this is at the limit
 
-std::int32_t number_of(RobotId id) noexcept { return id == nobody ? nobody_here : std::int32_t{id}; }
+std::int32_t number_of(RobotId id) noexcept { return id == nobody ? nobody_here : static_cast<std::int32_t>(id); }
 
 // The mission fixes a worker or the root; a robot about which nothing else is said holds the network together.
 Report first_report(const Member& member) noexcept {
@@ -296,6 +297,8 @@ std::string OutsideAlgorithm::fault(const Setup& setup) const {
 }
 
 std::unique_ptr<Swarm> OutsideAlgorithm::make(const Setup& setup, std::span<const Member> members) const {
+  if (members.size() > most_narrow_robots)
+    throw std::invalid_argument("swarm.robots: robots that Python decides for have ids of 16 bits");
   auto block = outside_.block ? outside_.block
                               : std::make_shared<Block>(Shape{members.size(), outside_.neighbours, outside_.payload});
   auto mind = outside_.mind ? outside_.mind(setup, members, block) : nullptr;

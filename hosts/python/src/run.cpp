@@ -49,7 +49,7 @@ class Keeper final : public record::Sink {
     for (const world::Vec2& h : world.headings()) headings.insert(headings.end(), {h.x, h.y});
     for (const Report& report : world.reports()) {
       roles.push_back(static_cast<std::uint8_t>(report.role));
-      parents.push_back(report.parent == nobody ? -1 : std::int32_t{report.parent});
+      parents.push_back(report.parent == nobody ? -1 : static_cast<std::int32_t>(report.parent));
     }
     alive.insert(alive.end(), world.alive().begin(), world.alive().end());
   }

@@ -40,8 +40,8 @@ py::dict facts_of(const Setup& setup, std::span<const Member> members) {
   py::list workers;
   py::object root = py::none();
   for (const Member& member : members) {
-    if (member.worker) workers.append(int{member.id});
-    if (member.root) root = py::int_(int{member.id});
+    if (member.worker) workers.append(static_cast<int>(member.id));
+    if (member.root) root = py::int_(static_cast<int>(member.id));
   }
   facts["robots"] = members.size();
   facts["workers"] = workers;

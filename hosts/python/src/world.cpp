@@ -2,7 +2,9 @@
 // A world that Python steps. Its arrays are its own memory: they show what is, at any time, and keep the world alive.
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "banyan/config/document.hpp"
 #include "banyan/measure/observer.hpp"
@@ -139,11 +141,11 @@ template <class T> py::array report_view(const py::object& self, std::size_t off
   const auto* const first = reinterpret_cast<const std::byte*>(w.world.reports().data()) + offset;
   return view_of(py::dtype::of<T>(), {robots(w)}, {static_cast<py::ssize_t>(sizeof(Report))}, first, self);
 }
-// Ids as int16: nobody is -1. Where there are more robots than that holds, as they are.
+// Ids as signed numbers: nobody is -1. Where there are more robots than those hold, as they are.
 py::array id_view(const py::object& self, std::size_t offset) {
-  static_assert(sizeof(RobotId) == 2);
-  return robots(self.cast<const PyWorld&>()) < 32768 ? report_view<std::int16_t>(self, offset)
-                                                     : report_view<std::uint16_t>(self, offset);
+  using Signed = std::make_signed_t<RobotId>;
+  return robots(self.cast<const PyWorld&>()) <= std::numeric_limits<Signed>::max() ? report_view<Signed>(self, offset)
+                                                                                   : report_view<RobotId>(self, offset);
 }
 
 py::array_t<std::int32_t> links_of(const PyWorld& w) {

@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "banyan/hosts/udp/envelope.hpp"
 #include "banyan/hosts/udp/socket.hpp"
 
 namespace banyan::udp {
@@ -59,7 +60,7 @@ std::optional<BaseLine> near_of(const std::vector<float>& values) {
   Near near;
   for (std::size_t k = 0; k < values.size(); k += 3) {
     const float id = values[k], range_m = values[k + 1], bearing = values[k + 2];
-    if (!(id >= 0.0F && id < static_cast<float>(nobody - 1)) || id != std::floor(id)) return std::nullopt;
+    if (!(id >= 0.0F && id < static_cast<float>(most_fleet_robots)) || id != std::floor(id)) return std::nullopt;
     if (range_m < 0.0F || std::fabs(bearing) > largest_angle) return std::nullopt;
     near.robots.push_back({static_cast<RobotId>(id), range_m * unit_vector(bearing)});
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/hosts/udp/robot_options.hpp"
 
+#include "banyan/hosts/udp/envelope.hpp"
+
 namespace banyan::udp {
 namespace {
 
@@ -31,7 +33,7 @@ const std::vector<Option>& options() {
   static const std::vector<Option> list = {
       {"--id", "N", "id of this robot, from 0; required",
        [](RobotOptions& o, const std::string& value) {
-         o.id = static_cast<RobotId>(option_whole_number(value, 0, nobody - 2));
+         o.id = static_cast<RobotId>(option_whole_number(value, 0, most_fleet_robots - 1));
        },
        [](const RobotOptions& o) { return std::vector{std::to_string(o.id)}; }},
       text("--hub", "ADDRESS:PORT", "where the hub is; this or --peers is required",

@@ -10,11 +10,12 @@ struct Sample : Robots {
   static constexpr const char* length_in_documents = "one of chains (\\d+)";
   static void fill(Message& m) {
     m.id = sender();
-    for (std::uint16_t* n : {&m.worker, &m.asks, &m.root, &m.beyond_cm, &m.path_cm}) *n = word();
+    for (RobotId* id : {&m.worker, &m.asks, &m.root}) *id = robot();
+    for (std::uint16_t* n : {&m.beyond_cm, &m.path_cm}) *n = word();
     for (std::uint8_t* n : {&m.chain, &m.links, &m.root_age}) *n = byte();
     m.whole = *rc::gen::arbitrary<bool>();
     for (Ids* ids : {&m.above, &m.below})
-      for (RobotId& id : *ids) id = word();
+      for (RobotId& id : *ids) id = robot();
   }
 };
 INSTANTIATE_TYPED_TEST_SUITE_P(Chains, Said, Sample);

@@ -14,9 +14,9 @@ struct Sample : Robots {
     for (bool* flag : {&m.candidate, &m.matching}) *flag = *rc::gen::arbitrary<bool>();
     for (SaidSector& s : m.sectors) s = {{word(), word()}, {word(), word()}, {word(), byte()}, {word(), byte()}};
     m.velocity = velocity();
-    for (SaidLeader& leader : m.leaders) leader = {word(), byte(), velocity()};
+    for (SaidLeader& leader : m.leaders) leader = {robot(), byte(), velocity()};
     for (std::uint8_t* n : {&m.depth, &m.thickness, &m.hops, &m.help, &m.density, &m.root_age}) *n = byte();
-    m.root = word();
+    m.root = robot();
   }
 };
 INSTANTIATE_TYPED_TEST_SUITE_P(Cohesion, Said, Sample);

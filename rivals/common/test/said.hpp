@@ -22,7 +22,8 @@ namespace banyan::rivals {
 
 inline std::uint16_t word() { return *rc::gen::arbitrary<std::uint16_t>(); }
 inline std::uint8_t byte() { return *rc::gen::arbitrary<std::uint8_t>(); }
-inline RobotId sender() { return *rc::gen::inRange<std::uint16_t>(0, nobody); }
+inline RobotId robot() { return *rc::gen::arbitrary<RobotId>(); }
+inline RobotId sender() { return *rc::gen::inRange<RobotId>(0, nobody); }
 
 template <class Robots> class Said : public testing::Test {
  public:
@@ -45,7 +46,7 @@ TYPED_TEST_P(Said, SurvivesTheWay) {
   EXPECT_TRUE(holds);
 }
 
-TYPED_TEST_P(Said, FitsIntoAPacket) { EXPECT_LE(wire_size<typename TypeParam::Message>(), largest_wire); }
+TYPED_TEST_P(Said, FitsIntoAPacket) { EXPECT_LE(longest_wire<typename TypeParam::Message>, largest_wire); }
 
 // Any bytes: refused, or such that writing them again gives the same.
 TYPED_TEST_P(Said, AnyOtherBytesAreRefused) {

@@ -17,7 +17,7 @@ struct Sample : Robots {
     m.links = byte();
     m.largest_degree = word();
     m.degree_age = byte();
-    m.root = word();
+    m.root = robot();
     m.root_age = byte();
   }
 };

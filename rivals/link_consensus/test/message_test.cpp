@@ -11,12 +11,12 @@ struct Sample : Robots {
   static constexpr const char* length_in_documents = "A message of link consensus has (\\d+) bytes";
   static void fill(Message& m) {
     m.id = sender();
-    m.root = word();
+    m.root = robot();
     m.beat = word();
     m.way = word();
-    m.parent = word();
-    for (RobotId& link : m.links) link = word();
-    m.bid = {word(), word(), word(), byte(), byte(), byte()};
+    m.parent = robot();
+    for (RobotId& link : m.links) link = robot();
+    m.bid = {robot(), robot(), word(), byte(), byte(), byte()};
     m.agrees = *rc::gen::arbitrary<bool>();
   }
 };

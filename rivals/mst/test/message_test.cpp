@@ -15,13 +15,13 @@ struct Sample : Robots {
     m.next = word();
     m.countdown = byte();
     m.level = byte();
-    m.fragment = word();
-    m.up = word();
+    m.fragment = robot();
+    m.up = robot();
     for (bool* flag : {&m.ready, &m.decided, &m.done, &m.full}) *flag = *rc::gen::arbitrary<bool>();
-    m.best = {word(), word(), word()};
-    m.choice = {word(), word(), word()};
-    m.root = word();
-    for (RobotId& branch : m.branches) branch = word();
+    m.best = {robot(), robot(), word()};
+    m.choice = {robot(), robot(), word()};
+    m.root = robot();
+    for (RobotId& branch : m.branches) branch = robot();
   }
 };
 INSTANTIATE_TYPED_TEST_SUITE_P(Mst, Said, Sample);

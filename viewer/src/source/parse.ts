@@ -7,7 +7,7 @@ import { arrayAt, fail, type JsonObject, member, numberAt, numberIn, parseObject
 export const far = 1e12; // m: beyond, a position is damage
 const longest = 9e9; // s
 const mostTicks = 2 ** 53;
-export const mostRobots = 65536; // identifiers have 16 bits
+export const mostRobots = 65535; // the page keeps their ids in 16 bits (packed.ts)
 const mostId = 65535;
 
 interface Range {
@@ -35,7 +35,7 @@ export const noTargets: Targets = { x: new Float64Array(0), y: new Float64Array(
 export function parseFrame(text: string): Frame {
   const object = parseObject(text);
   const robots = arrayAt(object, 'x_m').length;
-  if (robots > mostRobots) fail('x_m', 'has more values than there can be robots');
+  if (robots > mostRobots) fail('x_m', `has ${robots} robots; the page shows at most ${mostRobots}`);
   const data = new Float64Array(columns.length * robots);
   columns.forEach((name, c) => fill(data.subarray(c * robots, (c + 1) * robots), object, name));
   return {
@@ -69,7 +69,7 @@ export function peekTick(head: string): number | null {
 export function parseTargets(text: string): Targets {
   const object = parseObject(text);
   const x = arrayAt(object, 'x_m');
-  if (x.length > mostRobots) fail('x_m', 'has more values than there can be targets');
+  if (x.length > mostRobots) fail('x_m', `has ${x.length} targets; the page shows at most ${mostRobots}`);
   const y = arrayAt(object, 'y_m', x.length);
   const worker = arrayAt(object, 'worker', x.length);
   // Recordings made before targets could be told apart have none: all are active.

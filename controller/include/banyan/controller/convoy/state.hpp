@@ -34,7 +34,7 @@ struct ConvoyMemory {
   std::uint16_t short_ticks = 0;    // spares have been missed for so long without progress:
   std::uint16_t short_want_cm = 0;  // the least distance that was left since
   std::uint8_t short_reached = 0;   // so many targets were reached
-  std::uint16_t tried_with = 0;     // the most spares with which a target was tried again
+  RobotCount tried_with = 0;        // the most spares with which a target was tried again
   std::array<RobotId, task_capacity> hosts = none();  // the plan: at which target the branch of tasks[k] is to begin
 
   // A second path (redundancy/companions.hpp)

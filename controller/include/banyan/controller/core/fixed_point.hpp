@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "banyan/controller/core/robot_id.hpp"
+
 namespace banyan {
 
 inline constexpr float per_cm = 100.0F;  // units in a metre, for lengths in cm
@@ -18,9 +20,9 @@ template <class Int> constexpr Int to_fixed(float v, float unit) noexcept {
   return static_cast<Int>(std::clamp(scaled, low, high));
 }
 
-// A count in 16 bits.
-constexpr std::uint16_t saturated(std::uint32_t count) noexcept {
-  return static_cast<std::uint16_t>(std::min<std::uint32_t>(count, UINT16_MAX));
+// A count of robots, as it travels.
+constexpr RobotCount saturated(std::uint32_t count, std::uint32_t most = most_robots) noexcept {
+  return static_cast<RobotCount>(std::min(count, most));
 }
 
 // A length in cm, in m.

@@ -3,17 +3,14 @@
 // body frame: x forward, y to the left.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 
+#include "banyan/controller/core/robot_id.hpp"
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/controller/core/vec2.hpp"
 
 namespace banyan {
-
-using RobotId = std::uint16_t;
-inline constexpr RobotId nobody = 0xFFFF;
 
 // The robot's own motion since its last step, in the body frame it had then, as its wheels measure it.
 // A differential robot that has turned while it drove reports the chord: `sideways_m` is how far the

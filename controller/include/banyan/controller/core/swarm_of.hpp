@@ -59,6 +59,7 @@ struct Names {
   template <class T> void number(const char* name, const char* meaning, const T&) { add(name, meaning); }
   template <class T> void known(const char* name, const char* meaning, const T&) { add(name, meaning); }
   void robot(const char* name, const char* meaning, RobotId) { add(name, meaning); }
+  void count(const char* name, const char* meaning, RobotCount) { add(name, meaning); }
   template <class T> void scaled(const char* name, const char* meaning, const T&, float) { add(name, meaning, 3); }
   void real(const char* name, const char* meaning, float, float) { add(name, meaning, 3); }
 };
@@ -73,6 +74,7 @@ struct Numbers {
     *at++ = v == static_cast<T>(~T{}) ? -1.0 : static_cast<double>(v);
   }
   void robot(const char*, const char*, RobotId v) noexcept { *at++ = v == nobody ? -1.0 : static_cast<double>(v); }
+  void count(const char*, const char*, RobotCount v) noexcept { *at++ = static_cast<double>(v); }
   template <class T> void scaled(const char*, const char*, const T& v, float unit) noexcept {
     *at++ = static_cast<double>(v) / static_cast<double>(unit);
   }
@@ -134,7 +136,9 @@ template <class A> class SwarmOf final : public Swarm {
   std::size_t send(std::size_t i, std::span<std::uint8_t> bytes) const noexcept override {
     return encode_fields(slots_[slot_of(1)][i], bytes);
   }
-  [[nodiscard]] std::size_t message_bytes() const noexcept override { return wire_size<Message>(); }
+  [[nodiscard]] std::size_t message_bytes() const noexcept override {
+    return states_.size() > most_narrow_robots ? longest_wire<Message> : wire_size<Message>();
+  }
   std::optional<std::uint32_t> receive(std::span<const std::uint8_t> bytes) override {
     const std::optional<Message> message = decode_fields<Message>(bytes);
     if (!message) return std::nullopt;

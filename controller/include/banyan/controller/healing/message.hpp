@@ -15,11 +15,11 @@ struct HealingStanding {
 };
 
 struct HealingNews {
-  bool root_told = false;       // I know where the root is
-  std::uint16_t root_size = 0;  // robots that this root counted last; 0: none yet
-  Serial heartbeat = 0;         // gossip: the root's count of ticks
-  RobotId told = nobody;        // addressee of the vectors that follow
-  std::int16_t root_x_cm = 0;   // root - addressee, edge frame to `told`
+  bool root_told = false;      // I know where the root is
+  RobotCount root_size = 0;    // robots that this root counted last; 0: none yet
+  Serial heartbeat = 0;        // gossip: the root's count of ticks
+  RobotId told = nobody;       // addressee of the vectors that follow
+  std::int16_t root_x_cm = 0;  // root - addressee, edge frame to `told`
   std::int16_t root_y_cm = 0;
   RobotId task_serves = nobody;  // a target, by its first worker; nobody: I know none
   RobotId task_holder = nobody;  // gossip: the robot that serves it; nobody: it has been given up
@@ -57,7 +57,7 @@ template <class Visitor, class M> constexpr void visit_healing_block(Visitor& vi
              m.task_silent);
   visit.flag("task_below", "1: the holder of `task` is the sender, or below it in the tree", m.task_below);
   visit.flag("forgets", "1: some robot has had no room for a target", m.forgets);
-  visit.number("root_size", "robots that this root counted last, 0: none yet", m.root_size);
+  visit.count("root_size", "robots that this root counted last, 0: none yet", m.root_size);
   visit.number("heartbeat", "the root's count of ticks, modulo 65536", m.heartbeat);
   visit.robot("serves", "of a worker: its target, by the worker first sent there, -1: none", m.serves);
   visit.robot("told", "addressee of root and task, -1: nobody", m.told);

@@ -57,8 +57,8 @@ struct HealingMemory {
   RobotId watched = nobody;              // a neighbour that fell silent in range and in the clear,
   std::uint8_t watched_ticks = 0;        // and for how long it has been
   std::uint8_t burst_ticks = 0;          // gossip: the longest silence of late, if lost packets alone do not explain it
-  std::uint16_t root_size = 0;           // robots that this root counted last; 0: none yet
-  std::uint16_t flood_counted = 0;       // the root, of its last START TREE: the most robots that the flood had found,
+  RobotCount root_size = 0;              // robots that this root counted last; 0: none yet
+  RobotCount flood_counted = 0;          // the root, of its last START TREE: the most robots that the flood had found,
   std::uint16_t flood_ticks = 0;         // and when that was
   Serial heartbeat = 0;
   std::uint16_t silence_ticks = 0;   // since the heartbeat grew; the root: since it heard any robot

@@ -3,7 +3,6 @@
 // kept in their wire types, so what a receiver computes with is exactly what travelled.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "banyan/controller/core/fixed_point.hpp"
@@ -19,7 +18,7 @@ struct RootToken {
   Serial sequence = 0;
   RobotId id = nobody;
   friend constexpr bool operator==(RootToken a, RootToken b) noexcept {
-    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+    return equal_as<std::uint32_t, &RootToken::sequence, &RootToken::id>(a, b);
   }
 };
 constexpr bool newer(RootToken a, RootToken b) noexcept {
@@ -42,7 +41,8 @@ struct TreeTies {
   std::uint8_t tree_hops = unreachable;  // hops over unattached spares to the rooted tree, 0: in it
 
   friend constexpr bool operator==(const TreeTies& a, const TreeTies& b) noexcept {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    return equal_as<std::uint64_t, &TreeTies::parent, &TreeTies::old_parent, &TreeTies::grant, &TreeTies::role,
+                    &TreeTies::tree_hops>(a, b);
   }
 };
 
@@ -60,13 +60,13 @@ struct TreeStanding : TreeTies {
   Serial seqno = 0;                        // the root's count as it came down the tree: (seqno, label) orders the tree
   std::uint16_t depth = invalid_depth;     // root 1; 0: not connected to the root by tree edges
   RobotId flood_parent = nobody;
-  std::uint16_t flood_robots = 0;  // echo sums
-  std::uint16_t flood_workers = 0;
-  std::uint16_t subtree = 0;  // 1 + sum over children
-  std::uint16_t subtree_workers = 0;
+  RobotCount flood_robots = 0;  // echo sums
+  RobotCount flood_workers = 0;
+  RobotCount subtree = 0;  // 1 + sum over children
+  RobotCount subtree_workers = 0;
   // Alg. 2's c_i, beside the sums above; nothing depends on it. So a robot that heals says here whom it hears
   // (healing/mutual.cpp); a field more would be too much for one message, and for the firmware.
-  std::uint16_t count = 0;
+  RobotCount count = 0;
   std::uint16_t want_cm = 0;  // largest remaining worker distance below me
   std::int16_t pull_x = 0;    // target pull, edge frame to `up`, 1 = pull_unit
   std::int16_t pull_y = 0;
@@ -118,14 +118,14 @@ template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit
   visit.robot("parent", "robot, -1: nobody", m.parent);
   visit.robot("old_parent", "in the old tree while trees are switched, -1: nobody", m.old_parent);
   visit.robot("flood_parent", "the neighbour that gave the label, -1: nobody", m.flood_parent);
-  visit.number("flood_robots", "robots labelled through this one, itself included", m.flood_robots);
-  visit.number("flood_workers", "workers among them", m.flood_workers);
-  visit.number("subtree", "1 + sum over the children", m.subtree);
-  visit.number("subtree_workers", "workers among them", m.subtree_workers);
+  visit.count("flood_robots", "robots labelled through this one, itself included", m.flood_robots);
+  visit.count("flood_workers", "workers among them", m.flood_workers);
+  visit.count("subtree", "1 + sum over the children", m.subtree);
+  visit.count("subtree_workers", "workers among them", m.subtree_workers);
   if (heals)
     visit.robot("hears", "a neighbour that the sender hears, by ascending ids; its own id: come nearer, -1: none",
                 m.count);
-  else visit.number("count", "c of Alg. 2; no rule uses it", m.count);
+  else visit.count("count", "c of Alg. 2; no rule uses it", m.count);
   visit.number("want_cm", "largest remaining way of a worker below, 0: all have arrived", m.want_cm);
   visit.real("q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent", m.q.x, q_limit_m);
   visit.real("q_y_m", "the same, to the left of that edge", m.q.y, q_limit_m);

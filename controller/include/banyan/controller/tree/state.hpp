@@ -30,8 +30,8 @@ struct TreeState {
   std::uint16_t label_wait_ticks = 0;  // since the first labelled neighbour was heard
   RobotId flood_parent = nobody;
   bool flood_done = false;
-  std::uint16_t flood_robots = 0;
-  std::uint16_t flood_workers = 0;
+  RobotCount flood_robots = 0;
+  RobotCount flood_workers = 0;
 
   // Tree (parent_selection.hpp)
   RobotId parent = nobody;
@@ -47,9 +47,9 @@ struct TreeState {
   std::uint8_t tree_hops = unreachable;
 
   // Count and centroid (census.hpp)
-  std::uint16_t subtree = 1;
-  std::uint16_t subtree_workers = 0;
-  std::uint16_t count = 0;          // Alg. 2
+  RobotCount subtree = 1;
+  RobotCount subtree_workers = 0;
+  RobotCount count = 0;             // Alg. 2
   Vec2 q;                           // m, own frame; at the root Alg. 1's centroid
   float want_m = 0.0F;              // largest remaining worker distance below me
   Vec2 pull;                        // target pull, own frame

@@ -21,6 +21,7 @@
 
 #include <array>
 #include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -32,6 +33,7 @@ namespace banyan::udp {
 using Node = std::uint16_t;  // who sends and receives
 inline constexpr Node hub_node = 0xFFFE;
 inline constexpr Node everybody = 0xFFFF;
+inline constexpr std::size_t most_fleet_robots = hub_node;
 
 enum class Kind : std::uint8_t { hello, status, frame, heard, stop, stopped, answer, spoken, account };
 inline constexpr Kind last_kind = Kind::account;

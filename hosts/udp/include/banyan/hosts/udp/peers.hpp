@@ -7,7 +7,6 @@
 
 #include <map>
 
-#include "banyan/controller/core/inputs.hpp"
 #include "banyan/hosts/udp/envelope.hpp"
 
 namespace banyan::udp {
@@ -15,7 +14,7 @@ namespace banyan::udp {
 class Peers {
  public:
   // `boot`: the own one, above 0.
-  Peers(RobotId self, std::uint64_t boot) noexcept : self_(self), boot_(boot) {}
+  Peers(Node self, std::uint64_t boot) noexcept : self_(self), boot_(boot) {}
 
   // A datagram for everybody.
   [[nodiscard]] Bytes speak(ByteView message, const KeyRing& keys);
@@ -40,7 +39,7 @@ class Peers {
   Peer& peer(Node node);
   [[nodiscard]] static Taken take_spoken(Peer& from, const Envelope& envelope, double now_s, const KeyRing& keys);
 
-  RobotId self_;
+  Node self_;
   std::uint64_t boot_;
   std::uint32_t spoken_ = 0;
   std::map<Node, Peer> peers_;  // whoever has a key
