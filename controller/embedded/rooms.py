@@ -31,7 +31,7 @@ def room(chain):
 
 
 def main(elf):
-    found = [hex(a) for a in addresses(elf)]
+    found = [hex(a) for a in sorted(set(addresses(elf)))]  # two names may be of one function
     chains = []
     for line in output("addr2line", "-a", "-i", "-e", elf, text="\n".join(found)).splitlines():
         if line.startswith("0x"):
