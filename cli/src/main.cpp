@@ -231,15 +231,21 @@ const CLI::Validator a_name([](const std::string& text) { return text.empty() ? 
                             "");
 
 // CLI::Range takes nan for any number, and speaks of a value that is not in range.
-CLI::Validator number_within(double least, double most) {
+template <typename Number> CLI::Validator within(Number least, Number most, const std::string& limits) {
   return {[=](const std::string& text) {
-            double value = 0.0;
+            Number value{};
             const bool fits = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-            return fits ? std::string()
-                        : "must be a number from " + number_text(least) + " to " + number_text(most) + ", not \"" +
-                              text + "\"";
+            return fits ? std::string() : "must be a " + limits + ", not \"" + text + "\"";
           },
           ""};
+}
+
+CLI::Validator number_within(double least, double most) {
+  return within(least, most, "number from " + number_text(least) + " to " + number_text(most));
+}
+
+CLI::Validator whole_within(std::int64_t least, std::int64_t most) {
+  return within(least, most, "whole number from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
 void add_run(CLI::App& app, std::function<int()>& action) {
@@ -272,7 +278,7 @@ void add_run(CLI::App& app, std::function<int()>& action) {
       ->add_option("-t,--threads", options->threads,
                    "threads within the run, default 1, or all cores from 500 robots on; never changes the result")
       ->type_name("N")
-      ->check(number_within(1, 256));
+      ->check(whole_within(1, 256));
   command->callback([options, &action] { action = [options] { return run_command(*options); }; });
 }
 
@@ -313,7 +319,7 @@ void add_export(CLI::App& app, std::function<int()>& action) {
   command->add_option("--to", options->to_s, "last moment, s")->type_name("S")->check(moment);
   command->add_option("--every", options->every, "every Nth recorded tick only")
       ->type_name("N")
-      ->check(number_within(1, 1000000));
+      ->check(whole_within(1, 1000000));
   command->add_flag("-f,--force", options->force, "replace the file if it exists");
   command->callback([options, &action] { action = [options] { return export_command(*options); }; });
 }
@@ -372,7 +378,7 @@ void add_film(CLI::App& app, std::function<int()>& action) {
       ->type_name("FILE");
   command->add_option("--fps", options->fps, "frames a second; default 30, for a GIF 15")
       ->type_name("N")
-      ->check(number_within(1, 120));
+      ->check(whole_within(1, 120));
   command->add_option("--speed", options->speed, "seconds of the run in a second of the film, 0.1 to 64")
       ->type_name("X")
       ->check(number_within(0.1, 64.0));
@@ -405,7 +411,7 @@ void add_view(CLI::App& app, std::function<int()>& action) {
   add_seed(*command, options->overrides);
   command->add_option("--port", options->port, "port on this machine; default any that is free")
       ->type_name("N")
-      ->check(number_within(0, 65535));
+      ->check(whole_within(0, 65535));
   command->add_flag("!--no-open", options->open, "only print the address");
   command->add_flag("--wait", options->wait, "wait for a recording that has not begun yet");
   command->add_option("--page", options->page, "the built page; default BANYAN_PAGE, or where it was installed")
@@ -453,7 +459,7 @@ void add_tune(CLI::App& app, std::function<int()>& action) {
       ->add_option("-t,--threads", options->threads,
                    "runs at once, default all cores; under mpirun per process, default 1; never changes the result")
       ->type_name("N")
-      ->check(number_within(1, 256));
+      ->check(whole_within(1, 256));
   command->add_flag("-f,--force", options->force, "start over, replacing what is there");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; warnings and errors only");
   command->add_flag("-n,--dry-run", options->dry_run, "say what would be done, and do nothing");
@@ -486,7 +492,7 @@ void add_study(CLI::App& app, std::function<int()>& action) {
       ->add_option("-t,--threads", options->threads,
                    "runs at once, default all cores; under mpirun per process, default 1")
       ->type_name("N")
-      ->check(number_within(1, 256));
+      ->check(whole_within(1, 256));
   command->add_option("--shard", options->shard, "do the i-th of n equal parts only; `banyan collect` merges them")
       ->type_name("I/N");
   command
@@ -495,7 +501,7 @@ void add_study(CLI::App& app, std::function<int()>& action) {
       ->type_name("FILE");
   command->add_option("--shards", options->shards, "tasks of that array, default 16")
       ->type_name("N")
-      ->check(number_within(1, 100000));
+      ->check(whole_within(1, 100000));
   command->callback([options, &action] { action = [options] { return study_command(*options); }; });
 }
 
@@ -511,7 +517,7 @@ void add_collect(CLI::App& app, std::function<int()>& action) {
   command->callback([options, &action] { action = [options] { return collect_command(*options); }; });
 }
 
-constexpr std::uint64_t most_missions = 1'000'000'000'000;
+constexpr std::int64_t most_missions = 1'000'000'000'000;
 
 void add_soak(CLI::App& app, std::function<int()>& action) {
   auto options = std::make_shared<SoakOptions>();
@@ -520,20 +526,20 @@ void add_soak(CLI::App& app, std::function<int()>& action) {
   command->add_option("file", options->file, "a scenario to watch, instead of random missions")->type_name("FILE");
   command->add_option("-s,--seed", options->seed, "seed of the missions, default 1")
       ->type_name("N")
-      ->check(number_within(0, 9007199254740992));
+      ->check(whole_within(0, 9007199254740992));
   command->add_option("--from", options->from, "first mission, default 0")
       ->type_name("N")
-      ->check(number_within(0, most_missions));
+      ->check(whole_within(0, most_missions));
   command->add_option("--missions", options->missions, "how many; default as many as there is time for")
       ->type_name("N")
-      ->check(number_within(1, most_missions));
+      ->check(whole_within(1, most_missions));
   command->add_option("--seconds", options->seconds, "how long; default until Ctrl-C")->type_name("S")->check(moment);
   command->add_option("-o,--out", options->out, "directory for journal and findings, default out/soak-<seed>")
       ->type_name("DIR")
       ->check(a_name);
   command->add_option("-t,--threads", options->threads, "missions at once, default all cores")
       ->type_name("N")
-      ->check(number_within(1, 256));
+      ->check(whole_within(1, 256));
   command->add_flag("-f,--force", options->force, "start a new journal");
   command->add_flag("--no-shrink", options->whole, "keep missions with findings whole, instead of making them smaller");
   command->add_flag("-q,--quiet", options->quiet, "no progress and no summary; findings only");
@@ -551,7 +557,7 @@ void add_bench(CLI::App& app, std::function<int()>& action) {
   command->add_flag("--json", options->json, "print the figures as JSON");
   command->add_option("--windows", options->windows, "measured windows per layout, default 7")
       ->type_name("N")
-      ->check(number_within(1, 1000));
+      ->check(whole_within(1, 1000));
   command
       ->add_option("--window", options->window_s,
                    "length of a window, s of wall time, default 0.7; a mission is measured whole")
@@ -595,7 +601,7 @@ template <class Options> void add_pace(CLI::App& command, Options& options) {
       ->check(number_within(0.01, 100.0));
   command.add_option("--bundle", options.bundle, "most packets in one datagram to a robot; default 1, as on a radio")
       ->type_name("N")
-      ->check(number_within(1, 64));
+      ->check(whole_within(1, 64));
 }
 
 void add_hub(CLI::App& app, std::function<int()>& action) {

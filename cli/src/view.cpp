@@ -156,21 +156,17 @@ void open_browser(const std::string& address) {
   ::posix_spawn_file_actions_destroy(&files);
 }
 
-// Before the page is asked for, which may have to be built first. Throws if there is no such file.
-void miss_absent(const ViewOptions& options) {
-  std::error_code ignored;
-  if (options.file.empty() || options.file == "-" || options.wait || is_link(options.file)) return;
-  if (const std::string file = present_name(options.file); !fs::exists(file, ignored))
-    const record::InputFile missing(file);
+void find_page(const ViewOptions& options, PageContent& content) {
+  content.page = page_folder(options);
+  content.scenarios = scenarios_folder(options);
 }
 
 }  // namespace
 
 int view_command(const ViewOptions& options) {
-  miss_absent(options);
+  // A misspelt name is told before a page that is missing; but nobody shall wait for a recording and then have no page.
   PageContent content;
-  content.page = page_folder(options);
-  content.scenarios = scenarios_folder(options);
+  if (options.wait) find_page(options, content);
   std::string fragment;
   if (is_link(options.file)) {
     if (!options.overrides.empty())
@@ -190,6 +186,7 @@ int view_command(const ViewOptions& options) {
     if (!start) return exit_usage;
     content.scenario = start->dump(-1, ' ', false, json::error_handler_t::replace);
   }
+  if (!options.wait) find_page(options, content);
   catch_stop_signals();
   ::signal(SIGCHLD, SIG_IGN);  // the browser is not waited for
   ::signal(SIGPIPE, SIG_IGN);  // a browser that is closed must not end us

@@ -225,9 +225,9 @@ TEST_F(StudyProgram, AFolderOfWhichOnlyTheTableWasKeptIsCollected) {
   EXPECT_EQ(run({"study", "s.toml", "--out", "kept"}).code, 0) << "nothing left to do";
 
   std::string text = read("s.toml");
-  const auto axis = text.find("values = [");
-  ASSERT_NE(axis, std::string::npos);
-  text.insert(axis, "labels = [\"on the first\\nline\", \"b\"]\n");
+  const std::string axis = "name = \"loss\"\n";
+  ASSERT_TRUE(has(text, axis));
+  text.replace(text.find(axis), axis.size(), "name = \"air\"\nlabels = [\"on the first\\nline\", \"b\"]\n");
   write("broken.toml", text);
   const auto broken = run({"study", "broken.toml", "--out", "lines"});
   ASSERT_EQ(broken.code, 0) << broken.err;

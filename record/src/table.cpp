@@ -22,7 +22,7 @@ using measure::Tick;
 Cell if_known(double value) { return value < 0.0 ? Cell{} : Cell{value}; }
 Cell natural(std::uint64_t value) { return value; }
 // What the oracle says, if it was asked.
-Cell of_oracle(const measure::Run& run, Cell value) { return run.oracle_robots > 0 ? value : Cell{}; }
+Cell of_oracle(const measure::Run& run, const Cell& value) { return run.oracle_robots > 0 ? value : Cell{}; }
 
 std::string hexadecimal(std::uint64_t value) {
   constexpr std::string_view digits = "0123456789abcdef";

@@ -337,10 +337,9 @@ TEST(Faults, AProgramMayHaveASeedThatNoFileCanHold) {
   EXPECT_EQ(shown(faults(scenario)), "");
 }
 
-// 2^53 + 1 is not a number that a file's reader in another language would see: it becomes 2^53.
 // 5,000 robots at one point are 12 million pairs.
 TEST(Faults, OfOverlapsAHundredAreNamed) {
-  Scenario s;
+  Scenario s = plain_scenario();
   use_list(s, std::vector<Vec2>(5'000));
   int overlaps = 0;
   for (const Fault& fault : faults(s)) {
@@ -350,6 +349,7 @@ TEST(Faults, OfOverlapsAHundredAreNamed) {
   EXPECT_EQ(overlaps, 100);
 }
 
+// 2^53 + 1 is not a number that a file's reader in another language would see: it becomes 2^53.
 TEST(Faults, AWholeNumberIsCheckedToItsLastDigit) {
   const Range seeds{0, 0x1p53};
   constexpr std::int64_t most = std::int64_t{1} << 53;

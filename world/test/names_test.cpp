@@ -14,6 +14,8 @@ TEST(Names, TheNearestIsSuggestedAndNonsenseIsNot) {
   EXPECT_EQ(nearest_name("x", {}), "");
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
   EXPECT_EQ(edit_distance("", "abc"), 3U);
+  EXPECT_EQ(edit_distance("nmae", "name"), 1U) << "two letters exchanged are one slip";
+  EXPECT_EQ(edit_distance("ca", "abc"), 3U);
   EXPECT_EQ(alternatives(known), "\"outwards\", \"inwards\" or \"convoy\"");
   EXPECT_EQ(alternatives({}), "");
 }

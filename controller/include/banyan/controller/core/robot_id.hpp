@@ -9,14 +9,15 @@
 #include <cstdint>
 #include <type_traits>
 
-#ifndef BANYAN_ID_BITS
-#define BANYAN_ID_BITS 16
-#endif
-
 namespace banyan {
 
-static_assert(BANYAN_ID_BITS == 16 || BANYAN_ID_BITS == 32);
-inline constexpr bool has_wide_ids = BANYAN_ID_BITS == 32;
+#ifdef BANYAN_ID_BITS
+inline constexpr int id_bits = BANYAN_ID_BITS;
+#else
+inline constexpr int id_bits = 16;
+#endif
+static_assert(id_bits == 16 || id_bits == 32);
+inline constexpr bool has_wide_ids = id_bits == 32;
 
 using RobotId = std::conditional_t<has_wide_ids, std::uint32_t, std::uint16_t>;
 inline constexpr RobotId nobody = static_cast<RobotId>(~RobotId{});
