@@ -43,11 +43,13 @@ std::string tree_text(const measure::Run& run) {
 }
 
 std::string network_text(const measure::Run& run, bool line_of_sight) {
-  if (run.split_ticks == 0 && run.split_ticks_by_distance == 0) return "in one piece at every tick";
-  std::string text = "split in " + plural(run.split_ticks, "tick");
-  if (line_of_sight)
+  const bool split = run.split_ticks > 0 || run.split_ticks_by_distance > 0;
+  std::string text = split ? "split in " + plural(run.split_ticks, "tick") : "in one piece at every tick";
+  if (split && line_of_sight)
     text +=
         format(" (%s if nothing blocked the radio)", grouped(static_cast<double>(run.split_ticks_by_distance)).c_str());
+  if (run.start_parts > 1)
+    text += format("; at the start in %u parts by links of which both ends hear each other", run.start_parts);
   return text;
 }
 

@@ -155,6 +155,26 @@ TEST(SoakWatch, ASplitWithoutADeathIsFound) {
   EXPECT_FALSE(is_promised("incomplete", s));
 }
 
+// Nobody has torn what packets never joined: a pair of which one never hears the other.
+TEST(SoakWatch, ASplitOfANetworkThatWasNeverJoinedHasANameOfItsOwn) {
+  Scenario s = world::plain_scenario();
+  s.swarm.start.layout = world::Layout::list;
+  s.swarm.start.positions = {{0.0, 0.0}, {1.9, 0.0}};
+  s.targets = std::vector<world::Vec2>{{6.0, 0.0}};
+  s.obstacles = {world::Disc{{50.0, 50.0}, 1.0}};
+  s.events = {{.action = world::Freeze{0}},
+              {.action = world::Freeze{1}},
+              {.time_s = 2.0, .action = world::MoveObstacle{0, {0.95, 0.0}}}};  // which pushes both aside
+  s.mission.time_limit_s = 5.0;
+  s.radio.model = world::RadioModel::Model::one_way;
+  for (const double share : {0.0, 1.0}) {
+    s.radio.one_way_share = share;
+    const Verdict outcome = watch(s, false);
+    EXPECT_EQ(found(outcome, "unlinked-split"), share == 1.0);
+    EXPECT_EQ(found(outcome, "split"), share == 0.0);
+  }
+}
+
 // A worker that freezes is replaced with reason; it is counted all the same, and nobody promised that it would not be.
 TEST(SoakWatch, AReplacedWorkerIsCountedAlsoWhereItIsHeldUp) {
   Scenario s = world::plain_scenario();

@@ -34,19 +34,16 @@ constexpr double sample_period_s = 2.0;        // above that
 class LivingGraph {
  public:
   void build(const world::World& world) {
-    const auto alive = world.alive();
-    const bool all_alive = std::find(alive.begin(), alive.end(), std::uint8_t{0}) == alive.end();
-    graph.offsets.assign(1, 0);
-    graph.neighbors.clear();
-    for (std::size_t i = 0; i < world.size(); ++i) {
-      if (alive[i] == 0) continue;
-      const auto links = world.links(i);
+    build(world, [this](std::size_t /*i*/, std::span<const std::uint32_t> links) {
       graph.neighbors.insert(graph.neighbors.end(), links.begin(), links.end());
-      graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
-    }
-    if (all_alive) return;
-    number(alive);
-    for (std::uint32_t& j : graph.neighbors) j = number_[j];
+    });
+  }
+  // Over the links of which both ends hear each other.
+  void build_both_ways(const world::World& world) {
+    build(world, [&](std::size_t i, std::span<const std::uint32_t> links) {
+      for (const std::uint32_t j : links)
+        if (!world.is_deaf(i, j) && !world.is_deaf(j, i)) graph.neighbors.push_back(j);
+    });
   }
   // With a link for each pair without a line of sight.
   void build_by_distance(const world::World& world, std::span<const std::pair<std::uint32_t, std::uint32_t>> blocked) {
@@ -74,6 +71,20 @@ class LivingGraph {
   Graph graph;
 
  private:
+  template <class AddLinks> void build(const world::World& world, AddLinks add_links) {
+    const auto alive = world.alive();
+    const bool all_alive = std::find(alive.begin(), alive.end(), std::uint8_t{0}) == alive.end();
+    graph.offsets.assign(1, 0);
+    graph.neighbors.clear();
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      if (alive[i] == 0) continue;
+      add_links(i, world.links(i));
+      graph.offsets.push_back(static_cast<std::uint32_t>(graph.neighbors.size()));
+    }
+    if (all_alive) return;
+    number(alive);
+    for (std::uint32_t& j : graph.neighbors) j = number_[j];
+  }
   void number(std::span<const std::uint8_t> alive) {
     number_.resize(alive.size());
     std::uint32_t next = 0;
@@ -318,6 +329,8 @@ Observer::Impl::Impl(const world::World& world)
   run.liveness_period_s = liveness_period_s(world);
   run.robots = static_cast<std::uint32_t>(world.size());
   run.time_limit_s = world::time_limit_s(world.scenario());
+  graph.build_both_ways(world);
+  run.start_parts = with_occlusion.fiedler.components(graph.graph).count;
   for (const world::Target& target : world.targets()) {
     const double distance_m = distance(world.positions()[target.worker], target.position);
     run.time_bound_s = std::max(run.time_bound_s, (distance_m - tolerance_m) / speed_m_s);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,25 @@ TEST(Observer, CountsAChain) {
   EXPECT_EQ(tick.targets_reached, 0U);
   EXPECT_NEAR(tick.worst_target_distance_m, 3.0, 1e-9);
   EXPECT_EQ(observer.run().broken_ticks, 0U);
+}
+
+// In a row whose robots reach the next one only, each pair of which one never hears the other is the end of a part.
+TEST(Observer, CountsThePartsAtTheStartByLinksInBothDirections) {
+  Scenario s = chain(30, 1.5);
+  EXPECT_EQ(Observer(World(s)).run().start_parts, 1U);
+  s.radio.model = world::RadioModel::Model::one_way;
+  std::set<std::uint32_t> counts;
+  for (s.seed = 1; s.seed <= 5; ++s.seed) {
+    s.radio.one_way_share = 0.3;
+    const World world(s);
+    std::uint32_t parts = 1;
+    for (std::size_t i = 0; i + 1 < 30; ++i) parts += world.is_deaf(i, i + 1) || world.is_deaf(i + 1, i) ? 1 : 0;
+    EXPECT_EQ(Observer(world).run().start_parts, parts);
+    counts.insert(parts);
+    s.radio.one_way_share = 1.0;
+    EXPECT_EQ(Observer(World(s)).run().start_parts, 30U);
+  }
+  EXPECT_GT(counts.size(), 1U);
 }
 
 TEST(Observer, ComputesTheFiedlerValueOfAPath) {

@@ -36,7 +36,10 @@ std::string hexadecimal(std::uint64_t value) {
 // 4: messages, decisions, driven_m.
 // 5: link_redundancy and what was achieved of it; batteries.
 // 6: the targets that are held, and that the oracle can hold.
-constexpr int format_version = 8;
+// 7: deployment_ratio.
+// 8: lost_holders, held_again_s.
+// 9: start_parts.
+constexpr int format_version = 9;
 
 constexpr Column<Row> identifying_table[] = {
     {"name", "the scenario's name", 0, [](const Row& r) -> Cell { return r.id.name; }},
@@ -145,6 +148,8 @@ constexpr Column<Row> result_table[] = {
      [](const Row& r) { return natural(r.run.broken_ticks_after_silence); }, 3},
     {"disconnected_time_ratio_after_silence", "broken_ticks_after_silence / ticks", 6,
      [](const Row& r) -> Cell { return r.run.disconnected_time_ratio_after_silence; }, 3},
+    {"start_parts", "into which the robots fall at the start, over links of which both ends hear each other", 0,
+     [](const Row& r) { return natural(r.run.start_parts); }, 9},
     {"split_ticks", "ticks with several radio components", 0, [](const Row& r) { return natural(r.run.split_ticks); }},
     {"split_ticks_by_distance", "the same without occlusion", 0,
      [](const Row& r) { return natural(r.run.split_ticks_by_distance); }},

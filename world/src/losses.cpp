@@ -34,7 +34,7 @@ Losses::Losses(const Scenario& s)
 bool Losses::lost_without_disc(std::uint64_t receiver, std::uint64_t sender, std::uint64_t moment, double distance_m,
                                double loss) const noexcept {
   if (radio_.model == RadioModel::Model::bursts) return in_burst(receiver, sender, moment, loss);
-  if (radio_.model == RadioModel::Model::one_way && is_deaf(receiver, sender)) return true;
+  if (is_deaf(receiver, sender)) return true;
   if (lost_by_chance(receiver, sender, moment, loss)) return true;
   return radio_.model == RadioModel::Model::path_loss &&
          to_uniform(bits(seed_, Purpose::path_loss, receiver, sender, moment)) >=
@@ -73,7 +73,7 @@ double Losses::shadowing_db(std::uint64_t a, std::uint64_t b, std::uint64_t mome
 }
 
 // For a pair with one deaf direction the draw also decides which one.
-bool Losses::is_deaf(std::uint64_t receiver, std::uint64_t sender) const noexcept {
+bool Losses::is_drawn_deaf(std::uint64_t receiver, std::uint64_t sender) const noexcept {
   const std::uint64_t drawn = bits(seed_, Purpose::one_way, std::min(receiver, sender), std::max(receiver, sender));
   return to_uniform(drawn) < radio_.one_way_share && ((drawn & 1U) != 0) == (receiver < sender);
 }

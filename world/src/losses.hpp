@@ -26,6 +26,10 @@ class Losses {
     if (radio_.model != RadioModel::Model::disc) return lost_without_disc(receiver, sender, moment, norm(way), loss);
     return lost_by_chance(receiver, sender, moment, loss);
   }
+  // The receiver hears nothing that the sender says, however near it is.
+  [[nodiscard]] bool is_deaf(std::uint64_t receiver, std::uint64_t sender) const noexcept {
+    return radio_.model == RadioModel::Model::one_way && is_drawn_deaf(receiver, sender);
+  }
 
  private:
   [[nodiscard]] bool lost_by_chance(std::uint64_t receiver, std::uint64_t sender, std::uint64_t moment,
@@ -39,7 +43,7 @@ class Losses {
   [[nodiscard]] double reception(std::uint64_t a, std::uint64_t b, std::uint64_t moment,
                                  double distance_m) const noexcept;
   [[nodiscard]] double shadowing_db(std::uint64_t a, std::uint64_t b, std::uint64_t moment) const noexcept;
-  [[nodiscard]] bool is_deaf(std::uint64_t receiver, std::uint64_t sender) const noexcept;
+  [[nodiscard]] bool is_drawn_deaf(std::uint64_t receiver, std::uint64_t sender) const noexcept;
 
   std::uint64_t seed_;
   RadioModel radio_;

@@ -138,17 +138,22 @@ std::vector<Vec2> bridge(std::size_t count, const Start& start, double pitch, do
   const std::size_t left = (count - between + 1) / 2;
   const Ground flat({}, 0.0);
   const std::vector<Vec2> cluster = Lattice(Layout::hexagonal, {}, pitch, flat).nearest(left);
-  double edge = 0.0;  // of the row that the bridge continues
-  for (const Vec2 p : cluster)
-    if (p.y == 0.0) edge = std::max(edge, p.x);
+  const auto edge_of = [&](std::size_t robots) {  // of the row that the bridge continues
+    double edge = 0.0;
+    for (std::size_t i = 0; i < robots; ++i)
+      if (cluster[i].y == 0.0) edge = std::max(edge, cluster[i].x);
+    return edge;
+  };
+  const double edge_left = edge_of(left);
+  const double edge_right = edge_of(count - between - left);  // it may lack the robot at the end of that row
   const double half = 0.5 * link * static_cast<double>(between + 1);
   std::vector<Vec2> points;
   points.reserve(count);
   for (std::size_t i = 1; i <= between; ++i)
     points.push_back(start.center + Vec2{link * static_cast<double>(i) - half, 0.0});
   for (std::size_t i = 0; points.size() < count; ++i) {
-    points.push_back(start.center + cluster[i] - Vec2{half + edge, 0.0});
-    if (points.size() < count) points.push_back(start.center - cluster[i] + Vec2{half + edge, 0.0});
+    points.push_back(start.center + cluster[i] - Vec2{half + edge_left, 0.0});
+    if (points.size() < count) points.push_back(start.center - cluster[i] + Vec2{half + edge_right, 0.0});
   }
   std::stable_sort(points.begin(), points.end(),
                    [&](Vec2 a, Vec2 b) { return squared_norm(a - start.center) < squared_norm(b - start.center); });

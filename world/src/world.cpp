@@ -414,6 +414,9 @@ std::size_t World::emptied() const noexcept { return impl_->emptied; }
 std::optional<std::uint64_t> World::last_death_tick() const noexcept { return impl_->last_death; }
 bool World::pending_kills() const noexcept { return impl_->event_queue.deaths_to_come(); }
 std::span<const std::uint32_t> World::links(std::size_t i) const noexcept { return impl_->radio.links(i); }
+bool World::is_deaf(std::size_t receiver, std::size_t sender) const noexcept {
+  return impl_->losses.is_deaf(receiver, sender);
+}
 std::span<const std::uint8_t> World::raised() const noexcept { return impl_->raised; }
 std::vector<std::pair<std::uint32_t, std::uint32_t>> World::blocked() const { return impl_->radio.blocked(); }
 std::uint64_t World::packets_received() const noexcept { return impl_->received; }

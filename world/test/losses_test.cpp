@@ -121,9 +121,19 @@ TEST(Losses, OneWayPairsAreDeafInOneDirectionForGood) {
       const bool back = losses.lost(j, i, 7, {1.0, 0.0}, 0.0);
       EXPECT_FALSE(there && back);
       EXPECT_EQ(there, losses.lost(i, j, 700, {1.9, 0.0}, 0.0));
+      EXPECT_EQ(losses.is_deaf(i, j), there);
+      EXPECT_EQ(losses.is_deaf(j, i), back);
       one_way += there || back;
     }
   EXPECT_NEAR(one_way / 19900.0, 0.25, 0.015);
+}
+
+TEST(Losses, NobodyIsDeafWithOtherRadios) {
+  for (const auto model : {RadioModel::Model::disc, RadioModel::Model::bursts, RadioModel::Model::path_loss}) {
+    Scenario s = with_radio(model);
+    s.radio.one_way_share = 1.0;
+    EXPECT_FALSE(Losses(s).is_deaf(0, 1));
+  }
 }
 
 // The world hands its packets to the model: of those that links carry so many arrive.

@@ -110,6 +110,16 @@ TEST(StartLayout, ABridgeIsTheOnlyWayBetweenItsClusters) {
   }
 }
 
+// Also where the cluster on the right is smaller by the robot at the end of the row that the bridge continues.
+TEST(StartLayout, ABridgeOfAnySizeIsConnected) {
+  for (std::size_t robots = 3; robots <= 120; ++robots)
+    for (std::size_t between = 1; between <= std::min<std::size_t>(6, robots - 2); ++between) {
+      Scenario scenario = laid_out(Layout::bridge, robots);
+      scenario.swarm.start.bridge_robots = between;
+      EXPECT_TRUE(connected_within(place(scenario).position, 1.8 + 1e-9)) << robots << " " << between;
+    }
+}
+
 TEST(StartLayout, ABridgeOfOneKeepsItsClustersApart) {
   Scenario scenario = laid_out(Layout::bridge, 40);
   scenario.swarm.start.bridge_robots = 1;

@@ -74,9 +74,18 @@ bool SightCheck::hidden(std::size_t i, std::size_t j) const noexcept {
                      [&](const Obstacle& o) { return std::visit(cuts, o); });
 }
 
-// Robots in order of x, so that only those within range in x are looked at; sight is asked for only
-// where it could join two components.
 std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_sight) const {
+  return components_over(counts, [&](std::size_t i, std::size_t j) { return !with_sight || !hidden(i, j); });
+}
+
+std::size_t SightCheck::components_both_ways(const std::vector<bool>& counts) const {
+  return components_over(counts,
+                         [&](std::size_t i, std::size_t j) { return !world_.is_deaf(i, j) && !world_.is_deaf(j, i); });
+}
+
+// Robots in order of x, so that only those within range in x are looked at; the pair is asked for only where it could
+// join two components.
+template <class Linked> std::size_t SightCheck::components_over(const std::vector<bool>& counts, Linked linked) const {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < counts.size(); ++i)
     if (counts[i]) order.push_back(i);
@@ -88,7 +97,7 @@ std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_si
     for (std::size_t b = a + 1; b < order.size() && x(order[b]) - x(order[a]) < range_m() + rounding_m; ++b) {
       const std::size_t i = order[a];
       const std::size_t j = order[b];
-      if (parts.top(i) == parts.top(j) || !in_range(i, j) || (with_sight && hidden(i, j))) continue;
+      if (parts.top(i) == parts.top(j) || !in_range(i, j) || !linked(i, j)) continue;
       parts.join(i, j);
       --left;
     }

@@ -20,10 +20,15 @@ class SightCheck {
   [[nodiscard]] bool hidden(std::size_t i, std::size_t j) const noexcept;
   [[nodiscard]] double range_m() const noexcept { return world_.scenario().radio.range_m; }
 
-  // Components of the robots that `counts` marks; over pairs in range, and in sight if `with_sight`.
+  // Components of the robots that `counts` marks, over pairs in range, and in sight if `with_sight`.
   [[nodiscard]] std::size_t components(const std::vector<bool>& counts, bool with_sight) const;
+  // Over pairs in range of which both hear each other (radio.model = "one_way").
+  [[nodiscard]] std::size_t components_both_ways(const std::vector<bool>& counts) const;
 
  private:
+  template <class Linked>
+  [[nodiscard]] std::size_t components_over(const std::vector<bool>& counts, Linked linked) const;
+
   const world::World& world_;
 };
 

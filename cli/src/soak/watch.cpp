@@ -27,6 +27,8 @@ class Watch {
  public:
   explicit Watch(const Scenario& scenario)
       : world_(scenario), sight_(world_), traits_(traits_of(scenario)), limit_s_{time_limit_s(scenario)} {
+    linked_ = scenario.radio.model != RadioModel::Model::one_way ||
+              sight_.components_both_ways(std::vector<bool>(world_.size(), true)) == 1;
     for (const Target& target : world_.targets()) {
       const double way_m = free_path_m(scenario.obstacles, world_.positions()[target.worker], target.position);
       const double drive_s = (way_m - scenario.mission.target_tolerance_m) / scenario.robot.wheel_limit_m_s;
@@ -80,13 +82,16 @@ class Watch {
     }
   }
 
-  // Deaths that leave the living out of range of each other excuse a split until they are reunited.
+  // Deaths that leave the living out of range of each other excuse a split until they are reunited. Where links in one
+  // direction only have kept the network in parts since the start, nobody has torn it.
   void look_for_splits(const std::vector<std::uint8_t>& before) {
     std::vector<bool> living(world_.alive().begin(), world_.alive().end());
     const std::size_t parts = sight_.components(living, false);
     const bool deaths = !std::equal(before.begin(), before.end(), world_.alive().begin());
     if (deaths && parts > 1) excused_ = true;
-    if (parts > 1 && !excused_) find("split", format("the living robots are in %zu parts by distance", parts));
+    linked_ = linked_ || sight_.components_both_ways(living) == 1;
+    if (parts > 1 && !excused_)
+      find(linked_ ? "split" : "unlinked-split", format("the living robots are in %zu parts by distance", parts));
     const bool hides = parts == 1 && world_.line_of_sight();
     if (!hides) hidden_split_ = 0;
     if (parts > 1) return;
@@ -188,6 +193,7 @@ class Watch {
   Traits traits_;
   double limit_s_;
   bool excused_ = false;
+  bool linked_;  // until now at some time, by links of which both ends hear each other
   std::uint64_t hidden_split_ = 0, two_roots_ = 0;
   std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint64_t, std::uint64_t>> hidden_since_;  // first, last
   Verdict outcome_;

@@ -45,6 +45,7 @@ constexpr std::pair<std::string_view, std::string_view> metric_words[] = {
     {"disconnected_time_ratio", "share of time with a broken edge"},
     {"disconnected_time_ratio_by_distance", "share of time with an edge too long"},
     {"disconnected_time_ratio_by_occlusion", "share of time with a hidden edge"},
+    {"start_parts", "parts of the network at the start"},
     {"split_ticks", "ticks with a split network"},
     {"split_ticks_by_distance", "ticks with a split network, occlusion aside"},
     {"fiedler_time_ratio", "share of time with λ₂ < 0.001"},

@@ -91,6 +91,7 @@ struct Run {
   double liveness_period_s = 0.0;                // I
   std::uint64_t broken_ticks_after_silence = 0;  // at least one tree edge broken for longer than I
   double disconnected_time_ratio_after_silence = 0.0;
+  std::uint32_t start_parts = 1;  // components at the start, over links of which both ends hear each other
   std::uint64_t split_ticks = 0;  // communication graph in several components
   std::uint64_t split_ticks_by_distance = 0;
   double fiedler_time_ratio = 0.0;

@@ -93,6 +93,9 @@ class World {
   // with radio.sight_leak, only with bodies in the way that antennas look over. Ascending. Packet loss is not
   // considered.
   [[nodiscard]] std::span<const std::uint32_t> links(std::size_t i) const noexcept;
+  // Whether `receiver` hears nothing of `sender`, however near they are (radio.model = "one_way"). Such a pair is
+  // among links() all the same: packets fly one way.
+  [[nodiscard]] bool is_deaf(std::size_t receiver, std::size_t sender) const noexcept;
   // 1: the robot's antenna looks over bodies (radio.sight_leak). Empty if sight does not leak.
   [[nodiscard]] std::span<const std::uint8_t> raised() const noexcept;
   // Pairs (i < j) in range, both alive, but not linked for want of sight; ascending. Listed anew each time:
