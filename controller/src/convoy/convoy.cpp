@@ -129,7 +129,8 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   const float clearance_m = p.clearance_m;
   if (is_leaving(robot, owner))
     return may_relieve(*robot.power, owner, parent, [&](int k) { return sees_clearly(robot, k, tight * clearance_m); });
-  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || (robot.has_bursts() && !robot.is_sure(parent)))
+  if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || !robot.is_sure(parent) ||
+      robot.may_be_deaf(parent))
     return false;
   const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
   const float room_m = in_the_way ? tight * clearance_m : clearance_m;

@@ -25,7 +25,7 @@ float cost(const HealingRobot& robot, int k, int hops) noexcept {
   const bool another = hops >= 0 && robot.table().id(k) != robot.self.hold;
   if (range > longest_link)
     return 8192.0F + 1024.0F * range + (another ? 10.0F : 0.0F) + static_cast<float>(hops) / unreachable;
-  return (hops == unreachable ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) +
+  return (hops == unreachable || robot.may_be_deaf(k) ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) +
          hop_cost * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
 }
 

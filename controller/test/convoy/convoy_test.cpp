@@ -33,8 +33,10 @@ TEST_F(ConvoyChain, OnlyAnEdgeNearItsLimitCallsSparesFromAfar) {
   EXPECT_TRUE(calls());
 }
 
-// Whether a spare joins the edge from `owner` to `parent` that it is granted, with somebody else about.
-bool joins(Vec2 owner, Vec2 parent, std::optional<Vec2> other = std::nullopt) {
+// Whether a spare joins the edge from `owner` to `parent` that it is granted, with somebody else about. Before and when
+// it is granted, `parent` names these two.
+bool joins(Vec2 owner, Vec2 parent, std::optional<Vec2> other = std::nullopt,
+           std::pair<RobotId, RobotId> named = {1, 1}) {
   ConvoyBench bench = grown<Convoy>();
   auto& above = bench.put(3, parent);
   above.role = Role::connector;
@@ -47,9 +49,11 @@ bool joins(Vec2 owner, Vec2 parent, std::optional<Vec2> other = std::nullopt) {
   below.parent = 3;
   below.need = Need::need;
   if (other) bench.put(4, *other).role = Role::spare;
+  above.count = named.first;
   EXPECT_EQ(bench.step().message.request, 2);
   below.grant = 1;
   below.need = Need::await;
+  above.count = named.second;
   return bench.steps(2).message.parent == 3;
 }
 
@@ -57,6 +61,12 @@ TEST(Convoy, ASpareJoinsWhereItStandsIfItSeesBothEnds) {
   EXPECT_TRUE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}));
   EXPECT_FALSE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, Vec2{0.5F, 0.1F}));
   EXPECT_FALSE(joins({-1.0F, 0.2F}, {1.81F, 0.2F}));
+}
+
+TEST(Convoy, ASpareDoesNotJoinBelowARobotThatMayNotHearIt) {
+  EXPECT_TRUE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, std::nullopt, {4, 9})) << "I would not come between 4 and 9";
+  EXPECT_FALSE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, std::nullopt, {9, 4})) << "but between 9 and 4";
+  EXPECT_TRUE(joins({-1.0F, 0.2F}, {1.0F, 0.2F}, std::nullopt, {9, 1}));
 }
 
 TEST(Convoy, ASpareInTheWayJoinsIfNobodyHidesAnEndFromIt) {

@@ -56,6 +56,21 @@ TEST(Hold, IsOfTheTreeAndItSaysSo) {
   EXPECT_EQ(f.bench.state.hold, 2) << "the strained link is better than none";
 }
 
+// It might leave without knowing of me.
+TEST(Hold, IsRatherOneThatHasNotPassedMeOver) {
+  Follower f;
+  EXPECT_EQ(f.hold(), 2);
+  const auto pass_over = [&](RobotId id) {  // that is called 1, and comes before 7
+    f.bench.say(id).count = 9;
+    f.bench.step();
+    f.bench.say(id).count = 7;
+  };
+  pass_over(2);
+  EXPECT_EQ(f.hold(), 3) << "once is enough where there is another";
+  pass_over(3);
+  EXPECT_EQ(f.hold(), 2) << "better than none";
+}
+
 // A robot that turned to another whenever it came a little nearer would get nowhere.
 TEST(Hold, IsKeptWhileNoOtherIsClearlyBetter) {
   for (const RobotId held : {RobotId{3}, RobotId{4}}) {

@@ -17,8 +17,8 @@
 namespace banyan {
 namespace {
 
-constexpr int never_heard_for = 45;  // ticks, more than it takes until a robot that never named me counts as deaf:
-                                     // one in two messages passes me over
+constexpr int never_heard_for = 5;  // ticks until a robot that never named me counts as deaf: one in two messages
+                                    // passes me over, the second of these tells
 
 // A spare with a label beside robot 2, which is of the tree and names 3 and 4 in turn, or 1, 3 and 4.
 struct Beside {
@@ -134,7 +134,7 @@ TEST(Mutual, WhoHasHeardMeMayBeDeafForLonger) {
   f.named = {3, 4};
   f.steps(200);
   EXPECT_FALSE(f.is_deaf());
-  f.steps(never_heard_for);
+  f.steps(50);
   EXPECT_TRUE(f.is_deaf());
 }
 

@@ -152,6 +152,11 @@ struct TreeRobot {
   [[nodiscard]] bool is_deaf(int k) const noexcept {
     return table().deaf_ticks[static_cast<std::size_t>(k)] > deaf_after_ticks;
   }
+  // It has passed me over since it last named me, or since it became my neighbour: it may not hear me.
+  [[nodiscard]] bool may_be_deaf(int k) const noexcept {
+    const int ticks = table().deaf_ticks[static_cast<std::size_t>(k)];
+    return ticks != 0 && ticks != never_heard_ticks;
+  }
   // We hear each other, as far as I know: only such a neighbour can be a parent or a hold.
   [[nodiscard]] bool is_linked(int k) const noexcept { return table().alive(k) && !is_deaf(k); }
   // Packets get lost many in a row (healing/loss.cpp).

@@ -16,7 +16,7 @@ namespace banyan {
 // A neighbour deaf for longer does not hear me. One that has heard me may be deaf to me for a while because packets get
 // lost; one that never has counts from the second number.
 inline constexpr std::uint8_t deaf_after_ticks = 120;
-inline constexpr std::uint8_t never_heard_ticks = 100;
+inline constexpr std::uint8_t never_heard_ticks = 119;
 
 struct TreeTable : Neighbors {
   Rows members;  // of the tree: no spares
