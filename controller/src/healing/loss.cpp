@@ -56,12 +56,15 @@ void note_burst(HealingRobot& robot) noexcept {
   constexpr int fading_turns = 16;  // to be a tick shorter
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
-  if (robot.params.line_of_sight) return;  // an obstacle that no sensor reaches may have hidden it
   for (const Heard& h : robot.heard)
     if (const int known = std::min<int>(burst_of(*h.message), longest_silence_ticks); known > self.burst_ticks)
       self.burst_ticks = static_cast<std::uint8_t>(known);
   if (self.burst_ticks > 0 && self.turn % fading_turns == 0) --self.burst_ticks;
-  if (table.size() == neighbor_capacity) self.watched = nobody;  // it may only have had no room
+  // With line of sight a dead body, or an obstacle that no sensor reaches, may have hidden it. A thin start has few
+  // bodies, and each link counts: there the first burst is noted, and then everywhere.
+  const bool may_be_hidden = robot.params.line_of_sight && self.neighbors_at_start == 0 && self.burst_ticks == 0;
+  // In a full table it may only have had no room.
+  if (may_be_hidden || table.size() == neighbor_capacity) self.watched = nobody;
   if (self.watched != nobody) {
     const int ticks = std::min(self.watched_ticks + robot.elapsed_ticks, longest_silence_ticks + 1);
     self.watched_ticks = static_cast<std::uint8_t>(ticks);
@@ -74,7 +77,7 @@ void note_burst(HealingRobot& robot) noexcept {
     if (back || self.watched_ticks > longest_silence_ticks) self.watched = nobody;
   }
   // One that has missed nothing (note_silence) need not look again.
-  if (self.watched != nobody || (self.usual_silence == 0 && self.missed_in_the_clear == 0)) return;
+  if (may_be_hidden || self.watched != nobody || (self.usual_silence == 0 && self.missed_in_the_clear == 0)) return;
   const int k = missed(robot);
   if (k < 0) return;
   self.watched = table.id(k);
