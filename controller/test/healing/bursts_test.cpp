@@ -94,10 +94,11 @@ RC_GTEST_PROP(Bursts, WhoHearsNothingGoesNoFartherFromWhereItHeardTheOther, ()) 
 }
 
 // The burst that a robot notes when a neighbour comes back after so many ticks.
-int noted_after(int ticks, Vec2 at, bool line_of_sight, int neighbors_at_start = 0) {
+int noted_after(int ticks, Vec2 at, bool line_of_sight, int neighbors_at_start = 0, int usual_ticks = 0) {
   ConvoyBench bench = grown<Convoy>();
   bench.params.line_of_sight = line_of_sight;
   bench.state.neighbors_at_start = static_cast<std::uint8_t>(neighbors_at_start);
+  bench.state.usual_silence = static_cast<std::uint8_t>(usual_ticks);
   bench.put(20, at);
   bench.steps(5);
   const auto said = bench.say(20);
@@ -116,10 +117,15 @@ TEST(Bursts, ASilenceBeyondWhatChanceExplainsIsOne) {
   EXPECT_EQ(noted_after(120, {1.0F, 0.0F}, false), 0) << "too long ago to be watched";
 }
 
-// A thin start has few bodies. What is known by hearsay is known elsewhere, too, and then watched for everywhere.
-TEST(Bursts, WithLineOfSightTheFirstIsNotedInAThinStart) {
+// A thin start has few bodies, and what hides a robot seldom hides it for long.
+TEST(Bursts, WithLineOfSightTheFirstIsNotedInAThinStartOrAfterLongSilences) {
   EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 2), 30, 2);
   EXPECT_EQ(noted_after(8, {1.0F, 0.0F}, true, 2), 0) << "less than 2 I";
+  EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true, 0, 40), 0);
+  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 0, 80), 30, 2) << "long silences are usual";
+}
+
+TEST(Bursts, WithLineOfSightOneThatOthersKnowOfMakesARobotWatch) {
   ConvoyBench bench = grown<Convoy>();
   bench.params.line_of_sight = true;
   bench.put(20, {1.0F, 0.0F});
