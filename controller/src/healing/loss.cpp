@@ -10,6 +10,8 @@ namespace {
 constexpr float fading = 0.99F;        // per tick: about the last hundred ticks count
 constexpr float prior_packets = 2.0F;  // counted as heard before the first one
 constexpr float silent_by_chance = 1e-5F;
+constexpr int first_silence_ticks = 32;  // usual silence, assumed once the radio loses packets
+constexpr int beyond_chance = 2;         // a burst: times as long as a silence by chance
 
 // So long a living neighbour may be silent by chance.
 int by_chance_ticks(const HealingRobot& robot) noexcept {
@@ -35,9 +37,8 @@ int missed(const HealingRobot& robot) noexcept {
 // a robot that is there may be silent, but silences that have ended do. One or two that begin may be deaths.
 void note_silence(HealingRobot& robot) noexcept {
   constexpr int memory_turns = 512;
-  constexpr int deaths = 2;                // within this time, that are no sign of lost packets
-  constexpr int first_silence_ticks = 32;  // assumed once the radio loses packets
-  constexpr int fading_turns = 16;         // to be a tick shorter
+  constexpr int deaths = 2;         // within this time, that are no sign of lost packets
+  constexpr int fading_turns = 16;  // to be a tick shorter
   HealingState& self = robot.self;
   if (self.turn % memory_turns == 0) self.missed_in_the_clear = 0;
   if (self.usual_silence == 0) {
@@ -49,19 +50,28 @@ void note_silence(HealingRobot& robot) noexcept {
   else if (self.turn % fading_turns == 0) --self.usual_silence;
 }
 
+// With line of sight, who falls silent in the clear may have been hidden by a dead body, or by an obstacle that no
+// sensor reaches. That is less likely in a thin start, where bodies are few, once a burst is known, and where long
+// silences are usual.
+bool may_be_hidden(const HealingRobot& robot) noexcept {
+  const HealingState& self = robot.self;
+  return robot.params.line_of_sight && self.neighbors_at_start == 0 && self.burst_ticks == 0 &&
+         self.usual_silence <= first_silence_ticks + beyond_chance * by_chance_ticks(robot);
+}
+
 // A neighbour comes back after a silence that lost packets alone do not explain: they get lost many in a row. Every
 // robot watches one silent neighbour at a time, and passes on the longest such silence that it knows of.
 void note_burst(HealingRobot& robot) noexcept {
-  constexpr int beyond_chance = 2;  // times as long as a silence by chance
   constexpr int fading_turns = 16;  // to be a tick shorter
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
-  if (robot.params.line_of_sight) return;  // an obstacle that no sensor reaches may have hidden it
   for (const Heard& h : robot.heard)
     if (const int known = std::min<int>(burst_of(*h.message), longest_silence_ticks); known > self.burst_ticks)
       self.burst_ticks = static_cast<std::uint8_t>(known);
   if (self.burst_ticks > 0 && self.turn % fading_turns == 0) --self.burst_ticks;
-  if (table.size() == neighbor_capacity) self.watched = nobody;  // it may only have had no room
+  const bool hidden = may_be_hidden(robot);
+  // In a full table it may only have had no room.
+  if (hidden || table.size() == neighbor_capacity) self.watched = nobody;
   if (self.watched != nobody) {
     const int ticks = std::min(self.watched_ticks + robot.elapsed_ticks, longest_silence_ticks + 1);
     self.watched_ticks = static_cast<std::uint8_t>(ticks);
@@ -74,7 +84,7 @@ void note_burst(HealingRobot& robot) noexcept {
     if (back || self.watched_ticks > longest_silence_ticks) self.watched = nobody;
   }
   // One that has missed nothing (note_silence) need not look again.
-  if (self.watched != nobody || (self.usual_silence == 0 && self.missed_in_the_clear == 0)) return;
+  if (hidden || self.watched != nobody || (self.usual_silence == 0 && self.missed_in_the_clear == 0)) return;
   const int k = missed(robot);
   if (k < 0) return;
   self.watched = table.id(k);

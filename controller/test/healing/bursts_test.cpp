@@ -94,9 +94,11 @@ RC_GTEST_PROP(Bursts, WhoHearsNothingGoesNoFartherFromWhereItHeardTheOther, ()) 
 }
 
 // The burst that a robot notes when a neighbour comes back after so many ticks.
-int noted_after(int ticks, Vec2 at, bool line_of_sight) {
+int noted_after(int ticks, Vec2 at, bool line_of_sight, int neighbors_at_start = 0, int usual_ticks = 0) {
   ConvoyBench bench = grown<Convoy>();
   bench.params.line_of_sight = line_of_sight;
+  bench.state.neighbors_at_start = static_cast<std::uint8_t>(neighbors_at_start);
+  bench.state.usual_silence = static_cast<std::uint8_t>(usual_ticks);
   bench.put(20, at);
   bench.steps(5);
   const auto said = bench.say(20);
@@ -113,6 +115,29 @@ TEST(Bursts, ASilenceBeyondWhatChanceExplainsIsOne) {
   EXPECT_EQ(noted_after(30, {1.95F, 0.0F}, false), 0) << "it may have been out of range";
   EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true), 0) << "something may have hidden it";
   EXPECT_EQ(noted_after(120, {1.0F, 0.0F}, false), 0) << "too long ago to be watched";
+}
+
+// A thin start has few bodies, and what hides a robot seldom hides it for long.
+TEST(Bursts, WithLineOfSightTheFirstIsNotedInAThinStartOrAfterLongSilences) {
+  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 2), 30, 2);
+  EXPECT_EQ(noted_after(8, {1.0F, 0.0F}, true, 2), 0) << "less than 2 I";
+  EXPECT_EQ(noted_after(30, {1.0F, 0.0F}, true, 0, 40), 0);
+  EXPECT_NEAR(noted_after(30, {1.0F, 0.0F}, true, 0, 80), 30, 2) << "long silences are usual";
+}
+
+TEST(Bursts, WithLineOfSightOneThatOthersKnowOfMakesARobotWatch) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.params.line_of_sight = true;
+  bench.put(20, {1.0F, 0.0F});
+  bench.put(21, {-1.0F, 0.0F}).centroid_x_cm = 20;
+  bench.steps(5);
+  EXPECT_NEAR(bench.state.burst_ticks, 20, 1) << "told by another";
+  const auto said = bench.say(20);
+  bench.silence(20);
+  bench.steps(60);
+  bench.put(20, {1.0F, 0.0F}) = said;
+  bench.step();
+  EXPECT_NEAR(bench.state.burst_ticks, 60, 2);
 }
 
 // However many packets get lost: silences by chance are none.
