@@ -9,6 +9,7 @@
 #include "banyan/controller/core/edge_frame.hpp"
 #include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tie.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
@@ -35,6 +36,7 @@ constexpr float up_width_m = 0.20F;
 constexpr float tows_sooner = 4.0F;        // times the spread of ranges
 constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
 constexpr int slack_reach_hops = 8;
+constexpr int silent_ticks = 2;  // whoever has been silent for longer is out of sight
 
 // Somewhere near, an edge waits in vain for a spare.
 bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }
@@ -266,7 +268,6 @@ Vec2 compaction(const ConvoyRobot& robot) noexcept {
 // Among obstacles a tree neighbour that falls silent has gone behind one: the child drives back to where it last
 // heard its parent, and the parent waits meanwhile.
 bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
-  constexpr int silent_ticks = 2;
   const TreeTable& table = robot.table();
   if (!robot.params.line_of_sight || robot.self.corners.landmarks.size == 0) return false;
   if (up >= 0 && table.alive(up) && table.age(up) >= silent_ticks) return true;
@@ -296,6 +297,15 @@ bool holds_still(const ConvoyRobot& robot) noexcept {
   return true;
 }
 
+// In a thin start with line of sight, a robot without a parent has lost sight of the one that ties it to the others:
+// that one; -1 if there is none.
+int lost_hold(const ConvoyRobot& robot) noexcept {
+  if (const int k = missed_tie(robot); k >= 0) return k;
+  const bool unseen = robot.hidden_ticks > 0 && robot.hold >= 0 &&
+                      robot.table().age(robot.hold) > std::max(silent_ticks, usual_silence_ticks(robot));
+  return unseen ? robot.hold : -1;
+}
+
 // A worker without a parent goes as far as its hold allows, which draws it back in proportion to the distance: turning
 // back at a fixed distance would oscillate for ever. While it hears no neighbour it only turns on the spot.
 Vec2 before_tree(const ConvoyRobot& robot) noexcept {
@@ -304,6 +314,10 @@ Vec2 before_tree(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   if (robot.self.phase >= Phase::grow_tree || !robot.self.is_worker) return repulsion(robot);
   if (robot.table().size() == 0) return robot.self.pull * turning;
+  if (const int k = lost_hold(robot); k >= 0) {
+    Detour back;  // the way to its target leads round the other side
+    return bypass(robot, back, robot.table().position(k));
+  }
   const Vec2 on = pull_past_obstacles(robot) + repulsion(robot);
   if (robot.hold < 0) return on;
   const float c = p.communication_range_m;

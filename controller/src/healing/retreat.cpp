@@ -3,6 +3,7 @@
 
 #include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
+#include "banyan/controller/healing/tie.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/tree/motion.hpp"
 
@@ -89,6 +90,7 @@ bool is_retreating(const HealingRobot& robot, bool regroups) noexcept {
   const HealingState& self = robot.self;
   if (!robot.params.heals() || !self.root_known) return false;
   if (robot.is_root()) return is_alone(robot);
+  if (!regroups && missed_tie(robot) >= 0) return false;  // it is behind something near by
   return self.orphan_ticks > lost_ticks || is_cut_off(robot) || regroups || seeks_parent(robot);
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "banyan/controller/core/search.hpp"
+
 namespace banyan {
 
 bool is_in_the_clear(const HealingRobot& robot, int k) noexcept {
@@ -29,11 +31,22 @@ bool may_depend(const HealingRobot& robot, int k) noexcept {
 
 bool may_be_tied(const HealingRobot& robot, int k) noexcept {
   const int longest_ticks = std::max(longest_silence_ticks, robot.loss_ticks);
-  return robot.tie_ticks > 0 && robot.table().age(k) <= longest_ticks && may_depend(robot, k);
+  return robot.tie_ticks + robot.hidden_ticks > 0 && robot.table().age(k) <= longest_ticks && may_depend(robot, k);
 }
 
 bool is_tie(const HealingRobot& robot, int k) noexcept {
-  return robot.table().age(k) <= robot.tie_ticks && may_depend(robot, k) && is_in_the_clear(robot, k);
+  const int age = robot.table().age(k);
+  if (age > std::max(robot.tie_ticks, robot.hidden_ticks) || !may_depend(robot, k)) return false;
+  return age <= robot.hidden_ticks || is_in_the_clear(robot, k);
+}
+
+int missed_tie(const HealingRobot& robot) noexcept {
+  if (robot.hidden_ticks == 0) return -1;
+  const TreeTable& table = robot.table();
+  return least_of(table.size(), not_counted, [&](int k) {
+    const bool missed = !table.alive(k) && table.age(k) <= robot.hidden_ticks;
+    return missed && (k == robot.up() || may_depend(robot, k)) ? table.range(k) : not_counted;
+  });
 }
 
 float strayed_m(const HealingRobot& robot, int k) noexcept {

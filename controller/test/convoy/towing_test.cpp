@@ -172,5 +172,35 @@ TEST(Convoy, ACalledSpareKeepsUpWithTheTree) {
   EXPECT_GT(towards_tree(), 0.5F);
 }
 
+// Its target is ahead, its hold behind it.
+TEST(Convoy, InAThinStartAWorkerThatLosesSightOfItsHoldGoesBackToIt) {
+  const auto goes = [](int neighbors_at_start, int silent_ticks) {
+    ConvoyBench bench;
+    bench.state.turn = 200;
+    bench.state.neighbors_at_start = static_cast<std::uint8_t>(neighbors_at_start);
+    bench.state.epoch = 1;
+    bench.state.phase = Phase::start_tree;
+    bench.state.is_worker = true;
+    bench.state.role = Role::worker;
+    bench.state.pull = {1.0F, 0.0F};
+    bench.send({5.0F, 0.0F});
+    bench.put(2, {-1.0F, 0.0F});
+    bench.put(3, {0.0F, 1.0F}).parent = 9;
+    bench.state.hold = 2;
+    bench.tick();
+    bench.silence(2);
+    for (int k = 1; k < silent_ticks; ++k) bench.tick();
+    auto robot = bench.tick();
+    const int k = robot.table().find(2);
+    robot.hold = k >= 0 && robot.table().alive(k) ? k : -1;
+    return towed_motion(robot).x;
+  };
+  EXPECT_GT(goes(2, 2), 0.5F) << "a packet may get lost";
+  EXPECT_LT(goes(2, 3), -0.5F);
+  EXPECT_LT(goes(2, 100), -0.5F);
+  EXPECT_GT(goes(2, 101), 0.5F) << "it has gone";
+  EXPECT_GT(goes(0, 3), 0.5F) << "in a crowd there are others";
+}
+
 }  // namespace
 }  // namespace banyan

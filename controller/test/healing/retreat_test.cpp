@@ -13,6 +13,7 @@ namespace {
 
 TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
   Watch watch({1.95F, 0.0F});
+  watch.bench.state.turn = 200;  // no thin start
   watch.hear_root(200);
   watch.bench.state.root_at = {6.0F, 0.0F};
   watch.bench.silence(root_id);
@@ -30,8 +31,10 @@ TEST(Retreat, WhoHearsOfNoRootDrivesToWhereItWas) {
 
 // Where packets get lost silence says less, and least before the first tree.
 TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
-  const auto ticks_until = [](std::uint8_t usual_silence, Phase phase, bool thin_start = false) {
+  const auto ticks_until = [](std::uint8_t usual_silence, Phase phase, bool thin_start = false,
+                              bool line_of_sight = false) {
     Watch watch({1.95F, 0.0F});
+    watch.bench.params.line_of_sight = line_of_sight;
     watch.bench.state.turn = 200;  // so that it does not look now whether its start is thin
     watch.bench.state.neighbors_at_start = thin_start ? 2 : 0;
     watch.hear_root(50);
@@ -56,6 +59,8 @@ TEST(Retreat, ThePatienceFollowsTheSilencesThatAreUsual) {
             ticks + 2 * 100 - 2 * convoy_defaults().ticks(convoy_defaults().liveness_period_s));
   EXPECT_EQ(ticks_until(0, Phase::grow_tree, true), ticks);
   EXPECT_EQ(ticks_until(30, Phase::grow_tree, true), ticks_until(30, Phase::start_tree));
+  EXPECT_EQ(ticks_until(0, Phase::grow_tree, false, true), ticks);
+  EXPECT_EQ(ticks_until(0, Phase::grow_tree, true, true), 100) << "its parent may only be hidden";
 }
 
 // With more targets than a robot remembers the straight way to the root may lead past the rest of the tree.
@@ -102,6 +107,7 @@ TEST(Retreat, WithManyTargetsAnOrphanFirstSeeksThePlaceOfItsParent) {
 
 TEST(Retreat, TheSilentHoldNobodyBack) {
   Watch watch({-1.95F, 0.0F});
+  watch.bench.state.turn = 200;  // no thin start
   watch.hear_root(3);
   auto& state = watch.bench.state;
   state.parent = root_id;
