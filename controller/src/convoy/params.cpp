@@ -67,7 +67,7 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
       "0 where targets drive: a plan is for targets that stay.", "convoy 11", 0.0F, 600.0F},
      &ConvoyParams::plan_after_s},
     {{"shed_after_s", "", "s",
-      "convoy: if spares are missed and no worker gets on for so long, the swarm gives a target up; 0: never",
+      "convoy: if edges lack spares and no worker makes progress for this long, the swarm gives a target up; 0: never",
       "Above the time in which robots come from far away; smaller gives targets up that might be reached.", "convoy 15",
       0.0F, 600.0F},
      &ConvoyParams::shed_after_s},
