@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What can be kept of a run: one table of formats. The keys of [output], the options of `banyan run`, its
-// summary and what a study keeps follow from it. A further format is a file in record/src/outputs/ and a line.
+// summary and what a study keeps follow from it. A further format is a file in record/src/outputs/ and three
+// lines: its function and its row here, and its name in record/CMakeLists.txt.
 #pragma once
 
 #include <array>

@@ -4,7 +4,8 @@
 //
 // The one rule for silence: a robot that has heard nothing of a counter for half its range of ticks cannot
 // tell old from new any more, and takes anything it hears as newer (`is_news`). Epochs and root tokens need no such
-// rule: they advance at most once in R, so half their range lasts for hours (9 with R = 1 s); is_newer() does for them.
+// rule, since they do not count ticks; is_newer() does for them. Epochs advance once in R and at elections, so half
+// their range lasts for hours (9 with R = 1 s). Tokens advance by 1 or 2 when the root changes or an offer expires.
 #pragma once
 
 #include <cstdint>
