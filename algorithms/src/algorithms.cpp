@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one list. An algorithm is a line here and a folder of its own.
+// The one list. An algorithm is a folder of its own, and here its include and its entry.
 #include "banyan/algorithms/algorithms.hpp"
 
 #include "banyan/rivals/branches/branches.hpp"

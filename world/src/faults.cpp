@@ -151,6 +151,14 @@ std::string target_key(const Scenario& scenario, std::size_t i) {
   return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions_m", i) : "targets";
 }
 
+// The algorithms that know mission.link_redundancy, as the end of a sentence.
+std::string that_keep_more(const AlgorithmList& algorithms) {
+  std::string names;
+  for (const std::string_view name : algorithms.names())
+    if (algorithms.find(name)->knows_redundancy()) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names.empty() ? "" : "; of those here, more are kept by " + names;
+}
+
 void check_platform(FaultList& list, const Scenario& scenario) {
   const double reach = scenario.robot.wheel_limit_m_s * scenario.tick_s;
   if (!scenario.obstacles.empty() && reach >= scenario.robot.radius_m)
@@ -168,7 +176,8 @@ void check_platform(FaultList& list, const Scenario& scenario) {
     list.fail("mission.parameters", text);
   if (scenario.mission.link_redundancy > 1 && !algorithm_of(scenario).knows_redundancy())
     list.fail("mission.link_redundancy", "is " + std::to_string(scenario.mission.link_redundancy) + ", but " +
-                                             scenario.mission.algorithm + " keeps one path; convoy keeps more");
+                                             scenario.mission.algorithm + " keeps one path" +
+                                             that_keep_more(*scenario.algorithms));
 }
 
 // Visits every pair nearer than `reach` once, by a sweep along x, until `visit` returns false.

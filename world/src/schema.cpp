@@ -155,7 +155,7 @@ constexpr Key<Scenario> scenario_rows[] = {
      "with stop_when_complete: go on this long after completion, so that the tree can settle"},
     {"mission.link_redundancy", of<&Mission::link_redundancy>, "", {1.0, 3.0},
      "k: paths between any two targets that share no other robot, so that any k - 1 robots can die at once; above 1 "
-     "with convoy only"},
+     "only with an algorithm that has rules for it, as convoy has"},
 
     {"swarm.robots", of<&SwarmModel::robots>, "", robots_of_swarm, "number of robots",
      {.otherwise = "from redundancy, or the length of start.positions_m"}},

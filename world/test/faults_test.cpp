@@ -48,6 +48,8 @@ const std::vector<Case>& cases() {
       {"mission.target_tolerance_m", "-1", [](Scenario& s) { s.mission.target_tolerance_m = -1; }},
       {"mission.time_limit_s", "inf", [](Scenario& s) { s.mission.time_limit_s = infinity; }},
       {"mission.settle_s", "-1", [](Scenario& s) { s.mission.settle_s = -1; }},
+      {"mission.link_redundancy", "is 2, but inwards keeps one path; of those here, more are kept by convoy",
+       [](Scenario& s) { s.mission.algorithm = "inwards", s.mission.link_redundancy = 2; }},
       {"mission.time_limit_s", "must be given",
        [](Scenario& s) {
          s.swarm.robots = 9, s.targets = RingTargets{3, 0.0, 0, {}};

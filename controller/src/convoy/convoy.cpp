@@ -13,7 +13,6 @@
 #include "banyan/controller/healing/link_guard.hpp"
 #include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/healing/tie.hpp"
-#include "banyan/controller/inwards.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
 #include "banyan/controller/tree/census.hpp"
 #include "banyan/controller/tree/label.hpp"
@@ -189,14 +188,20 @@ void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
 
 }  // namespace
 
+// What a robot may have on a chip (docs/limits.md).
+static_assert(sizeof(RobotId) != 2 || sizeof(ConvoyState) <= 9728);
+
 ConvoyParams convoy_defaults() noexcept {
   ConvoyParams p;
-  static_cast<HealingParams&>(p) = inwards_defaults();
   p.ideal_distance_m = 1.90F;        // G: no edge outgrows it
   p.safe_range_m = 1.80F;            // the root and junctions are towed only beyond it
   p.recruitment_distance_m = 1.65F;  // a longer edge asks for a spare
   p.avoidance_range_m = 0.36F;
+  p.interaction_gain = 10.0F;
   p.target_gain = 1.0F;
+  p.reconfiguration_period_s = 44.0F;
+  p.liveness_period_s = 0.5F;
+  p.insertion_distance_m = 0.066395F;
   p.guard_rate_per_s = 2.0F;
   p.connector_patience_s = 1.0F;
   return p;

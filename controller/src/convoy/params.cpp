@@ -67,7 +67,7 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
       "0 where targets drive: a plan is for targets that stay.", "convoy 11", 0.0F, 600.0F},
      &ConvoyParams::plan_after_s},
     {{"shed_after_s", "", "s",
-      "convoy: if spares are missed and no worker gets on for so long, the swarm gives a target up; 0: never",
+      "convoy: if edges lack spares and no worker makes progress for this long, the swarm gives a target up; 0: never",
       "Above the time in which robots come from far away; smaller gives targets up that might be reached.", "convoy 15",
       0.0F, 600.0F},
      &ConvoyParams::shed_after_s},
@@ -96,6 +96,14 @@ std::string_view convoy_fault(const ConvoyParams& params) noexcept {
   if (const std::string_view text = power_fault(params); !text.empty()) return text;
   if (!(params.join_margin_m < params.ideal_distance_m))
     return "join_margin must be below ideal_distance_m (delta) / C";
+  if (!(params.compact_distance_m < params.ideal_distance_m))
+    return "compact_distance must be below ideal_distance_m (delta) / C";
+  if (!(params.merge_distance_m <= params.ideal_distance_m))
+    return "merge_distance must not exceed ideal_distance_m (delta) / C";
+  if (!(params.release_distance_m <= params.ideal_distance_m))
+    return "release_distance must not exceed ideal_distance_m (delta) / C";
+  if (!(params.shortest_split_m < params.ideal_distance_m))
+    return "shortest_split must be below ideal_distance_m (delta) / C, else no edge is long enough to be split";
   return {};
 }
 

@@ -310,7 +310,7 @@ void take_part_in_plan(ConvoyRobot& robot) noexcept {
   bool planned = false;
   for (int k = 0; k < self.task_count; ++k) {
     Task& task = self.tasks[k];
-    if (is_put_off(task)) self.hosts[k] = nobody;  // whoever takes it when it is tried again has heard of this before
+    if (is_put_off(task)) self.hosts[k] = nobody;  // before it is tried again all have heard
     if (self.hosts[k] != task.serves) planned = planned || self.hosts[k] != nobody;
     else if (self.is_worker && self.serves == task.serves) resign(robot), put_off(robot, task);
   }

@@ -464,7 +464,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   // On batteries spares travel all the time: one that a reconstruction has stopped between two robots gets out of
   // there.
   if (holds_still(robot)) return robot.power != nullptr ? make_way(robot, p.clearance_m) : Vec2{};
-  // Whoever is charged makes room at the place, and whoever needs it drives through the crowd: the others step aside.
+  // A charged robot makes room at the place. One that needs it drives through the crowd: the others step aside.
   if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away))
     return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
   if (robot.power != nullptr && is_at_place(*robot.power))

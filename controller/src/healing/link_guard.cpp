@@ -11,8 +11,8 @@ namespace banyan {
 namespace {
 
 // No longer than that, less by how far neighbour k may be from where it was measured. Where packets get lost many in a
-// row it may come back from there, and whoever does not hear it need not drive to it, only stay. But far away it may be
-// silent because the signal has faded: up to where that is rare it comes nearer.
+// row it may come back from there, and a robot that does not hear it need not drive to it, only stay. But far away it
+// may be silent because the signal has faded: up to where that is rare it comes nearer.
 void guard_link(const HealingRobot& robot, int k, float longest_m, Guard& guard) noexcept {
   constexpr float near = 0.77F;  // of C
   const TreeTable& table = robot.table();

@@ -87,7 +87,7 @@ bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
   constexpr int end_ticks = 150;  // so long the end of a thin start stays
   constexpr int few = 4;
   constexpr float apart = 0.4F;       // of C: so few in a crowd are nearer
-  constexpr float stretched = 0.72F;  // of C: the nearer to whoever may be beyond this end
+  constexpr float stretched = 0.72F;  // of C: nearer to a robot that may be beyond this end
   HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   const float c = robot.params.communication_range_m;

@@ -41,7 +41,9 @@ constexpr Parameter<HealingParams> of_healing[] = {
       "Shorter where spares are at hand; longer where workers are often held up.", "protocol 12", 1.0F, 300.0F},
      &HealingParams::give_up_after_s},
     {{"regroup_after_s", "", "s",
-      "convoy: a worker that waits this long in vain for a spare drives home and sets out anew",
+      "healing: a robot that hears no other for this long looks for the others; in convoy, a worker that waits this "
+      "long "
+      "in vain for a spare drives home and sets out anew",
       "Longer where spares have far to come; shorter gives up branches that would have been reached.", "protocol 12",
       1.0F, 600.0F},
      &HealingParams::regroup_after_s},
@@ -50,5 +52,13 @@ constexpr Parameter<HealingParams> of_healing[] = {
 }  // namespace
 
 std::span<const Parameter<HealingParams>> healing_parameters() noexcept { return of_healing; }
+
+std::string_view healing_fault(const HealingParams& params) noexcept {
+  if (!(params.parent_margin_m < params.ideal_distance_m))
+    return "parent_margin_m must be below ideal_distance_m (delta), else no robot is near enough to be a parent";
+  if (!(2.0F * params.claim_radius_m < params.communication_range_m))
+    return "claim_radius must be below 0.5 C, else two robots that do not hear each other could become root";
+  return {};
+}
 
 }  // namespace banyan

@@ -23,7 +23,7 @@ constexpr int waits_within = 2;         // hops of a place: there charged spares
 constexpr float leaves_sooner = 0.35F;  // of a full battery, at most
 constexpr std::uint8_t calls_end = 60;  // hops
 constexpr int turns = 16;
-constexpr float urgent_level = 0.5F;  // whoever has less is let through to the place
+constexpr float urgent_level = 0.5F;  // a robot with less is let through to the place
 constexpr float place_room = 0.4F;    // of C: kept free round it by those that are charged
 
 void measure_charge(PowerRobot& me, const Senses& senses) noexcept {
@@ -122,8 +122,8 @@ int way_to_place(const PowerRobot& me) noexcept {
   return best;
 }
 
-// Bodies hide the robots ahead again and again. Whoever turned to another one each time would get nowhere: it drives to
-// where the robot was that it has chosen, until it is there or hears one that is nearer to the place.
+// Bodies hide the robots ahead again and again. A robot that turned to another one each time would get nowhere. So it
+// drives to where the one that it has chosen was, until it is there or hears one that is nearer to the place.
 void choose_way(PowerRobot& me) noexcept {
   constexpr float reached = 0.18F;  // of C
   constexpr float patience_s = 10.0F;

@@ -17,7 +17,7 @@ bool changes_places(const PowerRobot& me, int k) noexcept {
 
 float give_way(const PowerRobot& me, float clearance_m, Guard& guard) noexcept {
   constexpr float slow = 0.25F;
-  constexpr float room = 1.5F;        // times the clearance: whoever is nearer to an edge hurries
+  constexpr float room = 1.5F;        // times the clearance: a robot nearer to an edge hurries
   constexpr float hides_m = 0.07F;    // from body to line of sight
   constexpr float to_pass_m = 0.10F;  // for those that take part
   constexpr float to_move_m = 0.18F;  // for others, since robots that change places move

@@ -89,8 +89,8 @@ void remember_unseen_child(PowerRobot& me) noexcept {
   me.robot.add_elapsed(power.unseen_ticks);
 }
 
-// Whoever stands right above a robot that leaves, and has more charge, takes its place, however it came there: a spare
-// that joined for it, or the robot that happens to be there. Nothing has to be remembered over a reconstruction.
+// A robot right above one that leaves, and with more charge, takes its place, however it came there: a spare that
+// joined for it, or a robot that happens to be there. Nothing has to be remembered over a reconstruction.
 void choose_relieved(PowerRobot& me) noexcept {
   constexpr float kept_within = 1.5F;  // times relief_reach
   const HealingRobot& robot = me.robot;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "banyan/controller/convoy/convoy.hpp"
 
 namespace banyan {
@@ -16,6 +18,27 @@ TEST(ConvoyParams, EdgesPullBeforeTheyAreAsLongAsTheyMayBe) {
   p = convoy_defaults();
   p.join_margin_m = 0.95F * p.communication_range_m;
   EXPECT_NE(convoy_fault(p).find("join_margin"), std::string_view::npos);
+}
+
+TEST(ConvoyParams, NoEdgeIsBroughtToALengthBeyondDelta) {
+  const auto fault = [](float ConvoyParams::*length) {
+    ConvoyParams p = convoy_defaults();
+    p.*length = p.communication_range_m;
+    return std::string(convoy_fault(p));
+  };
+  EXPECT_TRUE(fault(&ConvoyParams::compact_distance_m).starts_with("compact_distance"));
+  EXPECT_TRUE(fault(&ConvoyParams::merge_distance_m).starts_with("merge_distance"));
+  EXPECT_TRUE(fault(&ConvoyParams::release_distance_m).starts_with("release_distance"));
+  EXPECT_TRUE(fault(&ConvoyParams::shortest_split_m).starts_with("shortest_split"));
+}
+
+// Table I is written out: another value of inwards, or of the tree's defaults, is none of convoy's.
+TEST(ConvoyParams, TheDefaultsAreConvoysOwn) {
+  const ConvoyParams p = convoy_defaults();
+  EXPECT_EQ(p.reconfiguration_period_s, 44.0F);
+  EXPECT_EQ(p.liveness_period_s, 0.5F);
+  EXPECT_EQ(p.insertion_distance_m, 0.066395F);
+  EXPECT_EQ(p.interaction_gain, 10.0F);
 }
 
 }  // namespace

@@ -39,5 +39,15 @@ TEST(Params, TheOrderOfDistancesIsChecked) {
   EXPECT_TRUE(faulty(&TreeParams::reconfiguration_period_s, 6600.0F)) << "more ticks than are counted";
 }
 
+TEST(Params, ThereMayBeParentsAndOneHeirAtATime) {
+  HealingParams p = inwards_defaults();
+  EXPECT_EQ(healing_fault(p), "");
+  p.parent_margin_m = 5.0F;
+  EXPECT_TRUE(healing_fault(p).starts_with("parent_margin_m"));
+  p = inwards_defaults();
+  p.claim_radius_m = 0.5F * p.communication_range_m;
+  EXPECT_TRUE(healing_fault(p).starts_with("claim_radius"));
+}
+
 }  // namespace
 }  // namespace banyan

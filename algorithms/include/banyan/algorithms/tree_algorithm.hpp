@@ -14,9 +14,12 @@ namespace banyan {
 [[nodiscard]] std::vector<BoundParameter> bind(HealingParams& params);
 [[nodiscard]] std::vector<BoundParameter> bind(ConvoyParams& params);
 // The first fault among values that depend on each other.
-[[nodiscard]] inline std::string_view cross_fault(const HealingParams& params) noexcept { return tree_fault(params); }
-[[nodiscard]] inline std::string_view cross_fault(const ConvoyParams& params) noexcept {
+[[nodiscard]] inline std::string_view cross_fault(const HealingParams& params) noexcept {
   const std::string_view text = tree_fault(params);
+  return text.empty() ? healing_fault(params) : text;
+}
+[[nodiscard]] inline std::string_view cross_fault(const ConvoyParams& params) noexcept {
+  const std::string_view text = cross_fault(static_cast<const HealingParams&>(params));
   return text.empty() ? convoy_fault(params) : text;
 }
 

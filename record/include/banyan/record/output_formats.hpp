@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be kept of a run: one table of formats. The keys of [output], the options of `banyan run`, its
-// summary and what a study keeps follow from it. A further format is a file in record/src/outputs/ and a line.
+// What can be kept of a run: one table of formats. The keys of [output], the options of `banyan run`, its summary and
+// what a study keeps follow from it. A further format is a file in record/src/outputs/, two lines here, one in CMake.
 #pragma once
 
 #include <array>

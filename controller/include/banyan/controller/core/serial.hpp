@@ -2,9 +2,9 @@
 // Counters that wrap (epochs, root tokens, sequence numbers, heartbeats): serial numbers of 16 bits,
 // compared as in RFC 1982. Of two numbers the one is newer that is ahead by less than half the range.
 //
-// The one rule for silence: a robot that has heard nothing of a counter for half its range of ticks cannot
-// tell old from new any more, and takes anything it hears as newer (`is_news`). Epochs and root tokens need no such
-// rule: they advance at most once in R, so half their range lasts for hours (9 with R = 1 s); is_newer() does for them.
+// The one rule for silence: a robot that has heard nothing of a counter for half its range of ticks cannot tell old
+// from new any more, and takes anything it hears as newer (`is_news`). Epochs and root tokens do not count ticks, so
+// is_newer() does for them: epochs advance once in R and at elections, tokens when the root changes.
 #pragma once
 
 #include <cstdint>

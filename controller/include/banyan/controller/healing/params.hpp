@@ -25,4 +25,7 @@ struct HealingParams : TreeParams {
 
 [[nodiscard]] std::span<const Parameter<HealingParams>> healing_parameters() noexcept;
 
+// Besides tree_fault(): there may be parents, and robots that may become root hear each other.
+[[nodiscard]] std::string_view healing_fault(const HealingParams& params) noexcept;
+
 }  // namespace banyan

@@ -104,8 +104,7 @@ template <class Visitor, class State> constexpr void visit_healing_state(Visitor
   }
   visit(s.detour.side), visit(s.detour.contact), visit(s.detour.origin), visit(s.detour.goal), visit(s.detour.leave_m),
       visit(s.detour.span_m);
-  if (s.neighbors_at_start != 0 && s.usual_silence + s.missed_in_the_clear != 0)
-    visit(s.neighbors_at_start);  // else it matters with line of sight only, and shows in who is remembered
+  if (s.neighbors_at_start != 0) visit(s.neighbors_at_start);
   if (s.usual_silence != 0) visit(s.usual_silence);
   if (s.missed_in_the_clear != 0) visit(s.missed_in_the_clear);
   if (s.burst_ticks != 0) visit(s.burst_ticks);
