@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "banyan/controller/convoy/params.hpp"
 
+#include <algorithm>
+
+#include "banyan/controller/tree/robot.hpp"
+
 namespace banyan {
 namespace {
 
@@ -96,13 +100,12 @@ std::string_view convoy_fault(const ConvoyParams& params) noexcept {
   if (const std::string_view text = power_fault(params); !text.empty()) return text;
   if (!(params.join_margin_m < params.ideal_distance_m))
     return "join_margin must be below ideal_distance_m (delta) / C";
-  if (!(params.compact_distance_m < params.ideal_distance_m))
-    return "compact_distance must be below ideal_distance_m (delta) / C";
-  if (!(params.merge_distance_m <= params.ideal_distance_m))
-    return "merge_distance must not exceed ideal_distance_m (delta) / C";
-  if (!(params.release_distance_m <= params.ideal_distance_m))
-    return "release_distance must not exceed ideal_distance_m (delta) / C";
-  if (!(params.shortest_split_m < params.ideal_distance_m))
+  // Also for those who choose a shorter delta and leave the rest as it is.
+  const float longest_m = std::max(params.ideal_distance_m, longest_link * params.communication_range_m);
+  if (!(params.compact_distance_m < longest_m)) return "compact_distance must be below ideal_distance_m (delta) / C";
+  if (!(params.merge_distance_m <= longest_m)) return "merge_distance must not exceed ideal_distance_m (delta) / C";
+  if (!(params.release_distance_m <= longest_m)) return "release_distance must not exceed ideal_distance_m (delta) / C";
+  if (!(params.shortest_split_m < longest_m))
     return "shortest_split must be below ideal_distance_m (delta) / C, else no edge is long enough to be split";
   return {};
 }

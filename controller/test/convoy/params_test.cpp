@@ -30,6 +30,9 @@ TEST(ConvoyParams, NoEdgeIsBroughtToALengthBeyondDelta) {
   EXPECT_TRUE(fault(&ConvoyParams::merge_distance_m).starts_with("merge_distance"));
   EXPECT_TRUE(fault(&ConvoyParams::release_distance_m).starts_with("release_distance"));
   EXPECT_TRUE(fault(&ConvoyParams::shortest_split_m).starts_with("shortest_split"));
+  ConvoyParams p = convoy_defaults();
+  p.ideal_distance_m = 1.55F;
+  EXPECT_EQ(convoy_fault(p), "") << "a shorter delta, and the rest as it was";
 }
 
 // Table I is written out: another value of inwards, or of the tree's defaults, is none of convoy's.

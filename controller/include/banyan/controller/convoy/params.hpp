@@ -41,7 +41,7 @@ struct ConvoyParams : PowerParams {
 [[nodiscard]] std::span<const Parameter<ConvoyParams>> convoy_parameters() noexcept;
 
 // Besides tree_fault() and healing_fault(): an edge pulls before it is as long as it may be, a spare can join one, no
-// length that edges are brought to is beyond delta, and C has room for bodies.
+// length that edges are brought to is beyond delta and 0.95 C, and C has room for bodies.
 [[nodiscard]] std::string_view convoy_fault(const ConvoyParams& params) noexcept;
 
 }  // namespace banyan
