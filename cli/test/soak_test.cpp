@@ -204,7 +204,7 @@ TEST(SoakWatch, PromisesWhatItsPageSays) {
                                                   : "reported only |";
     EXPECT_EQ(promised, says) << kind;
   }
-  EXPECT_EQ(kinds.size(), 11U);
+  EXPECT_EQ(kinds.size(), 12U);
 }
 
 TEST(SoakWatch, TooFewRobotsAreNoFinding) {

@@ -29,7 +29,8 @@ TEST(Robot, WhatOneSaysAnotherHears) {
     const Said said = root.step({});
     message.assign(said.message.begin(), said.message.end());
     worker.hear(message, {-0.5F, 0.0F});
-    (void)worker.step(sent);
+    const Said answer = worker.step(sent);
+    root.hear({answer.message.begin(), answer.message.end()}, {0.5F, 0.0F});  // it would be deaf to the worker
     (void)alone.step(sent);
   }
   EXPECT_EQ(worker.said().report.parent, 1);
