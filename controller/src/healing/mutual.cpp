@@ -33,9 +33,9 @@ void note_hears(HealingRobot& robot, const Heard& h) noexcept {
   const bool hears_nobody = m.count == nobody && h.named_before == nobody;
   const bool passed_over = h.before != Vec2{} && (hears_nobody || in_turn);
   // Once may be chance: a packet lost, a table that has just filled. From the second time on each round counts with the
-  // ticks that it takes, one for each neighbour.
+  // ticks that it takes, about one for each of my neighbours, or one if nobody was named.
   const bool first_time = deaf_ticks == 0 || deaf_ticks == never_heard_ticks;
-  const int round_ticks = first_time ? 1 : robot.table().size();
+  const int round_ticks = first_time || hears_nobody ? 1 : robot.table().size();
   if (m.count == self.id) self.neighbors.set_deaf(h.place, 0);
   else if (passed_over) self.neighbors.set_deaf(h.place, deaf_ticks + round_ticks);
   if (calls && (self.called_ticks == 0 || self.caller == m.id)) {

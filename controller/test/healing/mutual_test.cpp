@@ -17,8 +17,8 @@
 namespace banyan {
 namespace {
 
-constexpr int never_heard_for = 5;  // ticks until a robot that never named me counts as deaf: one in two messages
-                                    // passes me over, the second of these tells
+constexpr int never_heard_for = 23;  // ticks until a robot that never named me counts as deaf: one in two messages
+                                     // passes me over, and the twelfth of these tells
 
 // A spare with a label beside robot 2, which is of the tree and names 3 and 4 in turn, or 1, 3 and 4.
 struct Beside {
@@ -110,6 +110,27 @@ TEST(Mutual, WhoIsPassedOverIsNotHeard) {
   g.named = {1};
   g.steps(1);
   EXPECT_FALSE(g.is_deaf()) << "it has named me";
+}
+
+// With latency a robot that has just begun hears a while later than it is heard.
+TEST(Mutual, WhoNamesNobodyForATimeIsNotDeafAtOnce) {
+  Beside f;
+  for (const RobotId id : {RobotId{5}, RobotId{6}, RobotId{7}}) f.bench.put(id, {0.3F, 0.1F * static_cast<float>(id)});
+  f.named = {nobody};
+  f.steps(9);
+  EXPECT_FALSE(f.is_deaf());
+  f.steps(4);
+  EXPECT_TRUE(f.is_deaf());
+}
+
+// A round of names of three takes about three ticks.
+TEST(Mutual, ARoundCountsWithItsTicks) {
+  Beside f;
+  for (const RobotId id : {RobotId{5}, RobotId{6}, RobotId{7}}) f.bench.put(id, {0.3F, 0.1F * static_cast<float>(id)});
+  f.steps(6);
+  EXPECT_FALSE(f.is_deaf()) << "passed over three times: 1 + 4 + 4 ticks";
+  f.steps(1);
+  EXPECT_TRUE(f.is_deaf());
 }
 
 // Its packets to me may get lost one after the other: what it named meanwhile is unknown.
