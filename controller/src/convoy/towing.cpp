@@ -36,7 +36,7 @@ constexpr float up_width_m = 0.20F;
 constexpr float tows_sooner = 4.0F;        // times the spread of ranges
 constexpr float as_good_as_there = 0.95F;  // of arrival_distance_m
 constexpr int slack_reach_hops = 8;
-constexpr int silent_ticks = 2;  // whoever has been silent for longer is out of sight
+constexpr int silent_ticks = 2;  // a robot silent for longer is out of sight
 
 // Somewhere near, an edge waits in vain for a spare.
 bool is_short_of_robots(const ConvoyRobot& robot) noexcept { return robot.self.call_hops <= slack_reach_hops; }

@@ -50,9 +50,9 @@ void note_silence(HealingRobot& robot) noexcept {
   else if (self.turn % fading_turns == 0) --self.usual_silence;
 }
 
-// With line of sight, who falls silent in the clear may have been hidden by a dead body, or by an obstacle that no
-// sensor reaches. That is less likely in a thin start, where bodies are few, once a burst is known, and where long
-// silences are usual.
+// With line of sight, a robot that falls silent in the clear may have been hidden by a dead body, or by an obstacle
+// that no sensor reaches. That is less likely in a thin start, where bodies are few, once a burst is known, and where
+// long silences are usual.
 bool may_be_hidden(const HealingRobot& robot) noexcept {
   const HealingState& self = robot.self;
   return robot.params.line_of_sight && self.neighbors_at_start == 0 && self.burst_ticks == 0 &&

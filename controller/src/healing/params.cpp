@@ -42,8 +42,7 @@ constexpr Parameter<HealingParams> of_healing[] = {
      &HealingParams::give_up_after_s},
     {{"regroup_after_s", "", "s",
       "healing: a robot that hears no other for this long looks for the others; in convoy, a worker that waits this "
-      "long "
-      "in vain for a spare drives home and sets out anew",
+      "long in vain for a spare drives home and sets out anew",
       "Longer where spares have far to come; shorter gives up branches that would have been reached.", "protocol 12",
       1.0F, 600.0F},
      &HealingParams::regroup_after_s},

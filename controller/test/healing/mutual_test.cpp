@@ -30,6 +30,9 @@ struct Beside {
     bench.state.label_cm = 300;
     bench.put_connector(2, {1.2F, 0.0F}, 100, 1);
   }
+  void put_three_more() {
+    for (const RobotId id : {RobotId{5}, RobotId{6}, RobotId{7}}) bench.put(id, {0.3F, 0.1F * static_cast<float>(id)});
+  }
   void speak() { bench.say(2).count = named[static_cast<std::size_t>(turn++) % named.size()]; }
   Output<ConvoyMessage> steps(int count) {
     Output<ConvoyMessage> output;
@@ -115,7 +118,7 @@ TEST(Mutual, WhoIsPassedOverIsNotHeard) {
 // With latency a robot that has just begun hears a while later than it is heard.
 TEST(Mutual, WhoNamesNobodyForATimeIsNotDeafAtOnce) {
   Beside f;
-  for (const RobotId id : {RobotId{5}, RobotId{6}, RobotId{7}}) f.bench.put(id, {0.3F, 0.1F * static_cast<float>(id)});
+  f.put_three_more();
   f.named = {nobody};
   f.steps(9);
   EXPECT_FALSE(f.is_deaf());
@@ -126,7 +129,7 @@ TEST(Mutual, WhoNamesNobodyForATimeIsNotDeafAtOnce) {
 // A round of names of three takes about three ticks.
 TEST(Mutual, ARoundCountsWithItsTicks) {
   Beside f;
-  for (const RobotId id : {RobotId{5}, RobotId{6}, RobotId{7}}) f.bench.put(id, {0.3F, 0.1F * static_cast<float>(id)});
+  f.put_three_more();
   f.steps(6);
   EXPECT_FALSE(f.is_deaf()) << "passed over three times: 1 + 4 + 4 ticks";
   f.steps(1);
