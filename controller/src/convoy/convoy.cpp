@@ -25,9 +25,11 @@
 namespace banyan {
 namespace {
 
-constexpr int silence_ticks = 2;     // a parent silent for so long counts as hidden
-constexpr float asks_sooner = 2.0F;  // times the spread of ranges: so much earlier an edge asks for spares and calls
-constexpr float tight = 0.6F;        // of `clearance`: enough for a spare in the way, since joining the edge clears it
+constexpr int silence_ticks = 2;      // a parent silent for so long counts as hidden
+constexpr float asks_sooner = 2.0F;   // times the spread of ranges: so much earlier an edge asks for spares and calls
+constexpr float tight = 0.6F;         // of `clearance`: enough for a spare in the way, since joining the edge clears it
+constexpr float rests_within = 0.4F;  // of the tolerance: a worker so near to its target need not come nearer
+constexpr float late = 2.0F;          // times `call_after_s`: until then an edge that is towed late may shorten
 
 // ---- Select Parent: branches grow from the workers, as in inwards, by short edges in sight (rule 1) ----
 
@@ -45,6 +47,11 @@ bool is_drained_spare(const ConvoyRobot& robot, int k) noexcept {
 // where it stands. Otherwise short first edges come first, then edges that need no spare, then the nearest. A link that
 // may soon be blocked counts as a long one, one worse as longer yet.
 struct Preference {
+  // Of C, and no edge is longer: one of these outweighs any difference of lengths.
+  static constexpr float costs_leaving = 4.0F;
+  static constexpr float costs_risk = 5.0F;  // to be hidden soon
+  static constexpr float costs_drained = 8.0F;
+  static constexpr float costs_blocked = 10.0F;
   int rank;
   float key;
   Preference(const ConvoyRobot& robot, int k) noexcept {
@@ -57,9 +64,9 @@ struct Preference {
     }
     float range_m = robot.table().range(k);
     if (!sees_clearly(robot, k, p.clearance_m))
-      range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? 5.0F * c : 10.0F * c;
-    if (is_leaving(robot, k)) range_m += 4.0F * c;
-    if (is_drained_spare(robot, k)) range_m += 8.0F * c;
+      range_m += sees_clearly(robot, k, narrow * p.clearance_m) ? costs_risk * c : costs_blocked * c;
+    if (is_leaving(robot, k)) range_m += costs_leaving * c;
+    if (is_drained_spare(robot, k)) range_m += costs_drained * c;
     if (robot.table().message(k).role == Role::worker) range_m += c;  // rather a robot that is not leaving
     rank = range_m <= p.first_edge_m ? 0 : range_m <= p.recruitment_distance_m ? 1 : 2;
     key = rank < 2 ? static_cast<float>(robot.table().message(k).label_cm) : range_m;
@@ -88,7 +95,7 @@ bool is_held_by_junction(const ConvoyRobot& robot) noexcept {
   const bool junction =
       robot.table().message(robot.parent).role == Role::root || robot.convoy_of(robot.parent).child_count > 1;
   return junction && robot.table().range(robot.parent) > p.recruitment_distance_m &&
-         robot.self.unserved_ticks > p.ticks(2.0F * p.call_after_s);
+         robot.self.unserved_ticks > p.ticks(late * p.call_after_s);
 }
 
 // On batteries: my edge wants a spare that takes my place, or one that gives slack to a relief.
@@ -288,7 +295,7 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   take_shortcuts(robot);     // what changes between reconstructions
   state.corners.pinned = is_pinned(robot, state.corners, params.pull_start_m);
   // A worker lags behind a moving target: the tree must follow before the worker is out of tolerance.
-  take_census(robot, 0.4F * params.arrival_distance_m, own_want_m(robot));  // Alg. 1 and 2
+  take_census(robot, rests_within * params.arrival_distance_m, own_want_m(robot));  // Alg. 1 and 2
   select_root(
       robot, [&](int k) { return may_inherit(robot, k); }, is_leaving(robot));  // Select Root, the root's side
   find_hold(robot);  // what ties me to the others while I have no parent

@@ -31,12 +31,13 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
                      (robot.convoy_of(k).below == nobody || robot.table().age(robot.parent) > 1);
   if (!spare && !is_rooted(robot, k)) return impossible;
   if (robot.power != nullptr && (is_leaving(robot, k) || (spare && !is_charged(*robot.power, k)))) return impossible;
+  constexpr float costs_unclear = 2.0F;  // of C: as much as all the rest can be
   const bool clear = sees_clearly(robot, k, p.clearance_m);
   if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance_m))) return impossible;
   const Vec2 at = table.position(k);
   const bool leaves = m.role == Role::worker && robot.self.want_m > 0.0F;  // it cannot be towed
   return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare || leaves ? c : 0.0F) +
-         (clear ? 0.0F : 2.0F * c);
+         (clear ? 0.0F : costs_unclear * c);
 }
 
 // Companions come and go beside the robots of a branch that has arrived, and make way themselves. A link that they are

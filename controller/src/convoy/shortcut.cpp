@@ -15,6 +15,7 @@
 namespace banyan {
 namespace {
 
+constexpr float beside_leaver = 0.6F;   // of `clearance`: less room will do, for the leaver stands beside its successor
 constexpr float releases_later = 3.0F;  // times the spread of ranges: else the edge would ask for a spare again
 
 // Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
@@ -128,10 +129,9 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   if (view.endangered) return keep_in_sight(robot, view.urgent);
   if (self.grant != nobody) return;  // this edge is about to change already
   if (robot.power != nullptr) {
-    // The leaver stands beside its successor: less room to it will do.
     const int k = successor_of_parent(*robot.power, [&](int n) {
       return robot.table().range(n) <= robot.parent_range_m() && is_ahead(robot, n) && is_rooted(robot, n) &&
-             sees_clearly(robot, n, 0.6F * robot.params.clearance_m);
+             sees_clearly(robot, n, beside_leaver * robot.params.clearance_m);
     });
     if (k >= 0) return take_parent(robot, k);
     if (is_leaving(robot) || robot.power->power.said.relieves != nobody) return;  // no robot is saved meanwhile

@@ -20,10 +20,11 @@
 namespace banyan {
 namespace {
 
-constexpr float compact_gain = 0.8F;         // the strength with which a branch that has arrived contracts
-constexpr float compact_width = 0.05F;       // of C: full strength when so far from compact_distance
-constexpr float follow_spare = 0.25F;        // of C: how far it stays behind a spare that leads it to the tree
-constexpr float follow_tree = 0.5F;          // and behind a robot of the tree
+constexpr float compact_gain = 0.8F;    // the strength with which a branch that has arrived contracts
+constexpr float compact_width = 0.05F;  // of C: full strength when so far from compact_distance
+constexpr float wide = 2.0F;           // of `clearance`: robots under way pass each other and lines of sight so far off
+constexpr float follow_spare = 0.25F;  // of C: how far it stays behind a spare that leads it to the tree
+constexpr float follow_tree = 0.5F;    // and behind a robot of the tree
 constexpr float called_follow_spare = 0.6F;  // the same while it is called elsewhere
 constexpr float called_follow_tree = 0.75F;
 constexpr float called_follow_thin = 0.9F;  // where no crowd is, and packets get lost
@@ -190,14 +191,16 @@ template <class Visit> void for_each_other_edge(const ConvoyRobot& robot, Visit 
 
 // Moves out of the lines of sight of these edges.
 Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
+  static constexpr float on_line_m = 1e-3F;  // either side will do
+  static constexpr float most_push = 20.0F;  // a line across the robot outweighs all others, but not without limit
   Vec2 u;
   for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
     const Vec2 near = nearest_on_segment(a, b);
     const float d = norm(near);
     if (d >= width_m) return;
     const Vec2 along = unit(b - a);
-    const Vec2 side = d > 1e-3F ? -near / d : Vec2{-along.y, along.x};
-    u += side * std::min(width_m / std::max(d, 1e-3F) - 1.0F, 20.0F);
+    const Vec2 side = d > on_line_m ? -near / d : Vec2{-along.y, along.x};
+    u += side * std::min(width_m / std::max(d, on_line_m) - 1.0F, most_push);
   });
   return u * robot.params.corridor_gain;
 }
@@ -382,7 +385,7 @@ bool is_relay(const ConvoyRobot& robot, int k) noexcept {
 // relieve.
 static Vec2 past_bodies(const ConvoyRobot& robot, Vec2 goal) noexcept {
   const TreeTable& table = robot.table();
-  const float room_m = 2.0F * robot.params.clearance_m;
+  const float room_m = wide * robot.params.clearance_m;
   int first = -1;
   Vec2 side;
   table.members.for_each([&](int k) {
@@ -409,8 +412,9 @@ static bool relief_motion(const ConvoyRobot& robot, Vec2& u) noexcept {
 Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const int up = robot.parent >= 0 ? robot.parent : robot.old_parent;
+  constexpr float back_m = 0.02F;  // so near it stands where it saw the other
   if (lost_sight(robot, up))
-    return norm(robot.self.corners.seen_from) > 0.02F ? unit(robot.self.corners.seen_from) : Vec2{};
+    return norm(robot.self.corners.seen_from) > back_m ? unit(robot.self.corners.seen_from) : Vec2{};
   if (up >= 0 && !robot.is_linked(up)) return bypass(robot, robot.table().position(up));
   if (up >= 0 && robot.table().range(up) > p.ideal_distance_m) return unit(robot.table().position(up));
   if (is_orphan(robot))
@@ -432,7 +436,7 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (holds_still(robot)) return {};
   if (Vec2 way; steps_aside(robot, way)) return way + repulsion(robot);
   if (rests(robot))
-    return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m) + clear_sight(robot, robot.self.corners);
+    return repulsion(robot) + make_way(robot, wide * p.clearance_m) + clear_sight(robot, robot.self.corners);
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot)
                      : has_arrived(robot)         ? compaction(robot)
                                                   : clamped(tow(robot), 1.0F);
@@ -447,11 +451,11 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   if (Vec2 u; relief_motion(robot, u)) {
     // Pushed back by two robots and the edge between them, it would wait there until the leaver has run down.
     constexpr float hesitates_s = 8.0F;
-    return self.request_ticks > p.ticks(hesitates_s) ? u : past(robot, u, 2.0F * p.clearance_m);
+    return self.request_ticks > p.ticks(hesitates_s) ? u : past(robot, u, wide * p.clearance_m);
   }
   Vec2 midpoint;
   if (self.spare_state == SpareState::extend_edge && edge_midpoint(robot, self.request, midpoint))
-    return past(robot, bypass(robot, midpoint), 2.0F * p.clearance_m);
+    return past(robot, bypass(robot, midpoint), wide * p.clearance_m);
   if (const int of = robot.table().find(self.accompanies); of >= 0)
     return past(robot, companion_motion(robot, of), companion_way_m(robot, of));
   // No robot near has heard the tree for a while: it has gone behind an obstacle.
@@ -460,7 +464,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   // The root is about to go round a corner, and waits for spares.
   const int root = robot.table().find(self.root.id);
   if (root >= 0 && robot.corner_of(root).pinned && robot.table().range(root) > p.avoidance_range_m)
-    return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+    return bypass(robot, robot.table().position(root)) + repulsion(robot) + make_way(robot, wide * p.clearance_m);
   // On batteries spares travel all the time: one that a reconstruction has stopped between two robots gets out of
   // there.
   if (holds_still(robot)) return robot.power != nullptr ? make_way(robot, p.clearance_m) : Vec2{};
@@ -468,7 +472,7 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   if (Vec2 away; robot.power != nullptr && leaves_place(*robot.power, away))
     return away + repulsion(robot) + make_way(robot, p.corridor_width_m);
   if (robot.power != nullptr && is_at_place(*robot.power))
-    return repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+    return repulsion(robot) + make_way(robot, wide * p.clearance_m);
   const int k = followed_by(robot);
   const Vec2 reference = k >= 0 ? robot.table().position(k) : Vec2{};
   const float d = norm(reference);
@@ -476,17 +480,18 @@ Vec2 waiting_motion(const ConvoyRobot& robot) noexcept {
   const bool led = k >= 0 && robot.table().message(k).role == Role::spare;
   const float reach_m = (led ? follow_spare : follow_tree) * c;
   // A spare under way along a chain may come nearer to lines of sight than one that waits.
-  const float way_m = p.line_of_sight ? 2.0F * p.clearance_m : 0.0F;  // none where robots hide no edges
+  const float way_m = p.line_of_sight ? wide * p.clearance_m : 0.0F;  // none where robots hide no edges
   if (robot.power != nullptr && robot.power->power.travels) {
     // If it is there, and hears nobody nearer to the place, that robot hides them: it goes round it.
     const Vec2 way = robot.power->power.way;
     return past(robot, bypass(robot, norm(way) < p.avoidance_range_m ? left_of(unit(way)) : way), way_m);
   }
   if (self.called && d > p.avoidance_range_m) return past(robot, bypass(robot, reference), way_m);
-  if (d > reach_m) return bypass(robot, reference) + repulsion(robot) + make_way(robot, 2.0F * p.clearance_m);
+  if (d > reach_m) return bypass(robot, reference) + repulsion(robot) + make_way(robot, wide * p.clearance_m);
   // It is there, but cannot hear the edge that calls, hidden or too far: it goes round the robot that passed on the
   // call. Not where many edges meet: spares wait on the far side, too, and it would only cross lines of sight.
-  const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= 3);
+  constexpr int few_children = 3;
+  const bool roomy = self.corners.landmarks.size > 0 || (k >= 0 && robot.convoy_of(k).child_count <= few_children);
   if (self.called && roomy && d > 0.0F)
     return bypass(robot, way_round(robot, k)) + repulsion(robot) + make_way(robot, way_m);
   return repulsion(robot) + make_way(robot, p.corridor_width_m);

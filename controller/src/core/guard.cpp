@@ -33,7 +33,8 @@ void Guard::add_limit(Vec2 direction, float limit_m_s) noexcept {
 
 Vec2 Guard::apply(Vec2 v) const noexcept {
   // Projections onto the half-planes in turn; they settle in a few rounds.
-  for (int round = 0; round < 4; ++round) {
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
     bool violated = false;
     for (int k = 0; k < size; ++k) {
       const float excess = dot(v, planes[k].away()) - planes[k].limit_m_s;
@@ -54,11 +55,13 @@ Vec2 Guard::apply(Vec2 v) const noexcept {
 }
 
 Velocity drive(Vec2 v, const Guard& guard, const Platform& platform) noexcept {
+  constexpr float still_m_s = 1e-4F;  // it has no direction to turn to
+  constexpr float turn_gain = 4.0F;   // 1/s: it faces a new direction after about half a second
   const float speed = norm(v);
-  if (speed < 1e-4F) return {};
+  if (speed < still_m_s) return {};
   if (platform.drive == Drive::holonomic) return {v.x, v.y, 0.0F};
   const float turn_limit = 2.0F * platform.wheel_limit_m_s / platform.wheel_distance_m;
-  const float turn = std::clamp(4.0F * angle_of(v.x > 0.0F ? aim(v, speed, guard) : v), -turn_limit, turn_limit);
+  const float turn = std::clamp(turn_gain * angle_of(v.x > 0.0F ? aim(v, speed, guard) : v), -turn_limit, turn_limit);
   float forward = std::max(0.0F, v.x);  // |u| max(0, cos theta)
   forward = std::min(forward, platform.wheel_limit_m_s - 0.5F * (turn < 0 ? -turn : turn) * platform.wheel_distance_m);
   // The guard again, along the true heading (1, 0).

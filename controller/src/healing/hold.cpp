@@ -15,6 +15,12 @@ int hops_to_tree(const TreeStanding& m) noexcept {
 }
 
 constexpr float hop_cost = 4.0F;
+constexpr float costs_too_long = 8192.0F;  // and more with each C
+constexpr float costs_length = 1024.0F;    // a C
+constexpr float costs_no_root = 4096.0F;
+constexpr float costs_strained = 2048.0F;  // 255 hops cost half of it
+constexpr float costs_change = 2.0F;       // half a hop
+constexpr float costs_change_far = 10.0F;  // a hundredth of C
 
 // How bad neighbour k would be as hold: each term outweighs all that follow. A branch that has lost its root is the
 // last choice, however near. The present hold is kept while it is as good as another: a robot that changes its hold
@@ -24,9 +30,11 @@ float cost(const HealingRobot& robot, int k, int hops) noexcept {
   const float range = robot.table().range(k) / robot.params.communication_range_m;
   const bool another = hops >= 0 && robot.table().id(k) != robot.self.hold;
   if (range > longest_link)
-    return 8192.0F + 1024.0F * range + (another ? 10.0F : 0.0F) + static_cast<float>(hops) / unreachable;
-  return (hops == unreachable || robot.may_be_deaf(k) ? 4096.0F : 0.0F) + (range > strained ? 2048.0F : 0.0F) +
-         hop_cost * static_cast<float>(hops) + (another ? 2.0F : 0.0F) + range;
+    return costs_too_long + costs_length * range + (another ? costs_change_far : 0.0F) +
+           static_cast<float>(hops) / unreachable;
+  return (hops == unreachable || robot.may_be_deaf(k) ? costs_no_root : 0.0F) +
+         (range > strained ? costs_strained : 0.0F) + hop_cost * static_cast<float>(hops) +
+         (another ? costs_change : 0.0F) + range;
 }
 
 // The best neighbour that is ahead of me, -1 if there is none; `wish` is the best one, whether or not it is ahead. Most

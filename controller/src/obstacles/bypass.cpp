@@ -20,13 +20,15 @@ constexpr float goal_moved_m = 0.30F;
 // The largest allowed cosine between a direction of motion and that of an obstacle `d` away: only along the
 // obstacle if it is near, towards it if there is room.
 float allowed_cosine(const TreeRobot& robot, float d) noexcept {
+  constexpr float steers_off = 0.5F;  // at 30 degrees from an obstacle that it touches
   const float gap = d - body_m(robot);
-  return std::clamp((gap - keep_m) / (near_m - keep_m), -0.5F, 1.0F);
+  return std::clamp((gap - keep_m) / (near_m - keep_m), -steers_off, 1.0F);
 }
 
 bool is_blocked(const TreeRobot& robot, Vec2 direction, Vec2 obstacle) noexcept {
+  constexpr float rounding = 1e-3F;  // what sweep() finds is free
   const float d = norm(obstacle);
-  return d < body_m(robot) + near_m && dot(direction, obstacle) > (allowed_cosine(robot, d) + 1e-3F) * d;
+  return d < body_m(robot) + near_m && dot(direction, obstacle) > (allowed_cosine(robot, d) + rounding) * d;
 }
 
 // Index of the first obstacle in the way, -1 if the direction is free.
@@ -79,7 +81,8 @@ void begin(const TreeRobot& robot, Detour& detour, Vec2 goal, Vec2 contact) noex
   const Vec2 to_goal = unit(goal);
   const float left = dot(sweep(robot, contact, 1).direction, to_goal);
   const float right = dot(sweep(robot, contact, -1).direction, to_goal);
-  const bool equal = std::abs(left - right) < 0.01F;
+  constexpr float as_far = 0.01F;  // cosines differ by less
+  const bool equal = std::abs(left - right) < as_far;
   detour.side = (equal ? robot.self.id % 2 == 0 : left > right) ? std::int8_t{1} : std::int8_t{-1};
   detour.again = false;
   detour.origin = {};

@@ -294,11 +294,13 @@ void keep_sight(const TreeRobot& robot, const Corners& corners, Guard& guard) no
 }
 
 Vec2 clear_sight(const TreeRobot& robot, const Corners& corners) noexcept {
+  static constexpr float on_line_m = 1e-3F;
+  static constexpr float most_push = 2.0F;  // that of a line at a third of the width
   Vec2 u;
   if (!robot.params.line_of_sight) return u;
   for_each_edge_of_both_trees(robot, [&](int k) {
     for_each_threat(robot, corners, robot.table().position(k), [&](const Threat& t) {
-      u += -t.towards * (t.lever * std::min(sight_width_m / std::max(t.across_m, 1e-3F) - 1.0F, 2.0F));
+      u += -t.towards * (t.lever * std::min(sight_width_m / std::max(t.across_m, on_line_m) - 1.0F, most_push));
     });
   });
   return u;

@@ -155,13 +155,15 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
   const float range_m = me.robot.params.communication_range_m;
   const float apart_m = beside * range_m;
   const bool hides = me.power.unseen_ticks > 0;
+  constexpr int spots = 8;  // around it, a diagonal apart
   constexpr float diagonal = 0.70710678F;
   constexpr float costs_crossing = 0.5F;
+  constexpr float costs_travel = 0.1F;   // of the way there: of spots as good, the nearer
   constexpr float hidden_behind = 0.6F;  // of the distance to it: its body is so near to the line of sight
   Vec2 best = at;
-  float best_cost = 1e9F;
+  float best_cost = not_counted;
   Vec2 off = left_of(axis) * apart_m;
-  for (int turn = 0; turn < 8; ++turn, off = (off + left_of(off)) * diagonal) {
+  for (int turn = 0; turn < spots; ++turn, off = (off + left_of(off)) * diagonal) {
     float farthest_m = 0.0F;
     float hidden_m = 0.0F;
     const auto look_at = [&](int k) {
@@ -176,7 +178,7 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
       if (k != leaver && !me.is_spare(k) &&
           (up_of(table.message(k)) == id || up_of(table.message(k)) == me.robot.self.id))
         look_at(k);
-    const float cost = farthest_m + hidden_m + 0.1F * norm(at + off);
+    const float cost = farthest_m + hidden_m + costs_travel * norm(at + off);
     if (cost < best_cost) best = at + off, best_cost = cost;
   }
   return best;

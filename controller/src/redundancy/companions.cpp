@@ -29,6 +29,9 @@ constexpr float reach = 0.97F;          // of C: a companion relies on no longer
 constexpr float unheard_at = 0.9F;      // of C: so far away a tree neighbour that is not heard is supposed to be
 constexpr float hides = 0.6F;           // of `clearance`: a robot so near to a link hides it
 constexpr float near_place = 0.05F;     // of C: within it the companion slows down
+constexpr float keeps_off = 0.8F;       // of companion_distance: nearer it is driven away from the robot of the tree
+constexpr float from_afar = 2.0F;       // times companion_distance: farther it is still on its way
+constexpr float least_range_m = 0.05F;  // no robots are nearer to each other
 constexpr float even = 0.5F;            // of companion_distance: of two companions none is the nearer by less
 // Of a metre by which a place is better: the way there, so that it does not change its mind.
 constexpr float costs_way = 0.15F;
@@ -239,7 +242,7 @@ Vec2 unheard_direction(const ConvoyRobot& robot, Vec2 center, Vec2 opposite) noe
   const float c = robot.params.communication_range_m;
   if (robot.params.line_of_sight) return opposite;
   const float far_m = unheard_at * c;
-  const float d = std::max(norm(center), 0.05F);
+  const float d = std::max(norm(center), least_range_m);
   const Vec2 me = -center / d;
   // The cosine of the angle to me from which on it is out of reach.
   const float nearest = std::max((far_m * far_m + d * d - c * c) / (2.0F * far_m * d), -1.0F);
@@ -358,7 +361,7 @@ float companion_way_m(const ConvoyRobot& robot, int of) noexcept {
   const ConvoyParams& p = robot.params;
   if (!p.line_of_sight) return 0.0F;
   constexpr float under_way = 2.0F;
-  return (robot.table().range(of) > 2.0F * p.companion_distance_m ? under_way : edge_room) * p.clearance_m;
+  return (robot.table().range(of) > from_afar * p.companion_distance_m ? under_way : edge_room) * p.clearance_m;
 }
 
 Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {
@@ -368,7 +371,7 @@ Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {
   const Ends ends = ends_around(robot, of);
   const Vec2 axis = ends.size > 0 ? unit(ends.at[0] - center) : unit(-center);
   Vec2 best;
-  float least = 1e9F;
+  float least = not_counted;
   constexpr float turn = 2.0F * pi<float> / static_cast<float>(places);
   const Vec2 step = unit_vector(turn);
   Vec2 direction = left_of(axis);
@@ -382,9 +385,9 @@ Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {
   const float d = norm(best);
   const float slow = std::min(1.0F, d / (near_place * p.communication_range_m));
   // Not through the robot itself.
-  const float room_m = 0.8F * p.companion_distance_m;
+  const float room_m = keeps_off * p.companion_distance_m;
   const Vec2 off =
-      table.range(of) < room_m ? -unit(center) * (room_m / std::max(table.range(of), 0.05F) - 1.0F) : Vec2{};
+      table.range(of) < room_m ? -unit(center) * (room_m / std::max(table.range(of), least_range_m) - 1.0F) : Vec2{};
   return bypass(robot, best) * slow + off;
 }
 

@@ -24,7 +24,8 @@ bool somebody_between(const TreeRobot& robot, int k) noexcept {
 // Fixed once an epoch: if recomputed every tick, motion would leave robots in local minima, with no candidate.
 void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
   constexpr int wait_ticks = 2;      // gives nearer labelled neighbours time to be heard
-  constexpr int wait_far_ticks = 6;  // if all heard so far are near the edge of the range
+  constexpr int wait_far_ticks = 6;  // if all heard so far are near the edge of the range,
+  constexpr float far_off = 0.85F;   // of C: the next may be heard any moment
   TreeState& self = robot.self;
   const TreeTable& table = robot.table();
   int best = -1;
@@ -35,13 +36,10 @@ void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
     if (!table.alive(k) || m.epoch != self.epoch || m.label_cm == unknown_label) continue;
     nearest_m = std::min(nearest_m, table.range(k));
     const std::uint16_t label = label_below(m.label_cm, table.range(k));
-    if (label < best_label) {
-      best_label = label;
-      best = k;
-    }
+    if (label < best_label) best_label = label, best = k;
   }
   if (best < 0) return;
-  const bool far = nearest_m > 0.85F * robot.params.communication_range_m;
+  const bool far = nearest_m > far_off * robot.params.communication_range_m;
   if (self.label_wait_ticks++ < (far ? wait_far_ticks : wait_ticks) &&
       (rule.waits_for_anybody || somebody_between(robot, best)))
     return;
@@ -78,7 +76,8 @@ void echo(TreeRobot& robot) noexcept {
 }  // namespace
 
 std::uint16_t edge_cm(float range_m) noexcept {
-  return static_cast<std::uint16_t>(std::clamp(range_m * 100.0F + 0.5F, 1.0F, 60000.0F));
+  constexpr float longest_edge_cm = 60000.0F;  // far below the numbers that mean something else
+  return static_cast<std::uint16_t>(std::clamp(range_m * 100.0F + 0.5F, 1.0F, longest_edge_cm));
 }
 
 std::uint16_t label_below(std::uint16_t label_cm, float range_m) noexcept {

@@ -11,8 +11,10 @@
 namespace banyan {
 namespace {
 
-// Enough for a question and an answer at five ticks of latency; longer where packets are lost.
-int ungranted_limit_ticks(const TreeRobot& robot) noexcept { return std::max(14, robot.loss_ticks); }
+constexpr int answer_ticks = 14;  // enough for a question and an answer at five ticks of latency
+
+// Longer where packets are lost.
+int ungranted_limit_ticks(const TreeRobot& robot) noexcept { return std::max(answer_ticks, robot.loss_ticks); }
 
 constexpr std::uint8_t call_reach_hops = 250;
 

@@ -22,7 +22,10 @@ struct Detour {
 };
 
 // A body's radius is not among the parameters; the distance between the wheels is about 1.5 of it.
-[[nodiscard]] inline float body_m(const TreeRobot& robot) noexcept { return 0.67F * robot.params.wheel_distance_m; }
+inline constexpr float radius_of_wheels = 0.67F;
+[[nodiscard]] inline float body_m(const TreeRobot& robot) noexcept {
+  return radius_of_wheels * robot.params.wheel_distance_m;
+}
 inline constexpr float near_m = 0.19F;  // between body and obstacle, when it begins to matter
 
 void carry_detour(Detour& detour, const Carry& carry) noexcept;

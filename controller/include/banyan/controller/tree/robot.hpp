@@ -127,7 +127,9 @@ struct TreeRobot {
   // How long a connector waits for a child; one that has just chosen it may not have been heard yet.
   // A silent one counts as alive for long where packets get lost many in a row.
   [[nodiscard]] int patience_ticks() const noexcept {
-    return std::max(params.ticks(params.connector_patience_s), has_bursts() ? loss_ticks / 6 : loss_ticks);
+    constexpr int sooner_in_bursts = 6;  // loss_ticks is the longest row of losses, and most are far shorter
+    return std::max(params.ticks(params.connector_patience_s),
+                    has_bursts() ? loss_ticks / sooner_in_bursts : loss_ticks);
   }
   // The longest edge a robot may choose (protocol 2, row 4).
   [[nodiscard]] float parent_range_m() const noexcept {
