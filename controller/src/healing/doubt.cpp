@@ -41,7 +41,7 @@ bool has_left(const HealingRobot& robot, int child) noexcept {
 // While I waited the worker, if it lives, has gone on counting: what others heard of it before that is no answer. Half
 // of these ticks, since clocks and steps differ.
 void raise_doubt(const HealingRobot& robot, Task& task) noexcept {
-  task.beat = static_cast<Serial>(task.beat + std::max(0, task.age_ticks - robot.liveness_ticks()) / 2);
+  task.beat = advanced(task.beat, std::max(0, task.age_ticks - robot.liveness_ticks()) / 2);
   begin_doubt(robot, task);
 }
 

@@ -15,7 +15,7 @@ bool hear_token(HealingRobot& robot, const HealingMessage& m) noexcept {
   HealingState& self = robot.self;
   const bool rival = robot.is_root() && m.root.id != self.id && m.root.id != self.new_root;
   if (robot.params.heals() && rival && m.root_size < self.root_size) {
-    self.root.sequence = static_cast<Serial>(m.root.sequence + 1);
+    self.root.sequence = advanced(m.root.sequence);
     return true;
   }
   self.root = m.root;
@@ -51,8 +51,7 @@ void listen_among_fragments(HealingRobot& robot) noexcept {
   const EpochPhase newest = newest_phase(robot);
   // Only robots that had another root can be ahead of this one: it opens an epoch for them, too.
   const bool ahead = is_newer(newest.epoch, self.epoch) && robot.params.heals();
-  if (robot.is_root() && (contested || ahead))
-    return enter(robot, static_cast<Serial>(newest.epoch + 1), Phase::start_tree);
+  if (robot.is_root() && (contested || ahead)) return enter(robot, advanced(newest.epoch), Phase::start_tree);
   follow_phase(robot, newest);
 }
 

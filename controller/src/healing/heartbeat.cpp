@@ -101,10 +101,10 @@ void claim_root(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (!robot.params.heals() || robot.is_root() || self.is_worker) return;
   if (self.root_known ? !outlives_root(robot) : !misses_first_root(robot)) return;
-  self.root = {static_cast<std::uint16_t>(self.root.sequence + 1), self.id};
+  self.root = {advanced(self.root.sequence), self.id};
   self.root_size = 0;  // no robot has been counted yet: a fragment that still has a root keeps it
   self.role = Role::root;
-  enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
+  enter(robot, advanced(self.epoch), Phase::start_tree);
   beat(robot);
   ++self.tally.elections;
 }

@@ -68,7 +68,7 @@ void settle_rivalry(HealingRobot& robot, Task& task, const TaskNews& news) noexc
     task.beat = news.beat;
     task.urgent_ticks = pass_on_ticks;
   } else {
-    task.beat = static_cast<std::uint16_t>(news.beat + takeover_beats);  // so that it hears of me
+    task.beat = advanced(news.beat, takeover_beats);  // so that it hears of me
   }
 }
 
@@ -126,7 +126,7 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
     if (target == nullptr && !news.silent) return;  // a question is passed on even without the place
     task = add_task(self, news.serves, target, mine ? Concern::own : concern_of(news));
     if (task == nullptr) return;
-    task->beat = static_cast<std::uint16_t>(news.beat - 1);
+    task->beat = advanced(news.beat, -1);
     task->holder = news.holder;
     if (news.holder == nobody) task->urgent_ticks = pass_on_ticks;
   }
@@ -291,7 +291,7 @@ void yield_task(HealingRobot& robot, RobotId heir) noexcept {
 
 void announce(Task& task, RobotId holder) noexcept {
   task.holder = holder;
-  task.beat = static_cast<std::uint16_t>(task.beat + takeover_beats);
+  task.beat = advanced(task.beat, takeover_beats);
   task.urgent_ticks = pass_on_ticks;
 }
 

@@ -64,7 +64,7 @@ void follow_phase(TreeRobot& robot, EpochPhase newest) noexcept {
   if (newest != EpochPhase{self.epoch, self.phase}) enter(robot, newest.epoch, newest.phase);
 }
 
-void enter(TreeRobot& robot, std::uint16_t epoch, Phase phase) noexcept {
+void enter(TreeRobot& robot, Serial epoch, Phase phase) noexcept {
   TreeState& self = robot.self;
   if (epoch != self.epoch) begin_epoch(robot);
   self.epoch = epoch;

@@ -33,8 +33,7 @@ int better_root(const TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool
 void hand_over(TreeRobot& robot, Serial held) noexcept {
   TreeState& self = robot.self;
   // The heir has taken the token, and may have passed it on already; or a rival has one of the same number.
-  const bool taken =
-      self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != static_cast<Serial>(held + 1));
+  const bool taken = self.new_root != nobody && (self.root.id == self.new_root || self.root.sequence != advanced(held));
   const int heir = taken ? robot.table().find(self.new_root) : -1;
   if (robot.reading.keeps_links && heir >= 0 && self.parent == nobody) robot.set_old_parent(heir);
   self.new_root = nobody;
@@ -47,7 +46,7 @@ const TreeMessage* accept_offer(TreeRobot& robot) noexcept {
   for (const Heard& h : robot.news_of_tree()) {
     const TreeMessage& m = *h.message;
     if (m.new_root != self.id || m.root.id != m.id) continue;
-    const RootToken offered{static_cast<std::uint16_t>(m.root.sequence + 1), self.id};
+    const RootToken offered{advanced(m.root.sequence), self.id};
     if (!newer(offered, self.root)) continue;
     self.root = offered;
     accepted = &m;
@@ -75,12 +74,12 @@ void select_root(TreeRobot& robot, FunctionRef<bool(int)> may_inherit, bool leav
     robot.add_elapsed(self.offer_ticks);
     if (self.offer_ticks <= std::max(robot.params.ticks(robot.params.handover_timeout_s), robot.liveness_ticks()))
       return;
-    self.root.sequence = static_cast<std::uint16_t>(self.root.sequence + 2);  // beats an acceptance not heard
+    self.root.sequence = advanced(self.root.sequence, 2);  // beats an acceptance not heard
     self.new_root = nobody;
-    return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
+    return enter(robot, advanced(self.epoch), Phase::start_tree);
   }
   const int k = better_root(robot, may_inherit, leaves);
-  if (k < 0) return enter(robot, static_cast<std::uint16_t>(self.epoch + 1), Phase::start_tree);
+  if (k < 0) return enter(robot, advanced(self.epoch), Phase::start_tree);
   self.new_root = robot.table().id(k);
   self.offer_ticks = 0;
 }

@@ -48,7 +48,7 @@ Call called_by(const Robot& robot, int k) noexcept {
   if (m.next != m.epoch) return {m.next, m.countdown - 1};
   if (!m.done || !is_newer(m.epoch, robot.self.epoch)) return {m.epoch, 0};
   if (!may_be_edge(robot, k)) return {robot.self.next, robot.self.countdown};  // too far to be one network
-  return {static_cast<Serial>(m.epoch + 1), robot.params.ticks(robot.params.countdown_s)};
+  return {advanced(m.epoch), robot.params.ticks(robot.params.countdown_s)};
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ void follow_epoch(Robot& robot) noexcept {
   }
   if (!is_newer(self.next, self.epoch)) {
     if (!wants_new_tree(robot)) return;
-    self.next = static_cast<Serial>(self.epoch + 1);
+    self.next = advanced(self.epoch);
     count_down(robot.params.ticks(robot.params.countdown_s));
   }
   if (self.countdown > 0) return;

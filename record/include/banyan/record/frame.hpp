@@ -27,7 +27,7 @@ struct RobotFrame {
   SpareState spare_state = SpareState::wait;
   bool alive = true;
   bool connected = false;  // alive and in the radio component of the newest living root
-  std::uint16_t epoch = 0;
+  Serial epoch = 0;
   std::int32_t label_cm = -1;  // -1: unknown
   std::int32_t depth = 0;      // root 1; 0: not connected to the root by tree edges
   std::int32_t parent = -1;    // robot index, -1: nobody; so are the next three

@@ -13,6 +13,9 @@ namespace banyan {
 
 using Serial = std::uint16_t;
 
+// The number `by` after `a`, or before it; past the last one it goes on at 0.
+constexpr Serial advanced(Serial a, int by = 1) noexcept { return static_cast<Serial>(a + by); }
+
 inline constexpr int serial_half_range = 32768;
 
 // By how much `a` is ahead of `b`: in [-32768, 32767], negative if it is behind.

@@ -30,6 +30,6 @@ void advance(TreeRobot& robot, bool tree_complete) noexcept;
 
 // Enters (epoch, phase): a new epoch makes the parent the old parent and forgets labels and grants;
 // GROW TREE forgets the old tree.
-void enter(TreeRobot& robot, std::uint16_t epoch, Phase phase) noexcept;
+void enter(TreeRobot& robot, Serial epoch, Phase phase) noexcept;
 
 }  // namespace banyan
