@@ -10,8 +10,7 @@
 using namespace banyan;
 
 int main() {
-  world::Scenario scenario;  // every other field has a default
-  scenario.algorithms = &algorithms();
+  world::Scenario scenario = world::plain_scenario(algorithms());  // every field has a default
   scenario.seed = 1;
   scenario.mission.algorithm = "inwards";
   scenario.swarm.redundancy = 3.0;

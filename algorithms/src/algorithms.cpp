@@ -12,17 +12,19 @@
 namespace banyan {
 
 const AlgorithmList& algorithms() noexcept {
-  static const AlgorithmList all{
-      &outwards(),
-      &inwards(),
-      &convoy(),
-      &rivals::link_consensus::algorithm(),
-      &rivals::mst::algorithm(),
-      &rivals::fiedler::algorithm(),
-      &rivals::cohesion::algorithm(),
-      &rivals::chains::algorithm(),
-      &rivals::branches::algorithm(),
-  };
+  static const AlgorithmList all(
+      {
+          &outwards(),
+          &inwards(),
+          &convoy(),
+          &rivals::link_consensus::algorithm(),
+          &rivals::mst::algorithm(),
+          &rivals::fiedler::algorithm(),
+          &rivals::cohesion::algorithm(),
+          &rivals::chains::algorithm(),
+          &rivals::branches::algorithm(),
+      },
+      convoy().name());
   return all;
 }
 

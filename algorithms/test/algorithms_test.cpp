@@ -33,6 +33,13 @@ TEST(Algorithms, AreFoundByName) {
   EXPECT_EQ(AlgorithmList({&outwards()}).find("inwards"), nullptr);
 }
 
+TEST(Algorithms, TheUsualOneIsTheFirstUnlessTheListSaysOtherwise) {
+  EXPECT_EQ(algorithms().usual(), "convoy");
+  EXPECT_EQ(AlgorithmList({&outwards(), &inwards()}).usual(), "outwards");
+  EXPECT_EQ(AlgorithmList({&outwards(), &inwards()}, "inwards").usual(), "inwards");
+  EXPECT_EQ(AlgorithmList({}).usual(), "");
+}
+
 TEST(Algorithms, TheTableHasEveryKeyOnce) {
   std::set<std::string_view> keys;
   for (const ParameterInfo& row : algorithms().parameters()) EXPECT_TRUE(keys.insert(row.key).second) << row.key;

@@ -55,8 +55,7 @@ constexpr double spread_pitch_m = 1.3;
 constexpr double dense_pitch_m = 0.21;
 
 world::Scenario standing_scenario(const BenchLayout& layout) {
-  world::Scenario s;
-  s.algorithms = &algorithms();
+  world::Scenario s = world::plain_scenario(algorithms());
   s.name = layout.name;
   s.mission.reading = "literal";
   s.mission.time_limit_s = 1e6;

@@ -31,18 +31,17 @@ struct ValueText {
   }
 };
 
-// What holds without the key.
+// What holds without the key; `owner`: all defaults.
 template <class Owner>
 std::string fallback_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> keys,
-                        const std::vector<std::string_view>& with) {
+                        const std::vector<std::string_view>& with, Owner owner) {
   if (key.terms.required) return "required";
   if (!key.terms.otherwise.empty()) return std::string(key.terms.otherwise);
-  Owner owner{};
   if (!key.access.applies(owner)) set(*find_key(keys, selector_of(key)), owner, std::string(with.front()));
   return std::visit(ValueText{}, get(key, owner));
 }
 
-// `owner`: what else the choices depend on.
+// `owner`: all defaults, and what else the choices depend on.
 template <class Owner>
 KeyRow row_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> keys, const Owner& owner) {
   const auto with = applies_with(key, keys);
@@ -52,7 +51,7 @@ KeyRow row_of(const world::Key<Owner>& key, std::span<const world::Key<Owner>> k
   row.meaning = key.meaning;
   row.selector = selector_of(key);
   for (const auto name : with) row.when += (row.when.empty() ? "" : " ") + std::string(name);
-  row.fallback = fallback_of(key, keys, with);
+  row.fallback = fallback_of(key, keys, with, owner);
   if (key.access.type == Type::name) {
     for (const auto name : key.access.names(owner)) {
       row.allowed += (row.allowed.empty() ? "" : ", ") + std::string(name);
@@ -113,7 +112,7 @@ std::string meaning_of(const KeyRow& row, const std::string& section) {
 
 std::vector<KeyRow> key_rows(const AlgorithmList& algorithms) {
   Configuration standard;
-  standard.scenario.algorithms = &algorithms;
+  standard.scenario = world::plain_scenario(algorithms);
   std::vector<KeyRow> rows;
   for (const auto& section : sections()) {
     each_part(std::as_const(standard),

@@ -97,7 +97,7 @@ bool ScenarioReader::faulty(const std::string& key) const {
 
 Configuration ScenarioReader::read(const Node& root) {
   Configuration configuration;
-  configuration.scenario.algorithms = &algorithms_;
+  configuration.scenario = world::plain_scenario(algorithms_);
   places_.emplace("", root.place);
   const Part part{root, "", ""};
   Choices choices;

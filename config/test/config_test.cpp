@@ -90,7 +90,7 @@ series = true
 TEST(Config, DefaultsAreTheScenariosOwn) {
   const auto loaded = parse(small);
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
-  const world::Scenario standard;
+  const world::Scenario standard = world::plain_scenario(algorithms());
   const auto& s = loaded.configuration.scenario;
   EXPECT_EQ(s.name, "w");  // from w.toml
   EXPECT_EQ(s.tick_s, standard.tick_s);

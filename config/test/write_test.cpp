@@ -29,7 +29,7 @@ json* member(json& root, const std::string& path) {
 // With the algorithms that a scenario may name.
 template <class Owner> Owner blank() {
   Owner owner{};
-  if constexpr (std::is_same_v<Owner, world::Scenario>) owner.algorithms = &algorithms();
+  if constexpr (std::is_same_v<Owner, world::Scenario>) owner = world::plain_scenario(algorithms());
   return owner;
 }
 

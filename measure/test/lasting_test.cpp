@@ -10,8 +10,7 @@ namespace banyan::measure {
 namespace {
 
 world::Scenario frozen(std::size_t robots) {
-  world::Scenario s;
-  s.algorithms = &algorithms();
+  world::Scenario s = world::plain_scenario(algorithms());
   s.swarm.robots = robots;
   s.targets = world::RingTargets{2, 3.0};
   s.battery.model = world::Battery::Model::time;

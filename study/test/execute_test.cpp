@@ -51,7 +51,7 @@ std::string slow(std::string_view task) {
 Plan plan_of(std::size_t runs) {
   Plan plan;
   plan.combinations.emplace_back();
-  plan.combinations.back().scenario.algorithms = &algorithms();
+  plan.combinations.back().scenario = world::plain_scenario(algorithms());
   plan.combinations.back().output["record"] = false;
   for (std::size_t i = 0; i < runs; ++i)
     plan.runs.push_back({"id" + std::to_string(i), 0, i, "all/seed=" + std::to_string(i), 1.0});

@@ -114,6 +114,13 @@ double time_limit_s(const Scenario& scenario) {
   return 10.0 * farthest / scenario.robot.wheel_limit_m_s;
 }
 
+Scenario plain_scenario(const AlgorithmList& algorithms) {
+  Scenario scenario;
+  scenario.algorithms = &algorithms;
+  scenario.mission.algorithm = algorithms.usual();
+  return scenario;
+}
+
 const Algorithm& algorithm_of(const Scenario& scenario) {
   return *scenario.algorithms->find(scenario.mission.algorithm);
 }

@@ -39,6 +39,9 @@ TEST(OwnAlgorithm, ItsListIsWhatAScenarioChoosesFrom) {
   scenario.mission.algorithm = "inwards";  // one of Banyan's, but not of this program
   EXPECT_THROW(World{scenario}, std::invalid_argument);
   EXPECT_THROW(World{Scenario{}}, std::invalid_argument) << "nothing to choose from";
+  scenario.mission.algorithm = "";
+  EXPECT_THROW(World{scenario}, std::invalid_argument) << "none is chosen, and the world knows none by name";
+  EXPECT_EQ(hash_after_100_ticks(World(plain_scenario(list))), hash_after_100_ticks(World(Scenario{}, outwards())));
 }
 
 TEST(OwnAlgorithm, TheRestOfItsScenarioIsCheckedToo) {

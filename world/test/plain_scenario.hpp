@@ -7,10 +7,6 @@
 
 namespace banyan::world {
 
-inline Scenario plain_scenario() {
-  Scenario scenario;
-  scenario.algorithms = &algorithms();
-  return scenario;
-}
+inline Scenario plain_scenario() { return plain_scenario(algorithms()); }
 
 }  // namespace banyan::world

@@ -125,8 +125,7 @@ void draw_changes(Dice& dice, Scenario& s, double reach, double limit_s, std::si
 
 Scenario drawn(std::uint64_t seed, std::uint64_t index, std::uint64_t attempt) {
   Dice dice(seed, index, attempt);
-  Scenario s;
-  s.algorithms = &algorithms();
+  Scenario s = world::plain_scenario(algorithms());
   s.name = "soak-" + std::to_string(seed) + "-" + std::to_string(index);
   s.seed = mix(seed ^ mix(index)) >> 32;
   const bool plain = dice.once_in(5);  // of the kind of which most is promised

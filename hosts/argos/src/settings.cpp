@@ -34,8 +34,7 @@ std::optional<double> number_of(const std::string& text) {
 
 class Reader {
  public:
-  Reader(const AlgorithmList& list, double tick_s) {
-    scenario_.algorithms = &list;
+  Reader(const AlgorithmList& list, double tick_s) : scenario_(world::plain_scenario(list)) {
     scenario_.tick_s = tick_s;
   }
 

@@ -149,7 +149,7 @@ std::shared_ptr<const Algorithms> algorithms_from(const py::sequence& own) {
 }
 
 Algorithms::Algorithms(std::vector<std::unique_ptr<OutsideAlgorithm>> of_user)
-    : own(std::move(of_user)), list(all_of(own)) {}
+    : own(std::move(of_user)), list(all_of(own), algorithms().usual()) {}
 
 std::shared_ptr<const Algorithms> shipped_algorithms() {
   static const auto shipped = std::make_shared<const Algorithms>(std::vector<std::unique_ptr<OutsideAlgorithm>>{});

@@ -21,7 +21,7 @@ namespace banyan::world {
 using Vec2 = BasicVec2<double>;
 
 struct Mission {
-  std::string algorithm = "convoy";   // a name in Scenario::algorithms
+  std::string algorithm;              // a name in Scenario::algorithms
   std::string reading = "corrected";  // or "literal"
   double scale = 1.0;                 // on Table I's lengths (paper Sec. IV-C, "rescaled")
   double target_tolerance_m = 0.20;
@@ -251,6 +251,9 @@ struct Scenario {
   std::vector<Obstacle> obstacles;
   std::vector<Event> events;  // any order; equal times act in file order
 };
+
+// Nothing is said yet: all defaults, and the usual algorithm of this list.
+[[nodiscard]] Scenario plain_scenario(const AlgorithmList& algorithms);
 
 // The functions below need a scenario without faults (faults.hpp; warnings do not matter).
 

@@ -82,11 +82,13 @@ class AlgorithmElsewhere : public Algorithm {
 // down: algorithms/ has the list of those that come with Banyan.
 class AlgorithmList {
  public:
-  // They must outlive the list.
-  AlgorithmList(std::initializer_list<const Algorithm*> algorithms)
-      : AlgorithmList(std::vector<const Algorithm*>(algorithms)) {}
-  explicit AlgorithmList(std::vector<const Algorithm*> algorithms) : algorithms_(std::move(algorithms)) {
+  // They must outlive the list. `usual`: the name of the one that a user means who names none; "": the first.
+  AlgorithmList(std::initializer_list<const Algorithm*> algorithms, std::string_view usual = {})
+      : AlgorithmList(std::vector<const Algorithm*>(algorithms), usual) {}
+  explicit AlgorithmList(std::vector<const Algorithm*> algorithms, std::string_view usual = {})
+      : algorithms_(std::move(algorithms)), usual_(usual) {
     for (const Algorithm* algorithm : algorithms_) names_.push_back(algorithm->name());
+    if (usual_.empty() && !names_.empty()) usual_ = names_.front();
     // In the order of the longest table, so that the texts of configurations keep theirs.
     const auto longest = std::max_element(
         algorithms_.begin(), algorithms_.end(),
@@ -98,6 +100,7 @@ class AlgorithmList {
   [[nodiscard]] auto begin() const noexcept { return algorithms_.begin(); }
   [[nodiscard]] auto end() const noexcept { return algorithms_.end(); }
   [[nodiscard]] std::span<const std::string_view> names() const noexcept { return names_; }
+  [[nodiscard]] std::string_view usual() const noexcept { return usual_; }
   // By name; null if there is none.
   [[nodiscard]] const Algorithm* find(std::string_view name) const noexcept {
     const auto at = std::find(names_.begin(), names_.end(), name);
@@ -116,6 +119,7 @@ class AlgorithmList {
 
   std::vector<const Algorithm*> algorithms_;
   std::vector<std::string_view> names_;
+  std::string_view usual_;
   std::vector<ParameterInfo> parameters_;
 };
 
