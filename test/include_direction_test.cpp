@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -19,6 +18,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "sources.hpp"
 
 namespace {
 
@@ -118,20 +119,6 @@ std::vector<Include> includes(const fs::path& file) {
     std::smatch match;
     if (std::regex_search(line, match, line_form)) found.push_back({match[2], match[1] == "\""});
   }
-  return found;
-}
-
-std::vector<fs::path> sources(const fs::path& folder) {
-  static const std::array<std::string_view, 4> endings = {".hpp", ".h", ".cpp", ".cc"};
-  std::vector<fs::path> found;
-  if (!fs::exists(folder)) return found;
-  for (fs::recursive_directory_iterator entry(folder), end; entry != end; ++entry) {
-    const std::string name = entry->path().filename().string();
-    if (entry->is_directory() && (name == "node_modules" || name == "build")) entry.disable_recursion_pending();
-    else if (std::ranges::find(endings, entry->path().extension().string()) != endings.end())
-      found.push_back(entry->path());
-  }
-  std::ranges::sort(found);
   return found;
 }
 

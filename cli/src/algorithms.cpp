@@ -89,7 +89,7 @@ std::string default_text(const Algorithm& algorithm, std::string_view key) {
 int column_width(const Algorithm& algorithm) { return std::max(9, static_cast<int>(algorithm.name().size())); }
 
 // The text of a row besides its numbers: grouped by algorithms with the same text.
-struct Said {
+struct ParameterGroup {
   const ParameterInfo* info;
   std::string names;
   std::vector<std::pair<std::string_view, std::string>> scaling;  // and for which of them
@@ -102,14 +102,15 @@ void append_name(std::string& names, std::string_view name) {
   names += (names.empty() ? "" : ", ") + std::string(name);
 }
 
-std::vector<Said> said_of(std::string_view key, const std::vector<const Algorithm*>& list) {
-  std::vector<Said> said;
+std::vector<ParameterGroup> said_of(std::string_view key, const std::vector<const Algorithm*>& list) {
+  std::vector<ParameterGroup> said;
   for (const Algorithm* algorithm : list) {
     const auto rows = algorithm->parameters();
     const auto row =
         std::find_if(rows.begin(), rows.end(), [&](const ParameterInfo* info) { return info->key == key; });
     if (row == rows.end()) continue;
-    auto group = std::find_if(said.begin(), said.end(), [&](const Said& s) { return is_same(*s.info, **row); });
+    auto group =
+        std::find_if(said.begin(), said.end(), [&](const ParameterGroup& s) { return is_same(*s.info, **row); });
     if (group == said.end()) group = said.insert(said.end(), {*row, "", {}});
     append_name(group->names, algorithm->name());
     const std::string_view scaling = scaling_text(*algorithm, static_cast<std::size_t>(row - rows.begin()));
@@ -122,7 +123,7 @@ std::vector<Said> said_of(std::string_view key, const std::vector<const Algorith
 }
 
 // "0.05 to 100, grows with mission.scale (outwards, inwards), grows with C and mission.scale (convoy)"
-std::string range_and_scaling(const Said& said) {
+std::string range_and_scaling(const ParameterGroup& said) {
   std::string text = range_text(*said.info);
   for (const auto& [scaling, names] : said.scaling) {
     if (scaling.empty()) continue;
@@ -138,14 +139,14 @@ std::string table_text(const std::vector<const Algorithm*>& list) {
     head += format("  %-*s", column_width(*algorithm), std::string(algorithm->name()).c_str());
   std::string text = head + "  source\n";
   for (const auto& row : algorithms().parameters()) {
-    const std::vector<Said> said = said_of(row.key, list);
+    const std::vector<ParameterGroup> said = said_of(row.key, list);
     if (said.empty()) continue;
     text += format("%-26s %-8s %-4s", std::string(row.key).c_str(), std::string(said[0].info->symbol).c_str(),
                    std::string(said[0].info->unit).c_str());
     for (const Algorithm* algorithm : list)
       text += format("  %-*s", column_width(*algorithm), default_text(*algorithm, row.key).c_str());
     text += "  " + std::string(said[0].info->source) + "\n";
-    for (const Said& group : said) {
+    for (const ParameterGroup& group : said) {
       const ParameterInfo* info = group.info;
       text += "    " + (said.size() > 1 ? group.names + ": " : "") + std::string(info->meaning);
       if (const auto owner = platform_key(row.key); !owner.empty()) text += " (set by " + std::string(owner) + ")";

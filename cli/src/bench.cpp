@@ -32,7 +32,7 @@ namespace banyan::cli {
 using namespace config;
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Steady = std::chrono::steady_clock;
 
 struct BenchLayout {
   enum class Kind : std::uint8_t { dense, spread, mission };
@@ -99,7 +99,7 @@ world::Scenario scenario_of(const BenchLayout& layout, const BenchOptions& optio
   return s;
 }
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Steady::time_point start) { return std::chrono::duration<double>(Steady::now() - start).count(); }
 
 double cpu_seconds() {
   timespec now{};
@@ -120,11 +120,11 @@ double resident_bytes() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-struct Neighbors {
+struct NeighborCounts {
   double in_range = 0.0;  // mean per robot
   double visible = 0.0;   // of these, with line of sight
 };
-Neighbors neighbors_of(const world::World& world) {
+NeighborCounts neighbors_of(const world::World& world) {
   std::size_t visible = 0;
   for (std::size_t i = 0; i < world.size(); ++i) visible += world.links(i).size();
   const auto n = static_cast<double>(world.size());
@@ -137,7 +137,7 @@ struct Sample {
   std::size_t robots = 0;
   std::vector<double> rates;              // robot-steps per second of wall time, one per window
   std::vector<double> cpu_rates;          // the same per second of processor time, for a busy machine
-  Neighbors start, end;                   // first and last tick of the windows
+  NeighborCounts start, end;              // first and last tick of the windows
   double moving_share = 0.0;              // robots that moved in the last tick, mean over windows
   double startup_s = 0.0;                 // from the scenario to a world that can step, observer included
   double bytes_per_robot = 0.0;           // as the world counts
@@ -164,7 +164,7 @@ void measure_window(const world::World& settled, const BenchLayout& layout, doub
   do {
     world = settled;
     measure::Observer observer(world);
-    const auto start = Clock::now();
+    const auto start = Steady::now();
     const double cpu_start_s = cpu_seconds();
     double lap_s = 0.0;
     for (std::uint64_t t = 0; t < layout.lap_ticks && spent_s + lap_s < seconds; ++t) {
@@ -184,11 +184,11 @@ void measure_window(const world::World& settled, const BenchLayout& layout, doub
   sample.cpu_rates.push_back(steps / cpu_s);
 }
 
-Sample measure_layout(const BenchLayout& layout, const BenchOptions& options, Progress& progress) {
+Sample measure_layout(const BenchLayout& layout, const BenchOptions& options, ProgressLine& progress) {
   Sample sample;
   const auto scenario = scenario_of(layout, options);
   const double before = resident_bytes();
-  const auto start = Clock::now();
+  const auto start = Steady::now();
   world::World settled(scenario);
   measure::Observer observer(settled);
   sample.startup_s = seconds_since(start);
@@ -268,7 +268,7 @@ int bench_command(const BenchOptions& options) {
                  "per CPU s", "in range", "visible", "moving", "start, s", "bytes/robot"));
   }
   for (const auto& layout : layouts) {
-    Progress progress(true);
+    ProgressLine progress(true);
     const auto sample = measure_layout(layout, options, progress);
     progress.clear();
     if (options.json) report[layout.name] = json_of(sample);

@@ -158,7 +158,7 @@ record::PictureOptions look_of(const FilmOptions& options, bool gif) {
 }
 
 // Draws every moment of the cut, each between the two recorded frames around it.
-void shoot(record::Recording& recording, const Cut& cut, Studio& studio, Progress& progress) {
+void shoot(record::Recording& recording, const Cut& cut, Studio& studio, ProgressLine& progress) {
   record::TrailLog log(cut.trail_s);
   std::optional<record::Frame> earlier;
   std::size_t next = 0;
@@ -207,7 +207,7 @@ int film_command(const FilmOptions& options) {
   const Cut cut = make_cut(recording, options, gif);
   record::PictureOptions look = look_of(options, gif);
   catch_stop_signals();
-  Progress progress(!options.quiet);
+  ProgressLine progress(!options.quiet);
   Ffmpeg ffmpeg(options.output, static_cast<int>(look.width_px), static_cast<int>(look.height_px), cut.fps,
                 options.force);
   const std::size_t frames = cut.frames();

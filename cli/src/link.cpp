@@ -26,7 +26,7 @@ struct Act {
   std::string json;
 };
 
-struct Parts {
+struct LinkParts {
   std::string scenario, name, text;
   std::vector<std::string> sets, algorithms, seeds;
   std::vector<Act> acts;
@@ -88,9 +88,9 @@ std::optional<Act> act_of(const std::string& text) {
   return act;
 }
 
-class Reader {
+class LinkReader {
  public:
-  explicit Reader(const std::string& link) : origin_(std::make_shared<const std::string>("link")) {
+  explicit LinkReader(const std::string& link) : origin_(std::make_shared<const std::string>("link")) {
     std::string_view rest = std::string_view(link).substr(link.find('#') + 1);
     if (rest.find_first_of("=&") == std::string_view::npos) {
       parts.scenario = decoded(rest);
@@ -105,7 +105,7 @@ class Reader {
 
   void wrong(const std::string& key, const std::string& text) { problems.push_back({{origin_, 0}, key, text, false}); }
 
-  Parts parts;
+  LinkParts parts;
   std::size_t beside = 0;  // further runs, with scenarios of their own
   std::vector<Problem> problems;
 
@@ -149,8 +149,8 @@ class Reader {
 };
 
 // The text of the scenario that is meant; "" if there is none, with a problem.
-std::string scenario_text(Reader& reader) {
-  const Parts& parts = reader.parts;
+std::string scenario_text(LinkReader& reader) {
+  const LinkParts& parts = reader.parts;
   if (!parts.text.empty()) return parts.text;
   std::vector<std::string> names;
   std::error_code ignored;
@@ -167,7 +167,7 @@ std::string scenario_text(Reader& reader) {
   return "";
 }
 
-std::vector<Override> overrides_of(const Parts& parts, const std::vector<Override>& more) {
+std::vector<Override> overrides_of(const LinkParts& parts, const std::vector<Override>& more) {
   std::vector<Override> all;
   const auto add = [&](const std::string& assignment) {
     all.push_back({assignment, "set=" + assignment + " of the link", {}});
@@ -210,7 +210,7 @@ bool is_link(std::string_view text) {
 LoadedLink load_link(const std::string& link, const std::vector<Override>& more) {
   LoadedLink result;
   result.fragment = link.substr(link.find('#'));
-  Reader reader(link);
+  LinkReader reader(link);
   const auto odd = [](char c) { return c <= ' ' || c > '~'; };
   if (std::ranges::any_of(link, odd))
     reader.wrong("", "has characters that no address has; copy it as a whole, in quotes");
@@ -220,7 +220,7 @@ LoadedLink load_link(const std::string& link, const std::vector<Override>& more)
       result.loaded.problems = reader.problems;
       return result;
     }
-    const Parts& parts = reader.parts;
+    const LinkParts& parts = reader.parts;
     result.runs = std::max<std::size_t>(1, parts.algorithms.size()) * std::max<std::size_t>(1, parts.seeds.size()) +
                   reader.beside;
     const std::string path = parts.text.empty()   ? parts.scenario + ".toml"

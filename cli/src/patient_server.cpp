@@ -21,14 +21,14 @@ namespace banyan::cli {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Steady = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds longest_pause{5};  // in which a reader takes nothing
 
 // Whether the socket is ready for that before the moment has come.
-bool await(socket_t socket, short events, Clock::time_point until) {
+bool await(socket_t socket, short events, Steady::time_point until) {
   for (;;) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Steady::now()).count();
     if (left <= 0) return false;
     pollfd wanted{socket, events, 0};
     const int ready = ::poll(&wanted, 1, static_cast<int>(std::min<std::int64_t>(left, 1'000'000)));
@@ -40,10 +40,10 @@ bool await(socket_t socket, short events, Clock::time_point until) {
 // A connection whose reading ends at a deadline, however often data arrives.
 class Connection final : public httplib::Stream {
  public:
-  Connection(socket_t socket, std::chrono::milliseconds patience) : socket_(socket), until_(Clock::now() + patience) {}
+  Connection(socket_t socket, std::chrono::milliseconds patience) : socket_(socket), until_(Steady::now() + patience) {}
 
   [[nodiscard]] bool is_readable() const override { return at_ < size_ || await(socket_, POLLIN, until_); }
-  [[nodiscard]] bool is_writable() const override { return await(socket_, POLLOUT, Clock::now() + longest_pause); }
+  [[nodiscard]] bool is_writable() const override { return await(socket_, POLLOUT, Steady::now() + longest_pause); }
 
   ssize_t read(char* into, std::size_t size) override {
     if (at_ == size_) {
@@ -68,7 +68,7 @@ class Connection final : public httplib::Stream {
 
  private:
   socket_t socket_;
-  Clock::time_point until_;
+  Steady::time_point until_;
   std::array<char, 4096> buffer_;
   std::size_t at_ = 0, size_ = 0;
 };

@@ -45,7 +45,7 @@ std::string progress_text(const record::Simulation& simulation) {
                 tick.worst_target_distance_m);
 }
 
-void show(Progress& progress, const record::Simulation& simulation) {
+void show(ProgressLine& progress, const record::Simulation& simulation) {
   const auto& world = simulation.world();
   const double share = world.time_s() / std::max(simulation.run().time_limit_s, world.scenario().tick_s);
   progress.show(share < 1.0 ? share : 0.0, progress_text(simulation), true);  // the time left is unknown
@@ -60,7 +60,7 @@ void tell_of_rest(const std::string& rest, const char* before = "") {
 // Reports outputs that have failed, at once: the run may still take hours.
 class Complaints {
  public:
-  Complaints(const record::Sinks& sinks, Progress& progress) : sinks_(sinks), progress_(progress) {}
+  Complaints(const record::Sinks& sinks, ProgressLine& progress) : sinks_(sinks), progress_(progress) {}
   void tell() {
     for (; told_ < sinks_.failures().size(); ++told_) {
       const auto& failure = sinks_.failures()[told_];
@@ -79,7 +79,7 @@ class Complaints {
 
  private:
   const record::Sinks& sinks_;
-  Progress& progress_;
+  ProgressLine& progress_;
   std::size_t told_ = 0;
 };
 
@@ -101,7 +101,7 @@ Loaded load_or_leave(const RunOptions& options) {
 
 // Steps until the mission ends or a signal comes. An exception here ends the run; an output that fails does not.
 record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, Complaints& complaints,
-                        Progress& progress, const Play& play) {
+                        ProgressLine& progress, const Play& play) {
   world::Executor executor(threads);
   const auto go_on = [&](const record::Simulation& simulation) {
     complaints.tell();
@@ -119,7 +119,7 @@ record::RunEnd play_out(world::World world, record::Sinks& sinks, int threads, C
 int keep_run(const Configuration& configuration, const RunOutputs& outputs, const RunOptions& options,
              world::World world, const Play& play, const std::function<std::string()>& remarks) {
   catch_stop_signals();
-  Progress progress(!options.quiet);
+  ProgressLine progress(!options.quiet);
   const record::SinkOptions wanted{
       {config_json(configuration), std::string(version), std::string(git_id()), configuration.scenario.seed},
       configuration.output,

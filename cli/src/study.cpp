@@ -79,7 +79,7 @@ bool prepare(const StudyOptions& options, Prepared& prepared) {
   prepared.study = std::move(loaded.study);
   const double rows = count_rows(prepared.study);
   confirm_number(rows, options.yes || options.dry_run);
-  Progress progress(!options.quiet);
+  ProgressLine progress(!options.quiet);
   prepared.plan = make_plan(prepared.study, algorithms(), [&](double planned) {
     if (!progress.due()) return;
     const std::string text = format("%s of %s runs planned", grouped(planned).c_str(), grouped(rows).c_str());
@@ -191,7 +191,7 @@ int dry_run(const Prepared& prepared, const Shard& shard, const std::vector<std:
   return exit_done;
 }
 
-Watch progress_watch(Progress& progress) {
+Watch progress_watch(ProgressLine& progress) {
   return [&progress](const study::Standing& now) {
     if (progress.due() && now.done > 0) {
       const double rate = static_cast<double>(now.done) / progress.elapsed_s();
@@ -253,7 +253,7 @@ int run_plan(const StudyOptions& options, const Prepared& prepared, const Shard&
   {
     Journal journal(folder.journal(shard), prepared.study.name, std::string(version), std::string(git_id()));
     const auto workers = processes.workers(simulate_run, threads);
-    Progress progress(!options.quiet);
+    ProgressLine progress(!options.quiet);
     standing = execute(prepared.plan, todo, *workers, journal, folder.runs(), progress_watch(progress));
   }
   if (standing.stopped) {

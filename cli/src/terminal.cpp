@@ -89,14 +89,14 @@ void print_problems(const std::vector<Problem>& problems) {
   write_error(text);
 }
 
-Progress::Progress(bool wanted)
+ProgressLine::ProgressLine(bool wanted)
     : wanted_(wanted),
       terminal_(::isatty(STDERR_FILENO) == 1),
       next_(start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(silent_s))) {}
 
-bool Progress::due() { return wanted_ && Clock::now() >= next_; }
+bool ProgressLine::due() { return wanted_ && Clock::now() >= next_; }
 
-void Progress::show(double share, std::string_view text, bool at_most) {
+void ProgressLine::show(double share, std::string_view text, bool at_most) {
   const double elapsed = elapsed_s();
   std::string line(text);
   if (share > 0.0) {
@@ -115,12 +115,12 @@ void Progress::show(double share, std::string_view text, bool at_most) {
                              std::chrono::duration<double>(terminal_ ? terminal_period_s : log_period_s));
 }
 
-void Progress::clear() {
+void ProgressLine::clear() {
   if (shown_ && terminal_) write_error("\r\033[K");
   shown_ = false;
 }
 
-double Progress::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+double ProgressLine::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 std::string duration_text(double seconds) {
   const auto whole = static_cast<long long>(std::clamp(std::ceil(seconds), 0.0, 1e12));

@@ -46,12 +46,12 @@ void print_problems(const std::vector<config::Problem>& problems);
 
 // A line on standard error with the progress of a run: rewritten in place on a terminal, else a
 // line every ten seconds. Silent for runs shorter than two seconds and when not wanted.
-class Progress {
+class ProgressLine {
  public:
-  explicit Progress(bool wanted);
-  ~Progress() { clear(); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit ProgressLine(bool wanted);
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 
   // Whether it is time for show(). Cheap: call it every tick.
   [[nodiscard]] bool due();

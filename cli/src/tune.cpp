@@ -144,7 +144,7 @@ int threads_of(const TuneOptions& options, const study::Processes& processes) {
 }
 
 study::TuneResult search(const TunePlan& plan, study::Workers& workers, const std::string& directory,
-                         Progress& progress) {
+                         ProgressLine& progress) {
   study::TuneHooks hooks;
   hooks.stopped = [] { return stop_signal() != 0; };
   hooks.progress = [&](double share, const std::string& text) {
@@ -176,7 +176,7 @@ int tune_command(const TuneOptions& options) {
 
   const auto lock = claim(directory, options.force);
   catch_stop_signals();
-  Progress progress(!options.quiet);
+  ProgressLine progress(!options.quiet);
   const auto workers = processes.workers(simulate_run, threads);
   const auto result = search(plan, *workers, directory, progress);
   progress.clear();

@@ -34,7 +34,7 @@ const std::string three_targets = std::string(BANYAN_SCENARIOS) + "/khepera-thre
 // ---- Robots in this process: the swarm that is elsewhere, without clocks and sockets ----
 
 // Robots that step once a tick, right after the hub's word.
-class NearbyRobots final : public udp::Link {
+class NearbyRobots final : public udp::RemoteLink {
  public:
   NearbyRobots(const world::Scenario& scenario, std::size_t robots) : answers_(robots) {
     Setup setup = world::setup_of(scenario);
@@ -59,7 +59,7 @@ class NearbyRobots final : public udp::Link {
   std::set<std::size_t> dismissed;
 
  private:
-  std::vector<udp::Robot> robots_;
+  std::vector<udp::UdpRobot> robots_;
   std::vector<std::optional<udp::Status>> answers_;
 };
 

@@ -107,7 +107,7 @@ Scenario literal(std::uint64_t seed) {
   return s;
 }
 
-bool found(const Verdict& outcome, const std::string& kind) {
+bool found(const SoakOutcome& outcome, const std::string& kind) {
   const auto same = [&](const Finding& f) { return f.kind == kind; };
   return std::any_of(outcome.findings.begin(), outcome.findings.end(), same);
 }
@@ -142,7 +142,7 @@ TEST(SoakWatch, ASplitWithoutADeathIsFound) {
   s.mission.time_limit_s = 5.0;
   EXPECT_FALSE(found(watch(s, false), "split"));
   s.events.push_back({.time_s = 2.0, .action = world::MoveObstacle{0, {0.95, 0.0}}});  // which pushes both aside
-  const Verdict outcome = watch(s, true);
+  const SoakOutcome outcome = watch(s, true);
   ASSERT_TRUE(found(outcome, "split"));
   EXPECT_NEAR(outcome.findings.front().time_s, 2.1, 0.11);
   EXPECT_FALSE(found(outcome, "not-reproducible"));
@@ -169,7 +169,7 @@ TEST(SoakWatch, ASplitOfANetworkThatWasNeverJoinedHasANameOfItsOwn) {
   s.radio.model = world::RadioModel::Model::one_way;
   for (const double share : {0.0, 1.0}) {
     s.radio.one_way_share = share;
-    const Verdict outcome = watch(s, false);
+    const SoakOutcome outcome = watch(s, false);
     EXPECT_EQ(found(outcome, "unlinked-split"), share == 1.0);
     EXPECT_EQ(found(outcome, "split"), share == 0.0);
   }
@@ -251,8 +251,8 @@ TEST(SoakShrink, LeavesNothingThatIsNotNeeded) {
 
 TEST(SoakIsolated, SaysTheSameFromAProcessOfItsOwnAndOutlivesACrash) {
   const Scenario s = literal(2);
-  const Verdict here = watch(s, false);
-  const Verdict there = Isolated(s, false).wait();
+  const SoakOutcome here = watch(s, false);
+  const SoakOutcome there = Isolated(s, false).wait();
   EXPECT_EQ(here.hash, there.hash);
   ASSERT_EQ(here.findings.size(), there.findings.size());
   for (std::size_t i = 0; i < here.findings.size(); ++i) {
@@ -336,7 +336,7 @@ TEST(SoakCommand, NamesALineOfItsJournalThatIsNone) {
 }
 
 TEST(SoakJournal, CountsAMissionInEachOfItsKinds) {
-  std::map<std::uint64_t, Row> rows;
+  std::map<std::uint64_t, SoakRow> rows;
   for (std::uint64_t k = 1; k <= 41; ++k)
     rows[k] = {.index = k,
                .kind = k == 41 ? "loose start, noise" : "noise",

@@ -8,13 +8,13 @@ namespace banyan::config {
 namespace {
 
 // A step of "events[0].time_s": a name, or an index into a list.
-struct Step {
+struct PathStep {
   std::string name;
   std::optional<std::size_t> index;
 };
 
-std::optional<std::vector<Step>> split_path(std::string_view path) {
-  std::vector<Step> steps;
+std::optional<std::vector<PathStep>> split_path(std::string_view path) {
+  std::vector<PathStep> steps;
   while (true) {
     const auto end = path.find_first_of(".[");
     if (end == 0 || path.empty()) return std::nullopt;

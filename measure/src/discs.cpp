@@ -12,12 +12,12 @@ namespace banyan::measure {
 
 using world::Vec2;
 
-Vec2 Disc::nearest(Vec2 from) const noexcept {
+Vec2 RangeDisc::nearest(Vec2 from) const noexcept {
   const double far = distance(center, from);
   return far <= radius ? from : center + (from - center) * (radius / far);
 }
 
-Points crossing(const Disc& a, const Disc& b) noexcept {
+Points crossing(const RangeDisc& a, const RangeDisc& b) noexcept {
   const Vec2 way = b.center - a.center;
   const double far = norm(way);
   if (far > a.radius + b.radius + touch || far <= std::abs(a.radius - b.radius)) return {};
@@ -28,23 +28,23 @@ Points crossing(const Disc& a, const Disc& b) noexcept {
   return {{middle + left, middle - left}, 2};
 }
 
-Cell::Cell(std::vector<Disc> discs) : discs_{std::move(discs)} {
+CommonRegion::CommonRegion(std::vector<RangeDisc> discs) : discs_{std::move(discs)} {
   for (std::size_t i = 0; i < discs_.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (const Vec2 p : crossing(discs_[i], discs_[j]))
         if (has(p)) corners_.push_back(p);
   // Without a corner there is one disc inside all others, or nothing.
-  const auto inner = [this](const Disc& d) { return has(d.center); };
-  const auto least =
-      std::min_element(discs_.begin(), discs_.end(), [](const Disc& a, const Disc& b) { return a.radius < b.radius; });
+  const auto inner = [this](const RangeDisc& d) { return has(d.center); };
+  const auto least = std::min_element(discs_.begin(), discs_.end(),
+                                      [](const RangeDisc& a, const RangeDisc& b) { return a.radius < b.radius; });
   empty_ = corners_.empty() && !inner(*least);
 }
 
-bool Cell::has(Vec2 p) const noexcept {
-  return std::all_of(discs_.begin(), discs_.end(), [p](const Disc& d) { return d.has(p); });
+bool CommonRegion::has(Vec2 p) const noexcept {
+  return std::all_of(discs_.begin(), discs_.end(), [p](const RangeDisc& d) { return d.has(p); });
 }
 
-Vec2 Cell::nearest(Vec2 from) const noexcept {
+Vec2 CommonRegion::nearest(Vec2 from) const noexcept {
   if (has(from)) return from;
   Vec2 best;
   double least = std::numeric_limits<double>::infinity();
@@ -52,7 +52,7 @@ Vec2 Cell::nearest(Vec2 from) const noexcept {
     const double d = distance(p, from);
     if (d < least) best = p, least = d;
   };
-  for (const Disc& disc : discs_) {
+  for (const RangeDisc& disc : discs_) {
     const Vec2 p = disc.nearest(from);
     if (!disc.has(from) && has(p)) consider(p);
   }
@@ -60,10 +60,10 @@ Vec2 Cell::nearest(Vec2 from) const noexcept {
   return best;
 }
 
-Nearest nearest(const Cell& a, const Cell& b) {
-  std::vector<Disc> all = a.discs();
+Nearest nearest(const CommonRegion& a, const CommonRegion& b) {
+  std::vector<RangeDisc> all = a.discs();
   all.insert(all.end(), b.discs().begin(), b.discs().end());
-  if (const Cell common(std::move(all)); !common.empty()) {
+  if (const CommonRegion common(std::move(all)); !common.empty()) {
     const Vec2 p = common.nearest(common.discs().front().center);
     return {p, p};
   }
@@ -75,8 +75,8 @@ Nearest nearest(const Cell& a, const Cell& b) {
   };
   for (const Vec2 p : a.corners()) consider(p, b.nearest(p));
   for (const Vec2 q : b.corners()) consider(a.nearest(q), q);
-  for (const Disc& one : a.discs()) {
-    for (const Disc& other : b.discs()) {
+  for (const RangeDisc& one : a.discs()) {
+    for (const RangeDisc& other : b.discs()) {
       const Vec2 p = one.nearest(other.center), q = other.nearest(one.center);
       if (a.has(p) && b.has(q)) consider(p, q);
     }
@@ -85,14 +85,15 @@ Nearest nearest(const Cell& a, const Cell& b) {
 }
 
 // The circles that bound what is within `reach` of the cell.
-static std::vector<Disc> outline(const Cell& cell, double reach) {
-  std::vector<Disc> circles;
-  for (const Disc& d : cell.discs()) circles.push_back({d.center, d.radius + reach});
+static std::vector<RangeDisc> outline(const CommonRegion& cell, double reach) {
+  std::vector<RangeDisc> circles;
+  for (const RangeDisc& d : cell.discs()) circles.push_back({d.center, d.radius + reach});
   for (const Vec2 p : cell.corners()) circles.push_back({p, reach});
   return circles;
 }
 
-std::optional<Vec2> between(const Disc& disc, const Cell& a, double a_reach, const Cell& b, double b_reach) {
+std::optional<Vec2> between(const RangeDisc& disc, const CommonRegion& a, double a_reach, const CommonRegion& b,
+                            double b_reach) {
   const auto fits = [&](Vec2 p) {
     return disc.has(p) && distance(p, a.nearest(p)) <= a_reach + touch && distance(p, b.nearest(p)) <= b_reach + touch;
   };
@@ -100,12 +101,12 @@ std::optional<Vec2> between(const Disc& disc, const Cell& a, double a_reach, con
   // single cell, or a corner of both outlines.
   if (fits(disc.center)) return disc.center;
   for (const auto& [cell, reach] : {std::pair{&a, a_reach}, std::pair{&b, b_reach}}) {
-    const Vec2 p = Disc{cell->nearest(disc.center), reach}.nearest(disc.center);
+    const Vec2 p = RangeDisc{cell->nearest(disc.center), reach}.nearest(disc.center);
     if (fits(p)) return p;
   }
-  const std::vector<Disc> others = outline(b, b_reach);
-  for (const Disc& one : outline(a, a_reach))
-    for (const Disc& other : others)
+  const std::vector<RangeDisc> others = outline(b, b_reach);
+  for (const RangeDisc& one : outline(a, a_reach))
+    for (const RangeDisc& other : others)
       for (const Vec2 p : crossing(one, other))
         if (fits(p)) return p;
   return std::nullopt;

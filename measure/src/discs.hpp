@@ -14,7 +14,7 @@ namespace banyan::measure {
 
 constexpr double touch = 1e-9;  // discs that miss each other by less than this touch
 
-struct Disc {
+struct RangeDisc {
   world::Vec2 center;
   double radius = 0.0;
 
@@ -30,21 +30,21 @@ struct Points {
   [[nodiscard]] const world::Vec2* end() const noexcept { return at.data() + count; }
 };
 // Where the two circles meet: 0 or 2 points, which are equal where the circles touch.
-[[nodiscard]] Points crossing(const Disc& a, const Disc& b) noexcept;
+[[nodiscard]] Points crossing(const RangeDisc& a, const RangeDisc& b) noexcept;
 
 // What one or more discs have in common: convex, bounded by arcs between corners. Cost of each call: O(discs^2).
-class Cell {
+class CommonRegion {
  public:
-  explicit Cell(std::vector<Disc> discs);
+  explicit CommonRegion(std::vector<RangeDisc> discs);
   [[nodiscard]] bool empty() const noexcept { return empty_; }
   [[nodiscard]] bool has(world::Vec2 p) const noexcept;
   // The cell must not be empty.
   [[nodiscard]] world::Vec2 nearest(world::Vec2 from) const noexcept;
-  [[nodiscard]] const std::vector<Disc>& discs() const noexcept { return discs_; }
+  [[nodiscard]] const std::vector<RangeDisc>& discs() const noexcept { return discs_; }
   [[nodiscard]] const std::vector<world::Vec2>& corners() const noexcept { return corners_; }
 
  private:
-  std::vector<Disc> discs_;
+  std::vector<RangeDisc> discs_;
   std::vector<world::Vec2> corners_;
   bool empty_ = false;
 };
@@ -53,10 +53,10 @@ struct Nearest {
   world::Vec2 a, b;
 };
 // Two points of two cells, neither of them empty, with the least distance.
-[[nodiscard]] Nearest nearest(const Cell& a, const Cell& b);
+[[nodiscard]] Nearest nearest(const CommonRegion& a, const CommonRegion& b);
 
 // A point of the disc within `a_reach` of cell a and `b_reach` of cell b, both positive; nothing if there is none.
-[[nodiscard]] std::optional<world::Vec2> between(const Disc& disc, const Cell& a, double a_reach, const Cell& b,
-                                                 double b_reach);
+[[nodiscard]] std::optional<world::Vec2> between(const RangeDisc& disc, const CommonRegion& a, double a_reach,
+                                                 const CommonRegion& b, double b_reach);
 
 }  // namespace banyan::measure

@@ -25,7 +25,7 @@ int edges_for(double length) noexcept { return std::max(0, static_cast<int>(std:
 struct Bunch {
   std::vector<int> hops;
   int sum = 0;
-  Cell place;
+  CommonRegion place;
 };
 
 class Layouts {
@@ -106,7 +106,7 @@ class Layouts {
     int hops;
   };
   bool meet(const End& a, int middle, int up, const End& b) {
-    const Disc about{leaves_[static_cast<std::size_t>(middle)], static_cast<double>(up)};
+    const RangeDisc about{leaves_[static_cast<std::size_t>(middle)], static_cast<double>(up)};
     const auto hub = between(about, a.bunch->place, a.hops, b.bunch->place, b.hops);
     if (!hub) return false;
     const int center = add_hub(*hub);
@@ -151,9 +151,9 @@ class Layouts {
   void extend(LeafSet left, std::vector<int>& hops, int sum, Sums wanted, std::vector<Bunch>& found) const {
     if (left == 0) {
       if (sum < wanted.least) return;
-      std::vector<Disc> discs;
+      std::vector<RangeDisc> discs;
       for (std::size_t k = 0; k < hops.size(); ++k) discs.push_back({chosen_[k], static_cast<double>(hops[k])});
-      Cell place(std::move(discs));
+      CommonRegion place(std::move(discs));
       if (!place.empty()) found.push_back({hops, sum, std::move(place)});
       return;
     }

@@ -151,7 +151,7 @@ bool is_high(std::size_t n, std::uint32_t eccentricity) {
   return 4.0 / (static_cast<double>(n) * 2.0 * std::max(1.0, static_cast<double>(eccentricity))) >= low_fiedler;
 }
 
-struct Stopped : std::exception {};  // while lambda_2 was computed
+struct LambdaStopped : std::exception {};  // while lambda_2 was computed
 
 // lambda_2 of one graph over a run: components at every tick, the threshold as often as it pays.
 struct Spectrum {
@@ -170,17 +170,17 @@ struct Spectrum {
   void judge_value(const Graph& graph) {
     try {
       low = fiedler.below(graph, low_fiedler);
-    } catch (const Stopped&) {  // NOLINT(bugprone-empty-catch)
+    } catch (const LambdaStopped&) {  // NOLINT(bugprone-empty-catch)
     }
   }
   [[nodiscard]] double value(const Graph& graph) {
     try {
       return fiedler.value(graph);
-    } catch (const Stopped&) { return -1.0; }
+    } catch (const LambdaStopped&) { return -1.0; }
   }
   void stop_when(const std::function<bool()>& asked) {
     fiedler.on_pause([asked] {
-      if (asked()) throw Stopped{};
+      if (asked()) throw LambdaStopped{};
     });
   }
 };

@@ -18,7 +18,7 @@ namespace banyan::measure {
 namespace {
 
 using world::Vec2;
-using Table = std::vector<std::vector<int>>;  // symmetric; the diagonal is not looked at
+using SymmetricTable = std::vector<std::vector<int>>;  // symmetric; the diagonal is not looked at
 
 constexpr int far = std::numeric_limits<int>::max() / 4;
 constexpr int most_packings = 100'000;  // while packing: the best so far is certain, too
@@ -32,7 +32,7 @@ int relays_along(double distance_m, double range_m) noexcept {
 // The most layers around nodes so that any two of these have no more than their room together: branch and bound.
 class Packing {
  public:
-  explicit Packing(const Table& room)
+  explicit Packing(const SymmetricTable& room)
       : room_(room), layers_(room.size(), 0), best_(room.size(), 0), order_(room.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     // Nodes far from all others first: there most is at stake.
@@ -84,7 +84,7 @@ class Packing {
     layers_[node] = 0;
   }
 
-  const Table& room_;
+  const SymmetricTable& room_;
   std::vector<int> layers_, best_;
   std::vector<std::size_t> order_;
   int best_sum_ = -1;
@@ -92,7 +92,7 @@ class Packing {
 };
 
 // Nodes between which no room is left are one from then on.
-std::vector<std::size_t> groups_of(const Table& room) {
+std::vector<std::size_t> groups_of(const SymmetricTable& room) {
   std::vector<std::size_t> group(room.size());
   std::iota(group.begin(), group.end(), std::size_t{0});
   for (std::size_t i = 0; i < room.size(); ++i)
@@ -108,7 +108,7 @@ std::vector<std::size_t> groups_of(const Table& room) {
 }
 
 // How many layers there are room for, none of which has a robot in common with another.
-int layers_around(Table room) {
+int layers_around(SymmetricTable room) {
   int sum = 0;
   while (room.size() > 1) {
     const std::vector<int> layers = Packing(room).run();
@@ -118,7 +118,7 @@ int layers_around(Table room) {
         if (i != j) room[i][j] -= layers[i] + layers[j];
     const std::vector<std::size_t> group = groups_of(room);
     const std::size_t size = *std::max_element(group.begin(), group.end()) + 1;
-    Table joined(size, std::vector<int>(size, far));
+    SymmetricTable joined(size, std::vector<int>(size, far));
     for (std::size_t i = 0; i < room.size(); ++i)
       for (std::size_t j = 0; j < room.size(); ++j)
         if (group[i] != group[j]) joined[group[i]][group[j]] = std::min(joined[group[i]][group[j]], room[i][j]);
@@ -127,8 +127,8 @@ int layers_around(Table room) {
   return sum;
 }
 
-Table relays_between_all(const std::vector<Vec2>& targets, double less_m, double range_m) {
-  Table relays(targets.size(), std::vector<int>(targets.size(), far));
+SymmetricTable relays_between_all(const std::vector<Vec2>& targets, double less_m, double range_m) {
+  SymmetricTable relays(targets.size(), std::vector<int>(targets.size(), far));
   for (std::size_t i = 0; i < targets.size(); ++i)
     for (std::size_t j = 0; j < targets.size(); ++j)
       if (i != j) relays[i][j] = relays_along(distance(targets[i], targets[j]) - less_m, range_m);
@@ -136,7 +136,7 @@ Table relays_between_all(const std::vector<Vec2>& targets, double less_m, double
 }
 
 // The relays of the ring through all targets that has the fewest (Held & Karp 1962). At least three targets.
-int relays_of_ring(const Table& relays) {
+int relays_of_ring(const SymmetricTable& relays) {
   const std::size_t n = relays.size() - 1;  // the last one is where the ring begins
   std::vector<std::vector<int>> least(std::size_t{1} << n, std::vector<int>(n, far));
   for (std::size_t i = 0; i < n; ++i) least[std::size_t{1} << i][i] = relays[n][i];
@@ -171,7 +171,7 @@ int relays_of_tree(const std::vector<Vec2>& targets, double range_m) {
 // Of networks that exist; `far` if none was looked for. Workers stand upon their targets.
 int relays_found(const std::vector<Vec2>& targets, double range_m, int paths) {
   if (targets.size() < 2) return paths;
-  const Table relays = relays_between_all(targets, 0.0, range_m);
+  const SymmetricTable relays = relays_between_all(targets, 0.0, range_m);
   if (targets.size() == 2) return relays[0][1] > 0 ? paths * relays[0][1] : paths - 1;
   if (targets.size() > most_toured) return far;
   int found = paths == 2 ? std::max(1, relays_of_ring(relays)) : far;

@@ -24,7 +24,7 @@ constexpr std::size_t most_programmed = 9;   // targets; above, components are c
 constexpr std::size_t most_quadruples = 40;  // targets up to which components of four are tried
 
 // A component of these targets; its branches count them in their order here.
-struct Part {
+struct JoinedTargets {
   std::vector<std::size_t> targets;
   FullComponent component;
 };
@@ -89,8 +89,8 @@ class Program {
     }
     return most;
   }
-  [[nodiscard]] std::vector<Part> parts() const {
-    std::vector<Part> list;
+  [[nodiscard]] std::vector<JoinedTargets> parts() const {
+    std::vector<JoinedTargets> list;
     collect(static_cast<TargetSet>(best_.size() - 1), list);
     return list;
   }
@@ -120,7 +120,7 @@ class Program {
     choice.component.push_back(std::move(found));
   }
 
-  void collect(TargetSet set, std::vector<Part>& list) const {
+  void collect(TargetSet set, std::vector<JoinedTargets>& list) const {
     const Choice& choice = best_[set];
     if (choice.component.empty()) {
       collect(choice.one, list);
@@ -143,12 +143,12 @@ class Greedy {
       for (std::size_t j = 0; j < targets.size(); ++j) cost(i, j) = relays_between(targets[i], targets[j]);
   }
 
-  std::vector<Part> parts() {
+  std::vector<JoinedTargets> parts() {
     span();
-    std::vector<Part> open = worthwhile(), chosen;
+    std::vector<JoinedTargets> open = worthwhile(), chosen;
     for (;;) {
-      const auto gain = [this](const Part& p) { return saved_by(p.targets) - p.component.relays; };
-      std::erase_if(open, [&](const Part& p) { return gain(p) <= 0; });
+      const auto gain = [this](const JoinedTargets& p) { return saved_by(p.targets) - p.component.relays; };
+      std::erase_if(open, [&](const JoinedTargets& p) { return gain(p) <= 0; });
       if (open.empty()) break;
       const auto best = std::max_element(open.begin(), open.end(), [&](auto& a, auto& b) { return gain(a) < gain(b); });
       for (const std::size_t i : best->targets)
@@ -220,7 +220,7 @@ class Greedy {
   }
 
   // Each target with others near it.
-  std::vector<Part> worthwhile() {
+  std::vector<JoinedTargets> worthwhile() {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const std::vector<std::size_t> near = nearest_to(i);
@@ -235,7 +235,7 @@ class Greedy {
     for (auto& group : groups) std::sort(group.begin(), group.end());
     std::sort(groups.begin(), groups.end());
     groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-    std::vector<Part> parts;
+    std::vector<JoinedTargets> parts;
     for (const auto& group : groups) {
       const std::vector<Vec2> points = points_of(targets_, group);
       const TargetSet all = (TargetSet{1} << group.size()) - 1;
@@ -269,7 +269,7 @@ class Laid {
  public:
   Laid(const std::vector<Vec2>& targets, double range_m) : targets_{targets}, range_m_{range_m} {}
 
-  void add(const Part& part) {
+  void add(const JoinedTargets& part) {
     std::vector<std::uint32_t> nodes(part.targets.begin(), part.targets.end());
     for (const Vec2 hub : part.component.hubs) nodes.push_back(add_relay(hub * range_m_));
     for (const Branch& branch : part.component.branches) {
@@ -368,7 +368,7 @@ RelayTree fewest_relays(const std::vector<Vec2>& targets, double range_m) {
   for (const Vec2 t : targets) scaled.push_back(t / range_m);
   const bool few = targets.size() <= most_programmed;
   Laid laid(targets, range_m);
-  for (const Part& part : few ? Program(scaled).parts() : Greedy(scaled).parts()) laid.add(part);
+  for (const JoinedTargets& part : few ? Program(scaled).parts() : Greedy(scaled).parts()) laid.add(part);
   const int relays = static_cast<int>(laid.tree.relays.size());
   laid.tree.exact = targets.size() <= static_cast<std::size_t>(most_leaves) || relays == 0 ||
                     (few && relays <= fewest_relays_certain(scaled, 0.0, 1.0));

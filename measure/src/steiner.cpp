@@ -220,23 +220,23 @@ class Relaxation {
 // every edge to which terminal t may yet be tied. What is hopeless for a topology is hopeless for
 // all that grow from it: an edge that is split hands its bit to its three parts, since with the
 // terminal that split it taken out again they are the edge they were.
-struct Node {
+struct SearchNode {
   Tree tree;
   std::array<std::uint32_t, exact_limit> open{};
 };
 static_assert(2 * exact_limit - 3 <= 32, "a bit for every edge");
 
-class Search {
+class SteinerSearch {
  public:
   // 3 to exact_limit distinct terminals.
-  explicit Search(std::vector<Vec2> terminals)
+  explicit SteinerSearch(std::vector<Vec2> terminals)
       : terminals_{std::move(terminals)}, best_{spanning_tree_length(terminals_)}, certain_{best_} {
     for (const Vec2 a : terminals_)
       for (const Vec2 b : terminals_) scale_ = std::max(scale_, distance(a, b));
   }
 
   SteinerLength run() {
-    Node start;
+    SearchNode start;
     std::copy(terminals_.begin(), terminals_.end(), start.tree.at.begin());
     start.tree.terminals = 2;
     start.tree.edge_count = 1;
@@ -258,7 +258,7 @@ class Search {
 
   // Of the missing terminals the one that promises the least work is tied first. One without a
   // place rules the whole topology out.
-  void grow(Node node) {
+  void grow(SearchNode node) {
     double least = std::numeric_limits<double>::infinity();
     int chosen = 0;
     std::vector<Branch> branches;
@@ -281,7 +281,7 @@ class Search {
   }
 
   // Every way to tie the terminal to the topology that may still lead to a shorter tree.
-  std::vector<Branch> places(Node& node, int terminal) {
+  std::vector<Branch> places(SearchNode& node, int terminal) {
     std::vector<Branch> found;
     for (int k = 0; k < node.tree.edge_count; ++k) {
       if ((node.open[terminal] >> k & 1U) == 0) continue;
@@ -305,8 +305,8 @@ class Search {
     return work;
   }
 
-  static Node with(const Node& node, int terminal, const Branch& branch) noexcept {
-    Node next{branch.tree, node.open};
+  static SearchNode with(const SearchNode& node, int terminal, const Branch& branch) noexcept {
+    SearchNode next{branch.tree, node.open};
     for (std::uint32_t& edges : next.open)
       if ((edges >> branch.edge & 1U) != 0) edges |= 3U << node.tree.edge_count;  // the two new edges
     next.open[terminal] = 0;
@@ -353,7 +353,7 @@ SteinerLength steiner_length(const std::vector<Vec2>& terminals) {
   // Where a search gives up, a search among fewer terminals may still bound better than the ratio.
   const std::size_t first = std::min(distinct.size(), exact_limit);
   for (std::size_t most = first; most > 2 && most + 4 >= first; most -= 2) {
-    const SteinerLength found = Search(far_apart(distinct, most)).run();
+    const SteinerLength found = SteinerSearch(far_apart(distinct, most)).run();
     best.lower_m = std::max(best.lower_m, found.lower_m);
     if (most == distinct.size()) best.upper_m = found.upper_m;
     if (found.exact) break;

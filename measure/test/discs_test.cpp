@@ -18,16 +18,16 @@ double chance(std::uint64_t seed, std::uint64_t which, std::uint64_t axis) {
   return world::to_uniform(world::bits(seed, world::Purpose::targets, which, axis));
 }
 
-Cell some_cell(std::uint64_t seed, std::uint64_t first, std::size_t discs, Vec2 about) {
-  std::vector<Disc> list;
+CommonRegion some_cell(std::uint64_t seed, std::uint64_t first, std::size_t discs, Vec2 about) {
+  std::vector<RangeDisc> list;
   for (std::uint64_t k = first; k < first + discs; ++k)
     list.push_back({about + Vec2{chance(seed, k, 0), chance(seed, k, 1)} * 2.0, 0.5 + 1.5 * chance(seed, k, 2)});
-  return Cell(list);
+  return CommonRegion(list);
 }
 
-std::vector<Vec2> sampled(const Cell& cell, double step) {
+std::vector<Vec2> sampled(const CommonRegion& cell, double step) {
   std::vector<Vec2> points;
-  const Disc& disc = cell.discs().front();
+  const RangeDisc& disc = cell.discs().front();
   for (double x = -disc.radius; x <= disc.radius; x += step)
     for (double y = -disc.radius; y <= disc.radius; y += step)
       if (const Vec2 p = disc.center + Vec2{x, y}; cell.has(p)) points.push_back(p);
@@ -49,7 +49,7 @@ TEST(Discs, CirclesCross) {
 TEST(Discs, ACellIsEmptyIfNoPointIsInAllDiscs) {
   int empty = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const Cell cell = some_cell(seed, 0, 3, {});
+    const CommonRegion cell = some_cell(seed, 0, 3, {});
     const bool found = !sampled(cell, 0.02).empty();
     if (found) { EXPECT_FALSE(cell.empty()) << seed; }
     if (cell.empty()) { EXPECT_FALSE(found) << seed; }
@@ -63,7 +63,7 @@ TEST(Discs, ACellIsEmptyIfNoPointIsInAllDiscs) {
 TEST(Discs, NoSampledPairIsNearer) {
   constexpr double step = 0.05;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const Cell a = some_cell(seed, 0, 1 + seed % 3, {}), b = some_cell(seed, 10, 2, {2.5, 1.0});
+    const CommonRegion a = some_cell(seed, 0, 1 + seed % 3, {}), b = some_cell(seed, 10, 2, {2.5, 1.0});
     if (a.empty() || b.empty()) continue;
     const Nearest ends = nearest(a, b);
     EXPECT_TRUE(a.has(ends.a) && b.has(ends.b)) << seed;
@@ -80,13 +80,13 @@ TEST(Discs, NoSampledPairIsNearer) {
 TEST(Discs, APlaceBetweenTwoCellsIsFoundIfASampleFindsOne) {
   int both = 0, neither = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const Cell a = some_cell(seed, 0, 2, {-2, 0}), b = some_cell(seed, 10, 2, {2, 1});
+    const CommonRegion a = some_cell(seed, 0, 2, {-2, 0}), b = some_cell(seed, 10, 2, {2, 1});
     if (a.empty() || b.empty()) continue;
-    const Disc disc{{chance(seed, 30, 0) * 2, chance(seed, 30, 1) * 4 - 2}, 0.5 + chance(seed, 30, 2)};
+    const RangeDisc disc{{chance(seed, 30, 0) * 2, chance(seed, 30, 1) * 4 - 2}, 0.5 + chance(seed, 30, 2)};
     const double a_reach = 0.5 + chance(seed, 31, 0), b_reach = 0.5 + chance(seed, 31, 1);
     const auto place = between(disc, a, a_reach, b, b_reach);
     bool sampled_one = false;
-    for (const Vec2 p : sampled(Cell({disc}), 0.02))
+    for (const Vec2 p : sampled(CommonRegion({disc}), 0.02))
       sampled_one = sampled_one || (distance(p, a.nearest(p)) <= a_reach && distance(p, b.nearest(p)) <= b_reach);
     if (sampled_one) { EXPECT_TRUE(place.has_value()) << seed; }
     both += sampled_one && place ? 1 : 0;

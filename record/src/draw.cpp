@@ -34,7 +34,7 @@ constexpr double tallest = 1.25;  // height / width of the map at most
 constexpr double trail_step_s = 0.5;
 constexpr double most_m = 1e6;  // beyond, a position is damage and would hide the rest
 
-struct Extent {
+struct PictureExtent {
   Vec2 low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   Vec2 high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
 
@@ -59,7 +59,7 @@ std::array<Vec2, 4> corners(const world::Box& box) {
 }
 
 struct ExtentOfObstacle {
-  Extent& extent;
+  PictureExtent& extent;
   void operator()(const world::Disc& disc) const { extent.add(disc.center, disc.radius_m); }
   void operator()(const world::Box& box) const {
     for (const Vec2 corner : corners(box)) extent.add(corner);
@@ -96,7 +96,7 @@ constexpr Theme dark{.paper = "#12161c",
                      .trail_opacity = " stroke-opacity=\"0.65\""};
 
 // The layout: the map fills its box as far as its shape allows.
-struct Layout {
+struct PictureLayout {
   bool panel = false;   // title and legend in a column at the left, else above and below
   Vec2 low, high;       // the box of the map, px, y downwards
   double height = 0.0;  // of the picture
@@ -109,8 +109,8 @@ struct LegendEntry {
   bool shown = true;  // else its place stays empty
 };
 
-Extent extent_of(const Setting& setting, const Frame& frame, const Trails& trails) {
-  Extent extent;
+PictureExtent extent_of(const Setting& setting, const Frame& frame, const Trails& trails) {
+  PictureExtent extent;
   for (const RobotFrame& robot : frame.robots) extent.add(robot.position, setting.radius_m);
   for (const TargetFrame& target : frame.targets) extent.add(target.position, setting.target_tolerance_m);
   for (const auto& trail : trails) {
@@ -216,8 +216,8 @@ class Picture {
   }
 
   [[nodiscard]] bool any_broken_edge() const;
-  [[nodiscard]] Layout strips() const;
-  [[nodiscard]] Layout panel() const;
+  [[nodiscard]] PictureLayout strips() const;
+  [[nodiscard]] PictureLayout panel() const;
   void arrange();
   [[nodiscard]] std::vector<std::string> facts() const;
   void title();
@@ -246,14 +246,14 @@ class Picture {
   const Frame& frame_;
   const Trails& trails_;
   const PictureOptions& options_;
-  Extent extent_;
+  PictureExtent extent_;
   const Theme& theme_;
-  Layout layout_;
+  PictureLayout layout_;
   Vec2 origin_{};      // px, of the map's upper left corner
   Vec2 size_{};        // of the picture, px
   double zoom_ = 1.0;  // everything is laid out as for a picture smaller by this
   double width_ = 0.0, robot_px_ = 0.0;
-  Links links_;
+  RadioLinks links_;
   bool old_edges_ = false, broken_edges_ = false;
   std::vector<LegendEntry> legend_;
   Text out_;
@@ -282,10 +282,10 @@ bool Picture::any_broken_edge() const {
   return false;
 }
 
-Layout Picture::strips() const {
+PictureLayout Picture::strips() const {
   const Vec2 size = extent_.high - extent_.low;
   const double legend_px = options_.legend ? legend_row_px * static_cast<double>(legend_rows()) : 0.0;
-  Layout layout;
+  PictureLayout layout;
   layout.low = {margin_px, title_px + margin_px};
   layout.high.x = width_ - margin_px;
   const double inner = layout.high.x - layout.low.x;
@@ -302,9 +302,9 @@ Layout Picture::strips() const {
   return layout;
 }
 
-Layout Picture::panel() const {
+PictureLayout Picture::panel() const {
   const Vec2 size = extent_.high - extent_.low;
-  Layout layout;
+  PictureLayout layout;
   layout.panel = true;
   layout.height = size_.y / zoom_;
   layout.low = {panel_px, 26.0};
@@ -323,7 +323,7 @@ void Picture::arrange() {
   // A square world in a wide picture is larger beside its title than under it.
   const double column_px = panel_legend_px + legend_row_px * static_cast<double>(legend_.size()) + 50.0;
   if (options_.height_px > 0.0 && options_.legend) {
-    const Layout beside = panel();
+    const PictureLayout beside = panel();
     if (beside.scale > layout_.scale && column_px <= beside.height) layout_ = beside;
   }
   const Vec2 room = layout_.high - layout_.low - layout_.scale * (extent_.high - extent_.low);
@@ -751,7 +751,7 @@ std::string Picture::svg() {
 }  // namespace
 
 Viewport view_of(const Setting& setting, const Frame& frame) {
-  const Extent extent = extent_of(setting, frame, {});
+  const PictureExtent extent = extent_of(setting, frame, {});
   return {extent.low, extent.high};
 }
 

@@ -20,7 +20,7 @@ using nlohmann::json;
 namespace {
 
 // One array of a frame: a number per robot. Whole numbers are exact in a double.
-struct Field {
+struct FrameField {
   std::string_view key;
   std::string_view meaning;
   int decimals;
@@ -39,21 +39,22 @@ template <auto member> void set(RobotFrame& robot, double value) {
   robot.*member = static_cast<std::remove_reference_t<decltype(robot.*member)>>(value);
 }
 template <auto member>
-constexpr Field whole(std::string_view key, double minimum, double maximum, std::string_view meaning) {
+constexpr FrameField whole(std::string_view key, double minimum, double maximum, std::string_view meaning) {
   return {key, meaning, 0, minimum, maximum, get<member>, set<member>};
 }
 template <auto member>
-constexpr Field real(std::string_view key, int decimals, double minimum, double maximum, std::string_view meaning) {
+constexpr FrameField real(std::string_view key, int decimals, double minimum, double maximum,
+                          std::string_view meaning) {
   return {key, meaning, decimals, minimum, maximum, get<member>, set<member>};
 }
 
-constexpr Field if_any(Field field) {
+constexpr FrameField if_any(FrameField field) {
   field.optional = true;
   return field;
 }
 
 using R = RobotFrame;
-constexpr std::array<Field, 20> of_robot{{
+constexpr std::array<FrameField, 20> of_robot{{
     {"x_m", "position", 4, -far, far, [](const R& r) { return r.position.x; },
      [](R& r, double v) { r.position.x = v; }},
     {"y_m", "position", 4, -far, far, [](const R& r) { return r.position.y; },
@@ -275,13 +276,13 @@ std::span<const FrameColumn> frame_columns() noexcept {
 void pack(const Frame& frame, std::vector<double>& into) {
   into.resize(of_robot.size() * frame.robots.size());
   double* at = into.data();
-  for (const Field& field : of_robot)
+  for (const FrameField& field : of_robot)
     for (const RobotFrame& robot : frame.robots) *at++ = field.get(robot);
 }
 
 void write_frame(Text& out, const Frame& frame) {
   write_stamp(out, frame.tick, frame.time_s);
-  for (const Field& field : of_robot) {
+  for (const FrameField& field : of_robot) {
     const auto is_zero = [&](const RobotFrame& robot) { return field.get(robot) == 0.0; };
     if (field.optional && std::all_of(frame.robots.begin(), frame.robots.end(), is_zero)) continue;
     array(out, field.key, frame.robots, [&](const RobotFrame& robot) {
@@ -318,7 +319,7 @@ void read_frame(std::string_view text, Frame& frame) {
   const json& first = member(object, "x_m");
   if (!first.is_array()) fail("x_m", "is not an array");
   frame.robots.assign(first.size(), {});
-  for (const Field& field : of_robot) {
+  for (const FrameField& field : of_robot) {
     if (field.optional && !object.contains(field.key)) continue;
     const json& values = array_of(object, field.key, frame.robots.size());
     for (std::size_t i = 0; i < frame.robots.size(); ++i) {
@@ -492,11 +493,11 @@ std::string frame_schema() {
   Text out;
   schema_head(out, "banyan.Frame",
               "All robots at one tick: arrays with one number per robot, in the order of their indices");
-  for (const Field& field : of_robot) {
+  for (const FrameField& field : of_robot) {
     schema_array(out, field.key, field.decimals == 0 ? "integer" : "number", field.meaning);
   }
   out.put("},\"required\":[\"tick\",\"time_s\"");
-  for (const Field& field : of_robot) {
+  for (const FrameField& field : of_robot) {
     if (field.optional) continue;
     out.put(',');
     out.json_string(field.key);

@@ -19,8 +19,8 @@ class Sweep {
     std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) { return x(a) < x(b); });
   }
 
-  Links links() const {
-    Links links;
+  RadioLinks links() const {
+    RadioLinks links;
     for (std::size_t p = 0; p < order_.size(); ++p) {
       const std::uint32_t a = order_[p];
       if (!robots_[a].alive) continue;
@@ -62,6 +62,6 @@ class Sweep {
 
 }  // namespace
 
-Links radio_links(const Setting& setting, const Frame& frame) { return Sweep(setting, frame).links(); }
+RadioLinks radio_links(const Setting& setting, const Frame& frame) { return Sweep(setting, frame).links(); }
 
 }  // namespace banyan::record

@@ -59,9 +59,9 @@ std::optional<Channel> read_channel(std::string_view content) {
   return c;
 }
 
-std::optional<Message> read_message(std::string_view content) {
+std::optional<LoggedMessage> read_message(std::string_view content) {
   Fields f(content);
-  Message m;
+  LoggedMessage m;
   m.channel_id = f.number<std::uint16_t>();
   m.sequence = f.number<std::uint32_t>();
   m.log_time = f.number<Nanoseconds>();
@@ -157,7 +157,8 @@ struct Reader::Impl {
   void scan_loose(const Record& record, std::uint64_t offset, std::uint64_t length);
   std::optional<std::string_view> unpack(std::string_view content, std::string& problem);
   bool load(const Stretch& stretch);
-  std::vector<Message> messages_in(const Stretch& stretch, std::uint16_t channel, Nanoseconds from, Nanoseconds to);
+  std::vector<LoggedMessage> messages_in(const Stretch& stretch, std::uint16_t channel, Nanoseconds from,
+                                         Nanoseconds to);
   [[nodiscard]] static bool may_hold(const Stretch& s, std::uint16_t channel) {
     return s.channels.empty() || s.channels.contains(channel);
   }
@@ -395,9 +396,9 @@ bool Reader::Impl::load(const Stretch& s) {
   return true;
 }
 
-std::vector<Message> Reader::Impl::messages_in(const Stretch& s, std::uint16_t channel, Nanoseconds from,
-                                               Nanoseconds to) {
-  std::vector<Message> found;
+std::vector<LoggedMessage> Reader::Impl::messages_in(const Stretch& s, std::uint16_t channel, Nanoseconds from,
+                                                     Nanoseconds to) {
+  std::vector<LoggedMessage> found;
   if (!may_hold(s, channel) || !load(s)) return found;
   Fields fields(contents);
   while (const auto r = next_record(fields)) {
@@ -406,7 +407,7 @@ std::vector<Message> Reader::Impl::messages_in(const Stretch& s, std::uint16_t c
     if (m && m->channel_id == channel && m->log_time >= from && m->log_time <= to) found.push_back(*m);
   }
   std::stable_sort(found.begin(), found.end(),
-                   [](const Message& a, const Message& b) { return a.log_time < b.log_time; });
+                   [](const LoggedMessage& a, const LoggedMessage& b) { return a.log_time < b.log_time; });
   return found;
 }
 
@@ -458,7 +459,7 @@ std::pair<Nanoseconds, Nanoseconds> Reader::time_range() const noexcept {
 void Reader::messages(std::uint16_t channel_id, const Visit& visit, Nanoseconds from, Nanoseconds to) {
   for (const Stretch& s : impl_->stretches) {
     if (s.end < from || s.start > to) continue;
-    for (const Message& m : impl_->messages_in(s, channel_id, from, to)) {
+    for (const LoggedMessage& m : impl_->messages_in(s, channel_id, from, to)) {
       if (!visit(m)) return;
     }
   }
@@ -473,7 +474,7 @@ bool Reader::last_before(std::uint16_t channel_id, Nanoseconds time, const Visit
   std::stable_sort(order.begin(), order.end(), [](const Stretch* a, const Stretch* b) { return a->end > b->end; });
   std::optional<Nanoseconds> best;
   std::string data;
-  Message latest;
+  LoggedMessage latest;
   for (const Stretch* s : order) {
     if (best && s->end <= *best) break;
     const auto found = impl_->messages_in(*s, channel_id, best.value_or(0), time);

@@ -35,7 +35,7 @@ struct Recording::Impl {
   void read_all_targets();
   void read_time_range();
   [[nodiscard]] std::vector<TargetFrame> targets_at(mcap::Nanoseconds time) const;
-  [[nodiscard]] std::optional<Frame> parse(const mcap::Message& message);
+  [[nodiscard]] std::optional<Frame> parse(const mcap::LoggedMessage& message);
 };
 
 void Recording::Impl::read_provenance(const mcap::Map& entries) {
@@ -77,7 +77,7 @@ void Recording::Impl::read_all_metadata() {
 void Recording::Impl::read_all_settings() {
   const mcap::Channel* channel = reader.find_channel("/banyan/setting");
   if (channel == nullptr) return;
-  reader.messages(channel->id, [&](const mcap::Message& message) {
+  reader.messages(channel->id, [&](const mcap::LoggedMessage& message) {
     try {
       settings.emplace_back(message.log_time, read_setting(message.data));
     } catch (const std::runtime_error& problem) { warn(std::string("setting: ") + problem.what()); }
@@ -88,7 +88,7 @@ void Recording::Impl::read_all_settings() {
 void Recording::Impl::read_all_targets() {
   const mcap::Channel* channel = reader.find_channel("/banyan/targets");
   if (channel == nullptr) return warn("it has no /banyan/targets channel");
-  reader.messages(channel->id, [&](const mcap::Message& message) {
+  reader.messages(channel->id, [&](const mcap::LoggedMessage& message) {
     try {
       targets.emplace_back(message.log_time, read_targets(message.data));
     } catch (const std::runtime_error& problem) { warn(std::string("targets: ") + problem.what()); }
@@ -98,11 +98,11 @@ void Recording::Impl::read_all_targets() {
 
 void Recording::Impl::read_time_range() {
   const auto seconds = [](mcap::Nanoseconds ns) { return static_cast<double>(ns) * 1e-9; };
-  reader.messages(frames, [&](const mcap::Message& message) {
+  reader.messages(frames, [&](const mcap::LoggedMessage& message) {
     start_s = seconds(message.log_time);
     return false;
   });
-  reader.last_before(frames, std::numeric_limits<mcap::Nanoseconds>::max(), [&](const mcap::Message& message) {
+  reader.last_before(frames, std::numeric_limits<mcap::Nanoseconds>::max(), [&](const mcap::LoggedMessage& message) {
     end_s = seconds(message.log_time);
     return false;
   });
@@ -115,7 +115,7 @@ std::vector<TargetFrame> Recording::Impl::targets_at(mcap::Nanoseconds time) con
   return std::prev(after)->second;
 }
 
-std::optional<Frame> Recording::Impl::parse(const mcap::Message& message) {
+std::optional<Frame> Recording::Impl::parse(const mcap::LoggedMessage& message) {
   Frame frame;
   try {
     read_frame(message.data, frame);
@@ -173,7 +173,7 @@ Frame Recording::frame_at(double time_s) {
   Impl& r = *impl_;
   std::optional<Frame> frame;
   bool any = false;
-  const auto take = [&](const mcap::Message& message) {
+  const auto take = [&](const mcap::LoggedMessage& message) {
     any = true;
     frame = r.parse(message);
     return false;
@@ -190,7 +190,7 @@ void Recording::for_each(const std::function<bool(const Frame&)>& visit, double 
   std::size_t count = 0;
   r.reader.messages(
       r.frames,
-      [&](const mcap::Message& message) {
+      [&](const mcap::LoggedMessage& message) {
         if (count++ % std::max<std::size_t>(every, 1) != 0) return true;
         const auto frame = r.parse(message);
         return frame ? visit(*frame) : true;
@@ -202,7 +202,7 @@ std::vector<measure::Tick> Recording::metrics() {
   std::vector<measure::Tick> ticks;
   const mcap::Channel* channel = impl_->reader.find_channel("/banyan/metrics");
   if (channel == nullptr) return ticks;
-  impl_->reader.messages(channel->id, [&](const mcap::Message& message) {
+  impl_->reader.messages(channel->id, [&](const mcap::LoggedMessage& message) {
     try {
       ticks.push_back(read_metrics(message.data));
     } catch (const std::runtime_error& problem) { impl_->warn(std::string("metrics: ") + problem.what()); }
@@ -215,7 +215,7 @@ std::vector<RecordedEvent> Recording::events() {
   std::vector<RecordedEvent> events;
   const mcap::Channel* channel = impl_->reader.find_channel("/banyan/events");
   if (channel == nullptr) return events;
-  impl_->reader.messages(channel->id, [&](const mcap::Message& message) {
+  impl_->reader.messages(channel->id, [&](const mcap::LoggedMessage& message) {
     try {
       events.push_back(read_event(message.data));
     } catch (const std::runtime_error& problem) { impl_->warn(std::string("events: ") + problem.what()); }

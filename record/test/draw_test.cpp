@@ -229,7 +229,7 @@ TEST(Draw, LinksAgreeWithBruteForce) {
         (setting.line_of_sight && hidden ? blocked : open).emplace_back(i, j);
       }
     }
-    const Links links = radio_links(setting, frame);
+    const RadioLinks links = radio_links(setting, frame);
     EXPECT_EQ(links.open, open) << round;
     EXPECT_EQ(links.blocked, blocked) << round;
   }

@@ -178,7 +178,7 @@ TEST(Capture, LinksOfAPictureAreTheRadios) {
       }
       for (const auto& pair : world.blocked()) blocked.emplace_back(pair.first, pair.second);
       std::sort(blocked.begin(), blocked.end());
-      const Links links = radio_links(setting, frame);
+      const RadioLinks links = radio_links(setting, frame);
       EXPECT_EQ(links.open, open);
       EXPECT_EQ(links.blocked, blocked);
     }

@@ -44,7 +44,7 @@ std::vector<std::string> texts(Reader& reader, std::string_view topic, Nanosecon
   if (channel == nullptr) return all;
   reader.messages(
       channel->id,
-      [&](const Message& m) {
+      [&](const LoggedMessage& m) {
         all.emplace_back(m.data);
         return true;
       },
@@ -54,7 +54,7 @@ std::vector<std::string> texts(Reader& reader, std::string_view topic, Nanosecon
 
 std::string last_text(Reader& reader, std::string_view topic, Nanoseconds time) {
   std::string text = "none";
-  reader.last_before(reader.find_channel(topic)->id, time, [&](const Message& m) {
+  reader.last_before(reader.find_channel(topic)->id, time, [&](const LoggedMessage& m) {
     text = m.data;
     return true;
   });
@@ -280,8 +280,8 @@ TEST(McapReader, SurvivesMutations) {
         Reader reader(path);
         ++readable;
         for (const auto& [id, channel] : reader.channels()) {
-          reader.messages(id, [](const Message&) { return true; });
-          reader.last_before(id, 60000000, [](const Message&) { return true; });
+          reader.messages(id, [](const LoggedMessage&) { return true; });
+          reader.last_before(id, 60000000, [](const LoggedMessage&) { return true; });
         }
       } catch (const FileError&) {}
     }

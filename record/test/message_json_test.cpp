@@ -35,7 +35,7 @@ world::Scenario scenario() {
 
 json object(mcap::Reader& reader, const char* topic, std::uint64_t tick) {
   json found;
-  reader.messages(reader.find_channel(topic)->id, [&](const mcap::Message& m) {
+  reader.messages(reader.find_channel(topic)->id, [&](const mcap::LoggedMessage& m) {
     json value = json::parse(m.data);
     if (value["tick"] != tick) return true;
     found = std::move(value);

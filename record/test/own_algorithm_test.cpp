@@ -161,7 +161,7 @@ TEST(OwnAlgorithm, IsObservedAndRecorded) {
   mcap::Reader reader(path);
   EXPECT_EQ(Recording(path).setting().algorithm, "shy");
   json messages;
-  reader.messages(reader.find_channel("/banyan/messages")->id, [&](const mcap::Message& m) {
+  reader.messages(reader.find_channel("/banyan/messages")->id, [&](const mcap::LoggedMessage& m) {
     messages = json::parse(m.data);
     return messages["tick"] != 50;
   });

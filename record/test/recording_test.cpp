@@ -739,7 +739,7 @@ TEST(Recording, MalformedFramesAreSkippedWithAWarning) {
   std::string good;
   {
     mcap::Reader reader(directory.file("good.mcap"));
-    reader.messages(reader.find_channel("/banyan/frame")->id, [&](const mcap::Message& m) {
+    reader.messages(reader.find_channel("/banyan/frame")->id, [&](const mcap::LoggedMessage& m) {
       good = m.data;
       return true;
     });

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-using Rows = std::vector<std::size_t>;
+using RowIndices = std::vector<std::size_t>;
 using Paired = std::vector<std::pair<std::size_t, std::size_t>>;  // two rows
 
 double median_of_values(std::vector<double> values) {
@@ -50,7 +50,7 @@ class Comparing {
     for (auto by : groupings) {
       std::erase(by, axis->name);
       if (!done.insert(by).second) continue;
-      std::map<GroupKey, std::vector<Rows>> groups;  // rows by value of the compared axis
+      std::map<GroupKey, std::vector<RowIndices>> groups;  // rows by value of the compared axis
       for (const std::size_t row : rows_of(results_, p)) {
         auto key = key_of(part, results_.planned(row), by);
         key[compared_] = any_value;
@@ -68,7 +68,7 @@ class Comparing {
   }
 
  private:
-  void group(std::size_t p, std::size_t grouping, const GroupKey& key, const std::vector<Rows>& sides) {
+  void group(std::size_t p, std::size_t grouping, const GroupKey& key, const std::vector<RowIndices>& sides) {
     const Axis& axis = study_.parts[p].axes[compared_];
     for (const auto& column : columns_) {
       for (const auto& [first, second] : two_by_two(axis)) {
@@ -109,7 +109,7 @@ class Comparing {
     return values;
   }
 
-  [[nodiscard]] Paired pair_up(const MetricColumn& column, const Rows& first, const Rows& second) const {
+  [[nodiscard]] Paired pair_up(const MetricColumn& column, const RowIndices& first, const RowIndices& second) const {
     const auto there = [&](std::size_t row) { return column.missed[row] != 0 || std::isfinite(column.value[row]); };
     const auto identity = [&](std::size_t row) { return std::pair{world_of(row), results_.planned(row).seed}; };
     std::map<std::pair<std::vector<std::size_t>, std::uint64_t>, std::size_t> partner;
@@ -175,7 +175,7 @@ class Comparing {
   // Tests of one claim: two values, a metric, all groups of one grouping of one part.
   void judge_families() {
     using Claim = std::tuple<std::size_t, std::size_t, std::string, std::string, std::string>;
-    std::map<Claim, Rows> families;
+    std::map<Claim, RowIndices> families;
     for (std::size_t i = 0; i < comparisons_.size(); ++i) {
       const auto& c = comparisons_[i];
       families[{c.part, c.grouping, c.metric, c.first, c.second}].push_back(i);
@@ -210,7 +210,8 @@ class Comparing {
     judged.margin = margin;
   }
 
-  template <class TestOf> void judge_family(const Rows& members, Judged Comparison::*which, const TestOf& test_of) {
+  template <class TestOf>
+  void judge_family(const RowIndices& members, Judged Comparison::*which, const TestOf& test_of) {
     std::vector<double> p;
     for (const std::size_t i : members) {
       const auto& test = test_of(i);

@@ -143,7 +143,7 @@ class Planner {
     }
     // A run of the study is checked: with the scenario's own seed there may be no valid world.
     if (!part.seeds.empty()) (void)config::assign(root, "seed", {static_cast<std::int64_t>(part.seeds.front()), place});
-    const auto change = [&](const Change& c) {
+    const auto change = [&](const KeyChange& c) {
       if (c.key.empty()) config::overlay(root, c.value);
       else
         for (auto& problem : config::assign(root, c.key, c.value)) problems.push_back(std::move(problem));

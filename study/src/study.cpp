@@ -22,8 +22,8 @@ using config::TableReader;
 constexpr const char* seeds_instead = "a study takes its seeds from its own key, seeds = \"1-50\"";
 
 // [set]: dotted keys, quoted or not, and sections.
-std::vector<Change> read_set(TableReader& table) {
-  std::vector<Change> changes;
+std::vector<KeyChange> read_set(TableReader& table) {
+  std::vector<KeyChange> changes;
   const Node* set = table.table("set");
   if (!set) return changes;
   for (const auto& [name, value] : *set->table()) {
@@ -41,10 +41,10 @@ std::vector<Change> read_set(TableReader& table) {
 }
 
 // A file of keys as a change, such as parameters/*.toml.
-std::optional<Change> read_overlay(const std::string& path, const config::Place& place, const std::string& key,
-                                   std::vector<Problem>& problems) {
+std::optional<KeyChange> read_overlay(const std::string& path, const config::Place& place, const std::string& key,
+                                      std::vector<Problem>& problems) {
   try {
-    return Change{"", config::as_option(config::parse_document(path, config::read_text_file(path)))};
+    return KeyChange{"", config::as_option(config::parse_document(path, config::read_text_file(path)))};
   } catch (const config::DocumentError& e) {
     problems.push_back({place, key, "names a file that cannot be used: " + config::to_string(e.problem)});
     return std::nullopt;
@@ -305,7 +305,7 @@ class StudyReader {
 
   void add_overrides(Study& study, const std::vector<config::Override>& overrides) {
     for (const auto& o : overrides) {
-      std::vector<Change> changes;
+      std::vector<KeyChange> changes;
       if (o.file.empty()) {
         if (auto change = read_assignment(o)) {
           check_varied(study, o, change->key);
@@ -323,7 +323,8 @@ class StudyReader {
     for (const auto& part : study.parts) {
       for (const auto& axis : part.axes) {
         const bool varied = std::any_of(axis.values.begin(), axis.values.end(), [&](const AxisValue& value) {
-          return std::any_of(value.changes.begin(), value.changes.end(), [&](const Change& c) { return c.key == key; });
+          return std::any_of(value.changes.begin(), value.changes.end(),
+                             [&](const KeyChange& c) { return c.key == key; });
         });
         if (!varied) continue;
         Problem problem;
@@ -337,7 +338,7 @@ class StudyReader {
   }
 
   // "key=value", applied later: a key may refer to a list that only the scenario has.
-  std::optional<Change> read_assignment(const config::Override& o) {
+  std::optional<KeyChange> read_assignment(const config::Override& o) {
     const auto equals = std::min(o.assignment.find('='), o.assignment.size());
     std::string key = o.assignment.substr(0, equals);
     key.erase(0, key.find_first_not_of(' '));
@@ -355,7 +356,7 @@ class StudyReader {
     problems_.insert(problems_.end(), found.begin(), found.end());
     Node* value = tree.find("value");
     if (!found.empty() || !value) return std::nullopt;
-    return Change{key, std::move(*value)};
+    return KeyChange{key, std::move(*value)};
   }
 
   std::string path_;

@@ -34,7 +34,7 @@ constexpr int position_iterations = 4;
 b2Vec2 to_box2d(Vec2 v) noexcept { return {static_cast<float>(v.x * scale), static_cast<float>(v.y * scale)}; }
 Vec2 from_box2d(b2Vec2 v) noexcept { return {static_cast<double>(v.x) / scale, static_cast<double>(v.y) / scale}; }
 
-struct AddObstacle {
+struct AddFixture {
   b2Body& ground;
   void fix(const b2Shape& shape) const {
     b2FixtureDef def;
@@ -147,7 +147,7 @@ class Box2d final : public Bodies {
     world.SetAllowSleeping(false);
     world.SetContinuousPhysics(false);  // 2 mm a sub-step cannot jump over anything
     b2BodyDef ground;
-    for (const Obstacle& obstacle : obstacles_) std::visit(AddObstacle{*world.CreateBody(&ground)}, obstacle);
+    for (const Obstacle& obstacle : obstacles_) std::visit(AddFixture{*world.CreateBody(&ground)}, obstacle);
     b2CircleShape disc;
     disc.m_radius = static_cast<float>(robot_.radius_m * scale);
     b2FixtureDef fixture;

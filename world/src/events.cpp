@@ -25,7 +25,7 @@ void World::Impl::happen() {
 
 void World::Impl::drive_targets() {
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    Course& course = courses[t];
+    TargetMotion& course = courses[t];
     if (course.speed_m_s == 0.0) continue;
     const Vec2 way = course.goal - targets[t].position;
     const double way_m = norm(way);

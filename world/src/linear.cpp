@@ -24,11 +24,11 @@
 namespace banyan::world {
 namespace {
 
-using Column = std::array<double, 4>;
-using Matrix = std::array<Column, 4>;  // rows
+using StateVector = std::array<double, 4>;
+using Matrix = std::array<StateVector, 4>;  // rows
 
-Column operator*(const Matrix& m, const Column& x) noexcept {
-  Column y{};
+StateVector operator*(const Matrix& m, const StateVector& x) noexcept {
+  StateVector y{};
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) y[i] += m[i][j] * x[j];
   return y;
@@ -93,8 +93,8 @@ class Linear final : public Bodies {
   // commanded velocity do and the new one lies between them.
   void move(Vec2& p, Vec2& v, Vec2 commanded) const noexcept {
     const Vec2 a = shortened((shortened(commanded, robot_.wheel_limit_m_s) - v) / h_, robot_.max_acceleration_m_s2);
-    const Column drift = a_ * Column{p.x, p.y, v.x, v.y};
-    const Column control = b_ * Column{0.0, 0.0, a.x, a.y};
+    const StateVector drift = a_ * StateVector{p.x, p.y, v.x, v.y};
+    const StateVector control = b_ * StateVector{0.0, 0.0, a.x, a.y};
     p = {drift[0] + control[0], drift[1] + control[1]};
     v = {drift[2] + control[2], drift[3] + control[3]};
     for (const Obstacle& obstacle : obstacles_) {

@@ -46,20 +46,20 @@ std::uint64_t key_of(std::int32_t row, std::int32_t column) noexcept {
 // ---- On a lattice ----
 
 // A lattice point in integer coordinates; distances compare exactly.
-struct Cell {
+struct LatticeCell {
   std::int64_t distance2 = 0;  // in units of pitch^2
   std::int32_t row = 0;
   std::int32_t column = 0;
 };
-constexpr bool farther(const Cell& a, const Cell& b) noexcept {
+constexpr bool farther(const LatticeCell& a, const LatticeCell& b) noexcept {
   return std::tie(a.distance2, a.row, a.column) > std::tie(b.distance2, b.row, b.column);
 }
 
-struct Step {
+struct LatticeStep {
   std::int32_t row, column;
 };
-constexpr std::array<Step, 6> hexagonal_steps{{{0, 1}, {1, 0}, {1, -1}, {0, -1}, {-1, 0}, {-1, 1}}};
-constexpr std::array<Step, 4> grid_steps{{{0, 1}, {1, 0}, {0, -1}, {-1, 0}}};
+constexpr std::array<LatticeStep, 6> hexagonal_steps{{{0, 1}, {1, 0}, {1, -1}, {0, -1}, {-1, 0}, {-1, 1}}};
+constexpr std::array<LatticeStep, 4> grid_steps{{{0, 1}, {1, 0}, {0, -1}, {-1, 0}}};
 
 class Lattice {
  public:
@@ -67,21 +67,21 @@ class Lattice {
       : layout_{layout}, center_{center}, pitch_{pitch}, ground_{ground} {}
 
   [[nodiscard]] std::vector<Vec2> nearest(std::size_t count) const {
-    std::priority_queue<Cell, std::vector<Cell>, decltype(&farther)> open(&farther);
+    std::priority_queue<LatticeCell, std::vector<LatticeCell>, decltype(&farther)> open(&farther);
     std::unordered_set<std::uint64_t> seen;
     seen.reserve(2 * count);
-    const auto visit = [&](const Cell& cell) {
+    const auto visit = [&](const LatticeCell& cell) {
       if (ground_.free(point(cell)) && seen.insert(key_of(cell.row, cell.column)).second) open.push(cell);
     };
     std::vector<Vec2> points;
     points.reserve(count);
-    visit(Cell{});
+    visit(LatticeCell{});
     while (points.size() < count && !open.empty()) {
-      const Cell cell = open.top();
+      const LatticeCell cell = open.top();
       open.pop();
       points.push_back(point(cell));
-      for (const Step s : steps()) {
-        const Cell next = at(cell.row + s.row, cell.column + s.column);
+      for (const LatticeStep s : steps()) {
+        const LatticeCell next = at(cell.row + s.row, cell.column + s.column);
         if (belongs(next) && !seen.contains(key_of(next.row, next.column)) &&
             ground_.open_between(point(cell), point(next)))
           visit(next);
@@ -92,20 +92,20 @@ class Lattice {
 
  private:
   [[nodiscard]] bool hexagonal() const noexcept { return layout_ == Layout::hexagonal; }
-  [[nodiscard]] std::span<const Step> steps() const noexcept {
-    return hexagonal() ? std::span<const Step>(hexagonal_steps) : std::span<const Step>(grid_steps);
+  [[nodiscard]] std::span<const LatticeStep> steps() const noexcept {
+    return hexagonal() ? std::span<const LatticeStep>(hexagonal_steps) : std::span<const LatticeStep>(grid_steps);
   }
-  [[nodiscard]] bool belongs(const Cell& cell) const noexcept {
+  [[nodiscard]] bool belongs(const LatticeCell& cell) const noexcept {
     if (layout_ == Layout::line) return cell.row == 0;
     if (layout_ == Layout::cross) return cell.row == 0 || cell.column == 0;
     return true;
   }
-  [[nodiscard]] Cell at(std::int32_t row, std::int32_t column) const noexcept {
+  [[nodiscard]] LatticeCell at(std::int32_t row, std::int32_t column) const noexcept {
     const std::int64_t r = row;
     const std::int64_t c = column;
     return {hexagonal() ? r * r + r * c + c * c : r * r + c * c, row, column};
   }
-  [[nodiscard]] Vec2 point(const Cell& cell) const noexcept {
+  [[nodiscard]] Vec2 point(const LatticeCell& cell) const noexcept {
     const double r = cell.row;
     const double c = cell.column;
     const Vec2 unit_point = hexagonal() ? Vec2{c + 0.5 * r, 0.86602540378443864676 * r} : Vec2{c, r};

@@ -30,7 +30,7 @@ struct Flight {
 };
 
 // The motion of a target, and the distance that its worker had to it.
-struct Course {
+struct TargetMotion {
   double start_m = 0.0;    // how far its worker was from it at the start
   Vec2 goal{};             // where it drives
   double speed_m_s = 0.0;  // 0: it stands
@@ -128,7 +128,7 @@ struct World::Impl {
   Proximity proximity;
   Batteries batteries;
   std::vector<Target> targets;
-  std::vector<Course> courses;  // one per target
+  std::vector<TargetMotion> courses;  // one per target
   std::vector<std::uint8_t> alive;
   std::vector<std::uint8_t> raised;         // antennas; empty unless sight leaks
   std::vector<std::uint64_t> frozen_until;  // tick; 0: not frozen

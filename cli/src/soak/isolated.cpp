@@ -33,7 +33,7 @@ void write_all(int pipe, std::string_view text) {
 }
 
 // A line each; tabs between the parts.
-std::string outcome_text(const Verdict& outcome) {
+std::string outcome_text(const SoakOutcome& outcome) {
   std::string text;
   for (const Finding& f : outcome.findings) text += format("%s\t%.17g\t%s\n", f.kind.c_str(), f.time_s, f.text.c_str());
   return text + format("end\t%d\t%.17g\t%.17g\t%.17g\t%016" PRIx64 "\n", outcome.complete ? 1 : 0, outcome.complete_s,
@@ -96,7 +96,7 @@ void Isolated::end() noexcept {
   process_ = -1;
 }
 
-std::optional<Verdict> Isolated::take() {
+std::optional<SoakOutcome> Isolated::take() {
   std::array<char, 4096> buffer{};
   while (true) {
     const ssize_t n = ::read(pipe_, buffer.data(), buffer.size());
@@ -108,7 +108,7 @@ std::optional<Verdict> Isolated::take() {
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
       if (took.count() < most_s) return std::nullopt;
       end();
-      return Verdict{.findings = {{"crash", 0.0, format("no end after %.0f s", most_s)}}};
+      return SoakOutcome{.findings = {{"crash", 0.0, format("no end after %.0f s", most_s)}}};
     } else {
       break;  // its end of the pipe is closed
     }
@@ -119,7 +119,7 @@ std::optional<Verdict> Isolated::take() {
   return read_outcome(status);
 }
 
-Verdict Isolated::wait() {
+SoakOutcome Isolated::wait() {
   while (true) {
     pollfd waiting{pipe_, POLLIN, 0};
     static_cast<void>(::poll(&waiting, 1, 200));
@@ -131,8 +131,8 @@ Verdict Isolated::wait() {
   }
 }
 
-Verdict Isolated::read_outcome(int status) const {
-  Verdict outcome;
+SoakOutcome Isolated::read_outcome(int status) const {
+  SoakOutcome outcome;
   std::istringstream lines(said_);
   bool ended = false;
   for (std::string line; std::getline(lines, line);) {

@@ -24,9 +24,9 @@ class Isolated {
   [[nodiscard]] int descriptor() const noexcept { return pipe_; }
   // Reads its output; returns the outcome once it has ended. A process that dies has found a "crash", and so
   // has one that takes longer than `most_s`.
-  [[nodiscard]] std::optional<Verdict> take();
+  [[nodiscard]] std::optional<SoakOutcome> take();
   // Nothing if this program is told to stop meanwhile.
-  [[nodiscard]] Verdict wait();
+  [[nodiscard]] SoakOutcome wait();
 
   // Whether it is a mission that took longer than `most_s`.
   [[nodiscard]] static bool has_no_end(const Finding& finding) {
@@ -36,7 +36,7 @@ class Isolated {
   static constexpr double most_s = 1800.0;
 
  private:
-  [[nodiscard]] Verdict read_outcome(int status) const;
+  [[nodiscard]] SoakOutcome read_outcome(int status) const;
   void end() noexcept;
 
   pid_t process_ = -1;

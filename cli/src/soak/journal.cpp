@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* header = "seed,index,kind,robots,targets,complete,complete_s,bound_s,time_s,hash,findings\n";
 
-std::string line_of(std::uint64_t seed, const Row& row) {
+std::string line_of(std::uint64_t seed, const SoakRow& row) {
   return format("%" PRIu64 ",%" PRIu64 ",\"%s\",%zu,%zu,%s,%.1f,%.3f,%.1f,%016" PRIx64 ",%s\n", seed, row.index,
                 row.kind.c_str(), row.robots, row.targets, row.complete ? "true" : "false", row.complete_s, row.bound_s,
                 row.time_s, row.hash, row.findings.c_str());
@@ -45,13 +45,13 @@ std::vector<std::string> fields_of(const std::string& line) {
 }
 
 // Nothing unless writing it again makes the same line.
-std::optional<std::pair<std::uint64_t, Row>> row_from(const std::string& line) {
+std::optional<std::pair<std::uint64_t, SoakRow>> row_from(const std::string& line) {
   const std::vector<std::string> f = fields_of(line);
   if (f.size() != 11) return std::nullopt;
   const auto whole = [&](std::size_t k, int base = 10) { return std::strtoull(f[k].c_str(), nullptr, base); };
   const auto number = [&](std::size_t k) { return std::strtod(f[k].c_str(), nullptr); };
-  const Row row{whole(1),  f[2],      whole(3),  whole(4),     f[5] == "true",
-                number(6), number(7), number(8), whole(9, 16), f[10]};
+  const SoakRow row{whole(1),  f[2],      whole(3),  whole(4),     f[5] == "true",
+                    number(6), number(7), number(8), whole(9, 16), f[10]};
   if (line_of(whole(0), row) != line + '\n') return std::nullopt;
   return std::pair{whole(0), row};
 }
@@ -72,10 +72,10 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
-std::string line_of_kind(const std::string& kind, const std::vector<const Row*>& rows) {
+std::string line_of_kind(const std::string& kind, const std::vector<const SoakRow*>& rows) {
   std::vector<double> ratios;
   std::size_t complete = 0, findings = 0;
-  for (const Row* row : rows) {
+  for (const SoakRow* row : rows) {
     complete += row->complete ? 1 : 0;
     findings += row->findings.empty() ? 0 : 1;
     if (row->complete && row->bound_s > 0.0) ratios.push_back(row->complete_s / row->bound_s);
@@ -89,7 +89,7 @@ std::string line_of_kind(const std::string& kind, const std::vector<const Row*>&
 
 }  // namespace
 
-Row row_of(std::uint64_t index, const world::Scenario& scenario, const Verdict& outcome) {
+SoakRow row_of(std::uint64_t index, const world::Scenario& scenario, const SoakOutcome& outcome) {
   std::string findings;
   for (const Finding& f : outcome.findings)
     findings += (findings.empty() ? "" : " ") + format("%s@%.1f", f.kind.c_str(), f.time_s);
@@ -133,7 +133,7 @@ SoakJournal::SoakJournal(const std::string& path, std::uint64_t seed, bool force
 SoakJournal::Lock::Lock(const std::string& path) : descriptor{lock_of(path)} {}
 SoakJournal::Lock::~Lock() { static_cast<void>(::close(descriptor)); }
 
-void SoakJournal::add(const Row& row) {
+void SoakJournal::add(const SoakRow& row) {
   write(line_of(seed_, row));
   rows_[row.index] = row;
 }
@@ -143,9 +143,9 @@ void SoakJournal::write(const std::string& text) {
   if (!out_) throw CommandError(exit_lost, "cannot write " + path_ + ": " + std::strerror(errno));
 }
 
-std::string table_of(const std::map<std::uint64_t, Row>& rows) {
-  std::map<std::string, std::vector<const Row*>> by_kind;
-  std::vector<const Row*> all;
+std::string table_of(const std::map<std::uint64_t, SoakRow>& rows) {
+  std::map<std::string, std::vector<const SoakRow*>> by_kind;
+  std::vector<const SoakRow*> all;
   for (const auto& [index, row] : rows) {
     all.push_back(&row);
     std::istringstream kinds(row.kind);

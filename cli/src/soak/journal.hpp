@@ -12,7 +12,7 @@
 
 namespace banyan::cli::soak {
 
-struct Row {
+struct SoakRow {
   std::uint64_t index = 0;
   std::string kind{};  // text_of(Traits)
   std::size_t robots = 0, targets = 0;
@@ -21,7 +21,7 @@ struct Row {
   std::uint64_t hash = 0;
   std::string findings{};  // "split@2.7 incomplete@60.0"
 };
-[[nodiscard]] Row row_of(std::uint64_t index, const world::Scenario& scenario, const Verdict& outcome);
+[[nodiscard]] SoakRow row_of(std::uint64_t index, const world::Scenario& scenario, const SoakOutcome& outcome);
 
 // No other process writes to the file meanwhile. An incomplete last line is ignored.
 class SoakJournal {
@@ -32,9 +32,9 @@ class SoakJournal {
   SoakJournal& operator=(const SoakJournal&) = delete;
   ~SoakJournal() = default;
 
-  void add(const Row& row);
+  void add(const SoakRow& row);
   [[nodiscard]] bool has(std::uint64_t index) const { return rows_.contains(index); }
-  [[nodiscard]] const std::map<std::uint64_t, Row>& rows() const { return rows_; }  // of this seed
+  [[nodiscard]] const std::map<std::uint64_t, SoakRow>& rows() const { return rows_; }  // of this seed
 
  private:
   void write(const std::string& text);
@@ -47,12 +47,12 @@ class SoakJournal {
     ~Lock();
     int descriptor;
   } lock_;
-  std::map<std::uint64_t, Row> rows_;
+  std::map<std::uint64_t, SoakRow> rows_;
   std::ofstream out_;
 };
 
 // By kind of mission: how many, how many complete, how many with findings, and their time over its bound. A mission
 // of several kinds counts in each.
-[[nodiscard]] std::string table_of(const std::map<std::uint64_t, Row>& rows);
+[[nodiscard]] std::string table_of(const std::map<std::uint64_t, SoakRow>& rows);
 
 }  // namespace banyan::cli::soak

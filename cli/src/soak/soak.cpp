@@ -30,12 +30,12 @@ constexpr int shrinking_runs = 150;
 
 std::size_t target_count(const world::Scenario& s) { return world::target_positions(s).size(); }
 
-bool has(const Verdict& outcome, const std::string& kind) {
+bool has(const SoakOutcome& outcome, const std::string& kind) {
   return std::any_of(outcome.findings.begin(), outcome.findings.end(),
                      [&](const Finding& f) { return f.kind == kind; });
 }
 
-std::string lines_of(const Verdict& outcome, const world::Scenario& scenario) {
+std::string lines_of(const SoakOutcome& outcome, const world::Scenario& scenario) {
   std::string text;
   for (const Finding& f : outcome.findings)
     text += format("  %-16s at %7.1f s: %s%s\n", f.kind.c_str(), f.time_s, f.text.c_str(),
@@ -113,7 +113,7 @@ class Soak {
     progress_.show(std::min(1.0, std::max(of_time, of_missions)), text, true);
   }
 
-  void judge(std::uint64_t index, const world::Scenario& scenario, const Verdict& outcome) {
+  void judge(std::uint64_t index, const world::Scenario& scenario, const SoakOutcome& outcome) {
     journal_.add(row_of(index, scenario, outcome));
     ++missions_;
     complete_ += outcome.complete ? 1 : 0;
@@ -133,7 +133,7 @@ class Soak {
   void keep(std::uint64_t index, const world::Scenario& scenario, const Finding& finding, bool promised) {
     const auto again = [&](const world::Scenario& s) {
       if (stop_signal() != 0 || (!promised && is_over())) return false;
-      const Verdict outcome = Isolated(s, finding.kind == "not-reproducible").wait();
+      const SoakOutcome outcome = Isolated(s, finding.kind == "not-reproducible").wait();
       return has(outcome, finding.kind) && (!promised || is_promised(finding.kind, s));
     };
     config::Configuration small;
@@ -181,7 +181,7 @@ class Soak {
   std::string directory_;
   SoakJournal journal_;
   std::uint64_t next_;
-  Progress progress_;
+  ProgressLine progress_;
   std::size_t processes_ = 1;
   Steady::time_point begin_ = Steady::now();
   std::size_t missions_ = 0, complete_ = 0, with_findings_ = 0, broken_ = 0;
@@ -194,7 +194,7 @@ int watch_file(const SoakOptions& options) {
   print_problems(loaded.problems);
   if (!loaded.ok()) return exit_usage;
   const world::Scenario& scenario = loaded.configuration.scenario;
-  const Verdict outcome = Isolated(scenario, true).wait();
+  const SoakOutcome outcome = Isolated(scenario, true).wait();
   if (stop_signal() != 0) return exit_signal + stop_signal();
   print(format("%s (%s): %s\n", scenario.name.c_str(), text_of(traits_of(scenario)).c_str(),
                outcome.findings.empty() ? "nothing found" : "found") +

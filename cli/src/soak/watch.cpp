@@ -23,9 +23,9 @@ constexpr double two_roots_s = 5.0;        // that a hand-over may take
 constexpr double after_completion_s = 10.0;
 constexpr double after_event_s = 50.0;
 
-class Watch {
+class MissionWatch {
  public:
-  explicit Watch(const Scenario& scenario)
+  explicit MissionWatch(const Scenario& scenario)
       : world_(scenario), sight_(world_), traits_(traits_of(scenario)), limit_s_{time_limit_s(scenario)} {
     linked_ = scenario.radio.model != RadioModel::Model::one_way ||
               sight_.components_both_ways(std::vector<bool>(world_.size(), true)) == 1;
@@ -36,7 +36,7 @@ class Watch {
     }
   }
 
-  Verdict run() {
+  SoakOutcome run() {
     while (!finished()) {
       const std::vector<std::uint8_t> alive(world_.alive().begin(), world_.alive().end());
       world_.step();
@@ -196,14 +196,14 @@ class Watch {
   bool linked_;  // until now at some time, by links of which both ends hear each other
   std::uint64_t hidden_split_ = 0, two_roots_ = 0;
   std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint64_t, std::uint64_t>> hidden_since_;  // first, last
-  Verdict outcome_;
+  SoakOutcome outcome_;
 };
 
 }  // namespace
 
-Verdict watch(const Scenario& scenario, bool twice) {
-  Watch first(scenario);
-  Verdict outcome = first.run();
+SoakOutcome watch(const Scenario& scenario, bool twice) {
+  MissionWatch first(scenario);
+  SoakOutcome outcome = first.run();
   if (!twice) return outcome;
   Executor executor(2);
   World again(scenario);

@@ -17,7 +17,7 @@ struct Finding {
   std::string text;     // for people
 };
 
-struct Verdict {
+struct SoakOutcome {
   std::vector<Finding> findings;  // the first of each kind
   bool complete = false;
   double complete_s = 0.0;  // when first
@@ -28,7 +28,7 @@ struct Verdict {
 
 // From the start to the limit, or ten seconds beyond completion and a minute beyond the last event. `twice`: a second
 // run, on two threads and unobserved, must end in the same state.
-[[nodiscard]] Verdict watch(const world::Scenario& scenario, bool twice);
+[[nodiscard]] SoakOutcome watch(const world::Scenario& scenario, bool twice);
 
 // Whether a finding of this kind in such a mission is a broken promise (docs/soak.md) or, so far, a
 // known weakness that is only reported.

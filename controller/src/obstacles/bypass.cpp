@@ -38,14 +38,14 @@ int find_blocking(const TreeRobot& robot, Vec2 direction) noexcept {
   return -1;
 }
 
-struct Course {
+struct FreeCourse {
   Vec2 direction;
   Vec2 contact;
 };
 
 // Along the obstacle at `contact`, and along any other that blocks the way on this side.
-Course sweep(const TreeRobot& robot, Vec2 contact, int side) noexcept {
-  Course course{{}, contact};
+FreeCourse sweep(const TreeRobot& robot, Vec2 contact, int side) noexcept {
+  FreeCourse course{{}, contact};
   for (std::size_t round = 0; round <= robot.obstacles.size(); ++round) {
     const Vec2 n = unit(course.contact);
     const float c = allowed_cosine(robot, norm(course.contact));
@@ -144,7 +144,7 @@ Vec2 bypass(const TreeRobot& robot, Detour& detour, Vec2 goal) noexcept {
     detour.side = static_cast<std::int8_t>(-detour.side);
     detour.span_m *= 2.0F;
   }
-  const Course course = sweep(robot, contact, detour.side);
+  const FreeCourse course = sweep(robot, contact, detour.side);
   detour.contact = course.contact;
   return course.direction;
 }

@@ -196,7 +196,7 @@ bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
 }
 
 // Out of reach of all edges, not where the sensor would see it, heard again, or gone.
-void forget_bodies(const TreeRobot& robot, Bodies& bodies) noexcept {
+void forget_bodies(const TreeRobot& robot, KnownBodies& bodies) noexcept {
   float nearest_m = body_m(robot) + near_m;
   for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
   const auto is_wrong = [&](std::size_t k) {
@@ -218,7 +218,7 @@ void forget_bodies(const TreeRobot& robot, Bodies& bodies) noexcept {
 void note_body(const TreeRobot& robot, Corners& corners, int k) noexcept {
   constexpr float clear_m = 0.16F;  // of other robots, which may have moved since it was heard
   const TreeTable& table = robot.table();
-  Bodies& bodies = corners.bodies;
+  KnownBodies& bodies = corners.bodies;
   if (table.range(k) > longest_link * robot.params.communication_range_m || !sees_clearly(robot, corners, k, clear_m))
     return;
   const auto begin = bodies.ids.begin();

@@ -61,7 +61,7 @@ bool hear_each_other(const ConvoyRobot& robot, Vec2 middle, Vec2 a, Vec2 b, bool
 }
 
 // Where the tree neighbours of a robot are.
-struct Ends {
+struct EdgeEnds {
   std::array<Vec2, neighbor_capacity + 1> at;
   std::size_t size = 0;
   void add(Vec2 end) noexcept { at[size++] = end; }
@@ -210,7 +210,7 @@ void choose_whom(ConvoyRobot& robot) noexcept {
 }
 
 bool depends_on_me(const ConvoyRobot& robot) noexcept {
-  Ends ends;
+  EdgeEnds ends;
   const TreeTable& table = robot.table();
   const int up = robot.is_root() ? -1 : robot.up();
   for (int k = 0; k < table.size(); ++k) {
@@ -253,10 +253,10 @@ Vec2 unheard_direction(const ConvoyRobot& robot, Vec2 center, Vec2 opposite) noe
 }
 
 // The tree neighbours of neighbour `of`.
-Ends ends_around(const ConvoyRobot& robot, int of) noexcept {
+EdgeEnds ends_around(const ConvoyRobot& robot, int of) noexcept {
   const TreeTable& table = robot.table();
   const Vec2 center = table.position(of);
-  Ends ends;
+  EdgeEnds ends;
   Vec2 sum;
   for (const int n : neighbors_of(robot, of)) {
     ends.add(table.position(n));
@@ -268,7 +268,7 @@ Ends ends_around(const ConvoyRobot& robot, int of) noexcept {
 }
 
 // What is in the way at that place, and of links from it to the ends. m.
-float obstruction_of(const ConvoyRobot& robot, const Ends& ends, int of, Vec2 place) noexcept {
+float obstruction_of(const ConvoyRobot& robot, const EdgeEnds& ends, int of, Vec2 place) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   float count = 0.0F;
@@ -289,7 +289,7 @@ float obstruction_of(const ConvoyRobot& robot, const Ends& ends, int of, Vec2 pl
 }
 
 // How bad that place is. m.
-float cost_of(const ConvoyRobot& robot, const Ends& ends, int of, Vec2 place) noexcept {
+float cost_of(const ConvoyRobot& robot, const EdgeEnds& ends, int of, Vec2 place) noexcept {
   const float c = robot.params.communication_range_m;
   float longest_m = 0.0F;
   for (const Vec2 end : ends.all()) longest_m = std::max(longest_m, distance(place, end));
@@ -305,7 +305,7 @@ bool needs_companion(const ConvoyRobot& robot, int k) noexcept {
   if (m.role == Role::spare) return false;
   const int degree = degree_of(robot, k);
   if (degree < 2) return false;
-  Ends ends;
+  EdgeEnds ends;
   for (const int n : neighbors_of(robot, k)) ends.add(table.position(n));
   const bool knows_all = static_cast<int>(ends.size) + (up_of(m) == robot.self.id ? 1 : 0) >= degree;
   return !knows_all || holds_together(robot, table.position(k), ends.all(), m.want_cm > 0);
@@ -368,7 +368,7 @@ Vec2 companion_motion(const ConvoyRobot& robot, int of) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   const Vec2 center = table.position(of);
-  const Ends ends = ends_around(robot, of);
+  const EdgeEnds ends = ends_around(robot, of);
   const Vec2 axis = ends.size > 0 ? unit(ends.at[0] - center) : unit(-center);
   Vec2 best;
   float least = not_counted;

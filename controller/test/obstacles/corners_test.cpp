@@ -112,7 +112,7 @@ struct Bereaved {
       remember_corners(robot, bench.state.corners);
     }
   }
-  [[nodiscard]] const Bodies& bodies() const { return bench.state.corners.bodies; }
+  [[nodiscard]] const KnownBodies& bodies() const { return bench.state.corners.bodies; }
   ConvoyBench bench = grown<Convoy>();
 };
 constexpr int past_liveness_ticks = 8;

@@ -113,7 +113,7 @@ void Controller::ControlStep() {
   }
   hear();
   if (eyes_) eyes_(*robot_);
-  Robot::Readings readings;
+  ArgosRobot::Readings readings;
   readings.odometry = odometry();
   readings.sent = told_.sent;
   readings.target = target();

@@ -58,12 +58,12 @@ class Controller final : public ::argos::CCI_Controller {
   ::argos::CCI_DifferentialSteeringSensor* encoders_ = nullptr;  // these two may be null
   ::argos::CCI_PositioningSensor* positioning_ = nullptr;
   std::function<std::optional<Vec2>()> light_;  // where the light is
-  std::function<void(Robot&)> eyes_;            // shows the robot what proximity sensors see
+  std::function<void(ArgosRobot&)> eyes_;       // shows the robot what proximity sensors see
 
   Settings settings_;
   double tick_s_ = 0.1;
   Member member_;
-  std::optional<Robot> robot_;
+  std::optional<ArgosRobot> robot_;
   Told told_;
   std::vector<Vec2> told_obstacles_;
   WheelCommand last_;

@@ -27,7 +27,7 @@
 
 namespace banyan::argos {
 
-class LoopFunctions final : public ::argos::CLoopFunctions, public Robots {
+class LoopFunctions final : public ::argos::CLoopFunctions, public MirroredRobots {
  public:
   void Init(::argos::TConfigurationNode& node) override;
   void Reset() override;

@@ -19,8 +19,8 @@ using namespace ::argos;
 
 namespace {
 
-template <class Sensor> std::function<void(Robot&)> eyes(Sensor* sensor, const ProximityModel& model) {
-  return [sensor, &model](Robot& robot) {
+template <class Sensor> std::function<void(ArgosRobot&)> eyes(Sensor* sensor, const ProximityModel& model) {
+  return [sensor, &model](ArgosRobot& robot) {
     for (const auto& reading : sensor->GetReadings())
       if (const auto point = obstacle_at(model, reading.Value, reading.Angle.GetValue())) robot.see(*point);
   };
@@ -28,7 +28,7 @@ template <class Sensor> std::function<void(Robot&)> eyes(Sensor* sensor, const P
 
 }  // namespace
 
-std::function<void(Robot&)> eyes_of([[maybe_unused]] CCI_Controller& controller) {
+std::function<void(ArgosRobot&)> eyes_of([[maybe_unused]] CCI_Controller& controller) {
 #ifdef BANYAN_HAS_KHEPERAIV
   if (controller.HasSensor("kheperaiv_proximity"))
     return eyes(controller.GetSensor<CCI_KheperaIVProximitySensor>("kheperaiv_proximity"), kheperaiv_proximity);

@@ -13,7 +13,7 @@
 namespace banyan::argos {
 
 // Shows a robot what the proximity sensor of `controller` sees; none if it has none.
-[[nodiscard]] std::function<void(Robot&)> eyes_of(::argos::CCI_Controller& controller);
+[[nodiscard]] std::function<void(ArgosRobot&)> eyes_of(::argos::CCI_Controller& controller);
 // Where its light sensor sees the only light; none if it has none. `intensity_m` is looked at in every call.
 [[nodiscard]] std::function<std::optional<Vec2>()> light_of(::argos::CCI_Controller& controller,
                                                             const double& intensity_m);

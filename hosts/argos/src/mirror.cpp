@@ -10,7 +10,7 @@ namespace {
 
 class MirroredBodies final : public world::Bodies {
  public:
-  explicit MirroredBodies(const Robots& robots) noexcept : robots_(robots) {}
+  explicit MirroredBodies(const MirroredRobots& robots) noexcept : robots_(robots) {}
   [[nodiscard]] std::unique_ptr<world::Bodies> clone() const override {
     return std::make_unique<MirroredBodies>(robots_);
   }
@@ -30,12 +30,12 @@ class MirroredBodies final : public world::Bodies {
   [[nodiscard]] std::uint64_t hash(std::uint64_t h) const noexcept override { return h; }
 
  private:
-  const Robots& robots_;
+  const MirroredRobots& robots_;
 };
 
 class MirrorSwarm final : public Swarm {
  public:
-  MirrorSwarm(std::unique_ptr<Swarm> local, Robots& robots) : local_(std::move(local)), robots_(&robots) {
+  MirrorSwarm(std::unique_ptr<Swarm> local, MirroredRobots& robots) : local_(std::move(local)), robots_(&robots) {
     for (std::size_t i = 0; i < local_->size(); ++i) {
       Mirror& mirror = mirrors_.emplace_back();
       mirror.report = local_->report(i);
@@ -108,14 +108,14 @@ class MirrorSwarm final : public Swarm {
     local_->message_numbers(*place, mirror.numbers);
   }
 
-  std::unique_ptr<Swarm> local_;  // knows the messages
-  Robots* robots_ = nullptr;      // null: a clone
+  std::unique_ptr<Swarm> local_;      // knows the messages
+  MirroredRobots* robots_ = nullptr;  // null: a clone
   std::vector<Mirror> mirrors_;
 };
 
 }  // namespace
 
-std::unique_ptr<world::Bodies> mirrored_bodies(const Robots& robots) {
+std::unique_ptr<world::Bodies> mirrored_bodies(const MirroredRobots& robots) {
   return std::make_unique<MirroredBodies>(robots);
 }
 

@@ -106,7 +106,7 @@ config::Configuration load_mission(const std::string& file, const std::vector<st
 }
 
 MissionRun::MissionRun(config::Configuration configuration, std::string out, bool force,
-                       const std::vector<Pose>& placed, Robots& robots)
+                       const std::vector<Pose>& placed, MirroredRobots& robots)
     : configuration_(std::move(configuration)),
       out_(std::move(out)),
       robots_(robots),

@@ -12,7 +12,7 @@ constexpr float radius_per_wheel_distance = 0.7F;  // Khepera IV 0.668, foot-bot
 
 }  // namespace
 
-Robot::Robot(const Algorithm& algorithm, const Setup& setup, const Member& member, bool has_eyes)
+ArgosRobot::ArgosRobot(const Algorithm& algorithm, const Setup& setup, const Member& member, bool has_eyes)
     : swarm_(algorithm.make(setup, std::array{member})),
       has_eyes_(has_eyes),
       radius_m_(radius_per_wheel_distance * setup.platform.wheel_distance_m),
@@ -20,17 +20,17 @@ Robot::Robot(const Algorithm& algorithm, const Setup& setup, const Member& membe
       report_(swarm_->report(0)),
       message_(swarm_->message_bytes()) {}
 
-void Robot::hear(std::span<const std::uint8_t> bytes, Vec2 position) {
+void ArgosRobot::hear(std::span<const std::uint8_t> bytes, Vec2 position) {
   if (is_silence(bytes)) return;
   const auto place = swarm_->receive(bytes);
   if (!place) return;
   packets_.push_back({.sender = *place, .age_ticks = 1, .position = position, .age_s = 0.0F});
 }
 
-void Robot::see(Vec2 point) { seen_.push_back(point); }
+void ArgosRobot::see(Vec2 point) { seen_.push_back(point); }
 
 // A robot's place is known from its packets: those of this step and, since packets get lost, of the last ones.
-void Robot::remember(const Odometry& odometry) {
+void ArgosRobot::remember(const Odometry& odometry) {
   const Carry carry(odometry);
   for (Known& robot : known_) {
     robot.position = carry.point(robot.position);
@@ -40,13 +40,13 @@ void Robot::remember(const Odometry& odometry) {
   for (const Packet& packet : packets_) known_.push_back({packet.position, 0});
 }
 
-bool Robot::is_robot(Vec2 point) const noexcept {
+bool ArgosRobot::is_robot(Vec2 point) const noexcept {
   return std::any_of(known_.begin(), known_.end(), [&](const Known& robot) {
     return distance(robot.position, point) < radius_m_ + static_cast<float>(robot.age_steps + 1) * step_m_;
   });
 }
 
-Said Robot::step(const Readings& readings) {
+Said ArgosRobot::step(const Readings& readings) {
   obstacles_.assign(readings.obstacles.begin(), readings.obstacles.end());
   if (has_eyes_) remember(readings.odometry);
   std::copy_if(seen_.begin(), seen_.end(), std::back_inserter(obstacles_),

@@ -32,9 +32,9 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
-class Reader {
+class AttributeReader {
  public:
-  Reader(const AlgorithmList& list, double tick_s) : scenario_(world::plain_scenario(list)) {
+  AttributeReader(const AlgorithmList& list, double tick_s) : scenario_(world::plain_scenario(list)) {
     scenario_.tick_s = tick_s;
   }
 
@@ -169,7 +169,7 @@ std::string text_of(const world::Value& value) {
 }  // namespace
 
 Settings read_settings(std::span<const Attribute> attributes, const AlgorithmList& list, double tick_s) {
-  return Reader(list, tick_s).read(attributes);
+  return AttributeReader(list, tick_s).read(attributes);
 }
 
 std::vector<Attribute> attributes_of(const world::Scenario& scenario) {

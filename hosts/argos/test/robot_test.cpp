@@ -12,17 +12,17 @@ namespace {
 
 const Algorithm& convoy() { return *algorithms().find("convoy"); }
 
-Robot lone_worker(bool has_eyes = false) {
+ArgosRobot lone_worker(bool has_eyes = false) {
   return {convoy(), {}, Member{.id = 3, .worker = true, .root = false}, has_eyes};
 }
-Robot lone_root() { return {convoy(), {}, Member{.id = 1, .worker = false, .root = true}, false}; }
+ArgosRobot lone_root() { return {convoy(), {}, Member{.id = 1, .worker = false, .root = true}, false}; }
 
-TEST(Robot, WhatOneSaysAnotherHears) {
-  Robot root = lone_root();
-  Robot worker = lone_worker();
-  Robot alone = lone_worker();
+TEST(ArgosRobot, WhatOneSaysAnotherHears) {
+  ArgosRobot root = lone_root();
+  ArgosRobot worker = lone_worker();
+  ArgosRobot alone = lone_worker();
   std::vector<std::uint8_t> message;
-  Robot::Readings sent;
+  ArgosRobot::Readings sent;
   sent.sent = true;
   sent.target = Vec2{3.0F, 0.0F};
   for (int k = 0; k < 20; ++k) {
@@ -37,8 +37,8 @@ TEST(Robot, WhatOneSaysAnotherHears) {
   EXPECT_EQ(alone.said().report.parent, nobody);
 }
 
-TEST(Robot, SilenceAndRubbishAreNotHeard) {
-  Robot robot = lone_worker(), undisturbed = lone_worker();
+TEST(ArgosRobot, SilenceAndRubbishAreNotHeard) {
+  ArgosRobot robot = lone_worker(), undisturbed = lone_worker();
   const std::vector<std::uint8_t> silence(robot.message_bytes()), rubbish(robot.message_bytes(), 0xA5), shorter(3, 1);
   for (int k = 0; k < 5; ++k) {
     for (const auto& bytes : {silence, rubbish, shorter}) robot.hear(bytes, {0.4F, 0.0F});
@@ -48,11 +48,11 @@ TEST(Robot, SilenceAndRubbishAreNotHeard) {
 }
 
 // A robot seen by the proximity sensor is no obstacle, even if its packet of this step got lost; a wall is one.
-TEST(Robot, RobotsAreNoObstacles) {
+TEST(ArgosRobot, RobotsAreNoObstacles) {
   const auto turns_away = [](bool is_robot, bool lost_lately) {
-    Robot robot = lone_worker(true);
-    Robot other = lone_root();
-    Robot::Readings readings;
+    ArgosRobot robot = lone_worker(true);
+    ArgosRobot other = lone_root();
+    ArgosRobot::Readings readings;
     readings.sent = true;
     readings.target = Vec2{3.0F, 0.0F};
     Said said;

@@ -11,7 +11,7 @@
 
 namespace banyan::argos {
 
-class ToySimulator final : public Robots {
+class ToySimulator final : public MirroredRobots {
  public:
   explicit ToySimulator(const world::Scenario& scenario) : scenario_(scenario) {}
 
@@ -24,7 +24,7 @@ class ToySimulator final : public Robots {
                          {},
                          {},
                          std::vector<std::uint8_t>(96),
-                         Robot(*settings.algorithm, settings.setup, member, false)});
+                         ArgosRobot(*settings.algorithm, settings.setup, member, false)});
       platform_ = settings.setup.platform;
     }
   }
@@ -50,7 +50,7 @@ class ToySimulator final : public Robots {
     WheelCommand wheels;
     Told told;
     std::vector<std::uint8_t> last_words;  // zeros before the first
-    Robot robot;
+    ArgosRobot robot;
   };
 
   void move(Inhabitant& robot) const {
@@ -77,7 +77,7 @@ class ToySimulator final : public Robots {
       const double bearing = std::remainder(std::atan2(d.y, d.x) - me.pose.heading_rad, 2.0 * pi<double>);
       me.robot.hear(said[j], position_of(100.0 * norm(d), bearing, 0.0));
     }
-    Robot::Readings readings;
+    ArgosRobot::Readings readings;
     readings.odometry =
         odometry_of(me.wheels.left_cm_s, me.wheels.right_cm_s, scenario_.robot.wheel_distance_m, scenario_.tick_s);
     readings.sent = me.told.sent;

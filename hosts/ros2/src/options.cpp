@@ -8,17 +8,17 @@
 namespace banyan::ros2 {
 namespace {
 
-using Row = udp::OptionRow<Options>;
+using BridgeOption = udp::OptionRow<Options>;
 using udp::OptionError;
 
 constexpr double most_robots = 1000, largest_id = 60000, largest_domain = 232;
 
-template <class Get> Row text(const char* name, const char* form, const char* meaning, Get get) {
+template <class Get> BridgeOption text(const char* name, const char* form, const char* meaning, Get get) {
   return udp::text_option<Options>(name, form, meaning, get);
 }
 
-Row whole(const char* name, const char* meaning, double least, double most,
-          const std::function<void(Options&, double)>& set) {
+BridgeOption whole(const char* name, const char* meaning, double least, double most,
+                   const std::function<void(Options&, double)>& set) {
   return {name,
           "N",
           meaning,
@@ -26,12 +26,12 @@ Row whole(const char* name, const char* meaning, double least, double most,
           {}};
 }
 
-Row flag(const char* name, const char* meaning, bool Options::*member, bool value = true) {
+BridgeOption flag(const char* name, const char* meaning, bool Options::*member, bool value = true) {
   return {name, "", meaning, [=](Options& o, const std::string&) { o.*member = value; }, {}};
 }
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> list = {
+const std::vector<BridgeOption>& rows() {
+  static const std::vector<BridgeOption> list = {
       whole("--robots", "number of robots, with ids from 0; this or --id is required", 1, most_robots,
             [](Options& o, double n) { o.robots = static_cast<std::size_t>(n); }),
       whole("--id", "one robot alone, with this id", 0, largest_id,

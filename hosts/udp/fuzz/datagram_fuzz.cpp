@@ -35,7 +35,7 @@ void read(std::uint8_t as, ByteView bytes) {
     case 2: return is_stable(decode_status(bytes), decode_status);
     case 3: {
       Drop reason{};
-      const Key key{};  // the fuzzer cannot know a MAC: what is accepted here has been forged
+      const SecretKey key{};  // the fuzzer cannot know a MAC: what is accepted here has been forged
       require(!authenticate(bytes, KeyRing({key}), reason));
       return;
     }

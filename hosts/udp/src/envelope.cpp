@@ -12,11 +12,11 @@ constexpr std::uint8_t magic = 0xBA;
 constexpr std::uint8_t version = 1;
 
 static_assert(mac_bytes >= crypto_generichash_BYTES_MIN && mac_bytes <= crypto_generichash_BYTES_MAX);
-static_assert(sizeof(Key::secret) == crypto_generichash_KEYBYTES);
+static_assert(sizeof(SecretKey::secret) == crypto_generichash_KEYBYTES);
 
 using Mac = std::array<std::uint8_t, mac_bytes>;
 
-Mac mac_of(ByteView bytes, const Key& key) noexcept {
+Mac mac_of(ByteView bytes, const SecretKey& key) noexcept {
   Mac mac{};
   // Fails for impossible sizes only, and those are checked above.
   static_cast<void>(
@@ -45,7 +45,7 @@ std::optional<Envelope> authenticate(ByteView datagram, const KeyRing& keys, Dro
   DatagramReader in(sealed);
   if (in.take<std::uint8_t>() != magic || in.take<std::uint8_t>() != version) return std::nullopt;
   const auto kind = in.take<std::uint8_t>();
-  const Key* key = keys.find(in.take<std::uint8_t>());
+  const SecretKey* key = keys.find(in.take<std::uint8_t>());
   if (key == nullptr) return std::nullopt;
   reason = Drop::forged;
   const Mac mac = mac_of(sealed, *key);
@@ -53,9 +53,9 @@ std::optional<Envelope> authenticate(ByteView datagram, const KeyRing& keys, Dro
   reason = Drop::malformed;
   if (kind > static_cast<std::uint8_t>(last_kind)) return std::nullopt;
   Envelope envelope;
-  envelope.kind = static_cast<Kind>(kind);
-  envelope.sender = in.take<Node>();
-  envelope.receiver = in.take<Node>();
+  envelope.kind = static_cast<EnvelopeKind>(kind);
+  envelope.sender = in.take<NodeId>();
+  envelope.receiver = in.take<NodeId>();
   envelope.boot = in.take<std::uint64_t>();
   envelope.echo = in.take<std::uint64_t>();
   envelope.counter = in.take<std::uint32_t>();
@@ -63,7 +63,7 @@ std::optional<Envelope> authenticate(ByteView datagram, const KeyRing& keys, Dro
   return envelope;
 }
 
-Bytes seal(const Envelope& envelope, const Key& key) {
+Bytes seal(const Envelope& envelope, const SecretKey& key) {
   Bytes datagram;
   datagram.reserve(header_bytes + envelope.payload.size() + mac_bytes);
   DatagramWriter out(datagram);
@@ -102,14 +102,14 @@ std::optional<Drop> ReplayWindow::admit(std::uint64_t boot, std::uint32_t counte
   return std::nullopt;
 }
 
-Bytes SecureChannel::seal(Kind kind, ByteView payload, const KeyRing& keys) {
-  const std::uint64_t echo = kind == Kind::hello ? 0 : window_.boot();
+Bytes SecureChannel::seal(EnvelopeKind kind, ByteView payload, const KeyRing& keys) {
+  const std::uint64_t echo = kind == EnvelopeKind::hello ? 0 : window_.boot();
   return udp::seal({kind, self_, peer_, boot_, echo, ++counter_, payload}, keys.signing());
 }
 
 std::optional<Drop> SecureChannel::admit(const Envelope& envelope) noexcept {
   if (envelope.sender != peer_ || envelope.receiver != self_) return Drop::misaddressed;
-  const bool answers_me = envelope.kind == Kind::hello ? envelope.echo == 0 : envelope.echo == boot_;
+  const bool answers_me = envelope.kind == EnvelopeKind::hello ? envelope.echo == 0 : envelope.echo == boot_;
   if (!answers_me) return Drop::stale;
   return window_.admit(envelope.boot, envelope.counter);
 }

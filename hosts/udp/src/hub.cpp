@@ -21,7 +21,7 @@ Hub::Hub(const HubSettings& options, std::size_t robots, KeyRing keys, Tape* tap
       clock_(options.speed),
       mission_(tape != nullptr ? tape->mission() : static_cast<std::uint32_t>(new_boot())) {
   const std::uint64_t boot = new_boot();
-  for (std::size_t i = 0; i < robots; ++i) robots_.emplace_back(SecureChannel(hub_node, static_cast<Node>(i), boot));
+  for (std::size_t i = 0; i < robots; ++i) robots_.emplace_back(SecureChannel(hub_node, static_cast<NodeId>(i), boot));
 }
 
 // ---- What arrives ----
@@ -44,8 +44,8 @@ void Hub::take(const Envelope& envelope, const Address& from) {
   robot.address = from;
   robot.heard_tick = tick_;
   ++counts_.received;
-  if (envelope.kind == Kind::stopped) robot.answered_stop = true;
-  if (envelope.kind != Kind::status) return;
+  if (envelope.kind == EnvelopeKind::stopped) robot.answered_stop = true;
+  if (envelope.kind != EnvelopeKind::status) return;
   const auto status = decode_status(envelope.payload);
   if (!status) return refuse(Drop::malformed);
   const bool is_later = envelope.boot != robot.boot || envelope.counter > robot.counter;
@@ -68,7 +68,7 @@ std::optional<Status> Hub::take(std::size_t i) {
 
 // ---- What is sent ----
 
-void Hub::send(Robot& robot, Kind kind, const Bytes& payload) {
+void Hub::send(Robot& robot, EnvelopeKind kind, const Bytes& payload) {
   if (!robot.address) return;
   socket_.send(robot.channel.seal(kind, payload, keys_), *robot.address);
   ++counts_.sent;
@@ -79,7 +79,7 @@ void Hub::deliver(std::size_t i, SensorFrame frame, std::span<const Hearing> hea
   if (muted_) return;
   frame.mission = mission_;
   frame.begun = robot.begun;
-  send(robot, Kind::frame, encode(frame));
+  send(robot, EnvelopeKind::frame, encode(frame));
   send_heard(robot, frame, heard);
 }
 
@@ -89,7 +89,7 @@ void Hub::send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hea
   HeardBundle bundle{frame.tick, frame.odometry, {}};
   std::size_t size = fixed;
   const auto flush = [&] {
-    if (!bundle.packets.empty()) send(robot, Kind::heard, encode(bundle));
+    if (!bundle.packets.empty()) send(robot, EnvelopeKind::heard, encode(bundle));
     bundle.packets.clear();
     size = fixed;
   };
@@ -105,7 +105,7 @@ void Hub::send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hea
 void Hub::dismiss(std::size_t i) {
   Robot& robot = robots_[i];
   robot.dead = true;
-  if (!muted_ && !robot.answered_stop) send(robot, Kind::stop, {});
+  if (!muted_ && !robot.answered_stop) send(robot, EnvelopeKind::stop, {});
 }
 
 std::size_t Hub::stop_all() {
@@ -114,7 +114,7 @@ std::size_t Hub::stop_all() {
   const auto waits = [](const Robot& robot) { return robot.address && !robot.answered_stop && !robot.dead; };
   while (std::any_of(robots_.begin(), robots_.end(), waits) && clock_.now_s() < end_s) {
     for (Robot& robot : robots_)
-      if (waits(robot)) send(robot, Kind::stop, {});
+      if (waits(robot)) send(robot, EnvelopeKind::stop, {});
     const double again_s = clock_.now_s() + repeat_stop_s * options_.speed;
     while (clock_.wait(descriptor, again_s)) listen();
   }

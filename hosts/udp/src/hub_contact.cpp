@@ -17,29 +17,31 @@ class HubContact final : public Contact {
     if (channel_.admit(envelope)) return false;
     const auto at = ends_.driver.pose_at(now_s - ends_.options.delay_s);
     switch (envelope.kind) {
-      case Kind::frame:
+      case EnvelopeKind::frame:
         if (const auto frame = decode_frame(envelope.payload)) return ends_.robot.take(*frame, now_s, at), true;
         return false;
-      case Kind::heard:
+      case EnvelopeKind::heard:
         if (const auto heard = decode_heard(envelope.payload)) return ends_.robot.take(*heard, at), true;
         return false;
-      case Kind::stop:
+      case EnvelopeKind::stop:
         stopped_ = true;
-        say(Kind::stopped, {});
+        say(EnvelopeKind::stopped, {});
         return true;
       default: return false;
     }
   }
   void guide(double /*now_s*/) override {}
-  void tell(const Status& status) override { say(Kind::status, encode(status)); }
+  void tell(const Status& status) override { say(EnvelopeKind::status, encode(status)); }
   void greet(double now_s) override {
     if (now_s < next_hello_s_) return;
     next_hello_s_ = now_s + hello_every_s;
-    say(Kind::hello, {});
+    say(EnvelopeKind::hello, {});
   }
 
  private:
-  void say(Kind kind, const Bytes& payload) { ends_.socket.send(channel_.seal(kind, payload, ends_.keys), hub_); }
+  void say(EnvelopeKind kind, const Bytes& payload) {
+    ends_.socket.send(channel_.seal(kind, payload, ends_.keys), hub_);
+  }
 
   ContactEnds ends_;
   Address hub_;

@@ -17,11 +17,11 @@
 namespace banyan::udp {
 namespace {
 
-std::optional<Key> parse_key(const std::string& line) {
+std::optional<SecretKey> parse_key(const std::string& line) {
   std::istringstream words(line);
   std::string number, digits, more;
   if (!(words >> number >> digits) || words >> more) return std::nullopt;
-  Key key;
+  SecretKey key;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), key.number);
   if (error != std::errc{} || end != number.data() + number.size()) return std::nullopt;
   std::size_t length = 0;
@@ -45,8 +45,8 @@ void start_library() {
 
 }  // namespace
 
-const Key* KeyRing::find(std::uint8_t number) const noexcept {
-  const auto at = std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.number == number; });
+const SecretKey* KeyRing::find(std::uint8_t number) const noexcept {
+  const auto at = std::find_if(keys_.begin(), keys_.end(), [&](const SecretKey& key) { return key.number == number; });
   return at == keys_.end() ? nullptr : &*at;
 }
 
@@ -55,7 +55,7 @@ KeyRing read_keys(const std::string& path) {
   check_permissions(path);
   std::ifstream file(path);
   if (!file) throw KeyError(path + ": cannot be read");
-  std::vector<Key> keys;
+  std::vector<SecretKey> keys;
   std::size_t number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
@@ -64,7 +64,7 @@ KeyRing read_keys(const std::string& path) {
     const auto key = parse_key(line);
     const std::string where = path + ":" + std::to_string(number);
     if (!key) throw KeyError(where + ": must be a number from 0 to 255 and 64 hexadecimal digits");
-    if (std::any_of(keys.begin(), keys.end(), [&](const Key& other) { return other.number == key->number; }))
+    if (std::any_of(keys.begin(), keys.end(), [&](const SecretKey& other) { return other.number == key->number; }))
       throw KeyError(where + ": there is another key of this number");
     keys.push_back(*key);
   }
@@ -92,7 +92,7 @@ std::string KeyFile::refresh(bool anyway) {
 
 std::string new_key_text() {
   start_library();
-  Key key;
+  SecretKey key;
   ::randombytes_buf(key.secret.data(), key.secret.size());
   std::array<char, 2 * sizeof(key.secret) + 1> digits{};
   ::sodium_bin2hex(digits.data(), digits.size(), key.secret.data(), key.secret.size());

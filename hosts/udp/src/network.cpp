@@ -18,10 +18,10 @@ namespace {
 
 // "10.77.X.Y" of a robot, and the hardware address of the same numbers, so that nobody has to ask for it: a question
 // that gets lost would hold up all datagrams, not one.
-struct Place {
+struct NetworkPlace {
   std::string address, hardware;
 };
-Place place_of(std::size_t robot) {
+NetworkPlace place_of(std::size_t robot) {
   const std::size_t number = robot + 2;
   std::array<char, 32> address{}, hardware{};
   std::snprintf(address.data(), address.size(), "10.77.%zu.%zu", number / 250, number % 250 + 1);
@@ -187,7 +187,7 @@ Wire::~Wire() {
 bool Wire::become_far_end() {
   close_end(wired_[1]);
   if (::unshare(CLONE_NEWNET) != 0 || !say(there_[1]) || !hear(wired_[0])) return false;
-  const Place here = place_of(robot_);
+  const NetworkPlace here = place_of(robot_);
   const std::string address = "addr add " + here.address + "/16 dev eth0\n";
   const std::string hub =
       std::string("neigh add ") + bridge_address + " lladdr " + bridge_hardware + " dev eth0 nud permanent\n";
@@ -198,7 +198,7 @@ bool Wire::become_far_end() {
 bool Wire::join(pid_t far) {
   close_end(there_[1]);
   close_end(wired_[0]);
-  const Place there = place_of(robot_);
+  const NetworkPlace there = place_of(robot_);
   const std::string wire = "w" + std::to_string(robot_), process = std::to_string(far);
   const std::string ends =
       "link add " + wire + " type veth peer name eth0 address " + there.hardware + " netns " + process + "\n";

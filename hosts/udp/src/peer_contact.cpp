@@ -75,7 +75,7 @@ class PeerContact final : public Contact {
           ends_.driver.pose_at(measured.s).value_or(account.odometry).outside(measured.position));
     };
     if (const auto target = ends_.driver.target(); target && ends_.options.worker) account.target = here(*target);
-    for (const Node other : others_)
+    for (const NodeId other : others_)
       if (const auto measured = ends_.driver.neighbour(other); measured && now_s_ - measured->s <= measured_lately_s)
         account.seen.push_back({other, here(*measured)});
     return account;
@@ -83,8 +83,8 @@ class PeerContact final : public Contact {
 
   ContactEnds ends_;
   std::optional<Address> listener_;
-  std::set<Node> others_;  // that have been heard
-  double now_s_ = 0.0;     // of the last step
+  std::set<NodeId> others_;  // that have been heard
+  double now_s_ = 0.0;       // of the last step
   std::vector<Address> addresses_;
   Peers peers_;
   std::uint32_t heard_ = 0;  // messages, so that the newest of each sender is known

@@ -6,8 +6,8 @@
 
 namespace banyan::udp {
 
-RemoteSwarm::RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, Link& link,
-                         std::uint32_t silence)
+RemoteSwarm::RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup,
+                         RemoteLink& link, std::uint32_t silence)
     : local_(std::move(local)),
       history_(std::max<std::size_t>(1, setup.history)),
       silence_(silence),

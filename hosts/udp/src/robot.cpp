@@ -18,11 +18,11 @@ constexpr float place_tolerance_m = 0.1F;
 
 }  // namespace
 
-Robot::Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m)
+UdpRobot::UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m)
     : algorithm_(algorithm), setup_(std::move(setup)), id_(id), stop_after_s_(stop_after_s), radius_m_(radius_m) {}
 
 // A robot that has started again in the middle of a mission is not its first root.
-void Robot::begin(const SensorFrame& frame) {
+void UdpRobot::begin(const SensorFrame& frame) {
   const std::array<Member, 1> self{Member{id_, frame.worker, frame.root && !frame.begun}};
   swarm_ = algorithm_.make(setup_, self);
   known_.clear();
@@ -32,13 +32,13 @@ void Robot::begin(const SensorFrame& frame) {
   odometry_tick_ = 0;
 }
 
-void Robot::follow(std::uint32_t tick, const OdometricPose& odometry) {
+void UdpRobot::follow(std::uint32_t tick, const OdometricPose& odometry) {
   if (tick < odometry_tick_) return;
   odometry_tick_ = tick;
   odometry_ = odometry;
 }
 
-void Robot::take(const SensorFrame& frame, double now_s, const std::optional<OdometricPose>& at) {
+void UdpRobot::take(const SensorFrame& frame, double now_s, const std::optional<OdometricPose>& at) {
   const bool another_mission = swarm_ && frame.mission != frame_.mission;
   if (swarm_ && frame.tick <= frame_.tick && !another_mission) return;  // overtaken by a later one
   if (!is_guided(now_s)) interrupted_ = true;
@@ -50,7 +50,7 @@ void Robot::take(const SensorFrame& frame, double now_s, const std::optional<Odo
   swarm_->set_line_of_sight(frame.line_of_sight);
 }
 
-void Robot::take(const HeardBundle& heard, const std::optional<OdometricPose>& at) {
+void UdpRobot::take(const HeardBundle& heard, const std::optional<OdometricPose>& at) {
   if (!swarm_) return;
   follow(heard.tick, heard.odometry);
   const OdometricPose& pose = at ? *at : heard.odometry;
@@ -61,16 +61,16 @@ void Robot::take(const HeardBundle& heard, const std::optional<OdometricPose>& a
   }
 }
 
-bool Robot::is_guided(double now_s) const noexcept { return swarm_ && now_s - frame_s_ <= stop_after_s_; }
+bool UdpRobot::is_guided(double now_s) const noexcept { return swarm_ && now_s - frame_s_ <= stop_after_s_; }
 
 // After an interruption the hub's ticks say how much of the mission has passed: nothing, if the hub was away.
-float Robot::elapsed_s(double now_s) const noexcept {
+float UdpRobot::elapsed_s(double now_s) const noexcept {
   if (!interrupted_) return static_cast<float>(now_s - step_s_);
   const std::uint32_t ticks = std::max<std::uint32_t>(1, frame_.tick - std::min(step_tick_, frame_.tick));
   return static_cast<float>(ticks) * setup_.platform.tick_s;
 }
 
-void Robot::collect(const OdometricPose& pose, double now_s) {
+void UdpRobot::collect(const OdometricPose& pose, double now_s) {
   packets_.clear();
   for (auto& [sender, known] : known_) {
     if (known.message.empty()) continue;
@@ -81,7 +81,7 @@ void Robot::collect(const OdometricPose& pose, double now_s) {
   }
 }
 
-std::span<const Vec2> Robot::without_neighbors(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
+std::span<const Vec2> UdpRobot::without_neighbors(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
   neighbors_.clear();
   for (const auto& [sender, known] : known_)
     if (now_s - known.given_s <= heard_for_s) neighbors_.push_back(pose.inside(known.position));
@@ -89,7 +89,7 @@ std::span<const Vec2> Robot::without_neighbors(const OdometricPose& pose, std::s
   return without_robots(seen_, neighbors_, radius_m_, place_tolerance_m);
 }
 
-Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
+Senses UdpRobot::sense(const OdometricPose& pose, std::span<const Vec2> seen, double now_s) {
   Senses senses;
   senses.odometry = motion_between(pose_, pose);
   senses.orders.sent = frame_.sent;
@@ -103,7 +103,7 @@ Senses Robot::sense(const OdometricPose& pose, std::span<const Vec2> seen, doubl
   return senses;
 }
 
-Status Robot::step(double now_s, const std::optional<OdometricPose>& pose, std::span<const Vec2> seen) {
+Status UdpRobot::step(double now_s, const std::optional<OdometricPose>& pose, std::span<const Vec2> seen) {
   const OdometricPose here = pose ? *pose : odometry_;
   if (step_s_ <= 0.0) pose_ = here;  // the first one: there is no motion before
   collect(here, now_s);

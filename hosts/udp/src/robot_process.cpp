@@ -114,7 +114,7 @@ class Process {
   KeyFile keys_;
   Socket socket_;
   std::unique_ptr<Driver> driver_;
-  Robot robot_;
+  UdpRobot robot_;
   std::unique_ptr<Contact> contact_;
   Clock clock_;
   double next_step_s_;

@@ -12,9 +12,9 @@ namespace banyan::udp {
 namespace {
 
 KeyRing ring(std::initializer_list<std::uint8_t> numbers) {
-  std::vector<Key> keys;
+  std::vector<SecretKey> keys;
   for (const std::uint8_t number : numbers) {
-    Key key{number, {}};
+    SecretKey key{number, {}};
     key.secret.fill(number);
     keys.push_back(key);
   }
@@ -35,15 +35,16 @@ struct Pair {
   SecureChannel robot{3, hub_node, 100};
   SecureChannel hub{hub_node, 3, 200};
   Pair() {
-    EXPECT_EQ(dropped(hub, robot.seal(Kind::hello, {}, keys), keys), std::nullopt);
-    EXPECT_EQ(dropped(robot, hub.seal(Kind::frame, payload, keys), keys), std::nullopt);
+    EXPECT_EQ(dropped(hub, robot.seal(EnvelopeKind::hello, {}, keys), keys), std::nullopt);
+    EXPECT_EQ(dropped(robot, hub.seal(EnvelopeKind::frame, payload, keys), keys), std::nullopt);
   }
 };
 
 TEST(Envelope, CarriesEverything) {
   const KeyRing keys = ring({9});
   const Bytes datagram =
-      seal({Kind::heard, 0x1234, 0x5678, 0x1122334455667788, 0x99AABBCCDDEEFF00, 0xCAFEBABE, payload}, keys.signing());
+      seal({EnvelopeKind::heard, 0x1234, 0x5678, 0x1122334455667788, 0x99AABBCCDDEEFF00, 0xCAFEBABE, payload},
+           keys.signing());
   EXPECT_EQ(datagram.size(), header_bytes + payload.size() + mac_bytes);
   // As the header's table says, so that others can write it, too.
   const Bytes begin(datagram.begin(), datagram.begin() + 12);
@@ -51,7 +52,7 @@ TEST(Envelope, CarriesEverything) {
   Drop reason{};
   const auto envelope = authenticate(datagram, keys, reason);
   ASSERT_TRUE(envelope);
-  EXPECT_EQ(envelope->kind, Kind::heard);
+  EXPECT_EQ(envelope->kind, EnvelopeKind::heard);
   EXPECT_EQ(envelope->sender, 0x1234);
   EXPECT_EQ(envelope->receiver, 0x5678);
   EXPECT_EQ(envelope->boot, 0x1122334455667788U);
@@ -62,7 +63,7 @@ TEST(Envelope, CarriesEverything) {
 
 TEST(Envelope, EveryChangedBitAndEveryCutIsNoticed) {
   Pair pair;
-  const Bytes datagram = pair.robot.seal(Kind::status, payload, pair.keys);
+  const Bytes datagram = pair.robot.seal(EnvelopeKind::status, payload, pair.keys);
   for (std::size_t bit = 0; bit < 8 * datagram.size(); ++bit) {
     Bytes changed = datagram;
     changed[bit / 8] = static_cast<std::uint8_t>(changed[bit / 8] ^ 1U << bit % 8);
@@ -81,9 +82,9 @@ TEST(Envelope, EveryChangedBitAndEveryCutIsNoticed) {
 
 TEST(Envelope, AnotherFleetIsForeign) {
   Pair pair;
-  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, ring({2})), pair.keys), Drop::foreign);
-  KeyRing same_number({Key{1, {}}});
-  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, same_number), pair.keys), Drop::forged);
+  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(EnvelopeKind::status, payload, ring({2})), pair.keys), Drop::foreign);
+  KeyRing same_number({SecretKey{1, {}}});
+  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(EnvelopeKind::status, payload, same_number), pair.keys), Drop::forged);
 }
 
 TEST(Envelope, KeysChangeWithoutAPause) {
@@ -95,44 +96,44 @@ TEST(Envelope, KeysChangeWithoutAPause) {
                                    {changed, changed},
                                    {done, changed},
                                    {done, done}}) {
-    EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, robot), hub), std::nullopt);
-    EXPECT_EQ(dropped(pair.robot, pair.hub.seal(Kind::frame, payload, hub), robot), std::nullopt);
+    EXPECT_EQ(dropped(pair.hub, pair.robot.seal(EnvelopeKind::status, payload, robot), hub), std::nullopt);
+    EXPECT_EQ(dropped(pair.robot, pair.hub.seal(EnvelopeKind::frame, payload, hub), robot), std::nullopt);
   }
-  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(Kind::status, payload, ring({1})), done), Drop::foreign);
+  EXPECT_EQ(dropped(pair.hub, pair.robot.seal(EnvelopeKind::status, payload, ring({1})), done), Drop::foreign);
 }
 
 TEST(Envelope, APacketCountsOnceAndForItsReceiverOnly) {
   Pair pair;
-  const Bytes status = pair.robot.seal(Kind::status, payload, pair.keys);
+  const Bytes status = pair.robot.seal(EnvelopeKind::status, payload, pair.keys);
   EXPECT_EQ(dropped(pair.hub, status, pair.keys), std::nullopt);
   EXPECT_EQ(dropped(pair.hub, status, pair.keys), Drop::replayed);
   EXPECT_EQ(dropped(pair.robot, status, pair.keys), Drop::misaddressed);  // reflected
   SecureChannel another(4, hub_node, 100);
-  EXPECT_EQ(dropped(another, pair.hub.seal(Kind::frame, payload, pair.keys), pair.keys), Drop::misaddressed);
+  EXPECT_EQ(dropped(another, pair.hub.seal(EnvelopeKind::frame, payload, pair.keys), pair.keys), Drop::misaddressed);
 }
 
 TEST(Envelope, ARobotThatHasStartedAgainIsAcceptedAndItsOldPacketsAreNot) {
   Pair pair;
-  const Bytes held_back = pair.robot.seal(Kind::status, payload, pair.keys);
-  const Bytes old_hello = pair.robot.seal(Kind::hello, {}, pair.keys);
+  const Bytes held_back = pair.robot.seal(EnvelopeKind::status, payload, pair.keys);
+  const Bytes old_hello = pair.robot.seal(EnvelopeKind::hello, {}, pair.keys);
   SecureChannel again(3, hub_node, 101);
-  EXPECT_EQ(dropped(pair.hub, again.seal(Kind::hello, {}, pair.keys), pair.keys), std::nullopt);
-  EXPECT_EQ(dropped(again, pair.hub.seal(Kind::frame, payload, pair.keys), pair.keys), std::nullopt);
-  EXPECT_EQ(dropped(pair.hub, again.seal(Kind::status, payload, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(pair.hub, again.seal(EnvelopeKind::hello, {}, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(again, pair.hub.seal(EnvelopeKind::frame, payload, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(pair.hub, again.seal(EnvelopeKind::status, payload, pair.keys), pair.keys), std::nullopt);
   EXPECT_EQ(dropped(pair.hub, held_back, pair.keys), Drop::stale);
   EXPECT_EQ(dropped(pair.hub, old_hello, pair.keys), Drop::stale);
 }
 
 TEST(Envelope, AHubThatHasStartedAgainTakesNothingFromBefore) {
   Pair pair;
-  const Bytes recorded = pair.robot.seal(Kind::status, payload, pair.keys);
-  const Bytes frame = pair.hub.seal(Kind::frame, payload, pair.keys);
+  const Bytes recorded = pair.robot.seal(EnvelopeKind::status, payload, pair.keys);
+  const Bytes frame = pair.hub.seal(EnvelopeKind::frame, payload, pair.keys);
   SecureChannel hub(hub_node, 3, 201);
   EXPECT_EQ(dropped(hub, recorded, pair.keys), Drop::stale);
-  EXPECT_EQ(dropped(hub, pair.robot.seal(Kind::hello, {}, pair.keys), pair.keys), std::nullopt);
-  EXPECT_EQ(dropped(pair.robot, hub.seal(Kind::frame, payload, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(hub, pair.robot.seal(EnvelopeKind::hello, {}, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(pair.robot, hub.seal(EnvelopeKind::frame, payload, pair.keys), pair.keys), std::nullopt);
   EXPECT_EQ(dropped(pair.robot, frame, pair.keys), Drop::stale);
-  EXPECT_EQ(dropped(hub, pair.robot.seal(Kind::status, payload, pair.keys), pair.keys), std::nullopt);
+  EXPECT_EQ(dropped(hub, pair.robot.seal(EnvelopeKind::status, payload, pair.keys), pair.keys), std::nullopt);
 }
 
 // Against a set of everything that was ever accepted.

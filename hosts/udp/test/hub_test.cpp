@@ -11,7 +11,7 @@ namespace banyan::udp {
 namespace {
 
 KeyRing fleet_keys(std::uint8_t secret = 1) {
-  Key key{1, {}};
+  SecretKey key{1, {}};
   key.secret.fill(secret);
   return KeyRing({key});
 }
@@ -20,8 +20,8 @@ const Address anywhere = parse_address("127.0.0.1:0");
 const auto never = [] { return false; };
 
 struct FakeRobot {
-  FakeRobot(Node id, const Hub& hub, std::uint64_t boot = 1000) : channel(id, hub_node, boot), to(hub.local()) {}
-  Bytes say(Kind kind, const Bytes& payload = {}) {
+  FakeRobot(NodeId id, const Hub& hub, std::uint64_t boot = 1000) : channel(id, hub_node, boot), to(hub.local()) {}
+  Bytes say(EnvelopeKind kind, const Bytes& payload = {}) {
     Bytes datagram = channel.seal(kind, payload, keys);
     socket.send(datagram, to);
     return datagram;
@@ -31,11 +31,11 @@ struct FakeRobot {
     status.velocity.forward_m_s = forward_m_s;
     status.period_us = 100000;
     status.message = {1};
-    return say(Kind::status, encode(status));
+    return say(EnvelopeKind::status, encode(status));
   }
   // Everything that has come, authenticated.
-  std::vector<std::pair<Kind, Bytes>> hear() {
-    std::vector<std::pair<Kind, Bytes>> heard;
+  std::vector<std::pair<EnvelopeKind, Bytes>> hear() {
+    std::vector<std::pair<EnvelopeKind, Bytes>> heard;
     std::array<std::uint8_t, 2000> room;
     Address from;
     while (const auto datagram = socket.receive(room, from)) {
@@ -63,8 +63,8 @@ class HubAndRobots : public ::testing::Test {
   }
   // Both have been greeted and have answered; the next tick is 1.
   void greet() {
-    a_.say(Kind::hello);
-    b_.say(Kind::hello);
+    a_.say(EnvelopeKind::hello);
+    b_.say(EnvelopeKind::hello);
     ASSERT_TRUE(hub_.gather(5.0, never).empty());
     ASSERT_TRUE(hub_.wait_for(0, never).empty());
     hub_.deliver(0, {}, {});
@@ -81,9 +81,9 @@ class HubAndRobots : public ::testing::Test {
 };
 
 TEST_F(HubAndRobots, WaitsForAllAndNamesThoseThatAreMissing) {
-  a_.say(Kind::hello);
+  a_.say(EnvelopeKind::hello);
   EXPECT_EQ(hub_.gather(0.2, never), (std::vector<std::size_t>{1}));
-  b_.say(Kind::hello);
+  b_.say(EnvelopeKind::hello);
   EXPECT_TRUE(hub_.gather(5.0, never).empty());
 }
 
@@ -113,10 +113,10 @@ TEST_F(HubAndRobots, ForgedReplayedTruncatedAndForeignPacketsAreDroppedAndCounte
   attacker.send(Bytes(100, 0x55), hub_.local());                       // foreign
   attacker.send(Bytes(5000, 0x55), hub_.local());                      // longer than any
   SecureChannel unknown(7, hub_node, 5000);
-  attacker.send(unknown.seal(Kind::hello, {}, fleet_keys()), hub_.local());  // no robot of this mission
-  attacker.send(SecureChannel(0, hub_node, 999).seal(Kind::hello, {}, fleet_keys()),
-                hub_.local());      // from before its start
-  a_.say(Kind::status, {1, 2, 3});  // authentic nonsense
+  attacker.send(unknown.seal(EnvelopeKind::hello, {}, fleet_keys()), hub_.local());  // no robot of this mission
+  attacker.send(SecureChannel(0, hub_node, 999).seal(EnvelopeKind::hello, {}, fleet_keys()),
+                hub_.local());              // from before its start
+  a_.say(EnvelopeKind::status, {1, 2, 3});  // authentic nonsense
   static_cast<void>(hub_.wait_for(2, never));
   EXPECT_EQ(velocity(0), std::nullopt);
   EXPECT_EQ(dropped(Drop::replayed), 1U);
@@ -135,9 +135,9 @@ TEST_F(HubAndRobots, ARobotThatStartsAgainHasTakenPart) {
   a_.tell(0.1F);
   static_cast<void>(hub_.wait_for(1, never));
   ASSERT_TRUE(hub_.take(0));
-  const Bytes held_back = a_.channel.seal(Kind::status, encode(Status{}), a_.keys);
+  const Bytes held_back = a_.channel.seal(EnvelopeKind::status, encode(Status{}), a_.keys);
   FakeRobot again(0, hub_, 2000);
-  again.say(Kind::hello);
+  again.say(EnvelopeKind::hello);
   static_cast<void>(hub_.wait_for(2, never));
   hub_.deliver(0, {}, {});
   const auto heard = again.hear();
@@ -161,13 +161,13 @@ TEST_F(HubAndRobots, WhatIsHeardTravelsInAsManyDatagramsAsWanted) {
   bundled.bundle = 64;
   Hub hub(bundled, 1, fleet_keys(), nullptr);
   FakeRobot robot(0, hub);
-  robot.say(Kind::hello);
+  robot.say(EnvelopeKind::hello);
   ASSERT_TRUE(hub.gather(5.0, never).empty());
   hub.deliver(0, {}, heard);
   std::size_t packets = 0;
   const auto datagrams = robot.hear();
   for (const auto& [kind, payload] : datagrams)
-    if (kind == Kind::heard) packets += decode_heard(payload)->packets.size();
+    if (kind == EnvelopeKind::heard) packets += decode_heard(payload)->packets.size();
   EXPECT_EQ(packets, 20U);
   EXPECT_EQ(datagrams.size(), 3U);  // as many as fit into an Ethernet frame: 13
 }
@@ -189,10 +189,10 @@ TEST_F(HubAndRobots, AStopIsRepeatedUntilItIsAnswered) {
   greet();
   EXPECT_EQ(hub_.stop_all(), 2U);
   std::size_t stops = 0;
-  for (const auto& [kind, payload] : a_.hear()) stops += kind == Kind::stop ? 1 : 0;
+  for (const auto& [kind, payload] : a_.hear()) stops += kind == EnvelopeKind::stop ? 1 : 0;
   EXPECT_GT(stops, 10U);
-  a_.say(Kind::stopped);
-  b_.say(Kind::stopped);
+  a_.say(EnvelopeKind::stopped);
+  b_.say(EnvelopeKind::stopped);
   EXPECT_EQ(hub_.stop_all(), 0U);
 }
 
@@ -202,7 +202,7 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
     Tape tape(path, 1, 2);
     Hub hub(options(), 1, fleet_keys(), &tape);
     FakeRobot robot(0, hub);
-    robot.say(Kind::hello);
+    robot.say(EnvelopeKind::hello);
     ASSERT_TRUE(hub.gather(5.0, never).empty());
     for (std::uint32_t tick = 0; tick < 5; ++tick) {
       static_cast<void>(hub.wait_for(tick, never));
@@ -225,7 +225,7 @@ TEST_F(HubAndRobots, AHubPlaysItsTapeAndGoesOn) {
     hub.deliver(0, {}, {});
   }
   EXPECT_EQ(hub.counts().sent, 0U);
-  robot.say(Kind::hello);
+  robot.say(EnvelopeKind::hello);
   static_cast<void>(hub.wait_for(5, never));
   hub.deliver(0, {}, {});
   const auto heard = robot.hear();

@@ -25,7 +25,7 @@ class PeersTest : public testing::Test {
     ASSERT_FALSE(answered.reply.empty());
     EXPECT_FALSE(give(to, answered.reply).drop);
   }
-  KeyRing keys_{{Key{1, {7}}}};
+  KeyRing keys_{{SecretKey{1, {7}}}};
   Bytes word_{1, 2, 3};
   Peers a_{1, 1000};
   Peers b_{2, 2000};
@@ -95,14 +95,15 @@ TEST_F(PeersTest, StopsForAStopperThatIsThereNow) {
   Peers restarted(1, 6000);
   EXPECT_EQ(give(restarted, stop).what, What::nothing);
   // No robot can stop another one.
-  EXPECT_EQ(give(b_, seal({Kind::stop, 1, 2, 1000, 2000, 1, {}}, keys_.signing())).what, What::nothing);
+  EXPECT_EQ(give(b_, seal({EnvelopeKind::stop, 1, 2, 1000, 2000, 1, {}}, keys_.signing())).what, What::nothing);
 }
 
 TEST_F(PeersTest, WhatIsForOthersIsMisaddressed) {
-  EXPECT_EQ(give(b_, seal({Kind::spoken, 1, 2, 1000, 0, 1, word_}, keys_.signing())).drop, Drop::misaddressed);
-  EXPECT_EQ(give(b_, seal({Kind::spoken, hub_node, everybody, 1000, 0, 1, word_}, keys_.signing())).drop,
+  EXPECT_EQ(give(b_, seal({EnvelopeKind::spoken, 1, 2, 1000, 0, 1, word_}, keys_.signing())).drop, Drop::misaddressed);
+  EXPECT_EQ(give(b_, seal({EnvelopeKind::spoken, hub_node, everybody, 1000, 0, 1, word_}, keys_.signing())).drop,
             Drop::misaddressed);
-  EXPECT_EQ(give(b_, seal({Kind::hello, 1, everybody, 1000, 0, 1, {}}, keys_.signing())).drop, Drop::misaddressed);
+  EXPECT_EQ(give(b_, seal({EnvelopeKind::hello, 1, everybody, 1000, 0, 1, {}}, keys_.signing())).drop,
+            Drop::misaddressed);
 }
 
 TEST_F(PeersTest, OnlyWhoListensTakesAccountsAndOnlyOfWhoIsRunning) {

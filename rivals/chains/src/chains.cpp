@@ -14,7 +14,7 @@ bool is_tied_to(const State& self, RobotId id) noexcept {
 }
 
 void remember(State& self, const Carry& carry) noexcept {
-  for (Place* place : {&self.base, &self.child_place, &self.gap})
+  for (KnownPlace* place : {&self.base, &self.child_place, &self.gap})
     if (place->known) place->at = carry.point(place->at);
   self.outwards = carry.vector(self.outwards);
   const int k = self.neighbors.find(self.root);
@@ -88,7 +88,7 @@ void add_to(Digest& digest, const State& s) noexcept {
   add(s.id, s.assignment.sent, s.assignment.known, s.assignment.target, s.root, s.root_age, s.rootless_ticks);
   add(s.worker, s.number, s.child, s.links, s.beyond_m, s.path_m, s.whole, s.linked);
   add(s.gap_ticks, s.astray_ticks, s.ignored, s.ignored_ticks);
-  for (const Place& place : {s.base, s.child_place, s.gap}) add(place.known, place.at);
+  for (const KnownPlace& place : {s.base, s.child_place, s.gap}) add(place.known, place.at);
   add(s.outwards);
   for (const Chain& chain : s.chains) {
     add(chain.parent, chain.asked, chain.asked_ticks);

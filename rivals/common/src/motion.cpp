@@ -16,7 +16,7 @@ Vec2 push_from(Vec2 there, float d, const RivalParams& params) noexcept {
 
 }  // namespace
 
-void Assignment::follow(const Orders& orders, const Carry& carry) noexcept {
+void OwnTarget::follow(const Orders& orders, const Carry& carry) noexcept {
   sent = orders.sent;
   if (!sent) known = false;
   if (known) target = carry.point(target);
@@ -26,7 +26,7 @@ void Assignment::follow(const Orders& orders, const Carry& carry) noexcept {
   }
 }
 
-Vec2 target_pull(const Assignment& assignment, const RivalParams& params) noexcept {
+Vec2 target_pull(const OwnTarget& assignment, const RivalParams& params) noexcept {
   if (!assignment.sent || !assignment.known) return {};
   return unit(assignment.target) *
          (params.target_gain * std::min(1.0F, norm(assignment.target) / params.arrival_distance_m));

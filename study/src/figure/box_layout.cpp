@@ -35,7 +35,7 @@ template <typename Visit> void visit_boxes(const BoxFigure& figure, Visit visit)
 FigureAxis axis_of(const BoxFigure& figure, std::size_t m, int most_ticks) {
   const Measure& measure = figure.measures[m];
   const bool logarithmic = measure.scale == Scale::log;
-  Extent extent;
+  AxisExtent extent;
   bool zeros = false;
   visit_boxes(figure, [&](std::size_t p, std::size_t, std::size_t, const BoxRuns& box) {
     if (figure.panels[p].measure != m) return;

@@ -38,7 +38,7 @@ struct Axes {
 };
 
 Axes axes_of(const CurveFigure& figure) {
-  Extent x, y;
+  AxisExtent x, y;
   bool points = false;
   for (const Curve& curve : figure.curves) {
     for (const double v : curve.x) x.add(v);
@@ -52,14 +52,14 @@ Axes axes_of(const CurveFigure& figure) {
           axis_over(y, figure.y_minimum, figure.y_maximum, true, 0.04, 6)};
 }
 
-struct Layout {
+struct CurveLayout {
   std::vector<std::string> title, x_label, y_label;
   double width = 0.0, height = 0.0, legend_top = 0.0;
   Area area;
 };
 
-Layout place(const CurveFigure& figure, const Axes& axes) {
-  Layout layout;
+CurveLayout place(const CurveFigure& figure, const Axes& axes) {
+  CurveLayout layout;
   layout.width = column_in * points_in;
   layout.y_label = fitted(figure.y_label, plot_height_pt, text_pt);
   const auto lines = static_cast<double>(layout.y_label.size());
@@ -72,7 +72,7 @@ Layout place(const CurveFigure& figure, const Axes& axes) {
   return layout;
 }
 
-void place_below(const Legend& legend, Layout& layout) {
+void place_below(const Legend& legend, CurveLayout& layout) {
   layout.area.top = layout.legend_top + legend.height() + 6.0;
   layout.area.bottom = layout.area.top + plot_height_pt;
   const double label = layout.x_label.empty() ? 0.0 : 3.0 + line_pt * static_cast<double>(layout.x_label.size());
@@ -103,7 +103,7 @@ std::string point_of(std::size_t curve) { return "pt " + std::to_string(style_of
 constexpr double point_pt = 4.0;
 const std::string band_fill = "fs transparent solid 0.18 noborder";
 
-void draw_sheet(Script& script, const CurveFigure& figure, const Layout& layout, const Legend& legend) {
+void draw_sheet(Script& script, const CurveFigure& figure, const CurveLayout& layout, const Legend& legend) {
   script.labels(layout.title, {layout.width / 2.0, edge_pt + line_pt / 2.0}, Align::center);
   legend.draw(script, layout.width / 2.0, layout.legend_top, [&](Script& to, std::size_t i, PanelPoint at) {
     if (visible(figure.curves[i].low)) {
@@ -142,7 +142,7 @@ void set_axes(Script& script, const Axes& axes) {
 std::string script_of(const CurveFigure& figure, const std::string& name) {
   check(figure);
   const Axes axes = axes_of(figure);
-  Layout layout = place(figure, axes);
+  CurveLayout layout = place(figure, axes);
   std::vector<std::string> names;
   for (const Curve& curve : figure.curves) names.push_back(curve.name);
   const Legend legend(names, sample_pt, layout.width - 2.0 * edge_pt);

@@ -80,7 +80,7 @@ std::vector<AxisTick> log_ticks(double low, double high, int most_ticks) {
 
 }  // namespace
 
-void Extent::add(double value) noexcept {
+void AxisExtent::add(double value) noexcept {
   if (!std::isfinite(value)) return;
   low = any ? std::min(low, value) : value;
   high = any ? std::max(high, value) : value;
@@ -100,8 +100,8 @@ double FigureAxis::label_width(double size) const {
   return widest;
 }
 
-FigureAxis axis_over(const Extent& extent, std::optional<double> minimum, std::optional<double> maximum, bool from_zero,
-                     double margin, int most_ticks) {
+FigureAxis axis_over(const AxisExtent& extent, std::optional<double> minimum, std::optional<double> maximum,
+                     bool from_zero, double margin, int most_ticks) {
   double low = minimum.value_or(extent.any ? extent.low : 0.0);
   double high = maximum.value_or(extent.any ? extent.high : 1.0);
   const bool zero = from_zero && low >= 0.0 && !minimum && maximum.value_or(1.0) > 0.0;
@@ -120,8 +120,8 @@ FigureAxis axis_over(const Extent& extent, std::optional<double> minimum, std::o
   return axis;
 }
 
-FigureAxis log_axis_over(const Extent& extent, std::optional<double> minimum, std::optional<double> maximum, bool zeros,
-                         int most_ticks) {
+FigureAxis log_axis_over(const AxisExtent& extent, std::optional<double> minimum, std::optional<double> maximum,
+                         bool zeros, int most_ticks) {
   const double low = extent.any ? extent.low : maximum ? *maximum / 10.0 : 1.0;
   const double high = extent.any ? extent.high : minimum ? *minimum * 10.0 : 1.0;
   FigureAxis axis;

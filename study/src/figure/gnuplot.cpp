@@ -50,9 +50,9 @@ struct Pipe {
 };
 
 // posix_spawn's settings: what gnuplot inherits.
-class Settings {
+class SpawnSettings {
  public:
-  explicit Settings(int messages) {
+  explicit SpawnSettings(int messages) {
     ::posix_spawn_file_actions_init(&actions_);
     ::posix_spawnattr_init(&attributes_);
     // Its standard output must not mix with ours, which may be JSON for another program.
@@ -65,9 +65,9 @@ class Settings {
       cannot_start(error);
     }
   }
-  Settings(const Settings&) = delete;
-  Settings& operator=(const Settings&) = delete;
-  ~Settings() { destroy(); }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+  ~SpawnSettings() { destroy(); }
 
   [[nodiscard]] const posix_spawn_file_actions_t* actions() const noexcept { return &actions_; }
   [[nodiscard]] const posix_spawnattr_t* attributes() const noexcept { return &attributes_; }
@@ -128,7 +128,7 @@ void run_gnuplot(const std::string& script, const std::string& output) {
   const std::array<char*, 6> arguments{program.data(), no_settings.data(), call.data(),
                                        path.data(),    target.data(),      nullptr};
   Pipe pipe;
-  const Settings settings(pipe.write);
+  const SpawnSettings settings(pipe.write);
   pid_t child = 0;
   const int error =
       ::posix_spawnp(&child, program.c_str(), settings.actions(), settings.attributes(), arguments.data(), environ);

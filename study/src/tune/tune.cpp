@@ -23,9 +23,9 @@ namespace {
 using namespace std::chrono_literals;
 using Job = std::function<void()>;
 
-class Course {
+class TuningRun {
  public:
-  Course(const TunePlan& plan, Workers& workers, const std::string& directory, const TuneHooks& hooks)
+  TuningRun(const TunePlan& plan, Workers& workers, const std::string& directory, const TuneHooks& hooks)
       : plan_(plan), evaluator_(plan, workers), directory_(directory), hooks_(hooks) {
     for (std::size_t i = 0; i < plan.optimizer.islands; ++i) islands_.emplace_back(plan, evaluator_, i);
   }
@@ -215,7 +215,7 @@ class Course {
 }  // namespace
 
 TuneResult tune(const TunePlan& plan, Workers& workers, const std::string& directory, const TuneHooks& hooks) {
-  Course course(plan, workers, directory, hooks);
+  TuningRun course(plan, workers, directory, hooks);
   try {
     return course.run();
   } catch (const Stopped&) {

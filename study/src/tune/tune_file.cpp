@@ -30,9 +30,10 @@ bool sound(const std::vector<Problem>& problems) {
   return std::all_of(problems.begin(), problems.end(), [](const Problem& p) { return p.warning; });
 }
 
-class Reader {
+class TuneFileReader {
  public:
-  Reader(const Node& root, const std::string& path, const AlgorithmList& algorithms, std::vector<Problem>& problems)
+  TuneFileReader(const Node& root, const std::string& path, const AlgorithmList& algorithms,
+                 std::vector<Problem>& problems)
       : path_(path), algorithms_(algorithms), problems_(problems), top_(root, "", problems) {}
 
   TunePlan read() {
@@ -371,7 +372,7 @@ LoadedTune parse_tune(const std::string& path, std::string_view text, const Algo
     Node root = config::parse_document(path, text);
     root = with_base(std::move(root), path, loaded.problems);
     root.place.line = 0;
-    Reader reader(root, path, algorithms, loaded.problems);
+    TuneFileReader reader(root, path, algorithms, loaded.problems);
     loaded.plan = reader.read();
     // What is in the scenarios comes after.
     const auto rank = [&](const Problem& p) {

@@ -68,7 +68,7 @@ struct Deployment {
   }
 };
 
-using Algorithm = std::variant<pagmo::sga, pagmo::nsga2, pagmo::cmaes>;
+using PagmoAlgorithm = std::variant<pagmo::sga, pagmo::nsga2, pagmo::cmaes>;
 
 // Derived from the plan's seed, different for every island and purpose.
 unsigned seed_of(const TunePlan& plan, std::size_t island, unsigned purpose) {
@@ -79,7 +79,7 @@ unsigned seed_of(const TunePlan& plan, std::size_t island, unsigned purpose) {
   return static_cast<unsigned>(digest.value() >> 32);
 }
 
-Algorithm make_algorithm(const TuneOptimizer& o, unsigned seed) {
+PagmoAlgorithm make_algorithm(const TuneOptimizer& o, unsigned seed) {
   constexpr double crossover_index = 10.0, mutation_index = 20.0;  // of SBX and polynomial mutation (Deb 2002)
   constexpr unsigned tournament = 2;
   switch (o.search) {
@@ -133,7 +133,7 @@ struct Island::Search {
   const TunePlan& plan;
   Evaluator& evaluator;
   std::size_t index;
-  Algorithm algorithm;
+  PagmoAlgorithm algorithm;
   std::vector<std::vector<double>> units, objectives;
 
   Search(const TunePlan& p, Evaluator& e, std::size_t i)

@@ -14,8 +14,8 @@
 namespace banyan::study {
 namespace {
 
-Extent of(std::initializer_list<double> values) {
-  Extent extent;
+AxisExtent of(std::initializer_list<double> values) {
+  AxisExtent extent;
   for (const double v : values) extent.add(v);
   return extent;
 }
@@ -47,8 +47,9 @@ TEST(FigureAxis, HasRoundTicksAndASizeForAnyValues) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<std::optional<double>, std::optional<double>>> ends{
       {{}, {}}, {-2e13, {}}, {2e13, {}}, {{}, -2e13}, {{}, 2e13}, {0.0, {}}, {{}, 0.0}, {-1.0, 3.0}};
-  for (const Extent& extent : {of({}), of({nan}), of({0.0}), of({0.0, 0.0}), of({-3.0}), of({5.0}), of({1e-9, 3e-9}),
-                               of({1e6, 1e6 + 1}), of({-1e12, 1e12}), of({1e-300}), of({-0.1, -0.05})}) {
+  for (const AxisExtent& extent :
+       {of({}), of({nan}), of({0.0}), of({0.0, 0.0}), of({-3.0}), of({5.0}), of({1e-9, 3e-9}), of({1e6, 1e6 + 1}),
+        of({-1e12, 1e12}), of({1e-300}), of({-0.1, -0.05})}) {
     for (const bool zero : {true, false}) {
       for (const auto& [low, high] : ends) {
         const FigureAxis axis = axis_over(extent, low, high, zero, 0.04, 6);
@@ -85,7 +86,7 @@ TEST(FigureAxis, ALogarithmicOneHasTicksAtPowers) {
 TEST(FigureAxis, ALogarithmicOneHasASizeForAnyValues) {
   const std::vector<std::pair<std::optional<double>, std::optional<double>>> ends{{{}, {}},   {2e13, {}}, {{}, 2e13},
                                                                                   {{}, 1e-9}, {1e-9, {}}, {0.1, 3.0}};
-  for (const Extent& extent :
+  for (const AxisExtent& extent :
        {of({}), of({5.0}), of({1e-9, 3e-9}), of({1e6, 1e6 + 1}), of({1e-300}), of({1e-12, 1e12})}) {
     for (const bool zeros : {true, false}) {
       for (const auto& [low, high] : ends) {

@@ -64,9 +64,9 @@ class TrailLog {
 [[nodiscard]] std::string draw_svg(Recording& recording, double time_s, const PictureOptions& options = {});
 
 // Pairs i < j that are in range, both alive, and have or lack a line of sight.
-struct Links {
+struct RadioLinks {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> open, blocked;
 };
-[[nodiscard]] Links radio_links(const Setting& setting, const Frame& frame);
+[[nodiscard]] RadioLinks radio_links(const Setting& setting, const Frame& frame);
 
 }  // namespace banyan::record

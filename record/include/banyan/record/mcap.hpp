@@ -35,7 +35,7 @@ struct Channel {
   Map metadata;
 };
 
-struct Message {
+struct LoggedMessage {
   std::uint16_t channel_id = 0;
   std::uint32_t sequence = 0;
   Nanoseconds log_time = 0;
@@ -106,7 +106,7 @@ class Reader {
   [[nodiscard]] std::pair<Nanoseconds, Nanoseconds> time_range() const noexcept;
 
   // Messages of one channel with log time in [from, to], by time. `visit` returns false to stop.
-  using Visit = std::function<bool(const Message&)>;
+  using Visit = std::function<bool(const LoggedMessage&)>;
   void messages(std::uint16_t channel_id, const Visit& visit, Nanoseconds from = 0,
                 Nanoseconds to = std::numeric_limits<Nanoseconds>::max());
   // The latest message of the channel at or before `time`, if there is one.

@@ -15,7 +15,7 @@
 namespace banyan::study {
 
 // A change to a scenario: a key and its value, or (key "") a tree of keys laid over it.
-struct Change {
+struct KeyChange {
   std::string key;
   config::Node value;
 };
@@ -23,7 +23,7 @@ struct Change {
 struct AxisValue {
   std::string label;     // "9", "on", "tuned": in folder names, tables and figures
   std::string scenario;  // another base scenario, "" if it stays
-  std::vector<Change> changes;
+  std::vector<KeyChange> changes;
 };
 
 // What is varied: one key, several keys that vary together (zipped), the base scenario, or files
@@ -36,9 +36,9 @@ struct Axis {
 
 // A block of runs: every combination of its axes' values, each with every seed.
 struct Part {
-  std::string name;             // "" if the file has no [[parts]]
-  std::string scenario;         // path of the base scenario
-  std::vector<Change> changes;  // to all of its runs
+  std::string name;                // "" if the file has no [[parts]]
+  std::string scenario;            // path of the base scenario
+  std::vector<KeyChange> changes;  // to all of its runs
   std::vector<Axis> axes;
   std::vector<std::uint64_t> seeds;
   config::Place place;

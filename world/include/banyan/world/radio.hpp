@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "banyan/world/bodies.hpp"
-#include "banyan/world/rows.hpp"
+#include "banyan/world/ragged_array.hpp"
 #include "banyan/world/scenario.hpp"
 #include "banyan/world/threads.hpp"
 
@@ -197,8 +197,8 @@ class Radio {
   float rounding_m_ = 0.0F;    // of the difference of two places, at most
   Limits limits_{};
   std::vector<Row> rows_;
-  Rows<std::uint32_t> lower_;    // of each row those with a smaller index,
-  Rows<Pair, lanes - 1> pairs_;  // and those with a larger one; ascending
+  RaggedArray<std::uint32_t> lower_;    // of each row those with a smaller index,
+  RaggedArray<Pair, lanes - 1> pairs_;  // and those with a larger one; ascending
 
   // Grid of cells at least as wide as the reach, robots sorted by cell (counting sort).
   double cell_m_ = 1.0;
@@ -208,7 +208,7 @@ class Radio {
   std::vector<Way> motion_, across_;  // the farthest move in each cell in this tick; in three cells side by side
 
   std::vector<Scratch> scratch_;
-  Rows<std::uint32_t> links_;         // ascending
+  RaggedArray<std::uint32_t> links_;  // ascending
   std::vector<std::uint32_t> count_;  // of links, while they are laid out anew
   std::vector<Couple> near_;
 };

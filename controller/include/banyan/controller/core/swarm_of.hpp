@@ -51,7 +51,7 @@ template <class T> struct PageAllocator {
 namespace swarm_detail {
 
 // Names and numbers of a message's fields.
-struct Names {
+struct FieldNames {
   std::vector<FieldInfo>& fields;
   void add(const char* name, const char* meaning, int decimals = 0) { fields.push_back({name, meaning, decimals}); }
   template <class E> void choice(const char* name, const char* meaning, const E&, int, E) { add(name, meaning); }
@@ -155,7 +155,7 @@ template <class A> class SwarmOf final : public Swarm {
   [[nodiscard]] std::span<const FieldInfo> message_fields() const noexcept override {
     static const std::vector<FieldInfo> fields = [] {
       std::vector<FieldInfo> list;
-      swarm_detail::Names names{list};
+      swarm_detail::FieldNames names{list};
       const Message message{};
       visit_fields(names, message);
       return list;

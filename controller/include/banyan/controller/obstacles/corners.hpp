@@ -37,7 +37,7 @@ struct Landmarks {
 // Where tree neighbours fell silent in plain sight: their bodies have stayed there, between the robots that they
 // joined. Centres, own frame, m.
 inline constexpr int body_capacity = 4;
-struct Bodies {
+struct KnownBodies {
   std::array<Vec2, body_capacity> centers{};  // the first `size` are valid
   std::array<RobotId, body_capacity> ids{};
   std::uint8_t size = 0;
@@ -45,7 +45,7 @@ struct Bodies {
 
 struct Corners {
   Landmarks landmarks;
-  Bodies bodies;
+  KnownBodies bodies;
   Vec2 seen_from;       // m, own frame: where I was when I last heard my parent; a spare: where the tree was
   bool pinned = false;  // a corner is about to cut the edge to my parent
   std::array<CornerStanding, neighbor_capacity> standings{};  // beside the neighbour table

@@ -20,31 +20,31 @@ struct Pose {
 };
 
 // The robots of the other simulator, by index.
-class Robots {
+class MirroredRobots {
  public:
-  virtual ~Robots() = default;
+  virtual ~MirroredRobots() = default;
   [[nodiscard]] virtual Pose pose(std::size_t i) const = 0;
   [[nodiscard]] virtual Said said(std::size_t i) const = 0;
   // Holds from its next step on; `obstacles` until the next call. The target's place is not filled in.
   virtual void tell(std::size_t i, const Told& told) = 0;
 
  protected:
-  Robots() = default;
+  MirroredRobots() = default;
 };
 
 // In each tick robots are where they are there. `robots` must outlive it.
-[[nodiscard]] std::unique_ptr<world::Bodies> mirrored_bodies(const Robots& robots);
+[[nodiscard]] std::unique_ptr<world::Bodies> mirrored_bodies(const MirroredRobots& robots);
 
 // The algorithm whose robots are there. Both must outlive it. Its swarms step on one thread.
 class MirrorAlgorithm final : public AlgorithmElsewhere {
  public:
-  MirrorAlgorithm(const Algorithm& real, Robots& robots) noexcept : AlgorithmElsewhere(real), robots_(robots) {}
+  MirrorAlgorithm(const Algorithm& real, MirroredRobots& robots) noexcept : AlgorithmElsewhere(real), robots_(robots) {}
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override;
   // How the robots begin of which the last swarm was made.
   [[nodiscard]] std::span<const Member> members() const noexcept { return members_; }
 
  private:
-  Robots& robots_;
+  MirroredRobots& robots_;
   mutable std::vector<Member> members_;
 };
 

@@ -33,7 +33,7 @@ class MissionRun {
   // `out`: the directory of the results; "": none. Refuses to replace results unless `force`. With `placed`, robots
   // begin there instead of where the scenario has them. `robots` are not called before begin(). Throws MissionError.
   MissionRun(config::Configuration configuration, std::string out, bool force, const std::vector<Pose>& placed,
-             Robots& robots);
+             MirroredRobots& robots);
   MissionRun(const MissionRun&) = delete;
   MissionRun& operator=(const MissionRun&) = delete;
 
@@ -54,7 +54,7 @@ class MissionRun {
  private:
   config::Configuration configuration_;
   std::string out_;
-  Robots& robots_;
+  MirroredRobots& robots_;
   MirrorAlgorithm algorithm_;
   record::Sinks sinks_;
   world::Executor executor_{1};

@@ -30,10 +30,10 @@ struct Said {
   std::span<const std::uint8_t> message;  // until its next step
 };
 
-class Robot {
+class ArgosRobot {
  public:
   // `algorithm` must outlive it. `has_eyes`: see() will be called.
-  Robot(const Algorithm& algorithm, const Setup& setup, const Member& member, bool has_eyes);
+  ArgosRobot(const Algorithm& algorithm, const Setup& setup, const Member& member, bool has_eyes);
 
   // A packet of this step; silence, and bytes that are no message of this algorithm, are not heard.
   void hear(std::span<const std::uint8_t> bytes, Vec2 position);

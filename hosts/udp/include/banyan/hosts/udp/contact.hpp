@@ -36,7 +36,7 @@ struct ContactEnds {
   const RobotOptions& options;
   const Socket& socket;
   const Driver& driver;
-  Robot& robot;
+  UdpRobot& robot;
   const KeyRing& keys;
 };
 [[nodiscard]] std::unique_ptr<Contact> contact_with_hub(const ContactEnds& ends);    // throws SocketError

@@ -30,13 +30,13 @@
 
 namespace banyan::udp {
 
-using Node = std::uint16_t;  // who sends and receives
-inline constexpr Node hub_node = 0xFFFE;
-inline constexpr Node everybody = 0xFFFF;
+using NodeId = std::uint16_t;  // who sends and receives
+inline constexpr NodeId hub_node = 0xFFFE;
+inline constexpr NodeId everybody = 0xFFFF;
 inline constexpr std::size_t most_fleet_robots = hub_node;
 
-enum class Kind : std::uint8_t { hello, status, frame, heard, stop, stopped, answer, spoken, account };
-inline constexpr Kind last_kind = Kind::account;
+enum class EnvelopeKind : std::uint8_t { hello, status, frame, heard, stop, stopped, answer, spoken, account };
+inline constexpr EnvelopeKind last_kind = EnvelopeKind::account;
 
 inline constexpr std::size_t header_bytes = 28;
 inline constexpr std::size_t mac_bytes = 16;
@@ -49,9 +49,9 @@ inline constexpr std::size_t drop_kinds = 6;
 using DropCounts = std::array<std::uint64_t, drop_kinds>;
 
 struct Envelope {
-  Kind kind = Kind::hello;
-  Node sender = 0;
-  Node receiver = 0;
+  EnvelopeKind kind = EnvelopeKind::hello;
+  NodeId sender = 0;
+  NodeId receiver = 0;
   std::uint64_t boot = 0;
   std::uint64_t echo = 0;
   std::uint32_t counter = 0;
@@ -60,7 +60,7 @@ struct Envelope {
 
 // The header and the MAC, both checked; nothing of whether it is new. Nothing and the reason, if it is not ours.
 [[nodiscard]] std::optional<Envelope> authenticate(ByteView datagram, const KeyRing& keys, Drop& reason) noexcept;
-[[nodiscard]] Bytes seal(const Envelope& envelope, const Key& key);
+[[nodiscard]] Bytes seal(const Envelope& envelope, const SecretKey& key);
 
 // Which packets of one sender have been accepted: the newest boot, its highest counter, and which of those before
 // have arrived; a packet that comes more than `reach` after a later one is dropped.
@@ -81,16 +81,16 @@ class ReplayWindow {
 class SecureChannel {
  public:
   // `boot`: the own one, above 0.
-  SecureChannel(Node self, Node peer, std::uint64_t boot) noexcept : self_(self), peer_(peer), boot_(boot) {}
+  SecureChannel(NodeId self, NodeId peer, std::uint64_t boot) noexcept : self_(self), peer_(peer), boot_(boot) {}
 
-  [[nodiscard]] Bytes seal(Kind kind, ByteView payload, const KeyRing& keys);
+  [[nodiscard]] Bytes seal(EnvelopeKind kind, ByteView payload, const KeyRing& keys);
   // Whether an authentic packet is from the peer, for this node, and new.
   [[nodiscard]] std::optional<Drop> admit(const Envelope& envelope) noexcept;
   [[nodiscard]] std::uint64_t peer_boot() const noexcept { return window_.boot(); }  // 0: not yet heard
 
  private:
-  Node self_;
-  Node peer_;
+  NodeId self_;
+  NodeId peer_;
   std::uint64_t boot_;
   std::uint32_t counter_ = 0;
   ReplayWindow window_;

@@ -37,7 +37,7 @@ struct HubCounts {
   Periods periods;               // of the robots' steps
 };
 
-class Hub final : public Link {
+class Hub final : public RemoteLink {
  public:
   // `tape`: none, or one to write and, if it has recorded ticks, to play first; it must outlive the hub.
   Hub(const HubSettings& options, std::size_t robots, KeyRing keys, Tape* tape);
@@ -87,7 +87,7 @@ class Hub final : public Link {
 
   void listen();
   void take(const Envelope& envelope, const Address& from);
-  void send(Robot& robot, Kind kind, const Bytes& payload);
+  void send(Robot& robot, EnvelopeKind kind, const Bytes& payload);
   void send_heard(Robot& robot, const SensorFrame& frame, std::span<const Hearing> heard);
   void keep_time(std::uint32_t tick, const Stopped& stopped);
   [[nodiscard]] TapeTick arrivals(std::uint32_t tick);

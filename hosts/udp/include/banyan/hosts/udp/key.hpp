@@ -12,7 +12,7 @@
 
 namespace banyan::udp {
 
-struct Key {
+struct SecretKey {
   std::uint8_t number = 0;
   std::array<std::uint8_t, 32> secret{};
 };
@@ -26,12 +26,12 @@ class KeyError : public std::runtime_error {
 class KeyRing {
  public:
   // Never empty, no number twice.
-  explicit KeyRing(std::vector<Key> keys) : keys_(std::move(keys)) {}
-  [[nodiscard]] const Key& signing() const noexcept { return keys_.front(); }
-  [[nodiscard]] const Key* find(std::uint8_t number) const noexcept;  // null: there is none
+  explicit KeyRing(std::vector<SecretKey> keys) : keys_(std::move(keys)) {}
+  [[nodiscard]] const SecretKey& signing() const noexcept { return keys_.front(); }
+  [[nodiscard]] const SecretKey* find(std::uint8_t number) const noexcept;  // null: there is none
 
  private:
-  std::vector<Key> keys_;
+  std::vector<SecretKey> keys_;
 };
 
 // Throws KeyError, also if others than the owner may read or write the file.

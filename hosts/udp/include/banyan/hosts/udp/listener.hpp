@@ -20,7 +20,7 @@ struct ListenerOptions {
   double dead_after_s = 5.0;  // a robot that is silent for so long counts as dead
 };
 
-class Listener final : public Link {
+class Listener final : public RemoteLink {
  public:
   Listener(const ListenerOptions& options, std::size_t robots, KeyRing keys);
 

@@ -28,7 +28,7 @@ struct OdometricPose {
 
 inline constexpr std::size_t most_seen = 64;  // obstacle points in a frame
 
-// Kind::frame, hub to robot, once a tick: the mission's orders and what the robot senses.
+// EnvelopeKind::frame, hub to robot, once a tick: the mission's orders and what the robot senses.
 struct SensorFrame {
   std::uint32_t mission = 0;  // a hub that goes on with a mission after a restart keeps its number
   std::uint32_t tick = 0;
@@ -46,7 +46,7 @@ struct SensorFrame {
   friend bool operator==(const SensorFrame&, const SensorFrame&) = default;
 };
 
-// Kind::heard, hub to robot: a message of another robot and where that was measured to be.
+// EnvelopeKind::heard, hub to robot: a message of another robot and where that was measured to be.
 struct Hearing {
   RobotId sender = nobody;
   Vec2 position;  // in the receiver's body frame at `tick`
@@ -60,7 +60,7 @@ struct HeardBundle {
   friend bool operator==(const HeardBundle&, const HeardBundle&) = default;
 };
 
-// Kind::status, robot to hub, once a step: what it broadcasts, how it wants to move, what it reports.
+// EnvelopeKind::status, robot to hub, once a step: what it broadcasts, how it wants to move, what it reports.
 struct Status {
   std::uint32_t frame_tick = 0;  // of the newest frame that it has
   std::uint32_t period_us = 0;   // since its last step
@@ -71,7 +71,8 @@ struct Status {
   Bytes message;
 };
 
-// Kind::account, robot to whoever listens to robots without a hub, once a step: its status, and what it has measured.
+// EnvelopeKind::account, robot to whoever listens to robots without a hub, once a step: its status, and what it has
+// measured.
 struct Sighting {
   RobotId robot = nobody;
   Vec2 position;  // in the body frame of the teller

@@ -14,7 +14,7 @@ namespace banyan::udp {
 class Peers {
  public:
   // `boot`: the own one, above 0.
-  Peers(Node self, std::uint64_t boot) noexcept : self_(self), boot_(boot) {}
+  Peers(NodeId self, std::uint64_t boot) noexcept : self_(self), boot_(boot) {}
 
   // A datagram for everybody.
   [[nodiscard]] Bytes speak(ByteView message, const KeyRing& keys);
@@ -36,13 +36,13 @@ class Peers {
     std::uint64_t running = 0;  // the boot that has answered; 0: none
     double ask_again_s = 0.0;   // when it may be sent the next hello
   };
-  Peer& peer(Node node);
+  Peer& peer(NodeId node);
   [[nodiscard]] static Taken take_spoken(Peer& from, const Envelope& envelope, double now_s, const KeyRing& keys);
 
-  Node self_;
+  NodeId self_;
   std::uint64_t boot_;
   std::uint32_t spoken_ = 0;
-  std::map<Node, Peer> peers_;  // whoever has a key
+  std::map<NodeId, Peer> peers_;  // whoever has a key
 };
 
 // Stops robots without a hub: says hello to everybody, and stop to each one that answers, until it has confirmed that.
@@ -53,12 +53,12 @@ class Stopper {
   // The stop for whoever has answered; empty: it was no answer.
   [[nodiscard]] Bytes take(const Envelope& envelope, const KeyRing& keys);
   // True: that robot has stopped. False: it has answered and not yet confirmed.
-  [[nodiscard]] const std::map<Node, bool>& robots() const noexcept { return robots_; }
+  [[nodiscard]] const std::map<NodeId, bool>& robots() const noexcept { return robots_; }
 
  private:
   std::uint64_t boot_;
   std::uint32_t counter_ = 0;
-  std::map<Node, bool> robots_;
+  std::map<NodeId, bool> robots_;
 };
 
 }  // namespace banyan::udp

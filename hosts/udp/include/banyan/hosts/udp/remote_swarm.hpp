@@ -16,9 +16,9 @@
 namespace banyan::udp {
 
 // The way to the robots.
-class Link {
+class RemoteLink {
  public:
-  virtual ~Link() = default;
+  virtual ~RemoteLink() = default;
   // The newest status of robot i that has come since the last call; nothing if none has.
   [[nodiscard]] virtual std::optional<Status> take(std::size_t i) = 0;
   // `frame.mission` and `frame.begun` are the link's to fill in. Positions in `heard` are as of the frame.
@@ -27,7 +27,7 @@ class Link {
   virtual void dismiss(std::size_t i) = 0;
 
  protected:
-  Link() = default;
+  RemoteLink() = default;
 };
 
 // Steps on one thread only.
@@ -35,7 +35,7 @@ class RemoteSwarm final : public Swarm {
  public:
   // `local`: a swarm of the algorithm, which knows its messages. A robot that is silent for more than `silence` ticks
   // stands still. `link` must outlive it; a clone has none.
-  RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, Link& link,
+  RemoteSwarm(std::unique_ptr<Swarm> local, std::span<const Member> members, const Setup& setup, RemoteLink& link,
               std::uint32_t silence);
 
   [[nodiscard]] std::unique_ptr<Swarm> clone() const override;
@@ -78,7 +78,7 @@ class RemoteSwarm final : public Swarm {
   std::vector<Robot> robots_;
   std::size_t history_;
   std::uint32_t silence_;
-  Link* link_ = nullptr;  // null: a clone
+  RemoteLink* link_ = nullptr;  // null: a clone
   bool line_of_sight_;
   bool collected_ = false;  // in this tick
   std::uint32_t tick_ = 0;
@@ -88,12 +88,12 @@ class RemoteSwarm final : public Swarm {
 // An algorithm whose robots are elsewhere.
 class RemoteAlgorithm final : public AlgorithmElsewhere {
  public:
-  RemoteAlgorithm(const Algorithm& real, Link& link, std::uint32_t silence) noexcept
+  RemoteAlgorithm(const Algorithm& real, RemoteLink& link, std::uint32_t silence) noexcept
       : AlgorithmElsewhere(real), link_(link), silence_(silence) {}
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override;
 
  private:
-  Link& link_;
+  RemoteLink& link_;
   std::uint32_t silence_;
 };
 

@@ -17,11 +17,11 @@
 
 namespace banyan::udp {
 
-class Robot {
+class UdpRobot {
  public:
   // Stands still while its newest frame is older than `stop_after_s`. `radius_m`: of a body. `algorithm` must outlive
   // it.
-  Robot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m);
+  UdpRobot(const Algorithm& algorithm, Setup setup, RobotId id, double stop_after_s, float radius_m);
 
   // What the hub has said. `at`: where the own odometry was when it was measured; nothing: the hub knows that itself.
   void take(const SensorFrame& frame, double now_s, const std::optional<OdometricPose>& at = {});

@@ -58,7 +58,7 @@ struct Change {
 
 struct State : KnownRoot {
   RobotId id = nobody;
-  Assignment assignment;
+  OwnTarget assignment;
   bool connector = false;
   std::uint16_t root_ticks = 0;  // for how long it has called itself root
   Links links;

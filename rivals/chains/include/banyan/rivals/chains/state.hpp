@@ -10,7 +10,7 @@
 namespace banyan::rivals::chains {
 
 // A place in the own frame, carried along by odometry.
-struct Place {
+struct KnownPlace {
   bool known = false;
   Vec2 at;
 
@@ -27,21 +27,21 @@ struct Chain {
 
 struct State : KnownRoot {
   RobotId id = nobody;
-  Assignment assignment;
-  Place base;
+  OwnTarget assignment;
+  KnownPlace base;
 
   RobotId worker = nobody;                  // of the chain; nobody: free
   std::uint8_t number = 0;                  // of the chain
   std::array<Chain, most_chains> chains{};  // a relay has the first alone
   RobotId child = nobody;
   bool linked = false;  // the child has named me as its parent
-  Place child_place;
+  KnownPlace child_place;
   Ids below = no_ids();    // the child that it has or had, then what that listed
   std::uint8_t links = 0;  // to the worker
   float beyond_m = 0.0F;   // along them and on to the target
   float path_m = 0.0F;     // straight from the base to the target
   bool whole = false;
-  Place gap;                       // of a relay whose child fell silent: the place to take
+  KnownPlace gap;                  // of a relay whose child fell silent: the place to take
   Vec2 outwards;                   // from there to the next
   std::uint16_t gap_ticks = 0;     // for how long there has been a gap; of a worker: a chain too few
   std::uint16_t astray_ticks = 0;  // how long it has been of no use to the chain

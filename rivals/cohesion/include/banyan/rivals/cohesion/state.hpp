@@ -11,7 +11,7 @@ namespace banyan::rivals::cohesion {
 
 struct State : KnownRoot {
   RobotId id = nobody;
-  Assignment assignment;
+  OwnTarget assignment;
   float lasting_thickness = 0.0F;  // the thickness of the swarm here, over a second or so
   Tally tally;                     // never read
   Table<Message> neighbors;

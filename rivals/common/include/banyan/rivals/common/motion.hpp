@@ -12,7 +12,7 @@
 namespace banyan::rivals {
 
 // Where a robot has been sent, as in every algorithm here: its position is updated by odometry while it is not sensed.
-struct Assignment {
+struct OwnTarget {
   bool sent = false;
   bool known = false;
   Vec2 target;  // m, own frame
@@ -22,7 +22,7 @@ struct Assignment {
 };
 
 // Towards the target with magnitude tau, fading within the arrival distance; zero for all but workers.
-[[nodiscard]] Vec2 target_pull(const Assignment& assignment, const RivalParams& params) noexcept;
+[[nodiscard]] Vec2 target_pull(const OwnTarget& assignment, const RivalParams& params) noexcept;
 // From robots and obstacles nearer than A.
 [[nodiscard]] Vec2 avoidance(const Neighbors& table, std::span<const Vec2> obstacles,
                              const RivalParams& params) noexcept;

@@ -13,7 +13,7 @@ namespace banyan::rivals::fiedler {
 
 struct State : KnownRoot {
   RobotId id = nobody;
-  Assignment assignment;
+  OwnTarget assignment;
 
   std::uint16_t ticks = 0;  // since the start, up to 65535
 

@@ -51,7 +51,7 @@ class Links {
 
 struct State {
   RobotId id = nobody;
-  Assignment assignment;
+  OwnTarget assignment;
   Ticks ticks;
 
   // The root and the way to it (root.cpp)

@@ -47,7 +47,7 @@ struct Candidate {
 
 struct State {
   RobotId id = nobody;
-  Assignment assignment;
+  OwnTarget assignment;
 
   // The tree that is kept
   bool has_tree = false;  // or had one

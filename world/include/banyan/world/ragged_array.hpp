@@ -12,9 +12,9 @@
 
 namespace banyan::world {
 
-template <class T, std::size_t spare = 0> class Rows {
+template <class T, std::size_t spare = 0> class RaggedArray {
  public:
-  explicit Rows(std::size_t rows) : begin_(rows + 1, 0), size_(rows, 0) {}
+  explicit RaggedArray(std::size_t rows) : begin_(rows + 1, 0), size_(rows, 0) {}
 
   [[nodiscard]] std::span<T> of(std::size_t row) noexcept { return {items_.data() + begin_[row], size_[row]}; }
   [[nodiscard]] std::span<const T> of(std::size_t row) const noexcept {
