@@ -51,7 +51,8 @@ template <class Row> struct Column {
   std::string_view meaning;
   int decimals;  // of a double
   Cell (*cell)(const Row&);
-  int since = 1;  // format version of the table that was the first to have it
+  int since = 1;                     // format version of the table that was the first to have it
+  std::string_view in_figures = {};  // what figures call it; "": its name without underscores
 };
 [[nodiscard]] std::span<const Column<RunRow>> run_columns() noexcept;
 // The last of these: how the run went. Those before them identify it.
