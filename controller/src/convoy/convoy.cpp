@@ -293,6 +293,7 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
     watch_charge(*robot.power, inputs.senses());  // must I be relieved?
     watch_relief(*robot.power);                   // whom do I relieve?
   }
+  heed_live_calls(robot);    // for a second path
   take_part_in_plan(robot);  // chains from target to target
   take_shortcuts(robot);     // what changes between reconstructions
   state.corners.pinned = is_pinned(robot, state.corners, params.pull_start_m);

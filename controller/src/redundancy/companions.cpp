@@ -318,6 +318,14 @@ int count_companions(const ConvoyRobot& robot, RobotId of) noexcept {
   return count;
 }
 
+void heed_live_calls(ConvoyRobot& robot) noexcept {
+  if (!has_companions(robot.params) || !robot.params.line_of_sight) return;
+  const TreeTable& table = robot.table();
+  robot.call_hops = nobody_calls;
+  for (int k = 0; k < table.size(); ++k)
+    if (table.age(k) <= 1) robot.call_hops = std::min(robot.call_hops, table.message(k).call_hops);
+}
+
 void keep_company(ConvoyRobot& robot) noexcept {
   if (!has_companions(robot.params)) return;
   // The hops of a call that is over count up. It is to die out before it hides others, or looks like one of them.

@@ -276,6 +276,22 @@ TEST_F(ConnectorAlone, StepsAsideOnceItIsSuperfluous) {
   EXPECT_EQ(way(), Vec2{});
 }
 
+// What a robot said before it was hidden may be over.
+TEST_F(ConnectorAlone, WithSightHeedsOnlyCallsThatItHasJustHeard) {
+  const auto hops_after_silence = [&](int paths, bool sight) {
+    bench.params.link_redundancy = paths;
+    bench.params.line_of_sight = sight;
+    bench.put(7, {0.3F, 0.6F}).call_hops = 5;
+    EXPECT_EQ(bench.step().message.call_hops, 6);
+    bench.silence(7);
+    EXPECT_EQ(bench.step().message.call_hops, 6);
+    return bench.step().message.call_hops;
+  };
+  EXPECT_EQ(hops_after_silence(2, true), nobody_calls);
+  EXPECT_EQ(hops_after_silence(2, false), 6);
+  EXPECT_EQ(hops_after_silence(1, true), 6);
+}
+
 TEST_F(ConnectorAlone, CallsForNobodyWithOnePath) {
   bench.params.link_redundancy = 1;
   EXPECT_EQ(hops_after(100), nobody_calls);
