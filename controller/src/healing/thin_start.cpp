@@ -33,7 +33,7 @@ void note_start(HealingRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const int size = table.size();
   const bool thin = self.neighbors_at_start > 0;
-  const bool begins = self.phase == Phase::init;
+  const bool begins = self.phase == Phase::init || starts_thin(self);
   if (self.missed_in_the_clear + self.usual_silence + self.burst_ticks == 0)
     return begins && (thin || (size > 0 && has_few_far_away(robot)));
   const bool at_end = self.neighbors_at_start == 1 && size <= 1 && self.turn < end_ticks;
