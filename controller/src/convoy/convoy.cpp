@@ -311,7 +311,8 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
     if (asks_for_relief(robot)) call_for_relief(*robot.power);
     tend_battery(*robot.power);
   }
-  find_gap(robot);  // is a part of the network there that does not hear me?
+  note_start(robot);  // have I few neighbours, all of them far away?
+  find_gap(robot);    // is a part of the network there that does not hear me?
   const bool regroups = is_left_waiting(robot);
   const bool retreats = is_retreating(robot, regroups);
   Vec2 u;

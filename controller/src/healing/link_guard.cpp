@@ -41,14 +41,15 @@ void guard_links(const HealingRobot& robot, bool lets_go, Guard& guard) noexcept
   const float longest_m = longest_link * p.communication_range_m;
   const float limited_m = longest_m - 2.0F * p.speed_gain_m_s / p.guard_rate_per_s;  // below it full speed is allowed
   const bool untied = robot.hold < 0 && robot.up() < 0 && !robot.is_root();
-  // In a grown tree only robots of its epoch wait for a hold: those of another are cut off, or of another fragment.
+  // In a grown tree only robots of its epoch wait for a hold, and those that have not heard of any: others are cut off,
+  // or of another fragment.
   const bool waits_for_all = robot.self.phase < Phase::grow_tree || robot.has_bursts();
   const auto holds_me = [&](int k) {
     if (!table.alive(k)) return !lets_go && is_tie(robot, k);
     const TreeStanding& m = table.message(k);
     const bool is_gap = robot.is_deaf(k) && is_newer(robot.self.epoch, m.epoch);  // unless I am untied
     const bool tied_to_me = k == robot.hold || is_gap || hold_of(m) == robot.self.id;
-    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || waits_for_all);
+    const bool waits = is_untied(m) && (m.epoch == robot.self.epoch || m.phase == Phase::init || waits_for_all);
     return !robot.is_tree_neighbor(k) && (tied_to_me || (!lets_go && (untied || waits)));
   };
   // Where no packets get lost, no others can hold me.

@@ -42,7 +42,8 @@ void note_silence(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   if (self.turn % memory_turns == 0) self.missed_in_the_clear = 0;
   if (self.usual_silence == 0) {
-    if (missed(robot) >= 0 && ++self.missed_in_the_clear > deaths) self.usual_silence = first_silence_ticks;
+    if (missed(robot) >= 0) ++self.missed_in_the_clear;
+    if (self.missed_in_the_clear > (starts_thin(self) ? 0 : deaths)) self.usual_silence = first_silence_ticks;
     return;
   }
   const int ended_ticks = std::min(robot.table().returned() - robot.elapsed_ticks, longest_silence_ticks);

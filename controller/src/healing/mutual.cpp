@@ -81,23 +81,4 @@ bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
   return true;
 }
 
-// Not inlined: it is for the first seconds only (and the firmware is smaller).
-[[gnu::noinline]] bool awaits_others(HealingRobot& robot, Vec2& u) noexcept {
-  constexpr int look_ticks = 10;  // by then the neighbours have been heard, whatever is lost
-  constexpr int end_ticks = 150;  // so long the end of a thin start stays
-  constexpr int few = 4;
-  constexpr float apart = 0.4F;       // of C: so few in a crowd are nearer
-  constexpr float stretched = 0.72F;  // of C: nearer to a robot that may be beyond this end
-  HealingState& self = robot.self;
-  const TreeTable& table = robot.table();
-  const float c = robot.params.communication_range_m;
-  const int size = table.size();
-  if (self.turn == look_ticks && size <= few && table.range(0) > apart * c)
-    self.neighbors_at_start = static_cast<std::uint8_t>(size);
-  if (self.neighbors_at_start == 0 || self.missed_in_the_clear + self.usual_silence == 0) return false;
-  if (self.phase != Phase::init && (self.neighbors_at_start != 1 || size > 1 || self.turn >= end_ticks)) return false;
-  if (size == 1 && table.range(0) < stretched * c) u = -table.position(0);
-  return true;
-}
-
 }  // namespace banyan

@@ -53,9 +53,9 @@ float strayed_m(const HealingRobot& robot, int k) noexcept {
   constexpr int usual_ticks = 2;  // for so long a neighbour is silent now and then
   constexpr int at_most_ticks = 30;
   const int ticks = robot.table().age(k) - usual_ticks;
-  if (robot.tie_ticks == 0 || (robot.table().alive(k) && !robot.has_bursts()) || ticks <= 0 ||
-      !is_in_the_clear(robot, k))
-    return 0.0F;
+  if (robot.tie_ticks == 0 || ticks <= 0) return 0.0F;
+  if (robot.self.phase == Phase::init) return 0.0F;  // nobody near has set out, and beyond it others may hear me
+  if ((robot.table().alive(k) && !robot.has_bursts()) || !is_in_the_clear(robot, k)) return 0.0F;
   const TreeParams& p = robot.params;
   return p.speed_gain_m_s * p.tick_s * static_cast<float>(robot.has_bursts() ? ticks : std::min(ticks, at_most_ticks));
 }

@@ -236,53 +236,6 @@ TEST(Mutual, OfTwoToBeFetchedNeitherIsLeft) {
   }
 }
 
-// At the end of a thin start: robot 2 alone is heard, and packets get lost.
-struct AtEnd {
-  ConvoyBench bench;
-  explicit AtEnd(float range_m, Phase phase = Phase::grow_tree) : bench(grown<Convoy>()) {
-    bench.params.line_of_sight = false;
-    bench.state.phase = phase;
-    bench.put(2, {range_m, 0.0F});
-    bench.steps(12);
-  }
-  bool awaits(Vec2& u) {
-    auto robot = bench.tick();
-    return awaits_others(robot, u);
-  }
-};
-
-TEST(Mutual, TheEndOfAThinStartWaitsForWhoMayHearItAndGoesTowardsIt) {
-  Vec2 u;
-  AtEnd f(1.2F);
-  EXPECT_FALSE(f.awaits(u)) << "no packet has been lost";
-  f.bench.state.usual_silence = 32;
-  EXPECT_TRUE(f.awaits(u));
-  EXPECT_LT(u.x, 0.0F) << "away from the only neighbour";
-  u = {};
-  f.bench.move(2, {1.5F, 0.0F});
-  EXPECT_TRUE(f.awaits(u));
-  EXPECT_EQ(u, Vec2{}) << "far enough";
-  f.bench.state.turn = 160;
-  EXPECT_FALSE(f.awaits(u)) << "only in the first seconds";
-  f.bench.state.turn = UINT16_MAX;
-  f.bench.steps(30);
-  EXPECT_FALSE(f.awaits(u)) << "nor when its count of ticks wraps";
-  AtEnd near(0.5F);
-  near.bench.state.usual_silence = 32;
-  EXPECT_FALSE(near.awaits(u)) << "a compact start";
-}
-
-TEST(Mutual, WhoHasHeardOfNoRootWaitsWherePacketsGetLost) {
-  Vec2 u;
-  AtEnd f(1.2F, Phase::init);
-  EXPECT_FALSE(f.awaits(u));
-  f.bench.state.usual_silence = 32;
-  EXPECT_TRUE(f.awaits(u));
-  AtEnd near(0.5F, Phase::init);
-  near.bench.state.usual_silence = 32;
-  EXPECT_FALSE(near.awaits(u)) << "a compact start";
-}
-
 // Each would leave those that hear it.
 TEST(Mutual, WhoIsTiedToNobodyDoesNotGoToWhoHasHeardOfNoRoot) {
   for (const Phase phase : {Phase::grow_tree, Phase::init}) {

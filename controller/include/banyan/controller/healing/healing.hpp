@@ -31,11 +31,21 @@ void note_hears(HealingRobot& robot, const Heard& h) noexcept;
 void find_gap(HealingRobot& robot) noexcept;
 // Whether I come nearer to it, or to a robot that calls, by motion `u`.
 [[nodiscard]] bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept;
-// Where packets get lost in a thin start, another part of the network may hear me that I do not hear. So I stay as long
-// as I have heard of no root; at the end of such a start also for the first seconds, or go towards whoever may be
+
+// ---- thin_start.cpp: few neighbours at the start, all of them far away ----
+
+// Of how many, as long as I have heard of no root; 1 if I have heard nobody.
+void note_start(HealingRobot& robot) noexcept;
+// Where packets get lost, another part of the network may hear me that I have not heard yet. So I stay as long as I
+// have heard of no root, and for the first seconds; at the end of such a start longer, or I go towards whoever may be
 // there, by motion `u`.
-[[nodiscard]] bool awaits_others(HealingRobot& robot, Vec2& u) noexcept;
-// Packets get lost, and few robots were heard at the start, all of them far away.
+[[nodiscard]] bool awaits_others(const HealingRobot& robot, Vec2& u) noexcept;
+// In the first seconds of such a start a silence is rather a burst than a death.
+[[nodiscard]] inline bool starts_thin(const HealingState& self) noexcept {
+  constexpr int start_ticks = 50;
+  return self.neighbors_at_start > 0 && self.turn < start_ticks;
+}
+// Packets get lost in such a start.
 [[nodiscard]] inline bool is_thin(const HealingState& self) noexcept {
   return self.usual_silence > 0 && self.neighbors_at_start > 0;
 }
