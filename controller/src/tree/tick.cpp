@@ -117,7 +117,9 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
   if (const int up = robot.up(); up >= 0) {
     const Vec2 addressee = robot.table().position(up);
     const Vec2 pull = to_edge_frame(self.pull, addressee);
-    m.q = to_edge_frame(self.q, addressee);
+    const Vec2 q = to_edge_frame(self.q, addressee);
+    m.q_x_m = q.x;
+    m.q_y_m = q.y;
     m.pull_x = to_fixed<std::int16_t>(pull.x, pull_unit);
     m.pull_y = to_fixed<std::int16_t>(pull.y, pull_unit);
   }

@@ -99,7 +99,8 @@ struct Tree {
     if (parent[i] >= 0) {
       // The edge frame, written out: x from the sender to its parent.
       const Vec2 e = unit(seen(i, static_cast<std::size_t>(parent[i])));
-      m.q = {dot(s.q, e), cross(e, s.q)};
+      m.q_x_m = dot(s.q, e);
+      m.q_y_m = cross(e, s.q);
     }
     return m;
   }

