@@ -37,7 +37,8 @@ Output<TreeMessage> literal_step(const Growth& growth, const TreeParams& params,
 
   Output<TreeMessage> output;
   write_tree(robot, output.message);
-  output.velocity = drive(allowed(u, Guard{}, params), Guard{}, params);
+  Guard none;
+  output.velocity = drive(allowed(u, none, params), none, params);
   return output;
 }
 
