@@ -181,16 +181,9 @@ void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
   m.below = self.role == Role::spare ? self.accompanies : self.below;
   if (robot.up() < 0) return;
   const Vec2 parent = robot.table().position(robot.up());
-  if (Vec2 pull; passes_pull_on(robot, pull)) {
-    pull = to_edge_frame(pull, parent);
-    m.pull_x = to_fixed<std::int16_t>(pull.x, pull_unit);
-    m.pull_y = to_fixed<std::int16_t>(pull.y, pull_unit);
-  }
-  Vec2 hinge;
-  if (!find_hinge(robot, self.corners, hinge)) return;
-  hinge = to_edge_frame(hinge - parent, parent);
-  m.hinge_x_cm = to_fixed<std::int16_t>(hinge.x, per_cm);
-  m.hinge_y_cm = to_fixed<std::int16_t>(hinge.y, per_cm);
+  if (Vec2 pull; passes_pull_on(robot, pull)) write_in_edge_frame(pull, parent, pull_unit, m.pull_x, m.pull_y);
+  if (Vec2 hinge; find_hinge(robot, self.corners, hinge))
+    write_in_edge_frame(hinge - parent, parent, per_cm, m.hinge_x_cm, m.hinge_y_cm);
 }
 
 }  // namespace
