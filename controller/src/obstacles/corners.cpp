@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/core/function_ref.hpp"
 #include "banyan/controller/core/search.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
@@ -48,8 +49,8 @@ struct Threat {
   bool is_body;    // not a point of an obstacle
 };
 
-template <class Visit>
-void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighbor, Visit visit) noexcept {
+void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighbor,
+                     FunctionRef<void(const Threat&)> visit) noexcept {
   const float d = norm(neighbor);
   if (d <= 0.0F) return;
   const Vec2 along = neighbor / d;
@@ -62,7 +63,7 @@ void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighb
   });
 }
 
-template <class Visit> void for_each_edge_of_both_trees(const TreeRobot& robot, Visit visit) noexcept {
+void for_each_edge_of_both_trees(const TreeRobot& robot, FunctionRef<void(int)> visit) noexcept {
   const TreeTable& table = robot.table();
   if (robot.parent_alive()) visit(robot.parent);
   if (robot.old_parent_alive() && robot.old_parent != robot.parent) visit(robot.old_parent);
