@@ -100,22 +100,24 @@ union Memory {
 inline void exercise_all(Memory& memory, void (*report)(const char* name, std::uint64_t digest) noexcept) noexcept {
   for (const Drive drive : {Drive::differential, Drive::holonomic}) {
     for (const bool worker : {false, true}) {
-      const auto as_tree = [&](const char* name, auto step, HealingParams params) {
+      const auto as_tree = [&](const char* name, auto step, HealingParams (*defaults)() noexcept) {
+        HealingParams params = defaults();
         params.drive = drive;
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
         auto& state = *new (&memory.tree) TreeState(initial_tree_state(0, worker, false));
         report(name, exercise<TreeMessage, TreeParams>(step, params, state));
       };
-      const auto as_healing = [&](const char* name, auto step, HealingParams params) {
+      const auto as_healing = [&](const char* name, auto step, HealingParams (*defaults)() noexcept) {
+        HealingParams params = defaults();
         params.drive = drive;
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
         auto& state = *new (&memory.healing) HealingState(initial_healing_state(0, worker, false));
         report(name, exercise<HealingMessage>(step, params, state));
       };
-      as_tree("outwards, literal", outwards_literal_step, outwards_defaults());
-      as_healing("outwards", outwards_step, outwards_defaults());
-      as_tree("inwards, literal", inwards_literal_step, inwards_defaults());
-      as_healing("inwards", inwards_step, inwards_defaults());
+      as_tree("outwards, literal", outwards_literal_step, outwards_defaults);
+      as_healing("outwards", outwards_step, outwards_defaults);
+      as_tree("inwards, literal", inwards_literal_step, inwards_defaults);
+      as_healing("inwards", inwards_step, inwards_defaults);
       ConvoyParams params = convoy_defaults();
       params.drive = drive;
       // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
