@@ -331,7 +331,8 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
 
 Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state,
                                   const Inputs<Heard>& inputs) noexcept {
-  ConvoyRobot robot(params, state, inputs);
+  Workspace space(inputs);
+  ConvoyRobot robot(params, state, inputs, space);
   Output<ConvoyMessage> output;
   output.velocity = tick(robot, inputs, output.message);
   return output;
@@ -345,7 +346,8 @@ Report convoy_report(const ConvoyState& s) noexcept {
 
 Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state,
                                                  const Inputs<Heard>& inputs) noexcept {
-  ConvoyRobot robot(params, state, inputs);
+  Workspace space(inputs);
+  ConvoyRobot robot(params, state, inputs, space);
   const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
   PowerRobot power{robot, state.power, params, child_count};
   robot.power = &power;

@@ -117,8 +117,7 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
   if (const int up = robot.up(); up >= 0) {
     const Vec2 addressee = robot.table().position(up);
     const Vec2 q = to_edge_frame(self.q, addressee);
-    m.q_x_m = q.x;
-    m.q_y_m = q.y;
+    m.q_x_m = q.x, m.q_y_m = q.y;
     write_in_edge_frame(self.pull, addressee, pull_unit, m.pull_x, m.pull_y);
   }
   const int heir = robot.table().find(self.new_root);

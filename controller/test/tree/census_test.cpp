@@ -67,7 +67,8 @@ struct Tree {
       for (std::size_t k = 0; k < packets.size(); ++k) heard.push_back({&packets[k], from[k]});
       TreeState& s = states[i];
       const Inputs<Heard> inputs(heard, {}, params);
-      TreeRobot robot(params, literal_reading, s, inputs);
+      Workspace space(inputs);
+      TreeRobot robot(params, literal_reading, s, inputs, space);
       file_heard(robot);
       forget_silent(
           robot, [](int) { return false; }, [](int, int) {});
