@@ -138,7 +138,7 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || !robot.is_sure(parent) ||
       robot.may_be_deaf(parent))
     return false;
-  const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
+  const bool in_the_way = distance_to_segment(Vec2{}, table.position(owner), table.position(parent)) < clearance_m;
   const float room_m = in_the_way ? tight * clearance_m : clearance_m;
   return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
 }

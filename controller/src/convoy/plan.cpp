@@ -207,8 +207,7 @@ void shed(ConvoyRobot& robot) noexcept {
 int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
   float gap_m = far_m;
   for (const Task& other : tasks(robot.self))
-    if (other.holder != nobody)
-      gap_m = std::min(gap_m, norm(nearest_on_segment(other.target - task.target, -task.target)));
+    if (other.holder != nobody) gap_m = std::min(gap_m, distance_to_segment(task.target, other.target, Vec2{}));
   return gap_m < far_m ? static_cast<int>((gap_m - robot.params.arrival_distance_m) / robot.params.ideal_distance_m) + 1
                        : 1;
 }

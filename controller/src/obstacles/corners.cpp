@@ -77,7 +77,7 @@ void for_each_edge_of_both_trees(const TreeRobot& robot, FunctionRef<void(int)> 
 float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
   float nearest_m = norm(p);
   for_each_edge_of_both_trees(robot, [&](int k) {
-    nearest_m = std::min(nearest_m, norm(nearest_on_segment(-p, robot.table().position(k) - p)));
+    nearest_m = std::min(nearest_m, distance_to_segment(p, Vec2{}, robot.table().position(k)));
   });
   return nearest_m;
 }
@@ -190,8 +190,7 @@ bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
   constexpr float well_inside = 0.5F;  // of the radius: what is remembered drifts
   const TreeTable& table = robot.table();
   for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == 0 &&
-        norm(nearest_on_segment(-center, table.position(k) - center)) < well_inside * body_m(robot))
+    if (table.age(k) == 0 && distance_to_segment(center, Vec2{}, table.position(k)) < well_inside * body_m(robot))
       return true;
   return false;
 }

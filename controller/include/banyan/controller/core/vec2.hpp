@@ -58,6 +58,11 @@ template <class T> constexpr BasicVec2<T> nearest_on_segment(BasicVec2<T> a, Bas
   return a + d * (t < T(0) ? T(0) : t > T(1) ? T(1) : t);
 }
 
+// The distance of p from segment a-b.
+template <class T> T distance_to_segment(BasicVec2<T> p, BasicVec2<T> a, BasicVec2<T> b) noexcept {
+  return norm(nearest_on_segment(a - p, b - p));
+}
+
 // The segment from the origin to `to` crosses the one from a to b.
 template <class T> constexpr bool crosses(BasicVec2<T> to, BasicVec2<T> a, BasicVec2<T> b) noexcept {
   return cross(to, a) * cross(to, b) < T(0) && cross(b - a, -a) * cross(b - a, to - a) < T(0);
