@@ -32,10 +32,14 @@ const Task* find_active(const ConvoyRobot& robot, RobotId serves) noexcept {
 
 // ---- The root ----
 
+int count_held(ConvoyState& self) noexcept {
+  int held = 0;
+  for (const Task& task : tasks(self)) held += task.holder != nobody ? 1 : 0;
+  return held;
+}
+
 bool all_have_arrived(const ConvoyRobot& robot) noexcept {
-  const auto all = tasks(robot.self);
-  const auto active = std::count_if(all.begin(), all.end(), [](const Task& t) { return t.holder != nobody; });
-  return has_arrived(robot) && robot.self.subtree_workers >= active;
+  return has_arrived(robot) && static_cast<int>(robot.self.subtree_workers) >= count_held(robot.self);
 }
 
 void withdraw(ConvoyState& self) noexcept { self.hosts.fill(nobody); }
@@ -129,9 +133,7 @@ void command(ConvoyRobot& robot) noexcept {
   const int since = self.settled_ticks - p.ticks(p.plan_after_s);
   const int period = p.ticks(thrifty ? thrifty_period_s : plan_period_s);
   // Not before I know of all targets.
-  const auto known = tasks(self);
-  const int targets =
-      static_cast<int>(std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; }));
+  const int targets = count_held(self);
   const bool may = static_cast<int>(self.subtree_workers) <= targets && !has_companions(p) && !self.forgets &&
                    p.plan_after_s > 0.0F && since >= 0 && self.settled_ticks < UINT16_MAX;
   if (!may || (thrifty ? since < self.plan_steps * period : since % period >= robot.elapsed_ticks)) return;
@@ -222,7 +224,7 @@ void retry(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   const int spares = static_cast<int>(self.root_size) - static_cast<int>(self.subtree);
   const int tried_with = static_cast<int>(self.tried_with);
-  const bool none_held = !banyan::any_of(tasks(self), [](const Task& t) { return t.holder != nobody; });
+  const bool none_held = count_held(self) == 0;
   const bool settled = self.phase == Phase::grow_tree && !self.forgets &&
                        (none_held || self.settled_ticks > robot.params.ticks(settled_s));
   Task* next = nullptr;
