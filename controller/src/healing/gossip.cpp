@@ -28,19 +28,19 @@ struct Topic {
 
 // Each pair of a neighbour and a target for which `counts` holds has its turn; robots begin at different targets.
 template <class Counts> Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
-  const auto end = self.tasks.begin() + self.task_count;
-  const auto among = static_cast<int>(std::count_if(self.tasks.begin(), end, counts));
+  const auto tasks = self.known_tasks();
+  const int among = count_of(tasks, counts);
   if (among == 0) return {-1, turn};
   int left = turn % among;
-  const auto chosen = first_of(self.tasks.begin(), end, [&](const Task& task) { return counts(task) && left-- == 0; });
-  return {static_cast<int>(chosen - self.tasks.begin()), turn / among};
+  const auto chosen = first_of(tasks, [&](const Task& task) { return counts(task) && left-- == 0; });
+  return {static_cast<int>(chosen - tasks.begin()), turn / among};
 }
 
 // Every second turn is for what all robots have to know soon. Where robots forget, the rest is for those above me:
 // my own target and those of the workers below.
 Topic choose_topic(const HealingState& self) noexcept {
   int turn = self.turn + self.id;
-  if (banyan::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
+  if (banyan::any_of(self.known_tasks(), is_urgent)) {
     if (turn % 2 != 0) return next_topic(self, turn / 2, is_urgent);
     turn /= 2;
   }
