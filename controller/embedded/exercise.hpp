@@ -36,6 +36,10 @@ inline void speak_as(std::size_t k, int tick, TreeMessage& message) noexcept {
   message.parent = static_cast<RobotId>(k);
 }
 
+inline void add_all(std::span<const std::uint8_t> wire, Digest& digest) noexcept {
+  for (const std::uint8_t byte : wire) digest.add(byte);
+}
+
 // A thousand ticks of a robot. In each, two of three neighbours send a message (`say`: what reaches the robot over
 // the wire; null if it is rejected) from places on a slowly turning ring, and the robot moves (`move`). Velocities
 // go to `digest`.
@@ -56,7 +60,7 @@ inline void run(bool worker, Drive drive, FunctionRef<const TreeMessage*(std::si
     senses.orders.sent = worker;
     senses.orders.target = Vec2{2.0F, 1.0F};
     const Velocity velocity = move(std::span(heard).first(received), senses);
-    digest.add(velocity.forward_m_s), digest.add(velocity.sideways_m_s), digest.add(velocity.turn_rad_s);
+    for (const float v : {velocity.forward_m_s, velocity.sideways_m_s, velocity.turn_rad_s}) digest.add(v);
   }
 }
 
@@ -74,7 +78,7 @@ std::uint64_t exercise(Output<Message> (*step)(const Params&, State&, const Inpu
     speak_as(k, tick, said);
     std::array<std::uint8_t, wire_size<Message>()> wire;  // ids are small
     encode_fields(said, wire);
-    for (const std::uint8_t byte : wire) digest.add(byte);
+    add_all(wire, digest);
     received[k] = decode_fields<Message>(wire);
     return received[k] ? &*received[k] : nullptr;
   };
@@ -100,22 +104,24 @@ union Memory {
 inline void exercise_all(Memory& memory, void (*report)(const char* name, std::uint64_t digest) noexcept) noexcept {
   for (const Drive drive : {Drive::differential, Drive::holonomic}) {
     for (const bool worker : {false, true}) {
-      const auto as_tree = [&](const char* name, auto step, HealingParams params) {
+      const auto as_tree = [&](const char* name, auto step, HealingParams (*defaults)() noexcept) {
+        HealingParams params = defaults();
         params.drive = drive;
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
         auto& state = *new (&memory.tree) TreeState(initial_tree_state(0, worker, false));
         report(name, exercise<TreeMessage, TreeParams>(step, params, state));
       };
-      const auto as_healing = [&](const char* name, auto step, HealingParams params) {
+      const auto as_healing = [&](const char* name, auto step, HealingParams (*defaults)() noexcept) {
+        HealingParams params = defaults();
         params.drive = drive;
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time
         auto& state = *new (&memory.healing) HealingState(initial_healing_state(0, worker, false));
         report(name, exercise<HealingMessage>(step, params, state));
       };
-      as_tree("outwards, literal", outwards_literal_step, outwards_defaults());
-      as_healing("outwards", outwards_step, outwards_defaults());
-      as_tree("inwards, literal", inwards_literal_step, inwards_defaults());
-      as_healing("inwards", inwards_step, inwards_defaults());
+      as_tree("outwards, literal", outwards_literal_step, outwards_defaults);
+      as_healing("outwards", outwards_step, outwards_defaults);
+      as_tree("inwards, literal", inwards_literal_step, inwards_defaults);
+      as_healing("inwards", inwards_step, inwards_defaults);
       ConvoyParams params = convoy_defaults();
       params.drive = drive;
       // NOLINTNEXTLINE(cppcoreguidelines-pro-type-union-access): one robot at a time

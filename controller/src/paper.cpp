@@ -18,7 +18,8 @@ namespace banyan {
 
 Output<TreeMessage> literal_step(const Growth& growth, const TreeParams& params, TreeState& state,
                                  const Inputs<Heard>& inputs) noexcept {
-  TreeRobot robot(params, literal_reading, state, inputs);
+  Workspace space(inputs);
+  TreeRobot robot(params, literal_reading, state, inputs, space);
   begin_tick(robot, inputs);
   listen(robot);           // the largest epoch, phase and root token heard
   accept_offer(robot);     // Select Root, the heir's side
@@ -37,13 +38,15 @@ Output<TreeMessage> literal_step(const Growth& growth, const TreeParams& params,
 
   Output<TreeMessage> output;
   write_tree(robot, output.message);
-  output.velocity = drive(allowed(u, Guard{}, params), Guard{}, params);
+  Guard none;
+  output.velocity = drive(allowed(u, none, params), none, params);
   return output;
 }
 
 Output<HealingMessage> corrected_step(const Growth& growth, const HealingParams& params, HealingState& state,
                                       const Inputs<Heard>& inputs) noexcept {
-  HealingRobot robot(params, state, inputs);
+  Workspace space(inputs);
+  HealingRobot robot(params, state, inputs, space);
   begin_tick(robot, inputs);
   estimate_loss(robot);  // how long neighbours may be silent
   listen_among_fragments(robot);

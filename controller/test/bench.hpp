@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <map>
 #include <vector>
 
@@ -27,8 +28,8 @@ template <auto defaults_function, auto step_function> struct LiteralKind {
   // NOLINTNEXTLINE(cppcoreguidelines-slicing): the tree's share of them
   static Params defaults() { return defaults_function(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_tree_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) {
-    return {params, literal_reading, state, inputs};
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs, Workspace& space) {
+    return {params, literal_reading, state, inputs, space};
   }
   static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
     return step_function(params, state, inputs);
@@ -42,8 +43,8 @@ template <auto defaults_function, auto step_function> struct CorrectedKind {
   using Robot = HealingRobot;
   static Params defaults() { return defaults_function(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_healing_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) {
-    return {params, state, inputs};
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs, Workspace& space) {
+    return {params, state, inputs, space};
   }
   static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
     return step_function(params, state, inputs);
@@ -57,8 +58,8 @@ struct Convoy {
   using Robot = ConvoyRobot;
   static Params defaults() { return convoy_defaults(); }
   static State initial(RobotId id, bool worker, bool root) { return initial_convoy_state(id, worker, root); }
-  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs) {
-    return {params, state, inputs};
+  static Robot robot(const Params& params, State& state, const Inputs<Heard>& inputs, Workspace& space) {
+    return {params, state, inputs, space};
   }
   static auto step(const Params& params, State& state, const Inputs<Heard>& inputs) {
     return convoy_step(params, state, inputs);
@@ -134,7 +135,7 @@ template <class Kind> class BenchOf {
   Robot tick(const Odometry& odometry = {}) {
     listen();
     const Inputs<Heard> inputs(heard_, senses(odometry), params);
-    Robot robot = Kind::robot(params, state, inputs);
+    Robot robot = Kind::robot(params, state, inputs, spaces_.emplace_back(inputs));
     begin_tick(robot, inputs);
     index_neighbors(robot);
     return robot;
@@ -169,6 +170,7 @@ template <class Kind> class BenchOf {
   }
   std::map<RobotId, Neighbor> neighbors_;
   std::vector<Heard> heard_;
+  std::deque<Workspace> spaces_;  // one for each robot
 };
 
 using Bench = BenchOf<Outwards>;

@@ -55,7 +55,7 @@ void babble(Noise& noise, std::uint32_t robots, TreeMessage& m) {
   m.flood_robots = noise.word(65535);
   m.subtree = noise.word(65535);
   m.count = noise.word(65535);
-  m.q = {noise.meters(1e9F), noise.meters(1e9F)};
+  for (float* v : {&m.q_x_m, &m.q_y_m}) *v = noise.meters(1e9F);
   for (std::int16_t* v : {&m.pull_x, &m.pull_y, &m.centroid_x_cm, &m.centroid_y_cm}) *v = noise.signed_word();
   m.want_cm = noise.word(65535);
 }

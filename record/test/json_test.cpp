@@ -126,7 +126,7 @@ TYPED_TEST_SUITE(MessageFields, MessageTypes);
 TYPED_TEST(MessageFields, ShowEverythingThatTravels) {
   TypeParam message;
   message.id = 1;
-  message.q = {0.5F, 0.5F};  // minus nothing is nothing
+  message.q_x_m = message.q_y_m = 0.5F;  // minus nothing is nothing
   std::set<std::string_view> names;
   for (const FieldInfo& field : test::saying(message)->message_fields()) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name;
@@ -155,7 +155,7 @@ TEST(MessageJson, HasRolePhaseAndNeedAsWords) {
   message.phase = Phase::grow_tree;
   message.need = Need::await;
   message.want_cm = 250;
-  message.q = {0.5F, -0.25F};
+  message.q_x_m = 0.5F, message.q_y_m = -0.25F;
   const auto swarm = test::saying(message);
   const Json json = Json::parse(message_json(*swarm, 0));
   EXPECT_EQ(json.size(), swarm->message_fields().size());

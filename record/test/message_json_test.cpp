@@ -105,7 +105,7 @@ TEST(MessageFields, NobodyAndUnknownAreMinusOne) {
   for (const auto& [name, number] : numbers_of({})) EXPECT_EQ(number, none.contains(name) ? -1.0 : 0.0) << name;
   ConvoyMessage message;
   message.pull_x = 8192;
-  message.q = {1.5F, -2.0F};
+  message.q_x_m = 1.5F, message.q_y_m = -2.0F;
   message.role = Role::worker;
   message.pinned = true;
   const auto numbers = numbers_of(message);

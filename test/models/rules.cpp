@@ -46,7 +46,8 @@ class Bench {
   // All of them are in the table and have just been heard.
   template <class Call> void step(Call call) {
     const Inputs<Heard> inputs(std::span<Heard>(heard_).first(count_), {}, params());
-    HealingRobot robot(params(), self(), inputs);
+    Workspace space(inputs);
+    HealingRobot robot(params(), self(), inputs, space);
     begin_tick(robot, inputs);
     index_neighbors(robot);
     call(robot);

@@ -138,7 +138,7 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || !robot.is_sure(parent) ||
       robot.may_be_deaf(parent))
     return false;
-  const bool in_the_way = norm(nearest_on_segment(table.position(owner), table.position(parent))) < clearance_m;
+  const bool in_the_way = distance_to_segment(Vec2{}, table.position(owner), table.position(parent)) < clearance_m;
   const float room_m = in_the_way ? tight * clearance_m : clearance_m;
   return sees_clearly(robot, owner, room_m) && sees_clearly(robot, parent, room_m);
 }
@@ -181,16 +181,9 @@ void write_convoy(const ConvoyRobot& robot, ConvoyMessage& m) noexcept {
   m.below = self.role == Role::spare ? self.accompanies : self.below;
   if (robot.up() < 0) return;
   const Vec2 parent = robot.table().position(robot.up());
-  if (Vec2 pull; passes_pull_on(robot, pull)) {
-    pull = to_edge_frame(pull, parent);
-    m.pull_x = to_fixed<std::int16_t>(pull.x, pull_unit);
-    m.pull_y = to_fixed<std::int16_t>(pull.y, pull_unit);
-  }
-  Vec2 hinge;
-  if (!find_hinge(robot, self.corners, hinge)) return;
-  hinge = to_edge_frame(hinge - parent, parent);
-  m.hinge_x_cm = to_fixed<std::int16_t>(hinge.x, per_cm);
-  m.hinge_y_cm = to_fixed<std::int16_t>(hinge.y, per_cm);
+  if (Vec2 pull; passes_pull_on(robot, pull)) write_in_edge_frame(pull, parent, pull_unit, m.pull_x, m.pull_y);
+  if (Vec2 hinge; find_hinge(robot, self.corners, hinge))
+    write_in_edge_frame(hinge - parent, parent, per_cm, m.hinge_x_cm, m.hinge_y_cm);
 }
 
 }  // namespace
@@ -340,7 +333,8 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
 
 Output<ConvoyMessage> convoy_step(const ConvoyParams& params, ConvoyState& state,
                                   const Inputs<Heard>& inputs) noexcept {
-  ConvoyRobot robot(params, state, inputs);
+  Workspace space(inputs);
+  ConvoyRobot robot(params, state, inputs, space);
   Output<ConvoyMessage> output;
   output.velocity = tick(robot, inputs, output.message);
   return output;
@@ -354,7 +348,8 @@ Report convoy_report(const ConvoyState& s) noexcept {
 
 Output<PoweredConvoyMessage> powered_convoy_step(const ConvoyParams& params, PoweredConvoyState& state,
                                                  const Inputs<Heard>& inputs) noexcept {
-  ConvoyRobot robot(params, state, inputs);
+  Workspace space(inputs);
+  ConvoyRobot robot(params, state, inputs, space);
   const auto child_count = [&](int k) { return int{robot.convoy_of(k).child_count}; };
   PowerRobot power{robot, state.power, params, child_count};
   robot.power = &power;

@@ -34,9 +34,8 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
   constexpr float costs_unclear = 2.0F;  // of C: as much as all the rest can be
   const bool clear = sees_clearly(robot, k, p.clearance_m);
   if (!clear && !(urgent && sees_clearly(robot, k, narrow * p.clearance_m))) return impossible;
-  const Vec2 at = table.position(k);
   const bool leaves = m.role == Role::worker && robot.self.want_m > 0.0F;  // it cannot be towed
-  return norm(nearest_on_segment(-at, table.position(robot.parent) - at)) + (spare || leaves ? c : 0.0F) +
+  return distance_to_segment(table.position(k), Vec2{}, table.position(robot.parent)) + (spare || leaves ? c : 0.0F) +
          (clear ? 0.0F : costs_unclear * c);
 }
 
@@ -96,7 +95,7 @@ bool step_before_parent(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const int k = table.find(table.message(robot.parent).parent);
   if (k < 0 || table.age(k) > 0) return false;
-  const float d = norm(nearest_on_segment(table.position(robot.parent), table.position(k)));
+  const float d = distance_to_segment(Vec2{}, table.position(robot.parent), table.position(k));
   if (d > danger * p.clearance_m || !may_be_parent(robot, k, robot.parent_range_m())) return false;
   take_parent(robot, k);
   return true;

@@ -23,8 +23,6 @@ constexpr float held_back_after_s = 6.0F;
 constexpr float unsettled_after_s = 3.0F;
 constexpr float far_m = 1e9F;
 
-std::span<Task> tasks(ConvoyState& self) noexcept { return {self.tasks.data(), self.task_count}; }
-
 const Task* find_active(const ConvoyRobot& robot, RobotId serves) noexcept {
   const Task* task = find_task(robot.self, serves);
   return task == nullptr || task->holder == nobody || task->unlocated ? nullptr : task;
@@ -32,10 +30,12 @@ const Task* find_active(const ConvoyRobot& robot, RobotId serves) noexcept {
 
 // ---- The root ----
 
+int count_held(const ConvoyState& self) noexcept {
+  return count_of(self.known_tasks(), [](const Task& t) { return t.holder != nobody; });
+}
+
 bool all_have_arrived(const ConvoyRobot& robot) noexcept {
-  const auto all = tasks(robot.self);
-  const auto active = std::count_if(all.begin(), all.end(), [](const Task& t) { return t.holder != nobody; });
-  return has_arrived(robot) && robot.self.subtree_workers >= active;
+  return has_arrived(robot) && static_cast<int>(robot.self.subtree_workers) >= count_held(robot.self);
 }
 
 void withdraw(ConvoyState& self) noexcept { self.hosts.fill(nobody); }
@@ -129,9 +129,7 @@ void command(ConvoyRobot& robot) noexcept {
   const int since = self.settled_ticks - p.ticks(p.plan_after_s);
   const int period = p.ticks(thrifty ? thrifty_period_s : plan_period_s);
   // Not before I know of all targets.
-  const auto known = tasks(self);
-  const int targets =
-      static_cast<int>(std::count_if(known.begin(), known.end(), [](const Task& t) { return t.holder != nobody; }));
+  const int targets = count_held(self);
   const bool may = static_cast<int>(self.subtree_workers) <= targets && !has_companions(p) && !self.forgets &&
                    p.plan_after_s > 0.0F && since >= 0 && self.settled_ticks < UINT16_MAX;
   if (!may || (thrifty ? since < self.plan_steps * period : since % period >= robot.elapsed_ticks)) return;
@@ -156,7 +154,7 @@ void command(ConvoyRobot& robot) noexcept {
 RobotId least_worth(ConvoyRobot& robot) noexcept {
   RobotId worst = nobody;
   int fewest = INT16_MAX;
-  const auto all = tasks(robot.self);
+  const auto all = robot.self.known_tasks();
   const bool tries = banyan::any_of(all, is_tried_again);
   for (Task& task : all) {
     if (task.holder == nobody || task.reached || task.unlocated || (tries && !is_tried_again(task))) continue;
@@ -182,9 +180,8 @@ void shed(ConvoyRobot& robot) noexcept {
     return;
   }
   constexpr int hand_cm = 10;
-  const auto all = tasks(self);
-  const auto reached = static_cast<std::uint8_t>(
-      std::count_if(all.begin(), all.end(), [](const Task& t) { return t.holder != nobody && t.reached; }));
+  const auto all = self.known_tasks();
+  const int reached = count_of(all, [](const Task& t) { return t.holder != nobody && t.reached; });
   const int want_cm = static_cast<int>(self.want_m * 100.0F);
   const bool is_short = robot.params.shed_after_s > 0.0F && !self.forgets &&
                         self.want_m > robot.params.arrival_distance_m && self.call_hops != nobody_calls;
@@ -192,7 +189,7 @@ void shed(ConvoyRobot& robot) noexcept {
   if (self.short_ticks == 0 || want_cm < self.short_want_cm - hand_cm || reached > self.short_reached) {
     self.short_ticks = 0;
     self.short_want_cm = static_cast<std::uint16_t>(want_cm);
-    self.short_reached = reached;
+    self.short_reached = static_cast<std::uint8_t>(reached);
   }
   robot.add_elapsed(self.short_ticks);
   constexpr float sooner = 0.45F;  // once it is known that robots are too few
@@ -206,9 +203,8 @@ void shed(ConvoyRobot& robot) noexcept {
 // held. If none is, all come along.
 int least_robots(const ConvoyRobot& robot, const Task& task) noexcept {
   float gap_m = far_m;
-  for (const Task& other : tasks(robot.self))
-    if (other.holder != nobody)
-      gap_m = std::min(gap_m, norm(nearest_on_segment(other.target - task.target, -task.target)));
+  for (const Task& other : robot.self.known_tasks())
+    if (other.holder != nobody) gap_m = std::min(gap_m, distance_to_segment(task.target, other.target, Vec2{}));
   return gap_m < far_m ? static_cast<int>((gap_m - robot.params.arrival_distance_m) / robot.params.ideal_distance_m) + 1
                        : 1;
 }
@@ -223,12 +219,12 @@ void retry(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   const int spares = static_cast<int>(self.root_size) - static_cast<int>(self.subtree);
   const int tried_with = static_cast<int>(self.tried_with);
-  const bool none_held = !banyan::any_of(tasks(self), [](const Task& t) { return t.holder != nobody; });
+  const bool none_held = count_held(self) == 0;
   const bool settled = self.phase == Phase::grow_tree && !self.forgets &&
                        (none_held || self.settled_ticks > robot.params.ticks(settled_s));
   Task* next = nullptr;
   int fewest = spares + 1;
-  for (Task& task : tasks(self)) {
+  for (Task& task : self.known_tasks()) {
     if ((is_tried_again(task) || task.serves == self.shed) && task.holder != nobody &&
         task.age_ticks > robot.params.ticks(unclaimed_s))
       return put_off(robot, task);

@@ -121,22 +121,22 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
   return u;
 }
 
-template <class Visit> void for_each_edge(const ConvoyRobot& robot, Visit visit) noexcept {
+// Edges as strings, each drawn the harder the longer it is.
+Vec2 strings(const ConvoyRobot& robot, float start_m, float width_m) noexcept {
   const TreeTable& table = robot.table();
-  if (robot.parent >= 0) visit(robot.parent);
-  else if (robot.old_parent >= 0) visit(robot.old_parent);
+  Vec2 u;
+  const auto draw = [&](int k) { u += unit(table.position(k)) * ramp(table.range(k), start_m, width_m); };
+  if (robot.parent >= 0) draw(robot.parent);
+  else if (robot.old_parent >= 0) draw(robot.old_parent);
   for (const int k : robot.children)
-    if (table.message(k).role != Role::spare) visit(k);
+    if (table.message(k).role != Role::spare) draw(k);
+  return u;
 }
 
-// Edges as strings under tension: a chain becomes straight, three chains meet at 120 degrees.
+// Under tension a chain becomes straight, and three chains meet at 120 degrees.
 Vec2 tension(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
-  Vec2 u;
-  for_each_edge(robot, [&](int k) {
-    u += unit(robot.table().position(k)) * ramp(robot.table().range(k), p.tension_start_m, p.tension_width_m);
-  });
-  return u * p.tension_gain;
+  return strings(robot, p.tension_start_m, p.tension_width_m) * p.tension_gain;
 }
 
 // In a large swarm: I am on my way past child k or up to it, and my other edges are not to hold me back.
@@ -152,12 +152,7 @@ bool goes_to_child(const ConvoyRobot& robot) noexcept {
 Vec2 shared_slack(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   if (!is_short_of_robots(robot) || goes_to_child(robot)) return {};
-  const float start_m = p.pull_start_m;
-  Vec2 u;
-  for_each_edge(robot, [&](int k) {
-    u += unit(robot.table().position(k)) * ramp(robot.table().range(k), start_m, p.ideal_distance_m - start_m);
-  });
-  return u * p.slack_gain;
+  return strings(robot, p.pull_start_m, p.ideal_distance_m - p.pull_start_m) * p.slack_gain;
 }
 
 // From spares only at a smaller distance, since they make room themselves.

@@ -58,8 +58,7 @@ void doubt(HealingRobot& robot) noexcept {
   if (!self.forgets) return;
   // A robot may stand in between for a moment.
   const int doubt_ticks = robot.liveness_ticks() + robot.params.ticks(hesitate_s);
-  for (int k = 0; k < self.task_count; ++k) {
-    Task& task = self.tasks[static_cast<std::size_t>(k)];
+  for (Task& task : self.known_tasks()) {
     int child = robot.table().find(task.via);
     if (has_left(robot, child)) task.via = nobody;
     if (task.silent || task.holder == nobody || task.age_ticks <= fading_ticks(robot)) continue;

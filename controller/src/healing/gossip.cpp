@@ -8,13 +8,6 @@
 namespace banyan {
 namespace {
 
-// A point in the edge frame of the neighbour at `addressee`, which is in the direction `along`.
-void write(Vec2 point, Vec2 addressee, Vec2 along, std::int16_t& x_cm, std::int16_t& y_cm) noexcept {
-  const Vec2 v = rotate_back(along, point - addressee);
-  x_cm = to_fixed<std::int16_t>(v.x, per_cm);
-  y_cm = to_fixed<std::int16_t>(v.y, per_cm);
-}
-
 // Only a robot heard in this tick can be told a point, since that is written relative to the robot's position.
 int next_heard(const TreeTable& table, int turn) noexcept {
   const int size = table.size();
@@ -35,19 +28,19 @@ struct Topic {
 
 // Each pair of a neighbour and a target for which `counts` holds has its turn; robots begin at different targets.
 template <class Counts> Topic next_topic(const HealingState& self, int turn, Counts counts) noexcept {
-  const auto end = self.tasks.begin() + self.task_count;
-  const auto among = static_cast<int>(std::count_if(self.tasks.begin(), end, counts));
+  const auto tasks = self.known_tasks();
+  const int among = count_of(tasks, counts);
   if (among == 0) return {-1, turn};
   int left = turn % among;
-  const auto chosen = first_of(self.tasks.begin(), end, [&](const Task& task) { return counts(task) && left-- == 0; });
-  return {static_cast<int>(chosen - self.tasks.begin()), turn / among};
+  const auto chosen = first_of(tasks, [&](const Task& task) { return counts(task) && left-- == 0; });
+  return {static_cast<int>(chosen - tasks.begin()), turn / among};
 }
 
 // Every second turn is for what all robots have to know soon. Where robots forget, the rest is for those above me:
 // my own target and those of the workers below.
 Topic choose_topic(const HealingState& self) noexcept {
   int turn = self.turn + self.id;
-  if (banyan::any_of(self.tasks.begin(), self.tasks.begin() + self.task_count, is_urgent)) {
+  if (banyan::any_of(self.known_tasks(), is_urgent)) {
     if (turn % 2 != 0) return next_topic(self, turn / 2, is_urgent);
     turn /= 2;
   }
@@ -86,11 +79,10 @@ int gossip(const HealingRobot& robot, HealingMessage& m) noexcept {
   const int k = task != nullptr && task->unlocated ? -1 : addressee_of(robot, topic);
   if (k < 0) return topic.task;
   const Vec2 addressee = robot.table().position(k);
-  const Vec2 along = unit(addressee);
   m.told = robot.table().id(k);
   m.root_told = self.root_known && self.heart == self.root;
-  if (m.root_told) write(self.root_at, addressee, along, m.root_x_cm, m.root_y_cm);
-  if (task != nullptr) write(task->target, addressee, along, m.task_x_cm, m.task_y_cm);
+  if (m.root_told) write_in_edge_frame(self.root_at - addressee, addressee, per_cm, m.root_x_cm, m.root_y_cm);
+  if (task != nullptr) write_in_edge_frame(task->target - addressee, addressee, per_cm, m.task_x_cm, m.task_y_cm);
   return topic.task;
 }
 

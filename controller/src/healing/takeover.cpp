@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <span>
 
+#include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
 
 namespace banyan {
@@ -189,7 +189,7 @@ void hear_of_tasks(HealingRobot& robot) noexcept {
 }
 
 void grow_older(HealingRobot& robot) noexcept {
-  for (Task& task : std::span(robot.self.tasks).first(robot.self.task_count)) {
+  for (Task& task : robot.self.known_tasks()) {
     robot.add_elapsed(task.age_ticks);
     task.urgent_ticks = static_cast<std::uint8_t>(std::max(0, task.urgent_ticks - robot.elapsed_ticks));
   }
@@ -205,7 +205,7 @@ void mind_own(HealingRobot& robot) noexcept {
   HealingState& self = robot.self;
   const RobotId me = self.id;
   const RobotId own = self.is_worker ? self.serves : nobody;
-  for (Task& task : std::span(self.tasks).first(self.task_count)) {
+  for (Task& task : self.known_tasks()) {
     if (task.holder != me || task.serves == own || task.gave_up) continue;
     announce(task, nobody);
   }
@@ -248,8 +248,7 @@ int way_of_news_ticks(const HealingRobot& robot, const Task& task) noexcept {
 int way_of_answer_ticks(const HealingRobot& robot, const Task& task) noexcept {
   constexpr float hop = 0.5F;  // of C
   const HealingState& self = robot.self;
-  const auto urgent = std::count_if(self.tasks.begin(), self.tasks.begin() + self.task_count,
-                                    [](const Task& t) { return is_urgent(t); });
+  const int urgent = count_of(self.known_tasks(), is_urgent);
   const float hops = norm(task.target) / (hop * robot.params.communication_range_m);
   const int spread_ticks = robot.params.ticks(robot.params.succession_spread_s_m * norm(task.target));
   return std::max(0, static_cast<int>(hops * 2.0F * static_cast<float>(urgent)) - spread_ticks);
@@ -262,8 +261,7 @@ void succeed(HealingRobot& robot) noexcept {
   const bool free = self.role == Role::spare || self.dangling_ticks > 0;
   const int least_ticks = 2 * robot.liveness_ticks();
   if (!free || self.is_worker || robot.is_root() || self.silence_ticks > least_ticks) return;
-  for (int k = 0; k < self.task_count; ++k) {
-    Task& task = self.tasks[k];
+  for (Task& task : self.known_tasks()) {
     if (task.unlocated || task.holder == nobody || task.age_ticks <= least_ticks || (self.forgets && !task.silent))
       continue;
     const float again_s = task.gave_up ? second_try_s : 0.0F;  // others first

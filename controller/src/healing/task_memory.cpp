@@ -4,8 +4,8 @@
 namespace banyan {
 
 Task* find_task(HealingState& self, RobotId serves) noexcept {
-  for (int k = 0; k < self.task_count; ++k)
-    if (self.tasks[k].serves == serves) return &self.tasks[k];
+  for (Task& task : self.known_tasks())
+    if (task.serves == serves) return &task;
   return nullptr;
 }
 

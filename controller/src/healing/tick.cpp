@@ -58,7 +58,7 @@ void carry_memory(HealingState& self, const Carry& carry) noexcept {
   carry_memory(static_cast<TreeState&>(self), carry);
   self.root_at = carry.point(self.root_at);
   self.lost_child = carry.point(self.lost_child);
-  for (int k = 0; k < self.task_count; ++k) self.tasks[k].target = carry.point(self.tasks[k].target);
+  for (Task& task : self.known_tasks()) task.target = carry.point(task.target);
   if (++self.turn == 0) self.turn = 1U << 15;  // what belongs to the first seconds does not come again
   carry_detour(self.detour, carry);
 }

@@ -14,10 +14,8 @@ bool is_in_the_clear(const HealingRobot& robot, int k) noexcept {
   if (!robot.obstacles.empty()) return false;
   const Vec2 there = table.position(k);
   if (!p.line_of_sight) return true;
-  for (int j = 0; j < table.size(); ++j) {
-    const Vec2 here = -table.position(j);
-    if (j != k && norm(nearest_on_segment(here, there + here)) < bodies * p.wheel_distance_m) return false;
-  }
+  for (int j = 0; j < table.size(); ++j)
+    if (j != k && distance_to_segment(table.position(j), Vec2{}, there) < bodies * p.wheel_distance_m) return false;
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "banyan/controller/core/edge_frame.hpp"
+#include "banyan/controller/core/function_ref.hpp"
 #include "banyan/controller/core/search.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
@@ -48,8 +49,8 @@ struct Threat {
   bool is_body;    // not a point of an obstacle
 };
 
-template <class Visit>
-void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighbor, Visit visit) noexcept {
+void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighbor,
+                     FunctionRef<void(const Threat&)> visit) noexcept {
   const float d = norm(neighbor);
   if (d <= 0.0F) return;
   const Vec2 along = neighbor / d;
@@ -62,7 +63,7 @@ void for_each_threat(const TreeRobot& robot, const Corners& corners, Vec2 neighb
   });
 }
 
-template <class Visit> void for_each_edge_of_both_trees(const TreeRobot& robot, Visit visit) noexcept {
+void for_each_edge_of_both_trees(const TreeRobot& robot, FunctionRef<void(int)> visit) noexcept {
   const TreeTable& table = robot.table();
   if (robot.parent_alive()) visit(robot.parent);
   if (robot.old_parent_alive() && robot.old_parent != robot.parent) visit(robot.old_parent);
@@ -76,7 +77,7 @@ template <class Visit> void for_each_edge_of_both_trees(const TreeRobot& robot, 
 float to_edges(const TreeRobot& robot, Vec2 p) noexcept {
   float nearest_m = norm(p);
   for_each_edge_of_both_trees(robot, [&](int k) {
-    nearest_m = std::min(nearest_m, norm(nearest_on_segment(-p, robot.table().position(k) - p)));
+    nearest_m = std::min(nearest_m, distance_to_segment(p, Vec2{}, robot.table().position(k)));
   });
   return nearest_m;
 }
@@ -189,8 +190,7 @@ bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
   constexpr float well_inside = 0.5F;  // of the radius: what is remembered drifts
   const TreeTable& table = robot.table();
   for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) == 0 &&
-        norm(nearest_on_segment(-center, table.position(k) - center)) < well_inside * body_m(robot))
+    if (table.age(k) == 0 && distance_to_segment(center, Vec2{}, table.position(k)) < well_inside * body_m(robot))
       return true;
   return false;
 }

@@ -170,10 +170,10 @@ Vec2 spot_beside(const PowerRobot& me, int leaver) noexcept {
       const Vec2 other = table.position(k) - at;
       farthest_m = std::max(farthest_m, distance(off, other));
       if (crosses(at + off, at - other, at + other)) hidden_m += costs_crossing * range_m;
-      if (norm(nearest_on_segment(off, other)) < hidden_behind * apart_m) hidden_m += range_m;
+      if (distance_to_segment(Vec2{}, off, other) < hidden_behind * apart_m) hidden_m += range_m;
     };
     if (parent >= 0) look_at(parent);
-    if (hides && norm(nearest_on_segment(off, me.power.unseen - at)) < hidden_behind * apart_m) hidden_m += range_m;
+    if (hides && distance_to_segment(Vec2{}, off, me.power.unseen - at) < hidden_behind * apart_m) hidden_m += range_m;
     for (int k = 0; k < table.size(); ++k)  // its children, and those that have changed to me already
       if (k != leaver && !me.is_spare(k) &&
           (up_of(table.message(k)) == id || up_of(table.message(k)) == me.robot.self.id))

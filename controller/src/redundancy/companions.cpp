@@ -52,8 +52,6 @@ IndexList neighbors_of(const ConvoyRobot& robot, int of) noexcept {
   return list;
 }
 
-float distance_to_segment(Vec2 p, Vec2 a, Vec2 b) noexcept { return norm(nearest_on_segment(a - p, b - p)); }
-
 // Two robots at a and b hear each other without the one at `middle`, whose body stays where it is, even if it dies.
 bool hear_each_other(const ConvoyRobot& robot, Vec2 middle, Vec2 a, Vec2 b, bool travels) noexcept {
   if (robot.params.line_of_sight && distance_to_segment(middle, a, b) < hides * robot.params.clearance_m) return false;

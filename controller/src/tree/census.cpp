@@ -26,7 +26,7 @@ void add_child(const TreeRobot& robot, int k, bool counts, Sums& sums) noexcept 
   if (up_of(m) != robot.self.id) return;  // its vectors are addressed to another robot
   const Vec2 sender = robot.table().position(k);
   if (counts) {
-    sums.a += from_edge_frame(m.q, sender);
+    sums.a += from_edge_frame({m.q_x_m, m.q_y_m}, sender);
     sums.robots += m.subtree;
     sums.workers += m.subtree_workers;
     sums.counts += m.count;

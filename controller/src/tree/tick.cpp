@@ -116,18 +116,15 @@ void write_tree(const TreeRobot& robot, TreeMessage& m) noexcept {
   m.want_cm = to_fixed<std::uint16_t>(self.want_m, per_cm);
   if (const int up = robot.up(); up >= 0) {
     const Vec2 addressee = robot.table().position(up);
-    const Vec2 pull = to_edge_frame(self.pull, addressee);
-    m.q = to_edge_frame(self.q, addressee);
-    m.pull_x = to_fixed<std::int16_t>(pull.x, pull_unit);
-    m.pull_y = to_fixed<std::int16_t>(pull.y, pull_unit);
+    const Vec2 q = to_edge_frame(self.q, addressee);
+    m.q_x_m = q.x, m.q_y_m = q.y;
+    write_in_edge_frame(self.pull, addressee, pull_unit, m.pull_x, m.pull_y);
   }
   const int heir = robot.table().find(self.new_root);
   if (heir < 0) return;
   const Vec2 addressee = robot.table().position(heir);
-  const Vec2 centroid = to_edge_frame(self.centroid - addressee, addressee);
   m.new_root = self.new_root;
-  m.centroid_x_cm = to_fixed<std::int16_t>(centroid.x, per_cm);
-  m.centroid_y_cm = to_fixed<std::int16_t>(centroid.y, per_cm);
+  write_in_edge_frame(self.centroid - addressee, addressee, per_cm, m.centroid_x_cm, m.centroid_y_cm);
 }
 
 Report tree_report(const TreeState& s) noexcept {

@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "banyan/controller/core/fixed_point.hpp"
@@ -51,6 +52,12 @@ TEST(Saturated, StaysAtTheLargest) {
   EXPECT_EQ(saturated(most_robots + 1), most_robots);
   EXPECT_EQ(saturated(UINT32_MAX), most_robots);
   EXPECT_EQ(saturated(UINT32_MAX, 65'535), 65'535);
+}
+
+TEST(Search, CountsThoseThatAreSo) {
+  constexpr std::array numbers{3, 5, 8};
+  EXPECT_EQ(count_of(numbers, [](int n) { return n % 2 == 1; }), 2);
+  EXPECT_EQ(count_of(numbers, [](int n) { return n > 8; }), 0);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ void fill(TreeMessage& m, const Numbers& draw) {
   for (std::int16_t* field : {&m.pull_x, &m.pull_y, &m.centroid_x_cm, &m.centroid_y_cm}) *field = signed_word();
   m.tree_hops = byte();
   m.call_hops = byte();
-  m.q = {meters(), meters()};
+  for (float* field : {&m.q_x_m, &m.q_y_m}) *field = meters();
 }
 void fill(HealingMessage& m, const Numbers& draw) {
   fill(static_cast<TreeMessage&>(m), draw);
@@ -152,7 +152,7 @@ TYPED_TEST(Wire, RandomBytesOfTheRightLengthAreReadOrRefused) {
     RC_ASSERT(m->role <= Role::root);
     RC_ASSERT(m->phase <= Phase::select_root);
     RC_ASSERT(m->need <= Need::await);
-    RC_ASSERT(std::fabs(m->q.x) <= q_limit_m && std::fabs(m->q.y) <= q_limit_m);
+    RC_ASSERT(std::fabs(m->q_x_m) <= q_limit_m && std::fabs(m->q_y_m) <= q_limit_m);
   });
   EXPECT_TRUE(holds);
 }
@@ -200,12 +200,12 @@ TYPED_TEST(Wire, NumbersThatWouldPoisonASumAreRefused) {
   auto m = of_robot<TypeParam>(7);
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                           -std::numeric_limits<float>::infinity(), 1.001F * q_limit_m, -1.001F * q_limit_m}) {
-    m.q = {bad, 0.0F};
+    m.q_x_m = bad;
     EXPECT_FALSE(over_the_wire(m).has_value()) << bad;
-    m.q = {0.0F, bad};
+    m.q_x_m = 0.0F, m.q_y_m = bad;
     EXPECT_FALSE(over_the_wire(m).has_value()) << bad;
   }
-  m.q = {q_limit_m, -q_limit_m};
+  m.q_x_m = q_limit_m, m.q_y_m = -q_limit_m;
   EXPECT_TRUE(over_the_wire(m).has_value());
 }
 

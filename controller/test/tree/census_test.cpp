@@ -67,7 +67,8 @@ struct Tree {
       for (std::size_t k = 0; k < packets.size(); ++k) heard.push_back({&packets[k], from[k]});
       TreeState& s = states[i];
       const Inputs<Heard> inputs(heard, {}, params);
-      TreeRobot robot(params, literal_reading, s, inputs);
+      Workspace space(inputs);
+      TreeRobot robot(params, literal_reading, s, inputs, space);
       file_heard(robot);
       forget_silent(
           robot, [](int) { return false; }, [](int, int) {});
@@ -99,7 +100,8 @@ struct Tree {
     if (parent[i] >= 0) {
       // The edge frame, written out: x from the sender to its parent.
       const Vec2 e = unit(seen(i, static_cast<std::size_t>(parent[i])));
-      m.q = {dot(s.q, e), cross(e, s.q)};
+      m.q_x_m = dot(s.q, e);
+      m.q_y_m = cross(e, s.q);
     }
     return m;
   }

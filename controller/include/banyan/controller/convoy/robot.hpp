@@ -26,8 +26,8 @@ inline const PoweredConvoyMessage& powered_message(const ConvoyMessage& m) noexc
 }
 
 struct ConvoyRobot : HealingRobot {
-  ConvoyRobot(const ConvoyParams& params_, ConvoyState& self_, const Inputs<Heard>& inputs) noexcept
-      : HealingRobot(params_, self_, inputs), params(params_), self(self_) {}
+  ConvoyRobot(const ConvoyParams& params_, ConvoyState& self_, const Inputs<Heard>& inputs, Workspace& space) noexcept
+      : HealingRobot(params_, self_, inputs, space), params(params_), self(self_) {}
 
   const ConvoyParams& params;  // the same objects as the tree's
   ConvoyState& self;

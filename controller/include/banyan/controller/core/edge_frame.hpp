@@ -4,12 +4,22 @@
 // table of mutual bearings and no extra byte is needed.
 #pragma once
 
+#include <cstdint>
+
+#include "banyan/controller/core/fixed_point.hpp"
 #include "banyan/controller/core/vec2.hpp"
 
 namespace banyan {
 
 // Sender: `v` in its own frame, the addressee at `addressee`.
 [[nodiscard]] inline Vec2 to_edge_frame(Vec2 v, Vec2 addressee) noexcept { return rotate_back(unit(addressee), v); }
+
+// The same, as it travels: in whole multiples of 1 / `unit`.
+inline void write_in_edge_frame(Vec2 v, Vec2 addressee, float unit, std::int16_t& x, std::int16_t& y) noexcept {
+  v = to_edge_frame(v, addressee);
+  x = to_fixed<std::int16_t>(v.x, unit);
+  y = to_fixed<std::int16_t>(v.y, unit);
+}
 
 // Addressee: `v` as received, the sender at `sender` in its own frame. A rotation: a point needs the
 // sender's subtraction of the addressee's position first.

@@ -10,7 +10,8 @@ namespace banyan {
 
 template <class Signature> class FunctionRef;
 
-template <class Result, class... Arguments> class FunctionRef<Result(Arguments...)> {
+// Aligned as BasicVec2 is (vec2.hpp).
+template <class Result, class... Arguments> class alignas(2 * sizeof(void*)) FunctionRef<Result(Arguments...)> {
  public:
   template <class F>
   requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef> && std::is_invocable_r_v<Result, F&, Arguments...>)

@@ -24,6 +24,12 @@ template <class Range, class Is> [[nodiscard]] constexpr bool all_of(const Range
   return !banyan::any_of(range, [&](const auto& element) { return !is(element); });
 }
 
+template <class Range, class Is> [[nodiscard]] constexpr int count_of(const Range& range, Is is) {
+  int count = 0;
+  for (const auto& element : range) count += is(element) ? 1 : 0;
+  return count;
+}
+
 inline constexpr float not_counted = 1e9F;  // what does not count measures this
 
 // The number from 0 to size - 1 whose measure is least and below the limit, the first of several; -1 if there is none.

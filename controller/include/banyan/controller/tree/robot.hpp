@@ -18,11 +18,20 @@ namespace banyan {
 
 // Indices into the neighbour table, ascending.
 struct IndexList {
-  std::array<std::uint8_t, neighbor_capacity> items;  // the first `size` are valid
   std::uint8_t size = 0;
+  std::array<std::uint8_t, neighbor_capacity> items;  // the first `size` are valid
   void push(int k) noexcept { items[size++] = static_cast<std::uint8_t>(k); }
   [[nodiscard]] const std::uint8_t* begin() const noexcept { return items.data(); }
   [[nodiscard]] const std::uint8_t* end() const noexcept { return items.data() + size; }
+};
+
+// The larger things that a robot works with in a step. They lie beside it, since a chip reaches only its first 124
+// bytes with short loads.
+struct Workspace {
+  explicit Workspace(const Inputs<Heard>& inputs) noexcept : carry(inputs.senses().odometry) {}
+  Carry carry;
+  IndexList children;
+  IndexList old_children;
 };
 
 // Those of the packets heard that say something that this robot did not know at the beginning of the step, in order.
@@ -65,15 +74,18 @@ struct KnownOfTree {
 inline constexpr float longest_link = 0.95F;
 
 struct TreeRobot {
-  TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Inputs<Heard>& inputs) noexcept
+  TreeRobot(const TreeParams& params_, const Reading& reading_, TreeState& self_, const Inputs<Heard>& inputs,
+            Workspace& space) noexcept
       : params(params_),
         reading(reading_),
         self(self_),
         heard(inputs.heard()),
         obstacles(inputs.senses().obstacles),
-        carry(inputs.senses().odometry),
+        carry(space.carry),
         elapsed_ticks(inputs.elapsed_ticks()),
-        forget_ticks(params_.ticks(params_.liveness_period_s)) {
+        forget_ticks(params_.ticks(params_.liveness_period_s)),
+        children(space.children),
+        old_children(space.old_children) {
     self.tally.rejected += inputs.rejected();
   }
 
@@ -83,22 +95,22 @@ struct TreeRobot {
   const Vec2* target = nullptr;  // own frame, m; null unless a worker
   std::span<Heard> heard;
   NewsList news;
-  bool is_tree_news = false;        // some of it is what KnownOfTree lacks
   std::span<const Vec2> obstacles;  // nearest point of each within the proximity sensor's reach, own frame, m
-  Carry carry;                      // from the frame at the last step into mine
+  const Carry& carry;               // from the frame at the last step into mine
   int elapsed_ticks;                // since the last step
   int loss_ticks = 0;               // how long lost packets may silence a living neighbour; 0: unknown
   int forget_ticks;                 // and one that matters to nobody: less where packets get lost many in a row
+  bool is_tree_news = false;        // some of `news` is what KnownOfTree lacks
   bool carries_on = false;          // a connector that has lost the last robot below it, and stays one (healing)
 
   // The index (tree_index.hpp)
-  int parent = -1;  // index of the parent in the table
-  int old_parent = -1;
-  int hold = -1;                          // without a parent: what ties me to the others (healing/hold.hpp)
-  IndexList children;                     // living neighbours that name me as parent
-  IndexList old_children;                 // living neighbours that name me as old parent and not as parent
   std::uint8_t call_hops = nobody_calls;  // the smallest among living neighbours
   std::uint8_t useful_children = 0;       // living children (by parent or old parent) that are not spares
+  int parent = -1;                        // index of the parent in the table
+  int old_parent = -1;
+  int hold = -1;            // without a parent: what ties me to the others (healing/hold.hpp)
+  IndexList& children;      // living neighbours that name me as parent
+  IndexList& old_children;  // living neighbours that name me as old parent and not as parent
 
   // The parent, old or new, and its index.
   void set_parent(int k) noexcept { self.parent = table().id(k), parent = k; }
