@@ -28,12 +28,14 @@ void note_start(HealingRobot& robot) noexcept {
 // Not inlined: it is for the first seconds only (and the firmware is smaller).
 [[gnu::noinline]] bool awaits_others(const HealingRobot& robot, Vec2& u) noexcept {
   constexpr int end_ticks = 150;      // so long the end of a thin start stays
+  constexpr float wide_link = 0.8F;   // of C: it may break in the first seconds
   constexpr float stretched = 0.72F;  // of C: nearer to a robot that may be beyond this end
   const HealingState& self = robot.self;
   const TreeTable& table = robot.table();
   const int size = table.size();
   const bool thin = self.neighbors_at_start > 0;
-  const bool begins = self.phase == Phase::init || starts_thin(self);
+  const bool wide = size == 0 || table.range(0) > wide_link * robot.params.communication_range_m;
+  const bool begins = self.phase == Phase::init || (wide && starts_thin(self));
   if (self.missed_in_the_clear + self.usual_silence + self.burst_ticks == 0)
     return begins && (thin || (size > 0 && has_few_far_away(robot)));
   const bool at_end = self.neighbors_at_start == 1 && size <= 1 && self.turn < end_ticks;

@@ -63,7 +63,8 @@ TEST(ThinStart, ABurstIsASignOfLostPackets) {
 
 TEST(ThinStart, NobodyMovesInTheFirstSecondsOrBeforeItHasHeardOfARoot) {
   for (const Phase phase : {Phase::init, Phase::start_tree, Phase::grow_tree}) {
-    AtEnd f(1.2F, phase);
+    EXPECT_EQ(AtEnd(1.5F, phase).awaits(), phase == Phase::init) << "no link is near C";
+    AtEnd f(1.7F, phase);
     Vec2 u;
     EXPECT_TRUE(f.awaits(u)) << "a burst may hide a neighbour";
     EXPECT_EQ(u, Vec2{});

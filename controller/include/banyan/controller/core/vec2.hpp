@@ -6,9 +6,9 @@
 
 namespace banyan {
 
-// Two floats are aligned as one double word: else gcc for ARM passes them through the stack, not in registers, which
-// would take firmware 2,840 bytes more.
-template <class T> struct alignas(8) BasicVec2 {
+// On a chip two floats are aligned as one double word: else gcc for ARM passes them through the stack, not in
+// registers, which would take firmware 2,840 bytes more. Elsewhere states would only be larger.
+template <class T> struct alignas(sizeof(void*) == 4 ? 8 : alignof(T)) BasicVec2 {
   T x{};
   T y{};
 

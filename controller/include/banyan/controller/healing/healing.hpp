@@ -37,8 +37,8 @@ void find_gap(HealingRobot& robot) noexcept;
 // Of how many, as long as I have heard of no root; 1 if I have heard nobody.
 void note_start(HealingRobot& robot) noexcept;
 // Where packets get lost, another part of the network may hear me that I have not heard yet. So I stay as long as I
-// have heard of no root, and for the first seconds; at the end of such a start longer, or I go towards whoever may be
-// there, by motion `u`.
+// have heard of no root, and where links are near C for the first seconds; at the end of such a start longer, or I go
+// towards whoever may be there, by motion `u`.
 [[nodiscard]] bool awaits_others(const HealingRobot& robot, Vec2& u) noexcept;
 // In the first seconds of such a start a silence is rather a burst than a death.
 [[nodiscard]] inline bool starts_thin(const HealingState& self) noexcept {
