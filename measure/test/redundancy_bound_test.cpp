@@ -72,11 +72,12 @@ TEST(RedundancyBound, NoSetOfPlacesOnALatticeNeedsFewer) {
   std::vector<Vec2> places;
   for (int x = 0; x < 4; ++x)
     for (int y = 0; y < 4; ++y) places.push_back({0.55 * x, 0.55 * y});
-  std::mt19937_64 random(5);
+  std::mt19937_64 random(5);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases every time
   std::uniform_real_distribution<double> side(0.0, 1.8);
   int met = 0;
   for (int round = 0; round < 40; ++round) {
     std::vector<Vec2> nodes;
+    nodes.reserve(3);
     for (int t = 0; t < 3; ++t) nodes.push_back({side(random), side(random)});
     const std::vector<Vec2> targets = nodes;
     const RedundancyBound bound = redundancy_bound(targets, 0.0, 1.0, 2);
@@ -91,11 +92,13 @@ TEST(RedundancyBound, NoSetOfPlacesOnALatticeNeedsFewer) {
 
 // More paths never need fewer robots, and k trees of relays are always enough.
 TEST(RedundancyBound, LiesBetweenOneTreeAndSeveral) {
-  std::mt19937_64 random(9);
+  std::mt19937_64 random(9);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same cases every time
   std::uniform_real_distribution<double> side(0.0, 12.0);
   for (int round = 0; round < 60; ++round) {
+    const int count = 2 + round % 7;
     std::vector<Vec2> targets;
-    for (int t = 0; t < 2 + round % 7; ++t) targets.push_back({side(random), side(random)});
+    targets.reserve(static_cast<std::size_t>(count));
+    for (int t = 0; t < count; ++t) targets.push_back({side(random), side(random)});
     std::uint32_t before = robots_bound(targets, 0.2, 2.0);
     const RelayTree tree = fewest_relays(targets, 1.999);
     for (const std::uint32_t k : {2U, 3U}) {

@@ -299,6 +299,7 @@ TEST(MostTargets, IsTheLargestSetThatSoManyRobotsHold) {
 
 TEST(MostTargets, ManyTargetsGrowFromEachOfThem) {
   std::vector<Vec2> line;
+  line.reserve(13);
   for (int k = 0; k < 12; ++k) line.push_back({3.0 * k, 0.0});  // a relay between any two
   line.push_back({100, 0});
   EXPECT_EQ(most_targets(line, 1.9, 0), 0U);

@@ -7,6 +7,7 @@
 
 #include "banyan/world/world.hpp"
 #include "plain_scenario.hpp"
+#include "worlds.hpp"
 
 namespace banyan::world {
 namespace {

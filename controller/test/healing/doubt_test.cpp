@@ -316,7 +316,8 @@ TEST(Doubt, AsksForACountOfNow) {
   watch.bench.silence(worker_id);
   watch.hear_root(doubt_ticks(watch));
   ASSERT_TRUE(watch.task().silent);
-  EXPECT_NEAR(watch.task().beat - last, watch.bench.params.ticks(2.5F) / 2, 1);
+  const int half = watch.bench.params.ticks(2.5F) / 2;
+  EXPECT_NEAR(watch.task().beat - last, half, 1);
 }
 
 // Only one neighbour at a time is told where a target is: the question does not wait for that, but the successor does.

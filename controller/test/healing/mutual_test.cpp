@@ -51,6 +51,7 @@ TEST(Mutual, EveryNeighbourIsNamedInItsTurn) {
   for (const RobotId id : {RobotId{7}, RobotId{2}, RobotId{40}}) bench.put(id, {0.01F * static_cast<float>(id), 0.5F});
   bench.steps(1);
   std::vector<RobotId> named;
+  named.reserve(6);
   for (int k = 0; k < 6; ++k) named.push_back(bench.step().message.count);
   const std::size_t first = static_cast<std::size_t>(std::find(named.begin(), named.end(), 2) - named.begin());
   ASSERT_LT(first, 3U);

@@ -478,7 +478,7 @@ TEST(Power, ARobotWithLessChargeSeemsNearerAndMoreUrgentCallsOfOthersAreNotDrown
 class CalledSpare : public ::testing::Test {
  protected:
   // Whether it goes, if the other spare is so far from the caller.
-  bool goes(float other_m, std::uint8_t other_level, std::uint8_t call = relief_call) {
+  static bool goes(float other_m, std::uint8_t other_level, std::uint8_t call = relief_call) {
     auto bench = grown<Convoy>();
     bench.state.role = Role::spare;
     bench.put(9, {1.5F, 0.0F}).role = Role::connector;

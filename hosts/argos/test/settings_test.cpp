@@ -19,6 +19,7 @@ std::string fault_of(const std::vector<Attribute>& attributes) {
 // What a scenario says of its robots arrives through the attributes, for all algorithms.
 world::Scenario paper_medium(const std::vector<std::string>& assignments) {
   std::vector<config::Override> overrides;
+  overrides.reserve(assignments.size());
   for (const std::string& assignment : assignments) overrides.push_back({assignment, "test"});
   auto loaded =
       config::load_configuration(std::string(BANYAN_SCENARIOS) + "/paper-medium.toml", algorithms(), overrides);

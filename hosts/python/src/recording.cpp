@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "banyan/record/json.hpp"
 #include "frame_binding.hpp"
 
 namespace banyan::python {
