@@ -67,7 +67,7 @@ struct Definition {
 // The types that `text` defines outside of classes and functions. Braces that do not match are a definition of "}".
 std::vector<Definition> definitions(const std::string& text, const std::string& file) {
   static const std::regex type(
-      R"(\b(?:struct|class|union|enum)\s+(?:(?:class|struct)\s+)?(?:alignas\([^)]*\)\s*)?(\w+))"
+      R"(\b(?:struct|class|union|enum)\s+(?:(?:class|struct)\s+)?(?:alignas\((?:[^()]|\([^()]*\))*\)\s*)?(\w+))"
       R"((?:\s+final)?\s*(?::(?!:)[^]*)?$)");
   static const std::regex alias(R"(\busing\s+(\w+)\s*=([^]*)$)");
   const std::string code = code_of(text);
@@ -146,8 +146,8 @@ TEST(TypeNames, EveryWayToDefineATypeIsSeen) {
   const std::string first = "namespace a::b {\nstruct X {};\n}";
   for (const char* second :
        {"class X final : public Y<int> {\n int y;\n};", "enum class X : unsigned char { one };",
-        "#include <a>\nusing X = int;", "namespace { union alignas(8) X { int y; }; }", "using X = int;",
-        "enum X { two };",
+        "#include <a>\nusing X = int;", "namespace { union alignas(8) X { int y; }; }",
+        "template <class T> struct alignas(2 * sizeof(T)) X { T y; };", "using X = int;", "enum X { two };",
         "void f() { if (1) { } }\n// }\nconst char* s = \"{\"; char c = '{'; int n = 1'000;\nclass X\n{ };"})
     EXPECT_EQ(twice({{"world/a.hpp", first}, {"world/b.cpp", second}}), "X: world/a.hpp and world/b.cpp\n") << second;
 }
