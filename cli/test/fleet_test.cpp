@@ -471,9 +471,9 @@ TEST_F(Laboratory, AHubThatIsStartedAgainGoesOnWhereItWas) {
     words >> tick >> time_s >> robot >> x >> y;
     ASSERT_EQ(tick, std::floor(static_cast<double>(count) / 9.0));
     if (count >= 9) continue;
-    const auto row = count / 3;
+    const std::size_t line = count / 3;  // of the start, three robots each
     EXPECT_NEAR(x, 0.32 * static_cast<double>(count % 3) - 0.32, 0.03);
-    EXPECT_NEAR(y, 0.32 * static_cast<double>(row) - 0.32, 0.03);
+    EXPECT_NEAR(y, 0.32 * static_cast<double>(line) - 0.32, 0.03);
   }
   EXPECT_EQ(count, 9 * (nlohmann::json::parse(read("result/run.json"))["result"]["ticks"].get<std::size_t>() + 1));
 }

@@ -70,8 +70,9 @@ class CtrlC {
  public:
   // Throws what Python raised, KeyboardInterrupt.
   void check() {
-    if (const auto now = Clock::now(); now < next_) return;
-    else next_ = now + std::chrono::milliseconds(50);
+    const auto now = Clock::now();
+    if (now < next_) return;
+    next_ = now + std::chrono::milliseconds(50);
     const py::gil_scoped_acquire interpreter;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
