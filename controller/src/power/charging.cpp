@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/power/power.hpp"
 
 namespace banyan {
@@ -55,18 +56,11 @@ void follow_places(PowerRobot& me) noexcept {
                                                      : no_place;
 }
 
-// Hops of a call that has ended count up, and the slower the more neighbours are hidden now and then: spares followed
-// such calls to nowhere for minutes. So only what has just been heard counts, and no call goes farther than a relief
-// may be.
+// Spares followed calls that had ended to nowhere for minutes. So only what has just been heard counts, and no call
+// goes farther than a relief may be.
 void listen_for_calls(PowerRobot& me) noexcept {
-  HealingRobot& robot = me.robot;
-  const TreeTable& table = robot.table();
-  const auto hops_of = [&](int k) {
-    const std::uint8_t hops = table.message(k).call_hops;
-    return table.age(k) > 1 || (hops >= calls_end && hops < companion_call) ? nobody_calls : hops;
-  };
-  robot.call_hops = nobody_calls;
-  for (int k = 0; k < table.size(); ++k) robot.call_hops = std::min(robot.call_hops, hops_of(k));
+  me.robot.call_hops =
+      live_call_hops(me.robot.table(), [](std::uint8_t hops) { return hops < calls_end || hops >= companion_call; });
 }
 
 int hops_counted(const PowerRobot& me) noexcept { return std::min<int>(me.power.said.place_hops, most_hops_counted); }

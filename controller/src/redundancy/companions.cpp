@@ -9,6 +9,7 @@
 #include "banyan/controller/convoy/towing.hpp"
 #include "banyan/controller/core/search.hpp"
 #include "banyan/controller/core/trig.hpp"
+#include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/tree/label.hpp"
 
@@ -318,10 +319,7 @@ int count_companions(const ConvoyRobot& robot, RobotId of) noexcept {
 
 void heed_live_calls(ConvoyRobot& robot) noexcept {
   if (!has_companions(robot.params) || !robot.params.line_of_sight) return;
-  const TreeTable& table = robot.table();
-  robot.call_hops = nobody_calls;
-  for (int k = 0; k < table.size(); ++k)
-    if (table.age(k) <= 1) robot.call_hops = std::min(robot.call_hops, table.message(k).call_hops);
+  robot.call_hops = live_call_hops(robot.table(), [](std::uint8_t) { return true; });
 }
 
 void keep_company(ConvoyRobot& robot) noexcept {

@@ -4,6 +4,8 @@
 // and the targets are. So a robot that falls silent can be replaced by one that knows enough.
 #pragma once
 
+#include <algorithm>
+
 #include "banyan/controller/healing/robot.hpp"
 
 namespace banyan {
@@ -31,6 +33,17 @@ void note_hears(HealingRobot& robot, const Heard& h) noexcept;
 void find_gap(HealingRobot& robot) noexcept;
 // Whether I come nearer to it, or to a robot that calls, by motion `u`.
 [[nodiscard]] bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept;
+
+// The smallest call hops heard in this tick or the last, of those that `counts` accepts. The hops of a call that is
+// over count up, and the slower the more neighbours are hidden now and then, with what they said last.
+template <class Counts> [[nodiscard]] std::uint8_t live_call_hops(const TreeTable& table, Counts counts) noexcept {
+  std::uint8_t least = nobody_calls;
+  for (int k = 0; k < table.size(); ++k) {
+    const std::uint8_t hops = table.message(k).call_hops;
+    if (table.age(k) <= 1 && counts(hops)) least = std::min(least, hops);
+  }
+  return least;
+}
 
 // ---- thin_start.cpp: few neighbours at the start, all of them far away ----
 
