@@ -8,6 +8,8 @@
 namespace banyan {
 namespace {
 
+constexpr int look_ticks = 10;  // by then most neighbours have been heard, whatever is lost
+
 bool has_few_far_away(const HealingRobot& robot) noexcept {
   constexpr int few = 4;
   constexpr float apart = 0.4F;  // of C: so few in a crowd are nearer
@@ -18,11 +20,15 @@ bool has_few_far_away(const HealingRobot& robot) noexcept {
 }  // namespace
 
 void note_start(HealingRobot& robot) noexcept {
-  constexpr int look_ticks = 10;  // by then most neighbours have been heard, whatever is lost
   const int size = robot.table().size();
   const bool looks = robot.self.phase == Phase::init ? robot.self.turn >= look_ticks : robot.self.turn == look_ticks;
   if (looks && (size == 0 || has_few_far_away(robot)))
     robot.self.neighbors_at_start = static_cast<std::uint8_t>(std::max(size, 1));
+}
+
+bool may_start_thin(const HealingRobot& robot) noexcept {
+  constexpr int kept_ticks = look_ticks + 2;  // what is found then changes what is kept two steps later
+  return robot.self.turn <= kept_ticks && has_few_far_away(robot);
 }
 
 // Not inlined: it is for the first seconds only (and the firmware is smaller).

@@ -106,6 +106,18 @@ TEST(ThinStart, TheFirstSilenceIsALossAndLaterAFirstOneMayBeADeath) {
   }
 }
 
+// Else a burst in the first second hides a neighbour of which nobody knows any more when the start is found to be thin.
+TEST(ThinStart, WhoFallsSilentBeforeItIsFoundToBeThinIsKept) {
+  for (const float range_m : {0.5F, 1.5F}) {
+    AtEnd f(range_m, Phase::start_tree, 2);
+    f.bench.put(3, {-range_m, 0.0F});
+    f.bench.steps(2);
+    f.bench.silence(3);
+    f.bench.steps(20);
+    EXPECT_EQ(f.bench.tick().table().find(3) >= 0, range_m > 1.0F) << "not in a crowd";
+  }
+}
+
 // It is pulled to nobody: by those that it hears less well it is held as much.
 TEST(ThinStart, BeforeARootIsHeardOfNobodyStrays) {
   for (const Phase phase : {Phase::init, Phase::start_tree}) {
