@@ -73,6 +73,10 @@ TEST(ThinStart, NobodyMovesInTheFirstSecondsOrBeforeItHasHeardOfARoot) {
     EXPECT_FALSE(AtEnd(0.5F, phase).awaits()) << "a compact start";
   }
   EXPECT_TRUE(AtEnd(1.2F, Phase::init, 3).awaits()) << "before it is known whether the start is thin";
+  AtEnd early(1.7F, Phase::start_tree, 3);
+  EXPECT_TRUE(early.awaits());
+  early.bench.state.missed_in_the_clear = 1;
+  EXPECT_TRUE(early.awaits());
 }
 
 TEST(ThinStart, WhoHasHeardNobodyIsAtAnEnd) {
@@ -103,6 +107,21 @@ TEST(ThinStart, TheFirstSilenceIsALossAndLaterAFirstOneMayBeADeath) {
     f.bench.silence(2);
     f.bench.step();
     EXPECT_EQ(f.bench.state.usual_silence > 0, turn == 20);
+  }
+}
+
+// It may have been hidden by a burst, and the way to it may lead away from others that have not been heard yet.
+TEST(ThinStart, NobodyDrivesToWhoDoesNotHearItWhereLinksAreNearC) {
+  for (const float range_m : {1.5F, 1.7F}) {
+    AtEnd f(range_m);
+    auto robot = f.bench.tick();
+    robot.gap = robot.table().find(2);
+    Vec2 u{1.0F, 0.0F};
+    EXPECT_TRUE(closes_gap(robot, u));
+    EXPECT_EQ(u == Vec2{}, range_m > 1.6F);
+    f.bench.state.turn = 60;
+    EXPECT_TRUE(closes_gap(robot, u));
+    EXPECT_GT(u.x, 0.9F) << "later it does";
   }
 }
 
