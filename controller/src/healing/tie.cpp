@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/core/search.hpp"
+#include "banyan/controller/healing/healing.hpp"
 
 namespace banyan {
 
