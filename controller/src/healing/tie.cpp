@@ -12,9 +12,9 @@ bool is_in_the_clear(const HealingRobot& robot, int k) noexcept {
   constexpr float bodies = 2.0F;  // of the distance between the wheels: a body that hides it may have moved since
   const TreeParams& p = robot.params;
   const TreeTable& table = robot.table();
+  if (!p.line_of_sight) return true;
   if (!robot.obstacles.empty()) return false;
   const Vec2 there = table.position(k);
-  if (!p.line_of_sight) return true;
   for (int j = 0; j < table.size(); ++j)
     if (j != k && distance_to_segment(table.position(j), Vec2{}, there) < bodies * p.wheel_distance_m) return false;
   return true;

@@ -61,6 +61,7 @@ TEST(Loss, OnlySilencesWithoutAnyOtherReasonAreTheRadios) {
   EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.5F, 0.1F}, true, false), 0) << "a body hides it";
   EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.5F, 0.1F}, false, false), 32) << "bodies hide nobody";
   EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.0F, 1.0F}, true, true), 0) << "an obstacle may hide it";
+  EXPECT_EQ(after_losses(3, {1.0F, 0.0F}, {0.0F, 1.0F}, false, true), 32) << "obstacles hide nobody";
 }
 
 // Deaths that are far apart do not add up to a bad radio.
