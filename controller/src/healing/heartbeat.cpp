@@ -71,10 +71,13 @@ bool outlives_root(const HealingRobot& robot) noexcept {
 // Several robots far from each other may claim; one token wins.
 bool misses_first_root(const HealingRobot& robot) noexcept {
   constexpr float first_root_s = 20.0F;  // by then the first token has travelled 200 hops
-  // In a thin start where packets get lost, part of the network may have to be fetched first.
+  // In a thin start where packets get lost, part of the network may have to be fetched first. And among few neighbours,
+  // as in a line whose bodies hide all others, the token has one way, on which each burst of loss holds it up.
   constexpr int fetched_later = 3;
+  constexpr int few_ways = 4;
   const TreeTable& table = robot.table();
-  const int patience_ticks = robot.params.ticks(first_root_s) * (is_thin(robot.self) ? fetched_later : 1);
+  const bool is_slow = is_thin(robot.self) || table.size() <= few_ways;
+  const int patience_ticks = robot.params.ticks(first_root_s) * (is_slow ? fetched_later : 1);
   if (robot.self.silence_ticks <= patience_ticks || hears_nobody(robot)) return false;
   for (int k = 0; k < table.size(); ++k)
     if (table.alive(k) && table.message(k).role != Role::worker && table.id(k) < robot.self.id) return false;

@@ -77,7 +77,8 @@ bool closes_gap(const HealingRobot& robot, Vec2& u) noexcept {
   const int k = robot.gap >= 0 ? robot.gap : caller_of(robot);
   if (k < 0) return false;
   const float rest_m = (robot.gap >= 0 ? fetched_to : called_to) * robot.params.communication_range_m;
-  u = robot.table().range(k) > rest_m ? unit(robot.table().position(k)) : Vec2{};
+  const bool rests = starts_wide(robot) || robot.table().range(k) <= rest_m;
+  u = rests ? Vec2{} : unit(robot.table().position(k));
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "banyan/controller/core/search.hpp"
+#include "banyan/controller/healing/healing.hpp"
 
 namespace banyan {
 
@@ -29,7 +30,8 @@ bool may_depend(const HealingRobot& robot, int k) noexcept {
 
 bool may_be_tied(const HealingRobot& robot, int k) noexcept {
   const int longest_ticks = std::max(longest_silence_ticks, robot.loss_ticks);
-  return robot.tie_ticks + robot.hidden_ticks > 0 && robot.table().age(k) <= longest_ticks && may_depend(robot, k);
+  const bool has_ties = robot.tie_ticks + robot.hidden_ticks > 0 || may_start_thin(robot);
+  return has_ties && robot.table().age(k) <= longest_ticks && may_depend(robot, k);
 }
 
 bool is_tie(const HealingRobot& robot, int k) noexcept {

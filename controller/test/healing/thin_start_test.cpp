@@ -73,6 +73,10 @@ TEST(ThinStart, NobodyMovesInTheFirstSecondsOrBeforeItHasHeardOfARoot) {
     EXPECT_FALSE(AtEnd(0.5F, phase).awaits()) << "a compact start";
   }
   EXPECT_TRUE(AtEnd(1.2F, Phase::init, 3).awaits()) << "before it is known whether the start is thin";
+  AtEnd early(1.7F, Phase::start_tree, 3);
+  EXPECT_TRUE(early.awaits());
+  early.bench.state.missed_in_the_clear = 1;
+  EXPECT_TRUE(early.awaits());
 }
 
 TEST(ThinStart, WhoHasHeardNobodyIsAtAnEnd) {
@@ -103,6 +107,33 @@ TEST(ThinStart, TheFirstSilenceIsALossAndLaterAFirstOneMayBeADeath) {
     f.bench.silence(2);
     f.bench.step();
     EXPECT_EQ(f.bench.state.usual_silence > 0, turn == 20);
+  }
+}
+
+// It may have been hidden by a burst, and the way to it may lead away from others that have not been heard yet.
+TEST(ThinStart, NobodyDrivesToWhoDoesNotHearItWhereLinksAreNearC) {
+  for (const float range_m : {1.5F, 1.7F}) {
+    AtEnd f(range_m);
+    auto robot = f.bench.tick();
+    robot.gap = robot.table().find(2);
+    Vec2 u{1.0F, 0.0F};
+    EXPECT_TRUE(closes_gap(robot, u));
+    EXPECT_EQ(u == Vec2{}, range_m > 1.6F);
+    f.bench.state.turn = 60;
+    EXPECT_TRUE(closes_gap(robot, u));
+    EXPECT_GT(u.x, 0.9F) << "later it does";
+  }
+}
+
+// Else a burst in the first second hides a neighbour of which nobody knows any more when the start is found to be thin.
+TEST(ThinStart, WhoFallsSilentBeforeItIsFoundToBeThinIsKept) {
+  for (const float range_m : {0.5F, 1.5F}) {
+    AtEnd f(range_m, Phase::start_tree, 2);
+    f.bench.put(3, {-range_m, 0.0F});
+    f.bench.steps(2);
+    f.bench.silence(3);
+    f.bench.steps(20);
+    EXPECT_EQ(f.bench.tick().table().find(3) >= 0, range_m > 1.0F) << "not in a crowd";
   }
 }
 

@@ -49,6 +49,10 @@ template <class Counts> [[nodiscard]] std::uint8_t live_call_hops(const TreeTabl
 
 // Of how many, as long as I have heard of no root; 1 if I have heard nobody.
 void note_start(HealingRobot& robot) noexcept;
+// Until that is noted I keep those that have fallen silent.
+[[nodiscard]] bool may_start_thin(const HealingRobot& robot) noexcept;
+// The first of their links is near C. For the first seconds nobody moves.
+[[nodiscard]] bool starts_wide(const HealingRobot& robot) noexcept;
 // Where packets get lost, another part of the network may hear me that I have not heard yet. So I stay as long as I
 // have heard of no root, and where links are near C for the first seconds; at the end of such a start longer, or I go
 // towards whoever may be there, by motion `u`.
