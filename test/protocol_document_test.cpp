@@ -4,6 +4,7 @@
 // compared with its list of fields in record/test/message_json_test.cpp, its length in documents_test.cpp.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -343,6 +344,20 @@ TEST(ProtocolDocument, TheGlossaryNamesWhatThereIs) {
       EXPECT_TRUE(words.contains(name)) << name;
     }
   EXPECT_GE(names, 60U);
+}
+
+// "*Silent ties* (`": a rule of section 12 that has a name of its own is in the glossary, in the singular.
+TEST(ProtocolDocument, TheGlossaryHasTheNamesOfTheRulesOfHealing) {
+  std::string terms;
+  for (const std::string& names : all(text_of("docs/glossary.md"), R"(\n\| \*\*([^*\n]+)\*\*)")) terms += ", " + names;
+  terms += ",";
+  const auto rules = all(section(text_of("docs/protocol.md"), "## 12."), R"(\n\*([A-Z][^*\n]*)\* \(`)");
+  for (std::string rule : rules) {
+    rule[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(rule[0])));
+    if (rule.ends_with('s')) rule.pop_back();
+    EXPECT_NE(terms.find(", " + rule + ","), std::string::npos) << rule;
+  }
+  EXPECT_GE(rules.size(), 5U);
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ std::string table_text(const std::vector<const Algorithm*>& list) {
   std::string head = format("%-26s %-8s %-4s", "parameter", "symbol", "unit");
   for (const Algorithm* algorithm : list)
     head += format("  %-*s", column_width(*algorithm), std::string(algorithm->name()).c_str());
-  std::string text = head + "  source\n";
+  std::string text = head + "  defined in\n";
   for (const auto& row : algorithms().parameters()) {
     const std::vector<ParameterGroup> said = said_of(row.key, list);
     if (said.empty()) continue;

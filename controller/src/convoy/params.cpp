@@ -76,8 +76,8 @@ constexpr Parameter<ConvoyParams> of_convoy[] = {
       0.0F, 600.0F},
      &ConvoyParams::shed_after_s},
     {{"thrift", "", "",
-      "convoy: how much robots count against time once workers have arrived: longer edges, and above 0 plans from the "
-      "leaves inwards",
+      "convoy: how much saving robots matters compared with saving time once workers have arrived: longer edges, and "
+      "above 0 plans from the leaves inwards",
       "0 while targets change. Larger ends with fewer robots, later, and leaves less margin for noise.", "convoy 14",
       0.0F, 1.0F},
      &ConvoyParams::thrift},

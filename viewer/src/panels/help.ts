@@ -51,7 +51,7 @@ export class Help {
             'robot, target or obstacle. Drop files to open them, with Shift beside what is shown.'))),
       h('details', { class: 'glossary' }, h('summary', {}, 'Glossary'),
         h('dl', {}, ...terms.flatMap(({ name, meaning }) => [h('dt', {}, name), h('dd', {}, meaning)]))),
-      h('div', { class: 'buttons' }, button('First look', 'A guided half minute', () => { this.element.close(); tour(); })),
+      h('div', { class: 'buttons' }, button('Tour', 'A guided half minute', () => { this.element.close(); tour(); })),
       button('Close', 'Close', () => this.element.close(), { class: 'primary' }),
     );
     this.element.addEventListener('click', (event) => { if (event.target === this.element) this.element.close(); });

@@ -39,8 +39,8 @@ export class Keep {
   constructor(private readonly sources: KeepSources) {
     this.film = button('Film', 'Films what the picture shows, until you press it again', () => this.toggleFilm(), { 'aria-pressed': 'false' });
     this.film.disabled = typeof MediaRecorder === 'undefined' || typeof HTMLCanvasElement.prototype.captureStream !== 'function';
-    this.element = h('section', { class: 'keep', 'aria-label': 'Keep' },
-      h('h3', {}, 'Keep'),
+    this.element = h('section', { class: 'keep', 'aria-label': 'Save' },
+      h('h3', {}, 'Save'),
       h('div', { class: 'buttons' },
         button('Picture', 'This moment as PNG, runs side by side in one', () => this.savePicture()),
         button('Drawing', 'This moment as SVG, to be printed at any size and to be changed', () => this.saveDrawing()),

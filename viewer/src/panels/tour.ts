@@ -32,7 +32,7 @@ const steps: Step[] = [
 ];
 
 export class Tour {
-  readonly element = h('aside', { class: 'tour', 'aria-label': 'A first look', hidden: true });
+  readonly element = h('aside', { class: 'tour', 'aria-label': 'Tour', hidden: true });
   private readonly text = h('p', { 'aria-live': 'polite' });
   private readonly count = h('span', { class: 'hint' });
   private readonly act = h('button', { type: 'button', onclick: () => steps[this.step].act?.run(this.actions) });
@@ -40,7 +40,7 @@ export class Tour {
   private step = 0;
 
   constructor(private readonly actions: TourActions) {
-    this.element.append(this.text, h('div', { class: 'buttons' }, this.act, this.next, button('Skip', 'Leave this first look', () => this.stop()), this.count));
+    this.element.append(this.text, h('div', { class: 'buttons' }, this.act, this.next, button('Skip', 'Leave the tour', () => this.stop()), this.count));
   }
 
   start(): void {

@@ -10,7 +10,7 @@ export interface State {
   followed: number | null; // robot
   switches: Switches;
   theme: ThemeChoice;
-  toured: boolean; // the first look has been seen or left
+  toured: boolean; // the tour has been seen or left
 }
 
 export const initialState: Readonly<State> = { selection: null, followed: null, switches: defaultSwitches, theme: 'auto', toured: false };
