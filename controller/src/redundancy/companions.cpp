@@ -347,7 +347,7 @@ bool rests(const ConvoyRobot& robot) noexcept {
 bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  const bool saves = p.thrift > 0.0F;
+  const bool saves = p.thrift > 0.0F;  // robots, rather than companions
   if ((!saves && (!has_companions(p) || !p.line_of_sight)) || !has_arrived(robot)) return false;
   if (robot.self.role != Role::connector || robot.useful_children != 1 || robot.parent < 0) return false;
   const auto* const child = first_of(robot.children, [&](int k) { return table.message(k).role != Role::spare; });
