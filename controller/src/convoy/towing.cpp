@@ -213,23 +213,15 @@ Vec2 past(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
   return way + left * (aside + (aside < 0.0F ? -against : against));
 }
 
-// The neighbour to move towards so that a robot can be saved: my parent; for the root the nearest child that is a
-// connector. With thrift a junction goes to each of its neighbours in turn: the slack of all its branches together may
-// save a robot in any one of them.
+// The neighbour to move towards so that a robot can be saved: my parent; for the root the nearest child
+// that is a connector.
 int pruning_way(const ConvoyRobot& robot) noexcept {
-  constexpr float turn_s = 12.0F;
+  if (!robot.is_root()) return robot.parent;
   const TreeTable& table = robot.table();
-  IndexList ways;
-  if (robot.parent >= 0) ways.push(robot.parent);
-  int nearest = robot.is_root() ? -1 : robot.parent;
-  for (const int k : robot.children) {
-    if (table.message(k).role != Role::connector) continue;
-    ways.push(k);
-    if (robot.is_root() && (nearest < 0 || table.range(k) < table.range(nearest))) nearest = k;
-  }
-  const bool joins_branches = robot.useful_children > (robot.is_root() ? 2 : 1);
-  if (robot.params.thrift <= 0.0F || !joins_branches || ways.size == 0) return nearest;
-  return ways.items[static_cast<int>(robot.self.phase_ticks) / robot.params.ticks(turn_s) % ways.size];
+  int best = -1;
+  for (const int k : robot.children)
+    if (table.message(k).role == Role::connector && (best < 0 || table.range(k) < table.range(best))) best = k;
+  return best;
 }
 
 // With thrift: it goes on along the circles on which its other edges stay stretched, instead of stopping there.

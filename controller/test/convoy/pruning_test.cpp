@@ -7,8 +7,6 @@
 
 #include <deque>
 #include <initializer_list>
-#include <map>
-#include <set>
 
 #include "banyan/controller/convoy/towing.hpp"
 #include "bench.hpp"
@@ -207,41 +205,6 @@ TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
   bench.move(7, {-bench.params.compact_distance_m - 0.04F, 0});
   auto stretched = bench.tick();
   EXPECT_LT(towed_motion(stretched).x, 0.0F);
-}
-
-// A junction of parent 5 and the branches of 7 and 8. Which of them has slack enough to save a robot it cannot know.
-TEST(Compaction, WithThriftAJunctionSlidesToEachOfItsNeighboursInTurn) {
-  ConvoyBench bench = grown<Convoy>();
-  bench.state.label_cm = 500;
-  bench.state.parent = 5;
-  bench.state.committed = true;
-  bench.state.role = Role::connector;
-  const std::map<RobotId, Vec2> around = {{5, {1.2F, 0}}, {7, {-0.6F, 1.04F}}, {8, {-0.6F, -1.04F}}};
-  for (const auto& [id, at] : around) {
-    auto& m = bench.put(id, at);
-    m.role = Role::connector;
-    m.label_cm = id == 5 ? 300 : 800;
-    m.depth = id == 5 ? 4 : 6;
-    m.seqno = id == 5 ? 9 : 0;
-    m.parent = id == 5 ? RobotId{9} : RobotId{1};
-    m.subtree_workers = 1;
-    m.child_count = id == 5 ? 2 : 1;
-    m.committed = true;
-  }
-  bench.steps(2);
-  const auto neared = [&] {
-    std::set<RobotId> ids;
-    for (const int at_ticks : {0, 120, 240}) {
-      bench.state.phase_ticks = static_cast<std::uint16_t>(at_ticks);
-      auto robot = bench.tick();
-      for (const auto& [id, at] : around)
-        if (dot(towed_motion(robot), unit(at)) > 0.5F) ids.insert(id);
-    }
-    return ids;
-  };
-  EXPECT_EQ(neared(), (std::set<RobotId>{5})) << "without thrift";
-  bench.params.thrift = 1.0F;
-  EXPECT_EQ(neared(), (std::set<RobotId>{5, 7, 8}));
 }
 
 }  // namespace
