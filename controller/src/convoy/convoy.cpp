@@ -156,6 +156,12 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !begun;
 }
 
+// Edges of a tree that saves robots are nearly as long as they may be, and robots hear each other over longer links.
+int waits_for_edge_ticks(const ConvoyRobot& robot) noexcept {
+  constexpr float edge_wait_s = 3.0F;
+  return robot.params.thrift > 0.0F && has_arrived(robot) ? robot.params.ticks(edge_wait_s) : 0;
+}
+
 // Once all workers have arrived, a spare that became root would be one more robot in the tree.
 bool may_inherit(const ConvoyRobot& robot, int k) noexcept {
   if (robot.power != nullptr && !may_inherit_root(*robot.power, k)) return false;
@@ -276,8 +282,8 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   watch_branch(robot);  // has the last robot below me died?
   update_role(robot);
   advance_and_count(robot, state.subtree_workers >= state.flood_workers,
-                    may_reconstruct(robot));                                    // the root's barriers
-  update_label(robot, {.waits_for_anybody = false});                            // Start Tree
+                    may_reconstruct(robot));  // the root's barriers
+  update_label(robot, {.waits_for_anybody = false, .waits_for_edge_ticks = waits_for_edge_ticks(robot)});  // Start Tree
   select_parent(robot, {.may_join = state.is_worker || is_named_parent(robot),  // Select Parent, repair
                         .workers_relay = true,
                         .accepts = [](int) { return true; },

@@ -347,14 +347,16 @@ bool rests(const ConvoyRobot& robot) noexcept {
 bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
-  if (!has_companions(p) || !p.line_of_sight || !has_arrived(robot)) return false;
+  const bool saves = p.thrift > 0.0F;  // robots, rather than companions
+  if ((!saves && (!has_companions(p) || !p.line_of_sight)) || !has_arrived(robot)) return false;
   if (robot.self.role != Role::connector || robot.useful_children != 1 || robot.parent < 0) return false;
   const auto* const child = first_of(robot.children, [&](int k) { return table.message(k).role != Role::spare; });
   if (child == robot.children.end()) return false;
   const Vec2 from = table.position(*child);
   const Vec2 to = table.position(robot.parent);
   const Vec2 near = nearest_on_segment(from, to);
-  if (distance(from, to) > bridged * p.communication_range_m || norm(near) > aside * p.clearance_m) return false;
+  const float reach_m = saves ? thrifty_m(p, p.merge_distance_m) : bridged * p.communication_range_m;
+  if (distance(from, to) > reach_m || norm(near) > aside * p.clearance_m) return false;
   const Vec2 left = left_of(unit(to - from));
   constexpr float pace = 0.7F;
   way = (dot(near, left) > 0.0F ? -left : left) * pace;

@@ -276,6 +276,33 @@ TEST_F(ConnectorAlone, StepsAsideOnceItIsSuperfluous) {
   EXPECT_EQ(way(), Vec2{});
 }
 
+// With thrift a straight chain whose slack would save a robot cannot, for that robot stands in the way: it steps aside
+// as soon as its child may release it.
+TEST_F(ConnectorAlone, WithThriftStepsAsideToBeReleased) {
+  bench.params.link_redundancy = 1;
+  bench.say(2).subtree_workers = 1;
+  bench.say(3).subtree_workers = 1;
+  const float reach_m = 1.888F;  // merge_distance with thrift 1
+  for (const bool sight : {false, true}) {
+    bench.params.line_of_sight = sight;
+    const auto steps_from = [&](float apart_m, float thrift, float aside_m) {
+      bench.params.thrift = thrift;
+      bench.move(2, {-0.2F, aside_m});
+      bench.move(3, {apart_m - 0.2F, aside_m});
+      auto robot = bench.tick();
+      bench.state.subtree_workers = 1;
+      bench.state.want_m = 0.0F;
+      robot.useful_children = 1;
+      Vec2 out;
+      return steps_aside(robot, out) && out.y < -0.5F;
+    };
+    EXPECT_TRUE(steps_from(reach_m - 0.01F, 1.0F, 0.02F)) << sight;
+    EXPECT_FALSE(steps_from(reach_m + 0.01F, 1.0F, 0.02F)) << "too far from each other";
+    EXPECT_FALSE(steps_from(reach_m - 0.01F, 1.0F, 0.3F)) << "it is aside";
+    EXPECT_FALSE(steps_from(reach_m - 0.01F, 0.0F, 0.02F)) << "without thrift";
+  }
+}
+
 // What a robot said before it was hidden may be over.
 TEST_F(ConnectorAlone, WithSightHeedsOnlyCallsThatItHasJustHeard) {
   const auto hops_after_silence = [&](int paths, bool sight) {

@@ -52,7 +52,8 @@ void keep_company(ConvoyRobot& robot) noexcept;
 // call or there are more targets than a robot remembers, since robots are missed then, and with thrift above 0.
 [[nodiscard]] bool rests(const ConvoyRobot& robot) noexcept;
 
-// My only child could do without me, but I stand in its line of sight to my parent: which way I step aside.
+// My only child could do without me, but I stand in its line of sight to my parent: which way I step aside. With a
+// second path the child then needs no companion, with thrift it releases me.
 [[nodiscard]] bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept;
 
 // How near a companion comes to the edges of others, m.
