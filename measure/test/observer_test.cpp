@@ -360,6 +360,30 @@ TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
   EXPECT_GT(run.elections, 0U);
 }
 
+// outwards, but its epochs are 20,000 apart, so the fourth comes after 65,535.
+struct Striding : CorrectedSwarm<outwards_step> {
+  static constexpr int stride = 20000;
+  static Report report(const HealingState& self) {
+    Report report = CorrectedSwarm<outwards_step>::report(self);
+    report.epoch = static_cast<Serial>(stride * report.epoch);
+    return report;
+  }
+};
+constexpr TreeAlgorithmOf<Striding> striding("striding", "for this test", outwards_defaults);
+
+TEST(Observer, CountsEpochsBeyondTheLastNumber) {
+  Scenario s = chain(6, 1.1);
+  s.mission.parameters = {{"reconfiguration_period_s", 2.0}};
+  World plain(s), wrapped(s, striding);
+  Observer of_plain(plain), of_wrapped(wrapped);
+  after(plain, of_plain, 300);
+  after(wrapped, of_wrapped, 300);
+  const measure::Run expected = of_plain.result(plain), run = of_wrapped.result(wrapped);
+  ASSERT_GT(expected.epochs, 4U);
+  EXPECT_EQ(run.epochs, Striding::stride * expected.epochs);
+  EXPECT_NEAR(Striding::stride * run.start_phase_ticks, expected.start_phase_ticks, 1e-9);
+}
+
 TEST(Observer, SettlesAfterCompletionEvenBeyondTheLimit) {
   Scenario s = ring(12, 2, 2.0);
   World brief(s);
