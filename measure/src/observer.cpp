@@ -650,12 +650,17 @@ Run Observer::result(const world::World& world) const {
   run.start_phase_ticks = static_cast<double>(impl_->start_ticks) / epochs;
   run.select_phase_ticks = static_cast<double>(impl_->select_ticks) / epochs;
   run.insertions = run.handovers = run.repairs = run.elections = run.replacements = 0;
-  for (const Report& s : world.reports()) {
+  const auto reports = world.reports();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Report& s = reports[i];
     run.insertions += s.tally.insertions;
     run.handovers += s.tally.handovers;
     run.repairs += s.tally.repairs;
     run.elections += s.tally.elections;
     run.replacements += s.tally.replacements;
+    if (s.tally.rejected == 0) continue;
+    run.rejected += s.tally.rejected;
+    run.rejected_by += (run.rejected_by.empty() ? "" : ", ") + std::to_string(i);
   }
   run.messages = world.packets_sent();
   if (run.time_s > 0.0)

@@ -335,6 +335,7 @@ struct Pretending : CorrectedSwarm<outwards_step> {
     output.message.role = self.role = Role::root;
     self.tally.elections += 1;
     self.tally.replacements += 2;
+    self.tally.rejected += 3;
     return output;
   }
 };
@@ -358,6 +359,8 @@ TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
   EXPECT_EQ(run.elections, world.reports()[2].tally.elections);
   EXPECT_EQ(run.replacements, 2 * run.elections);
   EXPECT_GT(run.elections, 0U);
+  EXPECT_EQ(run.rejected, 3 * run.elections);
+  EXPECT_EQ(run.rejected_by, "2");
 }
 
 // outwards, but its epochs are 20,000 apart, so the fourth comes after 65,535.
