@@ -142,7 +142,8 @@ constexpr Key<Scenario> scenario_rows[] = {
     {"mission.algorithm", word<&Mission::algorithm, algorithm_names>, "", any_value,
         "how the robots keep together on the way"},
     {"mission.reading", word<&Mission::reading, reading_names>, "", any_value,
-     "the paper as printed (literal), or with its gaps closed (corrected)"},
+     "the paper as printed (literal), or with its gaps closed (corrected); literal has an effect with outwards and "
+     "inwards only"},
     {"mission.scale", of<&Mission::scale>, "", {0.0, 1000.0, true},
      "factor on Table I's lengths S, A, delta, E and J (paper Sec. IV-C)"},
     {"mission.target_tolerance_m", of<&Mission::target_tolerance_m>, "m", any_length,
