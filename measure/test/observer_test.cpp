@@ -363,9 +363,9 @@ TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
   EXPECT_EQ(run.rejected_by, "2");
 }
 
-// outwards, but its epochs are 20,000 apart, so the fourth comes after 65,535.
+// outwards, but its epochs are 15,000 apart, so the fifth comes after 65,535.
 struct Striding : CorrectedSwarm<outwards_step> {
-  static constexpr int stride = 20000;
+  static constexpr int stride = 15000;
   static Report report(const HealingState& self) {
     Report report = CorrectedSwarm<outwards_step>::report(self);
     report.epoch = static_cast<Serial>(stride * report.epoch);
@@ -376,6 +376,7 @@ constexpr TreeAlgorithmOf<Striding> striding("striding", "for this test", outwar
 
 TEST(Observer, CountsEpochsBeyondTheLastNumber) {
   Scenario s = chain(6, 1.1);
+  s.mission.algorithm = "outwards";
   s.mission.parameters = {{"reconfiguration_period_s", 2.0}};
   World plain(s), wrapped(s, striding);
   Observer of_plain(plain), of_wrapped(wrapped);
