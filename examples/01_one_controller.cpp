@@ -24,8 +24,7 @@ int main() {
       Heard heard[] = {{&sent[1 - i], rotate_back(heading[i], position[1 - i] - position[i])}};
       Senses senses;
       senses.odometry = odometry[i];
-      senses.orders.sent = i == 1;
-      senses.orders.target = rotate_back(heading[i], target - position[i]);
+      if (i == 1) senses.orders = {.sent = true, .target = rotate_back(heading[i], target - position[i])};
       output[i] = outwards_step(params, states[i], {std::span(heard, tick > 0 ? 1 : 0), senses, params});
     }
     sent[0] = output[0].message;

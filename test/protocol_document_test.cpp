@@ -289,6 +289,36 @@ TEST(ProtocolDocument, EveryChoiceOfTheReadingHasItsRow) {
             std::multiset<std::string>(rows.begin(), rows.end()));
 }
 
+// What a function calls, by the text of its definition.
+std::set<std::string> calls_in(const std::string& code, const std::string& function) {
+  const std::size_t begin = code.find(" " + function + "(");
+  EXPECT_NE(begin, std::string::npos) << function;
+  const auto calls = all(code.substr(begin, code.find("\n}\n", begin) - begin), R"([^\w.](\w+)\()");
+  return {calls.begin(), calls.end()};
+}
+
+// docs/algorithms.md has a row for each source of healing and obstacles that the corrected step calls and the literal
+// one does not; for what begins and ends a tick, each that is called there.
+TEST(ProtocolDocument, EverySourceThatOnlyTheCorrectedStepCallsHasItsRow) {
+  const std::string steps = text_of("controller/src/paper.cpp");
+  const fs::path frame = source / "controller/src/healing/tick.cpp";
+  std::set<std::string> calls = calls_in(steps, "corrected_step");
+  for (const char* function : {"begin_tick", "write_healing"}) calls.merge(calls_in(text_of(frame), function));
+  for (const std::string& call : calls_in(steps, "literal_step")) calls.erase(call);
+  std::set<std::string> called;
+  for (const char* room : {"controller/src/healing", "controller/src/obstacles"})
+    for (const auto& entry : fs::directory_iterator(source / room))
+      for (const std::string& name : all(text_of(entry.path()), R"(\n\w[\w ]* (\w+)\([^;{]*\{)"))
+        if (calls.contains(name) && entry.path() != frame)
+          called.insert(entry.path().lexically_relative(source).generic_string());
+  EXPECT_GE(called.size(), 12U);
+  const auto rows =
+      all(section(text_of("docs/algorithms.md"), "## literal against corrected"), R"(`(controller/src/[^`]*)`)");
+  const std::set<std::string> listed(rows.begin(), rows.end());
+  for (const std::string& file : called) EXPECT_TRUE(listed.contains(file)) << file << " has no row";
+  for (const std::string& file : listed) EXPECT_TRUE(fs::exists(source / file)) << file;
+}
+
 // docs/architecture.md names the calls of convoy_step in their order.
 TEST(ProtocolDocument, ATickIsWhatArchitectureSays) {
   const std::string code = text_of("controller/src/convoy/convoy.cpp");

@@ -25,6 +25,7 @@ class OfPaper final : public TreeAlgorithmOf<CorrectedSwarm<corrected_step>> {
 
  public:
   using Corrected::Corrected;
+  [[nodiscard]] bool knows_readings() const noexcept override { return true; }
   [[nodiscard]] std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const override {
     if (setup.reading != literal_reading_name) return Corrected::make(setup, members);
     return std::make_unique<SwarmOf<LiteralSwarm<literal_step>>>(this->params(setup), members, setup.history);

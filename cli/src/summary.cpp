@@ -126,6 +126,12 @@ std::string work_text(const measure::Run& run) {
   return text;
 }
 
+std::string refused_text(const measure::Run& run) {
+  const bool one = run.rejected_by.find(',') == std::string::npos;
+  return plural(run.rejected, "impossible reading") + ", by " + (one ? "robot " : "robots ") +
+         first_few(run.rejected_by);
+}
+
 std::string computing_text(const measure::Run& run, const SummaryExtras& extras) {
   const double steps = static_cast<double>(run.ticks) * run.robots / std::max(extras.wall_s, 1e-9);
   std::string text =
@@ -154,6 +160,7 @@ std::string summary_text(const record::RunRow& row, const Configuration& configu
   if (run.deaths > 0) text += summary_line("deaths", deaths_text(run));
   text += summary_line("work", work_text(run));
   text += summary_line("radio", format("%.0f bytes per robot and second", run.bytes_per_robot_s));
+  if (run.rejected > 0) text += summary_line("refused", refused_text(run));
   text += extras.remarks.empty() ? computing_text(run, extras) : extras.remarks;
   text += "\nResults in " + outputs.directory() + "/\n";
   for (const record::OutputFormat* kept : extras.written) {

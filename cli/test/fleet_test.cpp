@@ -25,6 +25,7 @@
 #include "banyan/hosts/udp/robot.hpp"
 #include "banyan/record/simulation.hpp"
 #include "started_processes.hpp"
+#include "summary.hpp"
 
 namespace banyan::cli {
 namespace {
@@ -144,6 +145,23 @@ TEST(RemoteSwarm, ACopyOfItsWorldIsOfTheSameHashAndTalksToNobody) {
   copy.step();
   world.step();  // its robots still answer
   EXPECT_NE(copy.hash(), world.hash());
+}
+
+// ---- The summary ----
+
+TEST(Summary, SaysWhichRobotsRefusedReadings) {
+  const config::Configuration of = configuration();
+  const RunOutputs outputs(of, testing::TempDir() + "refused", true);
+  record::RunRow row{};
+  EXPECT_FALSE(has(summary_text(row, of, outputs, {}), "refused"));
+  row.run.rejected = 120;
+  row.run.rejected_by = "3";
+  EXPECT_TRUE(has(summary_text(row, of, outputs, {}), "refused    120 impossible readings, by robot 3\n"));
+  row.run.rejected = 1;
+  EXPECT_TRUE(has(summary_text(row, of, outputs, {}), "refused    1 impossible reading, by robot 3\n"));
+  row.run.rejected_by = "3, 5";
+  EXPECT_TRUE(has(summary_text(row, of, outputs, {}), "by robots 3, 5\n"));
+  outputs.abandon();
 }
 
 // ---- Processes ----

@@ -71,6 +71,16 @@ std::vector<std::pair<std::string, std::string>> known_names(const AlgorithmList
   return names;
 }
 
+// Keys that stand at the top of another kind of file, and what that is.
+struct Foreign {
+  std::string_view key, means;
+};
+constexpr Foreign foreign_keys[] = {
+    {"worlds", "a file for tuning, which banyan tune reads"}, {"bounds", "a file for tuning, which banyan tune reads"},
+    {"scenario", "a study, which banyan study reads"},        {"axes", "a study, which banyan study reads"},
+    {"parts", "a study, which banyan study reads"},
+};
+
 }  // namespace
 
 // ---- What was written where ----
@@ -99,12 +109,24 @@ Configuration ScenarioReader::read(const Node& root) {
   Configuration configuration;
   configuration.scenario = world::plain_scenario(algorithms_);
   places_.emplace("", root.place);
+  if (is_another_file(root)) return configuration;
   const Part part{root, "", ""};
   Choices choices;
   each_part(configuration, [&](const auto& keys, auto& owner) { read_selectors(part, keys, owner, choices); });
   read_section(part, choices, configuration);
   if (!root.find("targets")) report(root.place, "targets", "the section [targets] is missing: it says where to go");
   return configuration;
+}
+
+// Then nothing else need be said of it. A scenario has targets.
+bool ScenarioReader::is_another_file(const Node& root) {
+  if (root.find("targets")) return false;
+  const auto found = std::find_if(std::begin(foreign_keys), std::end(foreign_keys),
+                                  [&](const Foreign& foreign) { return root.find(foreign.key) != nullptr; });
+  if (found == std::end(foreign_keys)) return false;
+  const std::string key(found->key);
+  report(root.find(key)->place, key, "no scenario has this key: this is " + std::string(found->means));
+  return true;
 }
 
 void ScenarioReader::read_section(const Part& part, const Choices& choices, Configuration& configuration) {

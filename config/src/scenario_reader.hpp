@@ -57,6 +57,7 @@ class ScenarioReader {
   bool excluded(const Part& part, const Node& node, const world::Key<Owner>& key,
                 std::span<const world::Key<Owner>> keys);
 
+  bool is_another_file(const Node& root);
   void read_section(const Part& part, const Choices& choices, Configuration& configuration);
   template <class Owner>
   void read_list(const Node& node, std::string_view path, std::span<const world::Key<Owner>> keys,

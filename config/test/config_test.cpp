@@ -87,6 +87,18 @@ series = true
   EXPECT_TRUE(loaded.configuration.output["series"]);
 }
 
+TEST(Config, AFileOfAnotherKindIsCalledByItsName) {
+  for (const char* study : {"scenario = \"a.toml\"\nseeds = \"1-3\"\n", "[[axes]]\nkey = \"seed\"\n", "[[parts]]\n"}) {
+    const auto loaded = parse(study);
+    ASSERT_EQ(loaded.problems.size(), 1U) << all_problems(loaded);
+    EXPECT_TRUE(says(loaded, "w.toml:1: error: ")) << all_problems(loaded);
+    EXPECT_TRUE(says(loaded, "no scenario has this key: this is a study, which banyan study reads"));
+  }
+  for (const char* tuning : {"[[worlds]]\nscenario = \"a.toml\"\n", "[bounds]\ntarget_gain = [0.1, 1.9]\n"})
+    EXPECT_TRUE(says(parse(tuning), "no scenario has this key: this is a file for tuning, which banyan tune reads"));
+  EXPECT_TRUE(says(parse(small + "[[worlds]]\n"), "worlds: there is no such key")) << "a scenario after all";
+}
+
 TEST(Config, DefaultsAreTheScenariosOwn) {
   const auto loaded = parse(small);
   ASSERT_TRUE(loaded.ok()) << all_problems(loaded);

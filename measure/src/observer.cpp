@@ -219,6 +219,7 @@ struct Observer::Impl {
   double held_sum = 0.0;
   std::uint64_t committed_sum = 0, low_ticks = 0, low_ticks_by_distance = 0;
   std::uint64_t start_ticks = 0, select_ticks = 0;
+  Serial last_epoch = 0;  // of a root
   std::uint64_t two_roots_streak = 0, longest_two_roots = 0;
   std::vector<double> nearest_worker;      // by target: squared distance
   std::vector<RobotId> holders;            // by target: that worker if it holds the target
@@ -472,7 +473,10 @@ void Observer::Impl::time_phases(const world::World& world) {
     if (alive[i] != 0 && m.role == Role::root && (root == nullptr || has_newer_root(m, *root))) root = &m;
   }
   if (root == nullptr) return;
-  run.epochs = std::max<std::uint64_t>(run.epochs, root->epoch);
+  if (const int further = ahead_by(root->epoch, last_epoch); further > 0) {
+    run.epochs += static_cast<std::uint64_t>(further);
+    last_epoch = root->epoch;
+  }
   if (root->phase == Phase::start_tree) ++start_ticks;
   if (root->phase == Phase::select_parent) ++select_ticks;
 }
@@ -646,12 +650,17 @@ Run Observer::result(const world::World& world) const {
   run.start_phase_ticks = static_cast<double>(impl_->start_ticks) / epochs;
   run.select_phase_ticks = static_cast<double>(impl_->select_ticks) / epochs;
   run.insertions = run.handovers = run.repairs = run.elections = run.replacements = 0;
-  for (const Report& s : world.reports()) {
+  const auto reports = world.reports();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Report& s = reports[i];
     run.insertions += s.tally.insertions;
     run.handovers += s.tally.handovers;
     run.repairs += s.tally.repairs;
     run.elections += s.tally.elections;
     run.replacements += s.tally.replacements;
+    if (s.tally.rejected == 0) continue;
+    run.rejected += s.tally.rejected;
+    run.rejected_by += (run.rejected_by.empty() ? "" : ", ") + std::to_string(i);
   }
   run.messages = world.packets_sent();
   if (run.time_s > 0.0)

@@ -335,6 +335,7 @@ struct Pretending : CorrectedSwarm<outwards_step> {
     output.message.role = self.role = Role::root;
     self.tally.elections += 1;
     self.tally.replacements += 2;
+    self.tally.rejected += 3;
     return output;
   }
 };
@@ -358,6 +359,33 @@ TEST(Observer, CountsTwoRootsElectionsAndReplacements) {
   EXPECT_EQ(run.elections, world.reports()[2].tally.elections);
   EXPECT_EQ(run.replacements, 2 * run.elections);
   EXPECT_GT(run.elections, 0U);
+  EXPECT_EQ(run.rejected, 3 * run.elections);
+  EXPECT_EQ(run.rejected_by, "2");
+}
+
+// outwards, but its epochs are 15,000 apart, so the fifth comes after 65,535.
+struct Striding : CorrectedSwarm<outwards_step> {
+  static constexpr int stride = 15000;
+  static Report report(const HealingState& self) {
+    Report report = CorrectedSwarm<outwards_step>::report(self);
+    report.epoch = static_cast<Serial>(stride * report.epoch);
+    return report;
+  }
+};
+constexpr TreeAlgorithmOf<Striding> striding("striding", "for this test", outwards_defaults);
+
+TEST(Observer, CountsEpochsBeyondTheLastNumber) {
+  Scenario s = chain(6, 1.1);
+  s.mission.algorithm = "outwards";
+  s.mission.parameters = {{"reconfiguration_period_s", 2.0}};
+  World plain(s), wrapped(s, striding);
+  Observer of_plain(plain), of_wrapped(wrapped);
+  after(plain, of_plain, 300);
+  after(wrapped, of_wrapped, 300);
+  const measure::Run expected = of_plain.result(plain), run = of_wrapped.result(wrapped);
+  ASSERT_GT(expected.epochs, 4U);
+  EXPECT_EQ(run.epochs, Striding::stride * expected.epochs);
+  EXPECT_NEAR(Striding::stride * run.start_phase_ticks, expected.start_phase_ticks, 1e-9);
 }
 
 TEST(Observer, SettlesAfterCompletionEvenBeyondTheLimit) {

@@ -24,22 +24,11 @@ class Identity {
     bare.scenario.name.clear();
     bare.scenario.description.clear();
     bare.scenario.seed = 0;
-    text_ = config::config_json(bare);
+    text_ = config::identity_json(bare);
     // [output] with the keys of the first version: ids of runs do not change when new outputs are added.
     constexpr std::string_view key = "\"output\":{", seed = "\"seed\":";
     const auto begin = text_.find(key) + key.size();
     text_.replace(begin, text_.find('}', begin) - begin, R"("record":true,"record_every":1,"series":false)");
-    // Likewise the radio: a disc has no name there, nor has exact sight.
-    constexpr std::string_view disc = "\"radio\":{\"model\":\"disc\",", radio = "\"radio\":{";
-    constexpr std::string_view exact = "\"sight_leak\":0.0,";
-    if (const auto at = text_.find(disc); at != std::string::npos) text_.replace(at, disc.size(), radio);
-    if (const auto at = text_.find(exact); at != std::string::npos) text_.erase(at, exact.size());
-    // Likewise the mission: one path needs no word.
-    constexpr std::string_view one_path = ",\"link_redundancy\":1";
-    if (const auto at = text_.find(one_path); at != std::string::npos) text_.erase(at, one_path.size());
-    // And no battery.
-    constexpr std::string_view none = "\"battery\":{\"model\":\"none\"},";
-    if (const auto at = text_.find(none); at != std::string::npos) text_.erase(at, none.size());
     seed_at_ = text_.find(seed) + seed.size();
   }
   [[nodiscard]] std::string id(std::uint64_t seed) const {

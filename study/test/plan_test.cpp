@@ -101,6 +101,11 @@ TEST_F(PlanTest, IdsMeanWhatIsSimulated) {
   EXPECT_EQ(id_with("description = \"other\"\n"), id);
   EXPECT_EQ(id_with("output.record = true\noutput.series = true\n"), id);
   EXPECT_EQ(id_with("radio.loss = 0.0\n"), id) << "a default that is written down";
+  EXPECT_EQ(id_with("battery.model = \"none\"\nmission.link_redundancy = 1\n"), id) << "of keys that came later";
+  EXPECT_EQ(id_with("mission.link_redundancy = 2\n"), "f3ed5bbd73c6cdf5");
+  EXPECT_EQ(id_with("radio.model = \"bursts\"\nradio.loss = 0.1\n"), "447e986cca401adf");
+  EXPECT_EQ(id_with("radio.line_of_sight = true\nradio.sight_leak = 0.1\n"), "92832adb619a7e6a");
+  EXPECT_EQ(id_with("battery.model = \"time\"\n"), "d7ca845c62e98f97");
 
   std::set<std::string> ids{id, id_with("", "[2]")};
   const std::vector<std::string> changes{"mission.algorithm = \"inwards\"",

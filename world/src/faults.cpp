@@ -151,12 +151,12 @@ std::string target_key(const Scenario& scenario, std::size_t i) {
   return std::holds_alternative<std::vector<Vec2>>(scenario.targets) ? element("targets.positions_m", i) : "targets";
 }
 
-// The algorithms that know mission.link_redundancy, as the end of a sentence.
-std::string that_keep_more(const AlgorithmList& algorithms) {
+// "; of those here, more are kept by a, b"; nothing if no algorithm is one of these.
+template <class Is> std::string of_those_here(const AlgorithmList& algorithms, const char* what, const Is& is) {
   std::string names;
   for (const std::string_view name : algorithms.names())
-    if (algorithms.find(name)->knows_redundancy()) names += (names.empty() ? "" : ", ") + std::string(name);
-  return names.empty() ? "" : "; of those here, more are kept by " + names;
+    if (is(*algorithms.find(name))) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names.empty() ? "" : std::string("; of those here, ") + what + " " + names;
 }
 
 void check_platform(FaultList& list, const Scenario& scenario) {
@@ -177,7 +177,12 @@ void check_platform(FaultList& list, const Scenario& scenario) {
   if (scenario.mission.link_redundancy > 1 && !algorithm_of(scenario).knows_redundancy())
     list.fail("mission.link_redundancy", "is " + std::to_string(scenario.mission.link_redundancy) + ", but " +
                                              scenario.mission.algorithm + " keeps one path" +
-                                             that_keep_more(*scenario.algorithms));
+                                             of_those_here(*scenario.algorithms, "more are kept by",
+                                                           [](const Algorithm& a) { return a.knows_redundancy(); }));
+  if (scenario.mission.reading != Mission{}.reading && !algorithm_of(scenario).knows_readings())
+    list.warn("mission.reading", "has no effect with " + scenario.mission.algorithm + ", which has one reading" +
+                                     of_those_here(*scenario.algorithms, "both readings are known to",
+                                                   [](const Algorithm& a) { return a.knows_readings(); }));
 }
 
 // Visits every pair nearer than `reach` once, by a sweep along x, until `visit` returns false.

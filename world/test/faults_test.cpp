@@ -403,6 +403,26 @@ TEST(Faults, AllWrongNumbersAreReportedAtOnce) {
   EXPECT_EQ(faults(scenario).size(), 4U) << shown(faults(scenario));
 }
 
+TEST(Faults, AReadingNeedsAnAlgorithmThatKnowsIt) {
+  for (const char* algorithm : {"convoy", "mst"}) {
+    Scenario s = plain_scenario();
+    s.mission.algorithm = algorithm;
+    EXPECT_TRUE(faults(s).empty()) << shown(faults(s));
+    s.mission.reading = "literal";
+    ASSERT_EQ(faults(s).size(), 1U) << algorithm;
+    EXPECT_TRUE(faults(s)[0].warning);
+    EXPECT_EQ(faults(s)[0].key, "mission.reading");
+    EXPECT_NE(faults(s)[0].text.find("has no effect with " + s.mission.algorithm), std::string::npos);
+    EXPECT_NE(faults(s)[0].text.find("known to outwards, inwards"), std::string::npos) << faults(s)[0].text;
+  }
+  for (const char* algorithm : {"outwards", "inwards"}) {
+    Scenario s = plain_scenario();
+    s.mission.algorithm = algorithm;
+    s.mission.reading = "literal";
+    EXPECT_TRUE(faults(s).empty()) << shown(faults(s));
+  }
+}
+
 TEST(Faults, LeakySightIsAShareAndNeedsLinesOfSight) {
   Scenario s = plain_scenario();
   s.radio.sight_leak = 1.5;

@@ -57,7 +57,7 @@ struct Preference {
   Preference(const ConvoyRobot& robot, int k) noexcept {
     const ConvoyParams& p = robot.params;
     const float c = p.communication_range_m;
-    if (prunes(p) && robot.self.want_m == 0.0F && robot.self.epoch > 1 && was_edge(robot, k)) {
+    if (prunes(p) && robot.self.want_m == 0.0F && was_edge(robot, k)) {
       rank = -1;
       key = static_cast<float>(robot.table().message(k).label_cm);
       return;

@@ -30,16 +30,18 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept : senses_(se
   admit_obstacles(limit_m);
 }
 
-// Valid readings stay where they are, unless some of them must be removed.
+// Valid readings stay where they are, unless some of them must be removed. Of more than there is room for the first are
+// kept; the others are not rejected, since a good sensor may well see so many.
 void Gate::admit_obstacles(float limit_m) noexcept {
   const auto passes = [&](Vec2 o) { return is_within(o, limit_m); };
   const std::span<const Vec2> all = senses_.obstacles;
   if (all.size() <= most_obstacles && banyan::all_of(all, passes)) return;
   std::array<Vec2, most_obstacles>& passed = obstacles_.emplace();
   std::size_t kept = 0;
-  for (const Vec2 o : all)
-    if (passes(o) && kept < most_obstacles) passed[kept++] = o;
-  rejected_ += static_cast<std::uint32_t>(all.size() - kept);
+  for (const Vec2 o : all) {
+    if (!passes(o)) ++rejected_;
+    else if (kept < most_obstacles) passed[kept++] = o;
+  }
   senses_.obstacles = std::span<const Vec2>(passed).first(kept);
 }
 

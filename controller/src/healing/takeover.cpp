@@ -106,7 +106,9 @@ bool proves_life(const HealingRobot& robot, Serial later, Serial missed) noexcep
 // A later sign of life, or another holder.
 void renew(HealingRobot& robot, Task& task, const TaskNews& news) noexcept {
   if (news.holder == task.holder && !task.silent) measure_gap(robot.self, task);
-  if (news.holder == task.holder && task.silent && !proves_life(robot, news.beat, task.beat)) return;
+  if (news.holder == task.holder && task.silent && task.age_ticks < serial_half_range &&
+      !proves_life(robot, news.beat, task.beat))
+    return;
   // It has been alive since I missed it: another robot is in charge of it.
   if (task.silent && !news.silent) task.via = nobody;
   if (news.silent != task.silent || news.holder != task.holder) task.urgent_ticks = pass_on_ticks;

@@ -87,5 +87,20 @@ TEST(Convoy, PrefersABlockedParentThatItStillSees) {
   EXPECT_EQ(bench.step().message.parent, 3);
 }
 
+// Also in epoch 0, which follows epoch 65,535.
+TEST(Convoy, ATreeThatHasArrivedKeepsTheEdgesOfTheOldOne) {
+  for (const Serial epoch : {Serial{0}, Serial{2}}) {
+    ConvoyBench bench = grown<Convoy>();
+    bench.state.epoch = epoch;
+    bench.state.phase = Phase::select_parent;
+    bench.state.label_cm = 200;
+    bench.state.old_parent = 2;
+    bench.send({0.0F, 0.1F});
+    bench.put(2, {1.5F, 0.0F}).label_cm = 100;
+    bench.put(3, {0.0F, 0.5F}).label_cm = 50;
+    EXPECT_EQ(bench.step().message.parent, 2) << epoch;
+  }
+}
+
 }  // namespace
 }  // namespace banyan

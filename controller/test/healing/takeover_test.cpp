@@ -120,6 +120,7 @@ TEST(Takeover, AWorkerIsBelievedAgainAfterMoreThanHalfTheRangeOfSilence) {
     Task& task = watch.bench.state.tasks[0];
     ASSERT_EQ(task.beat, 10);
     task.age_ticks = static_cast<std::uint16_t>(silence);
+    task.silent = true;
     watch.bench.say(20).task_beat = 10 + 40000;
     watch.hear_root(1);
     EXPECT_EQ(task.age_ticks == 0, silence > serial_half_range);

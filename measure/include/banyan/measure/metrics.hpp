@@ -100,7 +100,9 @@ struct Run {
   double longest_two_roots_s = 0.0;   // the longest such time without a break
   std::uint64_t insertions = 0, handovers = 0, repairs = 0;
   std::uint64_t elections = 0, replacements = 0;  // of a root, of a worker that had fallen silent
-  std::uint64_t epochs = 0;                       // the highest epoch reached
+  std::uint64_t epochs = 0;                       // the last epoch reached; counters that wrap are counted on
+  std::uint64_t rejected = 0;                     // readings that did not pass the gates of robots (gate.hpp)
+  std::string rejected_by;                        // these robots, "3, 5"
   double start_phase_ticks = 0.0;                 // mean length of a barrier phase at the root
   double select_phase_ticks = 0.0;
   double bytes_per_robot_s = 0.0;              // broadcast

@@ -51,6 +51,8 @@ class Algorithm {
   [[nodiscard]] virtual std::string fault(const Setup& setup) const = 0;
   // Whether it has rules for Setup::link_redundancy above 1.
   [[nodiscard]] virtual bool knows_redundancy() const noexcept { return false; }
+  // Whether Setup::reading makes a difference; else there is one reading only.
+  [[nodiscard]] virtual bool knows_readings() const noexcept { return false; }
   // The setup must have no fault.
   [[nodiscard]] virtual std::unique_ptr<Swarm> make(const Setup& setup, std::span<const Member> members) const = 0;
 
@@ -68,6 +70,7 @@ class AlgorithmElsewhere : public Algorithm {
   [[nodiscard]] std::vector<float> values(const Setup& setup) const override { return real_.values(setup); }
   [[nodiscard]] std::string fault(const Setup& setup) const override { return real_.fault(setup); }
   [[nodiscard]] bool knows_redundancy() const noexcept override { return real_.knows_redundancy(); }
+  [[nodiscard]] bool knows_readings() const noexcept override { return real_.knows_readings(); }
 
  protected:
   explicit AlgorithmElsewhere(const Algorithm& real) noexcept : real_(real) {}

@@ -5,6 +5,10 @@
 // The one rule for silence: a robot that has heard nothing of a counter for half its range of ticks cannot tell old
 // from new any more, and takes anything it hears as newer (`is_news`). Epochs and root tokens do not count ticks, so
 // is_newer() does for them: epochs advance once in R and at elections, tokens when the root changes.
+// Three rules about counts of ticks do without it, since nothing is lost there: join_edge (a robot so far behind has no
+// label that could fall back), remember_corners (it keeps the place where it last heard the tree) and settle_rivalry (a
+// rival that is ignored hears my count and resigns, or is believed as soon as its own gets ahead).
+// test/serial_numbers_test.cpp finds counters that are compared as plain numbers.
 #pragma once
 
 #include <cstdint>
