@@ -151,7 +151,7 @@ TEST(RemoteSwarm, ACopyOfItsWorldIsOfTheSameHashAndTalksToNobody) {
 
 TEST(Summary, SaysWhichRobotsRefusedReadings) {
   const config::Configuration of = configuration();
-  const RunOutputs outputs(of, testing::TempDir() + "refused", true);
+  const RunOutputs outputs(of, testing::TempDir() + "summary", true);
   record::RunRow row{};
   EXPECT_FALSE(has(summary_text(row, of, outputs, {}), "refused"));
   row.run.rejected = 120;

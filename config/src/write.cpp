@@ -22,7 +22,7 @@ struct ToJson {
   template <class Plain> Json operator()(const Plain& value) const { return value; }
 };
 
-enum class Text : std::uint8_t { complete, identity };
+enum class Completeness : std::uint8_t { complete, identity };
 
 // Texts from before there was this key mean its default.
 template <class Owner>
@@ -33,12 +33,12 @@ bool is_implied(const world::Key<Owner>& key, std::span<const world::Key<Owner>>
 // The keys of one section that have an effect. Returns whether one was left out.
 template <class Owner>
 bool add_section(Json& table, std::string_view section, std::span<const world::Key<Owner>> keys, const Owner& owner,
-                 Text text) {
+                 Completeness completeness) {
   bool implied = false;
   for (const auto& key : keys) {
     if (key.section() != section) continue;
     const world::Value value = effective(key, keys, owner);
-    if (text == Text::identity && is_implied(key, keys, value)) implied = true;
+    if (completeness == Completeness::identity && is_implied(key, keys, value)) implied = true;
     else if (value.index() != 0) table[std::string(key.name())] = std::visit(ToJson{}, value);
   }
   return implied;
@@ -55,7 +55,7 @@ Json& place_of_section(Json& root, std::string_view path) {
   return *at;
 }
 
-Json to_json(const Configuration& configuration, Text text = Text::complete) {
+Json to_json(const Configuration& configuration, Completeness completeness = Completeness::complete) {
   Json root = Json::object();
   for (const auto& section : sections()) {
     Json& place = place_of_section(root, section.path);
@@ -65,7 +65,7 @@ Json to_json(const Configuration& configuration, Text text = Text::complete) {
         if (path != section.path) return;
         for (const auto& item : list) {
           place.push_back(Json::object());
-          add_section(place.back(), path, keys, item, text);
+          add_section(place.back(), path, keys, item, completeness);
         }
       });
       continue;
@@ -73,7 +73,7 @@ Json to_json(const Configuration& configuration, Text text = Text::complete) {
     if (place.is_null()) place = Json::object();
     bool implied = false;
     each_part(configuration, [&](const auto& keys, const auto& owner) {
-      implied = add_section(place, section.path, keys, owner, text) || implied;
+      implied = add_section(place, section.path, keys, owner, completeness) || implied;
     });
     if (section.path == "mission.parameters")
       for (const auto& [key, value] : configuration.scenario.mission.parameters) place[key] = value;
@@ -122,7 +122,7 @@ std::string config_json(const Configuration& configuration, int indent) {
 }
 
 std::string identity_json(const Configuration& configuration) {
-  return to_json(configuration, Text::identity).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return to_json(configuration, Completeness::identity).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string config_toml(const Configuration& configuration) {
