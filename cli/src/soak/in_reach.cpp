@@ -11,9 +11,9 @@ using world::Vec2;
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-class Matching {
+class RobotPerTarget {
  public:
-  Matching(const std::vector<Vec2>& robots, const std::vector<Vec2>& targets, double way_m)
+  RobotPerTarget(const std::vector<Vec2>& robots, const std::vector<Vec2>& targets, double way_m)
       : robots_{robots}, targets_{targets}, way_m_{way_m}, goes_to_(robots.size(), none) {}
 
   // Finds a robot for this target, where need be by sending others elsewhere.
@@ -44,7 +44,7 @@ class Matching {
 }  // namespace
 
 bool all_in_reach(const std::vector<Vec2>& robots, const std::vector<Vec2>& targets, double way_m) {
-  Matching matching(robots, targets, way_m);
+  RobotPerTarget matching(robots, targets, way_m);
   for (std::size_t k = 0; k < targets.size(); ++k)
     if (!matching.serve(k)) return false;
   return true;
