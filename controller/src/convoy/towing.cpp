@@ -278,9 +278,11 @@ bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
 Vec2 pull_past_obstacles(const ConvoyRobot& robot) noexcept {
   const Vec2 pull = robot.self.pull;
   const float goal_m = robot.target != nullptr ? norm(*robot.target) : robot.self.want_m;
-  // The last bit straight, as near as obstacles allow: a dead worker may lie on its successor's target.
+  // The last bit straight, as near as obstacles allow: a dead worker may lie on its successor's target. But if that
+  // is in vain, there is a wall in between.
   constexpr float last_bit = 0.15F;  // of C
-  if (goal_m < last_bit * robot.params.communication_range_m) return pull;
+  constexpr int in_vain = 50;        // ticks at an obstacle
+  if (goal_m < last_bit * robot.params.communication_range_m && robot.self.progress.vain_ticks < in_vain) return pull;
   return bypass(robot, unit(pull) * goal_m) * norm(pull);
 }
 
