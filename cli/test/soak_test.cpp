@@ -20,6 +20,7 @@
 #include "plain_scenario.hpp"
 #include "sample.hpp"
 #include "soak/free_path.hpp"
+#include "soak/in_reach.hpp"
 #include "soak/isolated.hpp"
 #include "soak/journal.hpp"
 #include "soak/mission.hpp"
@@ -209,12 +210,39 @@ TEST(SoakWatch, PromisesWhatItsPageSays) {
 
 TEST(SoakWatch, TooFewRobotsAreNoFinding) {
   Scenario s = world::plain_scenario();
+  s.mission.algorithm = "inwards";  // whose workers are slow
   s.swarm.robots = 5;
   s.targets = std::vector<world::Vec2>{{-9.0, 0.0}, {9.0, 0.0}};
-  s.mission.time_limit_s = 5.0;
+  s.mission.time_limit_s = 60.0;
   EXPECT_FALSE(found(watch(s, false), "incomplete"));
   s.swarm.robots = 30;
-  EXPECT_TRUE(found(watch(s, false), "incomplete")) << "five seconds are too short";
+  EXPECT_TRUE(found(watch(s, false), "incomplete")) << "a straight drive takes 44 s";
+}
+
+// The nearest robots start up to a metre nearer to the targets than the centre.
+TEST(SoakWatch, TooLittleTimeForTheStraightWayIsNoFinding) {
+  Scenario s = world::plain_scenario();
+  s.swarm.robots = 30;
+  s.targets = std::vector<world::Vec2>{{-9.0, 0.0}, {9.0, 0.0}};
+  s.mission.time_limit_s = 38.0;  // 8.8 m take 44 s
+  EXPECT_FALSE(found(watch(s, false), "incomplete"));
+  s.robot.wheel_noise = 0.1;
+  EXPECT_TRUE(found(watch(s, false), "incomplete")) << "wheels may be faster";
+  s.robot.wheel_noise = 0.0;
+  s.events = {{.time_s = 1.0, .action = world::MoveTarget{0, {-12.0, 0.0}}},
+              {.time_s = 1.0, .action = world::MoveTarget{1, {12.0, 0.0}}}};
+  EXPECT_TRUE(found(watch(s, false), "incomplete")) << "the targets have moved";
+}
+
+TEST(SoakInReach, EachTargetNeedsARobotOfItsOwn) {
+  const std::vector<world::Vec2> targets{{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}};
+  const std::vector<world::Vec2> robots{{1.0, 1.0}, {0.0, 3.0}, {2.0, 3.0}};
+  EXPECT_TRUE(all_in_reach(robots, targets, 3.01));
+  EXPECT_FALSE(all_in_reach(robots, targets, 2.9)) << "one robot is in reach of all of them";
+  EXPECT_FALSE(all_in_reach({robots[0], robots[1]}, targets, 9.0));
+  // The first target has taken the robot that is the only one for the second.
+  EXPECT_TRUE(all_in_reach({{0.0, 0.0}, {-3.0, 0.0}}, {{-1.0, 0.0}, {2.0, 0.0}}, 2.5));
+  EXPECT_TRUE(all_in_reach(robots, {}, 0.0));
 }
 
 TEST(SoakShrink, LeavesNothingThatIsNotNeeded) {

@@ -25,6 +25,16 @@ TEST_P(StuckWorker, IsReplaced) {
   }
 }
 
+// From there it is too far, and the way round the end of the wall is short. Workers stayed behind it for ever.
+TEST(NearWorker, GoesRoundAWallThatIsRightBeforeItsTarget) {
+  Scenario scenario = ring("convoy", 13, 1, 3.0, 1);
+  scenario.targets = std::vector<Vec2>{{0.0, 3.0}};
+  scenario.obstacles = {Wall{{-0.6, 2.86}, {1.4, 2.86}}};
+  World world(scenario);
+  while (world.tick() < 600 && !world.holder(0)) world.step();
+  EXPECT_TRUE(world.holder(0));
+}
+
 INSTANTIATE_TEST_SUITE_P(All, StuckWorker, testing::Values("convoy", "outwards", "inwards"),
                          [](const testing::TestParamInfo<std::string>& info) { return info.param; });
 

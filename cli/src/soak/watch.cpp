@@ -9,6 +9,7 @@
 #include "../terminal.hpp"
 #include "banyan/world/threads.hpp"
 #include "free_path.hpp"
+#include "in_reach.hpp"
 #include "mission.hpp"
 #include "sight.hpp"
 
@@ -22,6 +23,7 @@ constexpr std::uint64_t hidden_ticks = 3;  // that an edge may be hidden
 constexpr double two_roots_s = 5.0;        // that a hand-over may take
 constexpr double after_completion_s = 10.0;
 constexpr double after_event_s = 50.0;
+constexpr double surely = 4.0;  // standard deviations of the noise of wheels
 
 class MissionWatch {
  public:
@@ -29,6 +31,7 @@ class MissionWatch {
       : world_(scenario), sight_(world_), traits_(traits_of(scenario)), limit_s_{time_limit_s(scenario)} {
     linked_ = scenario.radio.model != RadioModel::Model::one_way ||
               sight_.components_both_ways(std::vector<bool>(world_.size(), true)) == 1;
+    start_ = {world_.positions().begin(), world_.positions().end()};
     for (const Target& target : world_.targets()) {
       const double way_m = free_path_m(scenario.obstacles, world_.positions()[target.worker], target.position);
       const double drive_s = (way_m - scenario.mission.target_tolerance_m) / scenario.robot.wheel_limit_m_s;
@@ -46,7 +49,8 @@ class MissionWatch {
       look_at_roles();
       look_at_targets();
     }
-    if (!outcome_.complete && !is_out_of_reach()) find("incomplete", format("not complete within %.1f s", limit_s_));
+    if (!outcome_.complete && !is_out_of_reach() && !is_out_of_time())
+      find("incomplete", format("not complete within %.1f s", limit_s_));
     outcome_.time_s = world_.time_s();
     outcome_.hash = world_.hash();
     return std::move(outcome_);
@@ -188,10 +192,26 @@ class MissionWatch {
     return static_cast<double>(alive) < std::max(links + 1.0, count + 1.0);
   }
 
+  // Nor can they be there in time if some targets are too far from where all robots but a few start. Targets that come
+  // later or move do not count.
+  [[nodiscard]] bool is_out_of_time() const {
+    std::vector<bool> moves(world_.targets().size());
+    for (const Event& event : world_.scenario().events)
+      if (const auto* move = std::get_if<MoveTarget>(&event.action); move != nullptr && move->target < moves.size())
+        moves[move->target] = true;
+    std::vector<Vec2> targets;
+    for (std::size_t k = 0; k < target_positions(world_.scenario()).size(); ++k)
+      if (world_.targets()[k].active && !moves[k]) targets.push_back(world_.targets()[k].position);
+    const RobotModel& robot = world_.scenario().robot;
+    const double fastest_m_s = robot.wheel_limit_m_s * (1.0 + surely * (robot.wheel_noise + robot.wheel_bias));
+    return !all_in_reach(start_, targets, fastest_m_s * limit_s_ + world_.scenario().mission.target_tolerance_m);
+  }
+
   World world_;
   SightCheck sight_;
   Traits traits_;
   double limit_s_;
+  std::vector<Vec2> start_;
   bool excused_ = false;
   bool linked_;  // until now at some time, by links of which both ends hear each other
   std::uint64_t hidden_split_ = 0, two_roots_ = 0;

@@ -10,8 +10,9 @@ bool has_many_targets(const ConvoyRobot& robot) noexcept {
   return robot.self.forgets && robot.self.root_size != 0 && !is_counted_large(robot);
 }
 
-bool is_in_large_swarm(const ConvoyRobot& robot) noexcept {
-  return (is_counted_large(robot) || has_many_targets(robot)) && !robot.is_root();
+bool has_far_spares(const ConvoyRobot& robot) noexcept {
+  const bool thin = robot.self.neighbors_at_start > 0;
+  return (is_counted_large(robot) || has_many_targets(robot) || thin) && !robot.is_root();
 }
 
 bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept {
@@ -43,7 +44,7 @@ Vec2 place_beside(const ConvoyRobot& robot, int k) noexcept {
 bool leave_junction(ConvoyRobot& robot) noexcept {
   const TreeTable& table = robot.table();
   const TreeStanding& junction = table.message(robot.parent);
-  if (!is_in_large_swarm(robot) || junction.role != Role::connector || junction.need == Need::await) return false;
+  if (!has_far_spares(robot) || junction.role != Role::connector || junction.need == Need::await) return false;
   if (!is_held_by_branches(robot, robot.parent)) return false;
   const bool calls = robot.self.call_hops == 0;
   if (calls && static_cast<float>(junction.want_cm) <= 100.0F * robot.self.want_m + 1.0F) return false;

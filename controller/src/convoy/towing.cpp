@@ -77,7 +77,7 @@ Vec2 way_past(const ConvoyRobot& robot, int k) noexcept {
 bool has_slack_below(const ConvoyRobot& robot) noexcept {
   constexpr float near_parent = 0.5F;  // of C
   const float near_m = near_parent * robot.params.communication_range_m;
-  return is_in_large_swarm(robot) && robot.parent >= 0 && robot.table().range(robot.parent) < near_m;
+  return has_far_spares(robot) && robot.parent >= 0 && robot.table().range(robot.parent) < near_m;
 }
 
 // Children that still have to go on tow me, in proportion to how far the edge is stretched. The root and
@@ -106,7 +106,7 @@ Vec2 tow(const ConvoyRobot& robot) noexcept {
       u += way_past(robot, k);
       return;
     }
-    if (count == 1 && is_in_large_swarm(robot) && is_held_by_branches(robot, k)) {
+    if (count == 1 && has_far_spares(robot) && is_held_by_branches(robot, k)) {
       const Vec2 way = place_beside(robot, k);
       u += unit(way) * std::max(ramp(norm(way), up_start_m, up_width_m), ramp(table.range(k), start_m, p.pull_width_m));
       return;
@@ -142,7 +142,7 @@ Vec2 tension(const ConvoyRobot& robot) noexcept {
 // In a large swarm: I am on my way past child k or up to it, and my other edges are not to hold me back.
 bool goes_to_child(const ConvoyRobot& robot) noexcept {
   constexpr float on_the_way_m = 1.0F;
-  return is_in_large_swarm(robot) && robot.self.want_m > on_the_way_m && banyan::any_of(robot.children, [&](int k) {
+  return has_far_spares(robot) && robot.self.want_m > on_the_way_m && banyan::any_of(robot.children, [&](int k) {
            return robot.table().message(k).role != Role::spare &&
                   (tows_past(robot, k) || is_held_by_branches(robot, k));
          });
@@ -278,9 +278,11 @@ bool lost_sight(const ConvoyRobot& robot, int up) noexcept {
 Vec2 pull_past_obstacles(const ConvoyRobot& robot) noexcept {
   const Vec2 pull = robot.self.pull;
   const float goal_m = robot.target != nullptr ? norm(*robot.target) : robot.self.want_m;
-  // The last bit straight, as near as obstacles allow: a dead worker may lie on its successor's target.
+  // The last bit straight, as near as obstacles allow: a dead worker may lie on its successor's target. But if that
+  // is in vain, there is a wall in between.
   constexpr float last_bit = 0.15F;  // of C
-  if (goal_m < last_bit * robot.params.communication_range_m) return pull;
+  constexpr int in_vain = 50;        // ticks at an obstacle
+  if (goal_m < last_bit * robot.params.communication_range_m && robot.self.progress.vain_ticks < in_vain) return pull;
   return bypass(robot, unit(pull) * goal_m) * norm(pull);
 }
 

@@ -72,7 +72,22 @@ void settle_rivalry(HealingRobot& robot, Task& task, const TaskNews& news) noexc
   }
 }
 
-constexpr float trust = 0.2F;  // weight of what a robot says that only remembers the place
+// Towards what a robot says that only remembers the place, or measures with noise.
+void approach(Task& task, Vec2 told) noexcept {
+  constexpr float trust = 0.2F;
+  task.target += (told - task.target) * trust;
+}
+
+// Where bearings are noisy, what a robot says of a far target is wrong by decimetres, and copies of that drift: then
+// only those help to remember a place that are near it, or at least nearer than I am.
+bool is_too_far_to_tell(const HealingRobot& robot, RobotId sender, Vec2 told, Vec2 remembered) noexcept {
+  constexpr float beside_target = 0.5F;  // of C
+  const TreeTable& table = robot.table();
+  if (!table.filter().has_seen_noise()) return false;
+  const int k = table.find(sender);
+  const float near_m = std::max(beside_target * robot.params.communication_range_m, norm(remembered));
+  return k < 0 || distance(told, table.position(k)) > near_m;
+}
 
 // Where the target is, as told by a robot about as near to its worker as I am. If the worker is silent, or itself goes
 // by memory, copies of copies would only drift, and wheels slip in a crowd: then the mean of what all neighbours
@@ -82,13 +97,18 @@ void locate(const HealingRobot& robot, Task& task, RobotId sender, const TaskNew
   const bool silent =
       robot.self.forgets ? task.silent && news.silent : task.age_ticks > 2 * robot.liveness_ticks() + task_capacity;
   const bool by_memory = silent || task.holder != task.serves;
+  const bool noisy = robot.table().filter().has_seen_noise();
   const bool knows_best = robot.passes_targets_on && (sender == task.holder || sender == task.serves);
   const auto is_fresh = [&] {
     return ahead_by(news.beat, task.beat) >= -stale_ticks || is_news(news.beat, task.beat, task.age_ticks);
   };
   if (task.unlocated) set_place(task, told);
-  else if (knows_best || (!by_memory && is_fresh())) task.target = told;
-  else if (by_memory) task.target += (told - task.target) * trust;
+  else if (knows_best || (!by_memory && is_fresh())) {
+    if (!noisy) task.target = told;
+    else approach(task, told);
+  } else if (by_memory && !is_too_far_to_tell(robot, sender, told, task.target)) {
+    approach(task, told);
+  }
 }
 
 // The longest recent gap in the news of a worker that was alive: in a long thin network news comes in bursts.
@@ -135,7 +155,9 @@ void hear_of_task(HealingRobot& robot, RobotId sender, const TaskNews& news, con
   if (mine) {
     // If the mission tells me where it is, no other robot knows better.
     const bool knows_better = !robot.passes_targets_on || sender == news.serves;
-    if (target != nullptr && robot.target == nullptr && knows_better) task->target += (*target - task->target) * trust;
+    if (target != nullptr && robot.target == nullptr && knows_better &&
+        !is_too_far_to_tell(robot, sender, *target, task->target))
+      approach(*task, *target);
     if (news.silent) task->urgent_ticks = pass_on_ticks;
     if (news.holder != self.id) settle_rivalry(robot, *task, news);
     return;

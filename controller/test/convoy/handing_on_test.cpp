@@ -66,6 +66,14 @@ TEST_F(BesideAJunction, ItComesUpWhereTargetsAreMoreThanARobotRemembers) {
   EXPECT_LT(motion().x, 0.3F) << "the root has not counted yet: the swarm may be small";
 }
 
+// Their spares are spread along the line, however few robots there are.
+TEST_F(BesideAJunction, ItComesUpInAThinStart) {
+  bench.state.root_size = 40;
+  EXPECT_LT(motion().x, 0.3F);
+  bench.state.neighbors_at_start = 2;
+  EXPECT_GT(motion().x, 0.5F);
+}
+
 TEST_F(BesideAJunction, AWorkerWithABranchOfItsOwnIsHelpedTowardsThatBranch) {
   bench.say(3).role = Role::worker;
   bench.say(3).child_count = 1;

@@ -110,6 +110,37 @@ TEST(Takeover, OfASilentWorkersTargetTheMeanIsRemembered) {
   EXPECT_LT(watch.bench.state.tasks[0].target.x, 2.5F);
 }
 
+// With noisy bearings what a robot says of a far target is wrong by decimetres. While the worker lives the mean counts,
+// too.
+TEST(Takeover, WhereMeasurementsAreNoisyOnlyWhoIsNearTheTargetHelpsToRememberIt) {
+  const auto remembered = [](Vec2 sender) {
+    Watch watch;
+    watch.bench.params.succession_after_s = 1000.0F;
+    const auto hear_shaken_root = [&](int ticks) {
+      for (int k = 0; k < ticks; ++k) {
+        watch.bench.move(root_id, {k % 2 == 0 ? 0.8F : 0.5F, 0.0F});
+        watch.hear_root(1);
+      }
+    };
+    hear_shaken_root(20);
+    EXPECT_TRUE(watch.bench.state.neighbors.filter().has_seen_noise());
+    watch.tell_of_target(20, sender, {2.0F, 0.0F}, 50, 10);
+    hear_shaken_root(2);
+    EXPECT_NEAR(watch.bench.state.tasks[0].target.x, 2.0F, 0.01F);
+    watch.tell_of_target(20, sender, {2.5F, 0.0F}, 50, 11);
+    hear_shaken_root(1);
+    const float mean_x = watch.bench.state.tasks[0].target.x;
+    EXPECT_NEAR(mean_x, 2.1F, 0.01F) << "the worker is alive";
+    watch.bench.silence(20);
+    hear_shaken_root(60);
+    watch.tell_of_target(20, sender, {3.0F, 0.0F}, 50, 11);
+    hear_shaken_root(20);
+    return watch.bench.state.tasks[0].target.x - mean_x;
+  };
+  EXPECT_GT(remembered({1.0F, 0.0F}), 0.5F);
+  EXPECT_NEAR(remembered({-1.5F, 0.0F}), 0.0F, 0.01F);
+}
+
 TEST(Takeover, AWorkerIsBelievedAgainAfterMoreThanHalfTheRangeOfSilence) {
   for (const int silence : {serial_half_range - 10, serial_half_range + 10}) {
     Watch watch;

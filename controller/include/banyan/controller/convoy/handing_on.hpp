@@ -2,7 +2,8 @@
 // Rule 16 (docs/convoy.md): in a large swarm the spares are minutes away from an edge that calls them, but the chain
 // below a junction has slack. The junction is handed on: its parent comes up beside it and takes over one of its
 // branches, so that it can follow the other. A small swarm has its spares at hand and goes without this rule, unless it
-// has so many targets that its branches use them up.
+// has so many targets that its branches use them up, or has started as a line, ring or cross and its spares are spread
+// along it.
 #pragma once
 
 #include "banyan/controller/convoy/robot.hpp"
@@ -18,8 +19,8 @@ namespace banyan {
 // It has counted fewer, but there are more targets than a robot remembers: the tree is large for its swarm.
 [[nodiscard]] bool has_many_targets(const ConvoyRobot& robot) noexcept;
 
-// Either of the two. The root itself stays with the spares.
-[[nodiscard]] bool is_in_large_swarm(const ConvoyRobot& robot) noexcept;
+// Either of the two, or my start was thin. The root itself stays with the spares.
+[[nodiscard]] bool has_far_spares(const ConvoyRobot& robot) noexcept;
 
 // An edge above child k calls in vain, and k cannot follow it: it is a junction, or a worker with a branch of its own.
 [[nodiscard]] bool is_held_by_branches(const ConvoyRobot& robot, int k) noexcept;
