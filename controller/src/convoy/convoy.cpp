@@ -156,10 +156,17 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !begun;
 }
 
-// Edges of a tree that saves robots are nearly as long as they may be, and robots hear each other over longer links.
-int waits_for_edge_ticks(const ConvoyRobot& robot) noexcept {
+// Edges of a tree that saves robots are nearly as long as they may be, and the flood takes short cuts over longer
+// links. So a robot of the last tree waits for a label over a link that may be an edge; else it would find no parent.
+LabelRule label_rule(const ConvoyRobot& robot) noexcept {
   constexpr float edge_wait_s = 3.0F;
-  return robot.params.thrift > 0.0F && has_arrived(robot) ? robot.params.ticks(edge_wait_s) : 0;
+  const ConvoyState& self = robot.self;
+  const ConvoyParams& p = robot.params;
+  LabelRule rule{.waits_for_anybody = false};
+  const bool is_member = self.old_parent != nobody || robot.useful_children > 0;
+  if (p.thrift > 0.0F && has_arrived(robot) && is_member && self.phase_ticks < p.ticks(edge_wait_s))
+    rule.reach_m = longest_link * p.communication_range_m;
+  return rule;
 }
 
 // Once all workers have arrived, a spare that became root would be one more robot in the tree.
@@ -282,8 +289,8 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   watch_branch(robot);  // has the last robot below me died?
   update_role(robot);
   advance_and_count(robot, state.subtree_workers >= state.flood_workers,
-                    may_reconstruct(robot));  // the root's barriers
-  update_label(robot, {.waits_for_anybody = false, .waits_for_edge_ticks = waits_for_edge_ticks(robot)});  // Start Tree
+                    may_reconstruct(robot));                                    // the root's barriers
+  update_label(robot, label_rule(robot));                                       // Start Tree
   select_parent(robot, {.may_join = state.is_worker || is_named_parent(robot),  // Select Parent, repair
                         .workers_relay = true,
                         .accepts = [](int) { return true; },

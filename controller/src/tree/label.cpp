@@ -31,14 +31,10 @@ void take_label(TreeRobot& robot, const LabelRule& rule) noexcept {
   int best = -1;
   std::uint16_t best_label = unknown_label;
   float nearest_m = robot.params.communication_range_m;
-  // The flood takes short cuts over links that are longer than an edge.
-  const bool waits =
-      self.phase_ticks < rule.waits_for_edge_ticks && (self.old_parent != nobody || robot.useful_children > 0);
-  const float reach_m = longest_link * robot.params.communication_range_m;
   for (int k = 0; k < table.size(); ++k) {
     const TreeStanding& m = table.message(k);
     if (!table.alive(k) || m.epoch != self.epoch || m.label_cm == unknown_label) continue;
-    if (waits && table.range(k) > reach_m) continue;
+    if (table.range(k) > rule.reach_m) continue;
     nearest_m = std::min(nearest_m, table.range(k));
     const std::uint16_t label = label_below(m.label_cm, table.range(k));
     if (label < best_label) best_label = label, best = k;

@@ -102,5 +102,30 @@ TEST(Convoy, ATreeThatHasArrivedKeepsTheEdgesOfTheOldOne) {
   }
 }
 
+// Over a longer link comes a label with which no parent is found.
+TEST(Convoy, WithThriftARobotOfTheLastTreeWaitsForALabelOverALinkThatMayBeAnEdge) {
+  const auto label_after = [](float thrift, int ticks, bool member, std::uint16_t want_cm) {
+    ConvoyBench bench = grown<Convoy>();
+    bench.params.thrift = thrift;
+    bench.state.phase = Phase::start_tree;
+    bench.state.label_cm = unknown_label;
+    bench.state.parent = nobody;
+    if (member) {
+      ConvoyMessage& worker = bench.put_child(4, {0.5F, 0}, Role::worker);
+      worker.label_cm = unknown_label;
+      worker.subtree_workers = 1;
+      worker.want_cm = want_cm;
+    }
+    bench.put(9, {1.95F, 0}).label_cm = 0;
+    bench.steps(ticks);
+    return bench.state.label_cm;
+  };
+  EXPECT_EQ(label_after(1.0F, 20, true, 0), unknown_label);
+  EXPECT_EQ(label_after(1.0F, 40, true, 0), 195) << "not for ever";
+  EXPECT_EQ(label_after(0.0F, 20, true, 0), 195) << "without thrift";
+  EXPECT_EQ(label_after(1.0F, 20, true, 100), 195) << "its worker has not arrived";
+  EXPECT_EQ(label_after(1.0F, 20, false, 0), 195) << "a spare needs no parent";
+}
+
 }  // namespace
 }  // namespace banyan

@@ -42,27 +42,6 @@ TEST(Label, WaitsLongerWhenAllAreFar) {
   EXPECT_EQ(bench.state.label_cm, 190);
 }
 
-// A label over a link that is longer than an edge may be is one with which no parent is found.
-TEST(Label, ARobotOfTheLastTreeWaitsForALinkThatMayBeAnEdge) {
-  const auto label_after = [](int ticks, int wait_ticks, bool member) {
-    Bench bench = starting();
-    if (member) bench.put_child(4, {0.5F, 0}, Role::worker).label_cm = unknown_label;
-    bench.put(9, {1.95F, 0}).label_cm = 0;
-    for (int t = 0; t < ticks; ++t) {
-      auto robot = bench.tick();
-      bench.state.phase_ticks = static_cast<std::uint16_t>(t);
-      if (t == 20) bench.put(5, {-1.8F, 0}).label_cm = 100;
-      update_label(robot, {.waits_for_anybody = false, .waits_for_edge_ticks = wait_ticks});
-    }
-    return bench.state.label_cm;
-  };
-  EXPECT_EQ(label_after(10, 30, true), unknown_label);
-  EXPECT_EQ(label_after(40, 30, true), 280) << "over the shorter link, although the way is longer";
-  EXPECT_EQ(label_after(10, 30, false), 195) << "a spare needs no parent";
-  EXPECT_EQ(label_after(40, 15, true), 195) << "not for ever";
-  EXPECT_EQ(label_after(10, 0, true), 195);
-}
-
 // Along a line nobody stands between: the flood need not rest at each hop.
 TEST(Label, WhoIsNotPatientWaitsOnlyForWhomItHears) {
   const auto ticks_until_labelled = [](Vec2 other, float labelled_m) {

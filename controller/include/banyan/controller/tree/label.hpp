@@ -3,14 +3,15 @@
 // root learns that all robots have one (protocol 4, 5).
 #pragma once
 
+#include <limits>
+
 #include "banyan/controller/tree/robot.hpp"
 
 namespace banyan {
 
 struct LabelRule {
   bool waits_for_anybody = true;  // a robot waits for labels of nearer neighbours, even if there is no such neighbour
-  // A robot of the last tree waits so long for a label over a link that may be an edge; else it would find no parent.
-  int waits_for_edge_ticks = 0;
+  float reach_m = std::numeric_limits<float>::max();  // from robots farther away it takes none
 };
 void update_label(TreeRobot& robot, const LabelRule& rule = {}) noexcept;
 
