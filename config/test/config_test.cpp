@@ -532,6 +532,17 @@ TEST(Trees, OfAnEarlierRunAreItsConfiguration) {
   EXPECT_EQ(config_json(again.configuration), config_json(loaded.configuration));
 }
 
+// A file that commit 1eea8db wrote (record/test/earlier/README.md).
+TEST(Trees, AResultOfAnEarlierVersionIsRead) {
+  const auto loaded =
+      load_configuration(std::string(BANYAN_SCENARIOS) + "/../record/test/earlier/1eea8db.json", algorithms());
+  ASSERT_TRUE(loaded.ok()) << all_problems(loaded);
+  const world::Scenario& scenario = loaded.configuration.scenario;
+  EXPECT_EQ(world::robot_count(scenario), 18U);
+  EXPECT_EQ(scenario.mission.time_limit_s, 1.0);
+  EXPECT_TRUE(scenario.radio.line_of_sight);
+}
+
 TEST(Trees, KeepProblemsFoundBefore) {
   const auto loaded = configure(parse_scenario("w.toml", small), "w.toml", algorithms(), {{{}, "key", "was wrong"}});
   EXPECT_FALSE(loaded.ok());

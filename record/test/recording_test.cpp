@@ -628,6 +628,24 @@ TEST(Recording, OlderRecordingsAreRead) {
   EXPECT_EQ(recording.frames(), 30U);
 }
 
+// A file that commit 1eea8db wrote (earlier/README.md).
+TEST(Recording, OneOfAnEarlierVersionIsRead) {
+  Recording recording(std::string(BANYAN_SOURCE_DIR) + "/record/test/earlier/1eea8db.mcap");
+  EXPECT_TRUE(recording.warnings().empty()) << recording.warnings()[0];
+  EXPECT_EQ(recording.provenance().git, "1eea8dba8e30");
+  EXPECT_EQ(recording.setting().algorithm, "convoy");
+  EXPECT_TRUE(recording.setting().line_of_sight);
+  EXPECT_EQ(recording.result().at("hash"), "a3bb5f2479ff3689");
+  EXPECT_EQ(recording.metrics().size(), 11U);
+  ASSERT_EQ(recording.frames(), 11U);
+  const Frame last = recording.frame_at(1.0);
+  EXPECT_EQ(last.tick, 10U);
+  EXPECT_EQ(last.targets.size(), 3U);
+  ASSERT_EQ(last.robots.size(), 18U);
+  EXPECT_NEAR(last.robots[0].position.x, 0.0039, 1e-4);
+  EXPECT_NEAR(last.robots[0].position.y, -0.0094, 1e-4);
+}
+
 TEST(Recording, AnUnfinishedRecorderLeavesAReadablePart) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.mcap");
