@@ -51,12 +51,27 @@ std::optional<KeyChange> read_overlay(const std::string& path, const config::Pla
   }
 }
 
+// What else a file is, by the keys at its top; "" for a study.
+std::string_view other_file(const Node& root) {
+  const auto has = [&](std::initializer_list<std::string_view> keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return root.find(key) != nullptr; });
+  };
+  if (has({"worlds", "bounds"})) return "a file for tuning, which banyan tune reads";
+  if (!has({"scenario", "axes", "parts"}) && has({"mission", "swarm", "targets"}))
+    return "a scenario, which banyan run reads";
+  return "";
+}
+
 class StudyReader {
  public:
   StudyReader(std::string path, std::vector<Problem>& problems) : path_(std::move(path)), problems_(problems) {}
 
   Study read(const Node& root, const std::vector<config::Override>& overrides) {
     Study study;
+    if (const std::string_view other = other_file(root); !other.empty()) {
+      problems_.push_back({root.place, "", "no study, but " + std::string(other)});
+      return study;
+    }
     TableReader top(root, "", problems_);
     study.name = top.text("name", config::name_from(path_, "study"));
     check_name(top, study.name);

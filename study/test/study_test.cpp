@@ -294,6 +294,8 @@ TEST_F(StudyFile, SaysWhatIsWrongElsewhere) {
   EXPECT_TRUE(says(bad(head + "descripton = \"x\"\n"),
                    "s.toml:3: error: descripton: there is no such key; did you mean description?"));
   EXPECT_TRUE(says(bad("seeds = [1]\n"), "has no scenario"));
+  EXPECT_TRUE(says(bad("[bounds]\n"), "s.toml:1: error: no study, but a file for tuning, which banyan tune reads"));
+  EXPECT_TRUE(says(bad("[targets]\n"), "s.toml:1: error: no study, but a scenario, which banyan run reads"));
   EXPECT_TRUE(says(bad("scenario = \"w.toml\"\n"), "has no seeds"));
   EXPECT_TRUE(says(bad("scenario = \"w.toml\"\nseeds = []\n"), "s.toml:2: error: seeds: is an empty list"));
   EXPECT_TRUE(says(bad("scenario = \"w.toml\"\nseeds = \"5-1\"\n"), "s.toml:2: error: seeds: "));
