@@ -17,10 +17,11 @@ Gate::Gate(const Senses& senses, const Platform& platform) noexcept : senses_(se
     senses_.orders.target.reset();
     ++rejected_;
   }
-  if (senses.charge && !(senses.charge->level >= 0.0F && senses.charge->level <= 1.0F)) {
-    senses_.charge.reset();
+  senses_.for_each_reading([this](auto& reading) {
+    if (!reading || reading->is_possible()) return;
+    reading.reset();
     ++rejected_;
-  }
+  });
   if (senses.elapsed_s >= 0.0F && senses.elapsed_s <= longest_step_s) {
     elapsed_ticks_ = std::max(1, platform.ticks(senses.elapsed_s));
   } else {

@@ -39,6 +39,7 @@ struct Orders {
 struct Charge {
   float level = 1.0F;     // share of a full one
   bool charging = false;  // it is being charged
+  [[nodiscard]] constexpr bool is_possible() const noexcept { return level >= 0.0F && level <= 1.0F; }
 };
 
 struct Senses {
@@ -53,6 +54,9 @@ struct Senses {
   // a message (a barrier that holds, an orphan without a parent, a question without an answer), counts steps, and
   // so do the root's and the workers' signs of life: robots that step less often than once a tick wait longer for them.
   float elapsed_s = 0.0F;  // 0: one tick
+
+  // Readings that a robot may lack. One that is not possible counts as not sensed (gate.hpp).
+  template <class Visit> constexpr void for_each_reading(Visit visit) { visit(charge); }
 };
 
 // What the motors are to do until the next step. A differential robot is never given `sideways_m_s`;
