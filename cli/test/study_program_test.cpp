@@ -640,6 +640,17 @@ TEST_F(StudyProgram, AMillionRunsByMistakeAreNotStarted) {
   expect_refused({"study", "s.toml", "--yes"}, "this study has 36,000,000 runs; 10,000,000 are the most");
 }
 
+// Planning ten million runs takes minutes.
+TEST_F(StudyProgram, ALongPlanIsNotSilent) {
+  write("s.toml", study("w.toml", "1-2500000"));
+  const pid_t child = start({"study", "s.toml", "--yes", "--dry-run"});
+  const std::string wanted = " of 10,000,000 runs planned, about ";
+  for (int k = 0; k < 6'000 && !has(read("stderr.txt"), wanted); ++k) std::this_thread::sleep_for(10ms);
+  ::kill(child, SIGKILL);
+  const auto outcome = finish(child);
+  EXPECT_TRUE(has(outcome.err, wanted)) << outcome.err;
+}
+
 TEST_F(StudyProgram, OnATerminalItAsks) {
   write("s.toml", study("w.toml", "1-250000"));
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);

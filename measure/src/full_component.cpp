@@ -30,10 +30,10 @@ struct Bunch {
 
 class Layouts {
  public:
-  Layouts(const std::vector<Vec2>& terminals, const std::vector<double>& lengths, int edges)
-      : leaves_{terminals}, lengths_{lengths}, edges_{edges} {}
+  Layouts(const std::vector<Vec2>& terminals, const std::vector<double>& lengths, int edges, Tries& tries)
+      : leaves_{terminals}, lengths_{lengths}, edges_{edges}, tries_{tries} {}
 
-  // One in which the branches have just that many edges, if there is one.
+  // One in which the branches have just that many edges, if there is one, and the tries suffice to find it.
   FullComponent find() {
     const int m = static_cast<int>(leaves_.size());
     const LeafSet all = (1U << m) - 1U;
@@ -70,6 +70,7 @@ class Layouts {
       for (const Bunch& b : far) {
         const int middle = edges_ - a.sum - b.sum;
         if (middle < 1) continue;
+        if (--tries_.left < 0) return false;
         const Nearest hubs = nearest(a.place, b.place);
         if (distance(hubs.a, hubs.b) > middle + touch) continue;
         const int one = tie(first, a, add_hub(hubs.a)), other = tie(second, b, add_hub(hubs.b));
@@ -87,6 +88,7 @@ class Layouts {
     for (const Bunch& a : near) {
       const int a_way = edges_for(distance(leaf, a.place.nearest(leaf)));
       for (const Bunch& b : far) {
+        if (--tries_.left < 0) return false;
         const int left = edges_ - a.sum - b.sum;
         const int b_way = edges_for(distance(leaf, b.place.nearest(leaf)));
         if (left < 3 || left < std::max(a_way, b_way) + 1) continue;
@@ -94,7 +96,8 @@ class Layouts {
         const int apart = edges_for(distance(ends.a, ends.b));
         for (int up = 1; up <= left - std::max(2, apart); ++up)
           for (int to_a = std::max(1, a_way - up); left - up - to_a >= std::max(1, b_way - up); ++to_a)
-            if (meet({first, &a, to_a}, middle, up, {last, &b, left - up - to_a})) return true;
+            if (--tries_.left < 0) return false;
+            else if (meet({first, &a, to_a}, middle, up, {last, &b, left - up - to_a})) return true;
       }
     }
     return false;
@@ -150,7 +153,7 @@ class Layouts {
   };
   void extend(LeafSet left, std::vector<int>& hops, int sum, Sums wanted, std::vector<Bunch>& found) const {
     if (left == 0) {
-      if (sum < wanted.least) return;
+      if (sum < wanted.least || --tries_.left < 0) return;
       std::vector<RangeDisc> discs;
       for (std::size_t k = 0; k < hops.size(); ++k) discs.push_back({chosen_[k], static_cast<double>(hops[k])});
       CommonRegion place(std::move(discs));
@@ -163,7 +166,7 @@ class Layouts {
     // Without the leaf and its branch the others are still joined.
     const int most =
         std::min(edges_ - edges_for(lengths_[all & ~(1U << leaf)]), wanted.most - sum - std::popcount(rest));
-    for (int n = rest == 0 ? std::max(1, wanted.least - sum) : 1; n <= most; ++n) {
+    for (int n = rest == 0 ? std::max(1, wanted.least - sum) : 1; n <= most && !tries_.used_up(); ++n) {
       if (!meets_others(hops, n)) continue;
       hops.push_back(n);
       extend(rest, hops, sum + n, wanted, found);
@@ -179,6 +182,7 @@ class Layouts {
   const std::vector<Vec2>& leaves_;
   const std::vector<double>& lengths_;
   int edges_;
+  Tries& tries_;
   FullComponent found_;
   mutable std::array<Vec2, most_leaves> chosen_{};
 };
@@ -187,14 +191,16 @@ class Layouts {
 
 int relays_between(Vec2 a, Vec2 b) noexcept { return std::max(0, edges_for(distance(a, b)) - 1); }
 
-FullComponent full_component(const std::vector<Vec2>& terminals, const std::vector<double>& lengths, int most_relays) {
+FullComponent full_component(const std::vector<Vec2>& terminals, const std::vector<double>& lengths, int most_relays,
+                             Tries& tries) {
   const int m = static_cast<int>(terminals.size());
   if (m == 2) {
     const int relays = relays_between(terminals[0], terminals[1]);
     return relays > most_relays ? FullComponent{} : FullComponent{{}, {{0, 1, relays + 1}}, relays};
   }
-  for (int edges = std::max(m, edges_for(lengths.back())); edges - (m - 1) <= most_relays; ++edges) {
-    FullComponent found = Layouts(terminals, lengths, edges).find();
+  for (int edges = std::max(m, edges_for(lengths.back())); edges - (m - 1) <= most_relays && !tries.used_up();
+       ++edges) {
+    FullComponent found = Layouts(terminals, lengths, edges, tries).find();
     if (found.branches.empty()) continue;
     found.relays = edges - (m - 1);
     return found;

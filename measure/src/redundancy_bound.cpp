@@ -152,7 +152,7 @@ int relays_of_ring(const SymmetricTable& relays) {
   return best;
 }
 
-// The relays of the tree in which all targets are leaves that has the fewest.
+// The relays of the tree in which all targets are leaves that has the fewest; `far` if none was found in two seconds.
 int relays_of_tree(const std::vector<Vec2>& targets, double range_m) {
   constexpr double just_below = 1.0 - 1e-6;  // no edge is as long as the range
   std::vector<Vec2> scaled;
@@ -165,7 +165,9 @@ int relays_of_tree(const std::vector<Vec2>& targets, double range_m) {
       if ((set >> k & 1U) != 0) some.push_back(scaled[k]);
     lengths[set] = steiner_length(some).lower_m;
   }
-  return full_component(scaled, lengths, far).relays;
+  Tries tries;
+  const FullComponent tree = full_component(scaled, lengths, far, tries);
+  return tree.branches.empty() ? far : tree.relays;
 }
 
 // Of networks that exist; `far` if none was looked for. Workers stand upon their targets.
@@ -175,9 +177,9 @@ int relays_found(const std::vector<Vec2>& targets, double range_m, int paths) {
   if (targets.size() == 2) return relays[0][1] > 0 ? paths * relays[0][1] : paths - 1;
   if (targets.size() > most_toured) return far;
   int found = paths == 2 ? std::max(1, relays_of_ring(relays)) : far;
-  if (targets.size() <= static_cast<std::size_t>(most_leaves))
-    found = std::min(found, paths * relays_of_tree(targets, range_m));
-  return found;
+  if (targets.size() > static_cast<std::size_t>(most_leaves)) return found;
+  const int tree = relays_of_tree(targets, range_m);
+  return tree < far ? std::min(found, paths * tree) : found;
 }
 
 }  // namespace

@@ -72,11 +72,14 @@ class Program {
  public:
   explicit Program(const std::vector<Vec2>& targets)
       : targets_{targets}, lengths_{targets}, best_(std::size_t{1} << targets.size()) {
-    for (TargetSet set = 1; set < best_.size(); ++set) {
-      if (std::popcount(set) < 2) continue;
-      Choice& choice = best_[set];
-      split(set, choice);
-      if (std::popcount(set) <= most_leaves) try_component(set, choice);
+    // By size: the tries go to small components first, which need few.
+    for (int size = 2; size <= static_cast<int>(targets.size()); ++size) {
+      for (TargetSet set = 1; set < best_.size(); ++set) {
+        if (std::popcount(set) != size) continue;
+        Choice& choice = best_[set];
+        split(set, choice);
+        if (size <= most_leaves) try_component(set, choice);
+      }
     }
   }
   // The largest set that its relays, at least one, and a worker for each join.
@@ -94,6 +97,7 @@ class Program {
     collect(static_cast<TargetSet>(best_.size() - 1), list);
     return list;
   }
+  [[nodiscard]] bool complete() const noexcept { return !tries_.used_up(); }
 
  private:
   struct Choice {
@@ -114,7 +118,8 @@ class Program {
   }
 
   void try_component(TargetSet set, Choice& choice) {
-    FullComponent found = full_component(points_of(targets_, members(set)), lengths_.within(set), choice.relays - 1);
+    FullComponent found =
+        full_component(points_of(targets_, members(set)), lengths_.within(set), choice.relays - 1, tries_);
     if (found.branches.empty()) return;
     choice = {found.relays, 0, 0, {}};
     choice.component.push_back(std::move(found));
@@ -132,6 +137,7 @@ class Program {
 
   const std::vector<Vec2>& targets_;
   Lengths lengths_;
+  Tries tries_;
   std::vector<Choice> best_;
 };
 
@@ -158,7 +164,7 @@ class Greedy {
     }
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       if (up_[i] == i || cost(i, up_[i]) == tied) continue;
-      chosen.push_back({{i, up_[i]}, full_component({targets_[i], targets_[up_[i]]}, {}, unlimited)});
+      chosen.push_back({{i, up_[i]}, full_component({targets_[i], targets_[up_[i]]}, {}, unlimited, tries_)});
     }
     return chosen;
   }
@@ -239,7 +245,7 @@ class Greedy {
     for (const auto& group : groups) {
       const std::vector<Vec2> points = points_of(targets_, group);
       const TargetSet all = (TargetSet{1} << group.size()) - 1;
-      FullComponent found = full_component(points, Lengths(points).within(all), saved_by(group) - 1);
+      FullComponent found = full_component(points, Lengths(points).within(all), saved_by(group) - 1, tries_);
       if (!found.branches.empty()) parts.push_back({group, std::move(found)});
     }
     return parts;
@@ -260,6 +266,7 @@ class Greedy {
   }
 
   const std::vector<Vec2>& targets_;
+  Tries tries_;
   std::vector<int> cost_;  // relays between two targets
   std::vector<std::size_t> up_;
 };
@@ -368,10 +375,16 @@ RelayTree fewest_relays(const std::vector<Vec2>& targets, double range_m) {
   for (const Vec2 t : targets) scaled.push_back(t / range_m);
   const bool few = targets.size() <= most_programmed;
   Laid laid(targets, range_m);
-  for (const JoinedTargets& part : few ? Program(scaled).parts() : Greedy(scaled).parts()) laid.add(part);
+  bool all_tried = false;
+  if (few) {
+    const Program program(scaled);
+    for (const JoinedTargets& part : program.parts()) laid.add(part);
+    all_tried = targets.size() <= static_cast<std::size_t>(most_leaves) && program.complete();
+  } else {
+    for (const JoinedTargets& part : Greedy(scaled).parts()) laid.add(part);
+  }
   const int relays = static_cast<int>(laid.tree.relays.size());
-  laid.tree.exact = targets.size() <= static_cast<std::size_t>(most_leaves) || relays == 0 ||
-                    (few && relays <= fewest_relays_certain(scaled, 0.0, 1.0));
+  laid.tree.exact = all_tried || relays == 0 || (few && relays <= fewest_relays_certain(scaled, 0.0, 1.0));
   return std::move(laid.tree);
 }
 

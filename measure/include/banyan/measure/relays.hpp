@@ -30,7 +30,8 @@ struct RelayTree {
 // in ascending order of the sum; whether one can be laid out is decided in closed form (discs.hpp). Six to nine:
 // the best tree all of whose full components (parts with targets only as leaves) have up to five targets. More: the
 // same components with up to four, chosen greedily by what each saves, above 40 targets up to three. With six to nine
-// `exact` is true where the lower bound is met, with more only if no relay is needed.
+// `exact` is true where the lower bound is met, with more only if no relay is needed. Where targets are dozens of hops
+// apart the search ends after two seconds with what it has: then it is not exact with three to five targets either.
 [[nodiscard]] RelayTree fewest_relays(const std::vector<world::Vec2>& targets, double range_m);
 
 // The most targets that so many robots can hold: a worker for each, and relays as above, at least one robot besides
