@@ -100,6 +100,29 @@ TEST(SoakSight, AgreesWithTheWorldOnLinks) {
   EXPECT_LT(static_cast<double>(hidden), 0.02 * static_cast<double>(linked));
 }
 
+// Of three robots in a row the first does not hear the second, or is not heard, and the third is hidden by the second.
+TEST(SoakSight, NobodyHearsBothWaysThroughABody) {
+  Scenario s = world::plain_scenario();
+  s.swarm.start.layout = world::Layout::list;
+  s.swarm.start.positions = {{0.0, 0.0}, {0.9, 0.0}, {1.8, 0.0}};
+  s.targets = std::vector<world::Vec2>{{6.0, 0.0}};
+  s.radio.model = world::RadioModel::Model::one_way;
+  s.radio.one_way_share = 0.5;
+  const auto is_one_way = [](const world::World& w, std::size_t i, std::size_t j) {
+    return w.is_deaf(i, j) || w.is_deaf(j, i);
+  };
+  while (true) {
+    const world::World w(s);
+    if (is_one_way(w, 0, 1) && !is_one_way(w, 0, 2) && !is_one_way(w, 1, 2)) break;
+    ++s.seed;
+  }
+  for (const bool line_of_sight : {false, true}) {
+    s.radio.line_of_sight = line_of_sight;
+    const world::World world(s);
+    EXPECT_EQ(SightCheck(world).components_both_ways(std::vector<bool>(3, true)), line_of_sight ? 2U : 1U);
+  }
+}
+
 Scenario literal(std::uint64_t seed) {
   Scenario s = world::plain_scenario();
   s.mission.algorithm = "outwards";

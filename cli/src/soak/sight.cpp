@@ -88,8 +88,9 @@ std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_si
 }
 
 std::size_t SightCheck::components_both_ways(const std::vector<bool>& counts) const {
-  return components_over(counts,
-                         [&](std::size_t i, std::size_t j) { return !world_.is_deaf(i, j) && !world_.is_deaf(j, i); });
+  return components_over(counts, [&](std::size_t i, std::size_t j) {
+    return !world_.is_deaf(i, j) && !world_.is_deaf(j, i) && !(world_.line_of_sight() && hidden(i, j));
+  });
 }
 
 // Robots in order of x, so that only those within range in x are looked at; the pair is asked for only where it could
