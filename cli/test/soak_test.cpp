@@ -26,6 +26,7 @@
 #include "soak/mission.hpp"
 #include "soak/shrink.hpp"
 #include "soak/sight.hpp"
+#include "soak/start_loss.hpp"
 #include "terminal.hpp"
 
 namespace banyan::cli::soak {
@@ -97,6 +98,29 @@ TEST(SoakSight, AgreesWithTheWorldOnLinks) {
   }
   EXPECT_GT(linked, 1000U);
   EXPECT_LT(static_cast<double>(hidden), 0.02 * static_cast<double>(linked));
+}
+
+// Of three robots in a row the first does not hear the second, or is not heard, and the third is hidden by the second.
+TEST(SoakSight, NobodyHearsBothWaysThroughABody) {
+  Scenario s = world::plain_scenario();
+  s.swarm.start.layout = world::Layout::list;
+  s.swarm.start.positions = {{0.0, 0.0}, {0.9, 0.0}, {1.8, 0.0}};
+  s.targets = std::vector<world::Vec2>{{6.0, 0.0}};
+  s.radio.model = world::RadioModel::Model::one_way;
+  s.radio.one_way_share = 0.5;
+  const auto is_one_way = [](const world::World& w, std::size_t i, std::size_t j) {
+    return w.is_deaf(i, j) || w.is_deaf(j, i);
+  };
+  while (true) {
+    const world::World w(s);
+    if (is_one_way(w, 0, 1) && !is_one_way(w, 0, 2) && !is_one_way(w, 1, 2)) break;
+    ++s.seed;
+  }
+  for (const bool line_of_sight : {false, true}) {
+    s.radio.line_of_sight = line_of_sight;
+    const world::World world(s);
+    EXPECT_EQ(SightCheck(world).components_both_ways(std::vector<bool>(3, true)), line_of_sight ? 2U : 1U);
+  }
 }
 
 Scenario literal(std::uint64_t seed) {
@@ -176,6 +200,71 @@ TEST(SoakWatch, ASplitOfANetworkThatWasNeverJoinedHasANameOfItsOwn) {
   }
 }
 
+// Over links that lose more than 30 % of their packets, or just as many.
+TEST(SoakWatch, ASplitOverLinksThatLoseTooMuchHasANameOfItsOwn) {
+  Scenario s = world::plain_scenario();
+  s.swarm.start.layout = world::Layout::list;
+  s.swarm.start.positions = {{0.0, 0.0}, {1.9, 0.0}};
+  s.targets = std::vector<world::Vec2>{{6.0, 0.0}};
+  s.obstacles = {world::Disc{{50.0, 50.0}, 1.0}};
+  s.events = {{.action = world::Freeze{0}},
+              {.action = world::Freeze{1}},
+              {.time_s = 2.0, .action = world::MoveObstacle{0, {0.95, 0.0}}}};  // which pushes both aside
+  s.mission.time_limit_s = 5.0;
+  struct Case {
+    world::RadioModel::Model model;
+    double loss;
+    bool faint;
+  };
+  using enum world::RadioModel::Model;
+  for (const Case c :
+       {Case{disc, 0.3, false}, Case{disc, 0.31, true}, Case{bursts, 0.3, false}, Case{path_loss, 0.0, false},
+        Case{path_loss, 0.3, true}, Case{one_way, 0.2, false}, Case{one_way, 0.3, true}}) {
+    s.radio.model = c.model;
+    s.radio.loss = c.loss;
+    s.radio.one_way_share = 0.1;
+    s.radio.edge_loss = 0.05;
+    s.radio.shadowing_db = 1.0;
+    const SoakOutcome outcome = watch(s, false);
+    EXPECT_EQ(found(outcome, "faint-split"), c.faint) << static_cast<int>(c.model) << ' ' << c.loss;
+    EXPECT_EQ(found(outcome, "split"), !c.faint) << static_cast<int>(c.model) << ' ' << c.loss;
+  }
+}
+
+TEST(SoakStartLoss, AgreesWithThePageOfTheModel) {
+  world::RadioModel radio;
+  radio.loss = 0.2;
+  EXPECT_DOUBLE_EQ(mean_loss(radio, 1.0), 0.2);
+  radio.model = world::RadioModel::Model::one_way;
+  radio.one_way_share = 0.2;
+  EXPECT_NEAR(mean_loss(radio, 1.0), 1.0 - 0.8 * 0.9, 1e-12);
+  radio = {};
+  radio.model = world::RadioModel::Model::path_loss;
+  radio.shadowing_db = 0.0;
+  EXPECT_NEAR(mean_loss(radio, 2.0), 0.5, 1e-9);
+  EXPECT_NEAR(mean_loss(radio, 1.8), 0.06, 0.005);
+  EXPECT_NEAR(mean_loss(radio, 1.6), 0.002, 0.0005);
+  EXPECT_NEAR(mean_loss(radio, std::vector{2.0, 1.6}), 0.251, 0.001);
+  EXPECT_EQ(mean_loss(radio, std::vector<double>{}), 0.0);
+}
+
+// As many packets as two robots that stand still lose in the world, over many pairs and shadows.
+TEST(SoakStartLoss, AgreesWithTheWorld) {
+  Scenario s = world::plain_scenario();
+  s.swarm.start.layout = world::Layout::list;
+  s.swarm.start.positions = {{0.0, 0.0}, {1.7, 0.0}};
+  s.targets = std::vector<world::Vec2>{{6.0, 0.0}};
+  s.events = {{.action = world::Freeze{0}}, {.action = world::Freeze{1}}};
+  s.radio.model = world::RadioModel::Model::path_loss;
+  s.radio.shadowing_s = 0.5;
+  s.radio.loss = 0.1;
+  world::World world(s);
+  constexpr int ticks = 20000;
+  for (int tick = 0; tick < ticks; ++tick) world.step();
+  const double heard = static_cast<double>(world.packets_received()) / (2.0 * ticks);
+  EXPECT_NEAR(1.0 - heard, mean_loss(s.radio, 1.7), 0.02);
+}
+
 // A worker that freezes is replaced with reason; it is counted all the same, and nobody promised that it would not be.
 TEST(SoakWatch, AReplacedWorkerIsCountedAlsoWhereItIsHeldUp) {
   Scenario s = world::plain_scenario();
@@ -205,7 +294,7 @@ TEST(SoakWatch, PromisesWhatItsPageSays) {
                                                   : "reported only |";
     EXPECT_EQ(promised, says) << kind;
   }
-  EXPECT_EQ(kinds.size(), 12U);
+  EXPECT_EQ(kinds.size(), 13U);
 }
 
 TEST(SoakWatch, TooFewRobotsAreNoFinding) {

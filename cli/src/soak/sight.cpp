@@ -74,13 +74,23 @@ bool SightCheck::hidden(std::size_t i, std::size_t j) const noexcept {
                      [&](const Obstacle& o) { return std::visit(cuts, o); });
 }
 
+std::vector<double> SightCheck::link_lengths_m() const {
+  std::vector<double> lengths_m;
+  for (std::size_t i = 0; i < world_.size(); ++i)
+    for (std::size_t j = i + 1; j < world_.size(); ++j)
+      if (in_range(i, j) && !(world_.line_of_sight() && hidden(i, j)))
+        lengths_m.push_back(distance(world_.positions()[i], world_.positions()[j]));
+  return lengths_m;
+}
+
 std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_sight) const {
   return components_over(counts, [&](std::size_t i, std::size_t j) { return !with_sight || !hidden(i, j); });
 }
 
 std::size_t SightCheck::components_both_ways(const std::vector<bool>& counts) const {
-  return components_over(counts,
-                         [&](std::size_t i, std::size_t j) { return !world_.is_deaf(i, j) && !world_.is_deaf(j, i); });
+  return components_over(counts, [&](std::size_t i, std::size_t j) {
+    return !world_.is_deaf(i, j) && !world_.is_deaf(j, i) && !(world_.line_of_sight() && hidden(i, j));
+  });
 }
 
 // Robots in order of x, so that only those within range in x are looked at; the pair is asked for only where it could

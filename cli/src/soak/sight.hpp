@@ -20,9 +20,11 @@ class SightCheck {
   [[nodiscard]] bool hidden(std::size_t i, std::size_t j) const noexcept;
   [[nodiscard]] double range_m() const noexcept { return world_.scenario().radio.range_m; }
 
+  // m, of all pairs in range, and in sight if the radio needs it.
+  [[nodiscard]] std::vector<double> link_lengths_m() const;
   // Components of the robots that `counts` marks, over pairs in range, and in sight if `with_sight`.
   [[nodiscard]] std::size_t components(const std::vector<bool>& counts, bool with_sight) const;
-  // Over pairs in range of which both hear each other (radio.model = "one_way").
+  // Over pairs in range, and in sight if the radio needs it, of which both hear each other (radio.model = "one_way").
   [[nodiscard]] std::size_t components_both_ways(const std::vector<bool>& counts) const;
 
  private:

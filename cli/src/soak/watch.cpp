@@ -12,6 +12,7 @@
 #include "in_reach.hpp"
 #include "mission.hpp"
 #include "sight.hpp"
+#include "start_loss.hpp"
 
 namespace banyan::cli::soak {
 namespace {
@@ -23,6 +24,8 @@ constexpr std::uint64_t hidden_ticks = 3;  // that an edge may be hidden
 constexpr double two_roots_s = 5.0;        // that a hand-over may take
 constexpr double after_completion_s = 10.0;
 constexpr double after_event_s = 50.0;
+constexpr double most_loss = 0.3;  // of the packets, over the links of the start, that convoy is made for
+constexpr double rounding = 1e-9;
 constexpr double surely = 4.0;  // standard deviations of the noise of wheels
 
 class MissionWatch {
@@ -31,6 +34,9 @@ class MissionWatch {
       : world_(scenario), sight_(world_), traits_(traits_of(scenario)), limit_s_{time_limit_s(scenario)} {
     linked_ = scenario.radio.model != RadioModel::Model::one_way ||
               sight_.components_both_ways(std::vector<bool>(world_.size(), true)) == 1;
+    const bool by_length = scenario.radio.model == RadioModel::Model::path_loss;  // others lose as much over all links
+    const std::vector<double> links_m = by_length ? sight_.link_lengths_m() : std::vector<double>{sight_.range_m()};
+    faint_ = mean_loss(scenario.radio, links_m) > most_loss + rounding;
     start_ = {world_.positions().begin(), world_.positions().end()};
     for (const Target& target : world_.targets()) {
       const double way_m = free_path_m(scenario.obstacles, world_.positions()[target.worker], target.position);
@@ -95,7 +101,10 @@ class MissionWatch {
     if (deaths && parts > 1) excused_ = true;
     linked_ = linked_ || sight_.components_both_ways(living) == 1;
     if (parts > 1 && !excused_)
-      find(linked_ ? "split" : "unlinked-split", format("the living robots are in %zu parts by distance", parts));
+      find(!linked_ ? "unlinked-split"
+           : faint_ ? "faint-split"
+                    : "split",
+           format("the living robots are in %zu parts by distance", parts));
     const bool hides = parts == 1 && world_.line_of_sight();
     if (!hides) hidden_split_ = 0;
     if (parts > 1) return;
@@ -213,7 +222,8 @@ class MissionWatch {
   double limit_s_;
   std::vector<Vec2> start_;
   bool excused_ = false;
-  bool linked_;  // until now at some time, by links of which both ends hear each other
+  bool faint_ = false;  // the links of the start lose more than convoy is made for
+  bool linked_;         // until now at some time, by links of which both ends hear each other
   std::uint64_t hidden_split_ = 0, two_roots_ = 0;
   std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint64_t, std::uint64_t>> hidden_since_;  // first, last
   SoakOutcome outcome_;
