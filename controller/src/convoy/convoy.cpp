@@ -156,15 +156,16 @@ bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !begun;
 }
 
-// Edges of a tree that saves robots are nearly as long as they may be, and the flood takes short cuts over longer
-// links. So a robot of the last tree waits for a label over a link that may be an edge; else it would find no parent.
+// Edges of a tree that has arrived are nearly as long as they may be, and the flood takes short cuts over longer links.
+// So a robot of the last tree waits for a label over a link that may be an edge; else it would find no parent, while
+// robots that were above it take it for theirs.
 LabelRule label_rule(const ConvoyRobot& robot) noexcept {
   constexpr float edge_wait_s = 3.0F;
   const ConvoyState& self = robot.self;
   const ConvoyParams& p = robot.params;
   LabelRule rule{.waits_for_anybody = false};
   const bool is_member = self.old_parent != nobody || robot.useful_children > 0;
-  if (p.thrift > 0.0F && has_arrived(robot) && is_member && self.phase_ticks < p.ticks(edge_wait_s))
+  if (has_arrived(robot) && is_member && self.phase_ticks < p.ticks(edge_wait_s))
     rule.reach_m = longest_link * p.communication_range_m;
   return rule;
 }

@@ -103,10 +103,9 @@ TEST(Convoy, ATreeThatHasArrivedKeepsTheEdgesOfTheOldOne) {
 }
 
 // Over a longer link comes a label with which no parent is found.
-TEST(Convoy, WithThriftARobotOfTheLastTreeWaitsForALabelOverALinkThatMayBeAnEdge) {
-  const auto label_after = [](float thrift, int ticks, bool member, std::uint16_t want_cm) {
+TEST(Convoy, ARobotOfATreeThatHasArrivedWaitsForALabelOverALinkThatMayBeAnEdge) {
+  const auto label_after = [](int ticks, bool member, std::uint16_t want_cm) {
     ConvoyBench bench = grown<Convoy>();
-    bench.params.thrift = thrift;
     bench.state.phase = Phase::start_tree;
     bench.state.label_cm = unknown_label;
     bench.state.parent = nobody;
@@ -120,11 +119,10 @@ TEST(Convoy, WithThriftARobotOfTheLastTreeWaitsForALabelOverALinkThatMayBeAnEdge
     bench.steps(ticks);
     return bench.state.label_cm;
   };
-  EXPECT_EQ(label_after(1.0F, 20, true, 0), unknown_label);
-  EXPECT_EQ(label_after(1.0F, 40, true, 0), 195) << "not for ever";
-  EXPECT_EQ(label_after(0.0F, 20, true, 0), 195) << "without thrift";
-  EXPECT_EQ(label_after(1.0F, 20, true, 100), 195) << "its worker has not arrived";
-  EXPECT_EQ(label_after(1.0F, 20, false, 0), 195) << "a spare needs no parent";
+  EXPECT_EQ(label_after(20, true, 0), unknown_label);
+  EXPECT_EQ(label_after(40, true, 0), 195) << "not for ever";
+  EXPECT_EQ(label_after(20, true, 100), 195) << "its worker has not arrived";
+  EXPECT_EQ(label_after(20, false, 0), 195) << "a spare needs no parent";
 }
 
 }  // namespace
