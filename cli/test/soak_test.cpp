@@ -180,8 +180,8 @@ TEST(SoakWatch, ASplitWithoutADeathIsFound) {
   EXPECT_FALSE(is_promised("incomplete", s));
 }
 
-// Nobody has torn what packets never joined: a pair of which one never hears the other.
-TEST(SoakWatch, ASplitOfANetworkThatWasNeverJoinedHasANameOfItsOwn) {
+// Two frozen robots, 0.95 C apart. After 2 s an obstacle appears between them, which pushes both aside.
+Scenario two_pushed_apart() {
   Scenario s = world::plain_scenario();
   s.swarm.start.layout = world::Layout::list;
   s.swarm.start.positions = {{0.0, 0.0}, {1.9, 0.0}};
@@ -189,8 +189,14 @@ TEST(SoakWatch, ASplitOfANetworkThatWasNeverJoinedHasANameOfItsOwn) {
   s.obstacles = {world::Disc{{50.0, 50.0}, 1.0}};
   s.events = {{.action = world::Freeze{0}},
               {.action = world::Freeze{1}},
-              {.time_s = 2.0, .action = world::MoveObstacle{0, {0.95, 0.0}}}};  // which pushes both aside
+              {.time_s = 2.0, .action = world::MoveObstacle{0, {0.95, 0.0}}}};
   s.mission.time_limit_s = 5.0;
+  return s;
+}
+
+// Nobody has torn what packets never joined: a pair of which one never hears the other.
+TEST(SoakWatch, ASplitOfANetworkThatWasNeverJoinedHasANameOfItsOwn) {
+  Scenario s = two_pushed_apart();
   s.radio.model = world::RadioModel::Model::one_way;
   for (const double share : {0.0, 1.0}) {
     s.radio.one_way_share = share;
@@ -202,15 +208,7 @@ TEST(SoakWatch, ASplitOfANetworkThatWasNeverJoinedHasANameOfItsOwn) {
 
 // Over links that lose more than 30 % of their packets, or just as many.
 TEST(SoakWatch, ASplitOverLinksThatLoseTooMuchHasANameOfItsOwn) {
-  Scenario s = world::plain_scenario();
-  s.swarm.start.layout = world::Layout::list;
-  s.swarm.start.positions = {{0.0, 0.0}, {1.9, 0.0}};
-  s.targets = std::vector<world::Vec2>{{6.0, 0.0}};
-  s.obstacles = {world::Disc{{50.0, 50.0}, 1.0}};
-  s.events = {{.action = world::Freeze{0}},
-              {.action = world::Freeze{1}},
-              {.time_s = 2.0, .action = world::MoveObstacle{0, {0.95, 0.0}}}};  // which pushes both aside
-  s.mission.time_limit_s = 5.0;
+  Scenario s = two_pushed_apart();
   struct Case {
     world::RadioModel::Model model;
     double loss;
