@@ -7,13 +7,6 @@
 namespace banyan::world {
 namespace {
 
-int roots(const World& world) {
-  int count = 0;
-  for (std::size_t i = 0; i < world.size(); ++i)
-    count += world.alive()[i] != 0 && world.reports()[i].role == Role::root ? 1 : 0;
-  return count;
-}
-
 class FirstRoot : public testing::TestWithParam<std::string> {};
 
 TEST_P(FirstRoot, IsReplacedIfItDiesUnheard) {
@@ -27,10 +20,10 @@ TEST_P(FirstRoot, IsReplacedIfItDiesUnheard) {
       const auto held = [&] { return world.holder(0) && world.holder(1) && world.holder(2); };
       while (world.tick() < 2000 && !held()) world.step();
       EXPECT_TRUE(held()) << "seed " << seed << ", " << pitch_m << " m apart";
-      EXPECT_EQ(roots(world), 1);
+      EXPECT_EQ(living_roots(world), 1);
       run_until(world, world.tick() + 300);
       EXPECT_TRUE(held()) << "seed " << seed;
-      EXPECT_EQ(roots(world), 1);
+      EXPECT_EQ(living_roots(world), 1);
     }
 }
 

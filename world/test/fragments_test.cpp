@@ -12,38 +12,6 @@
 namespace banyan::world {
 namespace {
 
-// Living robots that are joined to the first of them, of how many.
-struct Piece {
-  std::size_t size = 0;
-  std::size_t living = 0;
-};
-
-Piece first_piece(const World& world) {
-  std::vector<Vec2> open;
-  for (std::size_t i = 0; i < world.size(); ++i)
-    if (world.alive()[i] != 0) open.push_back(world.positions()[i]);
-  Piece piece{0, open.size()};
-  std::vector<Vec2> front{open.back()};
-  open.pop_back();
-  while (!front.empty()) {
-    const Vec2 here = front.back();
-    front.pop_back();
-    ++piece.size;
-    const auto reached = std::stable_partition(
-        open.begin(), open.end(), [&](Vec2 at) { return distance(here, at) >= world.scenario().radio.range_m; });
-    front.insert(front.end(), reached, open.end());
-    open.erase(reached, open.end());
-  }
-  return piece;
-}
-
-int roots_alive(const World& world) {
-  int count = 0;
-  for (std::size_t i = 0; i < world.size(); ++i)
-    count += world.alive()[i] != 0 && world.reports()[i].role == Role::root ? 1 : 0;
-  return count;
-}
-
 // Two clusters of 20 robots with a bridge of six.
 Scenario two_clusters(std::uint64_t seed, bool sight) {
   Scenario s = ring("convoy", 46, 4, 8.0, seed);
@@ -75,13 +43,11 @@ TEST_P(HalvedSwarm, FindsTogetherAgain) {
     run_until(world, 60);
     cut_in_two(world);
     world.step();
-    const Piece cut = first_piece(world);
-    ASSERT_EQ(cut.living, 40U);
-    ASSERT_LE(cut.size, 21U) << "seed " << seed << ": the deaths cut it in two";
-    const auto is_one = [&] { return first_piece(world).size == 40 && roots_alive(world) == 1; };
+    ASSERT_EQ(part_sizes_by_range(world), (std::vector<std::size_t>{20, 20})) << "seed " << seed << ": cut in two";
+    const auto is_one = [&] { return parts_by_range(world) == 1 && living_roots(world) == 1; };
     while (!is_one() && world.tick() < 3000) world.step();
-    EXPECT_TRUE(is_one()) << "seed " << seed << ": " << first_piece(world).size << " of 40 robots, "
-                          << roots_alive(world) << " roots after five minutes";
+    EXPECT_TRUE(is_one()) << "seed " << seed << ": " << parts_by_range(world) << " parts, " << living_roots(world)
+                          << " roots after five minutes";
     ticks.push_back(world.tick() - 60);
   }
   std::sort(ticks.begin(), ticks.end());

@@ -58,18 +58,20 @@ inline std::vector<std::uint8_t> said(const World& world, std::size_t i) {
   return bytes;
 }
 
-// Parts of the network by who is within range of whom.
-inline std::size_t parts_by_range(const World& world) {
-  std::vector<std::size_t> open(world.size());
-  std::iota(open.begin(), open.end(), std::size_t{0});
-  std::size_t parts = 0;
+// The sizes of the parts of the network, by which living robots are within range of each other.
+inline std::vector<std::size_t> part_sizes_by_range(const World& world) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < world.size(); ++i)
+    if (world.alive()[i] != 0) open.push_back(i);
+  std::vector<std::size_t> sizes;
   while (!open.empty()) {
-    ++parts;
+    sizes.push_back(0);
     std::vector<std::size_t> front{open.back()};
     open.pop_back();
     while (!front.empty()) {
       const Vec2 here = world.positions()[front.back()];
       front.pop_back();
+      ++sizes.back();
       const auto reached = std::stable_partition(open.begin(), open.end(), [&](std::size_t j) {
         return distance(here, world.positions()[j]) >= world.scenario().radio.range_m;
       });
@@ -77,7 +79,16 @@ inline std::size_t parts_by_range(const World& world) {
       open.erase(reached, open.end());
     }
   }
-  return parts;
+  return sizes;
+}
+
+inline std::size_t parts_by_range(const World& world) { return part_sizes_by_range(world).size(); }
+
+inline int living_roots(const World& world) {
+  int count = 0;
+  for (std::size_t i = 0; i < world.size(); ++i)
+    count += world.alive()[i] != 0 && world.reports()[i].role == Role::root ? 1 : 0;
+  return count;
 }
 
 // The links that a robot promises to keep.

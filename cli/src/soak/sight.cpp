@@ -74,11 +74,15 @@ bool SightCheck::hidden(std::size_t i, std::size_t j) const noexcept {
                      [&](const Obstacle& o) { return std::visit(cuts, o); });
 }
 
+bool SightCheck::radio_reaches(std::size_t i, std::size_t j) const noexcept {
+  return !world_.line_of_sight() || !hidden(i, j);
+}
+
 std::vector<double> SightCheck::link_lengths_m() const {
   std::vector<double> lengths_m;
   for (std::size_t i = 0; i < world_.size(); ++i)
     for (std::size_t j = i + 1; j < world_.size(); ++j)
-      if (in_range(i, j) && !(world_.line_of_sight() && hidden(i, j)))
+      if (in_range(i, j) && radio_reaches(i, j))
         lengths_m.push_back(distance(world_.positions()[i], world_.positions()[j]));
   return lengths_m;
 }
@@ -89,7 +93,7 @@ std::size_t SightCheck::components(const std::vector<bool>& counts, bool with_si
 
 std::size_t SightCheck::components_both_ways(const std::vector<bool>& counts) const {
   return components_over(counts, [&](std::size_t i, std::size_t j) {
-    return !world_.is_deaf(i, j) && !world_.is_deaf(j, i) && !(world_.line_of_sight() && hidden(i, j));
+    return !world_.is_deaf(i, j) && !world_.is_deaf(j, i) && radio_reaches(i, j);
   });
 }
 

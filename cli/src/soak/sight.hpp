@@ -28,6 +28,8 @@ class SightCheck {
   [[nodiscard]] std::size_t components_both_ways(const std::vector<bool>& counts) const;
 
  private:
+  // In sight, if the radio needs it.
+  [[nodiscard]] bool radio_reaches(std::size_t i, std::size_t j) const noexcept;
   template <class Linked>
   [[nodiscard]] std::size_t components_over(const std::vector<bool>& counts, Linked linked) const;
 
