@@ -213,10 +213,36 @@ Vec2 past(const ConvoyRobot& robot, Vec2 way, float way_m) noexcept {
   return way + left * (aside + (aside < 0.0F ? -against : against));
 }
 
+// My parent, then my children; -1: none, or a spare.
+int tree_neighbor(const ConvoyRobot& robot, int n) noexcept {
+  if (n == 0) return robot.parent;
+  const int k = robot.children.items[static_cast<std::size_t>(n - 1)];
+  return robot.table().message(k).role == Role::spare ? -1 : k;
+}
+
+// With thrift: a junction goes to each of its tree neighbours in turn, since the robot that can be saved may be on any
+// branch. To a child only while no robot is near its edges, which might be drawn across that robot.
+int junction_way(const ConvoyRobot& robot) noexcept {
+  constexpr float turn_s = 12.0F;
+  const ConvoyParams& p = robot.params;
+  int turn = robot.self.phase_ticks / p.ticks(turn_s) % (robot.useful_children + 1);
+  int way = robot.parent;
+  for (int n = 0; n <= robot.children.size; ++n) {
+    const int k = tree_neighbor(robot, n);
+    if (k < 0) continue;
+    if (p.line_of_sight && !sees_clearly(robot, k, wide * p.clearance_m)) return robot.parent;
+    if (turn-- == 0) way = k;
+  }
+  return way;
+}
+
 // The neighbour to move towards so that a robot can be saved: my parent; for the root the nearest child
 // that is a connector.
 int pruning_way(const ConvoyRobot& robot) noexcept {
-  if (!robot.is_root()) return robot.parent;
+  if (!robot.is_root()) {
+    const bool in_turn = robot.params.thrift > 0.0F && robot.useful_children > 1 && robot.parent >= 0;
+    return in_turn ? junction_way(robot) : robot.parent;
+  }
   const TreeTable& table = robot.table();
   int best = -1;
   for (const int k : robot.children)
@@ -229,10 +255,11 @@ Vec2 sliding(const ConvoyRobot& robot, int way) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   Vec2 u = unit(table.position(way));
-  // Twice, since drawing nearer to one child may lead away from another.
-  for (int turn = 0; turn < 2; ++turn)
-    for (const int k : robot.children) {
-      if (k == way || table.message(k).role == Role::spare) continue;
+  // Twice, since drawing nearer to one of them may lead away from another.
+  for (int round = 0; round < 2; ++round)
+    for (int n = 0; n <= robot.children.size; ++n) {
+      const int k = tree_neighbor(robot, n);
+      if (k < 0 || k == way) continue;
       const float slack =
           std::clamp((thrifty_m(p, p.compact_distance_m) - table.range(k)) / (compact_width * p.communication_range_m),
                      -1.0F, 1.0F);

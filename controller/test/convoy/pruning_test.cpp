@@ -207,5 +207,42 @@ TEST(Compaction, SlidesTowardsTheParentUntilTheOtherEdgeIsStretched) {
   EXPECT_LT(towed_motion(stretched).x, 0.0F);
 }
 
+// A junction between parent 5, on the right, and two branches that have arrived, to workers 7 and 8.
+TEST(Compaction, WithThriftAJunctionSlidesToEachNeighborInTurn) {
+  ConvoyBench bench = grown<Convoy>();
+  bench.params.thrift = 1.0F;
+  bench.params.line_of_sight = true;
+  bench.state.label_cm = 500;
+  bench.state.parent = 5;
+  bench.state.committed = true;
+  bench.state.role = Role::connector;
+  bench.put_connector(5, {1.2F, 0}, 300, 9).child_count = 1;
+  for (const RobotId id : {RobotId{7}, RobotId{8}}) {
+    auto& m = bench.put_child(id, {-0.9F, id == 7 ? 0.9F : -0.9F}, Role::worker);
+    m.label_cm = 700;
+    m.depth = 6;
+    m.subtree_workers = 1;
+    m.committed = true;
+  }
+  bench.steps(2);
+  const auto way_after = [&](float seconds) {
+    bench.state.phase_ticks = static_cast<std::uint16_t>(bench.params.ticks(seconds));
+    auto robot = bench.tick();
+    EXPECT_TRUE(has_arrived(robot));
+    return towed_motion(robot);
+  };
+  EXPECT_GT(way_after(1.0F).x, 0.4F) << "to the parent";
+  EXPECT_GT(way_after(13.0F).y, 0.4F);
+  EXPECT_LT(way_after(25.0F).y, -0.4F);
+  EXPECT_GT(way_after(37.0F).x, 0.4F) << "and again";
+  bench.put(30, {-0.6F, -0.4F}).role = Role::spare;
+  EXPECT_GT(way_after(13.0F).x, 0.2F) << "the edge to 8 would be drawn across a spare";
+  bench.params.line_of_sight = false;
+  EXPECT_GT(way_after(13.0F).y, 0.4F) << "where robots hide no edges it may";
+  bench.silence(30);
+  bench.params.thrift = 0.0F;
+  EXPECT_GT(way_after(13.0F).x, 0.4F) << "without thrift";
+}
+
 }  // namespace
 }  // namespace banyan
