@@ -26,8 +26,8 @@ struct ValueText {
   std::string operator()(world::Vec2 p) const { return "[" + number_text(p.x) + ", " + number_text(p.y) + "]"; }
   template <class Element> std::string operator()(const std::vector<Element>& list) const {
     std::string text;
-    for (const Element& element : list) text += (text.empty() ? "[" : ", ") + (*this)(element);
-    return text + "]";
+    for (const Element& element : list) text += (text.empty() ? "" : ", ") + (*this)(element);
+    return "[" + text + "]";
   }
 };
 

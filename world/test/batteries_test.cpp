@@ -91,6 +91,23 @@ TEST(Batteries, ARobotWithoutChargeIsDeadWhereItStands) {
   EXPECT_TRUE(std::equal(before.begin(), before.end(), world.positions().begin()));
 }
 
+TEST(Batteries, ARobotThatRunsDownOnItsWayStopsThere) {
+  Scenario s = ring("convoy", 6, 2, 30.0, 1);
+  s.battery.model = Battery::Model::time;
+  s.battery.charge_per_s = 0.2;
+  World world(s);
+  for (int t = 0; t < 48; ++t) world.step();
+  const auto worker = static_cast<std::size_t>(world.targets()[0].worker);
+  const Vec2 before = world.positions()[worker];
+  world.step();
+  EXPECT_GT(distance(before, world.positions()[worker]), 0.005) << "it is under way";
+  for (int t = 0; t < 3; ++t) world.step();
+  ASSERT_EQ(world.emptied(), world.size());
+  const std::vector<Vec2> there(world.positions().begin(), world.positions().end());
+  for (int t = 0; t < 20; ++t) world.step();
+  EXPECT_TRUE(std::equal(there.begin(), there.end(), world.positions().begin()));
+}
+
 TEST(Batteries, DeathsByEventsAreNotCountedAsEmptyBatteries) {
   Scenario s = standing(Battery::Model::time);
   s.events.push_back({.time_s = 1.0, .action = Die{3}});

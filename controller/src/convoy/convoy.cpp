@@ -317,6 +317,7 @@ static Velocity tick(ConvoyRobot& robot, const Inputs<Heard>& inputs, ConvoyMess
   if (robot.power != nullptr) {
     if (asks_for_relief(robot)) call_for_relief(*robot.power);
     tend_battery(*robot.power);
+    if (robot.power->power.travels) state.accompanies = nobody;  // another spare takes its place
   }
   note_start(robot);  // have I few neighbours, all of them far away?
   find_gap(robot);    // is a part of the network there that does not hear me?

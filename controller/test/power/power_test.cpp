@@ -404,6 +404,40 @@ TEST_F(OnItsWay, PrefersARobotOfTheTreeToASpareAsFarAway) {
   EXPECT_NEAR(tick().x, 1.5F, 1e-3F) << "though the spare is nearer";
 }
 
+// A spare (id 1) beside a connector that needs a companion, and from which the way to a place is known.
+TEST(Power, ACompanionThatHasToBeChargedGoes) {
+  ConvoyParams params = convoy_defaults();
+  params.link_redundancy = 2;
+  PoweredConvoyState state = initial_powered_state(1, false, false);
+  PoweredConvoyMessage root, connector, worker;
+  for (PoweredConvoyMessage* m : {&root, &connector, &worker}) {
+    m->epoch = 2;
+    m->phase = Phase::grow_tree;
+    m->root = {1, 9};
+    m->level = 250;
+    m->place_hops = 3;
+  }
+  root.id = 9;
+  root.role = Role::root;
+  connector.id = 2;
+  connector.role = Role::connector;
+  connector.parent = 9;
+  connector.child_count = 1;
+  worker.id = 3;
+  worker.role = Role::worker;
+  worker.parent = 2;
+  const auto beside_after = [&](int ticks, float level) {
+    std::vector<Heard> heard{{&root, {-1.8F, 1.0F}}, {&connector, {0.0F, 1.0F}}, {&worker, {1.8F, 1.0F}}};
+    Senses senses;
+    senses.charge = Charge{level, false};
+    RobotId below = nobody;
+    for (int t = 0; t < ticks; ++t) below = powered_convoy_step(params, state, {heard, senses, params}).message.below;
+    return below;
+  };
+  EXPECT_EQ(beside_after(10, 0.95F), 2);
+  EXPECT_EQ(beside_after(100, 0.3F), nobody);
+}
+
 // A worker (id 1) that chooses its parent in a new epoch, between two candidates.
 class Choosing : public ::testing::Test {
  protected:
@@ -504,6 +538,50 @@ TEST_F(CalledSpare, GoesUnlessAnotherChargedOneIsNearer) {
   EXPECT_FALSE(goes(1.0F, 250));
   EXPECT_TRUE(goes(1.0F, 100));      // that one is not charged
   EXPECT_FALSE(goes(1.0F, 250, 0));  // nor to an edge that holds workers back
+}
+
+// Otherwise it would be far from the next call, or empty before it comes.
+TEST(Power, AChargedSpareWaitsWithinTwoHopsOfAPlace) {
+  const auto goes = [](std::uint8_t hops) {
+    auto bench = grown<Convoy>();
+    bench.state.role = Role::spare;
+    bench.put(5, {1.5F, 0.0F}).role = Role::connector;
+    auto robot = bench.tick();
+    PowerState power;
+    power.level = 0.95F;
+    power.ready = true;
+    power.said.place_hops = hops;
+    power.standings[static_cast<std::size_t>(robot.table().find(5))].place_hops = static_cast<std::uint8_t>(hops - 1);
+    PowerRobot me{robot, power, bench.params, no_children};
+    tend_battery(me);
+    return bench.state.called && bench.state.reference == 5;
+  };
+  EXPECT_FALSE(goes(1));
+  EXPECT_FALSE(goes(2));
+  EXPECT_TRUE(goes(3));
+}
+
+TEST(Power, AtAPlaceRobotsWithEnoughChargeMakeRoomForThoseWithout) {
+  const auto leaves = [](bool seeks, bool charging, float level, std::uint8_t other_level) {
+    auto bench = grown<Convoy>();
+    bench.state.role = Role::spare;
+    bench.put(5, {0.5F, 0.0F}).role = Role::worker;  // keeps the place
+    bench.put(6, {0.0F, 0.6F}).role = Role::spare;
+    auto robot = bench.tick();
+    PowerState power;
+    power.level = level;
+    power.seeks = seeks;
+    power.charging = charging;
+    power.standings[static_cast<std::size_t>(robot.table().find(5))].place_hops = 0;
+    power.standings[static_cast<std::size_t>(robot.table().find(6))].level = other_level;
+    Vec2 away;
+    return leaves_place(PowerRobot{robot, power, bench.params, no_children}, away) && away.x < -0.9F;
+  };
+  EXPECT_TRUE(leaves(false, false, 0.99F, 250)) << "it is full";
+  EXPECT_FALSE(leaves(true, true, 0.6F, 60)) << "it is being charged";
+  EXPECT_TRUE(leaves(true, false, 0.6F, 60)) << "it waits for a slot, and the other one needs it more";
+  EXPECT_FALSE(leaves(true, false, 0.6F, 200)) << "the other one can wait as well";
+  EXPECT_FALSE(leaves(true, false, 0.4F, 60)) << "it cannot wait itself";
 }
 
 TEST(Power, ASpareThatWaitsIsSlowUnlessItHidesAnEdge) {
