@@ -14,6 +14,7 @@
 #include "banyan/controller/healing/tick.hpp"
 #include "banyan/controller/healing/tie.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
+#include "banyan/controller/redundancy/folding.hpp"
 #include "banyan/controller/tree/census.hpp"
 #include "banyan/controller/tree/label.hpp"
 #include "banyan/controller/tree/motion.hpp"
@@ -106,7 +107,7 @@ bool asks_for_relief(const ConvoyRobot& robot) noexcept {
 // The need is not passed up the tree: a chain that is towed brings its slack to where the spares are by itself.
 bool needs_spare(const ConvoyRobot& robot) noexcept {
   if (robot.parent < 0) return false;
-  if (asks_for_relief(robot)) return true;
+  if (asks_for_relief(robot) || wants_fold(robot)) return true;
   const float d = robot.table().range(robot.parent);
   const bool hidden = robot.table().age(robot.parent) > std::max(silence_ticks, usual_silence_ticks(robot));
   // A connector may have been made a worker: then it is the parent that has to go on.
@@ -124,6 +125,7 @@ bool may_call(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const float from_m = robot.self.corners.landmarks.size > 0 ? p.recruitment_distance_m : p.call_distance_m;
   if (robot.parent < 0) return false;
+  if (wants_fold(robot) && robot.table().age(robot.parent) <= silence_ticks) return false;  // keep_company() does
   return robot.self.corners.pinned || is_anchored(robot) || is_held_by_junction(robot) ||
          robot.table().range(robot.parent) > from_m - asks_sooner * robot.table().spread_m();
 }
@@ -136,7 +138,7 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
   if (is_leaving(robot, owner))
     return may_relieve(*robot.power, owner, parent, [&](int k) { return sees_clearly(robot, k, tight * clearance_m); });
   if (table.range(owner) >= reach_m || table.range(parent) >= reach_m || !robot.is_sure(parent) ||
-      robot.may_be_deaf(parent))
+      robot.may_be_deaf(parent) || is_off_middle(robot, owner, parent))
     return false;
   const bool in_the_way = distance_to_segment(Vec2{}, table.position(owner), table.position(parent)) < clearance_m;
   const float room_m = in_the_way ? tight * clearance_m : clearance_m;

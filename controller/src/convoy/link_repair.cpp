@@ -39,14 +39,6 @@ float repair_cost(const ConvoyRobot& robot, int k, bool urgent) noexcept {
          (clear ? 0.0F : costs_unclear * c);
 }
 
-// Companions come and go beside the robots of a branch that has arrived, and make way themselves. A link that they are
-// near to is not about to be cut for long, and to change the tree for it would send them to other places again.
-bool sees_past_companions(const ConvoyRobot& robot, int k, float clearance_m) noexcept {
-  const bool rests = has_companions(robot.params) && has_arrived(robot);
-  return sees_clearly(robot, robot.self.corners, k, clearance_m,
-                      [&](int j) { return rests && companion_of(robot, j) != nobody; });
-}
-
 }  // namespace
 
 Outlook outlook(const ConvoyRobot& robot) noexcept {
@@ -57,9 +49,8 @@ Outlook outlook(const ConvoyRobot& robot) noexcept {
   if (has_companions(robot.params) && !robot.params.line_of_sight) return {hidden, hidden};
   const ConvoyMessage* parent = robot.parent_message();
   const bool warned = parent != nullptr && parent->warned == robot.self.id;
-  const bool endangered = hidden || warned || !sees_past_companions(robot, robot.parent, danger * clearance_m);
-  return {endangered,
-          endangered && (hidden || warned || !sees_past_companions(robot, robot.parent, urgency * clearance_m))};
+  const bool endangered = hidden || warned || !sees_clearly(robot, robot.parent, danger * clearance_m);
+  return {endangered, endangered && (hidden || warned || !sees_clearly(robot, robot.parent, urgency * clearance_m))};
 }
 
 // Takes the best new parent that is ahead of me, a spare only when it is urgent. If there is none, my sequence
@@ -106,8 +97,7 @@ RobotId child_to_warn(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   for (const int k : robot.children)
-    if (table.message(k).role != Role::spare && table.age(k) == 0 &&
-        !sees_past_companions(robot, k, danger * p.clearance_m))
+    if (table.message(k).role != Role::spare && table.age(k) == 0 && !sees_clearly(robot, k, danger * p.clearance_m))
       return table.id(k);
   return nobody;
 }

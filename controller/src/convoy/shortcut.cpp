@@ -9,7 +9,7 @@
 #include "banyan/controller/core/search.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
-#include "banyan/controller/redundancy/companions.hpp"
+#include "banyan/controller/redundancy/folding.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
 
 namespace banyan {
@@ -17,6 +17,7 @@ namespace {
 
 constexpr float beside_leaver = 0.6F;   // of `clearance`: less room will do, for the leaver stands beside its successor
 constexpr float releases_later = 3.0F;  // times the spread of ranges: else the edge would ask for a spare again
+constexpr float folded_release = 0.92F;  // of the longest folded edge: the parent between is not needed then
 
 // Rule 5: the connector between me and my grandparent serves only me, and is not needed any more.
 void release(ConvoyRobot& robot) noexcept {
@@ -31,7 +32,7 @@ void release(ConvoyRobot& robot) noexcept {
   // A worker cannot be towed: a robot released between it and the root is free for the edge to its child.
   const bool helps = robot.self.is_worker && robot.self.call_hops == 1;
   const float merge_m = has_arrived(robot) ? thrifty_m(p, p.merge_distance_m) : helps ? p.merge_distance_m : 0.0F;
-  const float limit_m = std::max(p.release_distance_m, merge_m);
+  const float limit_m = folds(robot) ? folded_release * folded_edge_m(p) : std::max(p.release_distance_m, merge_m);
   const float reach_m = limit_m - releases_later * table.spread_m();
   if (may_be_parent(robot, k, reach_m)) take_parent(robot, k);
 }
@@ -46,7 +47,7 @@ void take_nearer(ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
   int best = -1;
-  float best_m = p.release_distance_m;
+  float best_m = folds(robot) ? folded_edge_m(p) : p.release_distance_m;
   for (int k = 0; k < table.size(); ++k) {
     if (k == robot.parent || table.range(k) >= best_m || !may_be_parent(robot, k, best_m)) continue;
     if (table.message(k).role == Role::worker && !is_relay(robot, k) && !is_enough(robot, k)) continue;
@@ -140,8 +141,8 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   if (is_left_waiting(robot)) take_inner(robot);
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);
-  else if (self.lead_to == nobody && !rests(robot)) release(robot);
-  if (may_save && !rests(robot)) prune(robot);
+  else if (self.lead_to == nobody) release(robot);
+  if (may_save && !folds(robot)) prune(robot);
 }
 
 }  // namespace banyan

@@ -13,6 +13,7 @@
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/obstacles/sight.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
+#include "banyan/controller/redundancy/folding.hpp"
 #include "banyan/controller/tree/motion.hpp"
 #include "banyan/controller/tree/parent_selection.hpp"
 #include "banyan/controller/tree/spare_management.hpp"
@@ -197,7 +198,7 @@ Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
     const Vec2 side = d > on_line_m ? -near / d : Vec2{-along.y, along.x};
     u += side * std::min(width_m / std::max(d, on_line_m) - 1.0F, most_push);
   });
-  return u * robot.params.corridor_gain;
+  return u * robot.params.corridor_gain + clear_folds(robot, width_m);
 }
 
 // The course of a spare that is needed elsewhere. If others push it back so hard that it almost stops, the push is
@@ -459,8 +460,9 @@ Vec2 towed_motion(const ConvoyRobot& robot) noexcept {
   if (robot.carries_on) return bypass(robot, robot.self.lost_child) + repulsion(robot);
   if (holds_still(robot)) return {};
   if (Vec2 way; steps_aside(robot, way)) return way + repulsion(robot);
-  if (rests(robot))
-    return repulsion(robot) + make_way(robot, wide * p.clearance_m) + clear_sight(robot, robot.self.corners);
+  if (folds(robot))
+    return folding_motion(robot) + repulsion(robot) + make_way(robot, wide * p.clearance_m) +
+           clear_sight(robot, robot.self.corners);
   const Vec2 along = robot.self.lead_to != nobody ? lead(robot)
                      : has_arrived(robot)         ? compaction(robot)
                                                   : clamped(tow(robot), 1.0F);

@@ -11,6 +11,7 @@
 #include "banyan/controller/core/trig.hpp"
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
+#include "banyan/controller/redundancy/folding.hpp"
 #include "banyan/controller/tree/label.hpp"
 
 namespace banyan {
@@ -53,10 +54,15 @@ IndexList neighbors_of(const ConvoyRobot& robot, int of) noexcept {
   return list;
 }
 
+float bridged_m(const ConvoyRobot& robot) noexcept {
+  return may_fold(robot) ? folded_reach_m(robot.params) : bridged * robot.params.communication_range_m;
+}
+
 // Two robots at a and b hear each other without the one at `middle`, whose body stays where it is, even if it dies.
 bool hear_each_other(const ConvoyRobot& robot, Vec2 middle, Vec2 a, Vec2 b, bool travels) noexcept {
   if (robot.params.line_of_sight && distance_to_segment(middle, a, b) < hides * robot.params.clearance_m) return false;
-  return distance(a, b) <= (travels ? bridged_on_way : bridged) * robot.params.communication_range_m;
+  const float on_way_m = bridged_on_way * robot.params.communication_range_m;
+  return distance(a, b) <= (travels ? on_way_m : bridged_m(robot));
 }
 
 // Where the tree neighbours of a robot are.
@@ -112,31 +118,21 @@ int welcome_companions(const ConvoyRobot& robot, int k) noexcept {
   return wanted_companions(robot) + (reserve ? 1 : 0);
 }
 
-// No other spare that is free and that I hear is nearer to neighbour k; it will go there, or take another one soon.
-bool is_nearest_spare(const ConvoyRobot& robot, int k) noexcept {
-  const TreeTable& table = robot.table();
-  const float mine_m = table.range(k);
-  for (int j = 0; j < table.size(); ++j) {
-    if (!table.alive(j) || !is_free(table.message(j)) || robot.convoy_of(j).below != nobody) continue;
-    if (distance(table.position(j), table.position(k)) < mine_m) return false;
-  }
-  return true;
-}
-
 // Neighbour k says that it lacks companions. Where robots hide others, only it can know.
 bool says_it_lacks(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
   return m.role != Role::spare && m.request == robot.table().id(k);
 }
 
-// Of the spares that are free, or stand beside the same robot as I, one is nearer to neighbour k.
-bool another_is_nearer(const ConvoyRobot& robot, int k) noexcept {
+// Of the spares that I hear, one that is free or stands beside robot `of` is nearer to neighbour k: it will go there,
+// or take another one soon.
+bool another_is_nearer(const ConvoyRobot& robot, int k, RobotId of) noexcept {
   const TreeTable& table = robot.table();
   for (int j = 0; j < table.size(); ++j) {
     if (!table.alive(j) || !is_free(table.message(j))) continue;
     if (distance(table.position(j), table.position(k)) >= table.range(k)) continue;
-    const RobotId of = companion_of(robot, j);
-    if (of == nobody || of == robot.self.accompanies) return true;
+    const RobotId beside = robot.convoy_of(j).below;
+    if (beside == nobody || beside == of) return true;
   }
   return false;
 }
@@ -148,7 +144,7 @@ RobotId farther_out(const ConvoyRobot& robot) noexcept {
   const int best = least_of(table.size(), not_counted, [&](int k) {
     const bool lacks = table.alive(k) && up_of(table.message(k)) == robot.self.accompanies && says_it_lacks(robot, k);
     const bool mine = lacks && count_companions(robot, table.id(k)) < wanted_companions(robot);
-    return mine && !another_is_nearer(robot, k) ? table.range(k) : not_counted;
+    return mine && !another_is_nearer(robot, k, robot.self.accompanies) ? table.range(k) : not_counted;
   });
   return best < 0 ? robot.self.accompanies : table.id(best);
 }
@@ -162,7 +158,7 @@ RobotId nearest_alone(const ConvoyRobot& robot) noexcept {
     if (!table.alive(k) || !needs_companion(robot, k) ||
         count_companions(robot, table.id(k)) >= welcome_companions(robot, k))
       continue;
-    if (table.message(k).call_hops == companion_call || is_nearest_spare(robot, k)) best = k;
+    if (table.message(k).call_hops == companion_call || !another_is_nearer(robot, k, nobody)) best = k;
   }
   return best < 0 ? nobody : table.id(best);
 }
@@ -174,12 +170,15 @@ void follow_call(ConvoyRobot& robot) noexcept {
   else robot.add_elapsed(self.alone_ticks);
 }
 
-// A companion joins an edge in need only if no other spare does: the edge has begun to call.
+// A companion joins an edge in need only if no other spare does: the edge has begun to call. Edges that fold it joins
+// at once.
 void leave_edge_to_others(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   if (self.accompanies == nobody || self.request == nobody) return;
   const int owner = robot.table().find(self.request);
-  if (owner >= 0 && robot.table().message(owner).call_hops == 0) return;
+  if (owner >= 0 &&
+      (robot.table().message(owner).call_hops == 0 || (may_fold(robot) && !is_under_way(robot.table().message(owner)))))
+    return;
   self.request = nobody;
   self.spare_state = SpareState::wait;
 }
@@ -205,7 +204,7 @@ void choose_whom(ConvoyRobot& robot) noexcept {
   leave_edge_to_others(robot);
   // One spare goes where a companion is missed far away; a crowd would be in the way there.
   const int way = robot.call_hops < companion_call ? -1 : table.find(self.reference);
-  if (self.called && way >= 0 && !is_nearest_spare(robot, way)) self.called = false;
+  if (self.called && way >= 0 && another_is_nearer(robot, way, nobody)) self.called = false;
 }
 
 bool depends_on_me(const ConvoyRobot& robot) noexcept {
@@ -220,13 +219,23 @@ bool depends_on_me(const ConvoyRobot& robot) noexcept {
   return holds_together(robot, Vec2{}, ends.all(), robot.self.want_m > 0.0F);
 }
 
+// I am the worker at the end of a branch that travels and is going to fold (leads_travelling).
+bool leads(const ConvoyRobot& robot) noexcept {
+  return may_fold(robot) && robot.self.is_worker && robot.self.want_m > 0.0F && robot.parent >= 0 &&
+         robot.useful_children == 0;
+}
+
 void call(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
-  const bool alone = depends_on_me(robot) && count_companions(robot, self.id) < wanted_companions(robot);
+  const bool needs = depends_on_me(robot) || leads(robot);
+  const bool lacks = needs && count_companions(robot, self.id) < wanted_companions(robot);
+  const bool alone = lacks || (robot.parent >= 0 && wants_fold(robot));
+  // Where a branch folds, spares go by this alone: robots of the tree hide others from them.
+  if (needs && self.want_m < folds_from_m && may_fold(robot)) self.request = self.id;
   if (!alone) self.alone_ticks = 0;
   else robot.add_elapsed(self.alone_ticks);
   if (!alone || self.phase != Phase::grow_tree) return;
-  if (self.alone_ticks > lacks_after_ticks) self.request = self.id;
+  if (lacks && self.alone_ticks > lacks_after_ticks) self.request = self.id;
   if (self.alone_ticks > robot.params.ticks(robot.params.call_after_s))
     self.call_hops = std::min(self.call_hops, companion_call);
 }
@@ -303,7 +312,9 @@ bool needs_companion(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = table.message(k);
   if (m.role == Role::spare) return false;
   const int degree = degree_of(robot, k);
+  if (leads_travelling(robot, k)) return true;
   if (degree < 2) return false;
+  if (may_fold(robot) && !is_under_way(m)) return says_it_lacks(robot, k);
   EdgeEnds ends;
   for (const int n : neighbors_of(robot, k)) ends.add(table.position(n));
   const bool knows_all = static_cast<int>(ends.size) + (up_of(m) == robot.self.id ? 1 : 0) >= degree;
@@ -338,12 +349,6 @@ bool stands_in_for(const ConvoyRobot& robot, int k) noexcept {
   return robot.table().id(k) == robot.self.accompanies && robot.table().age(k) <= stand_in * robot.liveness_ticks();
 }
 
-bool rests(const ConvoyRobot& robot) noexcept {
-  const ConvoyParams& p = robot.params;
-  const bool spares_suffice = robot.self.call_hops == nobody_calls && !robot.self.forgets;
-  return has_companions(p) && p.line_of_sight && p.thrift <= 0.0F && has_arrived(robot) && spares_suffice;
-}
-
 bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const ConvoyParams& p = robot.params;
   const TreeTable& table = robot.table();
@@ -355,7 +360,7 @@ bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept {
   const Vec2 from = table.position(*child);
   const Vec2 to = table.position(robot.parent);
   const Vec2 near = nearest_on_segment(from, to);
-  const float reach_m = saves ? thrifty_m(p, p.merge_distance_m) : bridged * p.communication_range_m;
+  const float reach_m = saves ? thrifty_m(p, p.merge_distance_m) : folded_reach_m(p);
   if (distance(from, to) > reach_m || norm(near) > aside * p.clearance_m) return false;
   const Vec2 left = left_of(unit(to - from));
   constexpr float pace = 0.7F;

@@ -59,25 +59,6 @@ TEST_F(ConvoyChain, WithCompanionsNobodyEndangersAnEdgeWhereRobotsHideNothing) {
   EXPECT_EQ(parent_after_shortcuts(), 5);
 }
 
-// Nor do companions where robots do hide edges, once the branch is at rest: they make way themselves.
-TEST_F(ConvoyChain, CompanionsBesideAnEdgeAtRestDoNotChangeTheTree) {
-  bench.params.link_redundancy = 2;
-  bench.params.line_of_sight = true;
-  bench.put_connector(5, {-0.5F, 0.3F}, 120, 52);
-  bench.say(2).child_count = 2;  // or it would be released
-  auto& walker = bench.put(6, {-0.7F, -0.09F});
-  walker.role = Role::spare;
-  walker.below = 2;
-  auto restore = bench.state;
-  EXPECT_EQ(parent_after_shortcuts(), 5);  // a worker below still travels
-  bench.state = restore;
-  bench.state.want_m = 0.0F;
-  bench.state.subtree_workers = 1;
-  EXPECT_EQ(parent_after_shortcuts(), 2);
-  walker.below = nobody;
-  EXPECT_EQ(parent_after_shortcuts(), 5);
-}
-
 TEST_F(EndangeredEdge, LetsItsSeqnoRestUntilAnotherParentIsAhead) {
   bench.step();
   EXPECT_EQ(bench.state.parent, 2);

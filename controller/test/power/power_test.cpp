@@ -408,6 +408,7 @@ TEST_F(OnItsWay, PrefersARobotOfTheTreeToASpareAsFarAway) {
 TEST(Power, ACompanionThatHasToBeChargedGoes) {
   ConvoyParams params = convoy_defaults();
   params.link_redundancy = 2;
+  params.line_of_sight = false;
   PoweredConvoyState state = initial_powered_state(1, false, false);
   PoweredConvoyMessage root, connector, worker;
   for (PoweredConvoyMessage* m : {&root, &connector, &worker}) {

@@ -18,6 +18,7 @@ class SpareByAChain : public ::testing::Test {
  protected:
   SpareByAChain() {
     bench.params.link_redundancy = 2;
+    bench.params.line_of_sight = false;
     put_chain({0.0F, 1.0F}, {1.0F, 0.0F});
   }
   void put_chain(Vec2 middle, Vec2 along) {
@@ -96,8 +97,12 @@ TEST_F(SpareByAChain, OfTwoTheOneThatIsThereStaysWhateverItsId) {
 TEST_F(SpareByAChain, OneMoreComesAlongWhileTheWorkerTravels) {
   put_spare(7, {0.3F, 1.0F}, 2);
   bench.say(2).want_cm = bench.say(3).want_cm = 300;
-  bench.params.line_of_sight = true;  // it would hide edges
+  EXPECT_EQ(chosen(), 2);
+  bench.params.line_of_sight = true;  // it would hide edges; but the worker has one, too
+  EXPECT_EQ(chosen(), 3);
+  put_spare(6, {1.8F, 0.8F}, 3);
   EXPECT_EQ(chosen(), nobody);
+  bench.silence(6);
   bench.params.line_of_sight = false;
   EXPECT_EQ(chosen(), 2);
   bench.say(2).want_cm = bench.say(3).want_cm = 0;
@@ -107,11 +112,20 @@ TEST_F(SpareByAChain, OneMoreComesAlongWhileTheWorkerTravels) {
 // The body between two robots that are near to each other stays where it is, even if it dies.
 TEST_F(SpareByAChain, WithSightItIsNeededWhereARobotHidesItsNeighbours) {
   bench.params.line_of_sight = true;
-  bench.move(9, {-0.7F, 1.0F});
-  bench.move(3, {0.7F, 1.0F});
+  bench.say(2).want_cm = 300;
+  bench.move(9, {-0.3F, 1.0F});
+  bench.move(3, {0.3F, 1.0F});
   EXPECT_EQ(chosen(), 2);
   bench.move(2, {0.0F, 1.3F});  // out of their line
   EXPECT_EQ(chosen(), nobody);
+}
+
+// Where a branch folds only the robot itself knows: spares may be hidden from its neighbours.
+TEST_F(SpareByAChain, GoesByWhatARobotSaysOnceItsBranchFolds) {
+  bench.params.line_of_sight = true;
+  EXPECT_EQ(chosen(), nobody);
+  bench.say(2).request = 2;
+  EXPECT_EQ(chosen(), 2);
 }
 
 // My robot's child lacks a companion: I go there, unless another spare is nearer to it.
@@ -183,6 +197,11 @@ TEST_F(SpareByAChain, JoinsAnEdgeOnlyIfThatHasBegunToCall) {
   bench.say(3).call_hops = 0;
   chosen();
   EXPECT_EQ(bench.state.request, 3);
+  bench.say(3).call_hops = nobody_calls;
+  bench.params.line_of_sight = true;  // it folds
+  bench.say(2).request = 2;
+  chosen();
+  EXPECT_EQ(bench.state.request, 3);
 }
 
 // Wherever the chain is and however it runs: following the motion leads to a place from which the companion hears both
@@ -248,6 +267,23 @@ TEST_F(ConnectorAlone, SaysThatItLacksOne) {
   bench.put(7, {0.3F, 0.3F}).below = 1;
   hops_after(1);
   EXPECT_EQ(bench.state.request, nobody);
+}
+
+// Once its branch has arrived, it says so as long as it needs one, whether it has one or not: spares go by that alone.
+TEST_F(ConnectorAlone, WithSightSaysThatItNeedsOne) {
+  bench.params.line_of_sight = true;
+  bench.put(7, {0.3F, 0.3F}).below = 1;
+  const auto says = [&](float want_m) {
+    bench.state.request = nobody;
+    bench.state.want_m = want_m;
+    hops_after(1);
+    return bench.state.request == 1;
+  };
+  EXPECT_TRUE(says(0.0F));
+  EXPECT_FALSE(says(3.0F));
+  bench.move(2, {-0.9F, 0.3F});
+  bench.move(3, {0.9F, 0.3F});
+  EXPECT_FALSE(says(0.0F));  // they hear each other
 }
 
 // With sight it hides its child from its parent, although they are near: it lets the child go past.

@@ -47,11 +47,6 @@ void keep_company(ConvoyRobot& robot) noexcept;
 // it count as dead. I stay, since others are about to take me as their parent.
 [[nodiscard]] bool stands_in_for(const ConvoyRobot& robot, int k) noexcept;
 
-// With line of sight a branch that has arrived rests: it neither contracts nor merges nor releases robots, and is not
-// drawn straight. Each such change hides edges, and sends companions to other places. It does all this while it hears a
-// call or there are more targets than a robot remembers, since robots are missed then, and with thrift above 0.
-[[nodiscard]] bool rests(const ConvoyRobot& robot) noexcept;
-
 // My only child could do without me, but I stand in its line of sight to my parent: which way I step aside. With a
 // second path the child then needs no companion, with thrift it releases me.
 [[nodiscard]] bool steps_aside(const ConvoyRobot& robot, Vec2& way) noexcept;

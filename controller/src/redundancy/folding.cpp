@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "banyan/controller/redundancy/folding.hpp"
+
+#include <algorithm>
+
+#include "banyan/controller/convoy/towing.hpp"
+#include "banyan/controller/core/search.hpp"
+#include "banyan/controller/redundancy/companions.hpp"
+
+namespace banyan {
+namespace {
+
+constexpr float relied_on = 0.96F;    // of C: no longer link counts as a path
+constexpr float taut_below = 0.04F;   // of C: so much shorter than the longest folded edge one begins to draw a parent
+constexpr float taut_width = 0.08F;   // of C: and so much longer it does with all its strength
+constexpr float gives_below = 0.02F;  // of C: the same for the edge to one's own parent,
+constexpr float gives_width = 0.5F;   // of the longest folded edge: which gives way to the others
+constexpr float off_middle = 0.02F;   // of C: a robot that joins may be so much farther away than a folded edge is long
+constexpr float sideways = 0.5F;      // the pace of a robot that does not hear its grandparent
+constexpr int unheard_ticks = 3;
+constexpr int search_ticks = 40;        // to one side, then to the other
+constexpr float pushes_through = 6.0F;  // between a line and the edges beside it: through the line
+constexpr float nearest_m = 1e-3F;      // on the line itself the push is as strong as here,
+constexpr float strongest = 20.0F;      // and no stronger than this
+
+float ramp_up(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
+
+// I do not hear my grandparent, although my parent's edge is short: somebody stands between us. To one side for some
+// time, then to the other.
+Vec2 look_past(const ConvoyRobot& robot, Vec2 up) noexcept {
+  const ConvoyState& self = robot.self;
+  const TreeTable& table = robot.table();
+  const TreeStanding& parent = table.message(robot.parent);
+  if (parent.parent == nobody || parent.need != Need::no_need) return {};
+  const int over = table.find(parent.parent);
+  if (over >= 0 && table.age(over) <= unheard_ticks) return {};
+  const bool left = (self.phase_ticks / search_ticks + self.id) % 2 == 0;
+  return left_of(up) * (left ? sideways : -sideways);
+}
+
+}  // namespace
+
+bool may_fold(const ConvoyRobot& robot) noexcept {
+  const ConvoyParams& p = robot.params;
+  return has_companions(p) && p.line_of_sight && p.thrift <= 0.0F && !robot.self.forgets;
+}
+
+bool folds(const ConvoyRobot& robot) noexcept {
+  return may_fold(robot) && prunes(robot.params) && robot.self.subtree_workers > 0 &&
+         robot.self.want_m < folds_from_m && robot.self.call_hops >= companion_call;
+}
+
+float folded_reach_m(const ConvoyParams& params) noexcept { return relied_on * params.communication_range_m; }
+
+float folded_edge_m(const ConvoyParams& params) noexcept {
+  return folded_reach_m(params) / static_cast<float>(params.link_redundancy);
+}
+
+bool wants_fold(const ConvoyRobot& robot) noexcept {
+  if (!folds(robot) || (robot.self.is_worker && robot.self.want_m > 0.0F)) return false;
+  const TreeTable& table = robot.table();
+  return table.range(robot.parent) > folded_edge_m(robot.params) || table.age(robot.parent) > unheard_ticks;
+}
+
+bool is_off_middle(const ConvoyRobot& robot, int owner, int parent) noexcept {
+  const TreeTable& table = robot.table();
+  const ConvoyParams& p = robot.params;
+  const float edge_m = distance(table.position(owner), table.position(parent));
+  if (!may_fold(robot) || is_under_way(table.message(owner)) || edge_m > folded_reach_m(p)) return false;
+  return std::max(table.range(owner), table.range(parent)) >
+         std::max(0.5F * edge_m, folded_edge_m(p)) + off_middle * p.communication_range_m;
+}
+
+bool leads_travelling(const ConvoyRobot& robot, int k) noexcept {
+  const TreeStanding& m = robot.table().message(k);
+  return may_fold(robot) && m.role == Role::worker && m.want_cm > 0 && robot.convoy_of(k).child_count == 0;
+}
+
+Vec2 folding_motion(const ConvoyRobot& robot) noexcept {
+  const float c = robot.params.communication_range_m;
+  const float edge_m = folded_edge_m(robot.params);
+  const TreeTable& table = robot.table();
+  Vec2 u;
+  for (const int k : robot.children)
+    if (table.message(k).role != Role::spare)
+      u += unit(table.position(k)) * ramp_up(table.range(k), edge_m - taut_below * c, taut_width * c);
+  if (robot.parent < 0 || robot.self.want_m > 0.0F) return u;  // the last bit of the way it is towed
+  const Vec2 up = unit(table.position(robot.parent));
+  return u + up * ramp_up(table.range(robot.parent), edge_m - gives_below * c, gives_width * edge_m) +
+         look_past(robot, up);
+}
+
+Vec2 clear_folds(const ConvoyRobot& robot, float width_m) noexcept {
+  Vec2 u;
+  if (!may_fold(robot)) return u;
+  const TreeTable& table = robot.table();
+  table.members.for_each([&](int k) {
+    const TreeStanding& m = table.message(k);
+    if (!table.alive(k) || is_under_way(m) || m.parent == robot.self.id) return;
+    const int middle = table.find(m.parent);
+    const int over = middle < 0 ? -1 : table.find(table.message(middle).parent);
+    if (over < 0) return;
+    const Vec2 a = table.position(k);
+    const Vec2 b = table.position(over);
+    if (distance(a, b) > robot.params.communication_range_m) return;
+    const Vec2 along = unit(b - a);
+    const Vec2 mid = table.position(middle);
+    Vec2 out = left_of(along);
+    if (dot(out, mid - a) > 0.0F) out = -out;
+    const float beyond = -dot(out, a);
+    const float on = -dot(along, a);
+    if (beyond > width_m || on < 0.0F || on > distance(a, b)) return;
+    // In the triangle of the three the edges would push it back: it crosses the line.
+    if (beyond > 0.0F) u += out * std::min(width_m / std::max(beyond, nearest_m) - 1.0F, strongest);
+    else if (cross(mid - a, -a) * cross(mid - b, -b) < 0.0F && beyond > dot(out, mid - a)) u += out * pushes_through;
+  });
+  return u * robot.params.corridor_gain;
+}
+
+}  // namespace banyan

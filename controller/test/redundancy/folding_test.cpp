@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// With line of sight a branch that has arrived folds: which edges are too long, where spares join them, how its robots
+// move, and who gets out of the way.
+#include "banyan/controller/redundancy/folding.hpp"
+
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+
+#include "banyan/controller/convoy/towing.hpp"
+#include "bench.hpp"
+
+namespace banyan {
+namespace {
+
+// A connector (id 1) between its parent 2, on the right, whose parent is 9, and its child 3, on the left. All have
+// arrived.
+class Folding : public ::testing::Test {
+ protected:
+  Folding() {
+    bench.params.link_redundancy = 2;
+    bench.params.line_of_sight = true;
+    bench.state.role = Role::connector;
+    bench.state.parent = 2;
+    bench.state.subtree_workers = 1;
+    auto& parent = bench.put(2, {0.9F, 0.0F});
+    parent.role = Role::connector;
+    parent.parent = 9;
+    parent.subtree_workers = 1;
+    auto& child = bench.put_child(3, {-0.9F, 0.0F}, Role::worker);
+    child.subtree_workers = 1;
+    child.need = parent.need = Need::no_need;
+    bench.put(9, {1.7F, 0.5F}).role = Role::root;
+  }
+  bool wants() {
+    auto robot = bench.tick();
+    robot.self.want_m = want_m;
+    return wants_fold(robot);
+  }
+  Vec2 motion() { return folding_motion(bench.tick()); }
+  float want_m = 0.0F;
+  ConvoyBench bench = grown<Convoy>();
+};
+
+TEST_F(Folding, AnEdgeLongerThanAKthOfALinkWantsASpare) {
+  const float link_m = 0.96F * bench.params.communication_range_m;
+  for (const int paths : {2, 3}) {
+    bench.params.link_redundancy = paths;
+    bench.move(2, {link_m / static_cast<float>(paths) - 0.01F, 0.0F});
+    EXPECT_FALSE(wants()) << paths;
+    bench.move(2, {link_m / static_cast<float>(paths) + 0.01F, 0.0F});
+    EXPECT_TRUE(wants()) << paths;
+  }
+}
+
+TEST_F(Folding, OnlyWhereRobotsHideOthersAndAreNotMissed) {
+  bench.move(2, {1.5F, 0.0F});
+  ASSERT_TRUE(wants());
+  const auto wants_if = [&, params = bench.params, state = bench.state](auto make_otherwise) {
+    bench.params = params;
+    bench.state = state;
+    make_otherwise();
+    return wants();
+  };
+  EXPECT_FALSE(wants_if([&] { bench.params.link_redundancy = 1; }));
+  EXPECT_FALSE(wants_if([&] { bench.params.line_of_sight = false; }));
+  EXPECT_FALSE(wants_if([&] { bench.params.thrift = 0.1F; }));
+  EXPECT_FALSE(wants_if([&] { bench.state.forgets = true; })) << "more targets than it remembers";
+  EXPECT_FALSE(wants_if([&] { bench.state.call_hops = 5; })) << "an edge in need calls";
+  EXPECT_TRUE(wants_if([&] { bench.state.call_hops = companion_call; }));
+  want_m = 1.0F;
+  EXPECT_FALSE(wants_if([] {})) << "it still travels";
+}
+
+// Wherever it joins, both new edges are short enough: else it would join right beside the robot that it accompanies.
+RC_GTEST_FIXTURE_PROP(Folding, ASpareJoinsWhereBothEdgesGetShort, ()) {
+  bench.state.role = Role::spare;
+  bench.state.parent = nobody;
+  const float edge_m = static_cast<float>(*rc::gen::inRange(100, 190)) * 0.01F;
+  const float along = static_cast<float>(*rc::gen::inRange(-100, 100)) * 0.01F;
+  const float aside = static_cast<float>(*rc::gen::inRange(0, 40)) * 0.01F;
+  bench.move(2, {0.5F * edge_m - along, aside});
+  bench.move(3, {-0.5F * edge_m - along, aside});
+  bench.say(3).parent = 2;
+  auto robot = bench.tick();
+  const bool off = is_off_middle(robot, robot.table().find(3), robot.table().find(2));
+  const float longer_m = std::max(norm(Vec2{0.5F * edge_m - along, aside}), norm(Vec2{-0.5F * edge_m - along, aside}));
+  RC_ASSERT(off == (longer_m > 0.5F * bench.params.communication_range_m));
+  bench.say(3).want_cm = 100;  // an edge in need of a branch that travels is joined wherever both ends are in reach
+  auto travels = bench.tick();
+  RC_ASSERT(!is_off_middle(travels, travels.table().find(3), travels.table().find(2)));
+}
+
+TEST_F(Folding, LongEdgesDrawThoseToChildrenSooner) {
+  EXPECT_LT(motion().x, -0.1F);
+  bench.move(2, {1.6F, 0.0F});
+  bench.say(9).role = Role::spare;
+  EXPECT_GT(motion().x, 0.1F);  // but it does not leave its parent for that
+  bench.move(2, {0.8F, 0.0F});
+  bench.move(3, {-0.8F, 0.0F});
+  EXPECT_NEAR(norm(motion()), 0.0F, 1e-3F);
+}
+
+TEST_F(Folding, MovesSidewaysUntilItHearsItsGrandparent) {
+  bench.move(2, {0.8F, 0.0F});
+  bench.move(3, {-0.8F, 0.0F});
+  EXPECT_EQ(motion(), Vec2{});
+  bench.silence(9);
+  for (int k = 0; k < 10; ++k) motion();
+  bench.state.phase_ticks = 0;
+  const float first = motion().y;
+  EXPECT_GT(std::abs(first), 0.3F);
+  bench.state.phase_ticks = 40;
+  EXPECT_LT(motion().y * first, 0.0F);  // then to the other side
+  bench.say(2).need = Need::need;
+  EXPECT_NEAR(motion().y, 0.0F, 1e-3F) << "it may be too far away";
+}
+
+// A spare near robot 3, its parent 2 and that one's parent 9.
+class BetweenFolds : public ::testing::Test {
+ protected:
+  BetweenFolds() {
+    bench.params.link_redundancy = 2;
+    bench.params.line_of_sight = true;
+  }
+  // Seen from the spare at `me`.
+  Vec2 push(Vec2 me) {
+    bench.put(9, far - me).role = Role::root;
+    auto& m = bench.put(2, middle - me);
+    m.role = Role::connector;
+    m.parent = 9;
+    auto& c = bench.put(3, near - me);
+    c.role = Role::worker;
+    c.parent = 2;
+    return clear_folds(bench.tick(), 0.32F);
+  }
+  Vec2 near{-0.8F, 0.0F}, middle{0.0F, 0.4F}, far{0.8F, 0.0F};
+  ConvoyBench bench = grown<Convoy>();
+};
+
+TEST_F(BetweenFolds, IsPushedAwayFromTheMiddleOne) {
+  EXPECT_LT(push({0.1F, -0.1F}).y, -0.1F);
+  EXPECT_EQ(push({0.1F, -0.4F}), Vec2{});  // far enough
+  EXPECT_EQ(push({0.1F, 0.6F}), Vec2{});   // beyond the edges: those push it
+  EXPECT_EQ(push({1.2F, -0.1F}), Vec2{});  // beside the line
+  EXPECT_LT(norm(push({0.1F, -0.25F})), norm(push({0.1F, -0.05F})));
+}
+
+TEST_F(BetweenFolds, OnlyWhereABranchFolds) {
+  bench.params.line_of_sight = false;
+  EXPECT_EQ(push({0.1F, -0.1F}), Vec2{});
+  bench.params.line_of_sight = true;
+  bench.params.link_redundancy = 1;
+  EXPECT_EQ(push({0.1F, -0.1F}), Vec2{});
+  bench.params.link_redundancy = 2;
+  far = {1.3F, 0.0F};
+  EXPECT_EQ(push({0.1F, -0.1F}), Vec2{});  // those two cannot hear each other anyhow
+}
+
+// From anywhere in the triangle the way leads out through the line between the two, whichever side it is on.
+RC_GTEST_FIXTURE_PROP(BetweenFolds, LeavesTheTriangleThroughTheLine, ()) {
+  const Vec2 turn = unit_vector(static_cast<float>(*rc::gen::inRange(0, 628)) * 0.01F);
+  const float side = *rc::gen::arbitrary<bool>() ? 1.0F : -1.0F;
+  middle.y *= side;
+  const float a = static_cast<float>(*rc::gen::inRange(5, 90)) * 0.01F;
+  const float b = static_cast<float>(*rc::gen::inRange(5, 95)) * 0.01F * (1.0F - a);
+  Vec2 me = near * (1.0F - a - b) + middle * a + far * b;
+  for (Vec2* at : {&near, &middle, &far, &me}) *at = rotate(turn, *at);
+  for (int k = 0; k < 60; ++k) me += clamped(push(me), 1.0F) * 0.02F;
+  RC_ASSERT(cross(far - near, me - near) * side < 0.0F);
+  RC_ASSERT(norm(nearest_on_segment(near - me, far - me)) > 0.15F);
+}
+
+}  // namespace
+}  // namespace banyan
