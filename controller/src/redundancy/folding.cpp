@@ -11,7 +11,7 @@ namespace banyan {
 namespace {
 
 constexpr float relied_on = 0.96F;    // of C: no longer link counts as a path
-constexpr float taut_below = 0.01F;   // of C: so much shorter than the longest folded edge one begins to draw a parent
+constexpr float taut_below = 0.04F;   // of C: so much shorter than the longest folded edge one begins to draw a parent
 constexpr float taut_width = 0.08F;   // of C: and so much longer it does with all its strength
 constexpr float gives_below = 0.02F;  // of C: the same for the edge to one's own parent,
 constexpr float gives_width = 0.5F;   // of the longest folded edge: which gives way to the others

@@ -92,8 +92,6 @@ RC_GTEST_FIXTURE_PROP(Folding, ASpareJoinsWhereBothEdgesGetShort, ()) {
 }
 
 TEST_F(Folding, LongEdgesDrawThoseToChildrenSooner) {
-  bench.move(2, {1.0F, 0.0F});
-  bench.move(3, {-1.0F, 0.0F});
   EXPECT_LT(motion().x, -0.1F);
   bench.move(2, {1.6F, 0.0F});
   bench.say(9).role = Role::spare;
