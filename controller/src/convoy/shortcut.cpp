@@ -54,7 +54,7 @@ void take_nearer(ConvoyRobot& robot) noexcept {
     best = k;
     best_m = table.range(k);
   }
-  for (int k = 0; best < 0 && k < table.size(); ++k)
+  for (int k = 0; best < 0 && k < table.size() && !folds(robot); ++k)
     if (k != robot.parent && is_enough(robot, k) && may_be_parent(robot, k, robot.parent_range_m())) best = k;
   if (best >= 0) take_parent(robot, best);
 }
@@ -124,7 +124,7 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   }
   if (robot.power != nullptr && is_relieved(*robot.power)) return;  // the robot beside me keeps its edge
   const Outlook view = outlook(robot);
-  const bool may_save = !view.endangered && self.grant == nobody && has_arrived(robot);
+  const bool may_save = !view.endangered && self.grant == nobody && has_arrived(robot) && !folds(robot);
   if (!view.endangered && !may_save) self.pending_parent = nobody;
   if (!view.endangered && self.pending_parent == nobody) self.pending_ticks = 0;
   if (view.endangered) return keep_in_sight(robot, view.urgent);
@@ -142,7 +142,7 @@ void take_shortcuts(ConvoyRobot& robot) noexcept {
   else if (self.want_m > 0.0F && robot.table().message(robot.parent).role == Role::worker) leave_worker(robot);
   else if (self.need == Need::need) take_nearer(robot);
   else if (self.lead_to == nobody) release(robot);
-  if (may_save && !folds(robot)) prune(robot);
+  if (may_save) prune(robot);
 }
 
 }  // namespace banyan

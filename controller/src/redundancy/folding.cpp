@@ -73,7 +73,8 @@ bool is_off_middle(const ConvoyRobot& robot, int owner, int parent) noexcept {
 
 bool leads_travelling(const ConvoyRobot& robot, int k) noexcept {
   const TreeStanding& m = robot.table().message(k);
-  return may_fold(robot) && m.role == Role::worker && m.want_cm > 0 && robot.convoy_of(k).child_count == 0;
+  return may_fold(robot) && m.role == Role::worker && m.want_cm > 0 && up_of(m) != nobody &&
+         robot.convoy_of(k).child_count == 0;
 }
 
 Vec2 folding_motion(const ConvoyRobot& robot) noexcept {

@@ -161,6 +161,9 @@ TEST_F(Arrived, KeepsItsParentWhereItFolds) {
     return bench.state.parent != 5;
   };
   EXPECT_FALSE(changes_parent([] {}));
+  bench.state.pending_parent = 21;  // of when its edge was about to be hidden: its seqno does not rest any longer
+  count({5, 6, 21}, 1);
+  EXPECT_EQ(bench.state.pending_parent, nobody);
   EXPECT_TRUE(changes_parent([&] { bench.params.line_of_sight = false; }));
   EXPECT_TRUE(changes_parent([&] { bench.params.thrift = 1.0F; })) << "robots are to be saved";
   EXPECT_TRUE(changes_parent([&] { bench.state.forgets = true; })) << "there are many targets";

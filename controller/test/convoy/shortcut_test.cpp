@@ -25,6 +25,37 @@ TEST_F(ConvoyChain, AConnectorIsKeptThatServesAnotherOrIsFarFromItsParent) {
   EXPECT_EQ(parent_after_shortcuts(), 2);
 }
 
+// Where a branch folds, its short edges are needed: a robot is released only if that leaves a short one.
+TEST_F(ConvoyChain, WhereItFoldsAConnectorIsReleasedOnlyIfTheEdgeStaysShort) {
+  bench.params.link_redundancy = 2;
+  bench.params.line_of_sight = true;
+  bench.state.want_m = 0.0F;
+  bench.state.subtree_workers = 1;
+  auto restore = bench.state;
+  put_root({-1.3F, 0.6F});
+  EXPECT_EQ(parent_after_shortcuts(), 2);
+  bench.state = restore;
+  bench.move(9, {-0.7F, 0.5F});
+  EXPECT_EQ(parent_after_shortcuts(), 9);
+}
+
+// Instead of a spare a robot whose edge is too long takes a parent that is near enough.
+TEST_F(ConvoyChain, WhereItFoldsANearParentSavesASpare) {
+  bench.params.link_redundancy = 2;
+  bench.params.line_of_sight = true;
+  bench.state.want_m = 0.0F;
+  bench.state.subtree_workers = 1;
+  bench.state.need = Need::need;
+  bench.say(2).child_count = 2;
+  bench.move(2, {-1.2F, 0.0F});
+  auto restore = bench.state;
+  bench.put_connector(5, {-0.6F, 1.0F}, 120, 52);
+  EXPECT_EQ(parent_after_shortcuts(), 2);
+  bench.state = restore;
+  bench.move(5, {-0.5F, 0.7F});
+  EXPECT_EQ(parent_after_shortcuts(), 5);
+}
+
 // Whatever a robot hears, a shortcut never takes a parent that is behind it: no cycle can close.
 RC_GTEST_PROP(Convoy, ShortcutsKeepTheOrderOfTheTree, ()) {
   ConvoyBench bench = grown<Convoy>();

@@ -120,6 +120,18 @@ TEST_F(SpareByAChain, WithSightItIsNeededWhereARobotHidesItsNeighbours) {
   EXPECT_EQ(chosen(), nobody);
 }
 
+// A worker that has lost its tree is not followed.
+TEST_F(SpareByAChain, FollowsOnlyAWorkerThatLeadsABranch) {
+  bench.params.line_of_sight = true;
+  bench.silence(9);
+  bench.silence(2);
+  bench.move(3, {1.0F, 0.5F});
+  bench.say(3).want_cm = 300;
+  EXPECT_EQ(chosen(), 3);
+  bench.say(3).parent = nobody;
+  EXPECT_EQ(chosen(), nobody);
+}
+
 // Where a branch folds only the robot itself knows: spares may be hidden from its neighbours.
 TEST_F(SpareByAChain, GoesByWhatARobotSaysOnceItsBranchFolds) {
   bench.params.line_of_sight = true;
