@@ -50,6 +50,20 @@ TEST(Redundancy, CompanionsGiveASecondPath) {
   EXPECT_DOUBLE_EQ(run.redundancy_ratio, static_cast<double>(run.committed + run.companions) / run.redundancy_bound);
 }
 
+// With line of sight spares join the edges, until nobody depends on the robot between it and the next but one.
+TEST(Redundancy, BranchesFoldWithSight) {
+  world::Scenario s = mission(2);
+  s.radio.line_of_sight = true;
+  const auto run = result_of(s);
+  ASSERT_TRUE(run.complete);
+  EXPECT_GT(run.redundant_time_ratio, 0.7);
+  EXPECT_EQ(run.severed_ticks, 0U);
+  EXPECT_EQ(run.redundant_targets, 3U);
+  EXPECT_LT(run.companions, 4U);
+  EXPECT_GT(run.committed, run.redundancy_bound);
+  EXPECT_LT(run.disconnected_time_ratio, 0.003);
+}
+
 // Too few robots for companions: all targets are reached, and the summary says which of them have one path.
 TEST(Redundancy, TooFewRobotsCompleteWithOnePath) {
   world::Scenario s = mission(2);

@@ -53,6 +53,13 @@ TEST_F(Folding, AnEdgeLongerThanAKthOfALinkWantsASpare) {
   }
 }
 
+TEST_F(Folding, AHiddenEdgeWantsASpareToo) {
+  ASSERT_FALSE(wants());
+  bench.silence(2);
+  for (int k = 0; k < 3; ++k) EXPECT_FALSE(wants()) << k;
+  EXPECT_TRUE(wants());
+}
+
 TEST_F(Folding, OnlyWhereRobotsHideOthersAndAreNotMissed) {
   bench.move(2, {1.5F, 0.0F});
   ASSERT_TRUE(wants());

@@ -35,8 +35,7 @@ namespace banyan {
 [[nodiscard]] int count_companions(const ConvoyRobot& robot, RobotId of) noexcept;
 
 // Once a tick, before the spares. With line of sight only calls heard in this tick or the last count. Robots that are
-// hidden now and then would keep one that is over alive for half a minute, in which no branch rests and no call for a
-// companion is heard.
+// hidden now and then would keep one that is over alive for half a minute, in which no call for a companion is heard.
 void heed_live_calls(ConvoyRobot& robot) noexcept;
 
 // Once a tick, after the spares: a spare decides beside whom it stands; a robot of the tree that has stood alone for

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A second path with line of sight, once a branch arrives (docs/lasting.md): it folds. Its edges get so short that each
-// robot hears its grandparent, past its parent, which steps out of the line between the two. So no robot of the tree
-// needs a companion any more, and nobody stands beside the edges and hides them. With mission.link_redundancy = k edges
-// are at most a k-th of a link long. It is the companions that came along which join the edges.
+// robot hears its grandparent, past its parent, which steps out of the line between the two. So hardly a robot of the
+// tree needs a companion any more, and nobody stands beside the edges and hides them. With mission.link_redundancy = k
+// edges are at most a k-th of a link long. It is the companions that came along which join the edges.
 #pragma once
 
 #include "banyan/controller/convoy/robot.hpp"
@@ -10,7 +10,8 @@
 namespace banyan {
 
 // The mission asks for more paths than one, and robots hide others. Not with more targets than a robot remembers, since
-// robots are missed then, nor with thrift above 0, which asks for fewer robots.
+// robots are missed then, nor with thrift above 0, which asks for fewer robots, nor on batteries, where somebody calls
+// nearly all the time.
 [[nodiscard]] bool may_fold(const ConvoyRobot& robot) noexcept;
 
 // A branch begins to fold when its workers still have so far to go.
@@ -31,7 +32,7 @@ inline constexpr float folds_from_m = 0.6F;
 // The longest link that a branch that has folded relies on, m.
 [[nodiscard]] float folded_reach_m(const ConvoyParams& params) noexcept;
 
-// My edge to my parent, which I must have, is too long, or hidden. That of a worker not before it has arrived: its
+// My edge to my parent (there must be one) is too long or hidden. A worker's does not count before it has arrived: its
 // companion would come between it and its parent.
 [[nodiscard]] bool wants_fold(const ConvoyRobot& robot) noexcept;
 
