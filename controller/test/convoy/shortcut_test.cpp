@@ -25,12 +25,19 @@ TEST_F(ConvoyChain, AConnectorIsKeptThatServesAnotherOrIsFarFromItsParent) {
   EXPECT_EQ(parent_after_shortcuts(), 2);
 }
 
+// The same chain, arrived, where branches fold.
+class FoldedChain : public ConvoyChain {
+ protected:
+  FoldedChain() {
+    bench.params.link_redundancy = 2;
+    bench.params.line_of_sight = true;
+    bench.state.want_m = 0.0F;
+    bench.state.subtree_workers = 1;
+  }
+};
+
 // Where a branch folds, its short edges are needed: a robot is released only if that leaves a short one.
-TEST_F(ConvoyChain, WhereItFoldsAConnectorIsReleasedOnlyIfTheEdgeStaysShort) {
-  bench.params.link_redundancy = 2;
-  bench.params.line_of_sight = true;
-  bench.state.want_m = 0.0F;
-  bench.state.subtree_workers = 1;
+TEST_F(FoldedChain, AConnectorIsReleasedOnlyIfTheEdgeStaysShort) {
   auto restore = bench.state;
   put_root({-1.3F, 0.6F});
   EXPECT_EQ(parent_after_shortcuts(), 2);
@@ -40,11 +47,7 @@ TEST_F(ConvoyChain, WhereItFoldsAConnectorIsReleasedOnlyIfTheEdgeStaysShort) {
 }
 
 // Instead of a spare a robot whose edge is too long takes a parent that is near enough.
-TEST_F(ConvoyChain, WhereItFoldsANearParentSavesASpare) {
-  bench.params.link_redundancy = 2;
-  bench.params.line_of_sight = true;
-  bench.state.want_m = 0.0F;
-  bench.state.subtree_workers = 1;
+TEST_F(FoldedChain, ANearParentSavesASpare) {
   bench.state.need = Need::need;
   bench.say(2).child_count = 2;
   bench.move(2, {-1.2F, 0.0F});
