@@ -60,6 +60,35 @@ TEST_F(Folding, AHiddenEdgeWantsASpareToo) {
   EXPECT_TRUE(wants());
 }
 
+TEST_F(Folding, ALongEdgeAsksForASpare) {
+  bench.move(2, {0.9F, 0.0F});
+  bench.steps(3);
+  EXPECT_EQ(bench.state.need, Need::no_need);
+  bench.move(2, {1.2F, 0.0F});
+  bench.steps(3);
+  EXPECT_EQ(bench.state.need, Need::need);
+}
+
+// The spare that robot 3 has chosen joins its edge to 2 near the middle, and not beside 3.
+TEST_F(Folding, AChosenSpareJoinsNearTheMiddle) {
+  const auto parent_at = [&](float along) {
+    bench.state = Convoy::initial(1, false, false);
+    bench.state.phase = Phase::grow_tree;
+    bench.state.epoch = bench.say(2).epoch;
+    bench.state.request = 3;
+    bench.state.spare_state = SpareState::extend_edge;
+    bench.put_connector(2, {0.8F - along, 0.25F}, 100, 60).parent = 9;
+    auto& owner = bench.put_connector(3, {-0.8F - along, 0.25F}, 200, 50);
+    owner.parent = 2;
+    owner.need = Need::await;
+    owner.grant = 1;
+    bench.step();
+    return bench.state.parent;
+  };
+  EXPECT_EQ(parent_at(-0.5F), nobody);
+  EXPECT_EQ(parent_at(0.0F), 2);
+}
+
 TEST_F(Folding, OnlyWhereRobotsHideOthersAndAreNotMissed) {
   bench.move(2, {1.5F, 0.0F});
   ASSERT_TRUE(wants());
@@ -151,6 +180,13 @@ TEST_F(BetweenFolds, IsPushedAwayFromTheMiddleOne) {
   EXPECT_EQ(push({0.1F, 0.6F}), Vec2{});   // beyond the edges: those push it
   EXPECT_EQ(push({1.2F, -0.1F}), Vec2{});  // beside the line
   EXPECT_LT(norm(push({0.1F, -0.25F})), norm(push({0.1F, -0.05F})));
+}
+
+TEST_F(BetweenFolds, ASpareThatWaitsMakesWay) {
+  push({0.1F, -0.12F});
+  const float folded = waiting_motion(bench.tick()).y;
+  bench.params.link_redundancy = 1;
+  EXPECT_LT(folded, waiting_motion(bench.tick()).y - 0.1F);
 }
 
 TEST_F(BetweenFolds, OnlyWhereABranchFolds) {
