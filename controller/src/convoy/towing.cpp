@@ -49,8 +49,6 @@ bool is_stuck(const ConvoyRobot& robot) noexcept {
   return !is_counted_large(robot) && robot.self.stalled_ticks > robot.params.ticks(stuck_after_s);
 }
 
-float ramp(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
-
 // Neighbour k stands at its target, and robots below it in the tree still have to go on.
 bool tows_past(const ConvoyRobot& robot, int k) noexcept {
   const float want_m = static_cast<float>(robot.table().message(k).want_cm) * 0.01F;
@@ -187,16 +185,15 @@ template <class Visit> void for_each_other_edge(const ConvoyRobot& robot, Visit 
 
 // Moves out of the lines of sight of these edges.
 Vec2 make_way(const ConvoyRobot& robot, float width_m) noexcept {
-  static constexpr float on_line_m = 1e-3F;  // either side will do
-  static constexpr float most_push = 20.0F;  // a line across the robot outweighs all others, but not without limit
+  static constexpr float either_side_m = 1e-3F;
   Vec2 u;
   for_each_other_edge(robot, [&](Vec2 a, Vec2 b) {
     const Vec2 near = nearest_on_segment(a, b);
     const float d = norm(near);
     if (d >= width_m) return;
     const Vec2 along = unit(b - a);
-    const Vec2 side = d > on_line_m ? -near / d : Vec2{-along.y, along.x};
-    u += side * std::min(width_m / std::max(d, on_line_m) - 1.0F, most_push);
+    const Vec2 side = d > either_side_m ? -near / d : Vec2{-along.y, along.x};
+    u += side * push_off_line(d, width_m);
   });
   return u * robot.params.corridor_gain + clear_folds(robot, width_m);
 }

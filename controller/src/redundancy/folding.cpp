@@ -20,10 +20,6 @@ constexpr float sideways = 0.5F;      // the pace of a robot that does not hear 
 constexpr int unheard_ticks = 3;
 constexpr int search_ticks = 40;        // to one side, then to the other
 constexpr float pushes_through = 6.0F;  // between a line and the edges beside it: through the line
-constexpr float nearest_m = 1e-3F;      // on the line itself the push is as strong as here,
-constexpr float strongest = 20.0F;      // and no stronger than this
-
-float ramp_up(float d, float start, float width) noexcept { return std::clamp((d - start) / width, 0.0F, 1.0F); }
 
 // I do not hear my grandparent, although my parent's edge is short: somebody stands between us. To one side for some
 // time, then to the other.
@@ -84,10 +80,10 @@ Vec2 folding_motion(const ConvoyRobot& robot) noexcept {
   Vec2 u;
   for (const int k : robot.children)
     if (table.message(k).role != Role::spare)
-      u += unit(table.position(k)) * ramp_up(table.range(k), edge_m - taut_below * c, taut_width * c);
+      u += unit(table.position(k)) * ramp(table.range(k), edge_m - taut_below * c, taut_width * c);
   if (robot.parent < 0 || robot.self.want_m > 0.0F) return u;  // the last bit of the way it is towed
   const Vec2 up = unit(table.position(robot.parent));
-  return u + up * ramp_up(table.range(robot.parent), edge_m - gives_below * c, gives_width * edge_m) +
+  return u + up * ramp(table.range(robot.parent), edge_m - gives_below * c, gives_width * edge_m) +
          look_past(robot, up);
 }
 
@@ -112,7 +108,7 @@ Vec2 clear_folds(const ConvoyRobot& robot, float width_m) noexcept {
     const float on = -dot(along, a);
     if (beyond > width_m || on < 0.0F || on > distance(a, b)) return;
     // In the triangle of the three the edges would push it back: it crosses the line.
-    if (beyond > 0.0F) u += out * std::min(width_m / std::max(beyond, nearest_m) - 1.0F, strongest);
+    if (beyond > 0.0F) u += out * push_off_line(beyond, width_m);
     else if (cross(mid - a, -a) * cross(mid - b, -b) < 0.0F && beyond > dot(out, mid - a)) u += out * pushes_through;
   });
   return u * robot.params.corridor_gain;

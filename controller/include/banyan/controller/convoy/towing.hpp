@@ -3,6 +3,8 @@
 // what changes its tree between two reconstructions.
 #pragma once
 
+#include <algorithm>
+
 #include "banyan/controller/convoy/robot.hpp"
 
 namespace banyan {
@@ -23,5 +25,17 @@ namespace banyan {
 
 // A spare: where it is, unless it is called, in the way, or left behind.
 [[nodiscard]] Vec2 waiting_motion(const ConvoyRobot& robot) noexcept;
+
+// 0 up to `start`, 1 from `width` beyond it on, in proportion between.
+[[nodiscard]] inline float ramp(float d, float start, float width) noexcept {
+  return std::clamp((d - start) / width, 0.0F, 1.0F);
+}
+
+// How hard a robot d metres from a line of sight is pushed off it, in units of corridor_gain; 0 at `width_m`.
+[[nodiscard]] inline float push_off_line(float d, float width_m) noexcept {
+  constexpr float on_line_m = 1e-3F;  // nearer it is no harder
+  constexpr float most_push = 20.0F;  // a line across the robot outweighs all others, but not without limit
+  return std::min(width_m / std::max(d, on_line_m) - 1.0F, most_push);
+}
 
 }  // namespace banyan

@@ -45,7 +45,7 @@ inline constexpr float folds_from_m = 0.6F;
 
 // How a robot of a branch that folds moves, in units of speed_gain: long edges draw it, those to its children sooner.
 // So what is missing far out is soon missing near the root, where the spares are. If it does not hear its grandparent
-// although both edges are short, somebody stands between the two: it moves sideways.
+// although its parent's edge is not in need, somebody stands between the two: it moves sideways.
 [[nodiscard]] Vec2 folding_motion(const ConvoyRobot& robot) noexcept;
 
 // Out of the lines between robots and their grandparents, in units of speed_gain: away from the parent between them,
