@@ -11,6 +11,7 @@
 #include "banyan/controller/healing/healing.hpp"
 #include "banyan/controller/obstacles/bypass.hpp"
 #include "banyan/controller/redundancy/companions.hpp"
+#include "banyan/controller/redundancy/folding.hpp"
 
 namespace banyan {
 namespace {
@@ -239,6 +240,18 @@ void retry(ConvoyRobot& robot) noexcept {
 
 // ---- Every robot ----
 
+// Whether there are so many robots that branches may fold (redundancy/folding.hpp): for each path more than the
+// shortest tree takes, since edges are not all equal. Lengths are measured, so that number varies.
+void count_for_folding(ConvoyRobot& robot) noexcept {
+  constexpr int period_ticks = 16;
+  constexpr float enough = 1.25F;  // times those of one path,
+  constexpr float still = 1.1F;    // and so many while branches may fold
+  ConvoyState& self = robot.self;
+  if (!has_companions(robot.params) || self.turn % period_ticks != 0 || self.root_size == 0) return;
+  const auto needed = static_cast<float>(best_tree(robot).robots * robot.params.link_redundancy);
+  self.too_few_to_fold = static_cast<float>(self.root_size) < needed * (self.too_few_to_fold ? enough : still);
+}
+
 void hear_parent(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   const ConvoyMessage* m = robot.parent_message();
@@ -293,6 +306,7 @@ Vec2 lead(const ConvoyRobot& robot) noexcept {
 void take_part_in_plan(ConvoyRobot& robot) noexcept {
   ConvoyState& self = robot.self;
   look_down(robot);
+  count_for_folding(robot);
   if (robot.is_root()) {
     self.above = nobody;
     command(robot);

@@ -40,20 +40,6 @@ constexpr float costs_way = 0.15F;
 constexpr float costs_hidden = 0.5F;  // of C: what a hidden neighbour weighs against the distance of others
 constexpr float costs_crowd = 0.25F;  // of C: likewise a robot at that place, or an edge through it
 
-// The tree neighbours of neighbour `of` that I know.
-IndexList neighbors_of(const ConvoyRobot& robot, int of) noexcept {
-  const TreeTable& table = robot.table();
-  const RobotId id = table.id(of);
-  const RobotId up = up_of(table.message(of));
-  IndexList list;
-  for (int k = 0; k < table.size(); ++k) {
-    if (k == of || !table.alive(k)) continue;
-    const TreeStanding& m = table.message(k);
-    if (table.id(k) == up || (m.role != Role::spare && up_of(m) == id)) list.push(k);
-  }
-  return list;
-}
-
 float bridged_m(const ConvoyRobot& robot) noexcept {
   return may_fold(robot) ? folded_reach_m(robot.params) : bridged * robot.params.communication_range_m;
 }
@@ -72,6 +58,22 @@ struct EdgeEnds {
   void add(Vec2 end) noexcept { at[size++] = end; }
   [[nodiscard]] std::span<const Vec2> all() const noexcept { return std::span(at).first(size); }
 };
+
+// The tree neighbours of robot `of` that I know, where `up` is its parent.
+EdgeEnds known_ends(const ConvoyRobot& robot, RobotId of, RobotId up) noexcept {
+  const TreeTable& table = robot.table();
+  EdgeEnds ends;
+  for (int k = 0; k < table.size(); ++k) {
+    if (!table.alive(k)) continue;
+    const TreeStanding& m = table.message(k);
+    if (table.id(k) == up || (m.role != Role::spare && up_of(m) == of)) ends.add(table.position(k));
+  }
+  return ends;
+}
+
+EdgeEnds known_ends_around(const ConvoyRobot& robot, int of) noexcept {
+  return known_ends(robot, robot.table().id(of), up_of(robot.table().message(of)));
+}
 
 // Some of these are joined to others of them by the robot at `middle` alone. A tree of links that do without it is
 // grown from the first.
@@ -208,14 +210,8 @@ void choose_whom(ConvoyRobot& robot) noexcept {
 }
 
 bool depends_on_me(const ConvoyRobot& robot) noexcept {
-  EdgeEnds ends;
-  const TreeTable& table = robot.table();
   const int up = robot.is_root() ? -1 : robot.up();
-  for (int k = 0; k < table.size(); ++k) {
-    if (!table.alive(k)) continue;
-    const TreeStanding& m = table.message(k);
-    if (k == up || (m.role != Role::spare && up_of(m) == robot.self.id)) ends.add(table.position(k));
-  }
+  const EdgeEnds ends = known_ends(robot, robot.self.id, up < 0 ? nobody : robot.table().id(up));
   return holds_together(robot, Vec2{}, ends.all(), robot.self.want_m > 0.0F);
 }
 
@@ -262,14 +258,10 @@ Vec2 unheard_direction(const ConvoyRobot& robot, Vec2 center, Vec2 opposite) noe
 
 // The tree neighbours of neighbour `of`.
 EdgeEnds ends_around(const ConvoyRobot& robot, int of) noexcept {
-  const TreeTable& table = robot.table();
-  const Vec2 center = table.position(of);
-  EdgeEnds ends;
+  const Vec2 center = robot.table().position(of);
+  EdgeEnds ends = known_ends_around(robot, of);
   Vec2 sum;
-  for (const int n : neighbors_of(robot, of)) {
-    ends.add(table.position(n));
-    sum += unit(table.position(n) - center);
-  }
+  for (const Vec2 end : ends.all()) sum += unit(end - center);
   if (static_cast<int>(ends.size) < degree_of(robot, of) && sum != Vec2{})
     ends.add(center + unheard_direction(robot, center, -unit(sum)) * (unheard_at * robot.params.communication_range_m));
   return ends;
@@ -315,8 +307,7 @@ bool needs_companion(const ConvoyRobot& robot, int k) noexcept {
   if (leads_travelling(robot, k)) return true;
   if (degree < 2) return false;
   if (may_fold(robot) && !is_under_way(m)) return says_it_lacks(robot, k);
-  EdgeEnds ends;
-  for (const int n : neighbors_of(robot, k)) ends.add(table.position(n));
+  const EdgeEnds ends = known_ends_around(robot, k);
   const bool knows_all = static_cast<int>(ends.size) + (up_of(m) == robot.self.id ? 1 : 0) >= degree;
   return !knows_all || holds_together(robot, table.position(k), ends.all(), m.want_cm > 0);
 }

@@ -38,7 +38,8 @@ Vec2 look_past(const ConvoyRobot& robot, Vec2 up) noexcept {
 
 bool may_fold(const ConvoyRobot& robot) noexcept {
   const ConvoyParams& p = robot.params;
-  return has_companions(p) && p.line_of_sight && p.thrift <= 0.0F && !robot.self.forgets && robot.power == nullptr;
+  return has_companions(p) && p.line_of_sight && p.thrift <= 0.0F && !robot.self.forgets && robot.power == nullptr &&
+         !robot.self.too_few_to_fold;
 }
 
 bool folds(const ConvoyRobot& robot) noexcept {

@@ -41,6 +41,8 @@ struct ConvoyMemory {
   RobotId accompanies = nobody;   // a spare: the robot of the tree that it stands beside
   std::uint16_t alone_ticks = 0;  // for so long a companion has been missed here, or more urgently elsewhere
 
+  bool too_few_to_fold = false;   // robots for folded branches (plan.cpp)
+
   Corners corners;                                                   // obstacles: lines of sight past them
   std::array<ConvoyStanding, neighbor_capacity> convoy_standings{};  // beside the neighbour table
 
@@ -83,6 +85,7 @@ template <class Visitor, class State> constexpr void visit_convoy_state(Visitor&
   }
   if (s.accompanies != nobody) visit(s.accompanies);
   if (s.alone_ticks != 0) visit(s.alone_ticks);
+  if (s.too_few_to_fold) visit(s.too_few_to_fold);
   visit(s.corners.pinned), visit(s.corners.seen_from), visit(s.corners.landmarks.size);
   for (int k = 0; k < s.corners.landmarks.size; ++k) visit(s.corners.landmarks.points[static_cast<std::size_t>(k)]);
   for (std::size_t k = 0; k < s.corners.bodies.size; ++k)
