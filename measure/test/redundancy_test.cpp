@@ -64,6 +64,18 @@ TEST(Redundancy, BranchesFoldWithSight) {
   EXPECT_LT(run.disconnected_time_ratio, 0.003);
 }
 
+// Fewer than folded branches take: companions stand beside the robots of the tree, as without line of sight.
+TEST(Redundancy, FewRobotsDoNotFoldWithSight) {
+  world::Scenario s = mission(2);
+  s.radio.line_of_sight = true;
+  s.swarm.redundancy = 2.0;
+  const auto run = result_of(s);
+  ASSERT_TRUE(run.complete);
+  EXPECT_GT(run.redundant_time_ratio, 0.7);
+  EXPECT_EQ(run.redundant_targets, 3U);
+  EXPECT_GT(run.companions, 5U);
+}
+
 // Too few robots for companions: all targets are reached, and the summary says which of them have one path.
 TEST(Redundancy, TooFewRobotsCompleteWithOnePath) {
   world::Scenario s = mission(2);

@@ -241,15 +241,15 @@ void retry(ConvoyRobot& robot) noexcept {
 // ---- Every robot ----
 
 // Whether there are so many robots that branches may fold (redundancy/folding.hpp): for each path more than the
-// shortest tree takes, since edges are not all equal. Lengths are measured, so that number varies.
+// shortest tree takes, since edges are not all equally long. What is measured varies, so there is a band between.
 void count_for_folding(ConvoyRobot& robot) noexcept {
-  constexpr int period_ticks = 16;
-  constexpr float enough = 1.25F;  // times those of one path,
-  constexpr float still = 1.1F;    // and so many while branches may fold
+  constexpr int look_again_ticks = 16;
+  constexpr float plenty = 1.25F;  // times the robots of one path: from here on branches may fold,
+  constexpr float scarce = 1.1F;   // and below this they may not
   ConvoyState& self = robot.self;
-  if (!has_companions(robot.params) || self.turn % period_ticks != 0 || self.root_size == 0) return;
-  const auto needed = static_cast<float>(best_tree(robot).robots * robot.params.link_redundancy);
-  self.too_few_to_fold = static_cast<float>(self.root_size) < needed * (self.too_few_to_fold ? enough : still);
+  if (!has_companions(robot.params) || self.turn % look_again_ticks != 0 || self.root_size == 0) return;
+  const auto paths = static_cast<float>(best_tree(robot).robots * robot.params.link_redundancy);
+  self.too_few_to_fold = static_cast<float>(self.root_size) < paths * (self.too_few_to_fold ? plenty : scarce);
 }
 
 void hear_parent(ConvoyRobot& robot) noexcept {

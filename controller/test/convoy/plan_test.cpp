@@ -55,21 +55,21 @@ void run(ConvoyBench& bench, int ticks) {
 int ticks_until_plan(const ConvoyBench& bench) { return bench.params.ticks(bench.params.plan_after_s); }
 
 // Kruskal's algorithm, as an independent judge.
-float shortest_tree(const std::vector<Vec2>& points) {
+std::vector<float> shortest_edges(const std::vector<Vec2>& points) {
   std::vector<std::tuple<float, std::size_t, std::size_t>> edges;
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = i + 1; j < points.size(); ++j) edges.emplace_back(distance(points[i], points[j]), i, j);
   std::sort(edges.begin(), edges.end());
   std::vector<std::size_t> group(points.size());
   std::iota(group.begin(), group.end(), 0U);
-  float length = 0.0F;
+  std::vector<float> lengths;
   for (const auto& [d, i, j] : edges) {
     if (group[i] == group[j]) continue;
-    length += d;
+    lengths.push_back(d);
     const std::size_t from = group[i];
     std::replace(group.begin(), group.end(), from, std::size_t{group[j]});
   }
-  return length;
+  return lengths;
 }
 
 RC_GTEST_PROP(Plan, IsAShortestTreeThroughTheTargets, ()) {
@@ -89,7 +89,57 @@ RC_GTEST_PROP(Plan, IsAShortestTreeThroughTheTargets, ()) {
     length += distance(targets[k], targets[host - 100U]);
   }
   RC_ASSERT(hosted == static_cast<int>(targets.size()) - 1);
-  RC_ASSERT(std::abs(length - shortest_tree(targets)) < 1e-3F);
+  const std::vector<float> shortest = shortest_edges(targets);
+  RC_ASSERT(std::abs(length - std::accumulate(shortest.begin(), shortest.end(), 0.0F)) < 1e-3F);
+}
+
+// Robots that edges of that length take, from one target to all others: by Kruskal's algorithm, whose edges Prim's
+// finds, too.
+int robots_of(const std::vector<Vec2>& targets, float edge_m) {
+  int robots = 1;
+  for (const float d : shortest_edges(targets)) robots += static_cast<int>(d / edge_m) + 1;
+  return robots;
+}
+
+// Branches fold with a quarter more robots than two or three paths take, and no longer with less than a tenth more.
+RC_GTEST_PROP(Plan, CountsWhetherRobotsSufficeForFolding, ()) {
+  std::vector<Vec2> targets(*rc::gen::inRange<std::size_t>(1, task_capacity + 1));
+  for (Vec2& t : targets)
+    t = {static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F,
+         static_cast<float>(*rc::gen::inRange(-900, 901)) * 0.01F};
+  ConvoyBench bench = commander(targets, 10);
+  bench.params.link_redundancy = *rc::gen::inRange(2, 4);
+  const auto paths =
+      static_cast<float>(robots_of(targets, bench.params.compact_distance_m) * bench.params.link_redundancy);
+  const auto too_few_with = [&](float robots) {
+    bench.state.root_size = static_cast<RobotCount>(robots);
+    run(bench, 16);
+    return bench.state.too_few_to_fold;
+  };
+  RC_ASSERT(!too_few_with(0.0F));  // nobody has been counted yet
+  RC_ASSERT(!too_few_with(1.1F * paths + 1.0F));
+  RC_ASSERT(too_few_with(1.1F * paths - 1.0F));
+  RC_ASSERT(too_few_with(1.25F * paths - 1.0F));
+  RC_ASSERT(!too_few_with(1.25F * paths + 1.0F));
+  RC_ASSERT(!too_few_with(1.1F * paths + 1.0F));
+}
+
+TEST(Plan, DoesNotCountTargetsThatAreGivenUpForFolding) {
+  ConvoyBench bench = commander({{6, 0}, {-6, 0}, {0, 60}}, 10);
+  bench.params.link_redundancy = 2;
+  bench.state.root_size = 40;
+  run(bench, 16);
+  EXPECT_TRUE(bench.state.too_few_to_fold);
+  bench.state.tasks[2].holder = nobody;
+  run(bench, 16);
+  EXPECT_FALSE(bench.state.too_few_to_fold);
+}
+
+TEST(Plan, DoesNotCountForFoldingWithOnePath) {
+  ConvoyBench bench = commander({{6, 0}, {-6, 0}}, 10);
+  bench.state.root_size = 3;
+  run(bench, 16);
+  EXPECT_FALSE(bench.state.too_few_to_fold);
 }
 
 TEST(Plan, WaitsUntilAllHaveBeenThereForAWhileAndIsForgottenWhenOneLeaves) {

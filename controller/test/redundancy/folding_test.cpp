@@ -102,6 +102,7 @@ TEST_F(Folding, OnlyWhereRobotsHideOthersAndAreNotMissed) {
   EXPECT_FALSE(wants_if([&] { bench.params.line_of_sight = false; }));
   EXPECT_FALSE(wants_if([&] { bench.params.thrift = 0.1F; }));
   EXPECT_FALSE(wants_if([&] { bench.state.forgets = true; })) << "more targets than it remembers";
+  EXPECT_FALSE(wants_if([&] { bench.state.too_few_to_fold = true; }));
   EXPECT_FALSE(wants_if([&] { bench.state.call_hops = 5; })) << "an edge in need calls";
   EXPECT_TRUE(wants_if([&] { bench.state.call_hops = companion_call; }));
   want_m = 1.0F;

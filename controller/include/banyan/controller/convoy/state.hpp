@@ -41,7 +41,7 @@ struct ConvoyMemory {
   RobotId accompanies = nobody;   // a spare: the robot of the tree that it stands beside
   std::uint16_t alone_ticks = 0;  // for so long a companion has been missed here, or more urgently elsewhere
 
-  bool too_few_to_fold = false;   // robots for folded branches (plan.cpp)
+  bool too_few_to_fold = false;  // with so few robots no branch folds (plan.cpp)
 
   Corners corners;                                                   // obstacles: lines of sight past them
   std::array<ConvoyStanding, neighbor_capacity> convoy_standings{};  // beside the neighbour table
