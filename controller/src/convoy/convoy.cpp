@@ -149,11 +149,14 @@ bool may_insert(const ConvoyRobot& robot, int owner, int parent) noexcept {
 // spares are on their way to an edge, which they would lose.
 bool may_reconstruct(const ConvoyRobot& robot) noexcept {
   if (!robot.is_root()) return false;
-  if (has_companions(robot.params) && has_arrived(robot)) return false;  // they would have to change places
+  if (is_leaving(robot) && !is_planned(robot.self)) return true;
+  // Companions would have to change places. While branches change their parents, a root may have no worker for a tick.
+  constexpr float settled_for_s = 4.0F;
+  const bool settled = robot.self.settled_ticks > robot.params.ticks(settled_for_s);
+  if (has_companions(robot.params) && (has_arrived(robot) || settled)) return false;
   constexpr float patience_s = 5.0F;
   constexpr float called_patience_s = 15.0F;
   const bool called = robot.self.call_hops != nobody_calls;
-  if (is_leaving(robot) && !is_planned(robot.self)) return true;
   const bool begun = is_planned(robot.self) || robot.self.plan_steps < robot.self.plan_levels;
   return robot.self.stalled_ticks > robot.params.ticks(called ? called_patience_s : patience_s) && !begun;
 }

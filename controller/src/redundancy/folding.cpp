@@ -21,17 +21,21 @@ constexpr int unheard_ticks = 3;
 constexpr int search_ticks = 40;        // to one side, then to the other
 constexpr float pushes_through = 6.0F;  // between a line and the edges beside it: through the line
 
-// I do not hear my grandparent, although my parent's edge is short: somebody stands between us. To one side for some
-// time, then to the other.
+// I do not hear my grandparent or, with k = 3, its parent, although the edges there are short: somebody stands between
+// us. To one side for some time, then to the other.
 Vec2 look_past(const ConvoyRobot& robot, Vec2 up) noexcept {
   const ConvoyState& self = robot.self;
   const TreeTable& table = robot.table();
-  const TreeStanding& parent = table.message(robot.parent);
-  if (parent.parent == nobody || parent.need != Need::no_need) return {};
-  const int over = table.find(parent.parent);
-  if (over >= 0 && table.age(over) <= unheard_ticks) return {};
-  const bool left = (self.phase_ticks / search_ticks + self.id) % 2 == 0;
-  return left_of(up) * (left ? sideways : -sideways);
+  int over = robot.parent;
+  for (int hop = 1; hop < robot.params.link_redundancy; ++hop) {
+    const TreeStanding& m = table.message(over);
+    if (m.parent == nobody || m.need != Need::no_need) return {};
+    over = table.find(m.parent);
+    if (over >= 0 && table.age(over) <= unheard_ticks) continue;
+    const bool left = (self.phase_ticks / search_ticks + self.id) % 2 == 0;
+    return left_of(up) * (left ? sideways : -sideways);
+  }
+  return {};
 }
 
 }  // namespace

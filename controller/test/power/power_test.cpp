@@ -87,6 +87,22 @@ TEST(Power, ARobotOfTheTreeAsksToBeRelievedWhenItRunsLowAndASpareSeeksAPlace) {
   EXPECT_TRUE(powered_report(spare.state).seeks_charge);
 }
 
+// With companions a tree that has arrived is not reconstructed but for this.
+TEST(Power, ARootThatHasToLeaveHasTheTreeReconstructedWithCompanionsToo) {
+  const auto is_reconstructed = [](float level) {
+    LoneRobot root(false, true);
+    root.params.link_redundancy = 2;
+    for (int t = 0; t < 60; ++t) root.step(level);
+    root.state.phase = Phase::grow_tree;
+    root.state.phase_ticks = 1000;
+    root.state.subtree_workers = 1;
+    root.step(level);
+    return root.state.phase != Phase::grow_tree;
+  };
+  EXPECT_FALSE(is_reconstructed(0.9F));
+  EXPECT_TRUE(is_reconstructed(0.2F));
+}
+
 TEST(Power, WithoutAMeasuredChargeNothingIsDecided) {
   LoneRobot root(false, true);
   std::vector<Heard> heard;

@@ -238,6 +238,27 @@ RC_GTEST_FIXTURE_PROP(SpareByAChain, ItsPlaceHearsWhatItsRobotHears, ()) {
   RC_ASSERT(std::fabs(cross(along, middle)) > bench.params.clearance_m);
 }
 
+// While branches change their parents nobody may be below the root for a tick.
+TEST(CompanionsOfATree, ItIsNotReconstructedOnceItHasArrived) {
+  const auto is_reconstructed = [](int paths, int settled_s, bool with_worker) {
+    ConvoyBench bench = grown<Convoy>();
+    bench.params.link_redundancy = paths;
+    bench.state.root = {1, 1};
+    bench.state.role = Role::root;
+    bench.state.phase_ticks = bench.state.stalled_ticks = 1000;
+    bench.state.settled_ticks = static_cast<std::uint16_t>(bench.params.ticks(static_cast<float>(settled_s)));
+    bench.state.subtree_workers = with_worker ? 1 : 0;
+    bench.put_child(2, {1.0F, 0.0F}, Role::connector).subtree_workers = with_worker ? 1 : 0;
+    bench.step();
+    return bench.state.phase != Phase::grow_tree;
+  };
+  EXPECT_FALSE(is_reconstructed(2, 10, true));
+  EXPECT_FALSE(is_reconstructed(2, 10, false));
+  EXPECT_FALSE(is_reconstructed(2, 3, true));
+  EXPECT_TRUE(is_reconstructed(2, 3, false)) << "the workers have been missed for long";
+  EXPECT_TRUE(is_reconstructed(1, 10, true));
+}
+
 // A connector (id 1) between 2 and 3.
 class ConnectorAlone : public ::testing::Test {
  protected:

@@ -153,6 +153,22 @@ TEST_F(Folding, MovesSidewaysUntilItHearsItsGrandparent) {
   EXPECT_NEAR(motion().y, 0.0F, 1e-3F) << "it may be too far away";
 }
 
+TEST_F(Folding, WithThreePathsTheGrandparentsParentToo) {
+  bench.params.link_redundancy = 3;
+  bench.move(2, {0.5F, 0.0F});
+  bench.move(3, {-0.5F, 0.0F});
+  bench.say(9).role = Role::connector;
+  bench.say(9).parent = 10;
+  bench.put(10, {1.6F, 0.0F}).role = Role::root;
+  EXPECT_EQ(motion(), Vec2{});
+  bench.silence(10);
+  for (int k = 0; k < 10; ++k) motion();
+  EXPECT_GT(std::abs(motion().y), 0.3F);
+  bench.params.link_redundancy = 2;
+  bench.move(2, {0.8F, 0.0F});
+  EXPECT_NEAR(motion().y, 0.0F, 1e-3F) << "two paths do not need it";
+}
+
 // A spare near robot 3, its parent 2 and that one's parent 9.
 class BetweenFolds : public ::testing::Test {
  protected:
