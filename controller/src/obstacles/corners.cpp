@@ -172,10 +172,16 @@ bool is_towed(const TreeRobot& robot, const Corners& corners, float start_m) noe
   return banyan::any_of(robot.children, tows);
 }
 
-void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
-  Landmarks& known = corners.landmarks;
+// Everything nearer would be sensed.
+float nearest_sensed_m(const TreeRobot& robot) noexcept {
   float nearest_m = body_m(robot) + near_m;
   for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
+  return nearest_m;
+}
+
+void forget_wrong(const TreeRobot& robot, Corners& corners) noexcept {
+  Landmarks& known = corners.landmarks;
+  const float nearest_m = nearest_sensed_m(robot);
   const float far_m = forget * robot.params.communication_range_m;
   // A point nearer than everything that is sensed no longer exists, or never did.
   const auto is_wrong = [&](Vec2 p) { return norm(p) > far_m || norm(p) < nearest_m - spacing_m; };
@@ -197,8 +203,7 @@ bool is_heard_through(const TreeRobot& robot, Vec2 center) noexcept {
 
 // Out of reach of all edges, not where the sensor would see it, heard again, or gone.
 void forget_bodies(const TreeRobot& robot, KnownBodies& bodies) noexcept {
-  float nearest_m = body_m(robot) + near_m;
-  for (const Vec2 o : robot.obstacles) nearest_m = std::min(nearest_m, norm(o));
+  const float nearest_m = nearest_sensed_m(robot);
   const auto is_wrong = [&](std::size_t k) {
     const float d = norm(bodies.centers[k]);
     const int place = robot.table().find(bodies.ids[k]);
