@@ -273,14 +273,15 @@ bool find_hinge(const TreeRobot& robot, const Corners& corners, Vec2& hinge) noe
   const int up = robot.up();
   if (up < 0) return false;
   const Vec2 parent = robot.table().position(up);
+  const Vec2 direction = unit(parent);
   float best_m = hinge_width_m;
   for_each_obstacle(robot, corners, [&](Vec2 o, float r) {
     const float along = dot(o, parent);
-    const float across = cross(unit(parent), o);
+    const float across = cross(direction, o);
     const float across_m = std::max(std::abs(across) - r, 0.0F);
     if (along <= 0.0F || along >= squared_norm(parent) || across_m >= best_m) return;
     best_m = across_m;
-    hinge = o - left_of(unit(parent)) * (across < 0.0F ? -r : r);  // of a body the point nearest to the edge
+    hinge = o - left_of(direction) * (across < 0.0F ? -r : r);  // of a body the point nearest to the edge
   });
   return best_m < hinge_width_m;
 }
