@@ -67,10 +67,9 @@ void for_each_edge_of_both_trees(const TreeRobot& robot, FunctionRef<void(int)> 
   const TreeTable& table = robot.table();
   if (robot.parent_alive()) visit(robot.parent);
   if (robot.old_parent_alive() && robot.old_parent != robot.parent) visit(robot.old_parent);
-  for (const int k : robot.children)
-    if (table.message(k).role != Role::spare) visit(k);
-  for (const int k : robot.old_children)
-    if (table.message(k).role != Role::spare) visit(k);
+  for (const IndexList* below : {&robot.children, &robot.old_children})
+    for (const int k : *below)
+      if (table.message(k).role != Role::spare) visit(k);
 }
 
 // How far a point is from the nearest of my tree edges: the farther, the less it matters.
