@@ -104,8 +104,8 @@ void hear_of_corners(const TreeRobot& robot, Corners& corners) noexcept {
     if (table.age(k) > 0 || up_of(m) != robot.self.id || (corner.hinge_x_cm == 0 && corner.hinge_y_cm == 0)) return;
     file(robot, corners, from_edge_frame({metres(corner.hinge_x_cm), metres(corner.hinge_y_cm)}, table.position(k)));
   };
-  for (const int k : robot.children) hear(k);
-  for (const int k : robot.old_children) hear(k);
+  for (const IndexList* below : {&robot.children, &robot.old_children})
+    for (const int k : *below) hear(k);
 }
 
 // Where to go when the tree falls silent: a robot of the tree goes to where it stood, a spare to where
